@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/time.h"
+#include "core/model/cell.h"
+#include "core/trajectory/trajectory.h"
+
+namespace armloom {
+
+// One job's motion as a judgement sees it. Zero is the instant that the question asks about:
+// there the motion stands at `progress` of its trajectory (trajectory time, 0 <= progress <=
+// duration), from there it advances second by second to the end and rests at the goal.
+// A negative progress is a motion that is still to start: it rests at its start for that long.
+struct Motion {
+  JobId job;
+  TrajectoryPtr trajectory;
+  Duration progress;
+
+  [[nodiscard]] Duration remaining() const { return trajectory->duration() - progress; }
+};
+
+// How motions are compared.
+struct TimedDiscrete {  // the paper's: at equal instants, every `step`; between them nothing is promised
+  Duration step;
+};
+using CheckMethod = TimedDiscrete;
+
+// "May these candidates start together at the question's instant, beside everything else?"
+// Plain data: complete, self-contained, safe to hand to another thread.
+struct Question {
+  Version version;                 // of the reservations that `others` and `rest` were read from
+  TimePoint start_at;              // the question's instant, in cell time
+  std::vector<Motion> candidates;  // usually one; several are judged as one synchronous start
+  std::vector<Motion> others;      // every motion that holds a reservation
+  Configuration rest;              // where every joint that is in none of these motions stands
+  CheckMethod method;
+};
+
+}  // namespace armloom

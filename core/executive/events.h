@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/time.h"
+#include "core/coordination/verdict.h"
+#include "core/model/cell.h"
+#include "core/monitor/monitor.h"
+#include "core/scheduler/job.h"
+
+namespace armloom {
+
+// What clients see of a job: the scheduler's Job with names instead of ids. Plain data, copied
+// freely between threads. Times are cell time; the server adds wall time.
+struct WaitView {
+  Wait::Kind kind;
+  std::string job;  // key; empty: none
+  std::string arm;  // name; empty: none
+  std::vector<std::string> links;  // own, other; or empty
+  std::optional<double> own_time_s;
+  std::optional<double> other_time_s;
+  std::optional<double> clearance_m;
+  std::string detail;
+};
+struct JobView {
+  JobId id{0};
+  std::string key;   // the "id" that clients use
+  std::string name;  // may be empty
+  JobState state = JobState::queued;
+  std::vector<std::string> arms;
+  int priority = 0;
+  TimePoint submitted_at{};
+  std::optional<TimePoint> scheduled_at;
+  std::optional<TimePoint> started_at;
+  std::optional<TimePoint> ended_at;
+  double progress = 0.0;  // 0..1
+  Duration duration{};
+  bool stopping = false;
+  std::vector<WaitView> waits_on;
+  std::optional<Reason> reason;  // when ended
+  std::string detail;
+};
+
+enum class ArmState { idle, moving, holding, stopped, fault };
+[[nodiscard]] const char* to_string(ArmState state);
+
+struct ArmView {
+  std::string name;
+  std::string robot;
+  ArmState state = ArmState::idle;
+  std::string job;  // key of the job in motion or holding; empty: none
+  double progress = 0.0;
+  std::vector<std::string> joints;
+  std::vector<double> q;     // measured, as joints
+  std::vector<double> home;
+  double deviation_rad = 0.0;  // measured distance from its own path, largest joint
+};
+
+struct QueueView {
+  std::string policy;
+  bool stopped = false;  // every arm is stopped
+  std::vector<std::string> queued, backlog, scheduled, running;  // keys
+  bool operator==(const QueueView&) const = default;
+};
+
+struct MonitorEvent {
+  MonitorFinding finding;
+  std::vector<std::string> arms;     // of the pair
+  std::vector<std::string> stopped;  // names of the arms that were told to stop
+};
+struct Alert {
+  enum class Level { info, warning, error };
+  Level level;
+  std::string text;
+};
+
+// One entry of the log. Job events are never dropped; seq has no holes.
+struct Event {
+  std::uint64_t seq;
+  TimePoint time;
+  std::variant<JobView, ArmView, QueueView, MonitorEvent, Alert> body;
+};
+
+// Poses: may be dropped.
+struct StateFrame {
+  TimePoint time;
+  Configuration q;  // measured, all joints of the cell
+  std::vector<Proximity> clearance;  // closest pair for each pair of arms that are near
+};
+
+// Everything at one instant: what a new client gets first.
+struct Snapshot {
+  std::uint64_t seq = 0;  // of the last event that is contained
+  TimePoint time;
+  QueueView queue;
+  std::vector<ArmView> arms;
+  std::vector<JobView> jobs;  // all not ended, then the latest ended, in order of submission
+};
+
+}  // namespace armloom

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/problem.h"
+#include "core/collision/judge.h"
+#include "core/executive/events.h"
+#include "core/model/cell.h"
+#include "core/trajectory/validate.h"
+
+namespace armloom {
+
+// A job as a client asks for it, its JSON already read.
+struct JobRequest {
+  std::string key;   // the client's id; empty: one is given ("job-17")
+  std::string name;
+  TrajectoryRequest trajectory;
+  int priority = 0;
+  std::optional<Duration> backlog_timeout;  // absent: the cell's
+};
+
+// Where judgements are computed. Called on the strand; `done` must be called exactly once, on the
+// strand again, with the verdict.
+class JudgePool {
+ public:
+  virtual ~JudgePool() = default;
+  virtual void ask(Question question, std::function<void(Verdict)> done) = 0;
+};
+
+// Where everything that happens is told. Called on the strand; must not block.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void on_event(const Event& event) = 0;
+  // Every control tick: measured positions of the whole cell. Cheap consumers only.
+  virtual void on_tick(TimePoint now, const Configuration& measured) = 0;
+  // Every monitor period.
+  virtual void on_state(const StateFrame& frame) = 0;
+};
+
+struct ExecutiveOptions {
+  std::string policy;      // empty: the cell's
+  std::uint64_t seed = 1;  // of the simulated arms' noise
+  std::size_t ended_kept = 1000;    // ended jobs that stay readable
+  std::size_t waiting_max = 10'000;  // jobs that may be active at once
+};
+
+// The figures of a whole run.
+struct RunFigures {
+  TimePoint first_start{};  // of the first motion
+  TimePoint last_end{};
+  std::vector<Duration> busy;  // per arm: time in motion
+  double min_clearance_m;      // smallest clearance between arms, or of an arm with the scene, that the monitor saw; +inf: none within its horizon
+  std::uint64_t monitor_stops = 0;
+};
+
+// The one strand where clock, scheduler, checks, monitor and arms meet. Not thread-safe: every
+// call comes from the strand's thread (the simulation's loop, or RealTimeLoop's thread). Owns no
+// thread and no clock: its drivers call tick() with growing cell time.
+class Executive {
+ public:
+  // Problems: homes in conflict, unknown policy, controller type unknown.
+  [[nodiscard]] static Result<std::unique_ptr<Executive>> create(CellPtr cell,
+                                                                 ExecutiveOptions options,
+                                                                 JudgePool& judges,
+                                                                 Observer& observer);
+  ~Executive();
+
+  // Validates and hands the job to the scheduler at time `now()`. Problems: everything validate()
+  // finds (pointers begin with "/trajectory"), a key in use (conflict), the queue full
+  // (unavailable), a start away from where the arm will be, a motion in which the arm hits itself
+  // is found later (the job fails with Reason::self_collision).
+  [[nodiscard]] Result<JobView> submit(JobRequest request);
+  // Problems: not_found; conflict when it has ended.
+  [[nodiscard]] Result<JobView> cancel(const std::string& key);
+  void stop_all(const std::string& cause);
+  void resume_all();
+
+  [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
+  [[nodiscard]] Snapshot snapshot() const;
+  [[nodiscard]] TimePoint now() const;
+  [[nodiscard]] bool all_ended() const;  // no job is active
+  [[nodiscard]] const RunFigures& figures() const;
+
+  // One control cycle. `now` must grow by kControlPeriod from call to call.
+  void tick(TimePoint now);
+
+ private:
+  class Impl;
+  explicit Executive(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace armloom

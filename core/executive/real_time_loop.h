@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/executive/executive.h"
+
+namespace armloom {
+
+// Runs an Executive in (scaled) real time on a thread of its own, with a worker thread for
+// judgements. All public calls are thread-safe.
+class RealTimeLoop {
+ public:
+  // The observer is called on the loop's thread and outlives the loop. speed > 0: cell seconds per
+  // wall second.
+  [[nodiscard]] static Result<std::unique_ptr<RealTimeLoop>> start(CellPtr cell,
+                                                                   ExecutiveOptions options,
+                                                                   double speed,
+                                                                   Observer& observer);
+  ~RealTimeLoop();  // stops the threads; arms stay where they are
+
+  // Runs `command` on the strand, soon. Commands run in the order posted.
+  void post(std::function<void(Executive&)> command);
+  [[nodiscard]] double speed() const;
+
+ private:
+  class Impl;
+  explicit RealTimeLoop(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/problem.h"
+#include "core/model/cell_description.h"
+#include "core/model/shape.h"
+
+namespace armloom {
+
+// Positions of all movable joints of the cell, indexed by JointId; rad, or m for prismatic joints.
+// Mimic joints are not in it: they follow.
+using Configuration = Eigen::VectorXd;
+
+enum class JointKind { revolute, continuous, prismatic };
+
+// A movable joint that is no mimic: one entry of a Configuration.
+struct Joint {
+  std::string name;  // with prefix
+  RobotId robot;
+  std::optional<ArmId> arm;  // the arm that it belongs to, as arm or gripper joint
+  JointKind kind;
+  double lower;             // rad or m; -inf/+inf for continuous joints
+  double upper;
+  double velocity_max;      // > 0; rad/s or m/s
+  double acceleration_max;  // > 0
+  double jerk_max;          // > 0
+  double brake;             // > 0: deceleration that a stop may use
+};
+
+// A link, with the joint above it folded in:
+//   X_WL = X_WP * X_PJ * motion(axis, multiplier * q[driver] + offset)
+// where P is the parent link (for a root: the robot's base pose X_WB, which then stands in X_PJ).
+struct Link {
+  std::string name;  // with prefix
+  RobotId robot;
+  std::optional<ArmId> arm;      // the arm whose joints move it (nearest above); none: static
+  std::optional<LinkId> parent;  // smaller than the link's own id: one pass computes all poses
+  Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
+  std::optional<JointId> driver;  // none: fixed
+  JointKind motion = JointKind::revolute;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // unit, in the joint frame J
+  double multiplier = 1.0;                          // of a mimic joint
+  double offset = 0.0;
+  std::vector<PlacedShape> shapes;  // in the link frame L
+};
+
+struct Arm {
+  std::string name;
+  RobotId robot;
+  std::string group;
+  std::vector<JointId> joints;          // of the group, from base to tip
+  std::vector<JointId> gripper_joints;  // movable joints below the arm that are in no arm's group
+  std::vector<LinkId> links;            // every link that these joints move
+  Eigen::VectorXd home;                 // size joints.size()
+  std::map<std::string, Eigen::VectorXd> named_states;  // of the group, from the SRDF
+};
+
+struct Robot {
+  std::string name;
+  std::string prefix;
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  std::vector<ArmId> arms;
+  std::string urdf_text;  // as read, for the dashboard
+  std::string srdf_text;
+  ControllerDescription controller;
+};
+
+struct CollisionObject {
+  std::string name;
+  Shape shape;
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+};
+
+// The robots, arms, joints and links of a cell and its settings: immutable, shared by all threads.
+// Built by build_cell (core/model/build_cell.h), which checks everything first.
+struct Cell {
+  std::string name;
+  std::vector<Robot> robots;  // RobotId
+  std::vector<Arm> arms;      // ArmId
+  std::vector<Joint> joints;  // JointId
+  std::vector<Link> links;    // LinkId; parents before children
+  std::vector<CollisionObject> objects;  // the scene at start
+
+  // Pairs of links that need no check (SRDF, same rigid body), smaller id first.
+  std::set<std::pair<LinkId, LinkId>> allowed_link_pairs;
+  // Pairs (link, object name) that may touch, from the cell file.
+  std::set<std::pair<LinkId, std::string>> allowed_link_objects;
+
+  double clearance_m = 0.02;
+  CheckingSettings checking;
+  SchedulingSettings scheduling;
+  MonitorSettings monitor;
+  ExecutionSettings execution;
+
+  [[nodiscard]] const Arm& arm(ArmId id) const { return arms[id.index()]; }
+  [[nodiscard]] const Joint& joint(JointId id) const { return joints[id.index()]; }
+  [[nodiscard]] const Link& link(LinkId id) const { return links[id.index()]; }
+  [[nodiscard]] std::optional<ArmId> find_arm(std::string_view arm_name) const;
+  [[nodiscard]] std::optional<JointId> find_joint(std::string_view joint_name) const;
+  [[nodiscard]] std::optional<LinkId> find_link(std::string_view link_name) const;
+
+  // Every arm at its home; joints of no arm and gripper joints at zero, clamped to their limits.
+  [[nodiscard]] Configuration home() const;
+};
+
+using CellPtr = std::shared_ptr<const Cell>;
+
+}  // namespace armloom

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/time.h"
+#include "core/model/shape.h"
+
+namespace armloom {
+
+// A cell file as plain data, before anything in it has been checked against the robots' URDFs.
+// Defaults here are the documented defaults of the file. Names are as the file spells them.
+
+struct JointLimitsDescription {  // URDFs carry none of these; absent means the stated default
+  std::optional<double> acceleration;  // rad/s^2 (m/s^2), default kDefaultAcceleration
+  std::optional<double> jerk;          // rad/s^3 (m/s^3), default kDefaultJerk
+  std::optional<double> brake;         // rad/s^2 (m/s^2), default twice the acceleration
+};
+inline constexpr double kDefaultAcceleration = 3.75;
+inline constexpr double kDefaultJerk = 7500.0;
+
+struct ArmDescription {
+  std::string name;   // unique in the cell
+  std::string group;  // SRDF group (a chain, or joints) that the arm consists of
+  std::vector<double> home;  // group order; empty: every joint at zero, clamped to its limits
+  std::map<std::string, JointLimitsDescription> limits;  // by URDF joint name, without prefix
+};
+
+struct ControllerDescription {
+  std::string type = "sim";
+  Duration lag = std::chrono::milliseconds(20);  // first-order delay along the path
+  double noise_rad = 0.0;                        // standard deviation of measured positions
+};
+
+struct RobotDescription {
+  std::string name;
+  std::string urdf;    // path, resolved against the folder of the cell file
+  std::string srdf;    // the same
+  std::string prefix;  // joint, link names in the cell are prefix + URDF name
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();  // base link in the world
+  std::map<std::string, std::string> packages;             // package:// name -> folder
+  std::vector<ArmDescription> arms;
+  ControllerDescription controller;
+};
+
+struct ObjectDescription {
+  std::string name;
+  Shape shape;
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+};
+
+struct CheckingSettings {
+  Duration time_step = std::chrono::milliseconds(50);
+  double tracking_error_rad = 0.001;
+  Duration delay = std::chrono::milliseconds(100);
+  double limit_tolerance = 0.05;  // share by which a spline may overshoot a limit
+};
+struct SchedulingSettings {
+  std::string policy = "timed_discrete";
+  Duration backlog_timeout = std::chrono::seconds(60);
+  Duration aging = std::chrono::seconds(30);
+  std::string on_idle_blocker = "report";
+};
+struct MonitorSettings {
+  double rate_hz = 100.0;
+  Duration reaction = std::chrono::milliseconds(20);
+  double stop_clearance_m = 0.01;
+};
+struct ExecutionSettings {  // MoveIt's defaults
+  double start_tolerance_rad = 0.01;
+  double duration_scaling = 1.1;
+  Duration duration_margin = std::chrono::milliseconds(500);
+};
+
+struct CellDescription {
+  std::string name;
+  std::vector<RobotDescription> robots;
+  std::vector<ObjectDescription> objects;
+  std::vector<std::pair<std::string, std::string>> allowed_collisions;  // link or object names
+  double clearance_m = 0.02;
+  CheckingSettings checking;
+  SchedulingSettings scheduling;
+  MonitorSettings monitor;
+  ExecutionSettings execution;
+};
+
+}  // namespace armloom

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/time.h"
+#include "core/coordination/motion.h"
+#include "core/coordination/verdict.h"
+#include "core/trajectory/trajectory.h"
+
+namespace armloom {
+
+// ---- Inputs: everything that can happen to the scheduler. Time comes beside them, in step(). ----
+
+// A valid job arrives. Ids are given by the caller, larger than any before.
+struct Submit {
+  JobId job;
+  TrajectoryPtr trajectory;
+  int priority = 0;  // larger goes first
+  Duration backlog_timeout;
+};
+struct Cancel {
+  JobId job;
+};
+// The answer to the Judge effect with the same version.
+struct Judged {
+  Verdict verdict;
+};
+// What a controller measured of a job's motion. Sent for every job in motion at every tick that
+// matters; `kind` says what has changed.
+struct MotionReport {
+  enum class Kind {
+    progressed,  // moving; first one of a job: it has started
+    stopped,     // at rest before its end, after a Brake
+    finished,    // at rest at its end
+    faulted,     // the controller gave up; the arm is at rest where it stands
+  };
+  JobId job;
+  Kind kind;
+  Duration progress;              // trajectory time, as proven by measurement
+  Eigen::VectorXd rest_position;  // stopped, finished, faulted: measured positions of the
+                                  // trajectory's joints, in its order
+  std::string detail;             // faulted: why
+};
+// Stop these arms (all: every arm of the cell) and start nothing on them until Resume.
+struct Stop {
+  std::vector<ArmId> arms;
+  std::string cause;  // "operator", or the monitor's sentence
+};
+struct Resume {
+  std::vector<ArmId> arms;
+};
+// A time asked for by WakeAt has come. Every other input does the same work besides.
+struct Wake {};
+
+using Input = std::variant<Submit, Cancel, Judged, MotionReport, Stop, Resume, Wake>;
+
+// ---- Effects: what the caller must do now, in this order. ----
+
+// Answer the question, on a worker, and come back with Judged. At most one is open at a time.
+struct Judge {
+  Question question;
+};
+// Start (progress zero) or continue (a job that was held) this job's motion at `start_at`.
+struct Dispatch {
+  JobId job;
+  TimePoint start_at;
+  Duration from_progress;
+};
+// Bring this job's arms to rest on their path. A job that has not moved yet stays where it is; the
+// controller answers with MotionReport::stopped in either case.
+struct Brake {
+  JobId job;
+};
+// Something that a client sees of this job has changed (state, progress is not one of them).
+struct JobChanged {
+  JobId job;
+};
+// Call step(Wake) not before `when` and soon after it. Replaces the time asked for before.
+struct WakeAt {
+  TimePoint when;
+};
+
+using Effect = std::variant<Judge, Dispatch, Brake, JobChanged, WakeAt>;
+
+}  // namespace armloom

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/time.h"
+
+namespace armloom {
+
+// State of the joints of one trajectory at one instant; sizes as Trajectory::joints().
+// rad, rad/s, rad/s^2 (m for prismatic joints).
+struct JointState {
+  Eigen::VectorXd position;
+  Eigen::VectorXd velocity;
+  Eigen::VectorXd acceleration;
+};
+
+// One polynomial piece for all joints: coefficients(j, k) multiplies t^k, t seconds since `start`.
+struct Segment {
+  Duration start;
+  Duration duration;  // > 0
+  Eigen::Matrix<double, Eigen::Dynamic, 6> coefficients;
+};
+
+// A valid timed trajectory of the joints of one or more arms: parsed, within limits, at rest at
+// both ends. Immutable; made only by validate() (core/trajectory/validate.h) and shared freely.
+// Interpolation is that of ROS's joint_trajectory_controller: cubic where positions and velocities
+// are given, quintic where accelerations are too.
+class Trajectory {
+ public:
+  // Precondition (throws std::invalid_argument): at least one segment, contiguous from zero,
+  // every coefficient matrix with joints.size() rows, arms sorted and not empty.
+  Trajectory(std::vector<JointId> joints, std::vector<ArmId> arms, std::vector<Segment> segments);
+
+  [[nodiscard]] const std::vector<JointId>& joints() const { return joints_; }
+  [[nodiscard]] const std::vector<ArmId>& arms() const { return arms_; }
+  [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
+  [[nodiscard]] Duration duration() const { return duration_; }
+  [[nodiscard]] const Eigen::VectorXd& start() const { return start_; }
+  [[nodiscard]] const Eigen::VectorXd& goal() const { return goal_; }
+
+  // Before zero the start at rest, after the end the goal at rest. Allocates only when `state` has
+  // other sizes. `progress` is trajectory time.
+  void sample(Duration progress, JointState& state) const;
+  void sample_positions(Duration progress, Eigen::VectorXd& position) const;
+
+ private:
+  [[nodiscard]] std::size_t segment_at(Duration progress) const;
+
+  std::vector<JointId> joints_;
+  std::vector<ArmId> arms_;
+  std::vector<Segment> segments_;
+  Duration duration_;
+  Eigen::VectorXd start_;
+  Eigen::VectorXd goal_;
+};
+
+using TrajectoryPtr = std::shared_ptr<const Trajectory>;
+
+}  // namespace armloom

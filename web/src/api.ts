@@ -1,0 +1,64 @@
+// The HTTP calls that the page makes. Every answer is a value: what was asked for, or a Problem.
+
+import { parse_cell, parse_problem, type Cell, type Problem } from './messages';
+
+export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
+export type Fetch = (url: string, init?: RequestInit) => Promise<Response>;
+
+export class Api {
+  constructor(private readonly base_: string, private readonly fetch_: Fetch) {}
+
+  async cell(): Promise<Answer<Cell>> {
+    const answer = await this.ask('GET', '/cell');
+    if (!answer.ok) return answer;
+    const cell = parse_cell(answer.value);
+    return cell.ok ? { ok: true, value: cell.value } : { ok: false, problem: own_problem('The cell cannot be read', cell.fault) };
+  }
+
+  /** Posts the text as it stands: the server is the judge of it, JSON errors included. */
+  post_job(text: string): Promise<Answer<unknown>> {
+    return this.ask('POST', '/jobs', text);
+  }
+
+  cancel_job(id: string): Promise<Answer<unknown>> {
+    return this.ask('DELETE', `/jobs/${encodeURIComponent(id)}`);
+  }
+
+  stop(): Promise<Answer<unknown>> {
+    return this.ask('POST', '/stop');
+  }
+
+  resume(): Promise<Answer<unknown>> {
+    return this.ask('POST', '/resume');
+  }
+
+  private async ask(method: string, path: string, body?: string): Promise<Answer<unknown>> {
+    const init: RequestInit = { method, headers: { accept: 'application/json' } };
+    if (body !== undefined) {
+      init.body = body;
+      init.headers = { accept: 'application/json', 'content-type': 'application/json' };
+    }
+    try {
+      const response = await this.fetch_(this.base_ + path, init);
+      const text = await response.text();
+      if (response.ok) return { ok: true, value: text === '' ? null : (JSON.parse(text) as unknown) };
+      return { ok: false, problem: read_problem(text, response) };
+    } catch (error) {
+      return { ok: false, problem: own_problem('The server does not answer', String(error)) };
+    }
+  }
+}
+
+function read_problem(text: string, response: Response): Problem {
+  try {
+    const problem = parse_problem(JSON.parse(text));
+    if (problem.ok) return problem.value;
+  } catch {
+    // Not JSON: an answer from something between us and the server. Shown as it is.
+  }
+  return { ...own_problem(response.statusText || 'Refused', text.slice(0, 300)), status: response.status };
+}
+
+function own_problem(title: string, detail: string): Problem {
+  return { title, status: 0, detail, pointer: null, value: undefined, errors: [] };
+}

@@ -1,0 +1,482 @@
+// Everything the server can say, as types, and the only place where its JSON is checked.
+//
+// Messages on the WebSocket form one union discriminated by `type`. `parse_message` never throws:
+// it answers the message, or that the type is unknown (a newer server), or what is malformed and
+// where. Times are seconds of cell time, angles rad, lengths m, as in the server's contract.
+
+export type ArmState = 'idle' | 'moving' | 'holding' | 'stopped' | 'fault';
+export type JobState =
+  | 'queued' | 'backlogged' | 'scheduled' | 'running' | 'holding'
+  | 'succeeded' | 'canceled' | 'expired' | 'failed' | 'interrupted';
+export type WaitKind = 'job' | 'arm' | 'object' | 'order' | 'capacity' | 'stop';
+
+const kArmStates: readonly ArmState[] = ['idle', 'moving', 'holding', 'stopped', 'fault'];
+const kJobStates: readonly JobState[] = [
+  'queued', 'backlogged', 'scheduled', 'running', 'holding',
+  'succeeded', 'canceled', 'expired', 'failed', 'interrupted',
+];
+const kWaitKinds: readonly WaitKind[] = ['job', 'arm', 'object', 'order', 'capacity', 'stop'];
+
+export interface Arm {
+  name: string;
+  robot: string;
+  state: ArmState;
+  job: string | null;
+  progress: number;
+  joints: string[];
+  q: number[];
+  home: number[];
+  deviation_rad: number | null;
+}
+
+/** One thing that a job waits on; times count from the start of each one's own trajectory. */
+export interface WaitsOn {
+  kind: WaitKind;
+  id: string | null;
+  arm: string | null;
+  links: [string, string] | null;
+  own_time_s: number | null;
+  other_time_s: number | null;
+  clearance_m: number | null;
+}
+
+export interface JobResult {
+  reason: string;
+  detail: string | null;
+}
+
+export interface Job {
+  id: string;
+  name: string | null;
+  state: JobState;
+  arms: string[];
+  priority: number;
+  submitted_s: number | null;
+  started_s: number | null;
+  ended_s: number | null;
+  progress: number;
+  duration_s: number | null;
+  stopping: boolean;
+  waits_on: WaitsOn[];
+  result: JobResult | null;
+  /** The job as the server wrote it, for the detail view. */
+  raw: unknown;
+}
+
+export type Shape =
+  | { kind: 'box'; size: [number, number, number] }
+  | { kind: 'cylinder'; radius: number; length: number }
+  | { kind: 'sphere'; radius: number };
+
+export interface SceneObject {
+  name: string;
+  /** null for a shape that this page cannot draw (a mesh). */
+  shape: Shape | null;
+  xyz: [number, number, number];
+  rpy: [number, number, number];
+}
+
+export interface CellArm {
+  name: string;
+  joints: string[];
+  gripper_joints: string[];
+  home: number[];
+}
+
+export interface CellRobot {
+  name: string;
+  prefix: string;
+  base: { xyz: [number, number, number]; rpy: [number, number, number] };
+  urdf: string;
+  arms: CellArm[];
+}
+
+export interface CellJoint {
+  name: string;
+  arm: string | null;
+  lower: number;
+  upper: number;
+  velocity_max: number;
+  acceleration_max: number | null;
+  jerk_max: number | null;
+  unit: string;
+}
+
+export interface Cell {
+  name: string;
+  policy: string;
+  speed: number;
+  robots: CellRobot[];
+  objects: SceneObject[];
+  joints: CellJoint[];
+  clearance_m: number | null;
+}
+
+export interface Clearance {
+  arms: [string, string];
+  m: number;
+  links: [string, string] | null;
+}
+
+/** RFC 9457, with the place of the fault and the value found. */
+export interface Problem {
+  title: string;
+  status: number;
+  detail: string | null;
+  pointer: string | null;
+  value: unknown;
+  errors: { pointer: string | null; detail: string | null; value: unknown }[];
+}
+
+interface Sequenced { stream: string; seq: number; t_s: number }
+
+export interface SnapshotData {
+  cell: string;
+  policy: string;
+  speed: number;
+  stopped: boolean;
+  arms: Arm[];
+  jobs: Job[];
+  objects: SceneObject[];
+  gap: boolean;
+}
+export interface QueueData {
+  stopped: boolean;
+  queued: string[];
+  backlog: string[];
+  scheduled: string[];
+  running: string[];
+}
+export interface MonitorData {
+  kind: string;
+  arms: string[];
+  links: [string, string] | null;
+  clearance_m: number | null;
+  limit_m: number | null;
+  stopped: string[];
+}
+export interface AlertData { level: 'info' | 'warning' | 'error'; text: string }
+
+export interface SnapshotMessage extends Sequenced { type: 'snapshot'; data: SnapshotData }
+export interface JobMessage extends Sequenced { type: 'job'; data: Job }
+export interface ArmMessage extends Sequenced { type: 'arm'; data: Arm }
+export interface QueueMessage extends Sequenced { type: 'queue'; data: QueueData }
+export interface MonitorMessage extends Sequenced { type: 'monitor'; data: MonitorData }
+export interface AlertMessage extends Sequenced { type: 'alert'; data: AlertData }
+export interface SceneMessage extends Sequenced { type: 'scene'; data: { objects: SceneObject[] } }
+/** A frame of poses: carries no sequence number and may be dropped on the way. */
+export interface StateMessage {
+  type: 'state';
+  t_s: number;
+  q: Record<string, number>;
+  clearance: Clearance[];
+}
+
+export type SequencedMessage =
+  | SnapshotMessage | JobMessage | ArmMessage | QueueMessage
+  | MonitorMessage | AlertMessage | SceneMessage;
+export type Message = SequencedMessage | StateMessage;
+
+export type Parsed<T> = { ok: true; value: T } | { ok: false; fault: string };
+export type ParsedMessage =
+  | { kind: 'message'; message: Message }
+  | { kind: 'unknown'; type: string; stream: string | null; seq: number | null }
+  | { kind: 'malformed'; fault: string };
+
+export function parse_message(text: string): ParsedMessage {
+  try {
+    const root = at(JSON.parse(text), '');
+    const type = root.get('type').text();
+    const message = read_message(type, root);
+    if (message) return { kind: 'message', message };
+    return {
+      kind: 'unknown', type,
+      stream: root.get('stream').or_null((f) => f.text()),
+      seq: root.get('seq').or_null((f) => f.number()),
+    };
+  } catch (error) {
+    return { kind: 'malformed', fault: fault_of(error) };
+  }
+}
+
+export function parse_cell(value: unknown): Parsed<Cell> {
+  return attempt(() => read_cell(at(value, '')));
+}
+
+export function parse_problem(value: unknown): Parsed<Problem> {
+  return attempt(() => read_problem(at(value, '')));
+}
+
+// ---- the shapes, one reader each ----
+
+function read_message(type: string, root: Field): Message | null {
+  if (type === 'state') {
+    return {
+      type,
+      t_s: root.get('t_s').number(),
+      q: root.get('q').numbers_by_name(),
+      clearance: root.get('clearance').list_or_empty(read_clearance),
+    };
+  }
+  const envelope = () => ({
+    stream: root.get('stream').text(),
+    seq: root.get('seq').number(),
+    t_s: root.get('t_s').number(),
+  });
+  const data = root.get('data');
+  switch (type) {
+    case 'snapshot': return { type, ...envelope(), data: read_snapshot(data) };
+    case 'job': return { type, ...envelope(), data: read_job(data) };
+    case 'arm': return { type, ...envelope(), data: read_arm(data) };
+    case 'queue': return { type, ...envelope(), data: read_queue(data) };
+    case 'monitor': return { type, ...envelope(), data: read_monitor(data) };
+    case 'alert': return { type, ...envelope(), data: read_alert(data) };
+    case 'scene': return { type, ...envelope(), data: { objects: data.get('objects').list(read_object) } };
+    default: return null;
+  }
+}
+
+function read_snapshot(f: Field): SnapshotData {
+  return {
+    cell: f.get('cell').text(),
+    policy: f.get('policy').text(),
+    speed: f.get('speed').number(),
+    stopped: f.get('stopped').flag(),
+    arms: f.get('arms').list(read_arm),
+    jobs: f.get('jobs').list(read_job),
+    objects: f.get('objects').list_or_empty(read_object),
+    gap: f.get('gap').or_null((g) => g.flag()) ?? false,
+  };
+}
+
+function read_queue(f: Field): QueueData {
+  const ids = (key: string) => f.get(key).list_or_empty((e) => e.text());
+  return {
+    stopped: f.get('stopped').flag(),
+    queued: ids('queued'), backlog: ids('backlog'), scheduled: ids('scheduled'), running: ids('running'),
+  };
+}
+
+function read_monitor(f: Field): MonitorData {
+  return {
+    kind: f.get('kind').text(),
+    arms: f.get('arms').list_or_empty((e) => e.text()),
+    links: f.get('links').or_null((e) => e.text_pair()),
+    clearance_m: f.get('clearance_m').or_null((e) => e.number()),
+    limit_m: f.get('limit_m').or_null((e) => e.number()),
+    stopped: f.get('stopped').list_or_empty((e) => e.text()),
+  };
+}
+
+function read_alert(f: Field): AlertData {
+  return { level: f.get('level').one_of(['info', 'warning', 'error']), text: f.get('text').text() };
+}
+
+function read_clearance(f: Field): Clearance {
+  return {
+    arms: f.get('arms').text_pair(),
+    m: f.get('m').number(),
+    links: f.get('links').or_null((e) => e.text_pair()),
+  };
+}
+
+function read_arm(f: Field): Arm {
+  return {
+    name: f.get('name').text(),
+    robot: f.get('robot').text(),
+    state: f.get('state').one_of(kArmStates),
+    job: f.get('job').or_null((e) => e.text()),
+    progress: f.get('progress').or_null((e) => e.number()) ?? 0,
+    joints: f.get('joints').list((e) => e.text()),
+    q: f.get('q').list((e) => e.number()),
+    home: f.get('home').list_or_empty((e) => e.number()),
+    deviation_rad: f.get('deviation_rad').or_null((e) => e.number()),
+  };
+}
+
+function read_job(f: Field): Job {
+  const seconds = (key: string) => f.get(key).or_null((e) => e.number());
+  return {
+    id: f.get('id').text(),
+    name: f.get('name').or_null((e) => e.text()),
+    state: f.get('state').one_of(kJobStates),
+    arms: f.get('arms').list((e) => e.text()),
+    priority: f.get('priority').or_null((e) => e.number()) ?? 0,
+    submitted_s: seconds('submitted_s'),
+    started_s: seconds('started_s'),
+    ended_s: seconds('ended_s'),
+    progress: f.get('progress').or_null((e) => e.number()) ?? 0,
+    duration_s: seconds('duration_s'),
+    stopping: f.get('stopping').or_null((e) => e.flag()) ?? false,
+    waits_on: f.get('waits_on').list_or_empty(read_waits_on),
+    result: f.get('result').or_null((e) => ({
+      reason: e.get('reason').text(),
+      detail: e.get('detail').or_null((d) => d.text()),
+    })),
+    raw: f.value,
+  };
+}
+
+function read_waits_on(f: Field): WaitsOn {
+  return {
+    kind: f.get('kind').one_of(kWaitKinds),
+    id: f.get('id').or_null((e) => e.text()),
+    arm: f.get('arm').or_null((e) => e.text()),
+    links: f.get('links').or_null((e) => e.text_pair()),
+    own_time_s: f.get('own_time_s').or_null((e) => e.number()),
+    other_time_s: f.get('other_time_s').or_null((e) => e.number()),
+    clearance_m: f.get('clearance_m').or_null((e) => e.number()),
+  };
+}
+
+function read_object(f: Field): SceneObject {
+  return {
+    name: f.get('name').text(),
+    shape: read_shape(f),
+    xyz: f.get('xyz').or_null((e) => e.triple()) ?? [0, 0, 0],
+    rpy: f.get('rpy').or_null((e) => e.triple()) ?? [0, 0, 0],
+  };
+}
+
+function read_shape(f: Field): Shape | null {
+  const box = f.get('box').or_null((e) => e.triple());
+  if (box) return { kind: 'box', size: box };
+  const cylinder = f.get('cylinder').or_null((e) => e.list((n) => n.number()));
+  if (cylinder) {
+    const [radius, length] = cylinder;
+    if (radius === undefined || length === undefined) return f.get('cylinder').fail('[radius, length]');
+    return { kind: 'cylinder', radius, length };
+  }
+  const sphere = f.get('sphere').or_null((e) => e.list((n) => n.number()));
+  if (sphere?.[0] !== undefined) return { kind: 'sphere', radius: sphere[0] };
+  return null;
+}
+
+function read_cell(f: Field): Cell {
+  return {
+    name: f.get('name').text(),
+    policy: f.get('policy').text(),
+    speed: f.get('speed').or_null((e) => e.number()) ?? 1,
+    robots: f.get('robots').list(read_robot),
+    objects: f.get('objects').list_or_empty(read_object),
+    joints: f.get('joints').list(read_joint),
+    clearance_m: f.get('clearance_m').or_null((e) => e.number()),
+  };
+}
+
+function read_robot(f: Field): CellRobot {
+  const base = f.get('base');
+  return {
+    name: f.get('name').text(),
+    prefix: f.get('prefix').or_null((e) => e.text()) ?? '',
+    base: { xyz: base.get('xyz').triple(), rpy: base.get('rpy').triple() },
+    urdf: f.get('urdf').text(),
+    arms: f.get('arms').list((arm) => ({
+      name: arm.get('name').text(),
+      joints: arm.get('joints').list((e) => e.text()),
+      gripper_joints: arm.get('gripper_joints').list_or_empty((e) => e.text()),
+      home: arm.get('home').list_or_empty((e) => e.number()),
+    })),
+  };
+}
+
+function read_joint(f: Field): CellJoint {
+  return {
+    name: f.get('name').text(),
+    arm: f.get('arm').or_null((e) => e.text()),
+    // Continuous joints have no position limits: JSON has no infinity, so null stands for it.
+    lower: f.get('lower').or_null((e) => e.number()) ?? -Infinity,
+    upper: f.get('upper').or_null((e) => e.number()) ?? Infinity,
+    velocity_max: f.get('velocity_max').number(),
+    acceleration_max: f.get('acceleration_max').or_null((e) => e.number()),
+    jerk_max: f.get('jerk_max').or_null((e) => e.number()),
+    unit: f.get('unit').or_null((e) => e.text()) ?? 'rad',
+  };
+}
+
+function read_problem(f: Field): Problem {
+  const place = (e: Field) => ({
+    pointer: e.get('pointer').or_null((p) => p.text()),
+    detail: e.get('detail').or_null((d) => d.text()),
+    value: e.get('value').value,
+  });
+  return {
+    title: f.get('title').text(),
+    status: f.get('status').number(),
+    ...place(f),
+    errors: f.get('errors').list_or_empty(place),
+  };
+}
+
+// ---- reading with a place, so that a fault says where it stands ----
+
+class ParseFault extends Error {}
+
+class Field {
+  constructor(readonly value: unknown, readonly pointer: string) {}
+
+  get(key: string): Field {
+    if (typeof this.value !== 'object' || this.value === null || Array.isArray(this.value)) this.fail('an object');
+    const object = this.value as Record<string, unknown>;
+    return at(Object.hasOwn(object, key) ? object[key] : undefined, `${this.pointer}/${key}`);
+  }
+  text(): string {
+    return typeof this.value === 'string' ? this.value : this.fail('a string');
+  }
+  number(): number {
+    return typeof this.value === 'number' && Number.isFinite(this.value) ? this.value : this.fail('a number');
+  }
+  flag(): boolean {
+    return typeof this.value === 'boolean' ? this.value : this.fail('true or false');
+  }
+  one_of<T extends string>(choices: readonly T[]): T {
+    return choices.find((c) => c === this.value) ?? this.fail(`one of ${choices.join(', ')}`);
+  }
+  or_null<T>(read: (f: Field) => T): T | null {
+    return this.value === undefined || this.value === null ? null : read(this);
+  }
+  list<T>(read: (f: Field) => T): T[] {
+    if (!Array.isArray(this.value)) this.fail('a list');
+    return (this.value as unknown[]).map((e, i) => read(at(e, `${this.pointer}/${i}`)));
+  }
+  list_or_empty<T>(read: (f: Field) => T): T[] {
+    return this.or_null((f) => f.list(read)) ?? [];
+  }
+  triple(): [number, number, number] {
+    const [x, y, z, ...rest] = this.list((f) => f.number());
+    if (x === undefined || y === undefined || z === undefined || rest.length) this.fail('three numbers');
+    return [x, y, z];
+  }
+  text_pair(): [string, string] {
+    const [a, b, ...rest] = this.list((f) => f.text());
+    if (a === undefined || b === undefined || rest.length) this.fail('two strings');
+    return [a, b];
+  }
+  numbers_by_name(): Record<string, number> {
+    if (typeof this.value !== 'object' || this.value === null || Array.isArray(this.value)) this.fail('an object');
+    for (const key of Object.keys(this.value as object)) this.get(key).number();
+    return this.value as Record<string, number>;
+  }
+  fail(expected: string): never {
+    const found = JSON.stringify(this.value)?.slice(0, 60) ?? 'nothing';
+    throw new ParseFault(`${this.pointer || '/'}: expected ${expected}, found ${found}`);
+  }
+}
+
+function at(value: unknown, pointer: string): Field {
+  return new Field(value, pointer);
+}
+
+function attempt<T>(read: () => T): Parsed<T> {
+  try {
+    return { ok: true, value: read() };
+  } catch (error) {
+    return { ok: false, fault: fault_of(error) };
+  }
+}
+
+function fault_of(error: unknown): string {
+  if (error instanceof ParseFault) return error.message;
+  if (error instanceof SyntaxError) return `not JSON: ${error.message}`;
+  throw error;
+}

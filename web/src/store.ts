@@ -1,0 +1,206 @@
+// All that the page knows, in one place. Messages and replies go in through the methods; views read
+// the fields and are told once per change. Pose frames (30 a second) have listeners of their own, so
+// that panels are not drawn again for each of them.
+
+import type { Link } from './connection';
+import type { Arm, Cell, Clearance, Job, JobState, Message, SceneObject, StateMessage } from './messages';
+import { monitor_in_words } from './wording';
+
+export interface Notice {
+  key: number;
+  t_s: number;
+  level: 'info' | 'warning' | 'error';
+  source: 'monitor' | 'alert';
+  text: string;
+}
+
+export type JobList = 'running' | 'scheduled' | 'queued' | 'backlog' | 'finished';
+
+const kListOfState: Record<JobState, JobList> = {
+  running: 'running', holding: 'running', scheduled: 'scheduled', queued: 'queued', backlogged: 'backlog',
+  succeeded: 'finished', canceled: 'finished', expired: 'finished', failed: 'finished', interrupted: 'finished',
+};
+const kMaxFinished = 200;
+const kMaxNotices = 100;
+
+/** A job as last heard, with the cell time at which it was heard. */
+interface Heard { job: Job; t_s: number }
+
+export class Store {
+  cell: Cell | null = null;
+  cell_fault: string | null = null;
+  link: Link = { status: 'connecting' };
+  stream: string | null = null;
+  policy = '';
+  speed = 1;
+  stopped = false;
+  t_s = 0;
+  /** Changes with every scene, so that the view draws objects again. */
+  objects: SceneObject[] = [];
+  arms = new Map<string, Arm>();
+  q: Record<string, number> = {};
+  clearance: Clearance[] = [];
+  notices: Notice[] = [];
+  rejected = { unknown: 0, malformed: 0 };
+
+  private jobs_ = new Map<string, Heard>();
+  private order_ = new Map<string, number>();
+  private next_key_ = 1;
+  private change_listeners_ = new Set<() => void>();
+  private frame_listeners_ = new Set<() => void>();
+
+  on_change(listener: () => void): () => void {
+    this.change_listeners_.add(listener);
+    return () => this.change_listeners_.delete(listener);
+  }
+
+  on_frame(listener: () => void): () => void {
+    this.frame_listeners_.add(listener);
+    return () => this.frame_listeners_.delete(listener);
+  }
+
+  take(message: Message): void {
+    if (message.type === 'state') {
+      this.take_frame(message);
+      return;
+    }
+    this.t_s = Math.max(message.stream === this.stream ? this.t_s : 0, message.t_s);
+    this.stream = message.stream;
+    switch (message.type) {
+      case 'snapshot': {
+        const { data } = message;
+        this.policy = data.policy;
+        this.speed = data.speed;
+        this.stopped = data.stopped;
+        this.arms = new Map(data.arms.map((arm) => [arm.name, arm]));
+        for (const arm of data.arms) this.place(arm);
+        this.jobs_ = new Map(data.jobs.map((job) => [job.id, { job, t_s: message.t_s }]));
+        this.order_.clear();
+        this.objects = data.objects;
+        if (data.gap) this.note(message.t_s, 'info', 'alert', 'Some events were missed while the connection was lost.');
+        break;
+      }
+      case 'job':
+        this.jobs_.set(message.data.id, { job: message.data, t_s: message.t_s });
+        this.drop_oldest_finished();
+        break;
+      case 'arm':
+        this.arms.set(message.data.name, message.data);
+        break;
+      case 'queue': {
+        const { data } = message;
+        this.stopped = data.stopped;
+        this.order_ = new Map([...data.running, ...data.scheduled, ...data.queued, ...data.backlog].map((id, i) => [id, i]));
+        break;
+      }
+      case 'monitor': {
+        const level = message.data.stopped.length ? 'error' : 'warning';
+        this.note(message.t_s, level, 'monitor', monitor_in_words(message.data));
+        break;
+      }
+      case 'alert':
+        this.note(message.t_s, message.data.level, 'alert', message.data.text);
+        break;
+      case 'scene':
+        this.objects = message.data.objects;
+        break;
+    }
+    this.changed();
+  }
+
+  set_cell(cell: Cell): void {
+    this.cell = cell;
+    this.cell_fault = null;
+    if (!this.stream) {
+      this.policy = cell.policy;
+      this.speed = cell.speed;
+      this.objects = cell.objects;
+    }
+    this.changed();
+  }
+
+  set_cell_fault(fault: string): void {
+    this.cell_fault = fault;
+    this.changed();
+  }
+
+  set_link(link: Link): void {
+    this.link = link;
+    this.changed();
+  }
+
+  set_stopped(stopped: boolean): void {
+    this.stopped = stopped;
+    this.changed();
+  }
+
+  /** Counts it; answers whether it is the first of its kind, which is worth a line in the console. */
+  reject(kind: 'unknown' | 'malformed'): boolean {
+    this.rejected = { ...this.rejected, [kind]: this.rejected[kind] + 1 };
+    this.changed();
+    return this.rejected[kind] === 1;
+  }
+
+  /** A list's jobs in the server's order; finished ones newest first. */
+  jobs(list: JobList): Job[] {
+    const jobs = [...this.jobs_.values()].map((h) => h.job).filter((job) => kListOfState[job.state] === list);
+    if (list === 'finished') return jobs.sort((a, b) => (b.ended_s ?? 0) - (a.ended_s ?? 0));
+    const place = (job: Job) => this.order_.get(job.id) ?? Infinity;
+    return jobs.sort((a, b) => {
+      const by_order = place(a) - place(b);
+      return by_order || (a.submitted_s ?? 0) - (b.submitted_s ?? 0);
+    });
+  }
+
+  all_jobs(): Job[] {
+    return [...this.jobs_.values()].map((h) => h.job);
+  }
+
+  job(id: string): Job | null {
+    return this.jobs_.get(id)?.job ?? null;
+  }
+
+  /** Share of its trajectory that a job has done by now: the last report, carried on while it runs. */
+  progress(job: Job): number {
+    const heard = this.jobs_.get(job.id);
+    if (!heard || job.state !== 'running' || job.stopping || !job.duration_s) return job.progress;
+    const since_report = Math.max(0, this.t_s - Math.max(heard.t_s, job.started_s ?? heard.t_s));
+    return Math.min(1, job.progress + since_report / job.duration_s);
+  }
+
+  is_terminal(job: Job): boolean {
+    return kListOfState[job.state] === 'finished';
+  }
+
+  /** The arm's configuration as last measured, in the order of its joints. */
+  q_of(arm: Arm): number[] {
+    return arm.joints.map((joint, i) => this.q[joint] ?? arm.q[i] ?? 0);
+  }
+
+  private take_frame(frame: StateMessage): void {
+    this.t_s = frame.t_s;
+    Object.assign(this.q, frame.q);
+    this.clearance = frame.clearance;
+    for (const listener of this.frame_listeners_) listener();
+  }
+
+  private place(arm: Arm): void {
+    arm.joints.forEach((joint, i) => {
+      const angle = arm.q[i];
+      if (angle !== undefined) this.q[joint] = angle;
+    });
+  }
+
+  private note(t_s: number, level: Notice['level'], source: Notice['source'], text: string): void {
+    this.notices = [{ key: this.next_key_++, t_s, level, source, text }, ...this.notices].slice(0, kMaxNotices);
+  }
+
+  private drop_oldest_finished(): void {
+    const finished = this.jobs('finished');
+    for (const job of finished.slice(kMaxFinished)) this.jobs_.delete(job.id);
+  }
+
+  private changed(): void {
+    for (const listener of this.change_listeners_) listener();
+  }
+}
