@@ -41,10 +41,10 @@ struct MotionReport {
   };
   JobId job;
   Kind kind;
-  Duration progress;              // trajectory time, as proven by measurement
-  Eigen::VectorXd rest_position;  // stopped, finished, faulted: measured positions of the
-                                  // trajectory's joints, in its order
-  std::string detail;             // faulted: why
+  Duration progress;                   // trajectory time, as proven by measurement
+  Eigen::VectorXd rest_position = {};  // stopped, finished, faulted: measured positions of the
+                                       // trajectory's joints, in its order
+  std::string detail = {};             // faulted: why
 };
 // Stop these arms (all: every arm of the cell) and start nothing on them until Resume.
 struct Stop {
@@ -76,6 +76,10 @@ struct Dispatch {
 struct Brake {
   JobId job;
 };
+// The job has ended and its arms are at rest: the controllers drop its motion.
+struct Release {
+  JobId job;
+};
 // Something that a client sees of this job has changed (state, progress is not one of them).
 struct JobChanged {
   JobId job;
@@ -85,6 +89,6 @@ struct WakeAt {
   TimePoint when;
 };
 
-using Effect = std::variant<Judge, Dispatch, Brake, JobChanged, WakeAt>;
+using Effect = std::variant<Judge, Dispatch, Brake, Release, JobChanged, WakeAt>;
 
 }  // namespace armloom

@@ -31,12 +31,17 @@ enum class JobState {
 struct Wait {
   enum class Kind { job, arm, object, order, capacity, stop };
   Kind kind;
-  std::optional<JobId> job;        // job, order, capacity
-  std::optional<ArmId> arm;        // arm, stop; job: the other's arm that comes too close
+  std::optional<JobId> job;            // job, order, capacity
+  std::optional<ArmId> arm;            // arm, stop; job: the other's arm that comes too close
   std::optional<Proximity> proximity;  // job, arm, object: evidence
-  Duration own_time{};             // with proximity: trajectory time of this job
-  Duration other_time{};           // and of the other one
-  std::string detail;              // stop: its cause
+  Duration own_time{};                 // with proximity: trajectory time of this job
+  Duration other_time{};               // and of the other one
+  std::string detail = {};             // stop: its cause
+
+  // Same obstacle, whatever the figures: used to spare clients a repeated event.
+  [[nodiscard]] bool same_cause(const Wait& other) const {
+    return kind == other.kind && job == other.job && arm == other.arm && detail == other.detail;
+  }
 };
 [[nodiscard]] const char* to_string(Wait::Kind kind);
 
@@ -66,7 +71,7 @@ struct Job {
   std::optional<TimePoint> scheduled_at;
   std::optional<TimePoint> started_at;
   std::optional<TimePoint> ended_at;
-  Duration progress{};         // trajectory time, last measured
+  Duration progress{};           // trajectory time, last measured
   TimePoint progress_seen_at{};  // when it was measured
   std::vector<Wait> waits_on;
   std::optional<Reason> reason;  // terminal

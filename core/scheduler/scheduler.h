@@ -1,7 +1,11 @@
 #pragma once
 
+#include <deque>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "core/base/problem.h"
@@ -13,29 +17,115 @@
 
 namespace armloom {
 
+// How far ahead of the present a judgement's instant lies. It starts at the minimum, doubles when
+// an answer comes after its instant, and shrinks slowly while answers are in time.
+inline constexpr Duration kAllowanceMin = std::chrono::milliseconds(3);
+inline constexpr Duration kAllowanceMax = std::chrono::seconds(1);
+
 // The pure heart: queue, backlog, reservations, order per arm, stops. A deterministic state machine
 // without threads, clock, sockets or geometry. Admission and reservation are one step: a job that
 // is judged free holds its reservation before step() returns, and no other judgement is open.
 //
-// A reservation is: a job that is scheduled, running, or braking (its remaining motion); every
-// other arm occupies the place where it rests. A job in `holding` at rest is such a rest.
+// A reservation is a job that is scheduled, running or braking: its remaining motion and the rest
+// at its goal. Every other arm occupies the place where it rests; a held job at rest is such a
+// rest. Whatever changes reservations or rests gives them a new version: a verdict on an older one
+// is void and asked again, and every waiting job is tried again on the new one.
+//
+// An arm that comes to rest off its plan (canceled, stopped, faulted) may stand in the way of
+// motions that were admitted before: these are judged again, and those in conflict are held until
+// the way is free. While an arm is braking nothing is judged: where it will rest is not known yet.
 class Scheduler {
  public:
   // `rest` is where every joint stands at the beginning. The policy is not null.
   Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configuration rest);
-  ~Scheduler();
 
   // Time never goes backwards (throws std::invalid_argument). An input that names an unknown or
   // ended job is ignored. Effects are to be carried out in order.
   [[nodiscard]] std::vector<Effect> step(const Input& input, TimePoint now);
 
-  // Where `arm` will stand when all jobs accepted for it have succeeded (its joints' positions in
-  // a whole-cell configuration): a new job for the arm has to begin there.
+  // Where every joint will stand when all accepted jobs have succeeded: a new job has to begin
+  // there.
   [[nodiscard]] Configuration predicted_rest() const;
 
   [[nodiscard]] const Policy& policy() const { return *policy_; }
-  [[nodiscard]] const Job* find(JobId job) const;  // null: unknown or forgotten
+  [[nodiscard]] const Job* find(JobId job) const;   // null: unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
   [[nodiscard]] bool stopped(ArmId arm) const;
+  [[nodiscard]] std::optional<JobId> occupant(ArmId arm) const;  // in motion or held on this arm
   // Ended jobs are kept until forgotten, so that the caller can read how they ended.
   void forget(JobId ended);
+
+ private:
+  enum class AfterStop { hold, cancel, fail };
+  struct Record {
+    Job job;
+    AfterStop after_stop = AfterStop::hold;
+    Reason fail_reason = Reason::overrun;  // with AfterStop::fail
+    std::string fail_detail;
+    Version judged_at = 0;     // the version on which it was last found in conflict
+    Version checked_at = 0;    // in motion: the version on which it was last found free
+    Duration from_progress{};  // where the present dispatch begins
+    std::optional<TimePoint> overrun_at;
+  };
+  struct OpenQuestion {
+    Version version;
+    TimePoint start_at;
+    std::vector<JobId> jobs;
+    bool recheck;  // of a motion that is already under way
+  };
+
+  // scheduler.cc: what happens to jobs
+  void on(const Submit& input);
+  void on(const Cancel& input);
+  void on(const Judged& input);
+  void on(const MotionReport& input);
+  void on(const Stop& input);
+  void on(const Resume& input);
+  void on(const Wake& input);
+  void brake(Record& record, AfterStop then);
+  void come_to_rest(Record& record, const MotionReport& report);
+  void end(Record& record, JobState state, Reason reason, std::string detail);
+  void settle();  // deadlines, waits, the next question, the next wake
+  void expire_and_overrun();
+  void ask_for_wake();
+  void changed(const Record& record) { changed_.insert(record.job.id); }
+
+  // admission.cc: who may be judged, what is asked, what the answer means
+  void explain_waits();
+  void ask_next();
+  [[nodiscard]] std::optional<Wait> reason_not_to_judge(const Record& record) const;
+  void fail_impossible_starts();
+  [[nodiscard]] std::optional<std::string> start_mismatch(const Trajectory& trajectory) const;
+  [[nodiscard]] std::vector<JobId> next_recheck() const;
+  [[nodiscard]] std::vector<JobId> held_together() const;
+  [[nodiscard]] std::optional<JobId> next_candidate() const;
+  void ask(std::vector<JobId> jobs, bool recheck);
+  void admit(Record& record, TimePoint start_at);
+  void refuse(Record& record, const Verdict& verdict, bool recheck);
+  [[nodiscard]] std::vector<const Job*> occupying(JobId except) const;
+  [[nodiscard]] static Duration progress_at(const Record& record, TimePoint when);
+  [[nodiscard]] bool at_head(const Record& record) const;
+  [[nodiscard]] bool holds_reservation(const Record& record) const;
+  [[nodiscard]] static bool waiting(const Record& record);
+  void set_waits(Record& record, std::vector<Wait> waits);
+
+  CellPtr cell_;
+  std::unique_ptr<const Policy> policy_;
+  Configuration rest_;
+  std::map<JobId, Record> records_;
+  std::set<JobId> active_;
+  std::vector<std::deque<JobId>> order_;             // per arm: active jobs, first goes first
+  std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
+  Version version_ = 1;
+  Version disturbed_at_ = 0;         // the last time an arm came to rest off its plan
+  Version held_together_tried_ = 0;  // the version on which all held jobs were judged as one
+  Duration allowance_;               // how far ahead of now a question's instant lies
+  std::optional<OpenQuestion> open_;
+  std::optional<TimePoint> wake_at_;
+
+  TimePoint now_{};              // of the present step
+  std::vector<Effect> effects_;  // of the present step
+  std::set<JobId> changed_;      // in the present step
+};
+
+}  // namespace armloom

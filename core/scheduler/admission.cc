@@ -1,0 +1,286 @@
+// Who may be judged next, what is asked, and what the answer means.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "core/scheduler/scheduler.h"
+
+namespace armloom {
+namespace {
+
+std::string format(const char* text, const std::string& name, double a, double b) {
+  char buffer[256];
+  std::snprintf(buffer, sizeof buffer, text, name.c_str(), a, b);
+  return buffer;
+}
+
+Wait wait_for(const Conflict& conflict) {
+  Wait wait{.kind = Wait::Kind::object,
+            .proximity = conflict.proximity,
+            .own_time = conflict.own_time,
+            .other_time = conflict.other_time};
+  wait.arm = conflict.proximity.arm_b;
+  if (conflict.with == Conflict::With::motion) {
+    wait.kind = Wait::Kind::job;
+    wait.job = conflict.other_job;
+  } else if (conflict.with == Conflict::With::rest) {
+    wait.kind = Wait::Kind::arm;
+  }
+  return wait;
+}
+
+}  // namespace
+
+bool Scheduler::waiting(const Record& record) {
+  const JobState state = record.job.state;
+  return state == JobState::queued || state == JobState::backlogged ||
+         (state == JobState::holding && !record.job.stopping);
+}
+
+bool Scheduler::holds_reservation(const Record& record) const {
+  const JobState state = record.job.state;
+  return state == JobState::scheduled || state == JobState::running ||
+         (state == JobState::holding && record.job.stopping);
+}
+
+bool Scheduler::at_head(const Record& record) const {
+  return std::ranges::all_of(record.job.trajectory->arms(), [&](ArmId arm) {
+    return order_[arm.index()].front() == record.job.id;
+  });
+}
+
+std::vector<const Job*> Scheduler::occupying(JobId except) const {
+  std::vector<const Job*> jobs;
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    const bool held = record.job.state == JobState::holding;
+    if (id != except && (held || holds_reservation(record))) jobs.push_back(&record.job);
+  }
+  return jobs;
+}
+
+// Where a motion will be at `when` if it goes on as planned; negative: still to start.
+Duration Scheduler::progress_at(const Record& record, TimePoint when) {
+  const Job& job = record.job;
+  const Duration progress = job.state == JobState::scheduled
+                                ? record.from_progress + (when - *job.scheduled_at)
+                                : job.progress + (when - job.progress_seen_at);
+  return std::min(progress, job.trajectory->duration());
+}
+
+// ---- Who may be judged ----
+
+std::optional<Wait> Scheduler::reason_not_to_judge(const Record& record) const {
+  const JobId id = record.job.id;
+  for (ArmId arm : record.job.trajectory->arms()) {
+    const JobId first = order_[arm.index()].front();
+    if (first == id) continue;
+    // The nearest job before it, not the first of the queue: that is what it waits for.
+    const auto& queue = order_[arm.index()];
+    const auto own = std::ranges::find(queue, id);
+    return Wait{.kind = Wait::Kind::order, .job = *std::prev(own), .arm = arm};
+  }
+  for (ArmId arm : record.job.trajectory->arms()) {
+    if (const auto& cause = stopped_[arm.index()]) {
+      return Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = *cause};
+    }
+  }
+  if (const auto taken_by = policy_->capacity_taken_by(occupying(id))) {
+    return Wait{.kind = Wait::Kind::capacity, .job = *taken_by};
+  }
+  return std::nullopt;
+}
+
+void Scheduler::set_waits(Record& record, std::vector<Wait> waits) {
+  auto& old = record.job.waits_on;
+  const bool same =
+      std::ranges::equal(old, waits, [](const Wait& a, const Wait& b) { return a.same_cause(b); });
+  old = std::move(waits);
+  if (!same) changed(record);
+}
+
+void Scheduler::explain_waits() {
+  for (JobId id : active_) {
+    Record& record = records_.at(id);
+    if (!waiting(record)) continue;
+    if (auto wait = reason_not_to_judge(record)) {
+      set_waits(record, {std::move(*wait)});
+    } else if (record.judged_at == 0) {
+      set_waits(record, {});  // nothing stands against it but that it is not judged yet
+    }
+  }
+}
+
+// A job at the head of its arms that cannot begin where they stand will never be able to.
+void Scheduler::fail_impossible_starts() {
+  for (auto& queue : order_) {
+    while (!queue.empty()) {
+      Record& head = records_.at(queue.front());
+      if (!waiting(head) || head.job.started_at || !at_head(head)) break;
+      auto mismatch = start_mismatch(*head.job.trajectory);
+      if (!mismatch) break;
+      end(head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));
+    }
+  }
+}
+
+std::optional<std::string> Scheduler::start_mismatch(const Trajectory& trajectory) const {
+  for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
+    const JointId joint = trajectory.joints()[j];
+    const double begins = trajectory.start()[static_cast<Eigen::Index>(j)];
+    const double stands = rest_[static_cast<Eigen::Index>(joint.index())];
+    if (std::abs(begins - stands) > cell_->execution.start_tolerance_rad) {
+      return format("%s stands at %.6g, the trajectory begins at %.6g", cell_->joint(joint).name,
+                    stands, begins);
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<JobId> Scheduler::next_recheck() const {
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    if (holds_reservation(record) && record.checked_at < disturbed_at_) return {id};
+  }
+  return {};
+}
+
+// After a stop of several arms their motions are tried first as they were: all at once.
+std::vector<JobId> Scheduler::held_together() const {
+  std::vector<JobId> held;
+  if (held_together_tried_ == version_) return held;
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    const bool holding = record.job.state == JobState::holding && waiting(record);
+    if (holding && !reason_not_to_judge(record)) held.push_back(id);
+  }
+  return held.size() >= 2 ? held : std::vector<JobId>{};
+}
+
+std::optional<JobId> Scheduler::next_candidate() const {
+  const Job* best = nullptr;
+  const auto goes_before = [](const Job& a, const Job& b) {
+    const bool a_held = a.state == JobState::holding;
+    const bool b_held = b.state == JobState::holding;
+    if (a_held != b_held) return a_held;
+    return a.priority != b.priority ? a.priority > b.priority : a.id < b.id;
+  };
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    if (!waiting(record) || record.judged_at == version_ || reason_not_to_judge(record)) continue;
+    if (!best || goes_before(record.job, *best)) best = &record.job;
+  }
+  return best ? std::optional(best->id) : std::nullopt;
+}
+
+// ---- The question ----
+
+void Scheduler::ask_next() {
+  if (open_) return;
+  const bool braking =
+      std::ranges::any_of(active_, [this](JobId id) { return records_.at(id).job.stopping; });
+  if (braking) return;
+  if (auto recheck = next_recheck(); !recheck.empty()) {
+    ask(std::move(recheck), true);
+  } else if (auto held = held_together(); !held.empty()) {
+    held_together_tried_ = version_;
+    ask(std::move(held), false);
+  } else if (const auto candidate = next_candidate()) {
+    ask({*candidate}, false);
+  }
+}
+
+void Scheduler::ask(std::vector<JobId> jobs, bool recheck) {
+  const TimePoint start_at = now_ + allowance_;
+  Question question{.version = version_,
+                    .start_at = start_at,
+                    .candidates = {},
+                    .others = {},
+                    .rest = rest_,
+                    .method = policy_->method()};
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    const bool candidate = std::ranges::find(jobs, id) != jobs.end();
+    if (!candidate && !holds_reservation(record)) continue;
+    const Duration progress =
+        holds_reservation(record) ? progress_at(record, start_at) : record.job.progress;
+    (candidate ? question.candidates : question.others)
+        .push_back(Motion{id, record.job.trajectory, progress});
+  }
+  open_ = OpenQuestion{version_, start_at, std::move(jobs), recheck};
+  effects_.push_back(Judge{std::move(question)});
+}
+
+// ---- The answer ----
+
+void Scheduler::on(const Judged& input) {
+  if (!open_ || open_->version != input.verdict.version) return;
+  const OpenQuestion question = std::move(*open_);
+  open_.reset();
+  if (question.version != version_) {
+    if (question.jobs.size() > 1) held_together_tried_ = 0;
+    return;  // stale: settle() asks again
+  }
+  const bool free = input.verdict.kind == Verdict::Kind::free;
+  if (now_ > question.start_at && !question.recheck && free) {
+    // The instant that was judged has passed. Ask for a later one.
+    allowance_ = std::min(2 * allowance_, kAllowanceMax);
+    if (question.jobs.size() > 1) held_together_tried_ = 0;
+    return;
+  }
+  allowance_ = std::max(kAllowanceMin, allowance_ - allowance_ / 64);
+  if (free && question.recheck) {
+    records_.at(question.jobs.front()).checked_at = version_;
+  } else if (free) {
+    ++version_;
+    for (JobId id : question.jobs) admit(records_.at(id), question.start_at);
+  } else if (question.jobs.size() == 1) {
+    refuse(records_.at(question.jobs.front()), input.verdict, question.recheck);
+  }  // else: held jobs that cannot go on together are judged one by one
+}
+
+void Scheduler::admit(Record& record, TimePoint start_at) {
+  Job& job = record.job;
+  job.state = JobState::scheduled;
+  job.scheduled_at = start_at;
+  job.waits_on.clear();
+  record.after_stop = AfterStop::hold;
+  record.judged_at = 0;
+  record.checked_at = version_;
+  record.from_progress = job.progress;
+  const double remaining_s = to_seconds(job.trajectory->duration() - job.progress);
+  record.overrun_at = start_at + from_seconds(remaining_s * cell_->execution.duration_scaling) +
+                      cell_->execution.duration_margin;
+  changed(record);
+  effects_.push_back(Dispatch{job.id, start_at, job.progress});
+}
+
+void Scheduler::refuse(Record& record, const Verdict& verdict, bool recheck) {
+  Job& job = record.job;
+  std::vector<Wait> waits;
+  for (const Conflict& conflict : verdict.conflicts) {
+    if (conflict.with == Conflict::With::self && !job.started_at) {
+      end(record, JobState::failed, Reason::self_collision,
+          conflict.proximity.body_a + " and " + conflict.proximity.body_b +
+              format("%s come within %.4g m of each other at %.3f s of the trajectory", "",
+                     conflict.proximity.clearance_m, to_seconds(conflict.own_time)));
+      return;
+    }
+    waits.push_back(wait_for(conflict));
+  }
+  if (recheck) {
+    record.checked_at = version_;
+    brake(record, AfterStop::hold);
+  } else {
+    record.judged_at = version_;
+    if (job.state == JobState::queued) {
+      job.state = JobState::backlogged;
+      if (!job.backlogged_at) job.backlogged_at = now_;
+      changed(record);
+    }
+  }
+  set_waits(record, std::move(waits));
+}
+
+}  // namespace armloom

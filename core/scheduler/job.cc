@@ -1,0 +1,71 @@
+#include "core/scheduler/job.h"
+
+namespace armloom {
+
+const char* to_string(JobState state) {
+  switch (state) {
+    case JobState::queued:
+      return "queued";
+    case JobState::backlogged:
+      return "backlogged";
+    case JobState::scheduled:
+      return "scheduled";
+    case JobState::running:
+      return "running";
+    case JobState::holding:
+      return "holding";
+    case JobState::succeeded:
+      return "succeeded";
+    case JobState::canceled:
+      return "canceled";
+    case JobState::expired:
+      return "expired";
+    case JobState::failed:
+      return "failed";
+    case JobState::interrupted:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+const char* to_string(Wait::Kind kind) {
+  switch (kind) {
+    case Wait::Kind::job:
+      return "job";
+    case Wait::Kind::arm:
+      return "arm";
+    case Wait::Kind::object:
+      return "object";
+    case Wait::Kind::order:
+      return "order";
+    case Wait::Kind::capacity:
+      return "capacity";
+    case Wait::Kind::stop:
+      return "stop";
+  }
+  return "unknown";
+}
+
+const char* to_string(Reason reason) {
+  switch (reason) {
+    case Reason::completed:
+      return "completed";
+    case Reason::canceled_by_client:
+      return "canceled_by_client";
+    case Reason::backlog_timeout:
+      return "backlog_timeout";
+    case Reason::start_mismatch:
+      return "start_mismatch";
+    case Reason::self_collision:
+      return "self_collision";
+    case Reason::arm_fault:
+      return "arm_fault";
+    case Reason::overrun:
+      return "overrun";
+    case Reason::server_restart:
+      return "server_restart";
+  }
+  return "unknown";
+}
+
+}  // namespace armloom

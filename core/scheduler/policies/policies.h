@@ -1,0 +1,12 @@
+#pragma once
+
+#include <memory>
+
+#include "core/scheduler/policy.h"
+
+namespace armloom {
+
+[[nodiscard]] std::unique_ptr<const Policy> make_sequential(const Cell& cell);
+[[nodiscard]] std::unique_ptr<const Policy> make_timed_discrete(const Cell& cell);
+
+}  // namespace armloom

@@ -1,0 +1,31 @@
+// One job at a time in the whole cell, as MoveIt executes. What stands in the way at rest (other
+// arms, the scene) is still judged.
+#include "core/scheduler/policies/policies.h"
+
+namespace armloom {
+namespace {
+
+class Sequential final : public Policy {
+ public:
+  explicit Sequential(Duration time_step) : time_step_(time_step) {}
+
+  std::string_view name() const override { return "sequential"; }
+
+  std::optional<JobId> capacity_taken_by(const std::vector<const Job*>& occupying) const override {
+    if (occupying.empty()) return std::nullopt;
+    return occupying.front()->id;
+  }
+
+  CheckMethod method() const override { return TimedDiscrete{time_step_}; }
+
+ private:
+  Duration time_step_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Policy> make_sequential(const Cell& cell) {
+  return std::make_unique<Sequential>(cell.checking.time_step);
+}
+
+}  // namespace armloom

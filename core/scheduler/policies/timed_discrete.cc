@@ -1,0 +1,31 @@
+// The paper's policy: a job starts beside the running ones when both, compared at equal instants
+// every time_step, keep their clearance; else it goes to the backlog and is tried again when what
+// holds reservations has changed. Between the instants nothing is promised.
+#include "core/scheduler/policies/policies.h"
+
+namespace armloom {
+namespace {
+
+class TimedDiscretePolicy final : public Policy {
+ public:
+  explicit TimedDiscretePolicy(Duration time_step) : time_step_(time_step) {}
+
+  std::string_view name() const override { return "timed_discrete"; }
+
+  std::optional<JobId> capacity_taken_by(const std::vector<const Job*>&) const override {
+    return std::nullopt;
+  }
+
+  CheckMethod method() const override { return TimedDiscrete{time_step_}; }
+
+ private:
+  Duration time_step_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Policy> make_timed_discrete(const Cell& cell) {
+  return std::make_unique<TimedDiscretePolicy>(cell.checking.time_step);
+}
+
+}  // namespace armloom

@@ -1,0 +1,248 @@
+#include "core/scheduler/scheduler.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace armloom {
+
+Scheduler::Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configuration rest)
+    : cell_(std::move(cell)),
+      policy_(std::move(policy)),
+      rest_(std::move(rest)),
+      order_(cell_->arms.size()),
+      stopped_(cell_->arms.size()),
+      allowance_(kAllowanceMin) {
+  if (!policy_) throw std::invalid_argument("Scheduler: no policy");
+  if (rest_.size() != static_cast<Eigen::Index>(cell_->joints.size())) {
+    throw std::invalid_argument("Scheduler: rest has another size than the cell has joints");
+  }
+}
+
+std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
+  if (now < now_) throw std::invalid_argument("Scheduler: time went backwards");
+  now_ = now;
+  const auto* report = std::get_if<MotionReport>(&input);
+  std::visit([this](const auto& i) { on(i); }, input);
+
+  // Progress alone, the bulk of all inputs, changes nothing that others wait for.
+  const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&
+                             changed_.empty() && !(wake_at_ && *wake_at_ <= now_);
+  if (!only_progress) settle();
+
+  // What clients see comes first, so that an event is told before its consequences.
+  std::vector<Effect> result;
+  result.reserve(changed_.size() + effects_.size());
+  for (JobId job : changed_) result.push_back(JobChanged{job});
+  std::move(effects_.begin(), effects_.end(), std::back_inserter(result));
+  changed_.clear();
+  effects_.clear();
+  return result;
+}
+
+void Scheduler::settle() {
+  expire_and_overrun();
+  fail_impossible_starts();
+  explain_waits();
+  ask_next();
+  ask_for_wake();
+}
+
+Configuration Scheduler::predicted_rest() const {
+  Configuration q = rest_;
+  for (JobId id : active_) {
+    const Trajectory& trajectory = *records_.at(id).job.trajectory;
+    for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
+      q[static_cast<Eigen::Index>(trajectory.joints()[j].index())] =
+          trajectory.goal()[static_cast<Eigen::Index>(j)];
+    }
+  }
+  return q;
+}
+
+const Job* Scheduler::find(JobId job) const {
+  const auto it = records_.find(job);
+  return it == records_.end() ? nullptr : &it->second.job;
+}
+
+std::vector<JobId> Scheduler::active() const { return {active_.begin(), active_.end()}; }
+
+bool Scheduler::stopped(ArmId arm) const { return stopped_[arm.index()].has_value(); }
+
+std::optional<JobId> Scheduler::occupant(ArmId arm) const {
+  const auto& queue = order_[arm.index()];
+  if (queue.empty()) return std::nullopt;
+  const Record& head = records_.at(queue.front());
+  const bool in_motion = holds_reservation(head) || head.job.state == JobState::holding;
+  return in_motion ? std::optional(queue.front()) : std::nullopt;
+}
+
+void Scheduler::forget(JobId ended) {
+  const auto it = records_.find(ended);
+  if (it != records_.end() && is_terminal(it->second.job.state)) records_.erase(it);
+}
+
+void Scheduler::on(const Submit& input) {
+  if (!input.trajectory) throw std::invalid_argument("Submit: no trajectory");
+  if (!records_.empty() && input.job <= records_.rbegin()->first) {
+    throw std::invalid_argument("Submit: ids must grow");
+  }
+  Record record{.job = Job{.id = input.job,
+                           .trajectory = input.trajectory,
+                           .priority = input.priority,
+                           .backlog_timeout = input.backlog_timeout,
+                           .submitted_at = now_}};
+  for (ArmId arm : input.trajectory->arms()) order_[arm.index()].push_back(input.job);
+  active_.insert(input.job);
+  changed(records_.emplace(input.job, std::move(record)).first->second);
+}
+
+void Scheduler::on(const Cancel& input) {
+  const auto it = records_.find(input.job);
+  if (it == records_.end() || is_terminal(it->second.job.state)) return;
+  Record& record = it->second;
+  if (holds_reservation(record)) {
+    brake(record, AfterStop::cancel);
+    return;
+  }
+  const bool held = record.job.state == JobState::holding;
+  end(record, JobState::canceled, Reason::canceled_by_client,
+      held ? "canceled while holding" : "canceled before it moved");
+  if (held) effects_.push_back(Release{input.job});
+}
+
+void Scheduler::on(const MotionReport& input) {
+  const auto it = records_.find(input.job);
+  if (it == records_.end() || is_terminal(it->second.job.state)) return;
+  Record& record = it->second;
+  record.job.progress = input.progress;
+  record.job.progress_seen_at = now_;
+  if (input.kind != MotionReport::Kind::progressed) {
+    come_to_rest(record, input);
+    return;
+  }
+  if (record.job.state == JobState::scheduled) {
+    record.job.state = JobState::running;
+    if (!record.job.started_at) record.job.started_at = now_;
+    changed(record);
+  }
+}
+
+void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
+  Job& job = record.job;
+  const auto& joints = job.trajectory->joints();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    rest_[static_cast<Eigen::Index>(joints[j].index())] =
+        report.rest_position[static_cast<Eigen::Index>(j)];
+  }
+  ++version_;
+  job.stopping = false;
+  record.overrun_at.reset();
+  if (report.kind == MotionReport::Kind::finished) {
+    end(record, JobState::succeeded, Reason::completed, "");
+    effects_.push_back(Release{job.id});
+    return;
+  }
+  disturbed_at_ = version_;
+  if (report.kind == MotionReport::Kind::faulted) {
+    for (ArmId arm : job.trajectory->arms()) stopped_[arm.index()] = "fault: " + report.detail;
+    end(record, JobState::failed, Reason::arm_fault, report.detail);
+    effects_.push_back(Release{job.id});
+  } else if (record.after_stop == AfterStop::cancel) {
+    end(record, JobState::canceled, Reason::canceled_by_client, "braked on its path");
+    effects_.push_back(Release{job.id});
+  } else if (record.after_stop == AfterStop::fail) {
+    end(record, JobState::failed, record.fail_reason, record.fail_detail);
+    effects_.push_back(Release{job.id});
+  } else if (!job.started_at) {
+    // Stopped before it moved: it waits in the queue again, as if it had not been admitted.
+    job.state = JobState::queued;
+    job.scheduled_at.reset();
+    effects_.push_back(Release{job.id});
+    changed(record);
+  } else {
+    job.state = JobState::holding;
+    changed(record);
+  }
+}
+
+void Scheduler::brake(Record& record, AfterStop then) {
+  // A cancel or a failure outlives a later stop; a stop never turns one into a mere hold.
+  const bool first = !record.job.stopping;
+  if (first || record.after_stop == AfterStop::hold) record.after_stop = then;
+  if (first) {
+    record.job.stopping = true;
+    record.overrun_at.reset();
+    ++version_;
+    effects_.push_back(Brake{record.job.id});
+  }
+  if (then == AfterStop::hold && record.after_stop == AfterStop::hold && record.job.started_at) {
+    record.job.state = JobState::holding;
+  }
+  changed(record);
+}
+
+void Scheduler::on(const Stop& input) {
+  for (ArmId arm : input.arms) {
+    if (!stopped_[arm.index()]) stopped_[arm.index()] = input.cause;
+    if (const auto job = occupant(arm)) {
+      Record& record = records_.at(*job);
+      if (holds_reservation(record) && !record.job.stopping) brake(record, AfterStop::hold);
+    }
+  }
+}
+
+void Scheduler::on(const Resume& input) {
+  for (ArmId arm : input.arms) stopped_[arm.index()].reset();
+  ++version_;
+}
+
+void Scheduler::on(const Wake&) {}
+
+void Scheduler::end(Record& record, JobState state, Reason reason, std::string detail) {
+  Job& job = record.job;
+  job.state = state;
+  job.stopping = false;
+  job.ended_at = now_;
+  job.reason = reason;
+  job.detail = std::move(detail);
+  job.waits_on.clear();
+  if (state == JobState::succeeded) job.progress = job.trajectory->duration();
+  for (ArmId arm : job.trajectory->arms()) std::erase(order_[arm.index()], job.id);
+  active_.erase(job.id);
+  ++version_;
+  changed(record);
+}
+
+void Scheduler::expire_and_overrun() {
+  std::vector<JobId> ids(active_.begin(), active_.end());
+  for (JobId id : ids) {
+    Record& record = records_.at(id);
+    Job& job = record.job;
+    const bool backlogged = job.state == JobState::backlogged;
+    if (backlogged && now_ >= *job.backlogged_at + job.backlog_timeout) {
+      end(record, JobState::expired, Reason::backlog_timeout,
+          "waited " + std::to_string(to_seconds(job.backlog_timeout)) + " s in the backlog");
+    } else if (record.overrun_at && now_ >= *record.overrun_at && !job.stopping) {
+      record.fail_reason = Reason::overrun;
+      record.fail_detail = "still moving after duration_scaling and duration_margin";
+      brake(record, AfterStop::fail);
+    }
+  }
+}
+
+void Scheduler::ask_for_wake() {
+  std::optional<TimePoint> next;
+  const auto consider = [&next](TimePoint when) { next = next ? std::min(*next, when) : when; };
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    if (record.job.state == JobState::backlogged) {
+      consider(*record.job.backlogged_at + record.job.backlog_timeout);
+    }
+    if (record.overrun_at && !record.job.stopping) consider(*record.overrun_at);
+  }
+  if (next && next != wake_at_) effects_.push_back(WakeAt{*next});
+  wake_at_ = next;
+}
+
+}  // namespace armloom
