@@ -1,0 +1,27 @@
+// `window.armloom`: for the browser test, and for looking at a running page from the console.
+//
+//   armloom.q()                           joint name -> measured position
+//   armloom.jobs()                        every job that the page knows, as the server wrote it
+//   armloom.set_robot_visible(name, yes)  draws the cell with or without one robot, so that a
+//                                         picture of each tells which pixels are that robot's
+
+import type { Store } from './store';
+import type { CellView } from './view/cell_view';
+
+export interface DebugHook {
+  q(): Record<string, number>;
+  jobs(): unknown[];
+  set_robot_visible(name: string, visible: boolean): void;
+}
+
+declare global {
+  interface Window { armloom?: DebugHook }
+}
+
+export function install_debug_hook(store: Store, view: CellView): void {
+  window.armloom = {
+    q: () => ({ ...store.q }),
+    jobs: () => store.all_jobs().map((job) => job.raw),
+    set_robot_visible: (name, visible) => view.set_robot_visible(name, visible),
+  };
+}

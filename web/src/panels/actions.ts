@@ -1,0 +1,35 @@
+// What a click may ask of the server, with the answer shown where it concerns everyone.
+
+import { signal_of, type Signal } from './signal';
+import type { Api, Answer } from '../api';
+import type { Store } from '../store';
+
+/** What stands in the drawer beside the cell: the form for a new job, a job's details, or nothing. */
+export type Drawer = { show: 'nothing' } | { show: 'new' } | { show: 'job'; id: string };
+
+export class Actions {
+  readonly drawer: Signal<Drawer> = signal_of<Drawer>({ show: 'nothing' });
+  /** The last thing that the server refused, until it is put away. */
+  readonly refusal: Signal<string | null> = signal_of<string | null>(null);
+
+  constructor(readonly api: Api, private readonly store_: Store, readonly retry_connection: () => void) {}
+
+  async stop(): Promise<void> {
+    if (await this.ask('Stop', this.api.stop())) this.store_.set_stopped(true);
+  }
+
+  async resume(): Promise<void> {
+    if (await this.ask('Resume', this.api.resume())) this.store_.set_stopped(false);
+  }
+
+  async cancel(id: string): Promise<void> {
+    await this.ask(`Cancel ${id}`, this.api.cancel_job(id));
+  }
+
+  private async ask(what: string, answer: Promise<Answer<unknown>>): Promise<boolean> {
+    const got = await answer;
+    if (got.ok) this.refusal.set(null);
+    else this.refusal.set(`${what} was refused: ${got.problem.detail ?? got.problem.title}`);
+    return got.ok;
+  }
+}

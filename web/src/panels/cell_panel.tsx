@@ -1,0 +1,49 @@
+// The 3D view with what is laid over it: the smallest clearance, the drawer, the mark of a stop.
+
+import { useEffect, useRef } from 'preact/hooks';
+import type { Store } from '../store';
+import { CellView } from '../view/cell_view';
+import { millimetres } from '../wording';
+import type { Actions } from './actions';
+import { DrawerPanel } from './drawer';
+import { use_signal } from './signal';
+import { use_store } from './use_store';
+
+interface Props { store: Store; actions: Actions; on_view(view: CellView): void }
+
+export function CellPanel({ store, actions, on_view }: Props) {
+  const host = useRef<HTMLDivElement>(null);
+  use_store(store);
+  const drawer = use_signal(actions.drawer);
+  useEffect(() => {
+    if (!host.current) return;
+    const view = new CellView(host.current, store);
+    on_view(view);
+    return () => view.close();
+  }, [store]);
+  return (
+    <div class={`cell${store.stopped ? ' stopped' : ''}`}>
+      <div class="view" ref={host} />
+      {drawer.show === 'nothing' && (
+        <button class="primary new-job" data-test="new-job" onClick={() => actions.drawer.set({ show: 'new' })}>New job</button>
+      )}
+      <DrawerPanel store={store} actions={actions} />
+      <ClearanceFigure store={store} />
+      {store.stopped && <div class="stopped-mark" data-test="stopped">Stopped. Resume lets the arms go on.</div>}
+    </div>
+  );
+}
+
+function ClearanceFigure({ store }: { store: Store }) {
+  use_store(store, 'live');
+  const nearest = store.clearance.reduce<Store['clearance'][number] | null>((a, b) => (a && a.m <= b.m ? a : b), null);
+  if (!nearest) return null;
+  const limit_m = store.cell?.clearance_m ?? 0;
+  const level = nearest.m < limit_m ? 'low' : nearest.m < 3 * limit_m ? 'near' : '';
+  return (
+    <div class={`clearance ${level}`} title="The smallest distance between two arms now">
+      <span class="dim">clearance</span> <b class="mono">{millimetres(nearest.m)}</b>
+      {nearest.links && <div class="small dim">{nearest.links[0]} – {nearest.links[1]}</div>}
+    </div>
+  );
+}

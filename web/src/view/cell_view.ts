@@ -1,0 +1,129 @@
+// The cell in 3D: robots where they stand, moved by pose frames, with a mark and a label per arm.
+
+import * as THREE from 'three';
+import type { Arm, Cell, SceneObject } from '../messages';
+import { kStateColours } from '../palette';
+import type { Store } from '../store';
+import { RobotModel } from './robot';
+import { dispose, object_mesh } from './shapes';
+import { Stage } from './stage';
+
+interface Label { element: HTMLElement; name: HTMLElement; state: HTMLElement }
+
+export class CellView {
+  private readonly stage_: Stage;
+  private readonly robots_ = new Map<string, RobotModel>();
+  private readonly labels_ = new Map<string, Label>();
+  private objects_ = new THREE.Group();
+  private cell_: Cell | null = null;
+  private shown_objects_: SceneObject[] | null = null;
+  private readonly off_: (() => void)[];
+
+  constructor(private readonly host_: HTMLElement, private readonly store_: Store) {
+    this.stage_ = new Stage(host_);
+    this.stage_.scene.add(this.objects_);
+    this.stage_.after_draw = () => this.place_labels();
+    this.off_ = [store_.on_change(() => this.follow()), store_.on_frame(() => this.move())];
+    this.follow();
+  }
+
+  close(): void {
+    for (const off of this.off_) off();
+  }
+
+  /** For tests and debugging: a robot is drawn or not. Draws at once. */
+  set_robot_visible(name: string, visible: boolean): void {
+    const robot = this.robots_.get(name);
+    if (!robot) throw new Error(`no robot "${name}"`);
+    robot.root.visible = visible;
+    this.stage_.invalidate(true);
+  }
+
+  private follow(): void {
+    const { cell, objects, arms } = this.store_;
+    if (cell && cell !== this.cell_) this.build(cell);
+    if (objects !== this.shown_objects_) this.show_objects(objects);
+    for (const arm of arms.values()) this.show_arm(arm);
+    this.move();
+    this.stage_.invalidate();
+  }
+
+  private build(cell: Cell): void {
+    this.cell_ = cell;
+    for (const robot of this.robots_.values()) {
+      dispose(robot.root);
+      this.stage_.scene.remove(robot.root);
+    }
+    this.robots_.clear();
+    for (const robot of cell.robots) {
+      try {
+        const model = new RobotModel(robot);
+        this.robots_.set(robot.name, model);
+        this.stage_.scene.add(model.root);
+      } catch (error) {
+        console.warn(`robot ${robot.name} cannot be drawn:`, error);
+      }
+    }
+    this.frame_cell(cell);
+    this.stage_.invalidate(true);
+  }
+
+  /** Looks at the robots' bases with a little more than an arm's reach around them. */
+  private frame_cell(cell: Cell): void {
+    const box = new THREE.Box3();
+    for (const robot of cell.robots) box.expandByPoint(new THREE.Vector3(...robot.base.xyz));
+    if (box.isEmpty()) return;
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    sphere.center.z += 0.3;
+    this.stage_.frame(sphere.center, sphere.radius + 0.42);
+  }
+
+  private show_objects(objects: SceneObject[]): void {
+    this.shown_objects_ = objects;
+    dispose(this.objects_);
+    this.objects_.clear();
+    for (const object of objects) {
+      const mesh = object_mesh(object);
+      if (mesh) this.objects_.add(mesh);
+    }
+    this.stage_.invalidate(true);
+  }
+
+  private show_arm(arm: Arm): void {
+    this.robots_.get(arm.robot)?.show_state(arm.name, arm.state);
+    let label = this.labels_.get(arm.name);
+    if (!label) {
+      label = make_label();
+      this.labels_.set(arm.name, label);
+      this.host_.append(label.element);
+    }
+    label.name.textContent = arm.name;
+    label.state.textContent = arm.state;
+    label.element.style.setProperty('--state', kStateColours[arm.state]);
+  }
+
+  private move(): void {
+    let moved = false;
+    for (const robot of this.robots_.values()) moved = robot.set_q(this.store_.q) || moved;
+    if (moved) this.stage_.invalidate(true);
+  }
+
+  private place_labels(): void {
+    for (const [name, label] of this.labels_) {
+      const robot = this.robots_.get(this.store_.arms.get(name)?.robot ?? '');
+      const foot = robot?.root.visible ? robot.foot(name) : null;
+      const p = foot ? this.stage_.to_page(foot) : null;
+      label.element.hidden = p === null;
+      if (p) label.element.style.transform = `translate(${p.x.toFixed(1)}px, ${p.y.toFixed(1)}px)`;
+    }
+  }
+}
+
+function make_label(): Label {
+  const element = document.createElement('div');
+  const name = document.createElement('b');
+  const state = document.createElement('span');
+  element.className = 'arm-label';
+  element.append(name, state);
+  return { element, name, state };
+}

@@ -1,0 +1,47 @@
+// Objects of the scene (tables, rods, parts) as meshes. Poses as in URDF: metres, and roll, pitch,
+// yaw about the fixed axes x, y, z.
+
+import * as THREE from 'three';
+import type { SceneObject, Shape } from '../messages';
+
+export function place(object: THREE.Object3D, xyz: readonly number[], rpy: readonly number[]): void {
+  object.position.set(xyz[0] ?? 0, xyz[1] ?? 0, xyz[2] ?? 0);
+  // Fixed axes x, y, z are the moving axes z, y, x: three's order 'ZYX'.
+  object.rotation.set(rpy[0] ?? 0, rpy[1] ?? 0, rpy[2] ?? 0, 'ZYX');
+}
+
+/** The object as a mesh with fine edges; null for a shape that cannot be drawn. */
+export function object_mesh(object: SceneObject): THREE.Object3D | null {
+  if (!object.shape) return null;
+  const geometry = shape_geometry(object.shape);
+  const material = new THREE.MeshStandardMaterial({ color: 0x343d4a, roughness: 0.85, metalness: 0 });
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.name = object.name;
+  mesh.castShadow = true;
+  mesh.receiveShadow = true;
+  const edges = new THREE.LineSegments(
+    new THREE.EdgesGeometry(geometry, 30),
+    new THREE.LineBasicMaterial({ color: 0x566375, transparent: true, opacity: 0.7 }),
+  );
+  mesh.add(edges);
+  place(mesh, object.xyz, object.rpy);
+  return mesh;
+}
+
+function shape_geometry(shape: Shape): THREE.BufferGeometry {
+  switch (shape.kind) {
+    case 'box': return new THREE.BoxGeometry(...shape.size);
+    // three's cylinder stands along y, ours along z.
+    case 'cylinder': return new THREE.CylinderGeometry(shape.radius, shape.radius, shape.length, 40).rotateX(Math.PI / 2);
+    case 'sphere': return new THREE.SphereGeometry(shape.radius, 32, 20);
+  }
+}
+
+export function dispose(root: THREE.Object3D): void {
+  root.traverse((node) => {
+    if (!(node instanceof THREE.Mesh || node instanceof THREE.LineSegments)) return;
+    (node.geometry as THREE.BufferGeometry).dispose();
+    const materials = [node.material].flat() as THREE.Material[];
+    for (const material of materials) material.dispose();
+  });
+}

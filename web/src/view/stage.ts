@@ -1,0 +1,136 @@
+// The stage of the 3D view: renderer, camera, lights, floor, and drawing on demand.
+//
+// The world is z up, metres. Nothing is drawn unless `invalidate` was called, and at most 30 times
+// a second, because software rendering (a robot cell's panel PC, a browser test) is slow.
+
+import * as THREE from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+
+THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
+
+const kFog = 0x0f1319;
+const kLeastFrame_ms = 1000 / 31;
+const kDirection = new THREE.Vector3(0.28, -1, 0.52).normalize();
+
+export class Stage {
+  readonly scene = new THREE.Scene();
+  readonly camera = new THREE.PerspectiveCamera(32, 1, 0.05, 60);
+  /** Called after each drawn frame, for labels that follow points of the scene. */
+  after_draw: () => void = () => {};
+
+  private readonly renderer_: THREE.WebGLRenderer;
+  private readonly controls_: OrbitControls;
+  private readonly target_ = new THREE.Vector3(0, 0, 0.4);
+  private radius_ = 1.2;
+  private moved_by_user_ = false;
+  private frame_: number | null = null;
+  private drawn_at_ms_ = 0;
+
+  constructor(private readonly host_: HTMLElement) {
+    this.renderer_ = new THREE.WebGLRenderer({ antialias: true, alpha: true, powerPreference: 'low-power' });
+    this.renderer_.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer_.toneMapping = THREE.ACESFilmicToneMapping;
+    this.renderer_.toneMappingExposure = 1.05;
+    this.renderer_.shadowMap.enabled = true;
+    this.renderer_.shadowMap.type = THREE.PCFSoftShadowMap;
+    this.renderer_.shadowMap.autoUpdate = false;
+    host_.prepend(this.renderer_.domElement);
+
+    this.scene.fog = new THREE.Fog(kFog, 5, 14);
+    add_lights(this.scene);
+    add_floor(this.scene);
+
+    this.controls_ = new OrbitControls(this.camera, this.renderer_.domElement);
+    this.controls_.maxPolarAngle = Math.PI / 2 - 0.03;
+    this.controls_.minDistance = 0.5;
+    this.controls_.maxDistance = 12;
+    this.controls_.addEventListener('start', () => { this.moved_by_user_ = true; });
+    this.controls_.addEventListener('change', () => this.invalidate());
+    new ResizeObserver(() => this.resize()).observe(host_);
+    this.resize();
+  }
+
+  get canvas(): HTMLCanvasElement {
+    return this.renderer_.domElement;
+  }
+
+  /** Looks at a sphere (centre, radius in m) so that it fills the view; kept until the user turns it. */
+  frame(centre: THREE.Vector3, radius_m: number): void {
+    this.target_.copy(centre);
+    this.radius_ = radius_m;
+    this.moved_by_user_ = false;
+    this.resize();
+  }
+
+  /** Asks for a drawing; `shapes_moved` also renews the shadows. */
+  invalidate(shapes_moved = false): void {
+    if (shapes_moved) this.renderer_.shadowMap.needsUpdate = true;
+    if (this.frame_ !== null) return;
+    const draw = (now_ms: number) => {
+      if (now_ms - this.drawn_at_ms_ < kLeastFrame_ms - 1) {
+        this.frame_ = requestAnimationFrame(draw);
+        return;
+      }
+      this.frame_ = null;
+      this.drawn_at_ms_ = now_ms;
+      this.draw_now();
+    };
+    this.frame_ = requestAnimationFrame(draw);
+  }
+
+  draw_now(): void {
+    this.renderer_.render(this.scene, this.camera);
+    this.after_draw();
+  }
+
+  /** Where a point of the world stands on the page, px from the view's top left; null behind the camera. */
+  to_page(p_W: THREE.Vector3): { x: number; y: number } | null {
+    const p = p_W.clone().project(this.camera);
+    if (p.z > 1) return null;
+    return { x: ((p.x + 1) / 2) * this.host_.clientWidth, y: ((1 - p.y) / 2) * this.host_.clientHeight };
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.host_;
+    if (width === 0 || height === 0) return;
+    this.renderer_.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    if (!this.moved_by_user_) this.look_from_default();
+    this.invalidate(true);
+  }
+
+  private look_from_default(): void {
+    const half_up = THREE.MathUtils.degToRad(this.camera.fov / 2);
+    const half = Math.min(half_up, Math.atan(Math.tan(half_up) * this.camera.aspect));
+    this.camera.position.copy(this.target_).addScaledVector(kDirection, this.radius_ / Math.sin(half));
+    this.controls_.target.copy(this.target_);
+    this.controls_.update();
+  }
+}
+
+function add_lights(scene: THREE.Scene): void {
+  scene.add(new THREE.HemisphereLight(0xdfe9f7, 0x2a2f38, 1.15));
+  const key = new THREE.DirectionalLight(0xfff4e6, 2.4);
+  key.position.set(1.6, -2.2, 3.6);
+  key.castShadow = true;
+  key.shadow.mapSize.set(1024, 1024);
+  key.shadow.radius = 4;
+  key.shadow.normalBias = 0.02;
+  const reach_m = 2;
+  Object.assign(key.shadow.camera, { left: -reach_m, right: reach_m, top: reach_m, bottom: -reach_m, near: 0.5, far: 9 });
+  const rim = new THREE.DirectionalLight(0x9cc4ff, 0.9);
+  rim.position.set(-2.5, 2.5, 1.6);
+  scene.add(key, rim);
+}
+
+function add_floor(scene: THREE.Scene): void {
+  const fine = new THREE.GridHelper(16, 64, 0x222a35, 0x1a2029);
+  const coarse = new THREE.GridHelper(16, 16, 0x2b3542, 0x2b3542);
+  for (const grid of [fine, coarse]) {
+    grid.rotation.x = Math.PI / 2;
+    scene.add(grid);
+  }
+  fine.position.z = -0.003;
+  coarse.position.z = -0.002;
+}
