@@ -24,7 +24,8 @@ class Id {
 // Dense indices into the arrays of one Cell.
 using RobotId = Id<struct RobotTag>;
 using ArmId = Id<struct ArmTag>;
-using JointId = Id<struct JointTag>;    // a movable joint that is no mimic: one entry of a Configuration
+using JointId =
+    Id<struct JointTag>;  // a movable joint that is no mimic: one entry of a Configuration
 using LinkId = Id<struct LinkTag>;      // a link of any robot of the cell
 using ObjectId = Id<struct ObjectTag>;  // a collision object of the planning scene
 

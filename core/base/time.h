@@ -22,7 +22,9 @@ using TimePoint = CellClock::time_point;
 // The instant `since_start` after the executive began; tests say at(99ms).
 [[nodiscard]] constexpr TimePoint at(Duration since_start) { return TimePoint{since_start}; }
 
-[[nodiscard]] constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) * 1e-9; }
+[[nodiscard]] constexpr double to_seconds(Duration d) {
+  return static_cast<double>(d.count()) * 1e-9;
+}
 [[nodiscard]] constexpr double to_seconds(TimePoint t) { return to_seconds(t.time_since_epoch()); }
 
 // Rounds to the nearest nanosecond. Precondition: finite, |seconds| < 9e9.

@@ -22,7 +22,8 @@ struct Motion {
 };
 
 // How motions are compared.
-struct TimedDiscrete {  // the paper's: at equal instants, every `step`; between them nothing is promised
+struct TimedDiscrete {  // the paper's: at equal instants, every `step`; between them nothing is
+                        // promised
   Duration step;
 };
 using CheckMethod = TimedDiscrete;

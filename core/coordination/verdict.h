@@ -13,12 +13,12 @@ namespace armloom {
 
 // Two bodies that come too close, and how close. Names are links (with prefix) or objects.
 struct Proximity {
-  std::string body_a;           // always a link
-  std::string body_b;           // a link or an object
-  std::optional<ArmId> arm_a;   // empty: a static link
-  std::optional<ArmId> arm_b;   // empty: a static link or an object
-  bool object_b = false;        // body_b is an object of the scene
-  double clearance_m = 0.0;     // distance; zero or less in contact
+  std::string body_a;          // always a link
+  std::string body_b;          // a link or an object
+  std::optional<ArmId> arm_a;  // empty: a static link
+  std::optional<ArmId> arm_b;  // empty: a static link or an object
+  bool object_b = false;       // body_b is an object of the scene
+  double clearance_m = 0.0;    // distance; zero or less in contact
 };
 
 // The evidence of a conflict: what a candidate would come too close to, where and when.
@@ -30,11 +30,11 @@ struct Conflict {
     self,    // the candidate's own links
   };
   With with;
-  JobId candidate;                // whose motion
-  std::optional<JobId> other_job; // With::motion
-  Proximity proximity;            // body_a belongs to the candidate
-  Duration own_time;              // trajectory time of the candidate
-  Duration other_time;            // trajectory time of the other job; zero where there is none
+  JobId candidate;                 // whose motion
+  std::optional<JobId> other_job;  // With::motion
+  Proximity proximity;             // body_a belongs to the candidate
+  Duration own_time;               // trajectory time of the candidate
+  Duration other_time;             // trajectory time of the other job; zero where there is none
 };
 
 // The answer to a Question, with its evidence.
@@ -44,7 +44,7 @@ struct Verdict {
   Version version;                  // of the question
   std::vector<Conflict> conflicts;  // the first one found with each counterpart; empty when free
   std::optional<double> clearance_bound_m;  // what is proven to be kept; absent: nothing is proven
-  std::uint64_t evaluations = 0;    // combined states looked at
+  std::uint64_t evaluations = 0;            // combined states looked at
 };
 
 }  // namespace armloom

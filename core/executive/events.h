@@ -19,8 +19,8 @@ namespace armloom {
 // freely between threads. Times are cell time; the server adds wall time.
 struct WaitView {
   Wait::Kind kind;
-  std::string job;  // key; empty: none
-  std::string arm;  // name; empty: none
+  std::string job;                 // key; empty: none
+  std::string arm;                 // name; empty: none
   std::vector<std::string> links;  // own, other; or empty
   std::optional<double> own_time_s;
   std::optional<double> other_time_s;
@@ -56,14 +56,14 @@ struct ArmView {
   std::string job;  // key of the job in motion or holding; empty: none
   double progress = 0.0;
   std::vector<std::string> joints;
-  std::vector<double> q;     // measured, as joints
+  std::vector<double> q;  // measured, as joints
   std::vector<double> home;
   double deviation_rad = 0.0;  // measured distance from its own path, largest joint
 };
 
 struct QueueView {
   std::string policy;
-  bool stopped = false;  // every arm is stopped
+  bool stopped = false;                                          // every arm is stopped
   std::vector<std::string> queued, backlog, scheduled, running;  // keys
   bool operator==(const QueueView&) const = default;
 };
@@ -89,7 +89,7 @@ struct Event {
 // Poses: may be dropped.
 struct StateFrame {
   TimePoint time;
-  Configuration q;  // measured, all joints of the cell
+  Configuration q;                   // measured, all joints of the cell
   std::vector<Proximity> clearance;  // closest pair for each pair of arms that are near
 };
 

@@ -17,7 +17,7 @@ namespace armloom {
 
 // A job as a client asks for it, its JSON already read.
 struct JobRequest {
-  std::string key;   // the client's id; empty: one is given ("job-17")
+  std::string key;  // the client's id; empty: one is given ("job-17")
   std::string name;
   TrajectoryRequest trajectory;
   int priority = 0;
@@ -44,18 +44,17 @@ class Observer {
 };
 
 struct ExecutiveOptions {
-  std::string policy;      // empty: the cell's
-  std::uint64_t seed = 1;  // of the simulated arms' noise
-  std::size_t ended_kept = 1000;    // ended jobs that stay readable
+  std::string policy;                // empty: the cell's
+  std::uint64_t seed = 1;            // of the simulated arms' noise
+  std::size_t ended_kept = 1000;     // ended jobs that stay readable
   std::size_t waiting_max = 10'000;  // jobs that may be active at once
 };
 
 // The figures of a whole run.
 struct RunFigures {
-  TimePoint first_start{};  // of the first motion
   TimePoint last_end{};
   std::vector<Duration> busy;  // per arm: time in motion
-  double min_clearance_m;      // smallest clearance between arms, or of an arm with the scene, that the monitor saw; +inf: none within its horizon
+  double min_clearance_m;      // smallest between arms that the monitor saw; +inf: never near
   std::uint64_t monitor_stops = 0;
 };
 

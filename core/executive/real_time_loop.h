@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/arm/arm_controller.h"
 #include "core/executive/executive.h"
 
 namespace armloom {

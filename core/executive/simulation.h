@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/arm/arm_controller.h"
 #include "core/executive/executive.h"
 
 namespace armloom {

@@ -1,0 +1,119 @@
+#include "core/executive/motions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace armloom {
+namespace {
+
+using Phase = ArmFeedback::Phase;
+
+bool at_rest(Phase phase) {
+  return phase == Phase::stopped || phase == Phase::finished || phase == Phase::fault;
+}
+
+}  // namespace
+
+Motions::Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
+                 Configuration measured)
+    : cell_(std::move(cell)),
+      controllers_(std::move(controllers)),
+      feedback_(controllers_.size()),
+      measured_(std::move(measured)) {}
+
+void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory) {
+  motions_[dispatch.job] = Motion{trajectory};
+  for (ArmId arm : trajectory->arms()) {
+    // The paper's policies grant the whole trajectory at once.
+    controllers_[arm.index()]->start(trajectory, dispatch.start_at, dispatch.from_progress,
+                                     trajectory->duration());
+  }
+}
+
+void Motions::brake(JobId job) {
+  Motion& motion = motions_.at(job);
+  motion.braking = true;
+  for (ArmId arm : motion.trajectory->arms()) controllers_[arm.index()]->brake();
+}
+
+void Motions::release(JobId job) {
+  const auto it = motions_.find(job);
+  if (it == motions_.end()) return;
+  for (ArmId arm : it->second.trajectory->arms()) controllers_[arm.index()]->release();
+  motions_.erase(it);
+}
+
+const std::vector<MotionReport>& Motions::tick(TimePoint now) {
+  for (std::size_t a = 0; a < controllers_.size(); ++a) {
+    feedback_[a] = controllers_[a]->tick(now);
+    const auto& joints = controllers_[a]->joints();
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      measured_[static_cast<Eigen::Index>(joints[j].index())] =
+          feedback_[a].measured[static_cast<Eigen::Index>(j)];
+    }
+  }
+  reports_.clear();
+  for (auto& [job, motion] : motions_) report(job, motion);
+  return reports_;
+}
+
+void Motions::report(JobId job, Motion& motion) {
+  if (motion.resting) return;
+  bool all_rest = true, all_finished = true, any_moves = false;
+  const ArmFeedback* fault = nullptr;
+  Duration progress = motion.trajectory->duration();
+  for (ArmId arm : motion.trajectory->arms()) {
+    const ArmFeedback& feedback = feedback_[arm.index()];
+    all_rest = all_rest && at_rest(feedback.phase);
+    all_finished = all_finished && feedback.phase == Phase::finished;
+    any_moves = any_moves || moving(arm);
+    if (feedback.phase == Phase::fault) fault = &feedback;
+    progress = std::min(progress, feedback.measured_progress);
+  }
+  if (fault && !motion.braking) brake(job);
+  if (all_rest) {
+    motion.resting = true;
+    const auto kind = fault          ? MotionReport::Kind::faulted
+                      : all_finished ? MotionReport::Kind::finished
+                                     : MotionReport::Kind::stopped;
+    reports_.push_back({job, kind, progress, measured_joints(*motion.trajectory),
+                        fault ? fault->detail : std::string()});
+  } else if (any_moves) {
+    reports_.push_back({job, MotionReport::Kind::progressed, progress});
+  }
+}
+
+bool Motions::moving(ArmId arm) const {
+  const Phase phase = feedback_[arm.index()].phase;
+  return phase == Phase::moving || phase == Phase::braking;
+}
+
+Eigen::VectorXd Motions::measured_joints(const Trajectory& trajectory) const {
+  Eigen::VectorXd q(static_cast<Eigen::Index>(trajectory.joints().size()));
+  for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
+    q[static_cast<Eigen::Index>(j)] =
+        measured_[static_cast<Eigen::Index>(trajectory.joints()[j].index())];
+  }
+  return q;
+}
+
+double Motions::deviation(ArmId arm) const {
+  for (const auto& [job, motion] : motions_) {
+    const auto& arms = motion.trajectory->arms();
+    if (std::ranges::find(arms, arm) == arms.end()) continue;
+    Eigen::VectorXd path;
+    motion.trajectory->sample_positions(feedback_[arm.index()].measured_progress, path);
+    double largest = 0.0;
+    for (std::size_t j = 0; j < motion.trajectory->joints().size(); ++j) {
+      const JointId joint = motion.trajectory->joints()[j];
+      if (cell_->joint(joint).arm != arm) continue;
+      largest = std::max(largest, std::abs(measured_[static_cast<Eigen::Index>(joint.index())] -
+                                           path[static_cast<Eigen::Index>(j)]));
+    }
+    return largest;
+  }
+  return 0.0;
+}
+
+}  // namespace armloom

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "core/arm/arm_controller.h"
+#include "core/model/cell.h"
+#include "core/scheduler/inputs.h"
+
+namespace armloom {
+
+// The arms and the motions on them: hands a job's trajectory to the controllers of its arms
+// and joins what they say into one report for the job (one progress, one end). Siblings of an arm
+// that faults are braked.
+class Motions {
+ public:
+  Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
+          Configuration measured);
+
+  void dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory);
+  void brake(JobId job);
+  void release(JobId job);
+
+  // One control cycle of every arm. Returns what there is to tell the scheduler, in order of jobs.
+  [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now);
+
+  // As of the last tick; whole cell.
+  [[nodiscard]] const Configuration& measured() const { return measured_; }
+  [[nodiscard]] const ArmFeedback& feedback(ArmId arm) const { return feedback_[arm.index()]; }
+  [[nodiscard]] bool moving(ArmId arm) const;
+  // Largest distance of a measured joint from where its path is at the measured progress, rad or
+  // m; zero without a motion.
+  [[nodiscard]] double deviation(ArmId arm) const;
+
+ private:
+  struct Motion {
+    TrajectoryPtr trajectory;
+    bool resting = false;  // its end has been reported
+    bool braking = false;
+  };
+  void report(JobId job, Motion& motion);
+  [[nodiscard]] Eigen::VectorXd measured_joints(const Trajectory& trajectory) const;
+
+  CellPtr cell_;
+  std::vector<std::unique_ptr<ArmController>> controllers_;  // ArmId
+  std::vector<ArmFeedback> feedback_;                        // ArmId
+  Configuration measured_;
+  std::map<JobId, Motion> motions_;
+  std::vector<MotionReport> reports_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,139 @@
+#include "core/executive/real_time_loop.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace armloom {
+namespace {
+
+using Wall = std::chrono::steady_clock;
+
+// A loop that is farther behind than this (machine suspended, speed too high for it) lets cell time
+// slip instead of running a burst of cycles.
+constexpr Wall::duration kCatchUpMax = std::chrono::milliseconds(50);
+
+// A closed-off inbox: posted by any thread, taken whole by the one that owns it.
+template <class Item>
+class Inbox {
+ public:
+  void post(Item item) {
+    {
+      const std::scoped_lock lock(mutex_);
+      items_.push_back(std::move(item));
+    }
+    arrived_.notify_one();
+  }
+  // Waits until something arrives, `until`, or a stop request; returns all that has arrived.
+  std::deque<Item> take(std::stop_token stop, Wall::time_point until) {
+    std::unique_lock lock(mutex_);
+    arrived_.wait_until(lock, stop, until, [this] { return !items_.empty(); });
+    return std::exchange(items_, {});
+  }
+  std::deque<Item> take(std::stop_token stop) {
+    std::unique_lock lock(mutex_);
+    arrived_.wait(lock, stop, [this] { return !items_.empty(); });
+    return std::exchange(items_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable_any arrived_;
+  std::deque<Item> items_;
+};
+
+}  // namespace
+
+class RealTimeLoop::Impl final : public JudgePool {
+ public:
+  Impl(double speed, PlanningScenePtr scene) : speed_(speed), checker_(std::move(scene)) {}
+
+  ~Impl() override {
+    // The judge first: it posts into the loop's inbox.
+    if (judge_.joinable()) {
+      judge_.request_stop();
+      judge_.join();
+    }
+    if (loop_.joinable()) {
+      loop_.request_stop();
+      loop_.join();
+    }
+  }
+
+  void run(std::unique_ptr<Executive> executive) {
+    executive_ = std::move(executive);
+    judge_ = std::jthread([this](std::stop_token stop) { judge_questions(stop); });
+    loop_ = std::jthread([this](std::stop_token stop) { cycle(stop); });
+  }
+
+  // The scheduler has at most one question open, so this inbox holds at most one.
+  void ask(Question question, std::function<void(Verdict)> done) override {
+    questions_.post({std::move(question), std::move(done)});
+  }
+
+  void post(std::function<void(Executive&)> command) { commands_.post(std::move(command)); }
+  double speed() const { return speed_; }
+
+ private:
+  struct Asked {
+    Question question;
+    std::function<void(Verdict)> done;
+  };
+
+  void judge_questions(std::stop_token stop) {
+    while (!stop.stop_requested()) {
+      for (Asked& asked : questions_.take(stop)) {
+        post([verdict = judge(asked.question, checker_), done = std::move(asked.done)](Executive&) {
+          done(verdict);
+        });
+      }
+    }
+  }
+
+  void cycle(std::stop_token stop) {
+    const auto wall_period = std::chrono::duration_cast<Wall::duration>(
+        std::chrono::duration<double, std::nano>(kControlPeriod) / speed_);
+    Wall::time_point due = Wall::now();
+    TimePoint cell_now{};
+    while (!stop.stop_requested()) {
+      for (auto& command : commands_.take(stop, due)) command(*executive_);
+      const Wall::time_point wall_now = Wall::now();
+      if (wall_now - due > kCatchUpMax) due = wall_now;
+      for (; due <= wall_now; due += wall_period) {
+        executive_->tick(cell_now);
+        cell_now += kControlPeriod;
+      }
+    }
+  }
+
+  const double speed_;
+  CollisionChecker checker_;  // the judge thread's
+  Inbox<Asked> questions_;
+  Inbox<std::function<void(Executive&)>> commands_;
+  std::unique_ptr<Executive> executive_;  // the loop thread's
+  std::jthread judge_;
+  std::jthread loop_;
+};
+
+Result<std::unique_ptr<RealTimeLoop>> RealTimeLoop::start(CellPtr cell, ExecutiveOptions options,
+                                                          double speed, Observer& observer) {
+  auto scene = PlanningScene::build(cell);
+  if (!scene) return failure(std::move(scene.error()));
+  auto impl = std::make_unique<Impl>(speed, std::move(*scene));
+  auto executive = Executive::create(cell, std::move(options), *impl, observer);
+  if (!executive) return failure(std::move(executive.error()));
+  impl->run(std::move(*executive));
+  return std::unique_ptr<RealTimeLoop>(new RealTimeLoop(std::move(impl)));
+}
+
+RealTimeLoop::RealTimeLoop(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RealTimeLoop::~RealTimeLoop() = default;
+void RealTimeLoop::post(std::function<void(Executive&)> command) {
+  impl_->post(std::move(command));
+}
+double RealTimeLoop::speed() const { return impl_->speed(); }
+
+}  // namespace armloom

@@ -1,0 +1,57 @@
+#include "core/executive/views.h"
+
+namespace armloom {
+namespace {
+
+WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names) {
+  WaitView view{.kind = wait.kind, .detail = wait.detail};
+  if (wait.job) view.job = names.key(*wait.job);
+  if (wait.arm) view.arm = cell.arm(*wait.arm).name;
+  if (wait.proximity) {
+    view.links = {wait.proximity->body_a, wait.proximity->body_b};
+    view.own_time_s = to_seconds(wait.own_time);
+    view.clearance_m = wait.proximity->clearance_m;
+    if (wait.kind == Wait::Kind::job) view.other_time_s = to_seconds(wait.other_time);
+  }
+  return view;
+}
+
+}  // namespace
+
+JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
+  JobView view{.id = job.id,
+               .key = names.key(job.id),
+               .name = names.name(job.id),
+               .state = job.state,
+               .priority = job.priority,
+               .submitted_at = job.submitted_at,
+               .scheduled_at = job.scheduled_at,
+               .started_at = job.started_at,
+               .ended_at = job.ended_at,
+               .duration = job.trajectory->duration(),
+               .stopping = job.stopping,
+               .reason = job.reason,
+               .detail = job.detail};
+  view.progress = to_seconds(job.progress) / to_seconds(job.trajectory->duration());
+  for (ArmId arm : job.trajectory->arms()) view.arms.push_back(cell.arm(arm).name);
+  for (const Wait& wait : job.waits_on) view.waits_on.push_back(view_of(wait, cell, names));
+  return view;
+}
+
+const char* to_string(ArmState state) {
+  switch (state) {
+    case ArmState::idle:
+      return "idle";
+    case ArmState::moving:
+      return "moving";
+    case ArmState::holding:
+      return "holding";
+    case ArmState::stopped:
+      return "stopped";
+    case ArmState::fault:
+      return "fault";
+  }
+  return "unknown";
+}
+
+}  // namespace armloom

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "core/executive/events.h"
+#include "core/model/cell.h"
+#include "core/scheduler/job.h"
+
+namespace armloom {
+
+// What clients call their jobs: the string beside the JobId.
+class JobNames {
+ public:
+  virtual ~JobNames() = default;
+  [[nodiscard]] virtual std::string key(JobId job) const = 0;
+  [[nodiscard]] virtual std::string name(JobId job) const = 0;
+};
+
+// The scheduler's job with names instead of ids.
+[[nodiscard]] JobView view_of(const Job& job, const Cell& cell, const JobNames& names);
+
+}  // namespace armloom
