@@ -2,6 +2,8 @@
 //
 //   armloom.q()                           joint name -> measured position
 //   armloom.jobs()                        every job that the page knows, as the server wrote it
+//   armloom.is_drawn()                    whether every robot of the cell stands in the view
+//   armloom.drawn()                       a promise, kept once all that changed has been drawn
 //   armloom.set_robot_visible(name, yes)  draws the cell with or without one robot, so that a
 //                                         picture of each tells which pixels are that robot's
 
@@ -11,6 +13,8 @@ import type { CellView } from './view/cell_view';
 export interface DebugHook {
   q(): Record<string, number>;
   jobs(): unknown[];
+  is_drawn(): boolean;
+  drawn(): Promise<void>;
   set_robot_visible(name: string, visible: boolean): void;
 }
 
@@ -22,6 +26,8 @@ export function install_debug_hook(store: Store, view: CellView): void {
   window.armloom = {
     q: () => ({ ...store.q }),
     jobs: () => store.all_jobs().map((job) => job.raw),
+    is_drawn: () => view.is_drawn(),
+    drawn: () => view.drawn(),
     set_robot_visible: (name, visible) => view.set_robot_visible(name, visible),
   };
 }

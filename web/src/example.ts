@@ -73,7 +73,7 @@ function split(t_s: number): { sec: number; nanosec: number } {
 /** JSON as a person would write it: one line per list of numbers. */
 export function pretty(value: unknown): string {
   return JSON.stringify(value, null, 2).replace(
-    /\[\s+(-?[\d.e+-]+(?:,\s+-?[\d.e+-]+)*)\s+\]/g,
+    /\[\n\s*(-?[\d.e+-]+(?:,\n\s*-?[\d.e+-]+)*)\n\s*\]/g,
     (_, numbers: string) => `[${numbers.split(/,\s+/).join(', ')}]`,
   );
 }

@@ -31,7 +31,17 @@ export class CellView {
     for (const off of this.off_) off();
   }
 
-  /** For tests and debugging: a robot is drawn or not. Draws at once. */
+  /** Whether every robot of the cell stands in the view. */
+  is_drawn(): boolean {
+    return this.cell_ !== null && this.robots_.size === this.cell_.robots.length;
+  }
+
+  /** Kept once all that changed until now has been drawn. */
+  drawn(): Promise<void> {
+    return this.stage_.drawn();
+  }
+
+  /** For tests and debugging: a robot is drawn or not. */
   set_robot_visible(name: string, visible: boolean): void {
     const robot = this.robots_.get(name);
     if (!robot) throw new Error(`no robot "${name}"`);

@@ -25,6 +25,7 @@ export class Stage {
   private moved_by_user_ = false;
   private frame_: number | null = null;
   private drawn_at_ms_ = 0;
+  private readonly waiting_: (() => void)[] = [];
 
   constructor(private readonly host_: HTMLElement) {
     this.renderer_ = new THREE.WebGLRenderer({ antialias: true, alpha: true, powerPreference: 'low-power' });
@@ -73,14 +74,19 @@ export class Stage {
       }
       this.frame_ = null;
       this.drawn_at_ms_ = now_ms;
-      this.draw_now();
+      this.renderer_.render(this.scene, this.camera);
+      this.after_draw();
+      for (const tell of this.waiting_.splice(0)) tell();
     };
     this.frame_ = requestAnimationFrame(draw);
   }
 
-  draw_now(): void {
-    this.renderer_.render(this.scene, this.camera);
-    this.after_draw();
+  /** Kept after the next drawing, which it asks for. */
+  drawn(): Promise<void> {
+    return new Promise((done) => {
+      this.waiting_.push(done);
+      this.invalidate();
+    });
   }
 
   /** Where a point of the world stands on the page, px from the view's top left; null behind the camera. */

@@ -1,0 +1,220 @@
+// The dashboard in a real browser beside a real server: both arms are drawn, a job that is pasted
+// into the page appears, moves its arm and finishes; a refusal, a stop and a lost server are shown.
+//
+//   node --test test/browser/dashboard.test.mjs      (after the server and web/dist were built)
+//
+//   ARMLOOM_BINARY          the server's binary, default build/armloom
+//   ARMLOOM_CHROMIUM        the browser, default /usr/bin/chromium
+//   ARMLOOM_SCREENSHOT_DIR  where pictures of the page go; none are kept without it
+
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { createServer } from 'node:net';
+import { tmpdir } from 'node:os';
+import { dirname, join, resolve } from 'node:path';
+import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { difference } from './pictures.mjs';
+
+const kRoot = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
+const { chromium } = createRequire(join(kRoot, 'web/package.json'))('playwright-core');
+
+const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kRoot, 'build/armloom'));
+const kChromium = process.env.ARMLOOM_CHROMIUM ?? '/usr/bin/chromium';
+const kPictures = process.env.ARMLOOM_SCREENSHOT_DIR;
+const kFlags = [
+  '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox', '--disable-quic', '--no-first-run',
+  '--disable-background-networking', '--disable-component-update', '--disable-sync',
+];
+const kPatience_ms = 20_000;
+// A robot of the cell covers several thousand pixels of the view; labels and text far fewer.
+const kLeastRobot_px = 3000;
+
+let server;
+let server_output = '';
+let browser;
+let profile;
+let page;
+const errors = [];
+
+before(async () => {
+  const port = await free_port();
+  const url = `http://127.0.0.1:${port}/`;
+  server = spawn(kBinary, ['serve', '--cell', 'config/two_pandas.json', '--listen', `127.0.0.1:${port}`], { cwd: kRoot });
+  server.on('error', (error) => { server_output += String(error); });
+  for (const stream of [server.stdout, server.stderr]) stream.on('data', (data) => { server_output += data; });
+  await until_healthy(`${url}healthz`);
+
+  profile = mkdtempSync(join(tmpdir(), 'armloom-browser-'));
+  browser = await chromium.launchPersistentContext(profile, {
+    executablePath: kChromium, args: kFlags, viewport: { width: 1440, height: 900 },
+  });
+  page = browser.pages()[0] ?? await browser.newPage();
+  page.setDefaultTimeout(kPatience_ms);
+  page.on('console', (message) => { if (message.type() === 'error') errors.push(message.text()); });
+  page.on('pageerror', (error) => errors.push(String(error)));
+  await page.goto(url);
+  await page.locator('[data-test=link].open').waitFor();
+  await page.waitForFunction(() => window.armloom?.is_drawn());
+}, { timeout: 90_000 });
+
+after(async () => {
+  await browser?.close();
+  await end_server();
+  if (profile) rmSync(profile, { recursive: true, force: true });
+}, { timeout: 30_000 });
+
+test('both arms are drawn, the left one left of the right one', { timeout: 60_000 }, async () => {
+  const whole = await picture('cell');
+  const left = await pixels_of('left', whole);
+  const right = await pixels_of('right', whole);
+  assert.ok(left.count > kLeastRobot_px, `the left robot covers ${left.count} pixels`);
+  assert.ok(right.count > kLeastRobot_px, `the right robot covers ${right.count} pixels`);
+  assert.ok(left.x < 0.5 && right.x > 0.5, `left at ${left.x}, right at ${right.x} of the view's width`);
+});
+
+test('a pasted job appears, moves the arm, and finishes', { timeout: 90_000 }, async () => {
+  const { names, q } = await left_arm();
+  const still = await picture('before');
+  await send(swing_job('browser-1', names, q, 0.9, 4));
+  const row = page.locator('[data-test="job-browser-1"]');
+  await row.waitFor();
+  await page.locator('[data-test=list-running] [data-test="job-browser-1"]').waitFor();
+  await page.waitForFunction(([name, from]) => Math.abs(window.armloom.q()[name] - from) > 0.5, [names[0], q[0]]);
+  const moving = await picture('moving');
+  const moved = await difference(browser, still, moving);
+  assert.ok(moved.count > kLeastRobot_px, `${moved.count} pixels changed while the arm moved`);
+
+  const finished = page.locator('[data-test=list-finished] [data-test="job-browser-1"]');
+  await finished.waitFor();
+  assert.equal(await finished.getAttribute('data-state'), 'succeeded');
+  assert.match(await finished.innerText(), /succeeded/);
+  const end = (await left_arm()).q;
+  assert.ok(Math.abs(end[0] - (q[0] + 0.9)) < 0.02, `joint 1 ended at ${end[0]}, not at ${q[0] + 0.9}`);
+  await page.screenshot(path_for('page'));
+});
+
+test('the example moves an idle arm and brings it back', { timeout: 60_000 }, async () => {
+  await open_form();
+  await page.locator('[data-test=example-right]').click();
+  await page.locator('[data-test=send]').click();
+  const id = await page.locator('[data-test=accepted] button').innerText();
+  const finished = page.locator(`[data-test=list-finished] [data-test="job-${id}"]`);
+  await finished.waitFor();
+  assert.equal(await finished.getAttribute('data-state'), 'succeeded');
+});
+
+test('nothing so far was an error in the console', () => {
+  assert.deepEqual(errors, []);
+});
+
+test('a refused job shows the place of the fault in the form', { timeout: 30_000 }, async () => {
+  const { names, q } = await left_arm();
+  const job = swing_job('browser-2', ['left_panda_joint99', ...names.slice(1)], q, 0.1, 4);
+  await send(job);
+  const problem = page.locator('[data-test=problem]');
+  await problem.waitFor();
+  assert.match(await problem.innerText(), /joint99/);
+  assert.match(await problem.innerText(), /\/trajectory\//);
+  assert.equal(await page.locator('[data-test="job-browser-2"]').count(), 0);
+  await page.screenshot(path_for('refused'));
+});
+
+test('stop holds the cell and resume frees it', { timeout: 30_000 }, async () => {
+  await page.getByRole('button', { name: 'Stop', exact: true }).click();
+  await page.locator('[data-test=stopped]').waitFor();
+  await page.getByRole('button', { name: 'Resume', exact: true }).click();
+  await page.locator('[data-test=stopped]').waitFor({ state: 'detached' });
+});
+
+test('a banner says that the server is gone', { timeout: 30_000 }, async () => {
+  await end_server();
+  await page.locator('[data-test=lost]').waitFor();
+  await page.screenshot(path_for('lost'));
+});
+
+// ---- the page ----
+
+async function open_form() {
+  if (await page.locator('[data-test=job-text]').count() === 0) await page.locator('[data-test=new-job]').click();
+}
+
+async function send(job) {
+  await open_form();
+  await page.locator('[data-test=job-text]').fill(JSON.stringify(job, null, 1));
+  await page.locator('[data-test=send]').click();
+}
+
+function left_arm() {
+  return page.evaluate(() => {
+    const all = window.armloom.q();
+    const names = Object.keys(all).filter((name) => /^left_panda_joint\d$/.test(name)).sort();
+    return { names, q: names.map((name) => all[name]) };
+  });
+}
+
+/** Turns the first joint by `angle` in `seconds`, at rest at both ends. */
+function swing_job(id, names, q, angle, seconds) {
+  const rest = q.map(() => 0);
+  const point = (positions, sec) => ({
+    positions, velocities: rest, accelerations: rest, time_from_start: { sec, nanosec: 0 },
+  });
+  const there = q.map((value, i) => (i === 0 ? value + angle : value));
+  return { id, name: 'swing', trajectory: { joint_names: names, points: [point(q, 0), point(there, seconds)] } };
+}
+
+/** The view as a PNG, after what changed has been drawn. */
+async function picture(name) {
+  await page.evaluate(() => window.armloom.drawn());
+  const { path } = path_for(name);
+  return page.locator('.view canvas').screenshot(path ? { path } : {});
+}
+
+/** Which pixels are a robot's: those that change when it is taken away. */
+async function pixels_of(robot, whole) {
+  await page.evaluate((name) => window.armloom.set_robot_visible(name, false), robot);
+  const without = await picture(`without-${robot}`);
+  await page.evaluate((name) => window.armloom.set_robot_visible(name, true), robot);
+  return difference(browser, whole, without);
+}
+
+function path_for(name) {
+  if (!kPictures) return {};
+  mkdirSync(kPictures, { recursive: true });
+  return { path: join(kPictures, `${name}.png`) };
+}
+
+// ---- the server ----
+
+function free_port() {
+  return new Promise((done, fail) => {
+    const probe = createServer();
+    probe.on('error', fail);
+    probe.listen(0, '127.0.0.1', () => {
+      const { port } = probe.address();
+      probe.close(() => done(port));
+    });
+  });
+}
+
+async function until_healthy(url) {
+  const until_ms = Date.now() + kPatience_ms;
+  while (Date.now() < until_ms) {
+    if (server.exitCode !== null) break;
+    const answer = await fetch(url).catch(() => null);
+    if (answer?.ok) return;
+    await new Promise((done) => setTimeout(done, 100));
+  }
+  throw new Error(`the server did not become healthy: ${kBinary}\n${server_output}`);
+}
+
+async function end_server() {
+  if (!server?.pid || server.exitCode !== null || server.signalCode !== null) return;
+  const ended = new Promise((done) => server.once('exit', done));
+  server.kill('SIGTERM');
+  const hard = setTimeout(() => server.kill('SIGKILL'), 5000);
+  await ended;
+  clearTimeout(hard);
+}

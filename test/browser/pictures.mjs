@@ -1,0 +1,37 @@
+// Compares two PNGs of the same size, in a page of the browser that decodes them.
+
+// Anti-aliasing and shadows' soft rims stay below this; a robot before the background far above.
+const kLeastDifference = 40;
+
+/** How many pixels differ clearly, and where their middle is, as shares of width and height. */
+export async function difference(browser, a, b) {
+  const page = await browser.newPage();
+  try {
+    return await page.evaluate(compare, [a.toString('base64'), b.toString('base64'), kLeastDifference]);
+  } finally {
+    await page.close();
+  }
+}
+
+async function compare([a64, b64, least]) {
+  const read = async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const g = new OffscreenCanvas(image.width, image.height).getContext('2d');
+    g.drawImage(image, 0, 0);
+    return g.getImageData(0, 0, image.width, image.height);
+  };
+  const [a, b] = [await read(a64), await read(b64)];
+  if (a.width !== b.width || a.height !== b.height) throw new Error('the pictures differ in size');
+  let count = 0;
+  let x = 0;
+  let y = 0;
+  for (let i = 0; i < a.data.length; i += 4) {
+    const apart = [0, 1, 2].reduce((sum, k) => sum + Math.abs(a.data[i + k] - b.data[i + k]), 0);
+    if (apart < least) continue;
+    count += 1;
+    x += (i / 4) % a.width;
+    y += Math.floor(i / 4 / a.width);
+  }
+  return { count, x: x / Math.max(1, count) / a.width, y: y / Math.max(1, count) / a.height };
+}

@@ -1,0 +1,97 @@
+import { describe, expect, it } from 'vitest';
+import { parse_cell, parse_message, parse_problem, type Message } from '../src/messages';
+import { arm_json, envelope, frame, job_json, snapshot, wait_json } from './samples';
+
+function good(text: string): Message {
+  const parsed = parse_message(text);
+  if (parsed.kind !== 'message') throw new Error(JSON.stringify(parsed));
+  return parsed.message;
+}
+
+describe('a message of the server', () => {
+  it('is read whole when it is a snapshot', () => {
+    const message = good(snapshot(7, { jobs: [job_json('a')], gap: true }));
+    if (message.type !== 'snapshot') throw new Error(message.type);
+    expect(message.seq).toBe(7);
+    expect(message.data.gap).toBe(true);
+    expect(message.data.arms.map((arm) => arm.name)).toEqual(['left', 'right']);
+    expect(message.data.objects[0]?.shape).toEqual({ kind: 'box', size: [2, 2, 0.1] });
+    expect(message.data.jobs[0]?.raw).toEqual(job_json('a'));
+  });
+
+  it('may be of every type of the contract', () => {
+    const ids = { queued: ['a'], backlog: [], scheduled: [], running: [] };
+    const texts = [
+      envelope('job', 1, job_json('a', { state: 'backlogged', waits_on: [wait_json()] })),
+      envelope('arm', 2, arm_json('left', { state: 'fault' })),
+      envelope('queue', 3, { stopped: true, ...ids }),
+      envelope('monitor', 4, { kind: 'contact', arms: ['left'], links: ['a', 'b'], clearance_m: 0, limit_m: 0.01, stopped: ['left'] }),
+      envelope('alert', 5, { level: 'warning', text: 'x' }),
+      envelope('scene', 6, { objects: [{ name: 'rod', cylinder: [0.015, 0.5], xyz: [0, 0, 1], rpy: [0, 0, 0] }, { name: 'ball', sphere: [0.1] }] }),
+      frame(7, { left_panda_joint1: 0.5 }),
+    ];
+    expect(texts.map((text) => good(text).type)).toEqual(['job', 'arm', 'queue', 'monitor', 'alert', 'scene', 'state']);
+  });
+
+  it('needs no wall time, which a simulated run leaves out', () => {
+    expect(good(envelope('alert', 1, { level: 'info', text: 'x' }, { at: undefined })).type).toBe('alert');
+  });
+
+  it('is named, with its place in the stream, when its type is not known', () => {
+    expect(parse_message(envelope('weather', 9, {}))).toMatchObject({ kind: 'unknown', type: 'weather', seq: 9 });
+  });
+
+  it.each([
+    ['{', /not JSON/],
+    ['null', /^\/: expected an object/],
+    ['[]', /^\/: expected an object/],
+    ['{"type":7}', /^\/type: expected a string, found 7/],
+    [envelope('job', 1, job_json('a', { state: 'flying' })), /^\/data\/state: expected one of .*found "flying"/],
+    [envelope('job', 1, job_json('a', { waits_on: [wait_json({ links: ['only one'] })] })), /^\/data\/waits_on\/0\/links: expected two strings/],
+    [envelope('arm', 1, arm_json('left', { q: [0, null] })), /^\/data\/q\/1: expected a number, found null/],
+    [envelope('alert', 1, { level: 'info' }), /^\/data\/text: expected a string, found nothing/],
+    [envelope('alert', 1, { level: 'info', text: 'x' }, { seq: 'one' }), /^\/seq/],
+    [frame(1, { joint: 'x' as unknown as number }), /^\/q\/joint: expected a number/],
+  ])('is refused with the place of the fault: %s', (text, fault) => {
+    const parsed = parse_message(text);
+    expect(parsed.kind).toBe('malformed');
+    expect(parsed.kind === 'malformed' && parsed.fault).toMatch(fault);
+  });
+
+  it('reads no property that every object inherits', () => {
+    expect(parse_message('{"type":"toString"}')).toMatchObject({ kind: 'unknown' });
+    expect(parse_cell(Object.create({ name: 'inherited' })).ok).toBe(false);
+  });
+});
+
+describe('the cell', () => {
+  const cell = {
+    name: 'two_pandas', policy: 'sequential', speed: 1,
+    robots: [{
+      name: 'left', prefix: 'left_', base: { xyz: [-0.4, 0, 0.1], rpy: [0, 0, 0] }, urdf: '<robot/>', srdf: '',
+      arms: [{ name: 'left', group: 'panda_arm', joints: ['left_panda_joint1'], gripper_joints: [], home: [0] }],
+    }],
+    objects: [], joints: [{ name: 'left_panda_joint1', arm: 'left', lower: -2, upper: 2, velocity_max: 2, unit: 'rad' }],
+    clearance_m: 0.02,
+  };
+
+  it('is read with robots and joints', () => {
+    const read = parse_cell(cell);
+    expect(read.ok && read.value.robots[0]?.base.xyz).toEqual([-0.4, 0, 0.1]);
+    expect(read.ok && read.value.joints[0]?.acceleration_max).toBeNull();
+  });
+
+  it('is refused with the place of the fault', () => {
+    const read = parse_cell({ ...cell, robots: [{ ...cell.robots[0], base: { xyz: [1, 2], rpy: [0, 0, 0] } }] });
+    expect(!read.ok && read.fault).toMatch(/^\/robots\/0\/base\/xyz: expected three numbers/);
+  });
+});
+
+describe('a problem document', () => {
+  it('carries every fault with pointer and value', () => {
+    const fault = { pointer: '/trajectory/points/3/velocities/2', detail: '3.41 rad/s exceeds 2.175', value: 3.41 };
+    const read = parse_problem({ type: 'urn:x', title: 'Limits', status: 422, ...fault, errors: [fault, { ...fault, value: 4 }] });
+    expect(read.ok && read.value.errors.map((e) => e.value)).toEqual([3.41, 4]);
+    expect(read.ok && read.value.pointer).toBe(fault.pointer);
+  });
+});

@@ -1,0 +1,43 @@
+// Messages as the server writes them, for the tests.
+
+export const kStream = '5f0c7f0e-6f0e-4d55-9b1c-0d3a54c7a001';
+
+export function arm_json(name: string, over: object = {}): Record<string, unknown> {
+  return {
+    name, robot: name, state: 'idle', job: null, progress: 0,
+    joints: [`${name}_panda_joint1`, `${name}_panda_joint2`], q: [0.1, -1.2], home: [0, -1.2],
+    deviation_rad: 0.0002, ...over,
+  };
+}
+
+export function job_json(id: string, over: object = {}): Record<string, unknown> {
+  return {
+    id, name: null, state: 'queued', arms: ['left'], priority: 0,
+    submitted_s: 1, started_s: null, ended_s: null, submitted_at: '2026-01-01T00:00:00Z',
+    progress: 0, duration_s: 4, stopping: false, waits_on: [], result: null, ...over,
+  };
+}
+
+export function wait_json(over: object = {}): Record<string, unknown> {
+  return {
+    kind: 'job', id: 'place-6', arm: 'right', links: ['left_panda_hand', 'right_panda_link6'],
+    own_time_s: 1.24, other_time_s: 0.8, clearance_m: 0.012, ...over,
+  };
+}
+
+export function envelope(type: string, seq: number, data: unknown, over: object = {}): string {
+  return JSON.stringify({ stream: kStream, seq, type, t_s: seq, at: '2026-01-01T00:00:00Z', data, ...over });
+}
+
+export function snapshot(seq: number, over: object = {}, envelope_over: object = {}): string {
+  const data = {
+    cell: 'two_pandas', policy: 'timed_discrete', speed: 1, stopped: false,
+    arms: [arm_json('left'), arm_json('right')], jobs: [],
+    objects: [{ name: 'table', box: [2, 2, 0.1], xyz: [0, 0, 0.05], rpy: [0, 0, 0] }], ...over,
+  };
+  return envelope('snapshot', seq, data, envelope_over);
+}
+
+export function frame(t_s: number, q: Record<string, number>): string {
+  return JSON.stringify({ type: 'state', t_s, q, clearance: [{ arms: ['left', 'right'], m: 0.2, links: ['a', 'b'] }] });
+}

@@ -1,0 +1,106 @@
+import { beforeEach, describe, expect, it } from 'vitest';
+import { parse_message } from '../src/messages';
+import { Store, type JobList } from '../src/store';
+import { arm_json, envelope, frame, job_json, snapshot } from './samples';
+
+let store: Store;
+
+function take(text: string): void {
+  const parsed = parse_message(text);
+  if (parsed.kind !== 'message') throw new Error(JSON.stringify(parsed));
+  store.take(parsed.message);
+}
+
+const ids = (list: JobList) => store.jobs(list).map((job) => job.id);
+
+beforeEach(() => {
+  store = new Store();
+  take(snapshot(1));
+});
+
+describe('the store', () => {
+  it('moves a job from list to list as its state changes', () => {
+    const seen = ['queued', 'backlogged', 'scheduled', 'running', 'holding', 'running', 'succeeded'].map((state, i) => {
+      take(envelope('job', 2 + i, job_json('a', { state })));
+      return (['queued', 'backlog', 'scheduled', 'running', 'finished'] as const).filter((list) => ids(list).includes('a'));
+    });
+    expect(seen).toEqual([['queued'], ['backlog'], ['scheduled'], ['running'], ['running'], ['running'], ['finished']]);
+  });
+
+  it('keeps the order that the server gives to the queue', () => {
+    take(envelope('job', 2, job_json('a', { submitted_s: 1 })));
+    take(envelope('job', 3, job_json('b', { submitted_s: 2, priority: 5 })));
+    expect(ids('queued')).toEqual(['a', 'b']);
+    take(envelope('queue', 4, { stopped: false, queued: ['b', 'a'], backlog: [], scheduled: [], running: [] }));
+    expect(ids('queued')).toEqual(['b', 'a']);
+  });
+
+  it('shows finished jobs newest first and forgets the oldest beyond two hundred', () => {
+    for (let i = 0; i < 230; i++) take(envelope('job', 2 + i, job_json(`j${i}`, { state: 'succeeded', ended_s: i })));
+    expect(ids('finished')).toHaveLength(200);
+    expect(ids('finished')[0]).toBe('j229');
+    expect(store.job('j29')).toBeNull();
+  });
+
+  it('carries progress on between reports, never beyond the end, and not while an arm holds', () => {
+    take(envelope('job', 10, job_json('a', { state: 'running', started_s: 10, progress: 0, duration_s: 4 })));
+    const progress = () => store.progress(store.job('a')!);
+    take(frame(11, {}));
+    expect(progress()).toBeCloseTo(0.25);
+    take(frame(99, {}));
+    expect(progress()).toBe(1);
+    take(envelope('job', 100, job_json('a', { state: 'holding', started_s: 10, progress: 0.3, duration_s: 4 })));
+    take(frame(105, {}));
+    expect(progress()).toBe(0.3);
+  });
+
+  it('knows where an arm is from frames, and from the snapshot before the first frame', () => {
+    const left = store.arms.get('left')!;
+    expect(store.q_of(left)).toEqual([0.1, -1.2]);
+    take(frame(2, { left_panda_joint1: 0.7 }));
+    expect(store.q_of(left)).toEqual([0.7, -1.2]);
+  });
+
+  it('replaces everything by a new snapshot, and says when events were missed', () => {
+    take(envelope('job', 2, job_json('a')));
+    take(snapshot(90, { stopped: true, jobs: [job_json('b')], gap: true }));
+    expect(ids('queued')).toEqual(['b']);
+    expect(store.stopped).toBe(true);
+    expect(store.notices[0]?.text).toMatch(/missed/);
+  });
+
+  it('follows the clock of a new run of the server, which starts at zero', () => {
+    take(frame(500, {}));
+    take(snapshot(1, {}, { stream: 'another run', t_s: 0.5 }));
+    expect(store.t_s).toBe(0.5);
+  });
+
+  it('puts monitor events that stopped an arm above warnings', () => {
+    take(envelope('monitor', 2, { kind: 'contact', arms: ['left'], links: ['a', 'b'], clearance_m: 0, limit_m: 0.01, stopped: ['left'] }));
+    take(envelope('monitor', 3, { kind: 'clearance', arms: ['left'], links: ['a', 'b'], clearance_m: 0.02, limit_m: 0.03, stopped: [] }));
+    expect(store.notices.map((notice) => notice.level)).toEqual(['warning', 'error']);
+  });
+
+  it('bounds the list of events', () => {
+    for (let i = 0; i < 150; i++) take(envelope('alert', 2 + i, { level: 'info', text: `${i}` }));
+    expect(store.notices).toHaveLength(100);
+    expect(store.notices[0]?.text).toBe('149');
+  });
+
+  it('tells its listeners of changes, and of frames apart from them', () => {
+    let changes = 0;
+    let frames = 0;
+    store.on_change(() => { changes += 1; });
+    const off = store.on_frame(() => { frames += 1; });
+    take(envelope('arm', 2, arm_json('left', { state: 'moving' })));
+    take(frame(3, {}));
+    off();
+    take(frame(4, {}));
+    expect([changes, frames]).toEqual([1, 1]);
+  });
+
+  it('counts what it cannot take, and names only the first', () => {
+    expect([store.reject('unknown'), store.reject('unknown'), store.reject('malformed')]).toEqual([true, false, true]);
+    expect(store.rejected).toEqual({ unknown: 2, malformed: 1 });
+  });
+});

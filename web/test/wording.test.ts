@@ -1,0 +1,71 @@
+import { describe, expect, it } from 'vitest';
+import { parse_message, type Job, type WaitsOn } from '../src/messages';
+import { clock, millimetres, monitor_in_words, reason_in_words, result_in_words, seconds, short_id } from '../src/wording';
+import { envelope, job_json, wait_json } from './samples';
+
+function job(over: object): Job {
+  const parsed = parse_message(envelope('job', 1, job_json('pick-7', over)));
+  if (parsed.kind !== 'message' || parsed.message.type !== 'job') throw new Error(JSON.stringify(parsed));
+  return parsed.message.data;
+}
+
+function reason(...waits: (object & Partial<WaitsOn>)[]): string {
+  return reason_in_words(job({ state: 'backlogged', waits_on: waits.map(wait_json) }));
+}
+
+const kBare = { links: null, own_time_s: null, clearance_m: null };
+
+describe('the reason why a job waits', () => {
+  it('names the other job, the links, how close and when', () => {
+    expect(reason({})).toBe(
+      'waits for job place-6 of right: left_panda_hand would come within 12 mm of right_panda_link6 at 1.24 s');
+  });
+  it('says touch when nothing is left between the links', () => {
+    expect(reason({ clearance_m: -0.004 })).toContain('left_panda_hand would touch right_panda_link6 at 1.24 s');
+  });
+  it('does without what the server does not know', () => {
+    expect(reason(kBare)).toBe('waits for job place-6 of right to end');
+  });
+  it('tells an arm at rest, an object, the order, the capacity and a stop apart', () => {
+    expect(reason({ kind: 'arm', id: null })).toMatch(/^waits for arm right to move away: left_panda_hand would/);
+    expect(reason({ kind: 'object', id: 'crate', arm: null, ...kBare })).toBe('waits for crate to be clear');
+    expect(reason({ kind: 'order', id: 'pick-6', arm: 'left', ...kBare })).toBe('waits its turn: job pick-6 of left comes first');
+    expect(reason({ kind: 'capacity', ...kBare })).toBe('waits until job place-6 of right has ended: one at a time');
+    expect(reason({ kind: 'stop', id: null, arm: null, ...kBare })).toBe('waits for resume: the cell is stopped');
+  });
+  it('counts further reasons', () => {
+    expect(reason(kBare, {}, {})).toBe('waits for job place-6 of right to end (and 2 more)');
+  });
+  it('is empty for a job that waits on nothing', () => {
+    expect(reason_in_words(job({ state: 'running' }))).toBe('');
+  });
+});
+
+describe('how a job ended', () => {
+  it('is not said twice', () => {
+    expect(result_in_words(job({ state: 'succeeded', result: { reason: 'succeeded', detail: null } }))).toBe('');
+  });
+  it('gives reason and detail', () => {
+    const result = { reason: 'backlog_timeout', detail: 'waited 60 s for place-6' };
+    expect(result_in_words(job({ state: 'expired', result }))).toBe('backlog timeout: waited 60 s for place-6');
+  });
+});
+
+describe('a monitor event', () => {
+  it('says which links, how close, and who was stopped', () => {
+    const event = { kind: 'clearance', arms: ['left', 'right'], links: ['a', 'b'] as [string, string], clearance_m: 0.0091, limit_m: 0.01, stopped: ['left', 'right'] };
+    expect(monitor_in_words(event)).toBe('a and b 9.1 mm apart (limit 10 mm); stopped left and right');
+  });
+});
+
+describe('figures', () => {
+  it('have units and sensible digits', () => {
+    expect([0.0004, 0.0123, 1.5].map(millimetres)).toEqual(['0.4 mm', '12 mm', '1.50 m']);
+    expect([1.234, 12.34, 75].map(seconds)).toEqual(['1.23 s', '12.3 s', '1 min 15 s']);
+    expect([0, 3661.29].map(clock)).toEqual(['0:00:00.0', '1:01:01.2']);
+  });
+  it('cut machine-made ids and keep chosen ones', () => {
+    expect(short_id('0b9f1c3a-1111-4222-8333-444455556666')).toBe('0b9f1c3a');
+    expect(short_id('pick-7')).toBe('pick-7');
+  });
+});
