@@ -11,8 +11,20 @@
 
 namespace armloom {
 
+// A pair of bodies that the scene looks at (PlanningScene::Bodies::pairs), in the scene's order.
+using PairId = Id<struct PairTag>;
+
+// A pair that is too close. clearance_m is negative by the depth of overlap where that is known
+// (capsules and spheres, against each other and against boxes), zero in contact otherwise.
+struct NearPair {
+  PairId pair;
+  double clearance_m;
+};
+
 // Asks one scene about single configurations of the whole cell. Holds the scratch: one per worker
-// thread, not thread-safe. FCL that throws counts as contact (clearance 0).
+// thread, not thread-safe. FCL that throws counts as contact (clearance 0). Distances are never
+// larger than the true ones, and at most 2e-7 m smaller. Configurations have one entry per joint of
+// the cell (throws std::invalid_argument otherwise), arm masks one per arm.
 class CollisionChecker {
  public:
   explicit CollisionChecker(PlanningScenePtr scene);
@@ -35,6 +47,20 @@ class CollisionChecker {
   // pairs farther apart are left out.
   [[nodiscard]] std::vector<Proximity> closest_between_arms(const Configuration& q,
                                                             double horizon_m);
+
+  // Every pair closer than `clearance_m` that involves a link of one of the arms in `of` and a link
+  // of one of the arms in `moved`, in the scene's order; `near` is overwritten (no allocation once
+  // it has grown). What judge() is built on: pairs can be followed from state to state.
+  void near_pairs(const Configuration& q, double clearance_m, const std::vector<bool>& of,
+                  const std::vector<bool>& moved, std::vector<NearPair>& near);
+  // Whether near_pairs would look at this pair.
+  [[nodiscard]] bool looks_at(PairId pair, const std::vector<bool>& of,
+                              const std::vector<bool>& moved) const;
+  // Names and arms. body_a belongs to the arm with the smaller id; body_b to the other, or it is a
+  // static link or an object.
+  [[nodiscard]] Proximity describe(const NearPair& near) const;
+  // Both bodies belong to one robot, at least one of them to an arm, and not to two arms.
+  [[nodiscard]] bool is_self(PairId pair) const;
 
  private:
   struct Scratch;

@@ -13,8 +13,16 @@ namespace armloom {
 // motions counts, and the others' *remaining* motion is what is compared.
 // A pair that is already closer than clearance_m at the first instant may part: it is no conflict
 // as long as it never comes closer than it was, until it has cleared.
-// Returns the first conflict in time with each counterpart. Stops at the first instant in which one
-// was found (all conflicts of that instant are reported). Deterministic.
+// Returns the first conflict in time with each counterpart: another job, an arm at rest, an object or
+// another robot's static link (With::scene), the candidate itself and its robot's static links. Stops
+// at the first instant in which one was found (all counterparts of that instant are reported, each
+// with its closest pair; two candidates that conflict are reported once, with the one that is named
+// first as the candidate). Pairs of which neither side has moved since the last instant are not
+// looked at again; `evaluations` counts the instants that were looked at. Deterministic.
+// Where the depth of a contact is unknown (flat cylinders, box against box) it counts as zero, so
+// that such a pair in contact at the first instant may stay in contact.
+// Preconditions (throws std::invalid_argument): step > 0, `rest` has one entry per joint, no arm in
+// two motions.
 [[nodiscard]] Verdict judge(const Question& question, CollisionChecker& checker);
 
 }  // namespace armloom

@@ -1,0 +1,154 @@
+#include "core/collision/body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <variant>
+
+#include "core/collision/exact_distance.h"
+
+namespace armloom {
+namespace {
+
+Body plain_body(const PlacedShape& placed) {
+  Body body;
+  body.X_PS = placed.X_LS;
+  if (const auto* box = std::get_if<Box>(&placed.shape)) {
+    body.kind = BodyKind::box;
+    body.half_size_m = 0.5 * box->size_m;
+    body.radius_m = body.half_size_m.norm();
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&placed.shape)) {
+    body.kind = BodyKind::cylinder;
+    body.half_length_m = 0.5 * cylinder->length_m;
+    body.radius_m = cylinder->radius_m;
+  } else {
+    body.kind = BodyKind::round;
+    body.radius_m = std::get<Sphere>(placed.shape).radius_m;
+  }
+  return body;
+}
+
+bool is_sphere(const Body& body) {
+  return body.kind == BodyKind::round && body.half_length_m == 0.0;
+}
+
+// The sphere that caps the cylinder's end (+1 or -1 along its axis).
+std::optional<std::size_t> cap_at(const std::vector<Body>& bodies, const Body& cylinder,
+                                  double end) {
+  const Eigen::Vector3d p_end =
+      cylinder.X_PS * Eigen::Vector3d(0, 0, end * cylinder.half_length_m);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (is_sphere(bodies[i]) &&
+        std::abs(bodies[i].radius_m - cylinder.radius_m) <= kMergeTolerance_m &&
+        (bodies[i].X_PS.translation() - p_end).norm() <= kMergeTolerance_m) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+// Radius of a capsule about the cylinder's axis that still contains the cap.
+double radius_with(const Body& cylinder, double end, const Body& cap) {
+  const Eigen::Vector3d p_end =
+      cylinder.X_PS * Eigen::Vector3d(0, 0, end * cylinder.half_length_m);
+  return std::max(cylinder.radius_m, cap.radius_m + (cap.X_PS.translation() - p_end).norm());
+}
+
+// The segment's distance from the box, in the box's frame; the box's size is in its body.
+double segment_to_box(const PlacedBody& at_box, const Body& box, const CenteredSegment& segment) {
+  const auto R_BW = at_box.X_WS.linear().transpose();
+  return segment_box_distance(
+      {R_BW * (segment.center - at_box.X_WS.translation()), R_BW * segment.half}, box.half_size_m);
+}
+
+// The widest gap across the faces of a and b: six of the fifteen separating axes.
+double face_gap(const Body& a, const PlacedBody& at_a, const Body& b, const PlacedBody& at_b) {
+  const Eigen::Matrix3d R_AB = at_a.X_WS.linear().transpose() * at_b.X_WS.linear();
+  const Eigen::Matrix3d width = R_AB.cwiseAbs();
+  const Eigen::Vector3d p = at_b.X_WS.translation() - at_a.X_WS.translation();
+  const Eigen::Vector3d p_A = at_a.X_WS.linear().transpose() * p;
+  const Eigen::Vector3d p_B = at_b.X_WS.linear().transpose() * p;
+  const Eigen::Vector3d gap_A = p_A.cwiseAbs() - a.half_size_m - width * b.half_size_m;
+  const Eigen::Vector3d gap_B = p_B.cwiseAbs() - b.half_size_m - width.transpose() * a.half_size_m;
+  return std::max(gap_A.maxCoeff(), gap_B.maxCoeff());
+}
+
+}  // namespace
+
+std::vector<Body> make_bodies(const std::vector<PlacedShape>& shapes) {
+  std::vector<Body> bodies;
+  for (const PlacedShape& shape : shapes) bodies.push_back(plain_body(shape));
+  const std::vector<Body> plain = bodies;
+  std::vector<bool> dropped(bodies.size(), false);
+  for (Body& body : bodies) {
+    if (body.kind != BodyKind::cylinder) continue;
+    const auto upper = cap_at(plain, body, 1.0);
+    const auto lower = cap_at(plain, body, -1.0);
+    if (!upper || !lower) continue;
+    body.radius_m = std::max(radius_with(body, 1.0, plain[*upper]),
+                             radius_with(body, -1.0, plain[*lower]));
+    body.kind = BodyKind::round;
+    dropped[*upper] = dropped[*lower] = true;
+  }
+  std::vector<Body> kept;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (dropped[i]) continue;
+    bodies[i].exact = make_exact_geometry(bodies[i]);
+    kept.push_back(std::move(bodies[i]));
+  }
+  return kept;
+}
+
+void place(const Body& body, const Eigen::Isometry3d& X_WP, PlacedBody& placed) {
+  if (body.kind == BodyKind::round) {
+    placed.segment.center.noalias() = X_WP.linear() * body.X_PS.translation();
+    placed.segment.center += X_WP.translation();
+    placed.segment.half.noalias() =
+        X_WP.linear() * (body.X_PS.linear().col(2) * body.half_length_m);
+    return;
+  }
+  placed.X_WS = X_WP * body.X_PS;
+  placed.segment.center = placed.X_WS.translation();
+  placed.segment.half = placed.X_WS.linear().col(2) * body.half_length_m;
+}
+
+Eigen::Isometry3d shape_pose(const Body& body, const PlacedBody& placed) {
+  if (body.kind != BodyKind::round) return placed.X_WS;
+  // Any turn about the axis is the same body.
+  Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
+  X_WS.translation() = placed.segment.center;
+  if (body.half_length_m > 0.0) {
+    X_WS.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(),
+                                                       placed.segment.half)
+                        .toRotationMatrix();
+  }
+  return X_WS;
+}
+
+Bound lower_bound(const Body& a, const PlacedBody& at_a, const Body& b, const PlacedBody& at_b) {
+  const bool a_box = a.kind == BodyKind::box;
+  const bool b_box = b.kind == BodyKind::box;
+  if (a_box && b_box) return {face_gap(a, at_a, b, at_b), false};
+  if (a_box) {
+    return {segment_to_box(at_a, a, at_b.segment) - b.radius_m, b.kind == BodyKind::round};
+  }
+  if (b_box) {
+    return {segment_to_box(at_b, b, at_a.segment) - a.radius_m, a.kind == BodyKind::round};
+  }
+  const bool exact = a.kind == BodyKind::round && b.kind == BodyKind::round;
+  return {segment_segment_distance(at_a.segment, at_b.segment) - a.radius_m - b.radius_m, exact};
+}
+
+double distance_below(const Body& a, const PlacedBody& at_a, const Body& b, const PlacedBody& at_b,
+                      double limit_m) {
+  const double reach = limit_m + a.bounding_radius_m() + b.bounding_radius_m();
+  if (reach <= 0.0) return limit_m;  // no depth of overlap is that large
+  if ((at_a.segment.center - at_b.segment.center).squaredNorm() >= reach * reach) return limit_m;
+  const Bound bound = lower_bound(a, at_a, b, at_b);
+  if (bound.distance_m >= limit_m) return limit_m;
+  if (bound.exact) return bound.distance_m;
+  return std::min(limit_m, exact_distance(a, shape_pose(a, at_a), b, shape_pose(b, at_b)));
+}
+
+}  // namespace armloom

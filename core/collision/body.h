@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "core/collision/segment_distance.h"
+#include "core/model/shape.h"
+
+namespace armloom {
+
+class ExactGeometry;
+
+enum class BodyKind {
+  round,     // sphere or capsule: all points within radius of a segment
+  cylinder,  // flat ends
+  box,
+};
+
+// One convex shape of a part (a link or an object), fixed in the part's frame P.
+struct Body {
+  BodyKind kind = BodyKind::round;
+  Eigen::Isometry3d X_PS = Eigen::Isometry3d::Identity();  // axis along z of S
+  double half_length_m = 0.0;  // of the axis; zero for spheres and boxes
+  double radius_m = 0.0;       // about the axis; of a box: of its bounding sphere
+  Eigen::Vector3d half_size_m = Eigen::Vector3d::Zero();  // boxes only
+  std::shared_ptr<const ExactGeometry> exact;
+
+  // Of the bounding sphere about the origin of S.
+  [[nodiscard]] double bounding_radius_m() const { return half_length_m + radius_m; }
+};
+
+// The bodies of a link or object. A cylinder with a sphere of its radius centred at both ends
+// (within kMergeTolerance_m) becomes one capsule that contains all three; the spheres are dropped,
+// also when two cylinders share one. Everything else stays as it is. Precondition: no mesh.
+inline constexpr double kMergeTolerance_m = 1e-6;
+[[nodiscard]] std::vector<Body> make_bodies(const std::vector<PlacedShape>& shapes);
+
+// Where a body is in the world: its segment, and for boxes its full pose.
+struct PlacedBody {
+  CenteredSegment segment;
+  Eigen::Isometry3d X_WS;  // filled for boxes and cylinders only
+};
+[[nodiscard]] Eigen::Isometry3d shape_pose(const Body& body, const PlacedBody& placed);
+void place(const Body& body, const Eigen::Isometry3d& X_WP, PlacedBody& placed);
+
+// A distance that the true one cannot fall below, from the segments alone.
+struct Bound {
+  double distance_m;  // negative: depth of overlap, at least
+  bool exact;         // it is the distance itself
+};
+[[nodiscard]] Bound lower_bound(const Body& a, const PlacedBody& at_a, const Body& b,
+                                const PlacedBody& at_b);
+
+// min(distance, limit_m): cheap when the bound is not below the limit. Negative or zero in contact.
+[[nodiscard]] double distance_below(const Body& a, const PlacedBody& at_a, const Body& b,
+                                    const PlacedBody& at_b, double limit_m);
+
+}  // namespace armloom

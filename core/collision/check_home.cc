@@ -1,0 +1,42 @@
+#include "core/collision/check_home.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "core/collision/collision_checker.h"
+
+namespace armloom {
+namespace {
+
+std::string home_pointer(const Cell& cell, ArmId arm) {
+  const RobotId robot = cell.arm(arm).robot;
+  const std::vector<ArmId>& arms = cell.robots[robot.index()].arms;
+  const auto place = std::find(arms.begin(), arms.end(), arm) - arms.begin();
+  return "/robots/" + std::to_string(robot.index()) + "/arms/" + std::to_string(place) + "/home";
+}
+
+}  // namespace
+
+Problems check_home(const PlanningScenePtr& scene) {
+  const Cell& cell = scene->cell();
+  const std::vector<bool> all(cell.arms.size(), true);
+  CollisionChecker checker(scene);
+  std::vector<NearPair> near;
+  checker.near_pairs(cell.home(), cell.clearance_m, all, all, near);
+  Problems problems;
+  for (const NearPair& pair : near) {
+    const Proximity proximity = checker.describe(pair);
+    char figures[120];
+    std::snprintf(figures, sizeof figures, ": %.4f m apart at home, clearance_m is %.4f",
+                  proximity.clearance_m, cell.clearance_m);
+    problems.push_back({ProblemKind::invalid, "home-conflict",
+                        home_pointer(cell, *proximity.arm_a),
+                        proximity.body_a + " and " + proximity.body_b + figures,
+                        proximity.clearance_m});
+  }
+  return problems;
+}
+
+}  // namespace armloom

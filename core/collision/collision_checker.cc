@@ -1,0 +1,198 @@
+#include "core/collision/collision_checker.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/collision/scene_bodies.h"
+#include "core/model/kinematics.h"
+
+namespace armloom {
+namespace {
+
+using Group = PairGroup;
+
+bool includes(const Group& group, const std::vector<bool>& arms) {
+  return arms[group.arm.index()] || (group.other && arms[group.other->index()]);
+}
+
+struct PlacedPart {
+  Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // of the bounding sphere
+};
+
+}  // namespace
+
+// Where everything is for the configuration at hand.
+struct CollisionChecker::Scratch {
+  PlanningScenePtr scene;
+  const PlanningScene::Bodies& bodies;
+  LinkPoses X_WL;
+  std::vector<PlacedPart> parts;
+  std::vector<PlacedBody> placed;            // by body
+  std::vector<Eigen::AlignedBox3d> arm_box;  // around the bounding spheres of an arm's parts
+
+  explicit Scratch(PlanningScenePtr s)
+      : scene(std::move(s)),
+        bodies(scene->bodies()),
+        parts(bodies.parts.size()),
+        placed(bodies.bodies.size()),
+        arm_box(bodies.parts_of_arm.size()) {
+    for (std::size_t i = bodies.links_end; i < bodies.parts.size(); ++i) {
+      place_part(i, bodies.cell->objects[i - bodies.links_end].X_WO);
+    }
+  }
+
+  void place_part(std::size_t index, const Eigen::Isometry3d& X_WP) {
+    const Part& part = bodies.parts[index];
+    parts[index].X_WP = X_WP;
+    parts[index].center = X_WP * part.p_PC;
+    for (std::size_t i = part.bodies_begin; i < part.bodies_end; ++i) {
+      place(bodies.bodies[i], X_WP, placed[i]);
+    }
+  }
+
+  void move_to(const Configuration& q) {
+    forward_kinematics(*bodies.cell, q, X_WL);
+    for (std::size_t i = 0; i < bodies.links_end; ++i) {
+      place_part(i, X_WL[bodies.parts[i].link->index()]);
+    }
+    for (std::size_t arm = 0; arm < arm_box.size(); ++arm) {
+      Eigen::AlignedBox3d& box = arm_box[arm];
+      box.setEmpty();
+      for (const std::size_t i : bodies.parts_of_arm[arm]) {
+        const Eigen::Vector3d reach = Eigen::Vector3d::Constant(bodies.parts[i].radius_m);
+        box.extend(Eigen::AlignedBox3d(parts[i].center - reach, parts[i].center + reach));
+      }
+    }
+  }
+
+  // min(distance of the pair, limit)
+  [[nodiscard]] double distance(const PartPair& pair, double limit_m) const {
+    const Part& a = bodies.parts[pair.a];
+    const Part& b = bodies.parts[pair.b];
+    const double reach = limit_m + a.radius_m + b.radius_m;
+    if (reach <= 0.0) return limit_m;
+    if ((parts[pair.a].center - parts[pair.b].center).squaredNorm() >= reach * reach) {
+      return limit_m;
+    }
+    double smallest = limit_m;
+    for (std::size_t i = a.bodies_begin; i < a.bodies_end; ++i) {
+      for (std::size_t j = b.bodies_begin; j < b.bodies_end; ++j) {
+        smallest = distance_below(bodies.bodies[i], placed[i], bodies.bodies[j], placed[j],
+                                  smallest);
+      }
+    }
+    return smallest;
+  }
+
+  [[nodiscard]] bool far_apart(const Group& group, double limit_m) const {
+    if (!group.other) return false;
+    const Eigen::AlignedBox3d& a = arm_box[group.arm.index()];
+    const Eigen::AlignedBox3d& b = arm_box[group.other->index()];
+    return limit_m > 0.0 && a.squaredExteriorDistance(b) >= limit_m * limit_m;
+  }
+
+  // Calls visit(NearPair) for every pair of the group closer than the limit; visit returns the
+  // limit to go on with.
+  template <class Visit>
+  void scan(const Group& group, double limit_m, const Visit& visit) const {
+    if (far_apart(group, limit_m)) return;
+    for (std::size_t i = group.pairs_begin; i < group.pairs_end; ++i) {
+      const double d = distance(bodies.pairs[i], limit_m);
+      if (d < limit_m) limit_m = visit(NearPair{PairId{static_cast<std::uint32_t>(i)}, d});
+    }
+  }
+
+  // The closest pair of the group, when closer than the limit.
+  [[nodiscard]] std::optional<NearPair> closest(const Group& group, double limit_m) const {
+    std::optional<NearPair> found;
+    scan(group, limit_m, [&](const NearPair& pair) {
+      found = pair;
+      return pair.clearance_m;
+    });
+    return found;
+  }
+
+  [[nodiscard]] const Group& group_of(PairId pair) const {
+    const auto after = std::upper_bound(
+        bodies.groups.begin(), bodies.groups.end(), pair.index(),
+        [](std::size_t index, const Group& group) { return index < group.pairs_end; });
+    return *after;
+  }
+};
+
+CollisionChecker::CollisionChecker(PlanningScenePtr scene)
+    : scratch_(std::make_unique<Scratch>(std::move(scene))) {}
+CollisionChecker::~CollisionChecker() = default;
+
+const PlanningScene& CollisionChecker::scene() const { return *scratch_->scene; }
+
+std::optional<Proximity> CollisionChecker::first_closer_than(const Configuration& q,
+                                                             double clearance_m,
+                                                             const std::vector<bool>& arms) {
+  scratch_->move_to(q);
+  for (const Group& group : scratch_->bodies.groups) {
+    if (!includes(group, arms)) continue;
+    std::optional<NearPair> first;
+    scratch_->scan(group, clearance_m, [&](const NearPair& pair) {
+      if (!first) first = pair;
+      return -1e9;  // nothing is that deep: the rest is passed over
+    });
+    if (first) return describe(*first);
+  }
+  return std::nullopt;
+}
+
+std::vector<Proximity> CollisionChecker::all_closer_than(const Configuration& q,
+                                                         double clearance_m) {
+  scratch_->move_to(q);
+  std::vector<Proximity> found;
+  for (const Group& group : scratch_->bodies.groups) {
+    if (const auto pair = scratch_->closest(group, clearance_m)) found.push_back(describe(*pair));
+  }
+  return found;
+}
+
+std::vector<Proximity> CollisionChecker::closest_between_arms(const Configuration& q,
+                                                              double horizon_m) {
+  scratch_->move_to(q);
+  std::vector<Proximity> found;
+  for (const Group& group : scratch_->bodies.groups) {
+    if (group.kind != Group::Kind::arms) continue;
+    if (const auto pair = scratch_->closest(group, horizon_m)) found.push_back(describe(*pair));
+  }
+  return found;
+}
+
+void CollisionChecker::near_pairs(const Configuration& q, double clearance_m,
+                                  const std::vector<bool>& of, const std::vector<bool>& moved,
+                                  std::vector<NearPair>& near) {
+  near.clear();
+  scratch_->move_to(q);
+  for (const Group& group : scratch_->bodies.groups) {
+    if (!includes(group, of) || !includes(group, moved)) continue;
+    scratch_->scan(group, clearance_m, [&](const NearPair& pair) {
+      near.push_back(pair);
+      return clearance_m;
+    });
+  }
+}
+
+bool CollisionChecker::looks_at(PairId pair, const std::vector<bool>& of,
+                                const std::vector<bool>& moved) const {
+  const Group& group = scratch_->group_of(pair);
+  return includes(group, of) && includes(group, moved);
+}
+
+Proximity CollisionChecker::describe(const NearPair& near) const {
+  const PartPair& pair = scratch_->bodies.pairs[near.pair.index()];
+  const Part& a = scratch_->bodies.parts[pair.a];
+  const Part& b = scratch_->bodies.parts[pair.b];
+  return {a.name, b.name, a.arm, b.arm, !b.link, near.clearance_m};
+}
+
+bool CollisionChecker::is_self(PairId pair) const {
+  return scratch_->group_of(pair).kind == Group::Kind::self;
+}
+
+}  // namespace armloom

@@ -1,0 +1,162 @@
+#include "core/collision/planning_scene.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "core/collision/scene_bodies.h"
+
+namespace armloom {
+namespace {
+
+Problem mesh_problem(const std::string& pointer, const std::string& path) {
+  return {ProblemKind::unsupported, "mesh-unsupported", pointer,
+          "meshes are not supported yet: " + path, path};
+}
+
+void find_meshes(const Cell& cell, Problems& problems) {
+  for (const Link& link : cell.links) {
+    for (const PlacedShape& placed : link.shapes) {
+      if (const auto* mesh = std::get_if<Mesh>(&placed.shape)) {
+        problems.push_back(mesh_problem("link " + link.name, mesh->path));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < cell.objects.size(); ++i) {
+    if (const auto* mesh = std::get_if<Mesh>(&cell.objects[i].shape)) {
+      problems.push_back(mesh_problem("/objects/" + std::to_string(i) + "/mesh", mesh->path));
+    }
+  }
+}
+
+void find_bad_names(const Cell& cell, Problems& problems) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < cell.objects.size(); ++i) {
+    const std::string& name = cell.objects[i].name;
+    if (names.insert(name).second) continue;
+    problems.push_back({ProblemKind::invalid, "name-taken",
+                        "/objects/" + std::to_string(i) + "/name",
+                        "two objects are named " + name, name});
+  }
+  for (const auto& [link, object] : cell.allowed_link_objects) {
+    if (names.contains(object)) continue;
+    problems.push_back({ProblemKind::invalid, "unknown-name", "/allowed_collisions",
+                        "no object is named " + object + " (allowed to touch " +
+                            cell.link(link).name + ")",
+                        object});
+  }
+}
+
+// A sphere about the middle of the bodies' bounding boxes.
+void bound(const std::vector<Body>& bodies, Part& part) {
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = part.bodies_begin; i < part.bodies_end; ++i) {
+    const Eigen::Vector3d p = bodies[i].X_PS.translation();
+    const Eigen::Vector3d half = bodies[i].X_PS.linear().col(2).cwiseAbs() *
+                                     bodies[i].half_length_m +
+                                 Eigen::Vector3d::Constant(bodies[i].radius_m);
+    box.extend(p - half);
+    box.extend(p + half);
+  }
+  part.p_PC = box.center();
+  for (std::size_t i = part.bodies_begin; i < part.bodies_end; ++i) {
+    const Eigen::Vector3d p = bodies[i].X_PS.translation() - part.p_PC;
+    const Eigen::Vector3d half = bodies[i].X_PS.linear().col(2) * bodies[i].half_length_m;
+    const double ends = std::max((p + half).norm(), (p - half).norm());
+    part.radius_m = std::max(part.radius_m, ends + bodies[i].radius_m);
+  }
+}
+
+void add_part(PlanningScene::Bodies& scene, Part part, const std::vector<PlacedShape>& shapes) {
+  if (shapes.empty()) return;
+  part.bodies_begin = scene.bodies.size();
+  for (Body& body : make_bodies(shapes)) scene.bodies.push_back(std::move(body));
+  part.bodies_end = scene.bodies.size();
+  bound(scene.bodies, part);
+  if (part.arm) scene.parts_of_arm[part.arm->index()].push_back(scene.parts.size());
+  scene.parts.push_back(std::move(part));
+}
+
+bool allowed(const Cell& cell, const Part& a, const Part& b) {
+  if (!b.link) return cell.allowed_link_objects.contains({*a.link, b.name});
+  return cell.allowed_link_pairs.contains(std::minmax(*a.link, *b.link));
+}
+
+// Adds the pairs of the arm's parts with all parts that `wanted` names, as one group.
+template <class Wanted>
+void add_group(PlanningScene::Bodies& scene, PairGroup group, const Wanted& wanted) {
+  group.pairs_begin = scene.pairs.size();
+  for (const std::size_t a : scene.parts_of_arm[group.arm.index()]) {
+    for (std::size_t b = 0; b < scene.parts.size(); ++b) {
+      if (b == a || !wanted(a, scene.parts[b], b)) continue;
+      if (allowed(*scene.cell, scene.parts[a], scene.parts[b])) continue;
+      scene.pairs.push_back({a, b});
+    }
+  }
+  group.pairs_end = scene.pairs.size();
+  if (group.pairs_end > group.pairs_begin) scene.groups.push_back(group);
+}
+
+void add_pairs(PlanningScene::Bodies& scene) {
+  using Kind = PairGroup::Kind;
+  const Cell& cell = *scene.cell;
+  const auto arm_count = static_cast<std::uint32_t>(cell.arms.size());
+  for (std::uint32_t i = 0; i < arm_count; ++i) {
+    for (std::uint32_t j = i + 1; j < arm_count; ++j) {
+      add_group(scene, {Kind::arms, ArmId{i}, ArmId{j}},
+                [&](std::size_t, const Part& part, std::size_t) { return part.arm == ArmId{j}; });
+    }
+  }
+  for (std::uint32_t i = 0; i < arm_count; ++i) {
+    const RobotId robot = cell.arms[i].robot;
+    add_group(scene, {Kind::still, ArmId{i}, std::nullopt},
+              [&](std::size_t, const Part& part, std::size_t) {
+                return !part.arm && part.robot != robot;
+              });
+  }
+  for (std::uint32_t i = 0; i < arm_count; ++i) {
+    const RobotId robot = cell.arms[i].robot;
+    add_group(scene, {Kind::self, ArmId{i}, std::nullopt},
+              [&](std::size_t a, const Part& part, std::size_t b) {
+                return (part.arm == ArmId{i} && b > a) || (!part.arm && part.robot == robot);
+              });
+  }
+}
+
+}  // namespace
+
+PlanningScene::PlanningScene() : bodies_(std::make_unique<Bodies>()) {}
+PlanningScene::~PlanningScene() = default;
+const Cell& PlanningScene::cell() const { return *bodies_->cell; }
+const PlanningScene::Bodies& PlanningScene::bodies() const { return *bodies_; }
+
+Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
+  Problems problems;
+  find_meshes(*cell, problems);
+  find_bad_names(*cell, problems);
+  if (!problems.empty()) return failure(std::move(problems));
+
+  const std::shared_ptr<PlanningScene> scene(new PlanningScene);
+  Bodies& bodies = *scene->bodies_;
+  bodies.cell = cell;
+  bodies.parts_of_arm.resize(cell->arms.size());
+  for (std::size_t i = 0; i < cell->links.size(); ++i) {
+    const Link& link = cell->links[i];
+    Part part;
+    part.name = link.name;
+    part.link = LinkId{static_cast<std::uint32_t>(i)};
+    part.arm = link.arm;
+    part.robot = link.robot;
+    add_part(bodies, std::move(part), link.shapes);
+  }
+  bodies.links_end = bodies.parts.size();
+  for (const CollisionObject& object : cell->objects) {
+    Part part;
+    part.name = object.name;
+    add_part(bodies, std::move(part), {{object.shape, Eigen::Isometry3d::Identity()}});
+  }
+  add_pairs(bodies);
+  return PlanningScenePtr(scene);
+}
+
+}  // namespace armloom
