@@ -163,7 +163,8 @@ export class Store {
   /** Share of its trajectory that a job has done by now: the last report, carried on while it runs. */
   progress(job: Job): number {
     const heard = this.jobs_.get(job.id);
-    if (!heard || job.state !== 'running' || job.stopping || !job.duration_s) return job.progress;
+    const moves = job.state === 'running' && job.arms.every((arm) => this.arms.get(arm)?.state !== 'holding');
+    if (!heard || !moves || job.stopping || !job.duration_s) return job.progress;
     const since_report = Math.max(0, this.t_s - Math.max(heard.t_s, job.started_s ?? heard.t_s));
     return Math.min(1, job.progress + since_report / job.duration_s);
   }

@@ -13,16 +13,23 @@ interface Props { store: Store; actions: Actions; on_view(view: CellView): void 
 
 export function CellPanel({ store, actions, on_view }: Props) {
   const host = useRef<HTMLDivElement>(null);
+  const panel = useRef<HTMLDivElement>(null);
+  const shown = useRef<CellView | null>(null);
   use_store(store);
   const drawer = use_signal(actions.drawer);
   useEffect(() => {
     if (!host.current) return;
     const view = new CellView(host.current, store);
+    shown.current = view;
     on_view(view);
     return () => view.close();
   }, [store]);
+  useEffect(() => {
+    const cover = panel.current?.querySelector('.drawer');
+    shown.current?.set_covered(cover ? cover.getBoundingClientRect().width + 14 : 0);
+  }, [drawer.show]);
   return (
-    <div class={`cell${store.stopped ? ' stopped' : ''}`}>
+    <div ref={panel} class={`cell${store.stopped ? ' stopped' : ''}`}>
       <div class="view" ref={host} />
       {drawer.show === 'nothing' && (
         <button class="primary new-job" data-test="new-job" onClick={() => actions.drawer.set({ show: 'new' })}>New job</button>

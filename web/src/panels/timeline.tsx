@@ -50,7 +50,7 @@ function draw_timeline(canvas: HTMLCanvasElement, store: Store): void {
   if (!sheet) return;
   draw_axis(sheet);
   const names = [...store.arms.keys()];
-  const lane_height = Math.min(46, (sheet.height - kAxis_px) / Math.max(1, names.length));
+  const lane_height = Math.min(58, (sheet.height - kAxis_px) / Math.max(1, names.length));
   const jobs = store.all_jobs();
   names.forEach((name, i) => {
     const lane: Lane = { name, colour: arm_colour(names, name), top: i * lane_height, height: lane_height };
@@ -123,24 +123,20 @@ function draw_bar(g: CanvasRenderingContext2D, job: Job, left: number, top: numb
   const failed = job.state === 'failed' || job.state === 'interrupted' || job.state === 'expired';
   const cut = job.state === 'canceled' || job.state === 'holding';
   const wide = Math.max(2, width - 1);
-  g.globalAlpha = job.state === 'running' ? 0.95 : cut ? 0.35 : 0.6;
+  const live = job.state === 'running';
+  g.globalAlpha = live ? 1 : cut ? 0.2 : 0.38;
   g.fillStyle = failed ? '#f2565e' : colour;
   g.beginPath();
   g.roundRect(left, top, wide, height, Math.min(3, wide / 2));
   g.fill();
   g.globalAlpha = 1;
-  const label = job.name ?? short_id(job.id);
-  if (wide < 26) return;
-  g.save();
-  g.beginPath();
-  g.rect(left, top, wide - 3, height);
-  g.clip();
   g.font = '500 10.5px "Inter Variable", system-ui, sans-serif';
   g.textAlign = 'left';
   g.textBaseline = 'middle';
-  g.fillStyle = cut ? '#d7dde6' : '#0d1117';
-  g.fillText(label, left + 5, top + height / 2 + 0.5);
-  g.restore();
+  g.fillStyle = live ? '#0b1016' : '#dce2ea';
+  // The longest name that fits whole; a cut one says nothing.
+  const label = [job.name ?? '', short_id(job.id)].find((text) => text !== '' && g.measureText(text).width < wide - 10);
+  if (label) g.fillText(label, left + 5, top + height / 2 + 0.5);
 }
 
 function hatch(g: CanvasRenderingContext2D, left: number, top: number, width: number, height: number, colour: string): void {

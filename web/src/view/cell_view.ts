@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import type { Arm, Cell, SceneObject } from '../messages';
-import { kStateColours } from '../palette';
+import { arm_colour, kStateColours } from '../palette';
 import type { Store } from '../store';
 import { RobotModel } from './robot';
 import { dispose, object_mesh } from './shapes';
@@ -29,6 +29,11 @@ export class CellView {
 
   close(): void {
     for (const off of this.off_) off();
+  }
+
+  /** So many pixels at the left are covered by a panel: the cell is shown beside it. */
+  set_covered(left_px: number): void {
+    this.stage_.set_covered(left_px);
   }
 
   /** Whether every robot of the cell stands in the view. */
@@ -109,6 +114,7 @@ export class CellView {
     }
     label.name.textContent = arm.name;
     label.state.textContent = arm.state;
+    label.element.style.setProperty('--arm', arm_colour([...this.store_.arms.keys()], arm.name));
     label.element.style.setProperty('--state', kStateColours[arm.state]);
   }
 

@@ -14,14 +14,14 @@ export function place(object: THREE.Object3D, xyz: readonly number[], rpy: reado
 export function object_mesh(object: SceneObject): THREE.Object3D | null {
   if (!object.shape) return null;
   const geometry = shape_geometry(object.shape);
-  const material = new THREE.MeshStandardMaterial({ color: 0x343d4a, roughness: 0.85, metalness: 0 });
+  const material = new THREE.MeshStandardMaterial({ color: 0x2c323b, roughness: 0.85, metalness: 0 });
   const mesh = new THREE.Mesh(geometry, material);
   mesh.name = object.name;
   mesh.castShadow = true;
   mesh.receiveShadow = true;
   const edges = new THREE.LineSegments(
     new THREE.EdgesGeometry(geometry, 30),
-    new THREE.LineBasicMaterial({ color: 0x566375, transparent: true, opacity: 0.7 }),
+    new THREE.LineBasicMaterial({ color: 0x5b6776, transparent: true, opacity: 0.6 }),
   );
   mesh.add(edges);
   place(mesh, object.xyz, object.rpy);

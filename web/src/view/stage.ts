@@ -10,11 +10,11 @@ THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
 const kFog = 0x0f1319;
 const kLeastFrame_ms = 1000 / 31;
-const kDirection = new THREE.Vector3(0.28, -1, 0.52).normalize();
+const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
 
 export class Stage {
   readonly scene = new THREE.Scene();
-  readonly camera = new THREE.PerspectiveCamera(32, 1, 0.05, 60);
+  readonly camera = new THREE.PerspectiveCamera(26, 1, 0.05, 60);
   /** Called after each drawn frame, for labels that follow points of the scene. */
   after_draw: () => void = () => {};
 
@@ -22,6 +22,7 @@ export class Stage {
   private readonly controls_: OrbitControls;
   private readonly target_ = new THREE.Vector3(0, 0, 0.4);
   private radius_ = 1.2;
+  private covered_px_ = 0;
   private moved_by_user_ = false;
   private frame_: number | null = null;
   private drawn_at_ms_ = 0;
@@ -31,7 +32,7 @@ export class Stage {
     this.renderer_ = new THREE.WebGLRenderer({ antialias: true, alpha: true, powerPreference: 'low-power' });
     this.renderer_.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.renderer_.toneMapping = THREE.ACESFilmicToneMapping;
-    this.renderer_.toneMappingExposure = 1.05;
+    this.renderer_.toneMappingExposure = 1.2;
     this.renderer_.shadowMap.enabled = true;
     this.renderer_.shadowMap.type = THREE.PCFSoftShadowMap;
     this.renderer_.shadowMap.autoUpdate = false;
@@ -60,6 +61,13 @@ export class Stage {
     this.target_.copy(centre);
     this.radius_ = radius_m;
     this.moved_by_user_ = false;
+    this.resize();
+  }
+
+  /** Moves the middle of the picture to the middle of what is not covered. */
+  set_covered(left_px: number): void {
+    if (left_px === this.covered_px_) return;
+    this.covered_px_ = left_px;
     this.resize();
   }
 
@@ -101,6 +109,7 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.renderer_.setSize(width, height);
     this.camera.aspect = width / height;
+    this.camera.setViewOffset(width, height, -this.covered_px_ / 2, 0, width, height);
     this.camera.updateProjectionMatrix();
     if (!this.moved_by_user_) this.look_from_default();
     this.invalidate(true);
@@ -108,7 +117,9 @@ export class Stage {
 
   private look_from_default(): void {
     const half_up = THREE.MathUtils.degToRad(this.camera.fov / 2);
-    const half = Math.min(half_up, Math.atan(Math.tan(half_up) * this.camera.aspect));
+    const { clientWidth: width, clientHeight: height } = this.host_;
+    const free_aspect = Math.max(0.2, (width - this.covered_px_) / height);
+    const half = Math.min(half_up, Math.atan(Math.tan(half_up) * free_aspect));
     this.camera.position.copy(this.target_).addScaledVector(kDirection, this.radius_ / Math.sin(half));
     this.controls_.target.copy(this.target_);
     this.controls_.update();
@@ -116,16 +127,17 @@ export class Stage {
 }
 
 function add_lights(scene: THREE.Scene): void {
-  scene.add(new THREE.HemisphereLight(0xdfe9f7, 0x2a2f38, 1.15));
-  const key = new THREE.DirectionalLight(0xfff4e6, 2.4);
-  key.position.set(1.6, -2.2, 3.6);
+  scene.add(new THREE.HemisphereLight(0xe6edf7, 0x39404c, 1.7));
+  const key = new THREE.DirectionalLight(0xfff6ea, 1.9);
+  key.position.set(1.1, -1.7, 4.2);
   key.castShadow = true;
   key.shadow.mapSize.set(1024, 1024);
-  key.shadow.radius = 4;
+  key.shadow.radius = 5;
   key.shadow.normalBias = 0.02;
-  const reach_m = 2;
+  key.shadow.intensity = 0.7;
+  const reach_m = 1.7;
   Object.assign(key.shadow.camera, { left: -reach_m, right: reach_m, top: reach_m, bottom: -reach_m, near: 0.5, far: 9 });
-  const rim = new THREE.DirectionalLight(0x9cc4ff, 0.9);
+  const rim = new THREE.DirectionalLight(0xa9c8f5, 0.7);
   rim.position.set(-2.5, 2.5, 1.6);
   scene.add(key, rim);
 }
