@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/trajectory/validate.h"
+#include "test/trajectory/test_cell.h"
+
+namespace armloom {
+namespace {
+
+// Limits of joints pair_a and pair_b with the cell's tolerance of 0.05.
+constexpr double kPositionMax = 2.8;
+constexpr double kVelocityMax = 2.0 * 1.05;
+constexpr double kAccelerationMax = 4.0 * 1.05;
+
+double uniform(std::mt19937_64& random, double from, double to) {
+  return std::uniform_real_distribution<double>(from, to)(random);
+}
+
+TrajectoryRequest random_spline(std::mt19937_64& random, bool quintic) {
+  TrajectoryRequest request{{"pair_a", "pair_b"}, {}};
+  const int count = std::uniform_int_distribution<int>(2, 6)(random);
+  double time_s = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const bool end = k == 0 || k + 1 == count;
+    WaypointRequest point;
+    for (int j = 0; j < 2; ++j) {
+      point.positions.push_back(uniform(random, -1.0, 1.0));
+      point.velocities.push_back(end ? 0.0 : uniform(random, -1.0, 1.0));
+      if (quintic) point.accelerations.push_back(uniform(random, -1.0, 1.0));
+    }
+    point.time_from_start_s = time_s;
+    request.points.push_back(point);
+    time_s += uniform(random, 0.2, 3.0);
+  }
+  return request;
+}
+
+void scale(TrajectoryRequest& request, double factor) {
+  for (WaypointRequest& point : request.points) {
+    for (auto* row : {&point.positions, &point.velocities, &point.accelerations}) {
+      for (double& value : *row) value *= factor;
+    }
+  }
+}
+
+// The same motion without limits, to look at what validate() would refuse.
+TrajectoryPtr unlimited(const TrajectoryRequest& request, Cell cell) {
+  for (Joint& joint : cell.joints) {
+    joint.lower = -1e6;
+    joint.upper = joint.velocity_max = joint.acceleration_max = 1e6;
+  }
+  return validate(request, cell).value();
+}
+
+struct Peak {
+  double position = 0.0, velocity = 0.0, acceleration = 0.0;
+  // The largest share of a limit that is used.
+  [[nodiscard]] double share() const {
+    return std::max(
+        {position / kPositionMax, velocity / kVelocityMax, acceleration / kAccelerationMax});
+  }
+};
+
+// Samples every 0.1 ms and both sides of every waypoint.
+Peak dense_peak(const Trajectory& trajectory) {
+  Peak peak;
+  JointState state;
+  const auto look = [&](Duration t) {
+    trajectory.sample(t, state);
+    peak.position = std::max(peak.position, state.position.cwiseAbs().maxCoeff());
+    peak.velocity = std::max(peak.velocity, state.velocity.cwiseAbs().maxCoeff());
+    peak.acceleration = std::max(peak.acceleration, state.acceleration.cwiseAbs().maxCoeff());
+  };
+  for (Duration t{}; t < trajectory.duration(); t += std::chrono::microseconds(100)) look(t);
+  for (const Segment& segment : trajectory.segments()) {
+    look(segment.start);
+    look(segment.start + segment.duration - Duration(1));
+  }
+  return peak;
+}
+
+// Splines are scaled so that their peaks lie closely below, closely above, and far from a limit.
+TEST(LimitsProperty, DenseSamplingAndValidationAgreeOn500RandomSplines) {
+  const Cell cell = testing::test_cell();
+  std::mt19937_64 random(20240611);
+  int accepted = 0;
+  int refused = 0;
+  for (int i = 0; i < 500; ++i) {
+    SCOPED_TRACE(i);
+    TrajectoryRequest request = random_spline(random, i % 2 == 1);
+    const double before = dense_peak(*unlimited(request, cell)).share();
+    const double targets[] = {0.9985, 1.0005, 1.01, uniform(random, 0.3, 0.99),
+                              uniform(random, 1.02, 3.0)};
+    const double target = targets[i % 5];
+    scale(request, target / before);
+
+    const Peak peak = dense_peak(*unlimited(request, cell));
+    const auto result = validate(request, cell);
+    (result ? accepted : refused) += 1;
+    if (result) {
+      EXPECT_LE(peak.position, kPositionMax + kPositionOvershoot + 1e-8);
+      EXPECT_LE(peak.velocity, kVelocityMax + 1e-8);
+      EXPECT_LE(peak.acceleration, kAccelerationMax + 1e-8);
+    }
+    if (peak.share() <= 1.0 - 1e-3) {
+      EXPECT_TRUE(result) << peak.share() << " " << result.error().front().detail;
+    }
+  }
+  EXPECT_GE(accepted, 200);
+  EXPECT_GE(refused, 250);
+}
+
+// What is refused is really reached, where the sentence says: the value is no mere bound.
+TEST(LimitsProperty, ARefusalNamesAValueThatTheMotionReaches) {
+  const Cell cell = testing::test_cell();
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 200; ++i) {
+    SCOPED_TRACE(i);
+    TrajectoryRequest request = random_spline(random, i % 2 == 1);
+    const TrajectoryPtr before = unlimited(request, cell);
+    scale(request, 1.001 / dense_peak(*before).share());
+    const Peak peak = dense_peak(*unlimited(request, cell));
+    const auto result = validate(request, cell);
+    ASSERT_FALSE(result);
+    double share = 0.0;
+    for (const Problem& problem : result.error()) {
+      const double value = std::abs(std::get<double>(problem.value));
+      const double limit = problem.slug == "position-limit"   ? kPositionMax
+                           : problem.slug == "velocity-limit" ? kVelocityMax
+                                                              : kAccelerationMax;
+      EXPECT_GT(value, limit) << problem.detail;
+      share = std::max(share, value / limit);
+    }
+    EXPECT_NEAR(share, peak.share(), 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace armloom
