@@ -50,12 +50,12 @@ bool Scheduler::at_head(const Record& record) const {
   });
 }
 
-std::vector<const Job*> Scheduler::occupying(JobId except) const {
+std::vector<const Job*> Scheduler::occupying() const {
   std::vector<const Job*> jobs;
   for (JobId id : active_) {
     const Record& record = records_.at(id);
     const bool held = record.job.state == JobState::holding;
-    if (id != except && (held || holds_reservation(record))) jobs.push_back(&record.job);
+    if (held || holds_reservation(record)) jobs.push_back(&record.job);
   }
   return jobs;
 }
@@ -71,25 +71,31 @@ Duration Scheduler::progress_at(const Record& record, TimePoint when) {
 
 // ---- Who may be judged ----
 
-std::optional<Wait> Scheduler::reason_not_to_judge(const Record& record) const {
-  const JobId id = record.job.id;
+std::optional<Wait> Scheduler::stop_of(const Record& record) const {
   for (ArmId arm : record.job.trajectory->arms()) {
-    const JobId first = order_[arm.index()].front();
-    if (first == id) continue;
-    // The nearest job before it, not the first of the queue: that is what it waits for.
-    const auto& queue = order_[arm.index()];
-    const auto own = std::ranges::find(queue, id);
-    return Wait{.kind = Wait::Kind::order, .job = *std::prev(own), .arm = arm};
-  }
-  for (ArmId arm : record.job.trajectory->arms()) {
-    if (const auto& cause = stopped_[arm.index()]) {
-      return Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = *cause};
-    }
-  }
-  if (const auto taken_by = policy_->capacity_taken_by(occupying(id))) {
-    return Wait{.kind = Wait::Kind::capacity, .job = *taken_by};
+    const auto& cause = stopped_[arm.index()];
+    if (cause) return Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = *cause};
   }
   return std::nullopt;
+}
+
+std::optional<Wait> Scheduler::capacity_of(const Record& record,
+                                           const std::vector<const Job*>& occupying) const {
+  std::optional<JobId> taken_by;
+  if (record.job.state == JobState::holding) {
+    std::vector<const Job*> others = occupying;
+    std::erase(others, &record.job);
+    taken_by = policy_->capacity_taken_by(others);
+  } else {
+    taken_by = policy_->capacity_taken_by(occupying);
+  }
+  if (!taken_by) return std::nullopt;
+  return Wait{.kind = Wait::Kind::capacity, .job = *taken_by};
+}
+
+bool Scheduler::may_be_judged(const Record& record,
+                              const std::vector<const Job*>& occupying) const {
+  return waiting(record) && at_head(record) && !stop_of(record) && !capacity_of(record, occupying);
 }
 
 void Scheduler::set_waits(Record& record, std::vector<Wait> waits) {
@@ -101,10 +107,19 @@ void Scheduler::set_waits(Record& record, std::vector<Wait> waits) {
 }
 
 void Scheduler::explain_waits() {
+  const std::vector<const Job*> occupied_by = occupying();
+  std::vector<std::optional<JobId>> before(cell_->arms.size());  // per arm: the job ahead
   for (JobId id : active_) {
     Record& record = records_.at(id);
+    std::optional<Wait> wait;
+    for (ArmId arm : record.job.trajectory->arms()) {
+      const auto ahead = std::exchange(before[arm.index()], id);
+      if (ahead && !wait) wait = Wait{.kind = Wait::Kind::order, .job = *ahead, .arm = arm};
+    }
     if (!waiting(record)) continue;
-    if (auto wait = reason_not_to_judge(record)) {
+    if (!wait) wait = stop_of(record);
+    if (!wait) wait = capacity_of(record, occupied_by);
+    if (wait) {
       set_waits(record, {std::move(*wait)});
     } else if (record.judged_at == 0) {
       set_waits(record, {});  // nothing stands against it but that it is not judged yet
@@ -150,10 +165,10 @@ std::vector<JobId> Scheduler::next_recheck() const {
 std::vector<JobId> Scheduler::held_together() const {
   std::vector<JobId> held;
   if (held_together_tried_ == version_) return held;
-  for (JobId id : active_) {
-    const Record& record = records_.at(id);
-    const bool holding = record.job.state == JobState::holding && waiting(record);
-    if (holding && !reason_not_to_judge(record)) held.push_back(id);
+  const std::vector<const Job*> occupied_by = occupying();
+  for (const Job* job : occupied_by) {
+    const bool holding = job->state == JobState::holding;
+    if (holding && may_be_judged(records_.at(job->id), occupied_by)) held.push_back(job->id);
   }
   return held.size() >= 2 ? held : std::vector<JobId>{};
 }
@@ -166,9 +181,10 @@ std::optional<JobId> Scheduler::next_candidate() const {
     if (a_held != b_held) return a_held;
     return a.priority != b.priority ? a.priority > b.priority : a.id < b.id;
   };
+  const std::vector<const Job*> occupied_by = occupying();
   for (JobId id : active_) {
     const Record& record = records_.at(id);
-    if (!waiting(record) || record.judged_at == version_ || reason_not_to_judge(record)) continue;
+    if (record.judged_at == version_ || !may_be_judged(record, occupied_by)) continue;
     if (!best || goes_before(record.job, *best)) best = &record.job;
   }
   return best ? std::optional(best->id) : std::nullopt;

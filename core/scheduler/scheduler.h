@@ -93,7 +93,11 @@ class Scheduler {
   // admission.cc: who may be judged, what is asked, what the answer means
   void explain_waits();
   void ask_next();
-  [[nodiscard]] std::optional<Wait> reason_not_to_judge(const Record& record) const;
+  [[nodiscard]] bool may_be_judged(const Record& record,
+                                   const std::vector<const Job*>& occupying) const;
+  [[nodiscard]] std::optional<Wait> stop_of(const Record& record) const;
+  [[nodiscard]] std::optional<Wait> capacity_of(const Record& record,
+                                                const std::vector<const Job*>& occupying) const;
   void fail_impossible_starts();
   [[nodiscard]] std::optional<std::string> start_mismatch(const Trajectory& trajectory) const;
   [[nodiscard]] std::vector<JobId> next_recheck() const;
@@ -102,7 +106,7 @@ class Scheduler {
   void ask(std::vector<JobId> jobs, bool recheck);
   void admit(Record& record, TimePoint start_at);
   void refuse(Record& record, const Verdict& verdict, bool recheck);
-  [[nodiscard]] std::vector<const Job*> occupying(JobId except) const;
+  [[nodiscard]] std::vector<const Job*> occupying() const;  // scheduled, in motion, held
   [[nodiscard]] static Duration progress_at(const Record& record, TimePoint when);
   [[nodiscard]] bool at_head(const Record& record) const;
   [[nodiscard]] bool holds_reservation(const Record& record) const;

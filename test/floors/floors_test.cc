@@ -1,0 +1,111 @@
+// Reads the includes of core and server and finds breaches of the floors of the design: a folder
+// includes only from the folders below it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What each folder may include besides itself.
+const std::map<std::string, std::set<std::string>> kMayInclude = {
+    {"core/base", {}},
+    {"core/model", {"core/base"}},
+    {"core/trajectory", {"core/base", "core/model"}},
+    {"core/coordination", {"core/base", "core/model", "core/trajectory"}},
+    {"core/collision", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
+    {"core/planning",
+     {"core/base", "core/model", "core/trajectory", "core/coordination", "core/collision"}},
+    {"core/scheduler", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
+    {"core/monitor", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
+    {"core/arm", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
+    {"core/audit", {"core/base", "core/model"}},  // shares nothing with admission but the model
+    {"core/executive",
+     {"core/base", "core/model", "core/trajectory", "core/coordination", "core/collision",
+      "core/planning", "core/scheduler", "core/monitor", "core/arm"}},
+    {"server",
+     {"core/base", "core/model", "core/trajectory", "core/coordination", "core/executive",
+      "core/audit"}},
+};
+
+// Text that has no place in a folder, whatever floor it comes from.
+const std::map<std::string, std::vector<std::string>> kMustNotSay = {
+    {"core", {"nlohmann", "boost/asio", "boost/beast", "spdlog", "std::cout", "std::cerr"}},
+    {"core/scheduler",
+     {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
+    {"core/monitor",
+     {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
+    {"core/base", {"::now()"}},
+};
+
+// "core/model" for core/model/x/y.h, "server" for server/x/y.h.
+std::string room_of(const std::string& path) {
+  const auto first = path.find('/');
+  if (path.substr(0, first) == "server") return "server";
+  return path.substr(0, path.find('/', first + 1));
+}
+
+std::vector<std::string> breaches_in(const std::string& path, const std::string& text) {
+  std::vector<std::string> breaches;
+  const std::string room = room_of(path);
+  const auto allowed = kMayInclude.find(room);
+  if (allowed == kMayInclude.end()) return {path + ": " + room + " is no room of the design"};
+  static const std::regex include(R"re(^\s*#\s*include\s+"((core|server)/[^"]+)")re",
+                                  std::regex::multiline);
+  for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
+    const std::string target = room_of((*it)[1]);
+    if (target != room && !allowed->second.contains(target)) {
+      breaches.push_back(path + " includes " + (*it)[1].str());
+    }
+  }
+  for (const auto& [where, words] : kMustNotSay) {
+    if (!path.starts_with(where + "/")) continue;
+    for (const std::string& word : words) {
+      if (text.find(word) != std::string::npos) breaches.push_back(path + " says " + word);
+    }
+  }
+  return breaches;
+}
+
+TEST(Floors, AreKeptByEveryFile) {
+  const fs::path root = ARMLOOM_SOURCE_DIR;
+  std::size_t files = 0;
+  for (const char* top : {"core", "server"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+      const std::string extension = entry.path().extension().string();
+      if (!entry.is_regular_file() || (extension != ".h" && extension != ".cc")) continue;
+      std::ifstream in(entry.path());
+      std::stringstream text;
+      text << in.rdbuf();
+      ++files;
+      for (const std::string& breach :
+           breaches_in(fs::relative(entry.path(), root).generic_string(), text.str())) {
+        ADD_FAILURE() << breach;
+      }
+    }
+  }
+  EXPECT_GT(files, 50u) << "the sources were not found";
+}
+
+TEST(Floors, ABreachIsFound) {
+  EXPECT_FALSE(breaches_in("core/scheduler/x.cc", "#include \"core/collision/judge.h\"\n").empty());
+  EXPECT_FALSE(
+      breaches_in("core/scheduler/p/x.cc", "#include \"core/monitor/monitor.h\"\n").empty());
+  EXPECT_FALSE(breaches_in("core/audit/x.cc", "#include \"core/collision/judge.h\"\n").empty());
+  EXPECT_FALSE(breaches_in("server/x.cc", "#include \"core/scheduler/job.h\"\n").empty());
+  EXPECT_FALSE(breaches_in("core/monitor/x.cc", "auto t = Clock::now();\n").empty());
+  EXPECT_FALSE(breaches_in("core/executive/x.cc", "#include <nlohmann/json.hpp>\n").empty());
+  EXPECT_FALSE(breaches_in("core/misc/x.cc", "").empty());
+  EXPECT_TRUE(breaches_in("core/scheduler/x.cc", "#include \"core/scheduler/job.h\"\n").empty());
+  EXPECT_TRUE(breaches_in("core/executive/x.cc", "#include \"core/scheduler/job.h\"\n").empty());
+}
+
+}  // namespace

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scheduler/scheduler.h"
+
+namespace armloom {
+
+using namespace std::chrono_literals;
+
+// A cell of one-joint arms named a, b, c, ... without geometry: the scheduler needs none.
+inline CellPtr one_joint_arms(std::size_t count) {
+  auto cell = std::make_shared<Cell>();
+  cell->robots.emplace_back();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name(1, static_cast<char>('a' + i));
+    const ArmId arm{static_cast<std::uint32_t>(i)};
+    const JointId joint{static_cast<std::uint32_t>(i)};
+    cell->joints.push_back(Joint{.name = name + "_joint",
+                                 .robot = RobotId{0},
+                                 .arm = arm,
+                                 .kind = JointKind::revolute,
+                                 .lower = -3,
+                                 .upper = 3,
+                                 .velocity_max = 2,
+                                 .acceleration_max = 10,
+                                 .jerk_max = 1000,
+                                 .brake = 10});
+    cell->arms.push_back(Arm{
+        .name = name, .robot = RobotId{0}, .joints = {joint}, .home = Eigen::VectorXd::Zero(1)});
+  }
+  return cell;
+}
+
+// A quintic from rest to rest of the joints with these indices, all from `from` to `to`.
+inline TrajectoryPtr move(std::vector<std::uint32_t> arms, double from, double to,
+                          Duration duration) {
+  std::vector<JointId> joints;
+  std::vector<ArmId> arm_ids;
+  for (std::uint32_t i : arms) {
+    joints.emplace_back(i);
+    arm_ids.emplace_back(i);
+  }
+  const double T = to_seconds(duration), d = to - from;
+  Segment segment{.start = Duration{}, .duration = duration, .coefficients = {}};
+  segment.coefficients.setZero(static_cast<Eigen::Index>(arms.size()), 6);
+  for (Eigen::Index j = 0; j < segment.coefficients.rows(); ++j) {
+    segment.coefficients.row(j) << from, 0, 0, 10 * d / (T * T * T), -15 * d / (T * T * T * T),
+        6 * d / (T * T * T * T * T);
+  }
+  return std::make_shared<const Trajectory>(joints, arm_ids, std::vector<Segment>{segment});
+}
+
+// Drives a Scheduler by hand and remembers what it asked for.
+class Bench {
+ public:
+  explicit Bench(std::size_t arms, const char* policy = "timed_discrete")
+      : cell(one_joint_arms(arms)),
+        scheduler(cell, std::move(*make_policy(policy, *cell)), cell->home()) {}
+
+  void step(const Input& input, TimePoint now) {
+    for (Effect& effect : scheduler.step(input, now)) {
+      if (auto* judge = std::get_if<Judge>(&effect)) question = std::move(judge->question);
+      if (auto* wake = std::get_if<WakeAt>(&effect)) wake_at = wake->when;
+      if (auto* d = std::get_if<Dispatch>(&effect)) dispatched.push_back(*d);
+      if (auto* b = std::get_if<Brake>(&effect)) braked.push_back(b->job);
+      if (auto* r = std::get_if<Release>(&effect)) released.push_back(r->job);
+      if (auto* c = std::get_if<JobChanged>(&effect)) {
+        const Job& job = *scheduler.find(c->job);
+        if (is_terminal(job.state)) ++terminal_events[c->job];
+      }
+    }
+  }
+
+  JobId submit(TrajectoryPtr trajectory, TimePoint now, Duration timeout = 60s, int priority = 0) {
+    const JobId job{++last_};
+    step(Submit{job, std::move(trajectory), priority, timeout}, now);
+    return job;
+  }
+
+  // Answers the open question.
+  void answer_free(TimePoint now) {
+    ASSERT_TRUE(question) << "nothing was asked";
+    const Version version = question->version;
+    question.reset();
+    step(Judged{Verdict{Verdict::Kind::free, version, {}, {}, 1}}, now);
+  }
+  void answer_conflict(TimePoint now, Conflict::With with, std::optional<JobId> other = {},
+                       std::optional<ArmId> arm = {}) {
+    ASSERT_TRUE(question) << "nothing was asked";
+    const Version version = question->version;
+    const JobId candidate = question->candidates.front().job;
+    question.reset();
+    const Proximity proximity{
+        .body_a = "own", .body_b = "other", .arm_b = arm, .clearance_m = 0.01};
+    step(Judged{Verdict{Verdict::Kind::conflict,
+                        version,
+                        {Conflict{with, candidate, other, proximity, 100ms, 200ms}},
+                        {},
+                        1}},
+         now);
+  }
+
+  void progressed(JobId job, Duration progress, TimePoint now) {
+    step(MotionReport{job, MotionReport::Kind::progressed, progress}, now);
+  }
+  void finished(JobId job, TimePoint now) {
+    const auto& trajectory = scheduler.find(job)->trajectory;
+    step(
+        MotionReport{job, MotionReport::Kind::finished, trajectory->duration(), trajectory->goal()},
+        now);
+  }
+  void stopped(JobId job, Duration progress, TimePoint now) {
+    const auto& trajectory = scheduler.find(job)->trajectory;
+    JointState state;
+    trajectory->sample(progress, state);
+    step(MotionReport{job, MotionReport::Kind::stopped, progress, state.position}, now);
+  }
+
+  JobState state(JobId job) const { return scheduler.find(job)->state; }
+  const Job& job(JobId id) const { return *scheduler.find(id); }
+
+  CellPtr cell;
+  Scheduler scheduler;
+  std::optional<Question> question;
+  std::optional<TimePoint> wake_at;
+  std::vector<Dispatch> dispatched;
+  std::vector<JobId> braked, released;
+  std::map<JobId, int> terminal_events;
+
+ private:
+  std::uint64_t last_ = 0;
+};
+
+}  // namespace armloom

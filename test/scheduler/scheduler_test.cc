@@ -1,0 +1,250 @@
+#include "core/scheduler/scheduler.h"
+
+#include <gmock/gmock.h>
+
+#include "test/scheduler/bench_cell.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::ElementsAre;
+
+TEST(Admission, ReservesInTheStepThatAdmits) {  // T1: same instant, one runs, one waits
+  Bench bench(2);
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  const JobId second = bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  ASSERT_EQ(bench.question->candidates.front().job, first);
+  EXPECT_TRUE(bench.question->others.empty());
+
+  bench.answer_free(at(1ms));
+  EXPECT_EQ(bench.state(first), JobState::scheduled);
+  // The very next question already holds the first one's motion.
+  ASSERT_EQ(bench.question->candidates.front().job, second);
+  ASSERT_EQ(bench.question->others.size(), 1u);
+  EXPECT_EQ(bench.question->others.front().job, first);
+
+  bench.answer_conflict(at(2ms), Conflict::With::motion, first, ArmId{0});
+  EXPECT_EQ(bench.state(second), JobState::backlogged);
+  ASSERT_EQ(bench.job(second).waits_on.size(), 1u);
+  EXPECT_EQ(bench.job(second).waits_on.front().kind, Wait::Kind::job);
+  EXPECT_EQ(bench.job(second).waits_on.front().job, first);
+}
+
+TEST(Admission, ComparesWithTheRemainingMotion) {  // T2
+  Bench bench(2);
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(first, 1200ms, at(1250ms));
+  bench.submit(move({1}, 0, 1, 2s), at(1300ms));
+  // Measured 1.2 s at 1.25 s; the instant asked about is 1.3 s + the allowance.
+  EXPECT_EQ(bench.question->start_at, at(1300ms + kAllowanceMin));
+  EXPECT_EQ(bench.question->others.front().progress, 1250ms + kAllowanceMin);
+  EXPECT_EQ(bench.question->candidates.front().progress, 0ms);
+}
+
+TEST(Admission, CountsAScheduledStartThatIsStillToCome) {
+  Bench bench(2);
+  bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));  // starts at 3 ms; the second is asked for 4 ms
+  EXPECT_EQ(bench.question->others.front().progress, 1ms);
+}
+
+TEST(Admission, AsksAgainWhenTheInstantHasPassed) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(10ms));
+  EXPECT_EQ(bench.state(job), JobState::queued);
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.question->start_at, at(10ms + 2 * kAllowanceMin));
+  bench.answer_free(at(12ms));
+  EXPECT_EQ(bench.state(job), JobState::scheduled);
+}
+
+TEST(Admission, IgnoresAVerdictOnOlderReservations) {
+  Bench bench(2);
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  const JobId second = bench.submit(move({1}, 0, 1, 2s), at(100ms));
+  const Version asked = bench.question->version;
+  bench.finished(first, at(101ms));  // changes what the question was about
+  bench.step(Judged{Verdict{Verdict::Kind::free, asked, {}, {}, 1}}, at(102ms));
+  EXPECT_EQ(bench.state(second), JobState::queued);
+  EXPECT_GT(bench.question->version, asked);
+}
+
+TEST(Admission, DispatchesAtTheInstantThatWasJudged) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(5ms));
+  bench.answer_free(at(6ms));
+  ASSERT_EQ(bench.dispatched.size(), 1u);
+  EXPECT_EQ(bench.dispatched.front().job, job);
+  EXPECT_EQ(bench.dispatched.front().start_at, at(5ms + kAllowanceMin));
+  bench.progressed(job, 0ms, at(8ms));
+  EXPECT_EQ(bench.state(job), JobState::running);
+  EXPECT_EQ(bench.job(job).started_at, at(8ms));
+}
+
+TEST(Admission, TriesTheLargerPriorityFirst) {
+  Bench bench(3);
+  bench.submit(move({0}, 0, 1, 2s), at(0ms));  // its question is open
+  bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  const JobId urgent = bench.submit(move({2}, 0, 1, 2s), at(0ms), 60s, 5);
+  bench.answer_free(at(1ms));
+  EXPECT_EQ(bench.question->candidates.front().job, urgent);
+}
+
+TEST(Admission, FailsWhatHitsItself) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_conflict(at(1ms), Conflict::With::self);
+  EXPECT_EQ(bench.state(job), JobState::failed);
+  EXPECT_EQ(bench.job(job).reason, Reason::self_collision);
+  EXPECT_TRUE(bench.dispatched.empty());
+}
+
+TEST(Backlog, IsTriedAgainWhenTheBlockerEnds) {
+  Bench bench(2);
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  const JobId second = bench.submit(move({1}, 0, 1, 2s), at(10ms));
+  bench.answer_conflict(at(11ms), Conflict::With::motion, first, ArmId{0});
+  ASSERT_FALSE(bench.question);
+  bench.progressed(first, 1s, at(1s));
+  EXPECT_FALSE(bench.question) << "progress alone is no reason to try again";
+  bench.finished(first, at(2s));
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.question->candidates.front().job, second);
+  EXPECT_EQ(bench.question->rest[0], 1.0) << "the first arm rests at its goal";
+  bench.answer_free(at(2001ms));
+  EXPECT_EQ(bench.state(second), JobState::scheduled);
+  EXPECT_TRUE(bench.job(second).waits_on.empty());
+}
+
+TEST(Backlog, IsTriedAgainWhenTheArmInTheWayBeginsToMove) {
+  Bench bench(2);
+  const JobId waits = bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{0});
+  EXPECT_EQ(bench.job(waits).waits_on.front().kind, Wait::Kind::arm);
+  EXPECT_EQ(bench.job(waits).waits_on.front().arm, ArmId{0});
+  bench.submit(move({0}, 0, 1, 2s), at(10ms));
+  bench.answer_free(at(11ms));
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.question->candidates.front().job, waits);
+}
+
+TEST(Backlog, ExpiresAJobAtItsDeadlineAndNotBefore) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms), 100ms);
+  bench.answer_conflict(at(2ms), Conflict::With::scene);
+  EXPECT_EQ(bench.wake_at, at(102ms));
+  bench.step(Wake{}, at(101ms));
+  EXPECT_EQ(bench.state(job), JobState::backlogged);
+  bench.step(Wake{}, at(102ms));
+  EXPECT_EQ(bench.state(job), JobState::expired);
+  EXPECT_EQ(bench.job(job).reason, Reason::backlog_timeout);
+  EXPECT_EQ(bench.terminal_events[job], 1);
+}
+
+TEST(Backlog, StartsCountingWhenTheJobIsFirstJudged) {
+  Bench bench(1);
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  const JobId behind = bench.submit(move({0}, 1, 0, 2s), at(2ms), 100ms);
+  EXPECT_EQ(bench.state(behind), JobState::queued);
+  EXPECT_EQ(bench.job(behind).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(behind).waits_on.front().job, first);
+  bench.finished(first, at(2s));
+  EXPECT_EQ(bench.state(behind), JobState::queued);
+  bench.answer_conflict(at(2001ms), Conflict::With::scene);
+  bench.step(Wake{}, at(2100ms));
+  EXPECT_EQ(bench.state(behind), JobState::backlogged);
+  bench.step(Wake{}, at(2101ms));
+  EXPECT_EQ(bench.state(behind), JobState::expired);
+}
+
+TEST(Order, OfAnArmIsKept) {  // T11
+  Bench bench(1);
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  const JobId second = bench.submit(move({0}, 1, 0, 2s), at(0ms), 60s, 99);
+  EXPECT_EQ(bench.question->candidates.front().job, first);
+  bench.answer_free(at(1ms));
+  EXPECT_FALSE(bench.question) << "the second is not judged while the first runs";
+  bench.finished(first, at(2s));
+  EXPECT_EQ(bench.question->candidates.front().job, second);
+}
+
+TEST(Order, AJobThatCannotBeginWhereItsArmStandsFailsAtItsTurn) {  // T11
+  Bench bench(1);
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  const JobId same_start = bench.submit(move({0}, 0, 0.5, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.finished(first, at(2s));
+  EXPECT_EQ(bench.state(same_start), JobState::failed);
+  EXPECT_EQ(bench.job(same_start).reason, Reason::start_mismatch);
+  EXPECT_EQ(bench.job(same_start).detail, "a_joint stands at 1, the trajectory begins at 0");
+  EXPECT_EQ(bench.terminal_events[same_start], 1);
+}
+
+TEST(Order, AThousandJobsBehindACanceledOneAllAnswer) {
+  Bench bench(1);
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  for (int i = 0; i < 1000; ++i) bench.submit(move({0}, 1, 1.5, 2s), at(0ms));
+  bench.step(Cancel{first}, at(0ms));
+  EXPECT_TRUE(bench.scheduler.active().empty());
+  EXPECT_EQ(bench.terminal_events.size(), 1001u);
+}
+
+TEST(Order, PredictsWhereArmsWillStand) {
+  Bench bench(2);
+  bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.submit(move({0}, 1, 2, 2s), at(0ms));
+  EXPECT_EQ(bench.scheduler.predicted_rest()[0], 2.0);
+  EXPECT_EQ(bench.scheduler.predicted_rest()[1], 0.0);
+}
+
+TEST(Synchronous, AJobOfTwoArmsWaitsForBothQueues) {
+  Bench bench(2);
+  const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  const JobId both = bench.submit(move({0, 1}, 0, 1, 2s), at(2ms));
+  const JobId b = bench.submit(move({1}, 0, 1, 2s), at(3ms));
+  EXPECT_FALSE(bench.question);
+  EXPECT_EQ(bench.job(both).waits_on.front().job, a);
+  EXPECT_EQ(bench.job(b).waits_on.front().job, both);
+}
+
+TEST(Overrun, BrakesAndFailsAfterScalingAndMargin) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(job, 0ms, at(3ms));
+  const TimePoint limit = at(3ms + 2200ms + 500ms);
+  bench.step(Wake{}, limit - 1ms);
+  EXPECT_TRUE(bench.braked.empty());
+  bench.step(Wake{}, limit);
+  EXPECT_THAT(bench.braked, ElementsAre(job));
+  bench.stopped(job, 1500ms, limit + 100ms);
+  EXPECT_EQ(bench.state(job), JobState::failed);
+  EXPECT_EQ(bench.job(job).reason, Reason::overrun);
+}
+
+TEST(Scheduler, RefusesTimeThatGoesBackwards) {
+  Bench bench(1);
+  bench.step(Wake{}, at(10ms));
+  EXPECT_THROW(bench.step(Wake{}, at(9ms)), std::invalid_argument);
+}
+
+TEST(Policies, AreKnownByName) {
+  const CellPtr cell = one_joint_arms(1);
+  for (const std::string& name : policy_names()) {
+    EXPECT_EQ((*make_policy(name, *cell))->name(), name);
+  }
+  const auto unknown = make_policy("clever", *cell);
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().front().detail,
+            "unknown policy \"clever\"; known are sequential, timed_discrete");
+}
+
+}  // namespace
+}  // namespace armloom
