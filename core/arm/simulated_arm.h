@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
 #include <vector>
 
 #include "core/arm/arm_controller.h"
+#include "core/arm/braking_curve.h"
+#include "core/arm/gaussian_noise.h"
+#include "core/arm/rate_law.h"
 #include "core/model/cell.h"
 
 namespace armloom {
@@ -15,6 +17,17 @@ namespace armloom {
 // progress follows the commanded one with a first-order lag (ControllerDescription::lag); measured
 // positions are the path at the measured progress plus, if asked for, Gaussian noise from the seed.
 // Deterministic: the same seed and the same calls give the same feedback, bit for bit.
+//
+// What the interface leaves open:
+// - From the very start of a path (at rest there) the rate is one at once; elsewhere it begins at zero.
+// - Whoever shares a trajectory brakes alike: the limits of all its joints bind the rate, so the
+//   commanded progress of synchronous arms stays equal.
+// - At rest at its authority the phase stays `moving`; more authority continues the motion.
+// - A grant that comes too late to stop for is raised to where a brake brings the arm to rest.
+// - A brake on the last stretch may come to rest at the goal: the phase is then `finished`.
+// - A start that is off the path (within execution.start_tolerance_rad) is pulled in with the lag.
+// - It never reports `fault`.
+// Broken preconditions throw std::logic_error.
 class SimulatedArm final : public ArmController {
  public:
   // `q_start`: positions of arm.joints followed by arm.gripper_joints.
@@ -27,3 +40,50 @@ class SimulatedArm final : public ArmController {
   void brake() override;
   void release() override;
   const ArmFeedback& tick(TimePoint now) override;
+
+ private:
+  // What the rate law makes of one tick.
+  struct Step {
+    double rate;        // at the end of the tick
+    double progress_s;  // ground covered in it
+  };
+
+  void begin(TimePoint now, TimePoint previous);
+  void advance(Duration period);
+  void command(Duration period);
+  [[nodiscard]] Step next_step(double period_s);
+  [[nodiscard]] Step braked(Duration progress, double rate, double period_s);
+  [[nodiscard]] Step below_curve(Step fastest, double period_s);
+  void refresh_curve(Duration horizon);
+  void lag_behind(Duration commanded_before, Duration period);
+  void settle();
+  void place();    // position_ from the measured progress
+  void measure();  // feedback_.measured from position_
+  [[nodiscard]] bool under_way() const;
+
+  CellPtr cell_;
+  std::vector<JointId> joints_;
+  Duration lag_;
+  double noise_;
+  double start_tolerance_;
+  GaussianNoise gaussian_;
+  RateLaw law_;
+  BrakingCurve curve_;
+  bool curve_stale_ = true;  // the authority has grown since; the curve is still on the safe side
+
+  TrajectoryPtr trajectory_;
+  std::vector<Eigen::Index> rows_;  // of the trajectory, for each of joints_; -1: not in it
+  TimePoint start_at_{};
+  TimePoint last_tick_{};
+  Duration authority_{};
+  double rate_ = 0.0;  // commanded, 0..1
+
+  Eigen::VectorXd position_;     // of joints_: where the arm truly is
+  Eigen::VectorXd offset_;       // of joints_: what is left of the distance to the path at the start
+  bool has_offset_ = false;
+  Eigen::VectorXd path_;         // scratch, of the trajectory's joints
+  Eigen::VectorXd path_target_;  // the same
+  ArmFeedback feedback_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,299 @@
+#include "core/arm/simulated_arm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace armloom {
+namespace {
+
+using Phase = ArmFeedback::Phase;
+
+// Closer than this to where it was commanded to rest, the arm is there.
+constexpr double kArrived_rad = 1e-5;
+
+}  // namespace
+
+SimulatedArm::SimulatedArm(CellPtr cell, ArmId arm, Eigen::VectorXd q_start, std::uint64_t seed)
+    : cell_(std::move(cell)),
+      joints_(cell_->arm(arm).joints),
+      gaussian_(seed),
+      law_(cell_),
+      position_(std::move(q_start)) {
+  const Arm& description = cell_->arm(arm);
+  joints_.insert(joints_.end(), description.gripper_joints.begin(),
+                 description.gripper_joints.end());
+  if (position_.size() != static_cast<Eigen::Index>(joints_.size())) {
+    throw std::logic_error("SimulatedArm: q_start has " + std::to_string(position_.size()) +
+                           " entries for " + std::to_string(joints_.size()) + " joints");
+  }
+  const ControllerDescription& controller = cell_->robots[description.robot.index()].controller;
+  lag_ = controller.lag;
+  noise_ = controller.noise_rad;
+  start_tolerance_ = cell_->execution.start_tolerance_rad;
+  rows_.assign(joints_.size(), -1);
+  offset_ = Eigen::VectorXd::Zero(position_.size());
+  feedback_.measured = position_;
+}
+
+bool SimulatedArm::under_way() const {
+  return feedback_.phase == Phase::waiting || feedback_.phase == Phase::moving ||
+         feedback_.phase == Phase::braking;
+}
+
+void SimulatedArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration from_progress,
+                         Duration authority) {
+  if (under_way()) throw std::logic_error("SimulatedArm::start: a motion is under way");
+  if (!trajectory) throw std::logic_error("SimulatedArm::start: no trajectory");
+  if (from_progress < Duration{} || from_progress > trajectory->duration()) {
+    throw std::logic_error("SimulatedArm::start: progress outside the trajectory");
+  }
+  std::vector<Eigen::Index> rows(joints_.size(), -1);
+  bool concerned = false;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const std::vector<JointId>& all = trajectory->joints();
+    const auto found = std::find(all.begin(), all.end(), joints_[j]);
+    if (found == all.end()) continue;
+    rows[j] = found - all.begin();
+    concerned = true;
+  }
+  if (!concerned) throw std::logic_error("SimulatedArm::start: none of its joints");
+
+  trajectory->sample_positions(from_progress, path_);
+  Eigen::VectorXd offset = Eigen::VectorXd::Zero(position_.size());
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    if (rows[j] >= 0) offset[i] = position_[i] - path_[rows[j]];
+  }
+  const double away = offset.cwiseAbs().maxCoeff();
+  if (!(away <= start_tolerance_)) {
+    throw std::logic_error("SimulatedArm::start: the arm is " + std::to_string(away) +
+                           " rad away from the trajectory");
+  }
+  trajectory_ = std::move(trajectory);
+  rows_ = std::move(rows);
+  offset_ = std::move(offset);
+  has_offset_ = away > 0.0;
+  law_.follow(trajectory_);
+  start_at_ = start_at;
+  authority_ = std::max(authority, from_progress);
+  curve_.compute(law_, from_progress, std::min(authority_, trajectory_->duration()));
+  curve_stale_ = false;
+  rate_ = 0.0;
+  feedback_.phase = Phase::waiting;
+  feedback_.commanded_progress = from_progress;
+  feedback_.measured_progress = from_progress;
+}
+
+void SimulatedArm::grant(Duration authority) {
+  if (!trajectory_) throw std::logic_error("SimulatedArm::grant: no motion");
+  if (!under_way()) return;
+  if (authority < authority_ && authority < trajectory_->duration()) {
+    // Where the arm would come to rest if it braked from the next tick on.
+    Duration stop = feedback_.commanded_progress;
+    double rate = rate_;
+    while (rate > 0.0 && stop < trajectory_->duration()) {
+      const Step step = braked(stop, rate, to_seconds(kControlPeriod));
+      stop += from_seconds(step.progress_s);
+      rate = step.rate;
+    }
+    authority = std::max(authority, std::min(stop, authority_));
+    authority_ = authority;
+    curve_.compute(law_, feedback_.commanded_progress,
+                   std::min(authority_, trajectory_->duration()));
+    curve_stale_ = false;
+    return;
+  }
+  curve_stale_ = curve_stale_ || authority != authority_;
+  authority_ = authority;
+}
+
+void SimulatedArm::brake() {
+  if (feedback_.phase == Phase::waiting) {
+    feedback_.phase = Phase::stopped;
+  } else if (feedback_.phase == Phase::moving &&
+             feedback_.commanded_progress < trajectory_->duration()) {
+    feedback_.phase = Phase::braking;
+  }
+}
+
+void SimulatedArm::release() {
+  if (under_way()) throw std::logic_error("SimulatedArm::release: a motion is under way");
+  trajectory_.reset();
+  feedback_.phase = Phase::idle;
+  feedback_.commanded_progress = Duration{};
+  feedback_.measured_progress = Duration{};
+}
+
+const ArmFeedback& SimulatedArm::tick(TimePoint now) {
+  if (now < last_tick_) throw std::logic_error("SimulatedArm::tick: time runs backwards");
+  const TimePoint previous = std::exchange(last_tick_, now);
+  if (feedback_.phase == Phase::waiting) {
+    if (now >= start_at_) begin(now, previous);
+  } else if (under_way()) {
+    advance(now - previous);
+  }
+  if (noise_ > 0.0) measure();
+  return feedback_;
+}
+
+void SimulatedArm::begin(TimePoint now, TimePoint previous) {
+  feedback_.phase = Phase::moving;
+  const bool missed = start_at_ < previous;
+  advance(missed ? Duration{} : now - start_at_);
+}
+
+void SimulatedArm::advance(Duration period) {
+  const Duration before = feedback_.commanded_progress;
+  command(period);
+  const bool moved = feedback_.measured_progress != feedback_.commanded_progress || has_offset_;
+  if (moved) {
+    lag_behind(before, period);
+    place();
+  }
+  if (rate_ == 0.0) settle();
+  if (moved && noise_ <= 0.0) feedback_.measured = position_;
+}
+
+void SimulatedArm::command(Duration period) {
+  Duration& progress = feedback_.commanded_progress;
+  const Duration end = std::min(authority_, trajectory_->duration());
+  if (progress >= end) {
+    rate_ = 0.0;
+    return;
+  }
+  const bool braking = feedback_.phase == Phase::braking;
+  if (!braking) refresh_curve(progress + period);
+  const bool bound = authority_ < trajectory_->duration();
+  if (rate_ == 0.0 && progress == Duration{} && !braking) {
+    rate_ = bound ? std::sqrt(curve_.rate_squared(0.0)) : 1.0;  // the path itself starts at rest
+  }
+  if (rate_ == 1.0 && !braking && (!bound || progress + period <= curve_.free_until())) {
+    progress = std::min(progress + period, end);  // in whole nanoseconds: the planned duration
+  } else {
+    const double period_s = to_seconds(period);
+    const Step step = braking ? braked(progress, rate_, period_s) : next_step(period_s);
+    rate_ = step.rate;
+    progress = std::min(progress + from_seconds(step.progress_s), end);
+  }
+  if (progress == end) rate_ = 0.0;
+}
+
+// A brake that ends within the tick covers its triangle only.
+SimulatedArm::Step SimulatedArm::braked(Duration progress, double rate, double period_s) {
+  if (period_s <= 0.0) return {rate, 0.0};
+  const Duration last =
+      std::min(progress + from_seconds(rate * period_s), trajectory_->duration());
+  const double change = law_.brake({progress, rate}, {last, rate});
+  const double rate_after = rate + change * period_s;
+  if (rate_after <= 0.0) return {0.0, rate * rate / (-2.0 * change)};
+  return {rate_after, 0.5 * (rate + rate_after) * period_s};
+}
+
+SimulatedArm::Step SimulatedArm::next_step(double period_s) {
+  Step fastest{rate_, rate_ * period_s};
+  if (rate_ < 1.0 && period_s > 0.0) {
+    const double change = law_.rise({feedback_.commanded_progress, rate_}, period_s);
+    const double rate_after = rate_ + change * period_s;
+    if (rate_after <= 1.0) {
+      fastest = {rate_after, 0.5 * (rate_ + rate_after) * period_s};
+    } else {
+      const double rising_s = (1.0 - rate_) / change;
+      fastest = {1.0, 0.5 * (rate_ + 1.0) * rising_s + (period_s - rising_s)};
+    }
+  }
+  if (authority_ >= trajectory_->duration()) return fastest;
+  return below_curve(fastest, period_s);
+}
+
+SimulatedArm::Step SimulatedArm::below_curve(Step fastest, double period_s) {
+  const double here_s = to_seconds(feedback_.commanded_progress);
+  const auto above = [&](double rate, double progress_s) {
+    return rate * rate > curve_.rate_squared(here_s + progress_s);
+  };
+  if (!above(fastest.rate, fastest.progress_s)) return fastest;
+
+  const double left_s = to_seconds(authority_) - here_s;
+  if (left_s <= 0.5 * rate_ * period_s) return {0.0, left_s};  // rest falls within this tick
+  const auto covered = [&](double rate) { return 0.5 * (rate_ + rate) * period_s; };
+  double low = 0.0;  // the curve falls along the path: one crossing
+  double high = fastest.rate;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (above(middle, covered(middle)) ? high : low) = middle;
+  }
+  const Step strongest = braked(feedback_.commanded_progress, rate_, period_s);
+  return strongest.rate > low ? strongest : Step{low, covered(low)};
+}
+
+void SimulatedArm::refresh_curve(Duration horizon) {
+  if (!curve_stale_ || authority_ >= trajectory_->duration()) return;
+  if (rate_ > 0.0 && horizon <= curve_.free_until()) return;
+  curve_.compute(law_, feedback_.commanded_progress, authority_);
+  curve_stale_ = false;
+}
+
+// m' = (s - m) / lag, solved exactly for s moving evenly through the tick.
+void SimulatedArm::lag_behind(Duration commanded_before, Duration period) {
+  const Duration commanded = feedback_.commanded_progress;
+  Duration& measured = feedback_.measured_progress;
+  if (lag_ <= Duration{}) {
+    measured = commanded;
+    has_offset_ = false;
+    offset_.setZero();
+    return;
+  }
+  if (period <= Duration{}) return;
+  const double share = std::exp(-to_seconds(period) / to_seconds(lag_));
+  const double steady = to_seconds(lag_) * to_seconds(commanded - commanded_before) /
+                        to_seconds(period);  // how far behind it would stay at this speed
+  const double behind = to_seconds(commanded_before - measured);
+  // Rounded down, so that it closes to nothing however slow the lag.
+  const Duration behind_after{
+      static_cast<Duration::rep>((steady + (behind - steady) * share) * 1e9)};
+  measured = std::clamp(commanded - behind_after, measured, commanded);
+  if (has_offset_) {
+    offset_ *= share;
+    if (offset_.cwiseAbs().maxCoeff() < 0.1 * kArrived_rad) {
+      offset_.setZero();
+      has_offset_ = false;
+    }
+  }
+}
+
+void SimulatedArm::settle() {
+  const Duration rest = feedback_.commanded_progress;
+  if (feedback_.measured_progress != rest) {
+    trajectory_->sample_positions(rest, path_target_);
+    double left = 0.0;
+    for (const Eigen::Index row : rows_) {
+      if (row >= 0) left = std::max(left, std::abs(path_target_[row] - path_[row]));
+    }
+    if (left >= kArrived_rad) return;
+    feedback_.measured_progress = rest;
+    place();
+  }
+  if (has_offset_) return;
+  if (rest == trajectory_->duration()) {
+    feedback_.phase = Phase::finished;
+  } else if (feedback_.phase == Phase::braking) {
+    feedback_.phase = Phase::stopped;
+  }
+}
+
+void SimulatedArm::place() {
+  trajectory_->sample_positions(feedback_.measured_progress, path_);
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    if (rows_[j] >= 0) position_[i] = path_[rows_[j]] + offset_[i];
+  }
+}
+
+void SimulatedArm::measure() {
+  for (Eigen::Index i = 0; i < position_.size(); ++i) {
+    feedback_.measured[i] = position_[i] + noise_ * gaussian_.next();
+  }
+}
+
+}  // namespace armloom

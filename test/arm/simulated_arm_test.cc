@@ -1,0 +1,345 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "test/arm/arm_fixture.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+using Phase = ArmFeedback::Phase;
+
+struct Example {
+  explicit Example(CellOptions options = {}, std::uint64_t seed = 1)
+      : random(seed),
+        cell(two_arm_cell(options)),
+        trajectory(random_trajectory(*cell, joints_of(*cell, kLeft), {kLeft}, random)),
+        bench(cell, kLeft, *trajectory, seed) {}
+
+  void start_now(Duration from = {}) {
+    bench.arm.start(trajectory, bench.now, from, trajectory->duration());
+  }
+  // How far the first seven measured joints are from the path at `progress`.
+  double off_path(const ArmFeedback& feedback, Duration progress) const {
+    Eigen::VectorXd q;
+    trajectory->sample_positions(progress, q);
+    return (feedback.measured.head(7) - q).cwiseAbs().maxCoeff();
+  }
+
+  std::mt19937_64 random;
+  CellPtr cell;
+  TrajectoryPtr trajectory;
+  Bench bench;
+};
+
+TEST(SimulatedArm, IsIdleWhereItStandsUntilTheFirstStart) {
+  Example e;
+  const Eigen::VectorXd q = at_start(*e.trajectory, *e.cell, kLeft);
+  const ArmFeedback& feedback = e.bench.tick_for(100ms);
+  EXPECT_EQ(feedback.phase, Phase::idle);
+  EXPECT_EQ(feedback.measured, q);
+  EXPECT_EQ(e.bench.arm.joints().size(), 8u);  // seven and the gripper
+}
+
+TEST(SimulatedArm, TakesExactlyTheDurationOfItsTrajectoryPlusTheSettlingOfItsLag) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Example e({}, seed);
+    e.start_now();
+    const Duration duration = e.trajectory->duration();
+    const auto whole_ticks = duration / kControlPeriod;
+    const ArmFeedback& feedback = e.bench.tick_for(whole_ticks * kControlPeriod);
+    EXPECT_EQ(feedback.commanded_progress, whole_ticks * kControlPeriod) << seed;
+    e.bench.tick();
+    EXPECT_EQ(feedback.commanded_progress, duration) << seed;
+    e.bench.tick_until(Phase::finished);
+    EXPECT_LT(e.bench.now - at(duration), 200ms) << seed;
+    EXPECT_EQ(feedback.measured.head(7), e.trajectory->goal()) << seed;  // to the last bit
+    EXPECT_EQ(feedback.measured_progress, duration) << seed;
+    EXPECT_EQ(e.bench.tick_for(50ms).phase, Phase::finished) << seed;
+  }
+}
+
+TEST(SimulatedArm, WithoutLagMeasuresWhatItCommandsAndEndsWithItsTrajectory) {
+  Example e({.lag = 0ms});
+  e.start_now();
+  for (int i = 0; i < 1000; ++i) {
+    const ArmFeedback& feedback = e.bench.tick();
+    ASSERT_EQ(feedback.measured_progress, feedback.commanded_progress);
+  }
+  e.bench.tick_until(Phase::finished);
+  EXPECT_LT(e.bench.now - at(e.trajectory->duration()), kControlPeriod);
+}
+
+TEST(SimulatedArm, MeasuredProgressFollowsOneLagBehindOnThePath) {
+  Example e({.lag = 35ms});
+  e.start_now();
+  e.bench.tick_for(400ms);
+  for (int i = 0; i < 200; ++i) {
+    const ArmFeedback& feedback = e.bench.tick();
+    const Duration behind = feedback.commanded_progress - feedback.measured_progress;
+    EXPECT_NEAR(to_seconds(behind), 0.035, 1e-6);
+    EXPECT_LT(e.off_path(feedback, feedback.measured_progress), 1e-12);
+  }
+}
+
+TEST(SimulatedArm, AStartBetweenTwoTicksLosesNoTime) {
+  Example e;
+  e.bench.tick_for(10ms);
+  e.bench.arm.start(e.trajectory, at(12ms + 300us), {}, e.trajectory->duration());
+  EXPECT_EQ(e.bench.tick().phase, Phase::waiting);
+  EXPECT_EQ(e.bench.tick().phase, Phase::waiting);
+  const ArmFeedback& feedback = e.bench.tick();
+  EXPECT_EQ(feedback.phase, Phase::moving);
+  EXPECT_EQ(feedback.commanded_progress, 700us);
+  e.bench.tick_for(500ms);
+  EXPECT_EQ(feedback.commanded_progress, 500ms + 700us);
+}
+
+TEST(SimulatedArm, AStartInThePastBeginsAtTheNextTick) {
+  Example e;
+  e.bench.tick_for(100ms);
+  e.bench.arm.start(e.trajectory, at(40ms), {}, e.trajectory->duration());
+  EXPECT_EQ(e.bench.tick().commanded_progress, 0ms);
+  EXPECT_EQ(e.bench.tick().commanded_progress, 1ms);
+}
+
+TEST(SimulatedArm, BrakesWithinTheLimitsAndComesToRestOnItsPath) {
+  for (const double brake : {1.0, 2.0, 4.0}) {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+      Example e({.brake_per_acceleration = brake}, seed);
+      AccelerationGauge gauge(*e.cell, e.trajectory);
+      e.start_now();
+      const auto ticks = e.trajectory->duration() / kControlPeriod;
+      for (auto until = static_cast<Duration::rep>(e.random() % static_cast<std::uint64_t>(ticks));
+           until > 0; --until) {
+        gauge.observe(e.bench.tick(), false);
+      }
+      e.bench.arm.brake();
+      Duration last{};
+      int braking = 0;
+      while (true) {
+        const ArmFeedback& feedback = e.bench.tick();
+        gauge.observe(feedback, true);
+        ASSERT_GE(feedback.commanded_progress, last) << seed;
+        ASSERT_LT(e.off_path(feedback, feedback.measured_progress), 1e-12) << seed;
+        last = feedback.commanded_progress;
+        if (feedback.phase != Phase::braking) break;
+        ASSERT_LT(++braking, 20'000) << seed;
+      }
+      const ArmFeedback& rest = e.bench.tick();
+      EXPECT_TRUE(rest.phase == Phase::stopped ||
+                  (rest.phase == Phase::finished && last == e.trajectory->duration()))
+          << seed;
+      EXPECT_EQ(rest.measured_progress, rest.commanded_progress) << seed;
+      EXPECT_EQ(rest.commanded_progress, last) << seed;
+      EXPECT_LE(gauge.worst_share(), 1.0 + e.cell->checking.limit_tolerance)
+          << "seed " << seed << " brake " << brake;
+    }
+  }
+}
+
+TEST(SimulatedArm, ABrakeEndsSoon) {
+  Duration longest{};
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    Example e({}, seed);
+    e.start_now();
+    e.bench.tick_for(e.trajectory->duration() * static_cast<int>(1 + seed % 9) / 10);
+    const TimePoint asked = e.bench.now;
+    e.bench.arm.brake();
+    while (e.bench.tick().phase == Phase::braking) {
+    }
+    longest = std::max(longest, e.bench.now - asked);
+  }
+  // 2.61 rad/s over (7.5 - 3.75) rad/s^2 is 0.7 s, the lag settles on top of it.
+  EXPECT_LT(longest, 900ms);
+  EXPECT_GT(longest, 100ms);
+}
+
+TEST(SimulatedArm, ContinuesAfterABrakeAndEndsAtItsGoal) {
+  Example e;
+  e.start_now();
+  e.bench.tick_for(600ms);
+  e.bench.arm.brake();
+  const Duration stopped_at = e.bench.tick_until(Phase::stopped).measured_progress;
+  e.bench.tick_for(300ms);
+  e.start_now(stopped_at);
+  const ArmFeedback& feedback = e.bench.tick();
+  EXPECT_EQ(feedback.phase, Phase::moving);
+  EXPECT_LT(feedback.commanded_progress - stopped_at, 100us);  // it ramps up
+  e.bench.tick_until(Phase::finished);
+  EXPECT_EQ(feedback.measured.head(7), e.trajectory->goal());
+}
+
+TEST(SimulatedArm, KeepsItsLimitsThroughBrakesAndContinuationsAtRandomTimes) {
+  for (const Pieces pieces : {Pieces::quintic, Pieces::cubic}) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+      std::mt19937_64 random(seed);
+      const CellPtr cell = two_arm_cell({.brake_per_acceleration = seed % 2 == 0 ? 1.0 : 2.0});
+      const TrajectoryPtr trajectory =
+          random_trajectory(*cell, joints_of(*cell, kLeft), {kLeft}, random, pieces);
+      Bench bench(cell, kLeft, *trajectory);
+      AccelerationGauge gauge(*cell, trajectory);
+      bench.arm.start(trajectory, at(0ms), {}, trajectory->duration());
+      for (int i = 0; i < 200'000; ++i) {
+        const ArmFeedback& feedback = bench.tick();
+        gauge.observe(feedback, feedback.phase == Phase::braking || feedback.phase == Phase::stopped);
+        if (feedback.phase == Phase::finished) break;
+        if (feedback.phase == Phase::moving && random() % 500 == 0) bench.arm.brake();
+        if (feedback.phase == Phase::stopped) {
+          bench.arm.start(trajectory, bench.now, feedback.measured_progress, trajectory->duration());
+        }
+      }
+      EXPECT_EQ(bench.tick().phase, Phase::finished) << seed;
+      EXPECT_LE(gauge.worst_share(), 1.0 + cell->checking.limit_tolerance)
+          << "seed " << seed << (pieces == Pieces::cubic ? " cubic" : " quintic");
+    }
+  }
+}
+
+TEST(SimulatedArm, ABrakeWhileWaitingStopsAtOnceAndTheMotionCanBeDropped) {
+  Example e;
+  e.bench.arm.start(e.trajectory, at(1s), {}, e.trajectory->duration());
+  e.bench.tick_for(10ms);
+  e.bench.arm.brake();
+  const ArmFeedback& feedback = e.bench.tick();
+  EXPECT_EQ(feedback.phase, Phase::stopped);
+  EXPECT_EQ(feedback.measured_progress, 0ms);
+  e.bench.tick_for(2s);
+  EXPECT_EQ(feedback.phase, Phase::stopped);
+  EXPECT_EQ(feedback.measured, at_start(*e.trajectory, *e.cell, kLeft));
+  e.bench.arm.release();
+  EXPECT_EQ(e.bench.tick().phase, Phase::idle);
+}
+
+TEST(SimulatedArm, RunsOneTrajectoryAfterAnother) {
+  Example e;
+  e.start_now();
+  e.bench.tick_until(Phase::finished);
+  // The way back, from where it stands.
+  std::vector<Segment> segments;
+  Segment back{{}, from_seconds(6.0), {}};
+  back.coefficients.setZero(7, 6);
+  const Eigen::VectorXd way = e.trajectory->start() - e.trajectory->goal();
+  back.coefficients.col(0) = e.trajectory->goal();
+  back.coefficients.col(2) = 3.0 * way / 36.0;
+  back.coefficients.col(3) = -2.0 * way / 216.0;
+  segments.push_back(back);
+  const auto second =
+      std::make_shared<const Trajectory>(joints_of(*e.cell, kLeft), std::vector{kLeft}, segments);
+  e.bench.arm.start(second, e.bench.now, {}, second->duration());
+  const ArmFeedback& feedback = e.bench.tick_until(Phase::finished);
+  EXPECT_LT((feedback.measured.head(7) - e.trajectory->start()).norm(), 1e-12);
+}
+
+TEST(SimulatedArm, JointsThatTheTrajectoryDoesNotNameStayWhereTheyAre) {
+  Example e;
+  const std::vector<JointId> some{JointId(2), JointId(9), JointId(3)};  // joint 9 is the right arm's
+  const TrajectoryPtr trajectory = random_trajectory(*e.cell, some, {kLeft, kRight}, e.random);
+  Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(8, 0.1, 0.8);
+  q[2] = trajectory->start()[0];
+  q[3] = trajectory->start()[2];
+  SimulatedArm arm(e.cell, kLeft, q, 1);
+  arm.start(trajectory, at(0ms), {}, trajectory->duration());
+  TimePoint now{};
+  while (arm.tick(now += kControlPeriod).phase != Phase::finished) {
+  }
+  const ArmFeedback& feedback = arm.tick(now);
+  q[2] = trajectory->goal()[0];
+  q[3] = trajectory->goal()[2];
+  EXPECT_EQ(feedback.measured, q);
+}
+
+TEST(SimulatedArm, ArmsOfOneSynchronousTrajectoryBrakeAndContinueInStep) {
+  std::mt19937_64 random(7);
+  const CellPtr cell = two_arm_cell();
+  std::vector<JointId> joints = joints_of(*cell, kLeft);
+  for (const JointId joint : joints_of(*cell, kRight)) joints.push_back(joint);
+  const TrajectoryPtr both = random_trajectory(*cell, joints, {kLeft, kRight}, random);
+  Bench left(cell, kLeft, *both);
+  Bench right(cell, kRight, *both);
+  Duration from{};
+  for (int round = 0; round < 3; ++round) {
+    for (Bench* bench : {&left, &right}) bench->arm.start(both, bench->now, from, both->duration());
+    for (int i = 0; i < 1500; ++i) {
+      if (i == 500) left.arm.brake();
+      if (i == 500) right.arm.brake();
+      from = left.tick().commanded_progress;
+      ASSERT_EQ(from, right.tick().commanded_progress) << round << " " << i;
+    }
+  }
+}
+
+TEST(SimulatedArm, TheSameSeedGivesTheSameBitsAndAnotherSeedDoesNot) {
+  const auto run = [](std::uint64_t seed) {
+    Example e({.noise_rad = 0.001}, 1);
+    Bench bench(e.cell, kLeft, *e.trajectory, seed);
+    bench.arm.start(e.trajectory, at(5ms), {}, e.trajectory->duration());
+    std::vector<double> all;
+    for (int i = 0; i < 3000; ++i) {
+      if (i == 700) bench.arm.brake();
+      const ArmFeedback& feedback = bench.tick();
+      all.insert(all.end(), feedback.measured.begin(), feedback.measured.end());
+    }
+    return all;
+  };
+  EXPECT_EQ(run(3), run(3));
+  EXPECT_NE(run(3), run(4));
+}
+
+TEST(SimulatedArm, NoiseIsOfTheStatedSizeAndOnlyInWhatIsMeasured) {
+  Example e({.noise_rad = 0.002});
+  const Eigen::VectorXd q = at_start(*e.trajectory, *e.cell, kLeft);
+  double sum = 0.0;
+  double squares = 0.0;
+  constexpr int kTicks = 5000;
+  for (int i = 0; i < kTicks; ++i) {
+    const Eigen::VectorXd error = e.bench.tick().measured - q;
+    sum += error.sum();
+    squares += error.squaredNorm();
+  }
+  EXPECT_NEAR(sum / (8.0 * kTicks), 0.0, 5e-5);
+  EXPECT_NEAR(std::sqrt(squares / (8.0 * kTicks)), 0.002, 5e-5);
+  e.start_now();  // would throw if the noise had moved the arm: see the tolerance below
+  e.bench.tick_until(Phase::finished);
+}
+
+TEST(SimulatedArm, AStartSlightlyOffThePathIsPulledIn) {
+  Example e;
+  Eigen::VectorXd q = at_start(*e.trajectory, *e.cell, kLeft);
+  q[1] += 0.009;
+  SimulatedArm arm(e.cell, kLeft, q, 1);
+  arm.start(e.trajectory, at(0ms), {}, e.trajectory->duration());
+  TimePoint now{};
+  Eigen::VectorXd last = q;
+  ArmFeedback feedback;
+  do {
+    feedback = arm.tick(now += kControlPeriod);
+    EXPECT_LT((feedback.measured - last).cwiseAbs().maxCoeff(), 0.004);  // no jump
+    last = feedback.measured;
+  } while (feedback.phase != Phase::finished);
+  EXPECT_EQ(feedback.measured.head(7), e.trajectory->goal());
+}
+
+TEST(SimulatedArm, RefusesWhatItsCallerMustNotAsk) {
+  Example e;
+  EXPECT_THROW(e.bench.arm.grant(1s), std::logic_error);
+  EXPECT_THROW(e.start_now(1s), std::logic_error);  // stands at the start, not there
+  EXPECT_THROW(e.start_now(e.trajectory->duration() + 1ms), std::logic_error);
+  EXPECT_THROW(e.start_now(-1ms), std::logic_error);
+  EXPECT_THROW(e.bench.arm.start(nullptr, at(0ms), {}, 1s), std::logic_error);
+  const TrajectoryPtr foreign =
+      random_trajectory(*e.cell, joints_of(*e.cell, kRight), {kRight}, e.random);
+  EXPECT_THROW(e.bench.arm.start(foreign, at(0ms), {}, 1s), std::logic_error);
+  EXPECT_EQ(e.bench.tick().phase, Phase::idle);  // none of this has left a trace
+  e.start_now();
+  EXPECT_THROW(e.start_now(), std::logic_error);
+  EXPECT_THROW(e.bench.arm.release(), std::logic_error);
+  e.bench.tick();
+  EXPECT_THROW((void)e.bench.arm.tick(at(0ms)), std::logic_error);
+  EXPECT_THROW(SimulatedArm(e.cell, kLeft, Eigen::VectorXd::Zero(7), 1), std::logic_error);
+}
+
+}  // namespace
+}  // namespace armloom
