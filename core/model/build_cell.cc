@@ -1,0 +1,175 @@
+#include "core/model/build_cell.h"
+
+#include <set>
+
+#include "core/model/cell_checks.h"
+#include "core/model/findings.h"
+#include "core/model/robot_build.h"
+#include "core/model/text_file.h"
+#include "core/model/urdf_reader.h"
+
+namespace armloom {
+namespace {
+
+std::optional<std::string> load(const std::string& path, const std::string& pointer, const std::string& whose,
+                                Findings& findings) {
+  auto text = read_text_file(path, pointer, whose);
+  if (text) return *std::move(text);
+  for (Problem& problem : text.error()) findings.add(std::move(problem));
+  return std::nullopt;
+}
+
+// The robot's files, or nothing with the reasons in `findings`.
+std::optional<RobotBuild> read_robot(const RobotDescription& description, std::size_t index, Findings& findings) {
+  const std::string pointer = "/robots/" + std::to_string(index);
+  const std::string whose = "robot " + description.name;
+  auto urdf = load(description.urdf, pointer + "/urdf", whose, findings);
+  auto srdf = description.srdf.empty() ? std::nullopt
+                                       : load(description.srdf, pointer + "/srdf", whose, findings);
+  if (!urdf) return std::nullopt;
+  auto tree = read_urdf(*std::move(urdf), description.urdf, description.packages, findings);
+  if (!tree || (!srdf && !description.srdf.empty())) return std::nullopt;
+
+  RobotBuild robot{.id = RobotId(static_cast<std::uint32_t>(index)), .pointer = pointer,
+                   .description = &description, .tree = *std::move(tree), .semantics = std::nullopt,
+                   .links = {}, .joints = {}};
+  if (srdf) {
+    robot.semantics = read_srdf(*std::move(srdf), description.srdf, robot.tree, findings);
+    if (!robot.semantics) return std::nullopt;
+  }
+  return robot;
+}
+
+void add_joints(RobotBuild& robot, Cell& cell) {
+  for (const TreeLink& link : robot.tree.links) {
+    if (!link.is_independent()) {
+      robot.joints.push_back(std::nullopt);
+      continue;
+    }
+    robot.joints.push_back(JointId(static_cast<std::uint32_t>(cell.joints.size())));
+    cell.joints.push_back({.name = robot.description->prefix + link.joint, .robot = robot.id, .arm = std::nullopt,
+                           .kind = *link.motion, .lower = link.lower, .upper = link.upper,
+                           .velocity_max = link.velocity_max, .acceleration_max = kDefaultAcceleration,
+                           .jerk_max = kDefaultJerk, .brake = 2.0 * kDefaultAcceleration});
+  }
+}
+
+// Precondition: the robot's joints are in the cell.
+void add_links(RobotBuild& robot, Cell& cell) {
+  for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
+    TreeLink& source = robot.tree.links[i];
+    Link link{.name = robot.description->prefix + source.name, .robot = robot.id, .arm = std::nullopt,
+              .parent = std::nullopt, .X_PJ = source.X_PJ, .driver = robot.joints[i], .motion = JointKind::revolute,
+              .axis = source.axis, .multiplier = 1.0, .offset = 0.0, .shapes = std::move(source.shapes)};
+    if (source.parent) link.parent = robot.links[*source.parent];
+    else link.X_PJ = robot.description->X_WB;
+    if (source.motion) link.motion = *source.motion;
+    if (source.mimic) {
+      link.driver = robot.joints[source.mimic->driver];
+      link.multiplier = source.mimic->multiplier;
+      link.offset = source.mimic->offset;
+    }
+    robot.links.push_back(LinkId(static_cast<std::uint32_t>(cell.links.size())));
+    cell.links.push_back(std::move(link));
+  }
+}
+
+// Prefixed names must not repeat. Two robots of one URDF without prefixes repeat all of them: the
+// first is enough to tell.
+void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links, std::set<std::string>& joints,
+                          Findings& findings) {
+  const auto first_taken = [&](const auto& by_name, std::set<std::string>& known) {
+    std::optional<std::string> taken;
+    for (const auto& entry : by_name) {
+      const std::string name = robot.description->prefix + entry.first;
+      if (!known.insert(name).second && !taken) taken = name;
+    }
+    return taken;
+  };
+  const auto report = [&](const std::string& kind, const std::optional<std::string>& name) {
+    if (!name) return;
+    findings.in_cell("duplicate-name", robot.pointer + "/prefix",
+                     "robot " + robot.description->name + ": " + kind + " " + *name +
+                         " is a name of another robot too; prefixes must differ", robot.description->prefix);
+  };
+  report("link", first_taken(robot.tree.by_link, links));
+  report("joint", first_taken(robot.tree.by_joint, joints));
+}
+
+void check_objects_are_no_links(const CellDescription& description, const std::set<std::string>& links,
+                                Findings& findings) {
+  for (std::size_t o = 0; o < description.objects.size(); ++o) {
+    const std::string& name = description.objects[o].name;
+    if (!links.contains(name)) continue;
+    findings.in_cell("duplicate-name", "/objects/" + std::to_string(o) + "/name",
+                     "the name " + name + " of an object is a link's name too", name);
+  }
+}
+
+void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
+  Robot& added = cell.robots[robot.id.index()];
+  added.urdf_text = robot.tree.text;
+  if (robot.semantics) added.srdf_text = robot.semantics->text;
+  add_joints(robot, cell);
+  add_links(robot, cell);
+  add_arms(robot, cell, findings);
+  assign_to_arms(robot, cell, findings);
+  allow_pairs_of_robot(robot, cell);
+}
+
+void copy_settings(const CellDescription& description, Cell& cell) {
+  cell.name = description.name;
+  cell.clearance_m = description.clearance_m;
+  cell.checking = description.checking;
+  cell.scheduling = description.scheduling;
+  cell.monitor = description.monitor;
+  cell.execution = description.execution;
+  for (const auto& object : description.objects) cell.objects.push_back({object.name, object.shape, object.X_WO});
+  for (const auto& robot : description.robots) {
+    cell.robots.push_back({.name = robot.name, .prefix = robot.prefix, .X_WB = robot.X_WB, .arms = {},
+                           .urdf_text = {}, .srdf_text = {}, .controller = robot.controller});
+  }
+}
+
+void require_an_arm(const CellDescription& description, Findings& findings) {
+  if (description.robots.empty()) return findings.in_cell("no-robot", "/robots", "the cell has no robot");
+  for (const auto& robot : description.robots) {
+    if (!robot.arms.empty()) return;
+  }
+  findings.in_cell("no-arm", "/robots/0/arms", "no robot of the cell has an arm");
+}
+
+}  // namespace
+
+Result<CellPtr> build_cell(const CellDescription& description) {
+  Findings findings;
+  require_an_arm(description, findings);
+  check_names(description, findings);
+  check_objects(description, findings);
+  check_settings(description, findings);
+
+  auto cell = std::make_shared<Cell>();
+  copy_settings(description, *cell);
+  std::set<std::string> links;
+  std::set<std::string> joints;
+  bool complete = true;
+  for (std::size_t r = 0; r < description.robots.size(); ++r) {
+    const RobotDescription& robot = description.robots[r];
+    check_pose(robot.X_WB, "/robots/" + std::to_string(r) + "/base", "robot " + robot.name + ": base", findings);
+    auto build = read_robot(robot, r, findings);
+    if (build) {
+      check_prefixed_names(*build, links, joints, findings);
+      add_robot(*std::move(build), *cell, findings);
+    } else {
+      complete = false;
+    }
+  }
+  check_objects_are_no_links(description, links, findings);
+  // With a robot missing its links' names would all seem unknown.
+  if (complete) allow_pairs_of_cell(description, *cell, findings);
+
+  if (findings.count() > 0) return failure(findings.take());
+  return CellPtr(std::move(cell));
+}
+
+}  // namespace armloom

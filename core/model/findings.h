@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "core/base/problem.h"
+
+namespace armloom {
+
+// Collects what is wrong with a cell while reading goes on, so that a user sees every mistake at
+// once. Two robots may share one URDF file: a problem that was already found is not repeated.
+// Bounded: after kMaxFindings the rest is only counted, and the last problem says how many.
+class Findings {
+ public:
+  static constexpr std::size_t kMaxFindings = 100;
+
+  void add(Problem problem);
+
+  // A mistake in the cell file: `pointer` is a JSON pointer, `detail` a sentence that stands alone.
+  void in_cell(std::string slug, std::string pointer, std::string detail,
+               decltype(Problem::value) value = {});
+
+  // How often add was called: a reader that finds it unchanged has found nothing wrong itself, even
+  // where its problem repeats another's.
+  [[nodiscard]] std::size_t count() const { return added_; }
+
+  // Hands over what was found; empty when nothing was.
+  [[nodiscard]] Problems take();
+
+ private:
+  Problems kept_;
+  std::set<std::pair<std::string, std::string>> seen_;  // pointer, detail
+  std::size_t added_ = 0;
+  std::size_t dropped_ = 0;
+};
+
+// The shortest text that reads back as the same number: 0.1, not 0.10000000000000001.
+[[nodiscard]] std::string text_of(double number);
+
+// A name as one token of a JSON pointer (RFC 6901): ~ and / are escaped.
+[[nodiscard]] std::string pointer_token(std::string name);
+
+}  // namespace armloom

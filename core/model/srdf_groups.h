@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "core/model/findings.h"
+#include "core/model/robot_tree.h"
+#include "core/model/srdf_reader.h"
+
+namespace tinyxml2 {
+class XMLElement;
+}
+
+namespace armloom {
+
+// Every group of the SRDF with the independent joints that it holds; fixed and mimic joints, which
+// MoveIt lists too, are dropped. As in MoveIt, a link stands for the joint above it and a chain for
+// the joints between its base link and its tip link. `virtual_joints` may be named and are ignored.
+[[nodiscard]] std::map<std::string, RobotSemantics::JointSet> read_groups(
+    const tinyxml2::XMLElement& srdf, const std::string& file, const RobotTree& tree,
+    const std::set<std::string>& virtual_joints, Findings& findings);
+
+}  // namespace armloom

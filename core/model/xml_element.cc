@@ -1,0 +1,111 @@
+#include "core/model/xml_element.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+
+#include "core/model/xml_numbers.h"
+
+namespace armloom {
+namespace {
+
+// The first <!...> that is no comment: DOCTYPE, ENTITY and the like.
+const tinyxml2::XMLUnknown* find_declaration(const tinyxml2::XMLNode& node) {
+  for (const auto* child = node.FirstChild(); child != nullptr; child = child->NextSibling()) {
+    if (const auto* unknown = child->ToUnknown()) return unknown;
+    if (const auto* below = find_declaration(*child)) return below;
+  }
+  return nullptr;
+}
+
+std::string why_malformed(const tinyxml2::XMLDocument& document, const std::string& text) {
+  if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) return "elements are nested too deeply";
+  if (text.find("<!DOCTYPE") != std::string::npos) return "a DOCTYPE is not allowed";
+  return std::string("the XML is malformed (") + document.ErrorName() + ")";
+}
+
+}  // namespace
+
+tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string& file,
+                                      tinyxml2::XMLDocument& document, Findings& findings) {
+  const auto refuse = [&](int line, const std::string& sentence) {
+    XmlPlace(file + ":" + std::to_string(line), findings)
+        .report("xml-malformed", sentence, {}, ProblemKind::malformed);
+    return nullptr;
+  };
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    return refuse(document.ErrorLineNum(), why_malformed(document, text));
+  }
+  if (const auto* declaration = find_declaration(document)) {
+    return refuse(declaration->GetLineNum(), "a DOCTYPE or entity declaration is not allowed");
+  }
+  auto* root = document.RootElement();
+  if (root == nullptr) return refuse(1, "the file holds no XML element");
+  if (std::string_view(root->Name()) != "robot") {
+    return refuse(root->GetLineNum(), std::string("the root element is <") + root->Name() + ">, not <robot>");
+  }
+  return root;
+}
+
+void XmlPlace::report(std::string slug, const std::string& sentence, decltype(Problem::value) value,
+                      ProblemKind kind) const {
+  findings_->add({kind, std::move(slug), place_, place_ + ": " + sentence, std::move(value)});
+}
+
+std::optional<double> XmlPlace::number(const tinyxml2::XMLElement& element, const char* attribute,
+                                       Presence presence) const {
+  const auto one = numbers(element, attribute, 1, presence);
+  return one ? std::optional(one->front()) : std::nullopt;
+}
+
+std::optional<std::vector<double>> XmlPlace::numbers(const tinyxml2::XMLElement& element,
+                                                     const char* attribute, std::size_t size,
+                                                     Presence presence) const {
+  const std::string what = std::string(element.Name()) + " " + attribute;
+  const char* text = element.Attribute(attribute);
+  if (text == nullptr) {
+    if (presence == Presence::required) report("missing", what + " is missing");
+    return std::nullopt;
+  }
+  auto read = parse_numbers(text);
+  if (!read || read->size() != size) {
+    const std::string wanted = size == 1 ? "a finite number" : std::to_string(size) + " finite numbers";
+    report("not-a-number", what + " is '" + text + "', not " + wanted, std::string(text));
+    return std::nullopt;
+  }
+  return read;
+}
+
+std::string XmlPlace::name(const tinyxml2::XMLElement& element, const char* attribute) const {
+  const char* text = element.Attribute(attribute);
+  if (text == nullptr || *text == '\0') {
+    report("missing", std::string(element.Name()) + " " + attribute + " is missing");
+    return {};
+  }
+  return text;
+}
+
+const tinyxml2::XMLElement* XmlPlace::only_child(const tinyxml2::XMLElement& element,
+                                                 const char* child, Presence presence) const {
+  const auto* first = element.FirstChildElement(child);
+  if (first == nullptr) {
+    if (presence == Presence::required) report("missing", std::string("<") + child + "> is missing");
+  } else if (first->NextSiblingElement(child) != nullptr) {
+    report("duplicate", std::string("more than one <") + child + ">");
+  }
+  return first;
+}
+
+void XmlPlace::only_children(const tinyxml2::XMLElement& element,
+                             std::initializer_list<std::string_view> known) const {
+  for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    const std::string_view tag = child->Name();
+    // An element of another namespace (drake:..., mujoco:...) is an extension, not a misspelling.
+    if (tag.find(':') != std::string_view::npos && !tag.starts_with("xacro:")) continue;
+    if (std::find(known.begin(), known.end(), tag) != known.end()) continue;
+    report("unknown-element", "<" + std::string(tag) + "> is not known here", std::string(tag),
+           ProblemKind::unsupported);
+  }
+}
+
+}  // namespace armloom

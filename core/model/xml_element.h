@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/findings.h"
+
+namespace tinyxml2 {
+class XMLDocument;
+class XMLElement;
+}  // namespace tinyxml2
+
+namespace armloom {
+
+enum class Presence { required, optional };
+
+// Reads XML into `document`. DOCTYPE and entity declarations are refused, and so is nesting deeper
+// than tinyxml2's bound (100). Returns the <robot> element, or null after adding what is wrong to
+// `findings` (place: "panda.urdf:12", the line).
+[[nodiscard]] tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string& file,
+                                                    tinyxml2::XMLDocument& document,
+                                                    Findings& findings);
+
+// Reads one element of a robot file and reports what is wrong with it, always under the place that
+// it was made with: "panda.urdf: joint panda_joint3". The sentence is place + ": " + what is wrong.
+class XmlPlace {
+ public:
+  XmlPlace(std::string place, Findings& findings) : place_(std::move(place)), findings_(&findings) {}
+
+  [[nodiscard]] const std::string& text() const { return place_; }
+  void report(std::string slug, const std::string& sentence, decltype(Problem::value) value = {},
+              ProblemKind kind = ProblemKind::invalid) const;
+
+  // One finite number; nothing (and reported, unless absent and optional) otherwise.
+  std::optional<double> number(const tinyxml2::XMLElement& element, const char* attribute,
+                               Presence presence) const;
+  // Exactly `size` finite numbers.
+  std::optional<std::vector<double>> numbers(const tinyxml2::XMLElement& element,
+                                             const char* attribute, std::size_t size,
+                                             Presence presence) const;
+  // A non-empty attribute; empty (and reported) otherwise.
+  std::string name(const tinyxml2::XMLElement& element, const char* attribute) const;
+  // The only child of that name. Libraries take the first of several and forget the others: a
+  // second one is reported.
+  const tinyxml2::XMLElement* only_child(const tinyxml2::XMLElement& element, const char* child,
+                                         Presence presence) const;
+  // Reports children of other names. A misspelt <colision> would otherwise vanish without a word.
+  void only_children(const tinyxml2::XMLElement& element,
+                     std::initializer_list<std::string_view> known) const;
+
+ private:
+  std::string place_;
+  Findings* findings_;
+};
+
+}  // namespace armloom
