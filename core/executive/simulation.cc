@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <utility>
 
 namespace armloom {
-namespace {
 
-// Computes at once, answers kSimulatedJudgement of simulated time later.
-class SimulatedJudge final : public JudgePool {
+// Computes at once, answers kSimulatedJudgement later.
+class Simulation::Judge final : public JudgePool {
  public:
-  explicit SimulatedJudge(PlanningScenePtr scene) : checker_(std::move(scene)) {}
+  explicit Judge(PlanningScenePtr scene) : checker_(std::move(scene)) {}
 
   void ask(Question question, std::function<void(Verdict)> done) override {
     pending_.push_back({now_ + kSimulatedJudgement, judge(question, checker_), std::move(done)});
@@ -19,57 +19,72 @@ class SimulatedJudge final : public JudgePool {
   void deliver(TimePoint now) {
     now_ = now;
     while (!pending_.empty() && pending_.front().due <= now) {
-      Pending answer = std::move(pending_.front());
+      Answer answer = std::move(pending_.front());
       pending_.pop_front();
       answer.done(std::move(answer.verdict));
     }
   }
 
  private:
-  struct Pending {
+  struct Answer {
     TimePoint due;
     Verdict verdict;
     std::function<void(Verdict)> done;
   };
   CollisionChecker checker_;
   TimePoint now_{};
-  std::deque<Pending> pending_;
+  std::deque<Answer> pending_;
 };
 
-}  // namespace
+Simulation::Simulation(std::unique_ptr<Judge> judge) : judge_(std::move(judge)) {}
+Simulation::~Simulation() = default;
+
+Result<std::unique_ptr<Simulation>> Simulation::create(CellPtr cell, ExecutiveOptions options,
+                                                       Observer& observer) {
+  auto scene = PlanningScene::build(cell);
+  if (!scene) return failure(std::move(scene.error()));
+  std::unique_ptr<Simulation> simulation(new Simulation(std::make_unique<Judge>(*scene)));
+  auto executive = Executive::create(cell, std::move(options), *simulation->judge_, observer);
+  if (!executive) return failure(std::move(executive.error()));
+  simulation->executive_ = std::move(*executive);
+  return simulation;
+}
+
+void Simulation::tick() {
+  executive_->tick(next_);
+  judge_->deliver(next_);
+  next_ += kControlPeriod;
+}
+
+void Simulation::run_until(TimePoint time) {
+  while (next_ <= time) tick();
+}
 
 Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
                                   std::vector<TimedJob> jobs, TimePoint time_limit,
                                   Observer& observer) {
-  auto scene = PlanningScene::build(cell);
-  if (!scene) return failure(std::move(scene.error()));
-  SimulatedJudge judges(std::move(*scene));
   options.ended_kept = std::max(options.ended_kept, jobs.size());
-  auto executive = Executive::create(cell, std::move(options), judges, observer);
-  if (!executive) return failure(std::move(executive.error()));
+  auto simulation = Simulation::create(std::move(cell), std::move(options), observer);
+  if (!simulation) return failure(std::move(simulation.error()));
+  Executive& executive = (*simulation)->executive();
 
   std::vector<std::size_t> order(jobs.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return jobs[i].at; });
 
   SimulationResult result;
-  std::size_t next = 0;
-  TimePoint now{};
-  for (;; now += kControlPeriod) {
-    (*executive)->tick(now);
-    judges.deliver(now);
-    for (; next < order.size() && jobs[order[next]].at <= now; ++next) {
-      auto accepted = (*executive)->submit(std::move(jobs[order[next]].job));
-      if (accepted) continue;
-      result.refused.push_back(std::move(accepted.error()));
-      result.refused_index.push_back(order[next]);
+  auto next = order.begin();
+  while (!result.all_ended && (*simulation)->now() < time_limit) {
+    (*simulation)->tick();
+    for (; next != order.end() && jobs[*next].at <= executive.now(); ++next) {
+      auto accepted = executive.submit(std::move(jobs[*next].job));
+      if (!accepted) result.refused.push_back({*next, std::move(accepted.error())});
     }
-    result.all_ended = next == order.size() && (*executive)->all_ended();
-    if (result.all_ended || now >= time_limit) break;
+    result.all_ended = next == order.end() && executive.all_ended();
   }
-  result.ended_at = now;
-  result.figures = (*executive)->figures();
-  result.jobs = (*executive)->snapshot().jobs;
+  result.ended_at = executive.now();
+  result.figures = executive.figures();
+  result.jobs = executive.snapshot().jobs;
   return result;
 }
 

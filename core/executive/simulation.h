@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -8,6 +8,36 @@
 #include "core/executive/executive.h"
 
 namespace armloom {
+
+// A judgement takes this much simulated time, whatever it took the machine.
+inline constexpr Duration kSimulatedJudgement = std::chrono::milliseconds(2);
+
+// The same executive as in real time, on simulated time: the caller turns the clock. Deterministic
+// for a seed. Single-threaded.
+class Simulation {
+ public:
+  // Problems: as Executive::create. The observer outlives the simulation.
+  [[nodiscard]] static Result<std::unique_ptr<Simulation>> create(CellPtr cell,
+                                                                  ExecutiveOptions options,
+                                                                  Observer& observer);
+  ~Simulation();
+
+  [[nodiscard]] Executive& executive() { return *executive_; }
+  [[nodiscard]] TimePoint now() const { return executive_->now(); }
+
+  // One control cycle; the first one is at time zero.
+  void tick();
+  // Cycles up to and with `time`.
+  void run_until(TimePoint time);
+
+ private:
+  class Judge;
+  explicit Simulation(std::unique_ptr<Judge> judge);
+
+  std::unique_ptr<Judge> judge_;
+  std::unique_ptr<Executive> executive_;
+  TimePoint next_{};
+};
 
 struct TimedJob {
   TimePoint at;  // when it is submitted
@@ -17,16 +47,16 @@ struct TimedJob {
 struct SimulationResult {
   RunFigures figures;
   std::vector<JobView> jobs;  // every job that was accepted, as it ended, in order of submission
-  std::vector<Problems> refused;  // of jobs that were refused at their time, see refused_index
-  std::vector<std::size_t> refused_index;
-  bool all_ended = false;  // false: `time_limit` came first
+  struct Refused {
+    std::size_t index;  // into the jobs given
+    Problems problems;
+  };
+  std::vector<Refused> refused;  // at their time
+  bool all_ended = false;        // false: `time_limit` came first
   TimePoint ended_at{};
 };
 
-// The same executive on simulated time, as fast as the machine allows, deterministic for a seed.
-// A judgement takes kSimulatedJudgement of simulated time. Runs until every job has ended and all
-// are submitted, or until `time_limit`.
-inline constexpr Duration kSimulatedJudgement = std::chrono::milliseconds(2);
+// Submits the jobs at their times and runs until all have ended, or until `time_limit`.
 [[nodiscard]] Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
                                                 std::vector<TimedJob> jobs, TimePoint time_limit,
                                                 Observer& observer);

@@ -1,0 +1,162 @@
+// The design's defect cases T1, T2, T3 and T11, on hand-driven time: where the public prototype
+// fails.
+#include <gtest/gtest.h>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+TEST(T1, OfTwoConflictingJobsOfTheSameInstantOneRunsAndOneWaits) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "first"));
+  cell.submit(slide("y", -1, 1, 4, "second"));
+  cell.run_until(at(1s));
+  EXPECT_EQ(cell.job("first").state, JobState::running);
+  const JobView second = cell.job("second");
+  EXPECT_EQ(second.state, JobState::backlogged);
+  ASSERT_EQ(second.waits_on.size(), 1u);
+  EXPECT_EQ(second.waits_on.front().job, "first");
+  EXPECT_EQ(second.waits_on.front().arm, "x");
+  EXPECT_EQ(second.waits_on.front().links, (std::vector<std::string>{"y_ball", "x_ball"}));
+
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("first").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("second").state, JobState::succeeded);
+  EXPECT_GE(*cell.job("second").started_at, *cell.job("first").ended_at);
+  EXPECT_GT(cell.log.closest_m, 0.02);
+}
+
+TEST(T2, AJobThatMeetsOnlyThePastOfARunningOneStartsAtOnce) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "first"));  // at the origin after 2 s
+  cell.run_until(at(3s));
+  cell.submit(slide("y", -1, 1, 4, "second"));  // compared from zero it would conflict at 2 s
+  cell.run_until(at(3100ms));
+  EXPECT_EQ(cell.job("second").state, JobState::running);
+  cell.run_to_the_end();
+  EXPECT_GT(cell.log.closest_m, 0.02);
+}
+
+TEST(T2, AJobThatMeetsTheRemainingMotionOfARunningOneWaits) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 8, "first"));  // at the origin after 4 s
+  cell.run_until(at(3s));
+  cell.submit(slide("y", -1, 1, 2, "second"));  // at the origin 1 s later, just then
+  cell.run_until(at(3100ms));
+  const JobView second = cell.job("second");
+  EXPECT_EQ(second.state, JobState::backlogged);
+  ASSERT_EQ(second.waits_on.size(), 1u);
+  // Both are near the origin: evidence in each one's own time.
+  EXPECT_NEAR(*second.waits_on.front().own_time_s, 0.9, 0.2);
+  EXPECT_NEAR(*second.waits_on.front().other_time_s - *second.waits_on.front().own_time_s, 3.0,
+              0.1);
+  cell.run_to_the_end();
+  EXPECT_GT(cell.log.closest_m, 0.02);
+}
+
+TEST(T3, AnArmOccupiesThePlaceWhereItWillComeToRest) {
+  Crossing cell;
+  cell.submit(slide("y", -1, 0, 2, "short"));  // comes to rest at the origin
+  cell.submit(slide("x", -1, 1, 8, "long"));   // passes there 2 s later
+  cell.run_until(at(1s));
+  EXPECT_EQ(cell.job("short").state, JobState::running);
+  EXPECT_EQ(cell.job("long").state, JobState::backlogged);
+  EXPECT_EQ(cell.job("long").waits_on.front().job, "short");
+  cell.run_until(at(4s));
+  EXPECT_EQ(cell.job("short").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("long").state, JobState::backlogged) << "the arm at rest still stands there";
+  EXPECT_EQ(cell.job("long").waits_on.front().kind, Wait::Kind::arm);
+  EXPECT_EQ(cell.job("long").waits_on.front().arm, "y");
+  cell.submit(slide("y", 0, -1, 2, "leaves"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("long").state, JobState::succeeded);
+  EXPECT_GT(cell.log.closest_m, 0.02);
+}
+
+TEST(T3, TheLongJobFirstMakesTheShortOneWait) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 8, "long"));
+  cell.submit(slide("y", -1, 0, 2, "short"));
+  cell.run_until(at(1s));
+  EXPECT_EQ(cell.job("short").state, JobState::backlogged);
+  EXPECT_EQ(cell.job("short").waits_on.front().job, "long");
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("short").state, JobState::succeeded);
+  EXPECT_GT(cell.log.closest_m, 0.02);
+}
+
+TEST(T3, AnArmOccupiesWhereItRestsBeforeItsFirstJob) {
+  CellDescription description = crossing_description();
+  description.robots[1].arms[0].home = {0.0};
+  Crossing cell(description);
+  cell.submit(slide("x", -1, 1, 4, "through"));
+  cell.run_until(at(1s));
+  EXPECT_EQ(cell.job("through").state, JobState::backlogged);
+  EXPECT_EQ(cell.job("through").waits_on.front().kind, Wait::Kind::arm);
+  EXPECT_EQ(cell.log.last, cell.log.first);
+}
+
+TEST(T11, ASecondJobFromTheSameStartIsRefusedWithThePlace) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "first"));
+  const auto refused = cell.simulation->executive().submit(slide("x", -1, 0.5, 4, "again"));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().pointer, "/trajectory/points/0/positions/0");
+  EXPECT_EQ(refused.error().front().detail,
+            "waypoint 0, x_slide: begins at -1, but will stand at 1 when the jobs accepted for the "
+            "arm have run");
+  EXPECT_FALSE(cell.simulation->executive().job("again"));
+}
+
+TEST(T11, TheOrderOfAnArmIsKept) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "out"));
+  JobRequest back = slide("x", 1, -1, 1, "back");
+  back.priority = 10;
+  cell.submit(std::move(back));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("out").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("back").state, JobState::succeeded);
+  EXPECT_GE(*cell.job("back").started_at, *cell.job("out").ended_at);
+}
+
+TEST(T11, WhatFollowsACanceledJobFailsWithTheReasonAndNeverHangs) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "out"));
+  cell.submit(slide("x", 1, -1, 4, "back"));
+  cell.run_until(at(1s));
+  ASSERT_TRUE(cell.simulation->executive().cancel("out"));
+  cell.run_until(at(2s));
+  EXPECT_EQ(cell.job("out").state, JobState::canceled);
+  EXPECT_EQ(cell.job("back").state, JobState::failed);
+  EXPECT_EQ(cell.job("back").reason, Reason::start_mismatch);
+  EXPECT_TRUE(cell.simulation->executive().all_ended());
+}
+
+TEST(Backlog, ExpiresAndSaysSo) {
+  CellDescription description = crossing_description();
+  description.robots[1].arms[0].home = {0.0};
+  description.scheduling.backlog_timeout = 2s;
+  Crossing cell(description);
+  cell.submit(slide("x", -1, 1, 4, "blocked"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("blocked").state, JobState::expired);
+  EXPECT_EQ(cell.job("blocked").reason, Reason::backlog_timeout);
+  EXPECT_NEAR(to_seconds(*cell.job("blocked").ended_at), 2.0, 0.01);
+}
+
+TEST(Policies, SequentialTakesAsLongAsAllJobsOneAfterTheOther) {
+  const auto makespan = [](const char* policy) {
+    Crossing cell(crossing_description(), policy);
+    cell.submit(slide("x", -1, -0.5, 2));  // far from each other
+    cell.submit(slide("y", -1, -0.5, 2));
+    cell.run_to_the_end();
+    return to_seconds(cell.simulation->executive().figures().last_end);
+  };
+  EXPECT_GT(makespan("sequential"), 4.0);
+  EXPECT_LT(makespan("timed_discrete"), 2.5);
+}
+
+}  // namespace
+}  // namespace armloom

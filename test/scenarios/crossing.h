@@ -1,0 +1,94 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/executive/simulation.h"
+#include "core/model/build_cell.h"
+
+namespace armloom {
+
+using namespace std::chrono_literals;
+
+// Two balls of 10 cm radius on linear axes that cross at the origin: "x" slides along x, "y" along
+// y, both from -1 m (home). They touch when both are within 20 cm of the origin and nowhere else.
+inline CellDescription crossing_description() {
+  CellDescription cell{.name = "crossing"};
+  for (const std::string name : {"x", "y"}) {
+    RobotDescription robot{.name = name,
+                           .urdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.urdf",
+                           .srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.srdf",
+                           .prefix = name + "_"};
+    if (name == "y") {
+      robot.X_WB.linear() =
+          Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    }
+    ArmDescription arm{.name = name, .group = "axis", .home = {-1.0}, .limits = {}};
+    arm.limits["slide"].acceleration = 20.0;
+    robot.arms.push_back(std::move(arm));
+    cell.robots.push_back(std::move(robot));
+  }
+  cell.checking.time_step = 10ms;
+  return cell;
+}
+
+// A quintic of one slider from rest to rest, as a client would post it.
+inline JobRequest slide(const std::string& arm, double from_m, double to_m, double duration_s,
+                        std::string key = "") {
+  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
+  request.trajectory.joint_names = {arm + "_slide"};
+  request.trajectory.points = {{{from_m}, {0.0}, {0.0}, 0.0}, {{to_m}, {0.0}, {0.0}, duration_s}};
+  return request;
+}
+
+// Keeps everything that is told.
+struct Log final : Observer {
+  void on_event(const Event& event) override { events.push_back(event); }
+  void on_tick(TimePoint, const Configuration& measured) override {
+    if (first.size() == 0) first = measured;
+    last = measured;
+    if (measured.size() == 2) {
+      closest_m = std::min(closest_m, measured.norm() - 0.2);  // of the two balls of the crossing
+    }
+  }
+  void on_state(const StateFrame&) override {}
+
+  std::vector<Event> events;
+  Configuration first, last;
+  double closest_m = 1e9;
+};
+
+// The crossing cell on hand-driven time.
+struct Crossing {
+  explicit Crossing(CellDescription description = crossing_description(),
+                    const std::string& policy = "timed_discrete") {
+    auto built = build_cell(description);
+    if (!built) throw std::runtime_error(built.error().front().detail);
+    auto created = Simulation::create(*built, ExecutiveOptions{.policy = policy}, log);
+    if (!created) throw std::runtime_error(created.error().front().detail);
+    simulation = std::move(*created);
+    simulation->tick();
+  }
+
+  JobView submit(JobRequest request) {
+    auto view = simulation->executive().submit(std::move(request));
+    if (!view) throw std::runtime_error(view.error().front().detail);
+    return *view;
+  }
+  JobView job(const std::string& key) const { return *simulation->executive().job(key); }
+  void run_until(TimePoint time) { simulation->run_until(time); }
+  // Until every job has ended; fails after `limit`.
+  void run_to_the_end(TimePoint limit = at(60s)) {
+    while (!simulation->executive().all_ended() && simulation->now() < limit) simulation->tick();
+    EXPECT_TRUE(simulation->executive().all_ended()) << "jobs hang";
+  }
+
+  Log log;
+  std::unique_ptr<Simulation> simulation;
+};
+
+}  // namespace armloom

@@ -1,0 +1,97 @@
+// The design's defect case T12 and other unusable trajectories, through the executive: refused with
+// place and value, nothing is stored, no arm moves.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct BadInput {
+  const char* name;
+  JobRequest request;
+  const char* pointer;
+  const char* detail;
+};
+
+JobRequest points(std::vector<WaypointRequest> waypoints) {
+  JobRequest request;
+  request.trajectory.joint_names = {"x_slide"};
+  request.trajectory.points = std::move(waypoints);
+  return request;
+}
+
+class Refuses : public ::testing::TestWithParam<BadInput> {};
+
+TEST_P(Refuses, WithPlaceAndValueAndMovesNothing) {
+  Crossing cell;
+  const std::size_t events = cell.log.events.size();
+  const auto refused = cell.simulation->executive().submit(GetParam().request);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().pointer, GetParam().pointer);
+  EXPECT_THAT(refused.error().front().detail, HasSubstr(GetParam().detail));
+  cell.run_until(at(500ms));
+  EXPECT_TRUE(cell.simulation->executive().all_ended());
+  EXPECT_TRUE(cell.simulation->executive().snapshot().jobs.empty());
+  EXPECT_EQ(cell.log.events.size(), events);
+  EXPECT_EQ(cell.log.last, cell.log.first);
+}
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+INSTANTIATE_TEST_SUITE_P(
+    T12, Refuses,
+    ::testing::Values(
+        BadInput{"Empty", points({}), "/trajectory/points", ""},
+        BadInput{"OnePoint", points({{{-1}, {0}, {0}, 0}}), "/trajectory/points", ""},
+        BadInput{"EqualTimes", points({{{-1}, {0}, {0}, 0}, {{0}, {0}, {0}, 0}}),
+                 "/trajectory/points/1/time_from_start", ""},
+        BadInput{
+            "ZeroLengthSegmentInTheMiddle",
+            points(
+                {{{-1}, {0}, {0}, 0}, {{0}, {0}, {0}, 2}, {{0}, {0}, {0}, 2}, {{1}, {0}, {0}, 4}}),
+            "/trajectory/points/2/time_from_start", ""},
+        BadInput{"UnsortedTimes",
+                 points({{{-1}, {0}, {0}, 0}, {{0}, {0}, {0}, 2}, {{1}, {0}, {0}, 1}}),
+                 "/trajectory/points/2/time_from_start", ""},
+        BadInput{"NotANumber", points({{{-1}, {0}, {0}, 0}, {{kNan}, {0}, {0}, 2}}),
+                 "/trajectory/points/1/positions/0", ""},
+        BadInput{"NotFiniteTime", points({{{-1}, {0}, {0}, 0}, {{0}, {0}, {0}, kNan}}),
+                 "/trajectory/points/1/time_from_start", ""},
+        BadInput{"BeyondAPositionLimit", points({{{-1}, {0}, {0}, 0}, {{2.5}, {0}, {0}, 20}}),
+                 "/trajectory/points/1/positions/0", "2.5"},
+        BadInput{"TooFastBetweenWaypoints", points({{{-1}, {0}, {0}, 0}, {{1}, {0}, {0}, 1}}),
+                 "/trajectory/points/1", "x_slide"},
+        BadInput{"StartsElsewhere", points({{{0}, {0}, {0}, 0}, {{1}, {0}, {0}, 4}}),
+                 "/trajectory/points/0/positions/0", "begins at 0"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(T12, AStandingTrajectoryIsHandledExactly) {
+  Crossing cell;
+  cell.submit(slide("x", -1, -1, 1, "stands"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("stands").state, JobState::succeeded);
+  EXPECT_EQ(cell.log.last, cell.log.first);
+}
+
+TEST(Submit, AnIdInUseIsAConflict) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "one"));
+  const auto refused = cell.simulation->executive().submit(slide("y", -1, 1, 4, "one"));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().kind, ProblemKind::conflict);
+}
+
+TEST(Submit, GivesIdsThatNobodyUses) {
+  Crossing cell;
+  cell.submit(slide("x", -1, -0.5, 4, "job-2"));
+  EXPECT_EQ(cell.submit(slide("y", -1, -0.5, 4)).key, "job-2.2");
+}
+
+}  // namespace
+}  // namespace armloom

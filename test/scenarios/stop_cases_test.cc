@@ -1,0 +1,76 @@
+// Stops, resumes and cancels of motions under way, through the whole executive.
+#include <gtest/gtest.h>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+TEST(Stop, HoldsAllMotionsAndResumeFinishesThem) {
+  Crossing cell;
+  cell.submit(slide("x", -1, -0.4, 4, "one"));
+  cell.submit(slide("y", -1, -0.4, 4, "two"));
+  cell.run_until(at(2s));
+  cell.simulation->executive().stop_all("operator");
+  cell.run_until(at(3s));
+  EXPECT_EQ(cell.job("one").state, JobState::holding);
+  EXPECT_FALSE(cell.job("one").stopping);
+  EXPECT_EQ(cell.job("one").waits_on.front().kind, Wait::Kind::stop);
+  const Configuration stands = cell.log.last;
+  cell.run_until(at(10s));
+  EXPECT_EQ(cell.log.last, stands);
+  cell.simulation->executive().resume_all();
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("one").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("two").state, JobState::succeeded);
+}
+
+TEST(Cancel, BrakesOnThePathAndOthersGoOn) {
+  Crossing cell;
+  cell.submit(slide("x", -1, -0.4, 4, "canceled"));
+  cell.submit(slide("y", -1, -0.4, 4, "other"));
+  cell.run_until(at(2s));
+  ASSERT_TRUE(cell.simulation->executive().cancel("canceled"));
+  EXPECT_TRUE(cell.job("canceled").stopping);
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("canceled").state, JobState::canceled);
+  EXPECT_LT(cell.log.last[0], -0.5) << "it stands where it braked";
+  EXPECT_EQ(cell.job("other").state, JobState::succeeded);
+  EXPECT_NEAR(to_seconds(*cell.job("other").ended_at), 4.0, 0.3) << "undisturbed";
+}
+
+// Admitted because "x" would have left; then "x" is canceled and stays in the way.
+TEST(Cancel, HoldsAMotionThatReliedOnTheOtherLeaving) {
+  CellDescription description = crossing_description();
+  description.robots[0].arms[0].home = {0.0};
+  Crossing cell(description);
+  cell.submit(slide("x", 0, 1, 4, "leaves"));
+  cell.run_until(at(300ms));
+  cell.submit(slide("y", -1, 1, 8, "passes"));
+  cell.run_until(at(800ms));
+  ASSERT_EQ(cell.job("passes").state, JobState::running);
+  ASSERT_TRUE(cell.simulation->executive().cancel("leaves"));
+  cell.run_until(at(10s));
+  EXPECT_EQ(cell.job("leaves").state, JobState::canceled);
+  EXPECT_EQ(cell.job("passes").state, JobState::holding);
+  EXPECT_EQ(cell.job("passes").waits_on.front().arm, "x");
+  EXPECT_GT(cell.log.closest_m, 0.0);
+
+  const double stands = cell.log.last[0];
+  cell.submit(slide("x", stands, 1.5, 4, "goes"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("passes").state, JobState::succeeded) << "it goes on once the way is free";
+  EXPECT_GT(cell.log.closest_m, 0.0);
+}
+
+TEST(Cancel, OfAnEndedOrUnknownJobIsAProblem) {
+  Crossing cell;
+  cell.submit(slide("x", -1, -0.5, 2, "one"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.simulation->executive().cancel("one").error().front().kind, ProblemKind::conflict);
+  EXPECT_EQ(cell.simulation->executive().cancel("two").error().front().kind,
+            ProblemKind::not_found);
+}
+
+}  // namespace
+}  // namespace armloom
