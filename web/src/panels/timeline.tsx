@@ -8,7 +8,7 @@ import type { Store } from '../store';
 import { short_id } from '../wording';
 
 const kWindow_s = 60;
-const kRedraw_ms = 100;
+const kRedraw_ms = 200;
 const kLeft_px = 64;
 const kRight_px = 12;
 const kAxis_px = 18;

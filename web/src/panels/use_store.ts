@@ -4,7 +4,7 @@
 import { useEffect, useReducer } from 'preact/hooks';
 import type { Store } from '../store';
 
-const kLive_ms = 120;
+const kLive_ms = 160;
 
 export function use_store(store: Store, live: 'live' | 'changes' = 'changes'): void {
   const [, redraw] = useReducer((n: number) => n + 1, 0);

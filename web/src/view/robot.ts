@@ -9,6 +9,7 @@ import URDFLoader, { type URDFRobot } from 'urdf-loader';
 import type { ArmState, CellArm, CellRobot } from '../messages';
 import { kStateColours } from '../palette';
 import { place } from './shapes';
+import { merge_links } from './skin';
 
 const kStill_rad = 1e-5;
 
@@ -21,13 +22,13 @@ export class RobotModel {
   readonly root: URDFRobot;
   private readonly marks_ = new Map<string, ArmMark>();
   private readonly joints_: { name: string; key: string; value: number }[];
-  private readonly skins_: THREE.MeshStandardMaterial[];
+  private readonly skin_: THREE.MeshStandardMaterial;
 
   /** Throws when the text is not a URDF. */
   constructor(robot: CellRobot) {
     this.root = parse(robot.urdf);
+    this.skin_ = merge_links(this.root);
     place(this.root, robot.base.xyz, robot.base.rpy);
-    this.skins_ = dress(this.root);
     this.joints_ = Object.keys(this.root.joints).map((key) => ({ name: robot.prefix + key, key, value: NaN }));
     for (const arm of robot.arms) this.marks_.set(arm.name, this.mark(arm, robot.prefix));
   }
@@ -51,7 +52,7 @@ export class RobotModel {
     mark.ring.material.color.set(kStateColours[state]);
     mark.ring.material.opacity = state === 'idle' ? 0.5 : 0.95;
     const alarmed = state === 'fault' || state === 'stopped';
-    for (const skin of this.skins_) skin.emissive.set(alarmed ? 0x4a0d10 : 0x000000);
+    this.skin_.emissive.set(alarmed ? 0x4a0d10 : 0x000000);
   }
 
   /** The point of the world where the arm stands; null for an arm that is not this robot's. */
@@ -92,25 +93,4 @@ function has_meshes(root: THREE.Object3D): boolean {
   let found = false;
   root.traverse((node) => { found ||= node instanceof THREE.Mesh; });
   return found;
-}
-
-/** Gives every mesh a matt skin of its URDF colour, shadows, and answers the skins. */
-function dress(root: THREE.Object3D): THREE.MeshStandardMaterial[] {
-  const skins = new Map<string, THREE.MeshStandardMaterial>();
-  root.traverse((node) => {
-    if (!(node instanceof THREE.Mesh)) return;
-    const old = [node.material].flat()[0] as THREE.MeshPhongMaterial;
-    const key = `${old.color.getHexString()} ${old.opacity}`;
-    let skin = skins.get(key);
-    if (!skin) {
-      skin = new THREE.MeshStandardMaterial({
-        color: old.color, roughness: 0.5, metalness: 0.05, opacity: old.opacity, transparent: old.opacity < 1,
-      });
-      skins.set(key, skin);
-    }
-    node.material = skin;
-    node.castShadow = true;
-    node.receiveShadow = true;
-  });
-  return [...skins.values()];
 }

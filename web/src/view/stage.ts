@@ -1,7 +1,10 @@
 // The stage of the 3D view: renderer, camera, lights, floor, and drawing on demand.
 //
-// The world is z up, metres. Nothing is drawn unless `invalidate` was called, and at most 30 times
-// a second, because software rendering (a robot cell's panel PC, a browser test) is slow.
+// The world is z up, metres. Nothing is drawn unless `invalidate` was called, at most 30 times a
+// second, and so seldom that drawing leaves half of the time free: without a graphics card (a panel
+// PC at the cell, a browser test) a frame may take a tenth of a second of all cores.
+// A fence behind each frame's commands tells how long it really took. Without a card edges are not
+// smoothed either, unless the page's address ends in `?fine` (for pictures of the page).
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -10,6 +13,7 @@ THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
 const kFog = 0x0f1319;
 const kLeastFrame_ms = 1000 / 31;
+const kLongestFrame_ms = 500;
 const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
 
 export class Stage {
@@ -26,15 +30,18 @@ export class Stage {
   private moved_by_user_ = false;
   private frame_: number | null = null;
   private drawn_at_ms_ = 0;
+  private next_at_ms_ = 0;
+  private fence_: WebGLSync | null = null;
   private readonly waiting_: (() => void)[] = [];
 
   constructor(private readonly host_: HTMLElement) {
-    this.renderer_ = new THREE.WebGLRenderer({ antialias: true, alpha: true, powerPreference: 'low-power' });
-    this.renderer_.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    const fine = wants_fine_picture() || !renders_in_software();
+    this.renderer_ = new THREE.WebGLRenderer({ antialias: fine, alpha: true, powerPreference: 'low-power' });
+    this.renderer_.setPixelRatio(fine ? Math.min(2, window.devicePixelRatio) : 1);
     this.renderer_.toneMapping = THREE.ACESFilmicToneMapping;
     this.renderer_.toneMappingExposure = 1.2;
     this.renderer_.shadowMap.enabled = true;
-    this.renderer_.shadowMap.type = THREE.PCFSoftShadowMap;
+    this.renderer_.shadowMap.type = THREE.PCFShadowMap;
     this.renderer_.shadowMap.autoUpdate = false;
     host_.prepend(this.renderer_.domElement);
 
@@ -76,15 +83,12 @@ export class Stage {
     if (shapes_moved) this.renderer_.shadowMap.needsUpdate = true;
     if (this.frame_ !== null) return;
     const draw = (now_ms: number) => {
-      if (now_ms - this.drawn_at_ms_ < kLeastFrame_ms - 1) {
+      if (!this.may_draw(now_ms)) {
         this.frame_ = requestAnimationFrame(draw);
         return;
       }
       this.frame_ = null;
-      this.drawn_at_ms_ = now_ms;
-      this.renderer_.render(this.scene, this.camera);
-      this.after_draw();
-      for (const tell of this.waiting_.splice(0)) tell();
+      this.draw(now_ms);
     };
     this.frame_ = requestAnimationFrame(draw);
   }
@@ -102,6 +106,29 @@ export class Stage {
     const p = p_W.clone().project(this.camera);
     if (p.z > 1) return null;
     return { x: ((p.x + 1) / 2) * this.host_.clientWidth, y: ((1 - p.y) / 2) * this.host_.clientHeight };
+  }
+
+  private may_draw(now_ms: number): boolean {
+    if (this.fence_) {
+      const gl = this.renderer_.getContext() as WebGL2RenderingContext;
+      const took_ms = now_ms - this.drawn_at_ms_;
+      const done = gl.getSyncParameter(this.fence_, gl.SYNC_STATUS) === gl.SIGNALED;
+      if (!done && took_ms < kLongestFrame_ms) return false;
+      gl.deleteSync(this.fence_);
+      this.fence_ = null;
+      this.next_at_ms_ = this.drawn_at_ms_ + Math.max(kLeastFrame_ms - 1, 2 * took_ms);
+    }
+    return now_ms >= this.next_at_ms_;
+  }
+
+  private draw(now_ms: number): void {
+    this.drawn_at_ms_ = now_ms;
+    this.renderer_.render(this.scene, this.camera);
+    this.after_draw();
+    const gl = this.renderer_.getContext() as WebGL2RenderingContext;
+    this.fence_ = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    for (const tell of this.waiting_.splice(0)) tell();
   }
 
   private resize(): void {
@@ -124,6 +151,18 @@ export class Stage {
     this.controls_.target.copy(this.target_);
     this.controls_.update();
   }
+}
+
+function wants_fine_picture(): boolean {
+  return new URLSearchParams(window.location.search).has('fine');
+}
+
+function renders_in_software(): boolean {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const names = gl?.getExtension('WEBGL_debug_renderer_info');
+  const renderer = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|basic render/i.test(renderer);
 }
 
 function add_lights(scene: THREE.Scene): void {
