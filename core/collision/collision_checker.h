@@ -23,7 +23,7 @@ struct NearPair {
 
 // Asks one scene about single configurations of the whole cell. Holds the scratch: one per worker
 // thread, not thread-safe. FCL that throws counts as contact (clearance 0). Distances are never
-// larger than the true ones, and at most 2e-7 m smaller. Configurations have one entry per joint of
+// larger than the true ones, nor smaller by more than 2e-7 m but in rare cases (exact_distance.h). Configurations have one entry per joint of
 // the cell (throws std::invalid_argument otherwise), arm masks one per arm.
 class CollisionChecker {
  public:

@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/collision/body.h"
+#include "core/collision/exact_distance.h"
+#include "test/collision/reference_distance.h"
+#include "test/collision/small_cell.h"
+
+namespace armloom {
+namespace {
+
+reference::Convex convex(const Body& body, const Eigen::Isometry3d& X_WP) {
+  reference::Convex c{};
+  using Kind = reference::Convex::Kind;
+  c.kind = body.kind == BodyKind::box        ? Kind::box
+           : body.kind == BodyKind::cylinder ? Kind::cylinder
+                                             : Kind::capsule;
+  c.half_size_m = body.half_size_m;
+  c.radius_m = body.radius_m;
+  c.half_length_m = body.half_length_m;
+  c.X_WS = X_WP * body.X_PS;
+  return c;
+}
+
+std::vector<PlacedShape> random_shape(int kind, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> size(0.03, 0.3);
+  switch (kind) {
+    case 0:
+      return {{Sphere{size(random)}}};
+    case 1:
+      return {{Cylinder{size(random), 2 * size(random)}}};
+    case 2:
+      return {{Box{{size(random), 2 * size(random), 3 * size(random)}}}};
+    case 3:
+      return {{Box{{2.0, 2.0, 0.1}}}};  // a table
+    default:
+      return small::capsule_along_x(-size(random), size(random), size(random) / 2);
+  }
+}
+
+TEST(Bodies, MergeACylinderWithItsTwoCapsIntoOneCapsule) {
+  const auto bodies = make_bodies(small::capsule_along_x(0.1, 0.5, 0.06));
+  ASSERT_EQ(bodies.size(), 1U);
+  EXPECT_EQ(bodies[0].kind, BodyKind::round);
+  EXPECT_DOUBLE_EQ(bodies[0].half_length_m, 0.2);
+  EXPECT_NEAR(bodies[0].radius_m, 0.06, 1e-12);
+}
+
+TEST(Bodies, MergeTwoCylindersThatShareACap) {
+  auto shapes = small::capsule_along_x(0.0, 0.4, 0.05);
+  const auto second = small::capsule_along_x(0.4, 0.7, 0.05);
+  shapes.push_back(second[0]);
+  shapes.push_back(second[2]);  // its far end only
+  const auto bodies = make_bodies(shapes);
+  ASSERT_EQ(bodies.size(), 2U);
+  for (const Body& body : bodies) EXPECT_EQ(body.kind, BodyKind::round);
+}
+
+TEST(Bodies, KeepACylinderFlatWhenACapIsMissingOrOfAnotherSizeOrElsewhere) {
+  auto missing = small::capsule_along_x(0.0, 0.4, 0.05);
+  missing.pop_back();
+  auto thinner = small::capsule_along_x(0.0, 0.4, 0.05);
+  thinner[2].shape = Sphere{0.04999};
+  auto elsewhere = small::capsule_along_x(0.0, 0.4, 0.05);
+  elsewhere[1].X_LS.translation().x() += 1e-5;
+  for (const auto& [shapes, count] : {std::pair{missing, 2U}, {thinner, 3U}, {elsewhere, 3U}}) {
+    const auto bodies = make_bodies(shapes);
+    ASSERT_EQ(bodies.size(), count);
+    EXPECT_EQ(bodies[0].kind, BodyKind::cylinder);
+  }
+}
+
+TEST(Bodies, MergedCapsuleContainsCapsThatAreAMicrometreOff) {
+  auto shapes = small::capsule_along_x(0.0, 0.4, 0.05);
+  shapes[1].X_LS.translation().y() = 8e-7;
+  const auto bodies = make_bodies(shapes);
+  ASSERT_EQ(bodies.size(), 1U);
+  EXPECT_GE(bodies[0].radius_m, 0.05 + 8e-7);
+}
+
+// Every kind against every kind, apart, near and overlapping.
+TEST(Bodies, DistancesAreNeverTooLargeAndHardlyEverTooSmall) {
+  std::mt19937_64 random(20240701);
+  std::array<int, 5> apart{};
+  int too_small = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Body a = make_bodies(random_shape(i % 5, random)).front();
+    const Body b = make_bodies(random_shape(i / 5 % 5, random)).front();
+    const Eigen::Isometry3d X_WA = reference::random_pose(random, 0.4);
+    Eigen::Isometry3d X_WB = reference::random_pose(random, 0.4);
+    if (i % 3 == 0) X_WB.linear() = X_WA.linear();  // parallel axes and faces
+    const reference::Bracket truth =
+        reference::distance(convex(a, X_WA), convex(b, X_WB), 4000);
+    if (truth.upper - truth.lower > 1e-7) continue;  // the reference itself did not converge
+    PlacedBody at_a;
+    PlacedBody at_b;
+    place(a, X_WA, at_a);
+    place(b, X_WB, at_b);
+    const double d = distance_below(a, at_a, b, at_b, 10.0);
+    const Bound bound = lower_bound(a, at_a, b, at_b);
+    if (truth.upper <= 0.0) {
+      EXPECT_LE(d, 1e-8) << "trial " << i;
+      EXPECT_LE(bound.distance_m, 1e-8) << "trial " << i;
+      continue;
+    }
+    ++apart[static_cast<std::size_t>(i % 5)];
+    EXPECT_LE(d, truth.upper + 1e-9) << "trial " << i;
+    EXPECT_GE(d, truth.lower - 2e-3) << "trial " << i;
+    if (d < truth.lower - 2e-7) ++too_small;
+    EXPECT_LE(bound.distance_m, truth.upper + 1e-9) << "trial " << i;
+    if (bound.exact) {
+      EXPECT_DOUBLE_EQ(bound.distance_m, d);
+    }
+  }
+  for (const int count : apart) EXPECT_GT(count, 1000);
+  EXPECT_LE(too_small, 2);
+}
+
+TEST(Bodies, CapsulesByHandAgreeWithFcl) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 2000; ++i) {
+    const Body a = make_bodies(random_shape(4, random)).front();
+    const Body b = make_bodies(random_shape(i % 2 == 0 ? 4 : 0, random)).front();
+    const Eigen::Isometry3d X_WA = reference::random_pose(random, 0.5);
+    const Eigen::Isometry3d X_WB = reference::random_pose(random, 0.5);
+    PlacedBody at_a;
+    PlacedBody at_b;
+    place(a, X_WA, at_a);
+    place(b, X_WB, at_b);
+    const double by_hand = lower_bound(a, at_a, b, at_b).distance_m;
+    const double by_fcl = exact_distance(a, shape_pose(a, at_a), b, shape_pose(b, at_b));
+    EXPECT_NEAR(std::max(0.0, by_hand), by_fcl, 1e-9) << "trial " << i;
+  }
+}
+
+TEST(Bodies, ABodyWhollyInsideAnotherIsInContact) {
+  const Body table = make_bodies({{Box{{2.0, 2.0, 1.0}}}}).front();
+  const Body crate = make_bodies({{Box{{0.1, 0.1, 0.1}}}}).front();
+  const Body can = make_bodies({{Cylinder{0.05, 0.1}}}).front();
+  const Body ball = make_bodies({{Sphere{0.05}}}).front();
+  PlacedBody at_table;
+  place(table, Eigen::Isometry3d::Identity(), at_table);
+  for (const Body& inner : {crate, can, ball}) {
+    PlacedBody inside;
+    place(inner, small::at_xyz(0.3, 0.2, 0.1), inside);
+    EXPECT_LE(distance_below(inner, inside, table, at_table, 1.0), 0.0);
+    EXPECT_LE(distance_below(table, at_table, inner, inside, 1.0), 0.0);
+  }
+}
+
+TEST(Bodies, OverlapOfCapsulesIsSigned) {
+  const Body a = make_bodies(small::capsule_along_x(-0.2, 0.2, 0.1)).front();
+  PlacedBody here;
+  PlacedBody above;
+  place(a, Eigen::Isometry3d::Identity(), here);
+  place(a, small::at_xyz(0, 0, 0.15), above);
+  EXPECT_NEAR(distance_below(a, here, a, above, 0.02), -0.05, 1e-12);
+}
+
+}  // namespace
+}  // namespace armloom

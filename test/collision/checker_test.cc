@@ -1,0 +1,243 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+
+#include "core/collision/body.h"
+#include "core/collision/check_home.h"
+#include "core/collision/collision_checker.h"
+#include "core/collision/exact_distance.h"
+#include "core/model/kinematics.h"
+#include "test/collision/small_cell.h"
+
+namespace armloom {
+namespace {
+
+const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
+const Eigen::Vector3d kY = Eigen::Vector3d::UnitY();
+const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
+
+// Two arms of four links face to face over a table, with a rod and a crate; a static post on the
+// left robot, a flat cylinder and a box on the right one's last link.
+Cell busy_cell() {
+  Cell cell;
+  cell.clearance_m = 0.02;
+  small::add_robot(cell, "left", small::at_xyz(-0.3, 0, 0.4), {kZ, kY, kY, kX}, 0.2, 0.05);
+  Eigen::Isometry3d facing = small::at_xyz(0.3, 0, 0.4);
+  facing.rotate(Eigen::AngleAxisd(small::kHalfTurn, kZ));
+  small::add_robot(cell, "right", facing, {kZ, kY, kY, kX}, 0.2, 0.05);
+  cell.links.back().shapes.clear();
+  small::add_shape(cell.links.back(), Cylinder{0.04, 0.1}, small::at_xyz(0.1, 0, 0));
+  small::add_shape(cell.links.back(), Box{{0.05, 0.1, 0.02}}, small::at_xyz(0.15, 0, 0.03));
+  Link post = small::static_link("left_post", RobotId{0}, small::at_xyz(-0.3, 0.3, 0.5));
+  small::add_shape(post, Box{{0.05, 0.05, 0.6}}, Eigen::Isometry3d::Identity());
+  small::add_link(cell, post);
+  cell.objects.push_back({"table", Box{{2, 2, 0.1}}, small::at_xyz(0, 0, -0.05)});
+  Eigen::Isometry3d leaning = small::at_xyz(0.0, 0.3, 0.3);
+  leaning.rotate(Eigen::AngleAxisd(0.7, kX));
+  cell.objects.push_back({"rod", Cylinder{0.015, 0.5}, leaning});
+  cell.objects.push_back({"crate", Box{{0.2, 0.3, 0.2}}, small::at_xyz(0.1, -0.4, 0.1)});
+  cell.objects.push_back({"ball", Sphere{0.1}, small::at_xyz(-0.2, 0.5, 0.5)});
+  cell.allowed_link_objects.insert({LinkId{1}, "table"});
+  return cell;
+}
+
+PlanningScenePtr scene_of(const CellPtr& cell) {
+  auto scene = PlanningScene::build(cell);
+  EXPECT_TRUE(scene.has_value());
+  return *scene;
+}
+
+using NamePair = std::pair<std::string, std::string>;
+NamePair names(const std::string& a, const std::string& b) { return std::minmax(a, b); }
+
+// All pairs that matter, with plain FCL on every body: no filter, no groups.
+std::map<NamePair, double> brute_force(const Cell& cell, const Configuration& q) {
+  struct Solid {
+    std::string name;
+    std::optional<ArmId> arm;
+    std::size_t index;
+    bool object;
+    std::vector<Body> bodies;
+    Eigen::Isometry3d X_WP;
+  };
+  LinkPoses X_WL;
+  forward_kinematics(cell, q, X_WL);
+  std::vector<Solid> solids;
+  for (std::size_t i = 0; i < cell.links.size(); ++i) {
+    const Link& link = cell.links[i];
+    solids.push_back({link.name, link.arm, i, false, make_bodies(link.shapes), X_WL[i]});
+  }
+  for (const CollisionObject& o : cell.objects) {
+    solids.push_back({o.name, {}, 0, true, make_bodies(std::vector<PlacedShape>(1, {o.shape})), o.X_WO});
+  }
+  std::map<NamePair, double> found;
+  for (const Solid& a : solids) {
+    for (const Solid& b : solids) {
+      if (&a >= &b || a.object || (!a.arm && !b.arm)) continue;
+      const LinkId id_a{static_cast<std::uint32_t>(a.index)};
+      const LinkId id_b{static_cast<std::uint32_t>(b.index)};
+      if (b.object ? cell.allowed_link_objects.contains({id_a, b.name})
+                   : cell.allowed_link_pairs.contains({id_a, id_b})) {
+        continue;
+      }
+      double smallest = 1e9;
+      for (const Body& x : a.bodies) {
+        for (const Body& y : b.bodies) {
+          smallest = std::min(smallest, exact_distance(x, a.X_WP * x.X_PS, y, b.X_WP * y.X_PS));
+        }
+      }
+      if (smallest < 1e9) found[names(a.name, b.name)] = smallest;
+    }
+  }
+  return found;
+}
+
+Configuration random_configuration(const Cell& cell, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> angle(-2.5, 2.5);
+  Configuration q(static_cast<Eigen::Index>(cell.joints.size()));
+  for (double& value : q) value = angle(random);
+  return q;
+}
+
+TEST(CollisionChecker, HidesNoPairThatBruteForceFinds) {
+  const CellPtr cell = small::shared(busy_cell());
+  CollisionChecker checker(scene_of(cell));
+  const std::vector<bool> all(2, true);
+  std::mt19937_64 random(99);
+  std::vector<NearPair> near;
+  std::size_t found = 0;
+  for (int i = 0; i < 2500; ++i) {
+    const Configuration q = random_configuration(*cell, random);
+    checker.near_pairs(q, cell->clearance_m, all, all, near);
+    std::map<NamePair, double> seen;
+    for (const NearPair& pair : near) {
+      const Proximity p = checker.describe(pair);
+      seen[names(p.body_a, p.body_b)] = p.clearance_m;
+    }
+    for (const auto& [pair, distance] : brute_force(*cell, q)) {
+      const auto at = seen.find(pair);
+      if (distance < cell->clearance_m - 1e-6) {
+        ASSERT_NE(at, seen.end()) << i << ": " << pair.first << " and " << pair.second;
+        EXPECT_NEAR(std::max(0.0, at->second), distance, 1e-6) << i;
+        ++found;
+      } else if (distance > cell->clearance_m + 1e-6) {
+        EXPECT_EQ(at, seen.end()) << i << ": " << pair.first << " and " << pair.second;
+      }
+    }
+  }
+  EXPECT_GT(found, 1000U);
+}
+
+TEST(CollisionChecker, FirstIsTheFirstOfAllInTheScenesOrder) {
+  const CellPtr cell = small::shared(busy_cell());
+  CollisionChecker checker(scene_of(cell));
+  std::mt19937_64 random(5);
+  std::vector<NearPair> near;
+  for (int i = 0; i < 500; ++i) {
+    const Configuration q = random_configuration(*cell, random);
+    for (const std::vector<bool>& arms : {std::vector{true, true}, {true, false}, {false, true}}) {
+      checker.near_pairs(q, 0.02, arms, {true, true}, near);
+      const auto first = checker.first_closer_than(q, 0.02, arms);
+      ASSERT_EQ(first.has_value(), !near.empty());
+      if (!first) continue;
+      const Proximity expected = checker.describe(near.front());
+      EXPECT_EQ(first->body_a, expected.body_a);
+      EXPECT_EQ(first->body_b, expected.body_b);
+      EXPECT_EQ(first->clearance_m, expected.clearance_m);
+      EXPECT_TRUE((first->arm_a && arms[first->arm_a->index()]) ||
+                  (first->arm_b && arms[first->arm_b->index()]));
+    }
+  }
+}
+
+TEST(CollisionChecker, ClosestBetweenArmsIsTheSmallestOverAllPairs) {
+  const CellPtr cell = small::shared(busy_cell());
+  CollisionChecker checker(scene_of(cell));
+  std::mt19937_64 random(17);
+  int within = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Configuration q = random_configuration(*cell, random);
+    double smallest = 1e9;
+    for (const auto& [pair, distance] : brute_force(*cell, q)) {
+      if (pair.first.starts_with("left_link") && pair.second.starts_with("right")) {
+        smallest = std::min(smallest, distance);
+      }
+    }
+    const auto closest = checker.closest_between_arms(q, 0.3);
+    if (smallest > 0.3 + 1e-6) {
+      EXPECT_TRUE(closest.empty());
+    } else if (smallest < 0.3 - 1e-6) {
+      ASSERT_EQ(closest.size(), 1U);
+      EXPECT_NEAR(std::max(0.0, closest[0].clearance_m), smallest, 1e-6);
+      ++within;
+    }
+  }
+  EXPECT_GT(within, 100);
+}
+
+TEST(CollisionChecker, AllNamesTheClosestOfEachCounterpart) {
+  Cell cell;
+  const ArmId left = small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.05);
+  const ArmId right = small::add_robot(cell, "right", small::at_xyz(0, 2, 0), {kZ}, 0.3, 0.05);
+  cell.objects.push_back({"near", Sphere{0.1}, small::at_xyz(0.15, 0, 0.155)});
+  cell.objects.push_back({"nearer", Sphere{0.1}, small::at_xyz(0.15, 0, -0.152)});
+  CollisionChecker checker(scene_of(small::shared(cell)));
+  Configuration q = cell.home();
+  q[2] = 3.1;
+  q[1] = 3.1;  // folded twice: link3 lies on link1
+  const auto found = checker.all_closer_than(q, 0.01);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].body_b, "nearer");
+  EXPECT_TRUE(found[0].object_b);
+  EXPECT_NEAR(found[0].clearance_m, 0.002, 1e-9);
+  EXPECT_EQ(found[1].body_a, "left_link1");
+  EXPECT_EQ(found[1].body_b, "left_link3");
+  EXPECT_EQ(found[1].arm_b, left);
+  EXPECT_NE(found[1].arm_a, right);
+}
+
+TEST(PlanningScene, RefusesMeshesAndNamesThemAll) {
+  Cell cell = busy_cell();
+  small::add_shape(cell.links[2], Mesh{"hand.stl"}, Eigen::Isometry3d::Identity());
+  cell.objects.push_back({"part", Mesh{"part.stl"}});
+  const auto scene = PlanningScene::build(small::shared(cell));
+  ASSERT_FALSE(scene.has_value());
+  ASSERT_EQ(scene.error().size(), 2U);
+  EXPECT_EQ(scene.error()[0].kind, ProblemKind::unsupported);
+  EXPECT_THAT(scene.error()[0].detail, ::testing::HasSubstr("hand.stl"));
+  EXPECT_EQ(scene.error()[1].pointer, "/objects/4/mesh");
+}
+
+TEST(PlanningScene, RefusesANameUsedTwiceAndAnAllowedNameThatIsNone) {
+  Cell cell = busy_cell();
+  cell.objects.push_back({"rod", Sphere{0.1}});
+  cell.allowed_link_objects.insert({LinkId{1}, "tabel"});
+  const auto scene = PlanningScene::build(small::shared(cell));
+  ASSERT_FALSE(scene.has_value());
+  ASSERT_EQ(scene.error().size(), 2U);
+  EXPECT_EQ(scene.error()[0].pointer, "/objects/4/name");
+  EXPECT_THAT(scene.error()[1].detail, ::testing::HasSubstr("tabel"));
+}
+
+TEST(CheckHome, IsQuietWhenHomesAreFreeAndNamesEveryPairThatIsNot) {
+  Cell cell;
+  cell.clearance_m = 0.02;
+  small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ}, 0.3, 0.05);
+  small::add_robot(cell, "right", small::at_xyz(0, 0.13, 0), {kZ}, 0.3, 0.05);
+  EXPECT_TRUE(check_home(scene_of(small::shared(cell))).empty());
+  cell.clearance_m = 0.031;
+  cell.objects.push_back({"shelf", Box{{1, 1, 0.1}}, small::at_xyz(0, 0, -0.12)});
+  const Problems problems = check_home(scene_of(small::shared(cell)));
+  ASSERT_EQ(problems.size(), 3U);
+  EXPECT_EQ(problems[0].pointer, "/robots/0/arms/0/home");
+  EXPECT_EQ(problems[0].detail,
+            "left_link1 and right_link1: 0.0300 m apart at home, clearance_m is 0.0310");
+  EXPECT_THAT(problems[2].detail, ::testing::StartsWith("right_link1 and shelf: 0.0200 m"));
+}
+
+}  // namespace
+}  // namespace armloom
