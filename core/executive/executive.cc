@@ -402,7 +402,7 @@ Result<std::unique_ptr<Executive>> Executive::create(CellPtr cell, ExecutiveOpti
   if (!policy) return failure(std::move(policy.error()));
   auto scene = PlanningScene::build(cell);
   if (!scene) return failure(std::move(scene.error()));
-  if (auto problems = check_home(**scene); !problems.empty()) return failure(std::move(problems));
+  if (auto problems = check_home(*scene); !problems.empty()) return failure(std::move(problems));
 
   for (std::size_t r = 0; r < cell->robots.size(); ++r) {
     const std::string& type = cell->robots[r].controller.type;

@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "/trajectory/points/1", "x_slide"},
         BadInput{"StartsElsewhere", points({{{0}, {0}, {0}, 0}, {{1}, {0}, {0}, 4}}),
                  "/trajectory/points/0/positions/0", "begins at 0"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& test) { return std::string(test.param.name); });
 
 TEST(T12, AStandingTrajectoryIsHandledExactly) {
   Crossing cell;
