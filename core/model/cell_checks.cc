@@ -129,7 +129,7 @@ void check_settings(const CellDescription& d, Findings& findings) {
           "greater than 0 and at most 1000 Hz", findings);
   not_negative(to_seconds(monitor.reaction), "/monitor/reaction_s");
   not_negative(monitor.stop_clearance_m, "/monitor/stop_clearance_m");
-  require(!(monitor.stop_clearance_m > d.clearance_m), monitor.stop_clearance_m, "/monitor/stop_clearance_m",
+  require(!(monitor.stop_clearance_m > d.clearance_m && d.clearance_m >= 0.0), monitor.stop_clearance_m, "/monitor/stop_clearance_m",
           "at most clearance_m (" + text_of(d.clearance_m) + " m)", findings);
 
   const ExecutionSettings& execution = d.execution;

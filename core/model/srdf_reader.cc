@@ -20,8 +20,11 @@ class SrdfReader {
   RobotSemantics read() {
     RobotSemantics semantics;
     const std::set<std::string> virtual_joints = read_virtual_joints();
+    const std::size_t before = findings_.count();
     semantics.groups = read_groups(srdf_, file_, tree_, virtual_joints, findings_);
-    for_each("group_state", [&](const XMLElement& state) { read_state(state, virtual_joints, semantics); });
+    if (findings_.count() == before) {  // states of broken groups would only repeat what is wrong
+      for_each("group_state", [&](const XMLElement& state) { read_state(state, virtual_joints, semantics); });
+    }
     for_each("passive_joint", [&](const XMLElement& passive) { read_passive_joint(passive, virtual_joints); });
     read_allowed_pairs(semantics);
     return semantics;

@@ -169,10 +169,6 @@ void check_urdf_elements(const XMLElement& robot, const std::string& file, Findi
   for (const auto* child = robot.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
     const std::string_view tag = child->Name();
     const XmlPlace place(place_of(*child, file), findings);
-    if (tag.starts_with("xacro:")) {
-      return place.report("xacro", "the file is xacro, expand it to URDF first", std::string(tag),
-                          ProblemKind::unsupported);
-    }
     if (tag == "link") {
       ++links;
       check_link(*child, place);

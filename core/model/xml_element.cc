@@ -18,6 +18,15 @@ const tinyxml2::XMLUnknown* find_declaration(const tinyxml2::XMLNode& node) {
   return nullptr;
 }
 
+// An element that a xacro macro stands behind, anywhere in the file.
+const tinyxml2::XMLElement* find_xacro(const tinyxml2::XMLElement& element) {
+  for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    if (std::string_view(child->Name()).starts_with("xacro:")) return child;
+    if (const auto* below = find_xacro(*child)) return below;
+  }
+  return nullptr;
+}
+
 std::string why_malformed(const tinyxml2::XMLDocument& document, const std::string& text) {
   if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) return "elements are nested too deeply";
   if (text.find("<!DOCTYPE") != std::string::npos) return "a DOCTYPE is not allowed";
@@ -41,8 +50,14 @@ tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string
   }
   auto* root = document.RootElement();
   if (root == nullptr) return refuse(1, "the file holds no XML element");
+  if (const auto* second = root->NextSiblingElement()) {
+    return refuse(second->GetLineNum(), "the file holds more than one XML element");
+  }
   if (std::string_view(root->Name()) != "robot") {
     return refuse(root->GetLineNum(), std::string("the root element is <") + root->Name() + ">, not <robot>");
+  }
+  if (const auto* xacro = find_xacro(*root)) {
+    return refuse(xacro->GetLineNum(), "the file is xacro, expand it first");
   }
   return root;
 }
@@ -101,7 +116,7 @@ void XmlPlace::only_children(const tinyxml2::XMLElement& element,
   for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
     const std::string_view tag = child->Name();
     // An element of another namespace (drake:..., mujoco:...) is an extension, not a misspelling.
-    if (tag.find(':') != std::string_view::npos && !tag.starts_with("xacro:")) continue;
+    if (tag.find(':') != std::string_view::npos) continue;
     if (std::find(known.begin(), known.end(), tag) != known.end()) continue;
     report("unknown-element", "<" + std::string(tag) + "> is not known here", std::string(tag),
            ProblemKind::unsupported);

@@ -19,7 +19,7 @@ namespace armloom {
 enum class Presence { required, optional };
 
 // Reads XML into `document`. DOCTYPE and entity declarations are refused, and so is nesting deeper
-// than tinyxml2's bound (100). Returns the <robot> element, or null after adding what is wrong to
+// than tinyxml2's bound (100), a second root element and unexpanded xacro. Returns the <robot> element, or null after adding what is wrong to
 // `findings` (place: "panda.urdf:12", the line).
 [[nodiscard]] tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string& file,
                                                     tinyxml2::XMLDocument& document,

@@ -1,0 +1,64 @@
+#include "core/model/mesh_path.h"
+
+#include <gmock/gmock.h>
+
+#include "test/model/test_cells.h"
+
+namespace armloom {
+namespace {
+
+using testing::HasSubstr;
+
+class MeshPath : public testing::Test {
+ protected:
+  MeshPath() {
+    folder_.write("robot/meshes/a.stl", "solid a");
+    folder_.write("package/meshes/b.stl", "solid b");
+    folder_.write("secret.stl", "solid secret");
+    std::filesystem::create_symlink(folder_.path() / "secret.stl", folder_.path() / "package/meshes/link.stl");
+    std::filesystem::create_symlink(folder_.path(), folder_.path() / "package/up");
+    std::filesystem::create_symlink("b.stl", folder_.path() / "package/meshes/inner.stl");
+  }
+
+  tl::expected<std::filesystem::path, std::string> resolve(const std::string& uri) const {
+    return resolve_mesh(uri, folder_.path() / "robot", {{"p", (folder_.path() / "package").string()}});
+  }
+  std::string refusal(const std::string& uri) const {
+    const auto path = resolve(uri);
+    return path ? "accepted: " + path->string() : path.error();
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(MeshPath, FindsFilesInPackagesAndNextToTheUrdf) {
+  EXPECT_EQ(resolve("package://p/meshes/b.stl"), std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
+  EXPECT_EQ(resolve("package://p/meshes/../meshes/inner.stl"), std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
+  EXPECT_EQ(resolve("meshes/a.stl"), std::filesystem::canonical(folder_.path() / "robot/meshes/a.stl"));
+}
+
+TEST_F(MeshPath, StaysInsideItsFolderAsWritten) {
+  EXPECT_THAT(refusal("package://p/../secret.stl"), HasSubstr("leaves its folder"));
+  EXPECT_THAT(refusal("package://p/meshes/../../secret.stl"), HasSubstr("leaves its folder"));
+  EXPECT_THAT(refusal("package://p//etc/hostname"), HasSubstr("leaves its folder"));
+  EXPECT_THAT(refusal("../secret.stl"), HasSubstr("leaves its folder"));
+}
+
+TEST_F(MeshPath, StaysInsideItsFolderThroughLinks) {
+  EXPECT_THAT(refusal("package://p/meshes/link.stl"), HasSubstr("through a link"));
+  EXPECT_THAT(refusal("package://p/up/secret.stl"), HasSubstr("through a link"));
+}
+
+TEST_F(MeshPath, RefusesOtherSchemesAndWhatIsNoFile) {
+  EXPECT_THAT(refusal("file:///etc/hostname"), HasSubstr("neither package://"));
+  EXPECT_THAT(refusal("http://127.0.0.1/a.stl"), HasSubstr("neither package://"));
+  EXPECT_THAT(refusal("/etc/hostname"), HasSubstr("neither package://"));
+  EXPECT_THAT(refusal("package://q/a.stl"), HasSubstr("package 'q'"));
+  EXPECT_THAT(refusal("package://p"), HasSubstr("names no file"));
+  EXPECT_THAT(refusal("package://p/meshes"), HasSubstr("not a regular file"));
+  EXPECT_THAT(refusal("package://p/meshes/missing.stl"), HasSubstr("does not exist"));
+  EXPECT_THAT(refusal(""), HasSubstr("leaves its folder"));
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/model/build_cell.h"
+
+namespace armloom {
+
+[[nodiscard]] std::string data_file(const std::string& name);   // test/model/data/...
+[[nodiscard]] std::string model_file(const std::string& name);  // models/...
+
+// test/model/data/two_arms: both arms of one robot, prefix "t_", base pose away from the origin.
+[[nodiscard]] CellDescription two_arms_description();
+
+// Two Pandas as config/two_pandas.json has them, without limits of their own.
+[[nodiscard]] CellDescription two_pandas_description();
+
+// Builds, or fails the test with everything that build_cell found.
+[[nodiscard]] CellPtr build_or_fail(const CellDescription& description);
+
+// All problems of the description, one line each: "<pointer> | <detail>"; empty when it builds.
+[[nodiscard]] std::string problems_of(const CellDescription& description);
+
+// A folder of its own that goes away with it.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  // Writes a file, with the folders above it, and returns its path.
+  std::string write(const std::string& name, const std::string& text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+// The text of a file with `from`, which must occur in it exactly once, replaced by `to`.
+[[nodiscard]] std::string file_with(const std::string& path, const std::string& from, const std::string& to);
+
+}  // namespace armloom
