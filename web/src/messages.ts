@@ -38,6 +38,8 @@ export interface WaitsOn {
   own_time_s: number | null;
   other_time_s: number | null;
   clearance_m: number | null;
+  /** For a stop: its cause. */
+  detail: string | null;
 }
 
 export interface JobResult {
@@ -112,8 +114,9 @@ export interface Cell {
   clearance_m: number | null;
 }
 
+/** The smallest distance of a pair: two arms, or one arm and an object of the scene. */
 export interface Clearance {
-  arms: [string, string];
+  arms: string[];
   m: number;
   links: [string, string] | null;
 }
@@ -137,6 +140,8 @@ export interface SnapshotData {
   stopped: boolean;
   arms: Arm[];
   jobs: Job[];
+  /** The order in the lists; null when the server leaves it to the next queue event. */
+  queue: QueueData | null;
   objects: SceneObject[];
   gap: boolean;
 }
@@ -244,6 +249,7 @@ function read_snapshot(f: Field): SnapshotData {
     stopped: f.get('stopped').flag(),
     arms: f.get('arms').list(read_arm),
     jobs: f.get('jobs').list(read_job),
+    queue: f.get('queue').or_null(read_queue),
     objects: f.get('objects').list_or_empty(read_object),
     gap: f.get('gap').or_null((g) => g.flag()) ?? false,
   };
@@ -261,7 +267,7 @@ function read_monitor(f: Field): MonitorData {
   return {
     kind: f.get('kind').text(),
     arms: f.get('arms').list_or_empty((e) => e.text()),
-    links: f.get('links').or_null((e) => e.text_pair()),
+    links: f.get('links').text_pair_or_null(),
     clearance_m: f.get('clearance_m').or_null((e) => e.number()),
     limit_m: f.get('limit_m').or_null((e) => e.number()),
     stopped: f.get('stopped').list_or_empty((e) => e.text()),
@@ -274,9 +280,9 @@ function read_alert(f: Field): AlertData {
 
 function read_clearance(f: Field): Clearance {
   return {
-    arms: f.get('arms').text_pair(),
+    arms: f.get('arms').list((e) => e.text()),
     m: f.get('m').number(),
-    links: f.get('links').or_null((e) => e.text_pair()),
+    links: f.get('links').text_pair_or_null(),
   };
 }
 
@@ -298,7 +304,7 @@ function read_job(f: Field): Job {
   const seconds = (key: string) => f.get(key).or_null((e) => e.number());
   return {
     id: f.get('id').text(),
-    name: f.get('name').or_null((e) => e.text()),
+    name: f.get('name').text_or_null(),
     state: f.get('state').one_of(kJobStates),
     arms: f.get('arms').list((e) => e.text()),
     priority: f.get('priority').or_null((e) => e.number()) ?? 0,
@@ -311,7 +317,7 @@ function read_job(f: Field): Job {
     waits_on: f.get('waits_on').list_or_empty(read_waits_on),
     result: f.get('result').or_null((e) => ({
       reason: e.get('reason').text(),
-      detail: e.get('detail').or_null((d) => d.text()),
+      detail: e.get('detail').text_or_null(),
     })),
     raw: f.value,
   };
@@ -322,10 +328,11 @@ function read_waits_on(f: Field): WaitsOn {
     kind: f.get('kind').one_of(kWaitKinds),
     id: f.get('id').or_null((e) => e.text()),
     arm: f.get('arm').or_null((e) => e.text()),
-    links: f.get('links').or_null((e) => e.text_pair()),
+    links: f.get('links').text_pair_or_null(),
     own_time_s: f.get('own_time_s').or_null((e) => e.number()),
     other_time_s: f.get('other_time_s').or_null((e) => e.number()),
     clearance_m: f.get('clearance_m').or_null((e) => e.number()),
+    detail: f.get('detail').text_or_null(),
   };
 }
 
@@ -447,8 +454,15 @@ class Field {
     if (x === undefined || y === undefined || z === undefined || rest.length) this.fail('three numbers');
     return [x, y, z];
   }
-  text_pair(): [string, string] {
-    const [a, b, ...rest] = this.list((f) => f.text());
+  /** An empty text says as little as none. */
+  text_or_null(): string | null {
+    return this.or_null((f) => f.text()) || null;
+  }
+  /** Two texts; null when there are none. */
+  text_pair_or_null(): [string, string] | null {
+    const texts = this.list_or_empty((f) => f.text());
+    if (texts.length === 0) return null;
+    const [a, b, ...rest] = texts;
     if (a === undefined || b === undefined || rest.length) this.fail('two strings');
     return [a, b];
   }

@@ -3,7 +3,7 @@
 // that panels are not drawn again for each of them.
 
 import type { Link } from './connection';
-import type { Arm, Cell, Clearance, Job, JobState, Message, SceneObject, StateMessage } from './messages';
+import type { Arm, Cell, Clearance, Job, JobState, Message, QueueData, SceneObject, StateMessage } from './messages';
 import { monitor_in_words } from './wording';
 
 export interface Notice {
@@ -75,7 +75,7 @@ export class Store {
         this.arms = new Map(data.arms.map((arm) => [arm.name, arm]));
         for (const arm of data.arms) this.place(arm);
         this.jobs_ = new Map(data.jobs.map((job) => [job.id, { job, t_s: message.t_s }]));
-        this.order_.clear();
+        this.set_order(data.queue);
         this.objects = data.objects;
         if (data.gap) this.note(message.t_s, 'info', 'alert', 'Some events were missed while the connection was lost.');
         break;
@@ -90,7 +90,7 @@ export class Store {
       case 'queue': {
         const { data } = message;
         this.stopped = data.stopped;
-        this.order_ = new Map([...data.running, ...data.scheduled, ...data.queued, ...data.backlog].map((id, i) => [id, i]));
+        this.set_order(data);
         break;
       }
       case 'monitor': {
@@ -183,6 +183,11 @@ export class Store {
     Object.assign(this.q, frame.q);
     this.clearance = frame.clearance;
     for (const listener of this.frame_listeners_) listener();
+  }
+
+  private set_order(queue: QueueData | null): void {
+    const ids = queue ? [...queue.running, ...queue.scheduled, ...queue.queued, ...queue.backlog] : [];
+    this.order_ = new Map(ids.map((id, i) => [id, i]));
   }
 
   private place(arm: Arm): void {

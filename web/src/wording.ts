@@ -45,13 +45,13 @@ export function wait_in_words(w: WaitsOn): string {
     case 'object': return how ? `waits for ${who} to be clear: ${how}` : `waits for ${who} to be clear`;
     case 'order': return w.id ? `waits its turn: ${who} comes first` : `waits its turn${w.arm ? ` on ${w.arm}` : ''}`;
     case 'capacity': return w.id ? `waits until ${who} has ended: one at a time` : 'waits for a free place';
-    case 'stop': return w.arm ? `waits for resume: ${w.arm} is stopped` : 'waits for resume: the cell is stopped';
+    case 'stop': return `waits for resume: ${w.arm ?? 'the cell'} is stopped${w.detail ? ` (${w.detail})` : ''}`;
   }
 }
 
 function subject(w: WaitsOn): string {
   if (w.kind === 'arm') return w.arm ? `arm ${w.arm}` : 'an arm at rest';
-  if (w.kind === 'object') return w.id ?? 'an object';
+  if (w.kind === 'object') return w.id ?? w.links?.[1] ?? 'an object';
   const owner = w.arm ? ` of ${w.arm}` : '';
   return w.id ? `job ${short_id(w.id)}${owner}` : `another job${owner}`;
 }
@@ -64,16 +64,17 @@ function approach(w: WaitsOn): string {
   return `${own} would come within ${millimetres(w.clearance_m)} of ${other}${when}`;
 }
 
-/** The arms a job waits on, for the connecting chip in the list. */
 export function state_in_words(state: JobState): string {
   return state === 'canceled' ? 'cancelled' : state;
 }
 
+const kSaidByState: ReadonlySet<string> = new Set(['completed', 'succeeded', 'canceled', 'canceled_by_client']);
+
 /** How a job ended: the reason of the closed list as words, with the server's detail. */
 export function result_in_words(job: Job): string {
   if (!job.result) return '';
-  const reason = job.result.reason.replaceAll('_', ' ');
-  const said = reason === job.state || reason === state_in_words(job.state) ? '' : reason;
+  // What the state says by itself is not said again.
+  const said = kSaidByState.has(job.result.reason) ? '' : job.result.reason.replaceAll('_', ' ');
   return [said, job.result.detail ?? ''].filter((part) => part !== '').join(': ');
 }
 

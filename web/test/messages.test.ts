@@ -33,6 +33,14 @@ describe('a message of the server', () => {
     expect(texts.map((text) => good(text).type)).toEqual(['job', 'arm', 'queue', 'monitor', 'alert', 'scene', 'state']);
   });
 
+  it('may leave links and names empty, and measure an arm against the scene', () => {
+    const job = good(envelope('job', 1, job_json('a', { name: '', waits_on: [wait_json({ kind: 'capacity', links: [] })] })));
+    expect(job.type === 'job' && [job.data.name, job.data.waits_on[0]?.links]).toEqual([null, null]);
+    const near = { arms: ['left'], m: 0.05, links: ['left_panda_hand', 'table'] };
+    const state = good(JSON.stringify({ type: 'state', t_s: 1, q: {}, clearance: [near] }));
+    expect(state.type === 'state' && state.clearance).toEqual([near]);
+  });
+
   it('needs no wall time, which a simulated run leaves out', () => {
     expect(good(envelope('alert', 1, { level: 'info', text: 'x' }, { at: undefined })).type).toBe('alert');
   });

@@ -61,6 +61,12 @@ describe('the store', () => {
     expect(store.q_of(left)).toEqual([0.7, -1.2]);
   });
 
+  it('takes the order of the lists from a snapshot that has it', () => {
+    const queue = { stopped: false, queued: ['b', 'a'], backlog: [], scheduled: [], running: [] };
+    take(snapshot(5, { jobs: [job_json('a'), job_json('b')], queue }));
+    expect(ids('queued')).toEqual(['b', 'a']);
+  });
+
   it('replaces everything by a new snapshot, and says when events were missed', () => {
     take(envelope('job', 2, job_json('a')));
     take(snapshot(90, { stopped: true, jobs: [job_json('b')], gap: true }));

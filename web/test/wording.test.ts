@@ -31,6 +31,10 @@ describe('the reason why a job waits', () => {
     expect(reason({ kind: 'object', id: 'crate', arm: null, ...kBare })).toBe('waits for crate to be clear');
     expect(reason({ kind: 'order', id: 'pick-6', arm: 'left', ...kBare })).toBe('waits its turn: job pick-6 of left comes first');
     expect(reason({ kind: 'capacity', ...kBare })).toBe('waits until job place-6 of right has ended: one at a time');
+    expect(reason({ kind: 'object', id: null, arm: null, links: ['left_panda_hand', 'table'] })).toMatch(
+      /^waits for table to be clear: left_panda_hand would come within 12 mm of table/);
+    expect(reason({ kind: 'stop', id: null, arm: 'left', ...kBare, detail: 'fault: overrun' })).toBe(
+      'waits for resume: left is stopped (fault: overrun)');
     expect(reason({ kind: 'stop', id: null, arm: null, ...kBare })).toBe('waits for resume: the cell is stopped');
   });
   it('counts further reasons', () => {
@@ -43,7 +47,8 @@ describe('the reason why a job waits', () => {
 
 describe('how a job ended', () => {
   it('is not said twice', () => {
-    expect(result_in_words(job({ state: 'succeeded', result: { reason: 'succeeded', detail: null } }))).toBe('');
+    expect(result_in_words(job({ state: 'succeeded', result: { reason: 'completed', detail: '' } }))).toBe('');
+    expect(result_in_words(job({ state: 'canceled', result: { reason: 'canceled_by_client', detail: 'braked at 61 %' } }))).toBe('braked at 61 %');
   });
   it('gives reason and detail', () => {
     const result = { reason: 'backlog_timeout', detail: 'waited 60 s for place-6' };

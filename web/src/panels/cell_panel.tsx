@@ -48,7 +48,7 @@ function ClearanceFigure({ store }: { store: Store }) {
   const limit_m = store.cell?.clearance_m ?? 0;
   const level = nearest.m < limit_m ? 'low' : nearest.m < 3 * limit_m ? 'near' : '';
   return (
-    <div class={`clearance ${level}`} title="The smallest distance between two arms now">
+    <div class={`clearance ${level}`} title="The smallest distance that the monitor measures now">
       <span class="dim">clearance</span> <b class="mono">{millimetres(nearest.m)}</b>
       {nearest.links && <div class="small dim">{nearest.links[0]} – {nearest.links[1]}</div>}
     </div>

@@ -1,0 +1,48 @@
+import { describe, expect, it } from 'vitest';
+import { Api } from '../src/api';
+
+function api_that_answers(status: number, body: string) {
+  const asked: { url: string; init: RequestInit | undefined }[] = [];
+  const api = new Api('/api/v1', (url, init) => {
+    asked.push({ url, init });
+    return Promise.resolve(new Response(body, { status, statusText: 'said' }));
+  });
+  return { api, asked };
+}
+
+describe('the HTTP calls', () => {
+  it('post the text as it stands', async () => {
+    const { api, asked } = api_that_answers(202, '{"id":"j-1"}');
+    expect(await api.post_job('{not json')).toEqual({ ok: true, value: { id: 'j-1' } });
+    expect(asked[0]?.url).toBe('/api/v1/jobs');
+    expect(asked[0]?.init).toMatchObject({ method: 'POST', body: '{not json', headers: { 'content-type': 'application/json' } });
+  });
+
+  it('cancel by id, whatever characters it holds', async () => {
+    const { api, asked } = api_that_answers(202, '');
+    expect((await api.cancel_job('a/b?c')).ok).toBe(true);
+    expect(asked[0]?.url).toBe('/api/v1/jobs/a%2Fb%3Fc');
+  });
+
+  it('answer a problem document with its place and value', async () => {
+    const problem = { title: 'Limits', status: 422, detail: 'too fast', pointer: '/trajectory/points/3', value: 3.41 };
+    const answer = await api_that_answers(422, JSON.stringify(problem)).api.post_job('{}');
+    expect(!answer.ok && answer.problem).toMatchObject(problem);
+  });
+
+  it('show what is not a problem document as it is', async () => {
+    const answer = await api_that_answers(502, 'bad gateway').api.stop();
+    expect(!answer.ok && answer.problem).toMatchObject({ title: 'said', status: 502, detail: 'bad gateway' });
+  });
+
+  it('answer a problem when nobody answers', async () => {
+    const api = new Api('', () => Promise.reject(new Error('refused')));
+    const answer = await api.resume();
+    expect(!answer.ok && answer.problem.detail).toContain('refused');
+  });
+
+  it('say where a cell cannot be read', async () => {
+    const answer = await api_that_answers(200, '{"name":"c","policy":"p","robots":{}}').api.cell();
+    expect(!answer.ok && answer.problem.detail).toMatch(/^\/robots: expected a list/);
+  });
+});
