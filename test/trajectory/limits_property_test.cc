@@ -33,7 +33,7 @@ TrajectoryRequest random_spline(std::mt19937_64& random, bool quintic) {
     }
     point.time_from_start_s = time_s;
     request.points.push_back(point);
-    time_s += uniform(random, 0.2, 3.0);
+    time_s += uniform(random, 0.2, 1.5);
   }
   return request;
 }
@@ -64,8 +64,8 @@ struct Peak {
   }
 };
 
-// Samples every 0.1 ms and both sides of every waypoint.
-Peak dense_peak(const Trajectory& trajectory) {
+// Samples every `step` and both sides of every waypoint.
+Peak peak_of(const Trajectory& trajectory, Duration step) {
   Peak peak;
   JointState state;
   const auto look = [&](Duration t) {
@@ -74,13 +74,16 @@ Peak dense_peak(const Trajectory& trajectory) {
     peak.velocity = std::max(peak.velocity, state.velocity.cwiseAbs().maxCoeff());
     peak.acceleration = std::max(peak.acceleration, state.acceleration.cwiseAbs().maxCoeff());
   };
-  for (Duration t{}; t < trajectory.duration(); t += std::chrono::microseconds(100)) look(t);
+  for (Duration t{}; t < trajectory.duration(); t += step) look(t);
   for (const Segment& segment : trajectory.segments()) {
     look(segment.start);
     look(segment.start + segment.duration - Duration(1));
   }
   return peak;
 }
+
+constexpr Duration kCoarse = std::chrono::milliseconds(2);  // enough to know the scale
+constexpr Duration kDense = std::chrono::microseconds(100);
 
 // Splines are scaled so that their peaks lie closely below, closely above, and far from a limit.
 TEST(LimitsProperty, DenseSamplingAndValidationAgreeOn500RandomSplines) {
@@ -91,13 +94,13 @@ TEST(LimitsProperty, DenseSamplingAndValidationAgreeOn500RandomSplines) {
   for (int i = 0; i < 500; ++i) {
     SCOPED_TRACE(i);
     TrajectoryRequest request = random_spline(random, i % 2 == 1);
-    const double before = dense_peak(*unlimited(request, cell)).share();
+    const double before = peak_of(*unlimited(request, cell), kCoarse).share();
     const double targets[] = {0.9985, 1.0005, 1.01, uniform(random, 0.3, 0.99),
                               uniform(random, 1.02, 3.0)};
     const double target = targets[i % 5];
     scale(request, target / before);
 
-    const Peak peak = dense_peak(*unlimited(request, cell));
+    const Peak peak = peak_of(*unlimited(request, cell), kDense);
     const auto result = validate(request, cell);
     (result ? accepted : refused) += 1;
     if (result) {
@@ -117,15 +120,17 @@ TEST(LimitsProperty, DenseSamplingAndValidationAgreeOn500RandomSplines) {
 TEST(LimitsProperty, ARefusalNamesAValueThatTheMotionReaches) {
   const Cell cell = testing::test_cell();
   std::mt19937_64 random(7);
+  int only_between = 0;
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE(i);
     TrajectoryRequest request = random_spline(random, i % 2 == 1);
     const TrajectoryPtr before = unlimited(request, cell);
-    scale(request, 1.001 / dense_peak(*before).share());
-    const Peak peak = dense_peak(*unlimited(request, cell));
+    scale(request, 1.001 / peak_of(*before, kCoarse).share());
+    const Peak peak = peak_of(*unlimited(request, cell), kDense);
     const auto result = validate(request, cell);
     ASSERT_FALSE(result);
     double share = 0.0;
+    bool at_waypoint = false;  // then the segments beside it are not looked at for their worst
     for (const Problem& problem : result.error()) {
       const double value = std::abs(std::get<double>(problem.value));
       const double limit = problem.slug == "position-limit"   ? kPositionMax
@@ -133,9 +138,14 @@ TEST(LimitsProperty, ARefusalNamesAValueThatTheMotionReaches) {
                                                               : kAccelerationMax;
       EXPECT_GT(value, limit) << problem.detail;
       share = std::max(share, value / limit);
+      at_waypoint |= problem.detail.rfind("waypoint ", 0) == 0;
     }
-    EXPECT_NEAR(share, peak.share(), 1e-6);
+    EXPECT_LE(share, peak.share() + 1e-6);
+    if (at_waypoint) continue;
+    ++only_between;
+    EXPECT_GE(share, peak.share() - 1e-6);
   }
+  EXPECT_GE(only_between, 100);
 }
 
 }  // namespace

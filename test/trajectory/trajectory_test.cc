@@ -142,7 +142,8 @@ TEST(Trajectory, DerivativesAgreeWithFiniteDifferences) {
   const TrajectoryPtr trajectory = accepted(uneven_request(true));
   JointState before, here, after;
   const double h = 1e-5;
-  for (double t = 0.01; t < 2.88; t += 0.00731) {
+  for (int i = 0; i < 390; ++i) {
+    const double t = 0.01 + 0.00731 * i;
     trajectory->sample(from_seconds(t - h), before);
     trajectory->sample(from_seconds(t), here);
     trajectory->sample(from_seconds(t + h), after);
