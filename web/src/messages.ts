@@ -391,10 +391,10 @@ function read_joint(f: Field): CellJoint {
   return {
     name: f.get('name').text(),
     arm: f.get('arm').or_null((e) => e.text()),
-    // Continuous joints have no position limits: JSON has no infinity, so null stands for it.
+    // JSON has no infinity: null stands for a limit that a joint does not have.
     lower: f.get('lower').or_null((e) => e.number()) ?? -Infinity,
     upper: f.get('upper').or_null((e) => e.number()) ?? Infinity,
-    velocity_max: f.get('velocity_max').number(),
+    velocity_max: f.get('velocity_max').or_null((e) => e.number()) ?? Infinity,
     acceleration_max: f.get('acceleration_max').or_null((e) => e.number()),
     jerk_max: f.get('jerk_max').or_null((e) => e.number()),
     unit: f.get('unit').or_null((e) => e.text()) ?? 'rad',
