@@ -1,0 +1,85 @@
+#include "server/api/job_filter.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+namespace armloom {
+namespace {
+
+constexpr JobState kStates[] = {JobState::queued,    JobState::backlogged, JobState::scheduled,
+                                JobState::running,   JobState::holding,    JobState::succeeded,
+                                JobState::canceled,  JobState::expired,    JobState::failed,
+                                JobState::interrupted};
+
+bool known_state(const std::string& name) {
+  return std::any_of(std::begin(kStates), std::end(kStates),
+                     [&](JobState state) { return name == to_string(state); });
+}
+
+template <class Number>
+bool read_number(const std::string& text, Number lowest, Number highest, Number& out) {
+  Number number{};
+  const auto [stop, ec] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (ec != std::errc{} || stop != text.data() + text.size() || text.empty()) return false;
+  if (number < lowest || number > highest) return false;
+  out = number;
+  return true;
+}
+
+}  // namespace
+
+Result<JobFilter> read_job_filter(const Target& target, const Cell& cell) {
+  JobFilter filter;
+  Problems problems;
+  const auto refuse = [&](const std::string& name, const std::string& value, std::string detail) {
+    problems.push_back(
+        Problem{ProblemKind::invalid, "bad-parameter", "?" + name, std::move(detail), value});
+  };
+  for (const auto& [name, value] : target.query) {
+    if (name == "state") {
+      filter.state = value;
+      if (!known_state(value)) refuse(name, value, "no state of a job is called \"" + value + "\"");
+    } else if (name == "arm") {
+      filter.arm = value;
+      if (!cell.find_arm(value)) refuse(name, value, "the cell has no arm \"" + value + "\"");
+    } else if (name == "limit") {
+      if (!read_number<std::size_t>(value, 1, JobFilter::kLimitMax, filter.limit)) {
+        refuse(name, value, "limit is an integer within 1..1000, found \"" + value + "\"");
+      }
+    } else if (name == "cursor") {
+      std::uint64_t before = 0;
+      if (read_number<std::uint64_t>(value, 0, ~std::uint64_t{0}, before)) {
+        filter.before = before;
+      } else {
+        refuse(name, value, "this is no cursor that the server gave: \"" + value + "\"");
+      }
+    } else {
+      refuse(name, value, "unknown parameter \"" + name + "\"; known: state, arm, limit, cursor");
+    }
+  }
+  if (!problems.empty()) return failure(std::move(problems));
+  return filter;
+}
+
+JobPage select(std::vector<JobView> jobs, const JobFilter& filter) {
+  std::sort(jobs.begin(), jobs.end(),
+            [](const JobView& a, const JobView& b) { return a.id > b.id; });
+  JobPage page;
+  for (JobView& job : jobs) {
+    if (filter.before && job.id.value() >= *filter.before) continue;
+    if (!filter.state.empty() && filter.state != to_string(job.state)) continue;
+    if (!filter.arm.empty() &&
+        std::find(job.arms.begin(), job.arms.end(), filter.arm) == job.arms.end()) {
+      continue;
+    }
+    if (page.jobs.size() == filter.limit) {
+      page.next_cursor = std::to_string(page.jobs.back().id.value());
+      break;
+    }
+    page.jobs.push_back(std::move(job));
+  }
+  return page;
+}
+
+}  // namespace armloom

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/problem.h"
+#include "core/executive/events.h"
+#include "core/model/cell.h"
+#include "server/http/message.h"
+
+namespace armloom {
+
+// The query of GET /jobs: ?state=&arm=&limit=&cursor=
+struct JobFilter {
+  inline static constexpr std::size_t kLimit = 100;      // when none is given
+  inline static constexpr std::size_t kLimitMax = 1000;
+
+  std::string state;  // empty: any
+  std::string arm;    // empty: any
+  std::size_t limit = kLimit;
+  std::optional<std::uint64_t> before;  // the cursor: only jobs submitted before this one
+};
+
+// Problems (invalid): unknown parameter, state, arm; limit or cursor that is no number in range.
+[[nodiscard]] Result<JobFilter> read_job_filter(const Target& target, const Cell& cell);
+
+struct JobPage {
+  std::vector<JobView> jobs;  // newest first
+  std::optional<std::string> next_cursor;
+};
+[[nodiscard]] JobPage select(std::vector<JobView> jobs, const JobFilter& filter);
+
+}  // namespace armloom

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/base/problem.h"
+#include "core/model/cell.h"
+#include "core/model/cell_description.h"
+#include "server/codec/json_writer.h"
+
+namespace armloom {
+
+// A cell file (JSON, // and /* */ comments allowed) as plain data. Strict: unknown keys, wrong types
+// and numbers out of range are problems, places are JSON pointers into the file, all are returned.
+// Relative paths are resolved against `folder`. Robots' files are not opened.
+[[nodiscard]] Result<CellDescription> read_cell_text(std::string_view text,
+                                                     const std::filesystem::path& folder);
+
+// The same cell file for another place: every path in it made relative to `to`, comments lost.
+// Precondition: read_cell_text(text, from) succeeded.
+[[nodiscard]] std::string relocate_cell_text(std::string_view text,
+                                             const std::filesystem::path& from,
+                                             const std::filesystem::path& to);
+
+// The answer to GET /cell, with URDF and SRDF texts. `policy` and `speed` are those in force.
+[[nodiscard]] std::string cell_json(const Cell& cell, std::string_view policy, double speed);
+
+// {"objects": [...]}: the scene at start.
+void write_objects(JsonWriter& out, const Cell& cell);
+
+}  // namespace armloom

@@ -1,0 +1,170 @@
+#include "server/codec/json_node.h"
+
+#include <algorithm>
+
+#include "server/codec/json_pointer.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+
+// What was found, short enough for one sentence.
+std::variant<std::monostate, double, std::string> shown(const json& value) {
+  static constexpr std::size_t kShown = 80;
+  if (value.is_number()) return value.get<double>();
+  if (value.is_string()) return value.get_ref<const std::string&>().substr(0, kShown);
+  if (value.is_array()) return "array of " + std::to_string(value.size());
+  if (value.is_object()) return "object";
+  return value.dump();
+}
+
+std::string spelled(double number) { return json(number).dump(); }
+
+}  // namespace
+
+std::string JsonNode::pointer() const {
+  std::string text;
+  if (parent_ == nullptr) return std::string(key_);
+  text = parent_->pointer();
+  if (index_) {
+    append_index(text, *index_);
+  } else {
+    append_key(text, key_);
+  }
+  return text;
+}
+
+void JsonNode::fault(ProblemKind kind, std::string slug, std::string detail) const {
+  if (faults_->size() >= kFaultsMax) return;
+  faults_->push_back(
+      Problem{kind, std::move(slug), pointer(), std::move(detail), shown(*value_)});
+}
+
+bool JsonNode::wrong_type(const char* expected) const {
+  fault(ProblemKind::malformed, "wrong-type",
+        std::string("expected ") + expected + ", found " + value_->type_name());
+  return false;
+}
+
+void JsonNode::missing(std::string_view key) const {
+  if (faults_->size() >= kFaultsMax) return;
+  std::string place = pointer();
+  append_key(place, key);
+  faults_->push_back(Problem{ProblemKind::invalid, "missing-field", std::move(place),
+                             "\"" + std::string(key) + "\" is missing", {}});
+}
+
+bool JsonNode::array() const { return value_->is_array() || wrong_type("an array"); }
+bool JsonNode::is_object() const { return value_->is_object() || wrong_type("an object"); }
+
+bool JsonNode::object(std::initializer_list<std::string_view> known) const {
+  if (!is_object()) return false;
+  for (auto it = value_->begin(); it != value_->end(); ++it) {
+    if (std::find(known.begin(), known.end(), it.key()) != known.end()) continue;
+    std::string list;
+    for (const std::string_view name : known) {
+      list += list.empty() ? "" : ", ";
+      list += name;
+    }
+    JsonNode(it.value(), *this, it.key())
+        .invalid("unknown-field", "unknown field \"" + it.key() + "\"; known here: " + list);
+  }
+  return true;
+}
+
+bool JsonNode::read(double& out) const {
+  if (!value_->is_number()) return wrong_type("a number");
+  out = value_->get<double>();
+  return true;
+}
+
+bool JsonNode::read(std::string& out) const {
+  if (!value_->is_string()) return wrong_type("a string");
+  out = value_->get_ref<const std::string&>();
+  return true;
+}
+
+bool JsonNode::read(bool& out) const {
+  if (!value_->is_boolean()) return wrong_type("true or false");
+  out = value_->get<bool>();
+  return true;
+}
+
+bool JsonNode::read_integer(std::int64_t& out, std::int64_t lowest, std::int64_t highest) const {
+  if (!value_->is_number_integer()) return wrong_type("an integer");
+  const bool beyond =
+      value_->is_number_unsigned() &&
+      value_->get<std::uint64_t>() > static_cast<std::uint64_t>(std::max<std::int64_t>(highest, 0));
+  const auto number = value_->get<std::int64_t>();
+  if (beyond || number < lowest || number > highest) {
+    invalid("out-of-range", value_->dump() + " is not within " + std::to_string(lowest) + ".." +
+                                std::to_string(highest));
+    return false;
+  }
+  out = number;
+  return true;
+}
+
+bool JsonNode::read(std::vector<double>& out) const {
+  if (!array()) return false;
+  const std::size_t faults_before = faults_->size();
+  out.clear();
+  out.reserve(value_->size());
+  for (std::size_t i = 0; i < value_->size(); ++i) {
+    const json& element = (*value_)[i];
+    if (element.is_number()) {
+      out.push_back(element.get<double>());
+    } else {
+      JsonNode(element, *this, i).wrong_type("a number");
+    }
+  }
+  return faults_->size() == faults_before;
+}
+
+bool JsonNode::read(std::vector<std::string>& out) const {
+  const std::size_t faults_before = faults_->size();
+  out.clear();
+  each([&](const JsonNode& element) {
+    std::string text;
+    if (element.read(text)) out.push_back(std::move(text));
+  });
+  return faults_->size() == faults_before;
+}
+
+bool JsonNode::read_within(double& out, double lowest, double highest) const {
+  double number = 0.0;
+  if (!read(number)) return false;
+  if (!(number >= lowest && number <= highest)) {
+    invalid("out-of-range",
+            spelled(number) + " is not within " + spelled(lowest) + ".." + spelled(highest));
+    return false;
+  }
+  out = number;
+  return true;
+}
+
+bool JsonNode::read_positive(double& out) const {
+  double number = 0.0;
+  if (!read(number)) return false;
+  if (!(number > 0.0)) {
+    invalid("out-of-range", spelled(number) + " is not greater than zero");
+    return false;
+  }
+  out = number;
+  return true;
+}
+
+bool JsonNode::read_numbers(double* out, std::size_t size) const {
+  std::vector<double> numbers;
+  if (!read(numbers)) return false;
+  if (numbers.size() != size) {
+    invalid("wrong-size", "expected " + std::to_string(size) + " numbers, found " +
+                              std::to_string(numbers.size()));
+    return false;
+  }
+  std::copy(numbers.begin(), numbers.end(), out);
+  return true;
+}
+
+}  // namespace armloom

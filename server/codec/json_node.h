@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/problem.h"
+
+namespace armloom {
+
+// A JSON value and its place, read strictly: every fault lands in the list that the root was given
+// (at most kFaultsMax), reading goes on, and the caller looks at the list when it is through.
+// A node is a view on the value and on the node that it came from: both have to outlive it.
+// Wrong types are `malformed`; what is readable but cannot be right is `invalid`.
+class JsonNode {
+ public:
+  inline static constexpr std::size_t kFaultsMax = 20;
+
+  // `prefix` stands in front of every pointer ("/3/job" for a body inside a jobs file).
+  JsonNode(const nlohmann::json& value, std::string_view prefix, Problems& faults)
+      : value_(&value), key_(prefix), faults_(&faults) {}
+
+  [[nodiscard]] std::string pointer() const;
+  [[nodiscard]] const nlohmann::json& raw() const { return *value_; }
+
+  // Whether it is an object; each key that is not `known` is a fault.
+  [[nodiscard]] bool object(std::initializer_list<std::string_view> known) const;
+  [[nodiscard]] bool has(std::string_view key) const { return value_->contains(key); }
+  // Calls read(member) when the member is there. Precondition: object() was true.
+  template <class Read>
+  void optional(std::string_view key, Read read) const {
+    if (const auto it = value_->find(key); it != value_->end()) read(JsonNode(*it, *this, key));
+  }
+  // The same; a fault when the member is missing.
+  template <class Read>
+  void required(std::string_view key, Read read) const {
+    if (const auto it = value_->find(key); it != value_->end()) {
+      read(JsonNode(*it, *this, key));
+    } else {
+      missing(key);
+    }
+  }
+  // Calls read(element) for each element; a fault when it is no array.
+  template <class Read>
+  void each(Read read) const {
+    if (!array()) return;
+    for (std::size_t i = 0; i < value_->size(); ++i) read(JsonNode((*value_)[i], *this, i));
+  }
+  template <class Read>  // read(key, member), in the order of the keys
+  void members(Read read) const {
+    if (!is_object()) return;
+    for (auto it = value_->begin(); it != value_->end(); ++it) {
+      read(it.key(), JsonNode(it.value(), *this, it.key()));
+    }
+  }
+
+  // Scalars into `out`; on a fault `out` stays as it is and the answer is false.
+  bool read(double& out) const;
+  bool read(std::string& out) const;
+  bool read(bool& out) const;
+  bool read_integer(std::int64_t& out, std::int64_t lowest, std::int64_t highest) const;
+  bool read(std::vector<double>& out) const;
+  bool read(std::vector<std::string>& out) const;
+  // A number in a closed interval, or greater than zero.
+  bool read_within(double& out, double lowest, double highest) const;
+  bool read_positive(double& out) const;
+  // Exactly `size` numbers.
+  bool read_numbers(double* out, std::size_t size) const;
+
+  [[nodiscard]] bool array() const;
+  [[nodiscard]] bool is_object() const;
+  void fault(ProblemKind kind, std::string slug, std::string detail) const;
+  void invalid(std::string slug, std::string detail) const {
+    fault(ProblemKind::invalid, std::move(slug), std::move(detail));
+  }
+
+ private:
+  JsonNode(const nlohmann::json& value, const JsonNode& parent, std::string_view key)
+      : value_(&value), parent_(&parent), key_(key), faults_(parent.faults_) {}
+  JsonNode(const nlohmann::json& value, const JsonNode& parent, std::size_t index)
+      : value_(&value), parent_(&parent), index_(index), faults_(parent.faults_) {}
+
+  bool wrong_type(const char* expected) const;
+  void missing(std::string_view key) const;
+
+  const nlohmann::json* value_;
+  const JsonNode* parent_ = nullptr;
+  std::string_view key_;
+  std::optional<std::size_t> index_;
+  Problems* faults_;
+};
+
+}  // namespace armloom

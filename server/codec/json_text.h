@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <string_view>
+
+#include "core/base/problem.h"
+
+namespace armloom {
+
+// Deeper nesting than this is refused: nothing that we read needs more than eight levels, and the
+// library copies and destroys values by recursion.
+inline constexpr std::size_t kJsonDepthMax = 32;
+
+enum class JsonComments { refused, allowed };
+
+// Reads one JSON text as RFC 8259 has it, more strictly than the library does by itself: NUL bytes,
+// keys that occur twice, numbers beyond a double, invalid UTF-8 and nesting beyond kJsonDepthMax
+// are problems. `comments` allows // and /* */ (cell files).
+//
+// Problem (malformed; too_large for the depth): the pointer leads to the value that could not be
+// read ("/trajectory/points/3/positions/2"), the detail names line and column, the value is the
+// text found there ("NaN").
+[[nodiscard]] Result<nlohmann::json> parse_json(std::string_view text, JsonComments comments);
+
+}  // namespace armloom

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace armloom {
+
+// Writes JSON text front to back, keys in the order in which they are given, without spaces.
+// Numbers are written in the shortest form that reads back the same; numbers that JSON does not
+// have (NaN, infinities) become null, bytes that are not UTF-8 become U+FFFD: the text is always
+// valid JSON. Nesting is the caller's duty: each begin has its end, each key its value.
+class JsonWriter {
+ public:
+  JsonWriter& begin_object() { return open('{'); }
+  JsonWriter& end_object() { return close('}'); }
+  JsonWriter& begin_array() { return open('['); }
+  JsonWriter& end_array() { return close(']'); }
+  JsonWriter& key(std::string_view name);
+
+  JsonWriter& value(std::string_view text);
+  JsonWriter& value(const char* text) { return value(std::string_view(text)); }
+  JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
+  JsonWriter& value(double number);
+  JsonWriter& value(std::nullptr_t) { return raw("null"); }
+  template <class T>
+    requires std::is_integral_v<T>
+  JsonWriter& value(T number) {
+    if constexpr (std::is_same_v<T, bool>) {
+      return raw(number ? "true" : "false");
+    } else {
+      char digits[24];
+      const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+      return raw({digits, static_cast<std::size_t>(end - digits)});
+    }
+  }
+  template <class T>
+  JsonWriter& value(const std::optional<T>& maybe) {
+    return maybe ? value(*maybe) : value(nullptr);
+  }
+  template <class T>
+  JsonWriter& value(const std::vector<T>& list) {
+    begin_array();
+    for (const T& item : list) value(item);
+    return end_array();
+  }
+  // Rounded to `decimals` (0..9) places: short, for poses that are only looked at.
+  JsonWriter& rounded(double number, int decimals);
+  // Text that is JSON already.
+  JsonWriter& raw(std::string_view json);
+
+  template <class T>
+  JsonWriter& field(std::string_view name, const T& content) {
+    key(name);
+    return value(content);
+  }
+
+  [[nodiscard]] const std::string& text() const { return out_; }
+  [[nodiscard]] std::string take() { return std::move(out_); }
+
+ private:
+  JsonWriter& open(char bracket);
+  JsonWriter& close(char bracket);
+  void separate();
+
+  std::string out_;
+  bool comma_ = false;  // something stands before, on this level
+};
+
+}  // namespace armloom

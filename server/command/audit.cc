@@ -1,0 +1,76 @@
+#include "core/audit/audit.h"
+
+#include <cmath>
+#include <iostream>
+
+#include "server/codec/json_writer.h"
+#include "server/command/command.h"
+#include "server/recording/states_csv.h"
+
+namespace armloom {
+namespace {
+
+void write_finding(JsonWriter& out, const AuditFinding& finding) {
+  out.begin_object().field("time_s", to_seconds(finding.time)).key("links").begin_array();
+  out.value(finding.body_a).value(finding.body_b).end_array();
+  out.field("distance_m", finding.distance_m).end_object();
+}
+
+// The last line: {"contact": null | {...}, "smallest_clearance_m", "time_s", "links", "states"}.
+std::string report_json(const AuditReport& report) {
+  JsonWriter out;
+  out.begin_object().key("contact");
+  if (report.first_contact) {
+    write_finding(out, *report.first_contact);
+  } else {
+    out.value(nullptr);
+  }
+  const auto& smallest = report.smallest_clearance;
+  if (smallest) {
+    out.field("smallest_clearance_m", smallest->distance_m);
+    out.field("time_s", to_seconds(smallest->time)).key("links").begin_array();
+    out.value(smallest->body_a).value(smallest->body_b).end_array();
+  } else {
+    out.field("smallest_clearance_m", nullptr).field("time_s", nullptr);
+    out.key("links").begin_array().end_array();
+  }
+  out.field("states", report.states_checked).end_object();
+  return out.take();
+}
+
+void print_report(const AuditReport& report) {
+  std::cout << report.states_checked << " states checked\n";
+  if (const auto& smallest = report.smallest_clearance) {
+    std::cout << "smallest clearance " << smallest->distance_m << " m at "
+              << to_seconds(smallest->time) << " s: " << smallest->body_a << " and "
+              << smallest->body_b << '\n';
+  }
+  if (const auto& contact = report.first_contact) {
+    std::cout << "first contact at " << to_seconds(contact->time) << " s: " << contact->body_a
+              << " and " << contact->body_b << '\n';
+  } else {
+    std::cout << "no contact\n";
+  }
+  std::cout << report_json(report) << std::endl;
+}
+
+}  // namespace
+
+int audit_recording(const AuditOptions& options) {
+  const auto loaded = load_cell(options.cell_file);
+  if (!loaded) return kExitBadInput;
+  const auto states = read_states(std::filesystem::path(options.recording) / "states.csv", *loaded->cell);
+  if (!states) {
+    complain(options.recording, states.error());
+    return kExitBadInput;
+  }
+  const auto report = audit(*loaded->cell, *states, from_seconds(options.step_s));
+  if (!report) {
+    complain(options.cell_file, report.error());
+    return kExitBadInput;
+  }
+  print_report(*report);
+  return report->first_contact ? kExitFound : kExitDone;
+}
+
+}  // namespace armloom

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/base/problem.h"
+#include "core/model/cell.h"
+
+namespace armloom {
+
+// Exit codes of every command.
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitFound = 1;     // ran, and the answer is no: a contact, a job that did not end
+inline constexpr int kExitBadInput = 2;  // one sentence on stderr for each fault
+
+struct ServeOptions {
+  std::string cell_file;
+  std::string listen = "127.0.0.1:8080";
+  std::string data;  // empty: nothing is recorded
+  bool record = false;
+  double speed = 1.0;
+  std::string web;     // empty: looked for beside the binary
+  std::string policy;  // empty: the cell's
+};
+int serve(const ServeOptions& options);
+
+int validate_cell(const std::string& cell_file);
+
+struct SimulateOptions {
+  std::string cell_file;
+  std::string jobs_file;
+  std::string policy;
+  std::uint64_t seed = 1;
+  std::string out;  // empty: no recording
+};
+int simulate_jobs(const SimulateOptions& options);
+
+struct AuditOptions {
+  std::string cell_file;
+  std::string recording;
+  double step_s = 0.001;
+};
+int audit_recording(const AuditOptions& options);
+
+// ---- What they share ----
+
+struct LoadedCell {
+  CellPtr cell;
+  std::filesystem::path file;
+  std::string text;  // of the cell file
+};
+// Reads the file and builds the cell; on problems says each on stderr and returns nothing.
+[[nodiscard]] std::optional<LoadedCell> load_cell(const std::string& cell_file);
+
+// "armloom: config/x.json:/robots/0/urdf: ..." on stderr, one line for each problem.
+void complain(const std::string& file, const Problems& problems);
+
+}  // namespace armloom

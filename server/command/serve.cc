@@ -1,0 +1,86 @@
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include <charconv>
+#include <csignal>
+#include <iostream>
+
+#include "server/command/command.h"
+#include "server/service.h"
+
+namespace armloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "127.0.0.1:8080", "[::1]:8080"
+bool parse_listen(const std::string& text, std::string& address, std::uint16_t& port) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == text.npos || colon == 0) return false;
+  address = text.substr(0, colon);
+  if (address.front() == '[' && address.back() == ']') address = address.substr(1, address.size() - 2);
+  const char* end = text.data() + text.size();
+  const auto [stop, ec] = std::from_chars(text.data() + colon + 1, end, port);
+  return ec == std::errc{} && stop == end;
+}
+
+// The dashboard as built: beside the repository's build folder, or beside the binary.
+fs::path web_folder(const std::string& asked) {
+  if (!asked.empty()) return asked;
+  std::error_code ec;
+  const fs::path binary = fs::read_symlink("/proc/self/exe", ec);
+  const fs::path in_repository = binary.parent_path().parent_path() / "web" / "dist";
+  return fs::is_directory(in_repository, ec) ? in_repository : binary.parent_path() / "web";
+}
+
+// Each connection is a file descriptor: take as many as the system gives.
+void raise_descriptor_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+std::string dashboard_address(const std::string& address, std::uint16_t port) {
+  const bool v6 = address.find(':') != address.npos;
+  return "http://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port) + "/";
+}
+
+}  // namespace
+
+int serve(const ServeOptions& options) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("armloom"));
+  const auto loaded = load_cell(options.cell_file);
+  if (!loaded) return kExitBadInput;
+  ServiceOptions service_options;
+  if (!parse_listen(options.listen, service_options.address, service_options.port)) {
+    complain("", {Problem{ProblemKind::invalid, "bad-address", "--listen",
+                          "expected ADDRESS:PORT, as in 127.0.0.1:8080", options.listen}});
+    return kExitBadInput;
+  }
+  service_options.speed = options.speed;
+  service_options.policy = options.policy;
+  service_options.web = web_folder(options.web);
+  if (!options.data.empty()) service_options.data = options.data;
+  service_options.record_states = options.record;
+  raise_descriptor_limit();
+  std::signal(SIGPIPE, SIG_IGN);
+
+  auto service = Service::start(loaded->cell, {loaded->file, loaded->text}, service_options);
+  if (!service) {
+    complain(options.cell_file, service.error());
+    return kExitBadInput;
+  }
+  spdlog::info("cell {}: {} arms, policy {}, speed {}", loaded->cell->name,
+               loaded->cell->arms.size(),
+               options.policy.empty() ? loaded->cell->scheduling.policy : options.policy,
+               options.speed);
+  std::cout << "dashboard: " << dashboard_address(service_options.address, (*service)->port())
+            << std::endl;
+  (*service)->run(true);
+  spdlog::info("stopped");
+  return kExitDone;
+}
+
+}  // namespace armloom

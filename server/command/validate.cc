@@ -1,0 +1,131 @@
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+#include "core/audit/audit.h"
+#include "core/executive/executive.h"
+#include "server/command/command.h"
+
+namespace armloom {
+namespace {
+
+// Nothing runs here: the executive is only built, to learn what it would refuse.
+class NoJudges final : public JudgePool {
+ public:
+  void ask(Question, std::function<void(Verdict)>) override {}
+};
+class NoObserver final : public Observer {
+ public:
+  void on_event(const Event&) override {}
+  void on_tick(TimePoint, const Configuration&) override {}
+  void on_state(const StateFrame&) override {}
+};
+
+std::string listed(const Eigen::VectorXd& q) {
+  std::ostringstream text;
+  for (Eigen::Index i = 0; i < q.size(); ++i) text << (i > 0 ? ", " : "") << q[i];
+  return text.str();
+}
+
+std::string counted_shapes(const Cell& cell, const std::vector<LinkId>& links) {
+  static constexpr const char* kNames[] = {"box", "cylinder", "sphere", "mesh"};
+  std::map<std::string, int> counts;
+  for (const LinkId id : links) {
+    for (const PlacedShape& shape : cell.link(id).shapes) ++counts[kNames[shape.shape.index()]];
+  }
+  std::string text;
+  for (const auto& [name, count] : counts) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  }
+  return text.empty() ? "none" : text;
+}
+
+void print_joint(const Joint& joint) {
+  const char* unit = joint.kind == JointKind::prismatic ? "m" : "rad";
+  std::cout << "    " << std::left << std::setw(30) << joint.name << std::right << std::setw(10)
+            << joint.lower << std::setw(10) << joint.upper << std::setw(10) << joint.velocity_max
+            << std::setw(10) << joint.acceleration_max << std::setw(10) << joint.jerk_max
+            << std::setw(10) << joint.brake << "  " << unit << '\n';
+}
+
+void print_arm(const Cell& cell, const Arm& arm) {
+  std::cout << "  arm " << arm.name << " (group " << arm.group << "), " << arm.joints.size()
+            << " joints, " << arm.links.size() << " links, shapes: "
+            << counted_shapes(cell, arm.links) << '\n';
+  std::cout << "    home " << listed(arm.home) << '\n';
+  std::cout << "    " << std::left << std::setw(30) << "joint" << std::right << std::setw(10)
+            << "lower" << std::setw(10) << "upper" << std::setw(10) << "velocity" << std::setw(10)
+            << "accel." << std::setw(10) << "jerk" << std::setw(10) << "brake" << '\n';
+  for (const JointId id : arm.joints) print_joint(cell.joint(id));
+  for (const JointId id : arm.gripper_joints) print_joint(cell.joint(id));
+}
+
+void print_settings(const Cell& cell) {
+  std::cout << "clearance " << cell.clearance_m << " m\n"
+            << "checking: time step " << to_seconds(cell.checking.time_step)
+            << " s, tracking error " << cell.checking.tracking_error_rad << " rad, delay "
+            << to_seconds(cell.checking.delay) << " s, limit tolerance "
+            << cell.checking.limit_tolerance << '\n'
+            << "scheduling: policy " << cell.scheduling.policy << ", backlog timeout "
+            << to_seconds(cell.scheduling.backlog_timeout) << " s, aging "
+            << to_seconds(cell.scheduling.aging) << " s, on idle blocker "
+            << cell.scheduling.on_idle_blocker << '\n'
+            << "monitor: " << cell.monitor.rate_hz << " Hz, reaction "
+            << to_seconds(cell.monitor.reaction) << " s, stops below "
+            << cell.monitor.stop_clearance_m << " m\n"
+            << "execution: start tolerance " << cell.execution.start_tolerance_rad
+            << " rad, duration " << cell.execution.duration_scaling << " x + "
+            << to_seconds(cell.execution.duration_margin) << " s\n";
+}
+
+void print_cell(const Cell& cell) {
+  std::cout << std::setprecision(6) << "cell " << cell.name << ": " << cell.robots.size()
+            << " robots, " << cell.arms.size() << " arms, " << cell.joints.size() << " joints, "
+            << cell.links.size() << " links, " << cell.objects.size() << " objects\n";
+  for (const Robot& robot : cell.robots) {
+    const Eigen::Vector3d& p = robot.X_WB.translation();
+    std::cout << "robot " << robot.name << " (prefix \"" << robot.prefix << "\") at " << p.x()
+              << ", " << p.y() << ", " << p.z() << "; controller " << robot.controller.type
+              << ", lag " << to_seconds(robot.controller.lag) << " s, noise "
+              << robot.controller.noise_rad << " rad\n";
+    for (const ArmId id : robot.arms) print_arm(cell, cell.arm(id));
+  }
+  static constexpr const char* kNames[] = {"box", "cylinder", "sphere", "mesh"};
+  for (const CollisionObject& object : cell.objects) {
+    const Eigen::Vector3d& p = object.X_WO.translation();
+    std::cout << "object " << object.name << ": " << kNames[object.shape.index()] << " at "
+              << p.x() << ", " << p.y() << ", " << p.z() << '\n';
+  }
+  print_settings(cell);
+}
+
+}  // namespace
+
+int validate_cell(const std::string& cell_file) {
+  const auto loaded = load_cell(cell_file);
+  if (!loaded) return kExitBadInput;
+  const Cell& cell = *loaded->cell;
+  print_cell(cell);
+
+  NoJudges judges;
+  NoObserver observer;
+  if (const auto executive = Executive::create(loaded->cell, {}, judges, observer); !executive) {
+    complain(cell_file, executive.error());
+    return kExitBadInput;
+  }
+  const auto report = audit(cell, {RecordedState{TimePoint{}, cell.home()}}, kControlPeriod);
+  if (!report) {
+    complain(cell_file, report.error());
+    return kExitBadInput;
+  }
+  if (const auto& smallest = report->smallest_clearance) {
+    std::cout << "home clearance " << smallest->distance_m << " m: " << smallest->body_a << " and "
+              << smallest->body_b << '\n';
+  }
+  std::cout << "no fault found" << std::endl;
+  return kExitDone;
+}
+
+}  // namespace armloom

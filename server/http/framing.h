@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace armloom {
+
+// The fields of a request's header that decide where its body ends and whom it is for.
+struct FramingFields {
+  bool http_1_1 = true;
+  std::vector<std::string_view> hosts;               // value of each Host field
+  std::vector<std::string_view> transfer_encodings;  // of each Transfer-Encoding field
+  std::vector<std::string_view> content_lengths;
+};
+
+// Why the request must be refused with 400 and its connection closed (RFC 9112, 3.2 and 6.3): the
+// parser lets a Transfer-Encoding other than "chunked" pass and would read the body as a second
+// request, and does not look at Host at all. Empty: sound.
+[[nodiscard]] std::optional<std::string> framing_fault(const FramingFields& fields);
+
+// Host, or the authority of an Origin: a name, IPv4 or [IPv6], with an optional port.
+[[nodiscard]] bool valid_authority(std::string_view text);
+
+// Whether a browser's Origin ("http://host:port") is the site itself. Pages of other sites must not
+// stop arms or post jobs through the visitor's browser.
+[[nodiscard]] bool same_origin(std::string_view origin, std::string_view host);
+
+}  // namespace armloom

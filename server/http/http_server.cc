@@ -1,0 +1,87 @@
+#include "server/http/http_server.h"
+
+#include <utility>
+
+#include "server/http/asio.h"
+#include "server/http/session.h"
+
+namespace armloom {
+namespace {
+
+Problem cannot_listen(const std::string& address, std::uint16_t port, const std::string& why) {
+  const std::string place = address + ":" + std::to_string(port);
+  return Problem{ProblemKind::unavailable, "cannot-listen", "--listen",
+                 "cannot listen on " + place + ": " + why, place};
+}
+
+}  // namespace
+
+class HttpServer::Impl {
+ public:
+  std::optional<Problem> open(const std::string& address, std::uint16_t port) {
+    ErrorCode ec;
+    const auto ip = asio::ip::make_address(address, ec);
+    if (ec) return cannot_listen(address, port, "not an IP address");
+    const tcp::endpoint endpoint(ip, port);
+    acceptor_.open(endpoint.protocol(), ec);
+    if (!ec) acceptor_.set_option(asio::socket_base::reuse_address(true), ec);
+    if (!ec) acceptor_.bind(endpoint, ec);
+    if (!ec) acceptor_.listen(asio::socket_base::max_listen_connections, ec);
+    if (ec) return cannot_listen(address, port, ec.message());
+    return std::nullopt;
+  }
+
+  void run(Site site, bool until_signal) {
+    site_ = std::move(site);
+    if (until_signal) {
+      signals_.add(SIGINT);
+      signals_.add(SIGTERM);
+      signals_.async_wait([this](ErrorCode ec, int) {
+        if (!ec) io_.stop();
+      });
+    }
+    asio::co_spawn(io_, accept(), asio::detached);
+    io_.run();
+  }
+
+  asio::io_context& io() { return io_; }
+  std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
+
+ private:
+  asio::awaitable<void> accept() {
+    asio::steady_timer pause(io_);
+    for (;;) {
+      ErrorCode ec;
+      tcp::socket socket = co_await acceptor_.async_accept(into(ec));
+      if (!ec) {
+        asio::co_spawn(io_, serve_connection(std::move(socket), site_), asio::detached);
+        continue;
+      }
+      // Out of file descriptors, most likely: others must end first.
+      pause.expires_after(std::chrono::milliseconds(50));
+      co_await pause.async_wait(into(ec));
+    }
+  }
+
+  Site site_;  // outlives the connections, which end with io_
+  asio::io_context io_{1};
+  tcp::acceptor acceptor_{io_};
+  asio::signal_set signals_{io_};
+};
+
+Result<std::unique_ptr<HttpServer>> HttpServer::listen(const std::string& address,
+                                                       std::uint16_t port) {
+  auto impl = std::make_unique<Impl>();
+  if (auto problem = impl->open(address, port)) return failure(std::move(*problem));
+  return std::unique_ptr<HttpServer>(new HttpServer(std::move(impl)));
+}
+
+HttpServer::HttpServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+HttpServer::~HttpServer() = default;
+
+std::uint16_t HttpServer::port() const { return impl_->port(); }
+void HttpServer::run(Site site, bool until_signal) { impl_->run(std::move(site), until_signal); }
+void HttpServer::post(std::function<void()> task) { asio::post(impl_->io(), std::move(task)); }
+void HttpServer::stop() { impl_->io().stop(); }
+
+}  // namespace armloom

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/base/problem.h"
+#include "server/http/message.h"
+
+namespace armloom {
+
+// The listening socket and the one thread on which every connection is served.
+class HttpServer {
+ public:
+  // Binds and listens; nothing is accepted before run(). Port zero: any free one.
+  // Problem (unavailable, "cannot-listen"): the address is no IP address, or the port is in use.
+  [[nodiscard]] static Result<std::unique_ptr<HttpServer>> listen(const std::string& address,
+                                                                  std::uint16_t port);
+  ~HttpServer();
+
+  [[nodiscard]] std::uint16_t port() const;
+
+  // Serves `site` on the calling thread until stop(), or until SIGINT or SIGTERM if those are to be
+  // watched. Connections are then closed.
+  void run(Site site, bool until_signal);
+
+  // Thread-safe. Runs `task` on the server's thread, soon, in the order posted.
+  void post(std::function<void()> task);
+  void stop();  // thread-safe
+
+ private:
+  class Impl;
+  explicit HttpServer(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,99 @@
+#include "server/http/message.h"
+
+#include "server/codec/json_writer.h"
+#include "server/codec/problem_codec.h"
+
+namespace armloom {
+namespace {
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::optional<std::string> percent_decoded(std::string_view text, bool form) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '+' && form) {
+      out += ' ';
+    } else if (text[i] != '%') {
+      out += text[i];
+    } else {
+      const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+      const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
+      if (high < 0 || low < 0) return std::nullopt;
+      out += static_cast<char>(high * 16 + low);
+      i += 2;
+    }
+  }
+  return out;
+}
+
+tl::unexpected<Problems> bad_target(std::string detail, std::string_view found) {
+  return failure(Problem{ProblemKind::malformed, "bad-target", "request target", std::move(detail),
+                         std::string(found.substr(0, 200))});
+}
+
+}  // namespace
+
+Result<Target> parse_target(std::string_view text) {
+  if (text.empty() || text.front() != '/') {
+    return bad_target("the request target must be an absolute path", text);
+  }
+  Target target;
+  text = text.substr(0, text.find('#'));
+  const std::size_t mark = text.find('?');
+  const std::string_view raw_path = text.substr(0, mark);
+  const auto path = percent_decoded(raw_path, false);
+  if (!path) return bad_target("a percent escape in the path is broken", raw_path);
+  std::size_t slashes_raw = 0;
+  std::size_t slashes = 0;
+  for (const char c : raw_path) slashes_raw += c == '/' ? 1U : 0U;
+  for (const char c : *path) slashes += c == '/' ? 1U : 0U;
+  if (slashes != slashes_raw || path->find('\\') != path->npos || path->find('\0') != path->npos) {
+    return bad_target("the path holds an encoded slash, a backslash or NUL", raw_path);
+  }
+  target.path = *path;
+  if (mark == text.npos) return target;
+
+  std::string_view rest = text.substr(mark + 1);
+  while (!rest.empty()) {
+    const std::string_view pair = rest.substr(0, rest.find('&'));
+    rest.remove_prefix(pair.size() == rest.size() ? rest.size() : pair.size() + 1);
+    const std::size_t equals = pair.find('=');
+    const auto name = percent_decoded(pair.substr(0, equals), true);
+    const auto value =
+        equals == pair.npos ? std::string() : percent_decoded(pair.substr(equals + 1), true);
+    if (!name || !value) return bad_target("a percent escape in the query is broken", pair);
+    if (!name->empty()) target.query[*name] = *value;
+  }
+  return target;
+}
+
+Response json_response(int status, std::string body) {
+  return Response{status, "application/json", std::move(body), {{"Cache-Control", "no-store"}}};
+}
+
+Response problem_response(const Problems& problems) {
+  return Response{status_of(problems.front().kind),
+                  "application/problem+json",
+                  problem_json(problems),
+                  {{"Cache-Control", "no-store"}}};
+}
+
+Response http_problem(int status, std::string_view slug, std::string_view detail) {
+  std::string title(slug);
+  for (char& c : title) {
+    if (c == '-') c = ' ';
+  }
+  JsonWriter out;
+  out.begin_object().field("type", "urn:armloom:problem:" + std::string(slug));
+  out.field("title", title).field("status", status).field("detail", detail).end_object();
+  return Response{
+      status, "application/problem+json", out.take(), {{"Cache-Control", "no-store"}}};
+}
+
+}  // namespace armloom

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/problem.h"
+
+namespace armloom {
+
+// The target of a request, percent-decoded: "/api/v1/jobs?state=running".
+struct Target {
+  std::string path;  // begins with '/', holds no NUL and no encoded slash or backslash
+  std::map<std::string, std::string> query;
+
+  [[nodiscard]] std::optional<std::string> parameter(const std::string& name) const {
+    const auto it = query.find(name);
+    return it == query.end() ? std::nullopt : std::optional(it->second);
+  }
+};
+// Problem (malformed): no absolute path, or a broken or forbidden escape. Of a parameter that
+// occurs twice the last one counts.
+[[nodiscard]] Result<Target> parse_target(std::string_view text);
+
+// A whole request, framing checked. Plain data: handlers know nothing of sockets.
+struct Request {
+  std::string method;  // "GET"; a HEAD comes as GET, its answer loses the body later
+  Target target;
+  std::optional<std::string> content_type;
+  std::string body;
+};
+
+struct Response {
+  int status = 200;
+  std::string content_type = "application/json";
+  std::string body;
+  std::vector<std::pair<std::string, std::string>> headers;
+};
+[[nodiscard]] Response json_response(int status, std::string body);
+[[nodiscard]] Response problem_response(const Problems& problems);
+// A problem of HTTP itself (405, 426, 431, ...), which has no ProblemKind.
+[[nodiscard]] Response http_problem(int status, std::string_view slug, std::string_view detail);
+
+// To be called exactly once, on the server's thread.
+using Respond = std::function<void(Response)>;
+
+// One reader of the event stream, as a WebSocket sees it. All calls on the server's thread.
+class Feed {
+ public:
+  virtual ~Feed() = default;
+  // The next message to send; null: nothing at present.
+  virtual std::shared_ptr<const std::string> next() = 0;
+  // Why the reader is sent away; empty while it may stay.
+  [[nodiscard]] virtual std::string farewell() const = 0;
+  // `call` is called whenever next() or farewell() may have something new.
+  virtual void on_news(std::function<void()> call) = 0;
+};
+using FeedPtr = std::shared_ptr<Feed>;
+
+// What the listener serves. Both functions are called on the server's thread and answer through
+// their callback, at once or later. Request and target are only valid during the call.
+struct Site {
+  std::function<void(const Request&, Respond)> handle;
+  std::string feed_path;  // WebSocket upgrades are accepted here and nowhere else
+  std::function<void(const Target&, std::function<void(FeedPtr)>)> subscribe;
+};
+
+}  // namespace armloom

@@ -1,0 +1,237 @@
+#include "server/http/session.h"
+
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <chrono>
+#include <ctime>
+#include <optional>
+
+#include "server/http/framing.h"
+#include "server/http/websocket_session.h"
+
+namespace armloom {
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+using RequestParser = http::request_parser<http::string_body>;
+using RequestMessage = http::request<http::string_body>;
+
+std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+std::string http_date() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[64];
+  std::strftime(text, sizeof text, "%a, %d %b %Y %H:%M:%S GMT", &parts);
+  return text;
+}
+
+FramingFields framing_of(const RequestMessage& message) {
+  FramingFields fields;
+  fields.http_1_1 = message.version() >= 11;
+  for (const auto& field : message) {
+    if (field.name() == http::field::host) fields.hosts.push_back(view(field.value()));
+    if (field.name() == http::field::transfer_encoding) {
+      fields.transfer_encodings.push_back(view(field.value()));
+    }
+    if (field.name() == http::field::content_length) {
+      fields.content_lengths.push_back(view(field.value()));
+    }
+  }
+  return fields;
+}
+
+// What must be refused before the body is read; the connection ends with it.
+std::optional<Response> header_refusal(const RequestMessage& message) {
+  if (const auto fault = framing_fault(framing_of(message))) {
+    return http_problem(400, "bad-request", *fault);
+  }
+  const auto expect = message.find(http::field::expect);
+  if (expect != message.end() && !beast::iequals(expect->value(), "100-continue")) {
+    return http_problem(417, "expectation-failed", "the only Expect served is 100-continue");
+  }
+  return std::nullopt;
+}
+
+// A browser names the page that asks: other sites may read, but not change anything, nor listen.
+std::optional<Response> origin_refusal(const RequestMessage& message, bool upgrade) {
+  const bool safe = message.method() == http::verb::get || message.method() == http::verb::head;
+  const auto origin = message.find(http::field::origin);
+  if (origin == message.end() || (safe && !upgrade)) return std::nullopt;
+  if (same_origin(view(origin->value()), view(message[http::field::host]))) return std::nullopt;
+  return http_problem(403, "foreign-origin", "pages of another site may not command this server");
+}
+
+Response response_to_error(ErrorCode ec) {
+  if (ec == http::error::body_limit) {
+    return problem_response({Problem{ProblemKind::too_large, "body-too-large", "request body",
+                                     "a body may have at most 8 MiB", {}}});
+  }
+  if (ec == http::error::header_limit) {
+    return http_problem(431, "header-too-large", "the header may have at most 16 KiB");
+  }
+  return http_problem(400, "bad-request", "this is not HTTP/1.1: " + ec.message());
+}
+
+// One connection, with what its requests share.
+struct Connection {
+  explicit Connection(tcp::socket socket) : stream(std::move(socket)) {}
+  beast::tcp_stream stream;
+  beast::flat_buffer buffer;
+};
+
+asio::awaitable<void> send(Connection& connection, Response response, unsigned version,
+                           bool keep_alive, bool without_body, ErrorCode& ec) {
+  http::response<http::string_body> message;
+  message.version(version);
+  message.result(static_cast<unsigned>(response.status));
+  message.set(http::field::server, "armloom");
+  message.set(http::field::date, http_date());
+  message.set("X-Content-Type-Options", "nosniff");
+  for (const auto& [name, value] : response.headers) message.set(name, value);
+  if (!response.content_type.empty()) message.set(http::field::content_type, response.content_type);
+  message.keep_alive(keep_alive);
+  message.content_length(response.body.size());
+  if (!without_body) message.body() = std::move(response.body);
+  connection.stream.expires_after(kWriteTime);
+  co_await http::async_write(connection.stream, message, into(ec));
+}
+
+// Ends a connection so that the peer can still read the answer: closing a socket with unread input
+// would reset it.
+asio::awaitable<void> linger(Connection& connection) {
+  static constexpr std::size_t kDrainMax = 2 * kBodyMax;
+  ErrorCode ec;
+  connection.stream.socket().shutdown(tcp::socket::shutdown_send, ec);
+  connection.stream.expires_after(std::chrono::seconds(2));
+  std::vector<char> sink(64 * 1024);
+  for (std::size_t drained = 0; !ec && drained < kDrainMax;) {
+    drained += co_await connection.stream.async_read_some(asio::buffer(sink), into(ec));
+  }
+}
+
+// Hands the request to the site and waits for its answer.
+asio::awaitable<Response> answer(const Site& site, const Request& request) {
+  struct Pending {
+    explicit Pending(const asio::any_io_executor& executor)
+        : arrived(executor, std::chrono::steady_clock::now() + kWriteTime) {}
+    asio::steady_timer arrived;
+    std::optional<Response> response;
+  };
+  const auto pending = std::make_shared<Pending>(co_await asio::this_coro::executor);
+  site.handle(request, [pending](Response response) {
+    pending->response = std::move(response);
+    pending->arrived.cancel();
+  });
+  ErrorCode ignored;
+  if (!pending->response) co_await pending->arrived.async_wait(into(ignored));
+  if (pending->response) co_return std::move(*pending->response);
+  co_return http_problem(503, "no-answer", "the server did not answer in time");
+}
+
+asio::awaitable<Response> respond_to(const Site& site, RequestMessage& message) {
+  if (auto refused = origin_refusal(message, false)) co_return std::move(*refused);
+  auto target = parse_target(view(message.target()));
+  if (!target) co_return problem_response(target.error());
+  Request request;
+  request.method = message.method() == http::verb::head ? "GET" : std::string(message.method_string());
+  request.target = std::move(*target);
+  if (const auto type = message.find(http::field::content_type); type != message.end()) {
+    request.content_type = std::string(type->value());
+  }
+  request.body = std::move(message.body());
+  if (request.target.path == site.feed_path && request.method == "GET") {
+    Response refused = http_problem(426, "upgrade-required", "this is a WebSocket");
+    refused.headers.emplace_back("Upgrade", "websocket");
+    co_return refused;
+  }
+  co_return co_await answer(site, request);
+}
+
+// Waits for the next request's first bytes, then reads its header; the time for the header does not
+// begin before.
+asio::awaitable<void> read_header(Connection& connection, RequestParser& parser, ErrorCode& ec) {
+  if (connection.buffer.size() == 0) {
+    connection.stream.expires_after(kIdleTime);
+    const std::size_t size = co_await connection.stream.async_read_some(
+        connection.buffer.prepare(4096), into(ec));
+    connection.buffer.commit(size);
+    if (ec) co_return;
+  }
+  connection.stream.expires_after(kReadTime);
+  co_await http::async_read_header(connection.stream, connection.buffer, parser, into(ec));
+}
+
+asio::awaitable<void> read_body(Connection& connection, RequestParser& parser, ErrorCode& ec) {
+  connection.stream.expires_after(kReadTime);
+  if (parser.get().count(http::field::expect) > 0 && !parser.is_done()) {
+    http::response<http::empty_body> go_on(http::status::continue_, 11);
+    co_await http::async_write(connection.stream, go_on, into(ec));
+    if (ec) co_return;
+  }
+  co_await http::async_read(connection.stream, connection.buffer, parser, into(ec));
+}
+
+bool is_silent_end(ErrorCode ec) {
+  return ec.category() != http::make_error_code(http::error::end_of_stream).category() ||
+         ec == http::error::end_of_stream || ec == http::error::partial_message;
+}
+
+bool wants_feed(const RequestMessage& message, const Site& site) {
+  if (!beast::websocket::is_upgrade(message) || message.has_content_length()) return false;
+  const std::string_view target = view(message.target());
+  return target.substr(0, target.find('?')) == site.feed_path;
+}
+
+// One request and its answer. Whether another may follow on the connection.
+asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
+  ErrorCode ec;
+  RequestParser parser;
+  parser.body_limit(kBodyMax);
+  parser.header_limit(static_cast<std::uint32_t>(kHeaderMax));
+  std::optional<Response> refusal;
+  co_await read_header(connection, parser, ec);
+  if (!ec) refusal = header_refusal(parser.get());
+  if (!ec && !refusal && wants_feed(parser.get(), site)) {
+    refusal = origin_refusal(parser.get(), true);
+    auto target = parse_target(view(parser.get().target()));
+    if (!refusal && target) {
+      co_await serve_websocket(std::move(connection.stream), parser.release(), std::move(*target),
+                               site);
+      co_return false;
+    }
+  }
+  if (!ec && !refusal) co_await read_body(connection, parser, ec);
+  if (ec && is_silent_end(ec)) co_return false;
+  if (ec) refusal = response_to_error(ec);
+  if (refusal) {
+    ErrorCode ignored;
+    co_await send(connection, std::move(*refusal), 11, false, false, ignored);
+    co_await linger(connection);
+    co_return false;
+  }
+  RequestMessage message = parser.release();
+  const bool keep_alive = message.keep_alive();
+  const bool without_body = message.method() == http::verb::head;
+  const unsigned version = message.version();
+  Response response = co_await respond_to(site, message);
+  co_await send(connection, std::move(response), version, keep_alive, without_body, ec);
+  if (!ec && !keep_alive) co_await linger(connection);
+  co_return !ec && keep_alive;
+}
+
+}  // namespace
+
+asio::awaitable<void> serve_connection(tcp::socket socket, const Site& site) {
+  ErrorCode ignored;
+  socket.set_option(tcp::no_delay(true), ignored);
+  Connection connection(std::move(socket));
+  while (co_await serve_request(connection, site)) {
+  }
+}
+
+}  // namespace armloom

@@ -1,0 +1,33 @@
+#include "server/hub/broadcast.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/codec/views.h"
+
+namespace armloom {
+
+void Broadcast::on_event(const Event& event) {
+  parts_.post([this, event = std::make_shared<const Event>(event)] {
+    const auto text =
+        std::make_shared<const std::string>(event_json(*event, parts_.stream, &parts_.clock));
+    if (parts_.recording != nullptr) parts_.recording->event(*text);
+    parts_.hub.publish(event->seq, text);
+  });
+}
+
+void Broadcast::on_tick(TimePoint now, const Configuration& measured) {
+  if (parts_.recording != nullptr) parts_.recording->state(now, measured);
+}
+
+void Broadcast::on_state(const StateFrame& frame) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_frame_) return;
+  next_frame_ = std::max(next_frame_ + kFramePeriod, now);
+  parts_.post([this, frame = std::make_shared<const StateFrame>(frame)] {
+    if (!parts_.hub.has_readers()) return;
+    parts_.hub.publish_frame(std::make_shared<const std::string>(state_json(*frame, *parts_.cell)));
+  });
+}
+
+}  // namespace armloom

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/executive/executive.h"
+#include "server/codec/wall_clock.h"
+#include "server/hub/hub.h"
+#include "server/recording/recording.h"
+
+namespace armloom {
+
+// Carries what the executive tells from its strand to the server's thread, where each event is
+// written as JSON once, kept in the hub and recorded. On the strand it only copies.
+class Broadcast final : public Observer {
+ public:
+  inline static constexpr std::chrono::milliseconds kFramePeriod{33};  // of wall time
+
+  struct Parts {
+    CellPtr cell;
+    std::string stream;
+    WallClock clock;
+    Hub& hub;
+    Recording* recording;  // null: none
+    std::function<void(std::function<void()>)> post;  // to the server's thread, in order
+  };
+  explicit Broadcast(Parts parts) : parts_(std::move(parts)) {}
+
+  void on_event(const Event& event) override;
+  void on_tick(TimePoint now, const Configuration& measured) override;
+  void on_state(const StateFrame& frame) override;
+
+ private:
+  Parts parts_;
+  std::chrono::steady_clock::time_point next_frame_{};  // the strand's
+};
+
+}  // namespace armloom

@@ -1,0 +1,81 @@
+#include "server/hub/hub.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace armloom {
+
+class Hub::Reader final : public Feed {
+ public:
+  Reader(const Hub& hub, std::uint64_t since, Text first)
+      : hub_(hub), read_(since), first_(std::move(first)) {}
+
+  Text next() override {
+    if (first_) return std::exchange(first_, nullptr);
+    if (behind() > hub_.ring_.size()) return nullptr;
+    if (behind() > 0) {
+      Text event = hub_.ring_[hub_.ring_.size() - behind()];
+      ++read_;
+      return event;
+    }
+    return std::exchange(frame_, nullptr);
+  }
+
+  std::string farewell() const override {
+    if (first_ || behind() <= hub_.ring_.size()) return "";
+    return "too slow: " + std::to_string(behind()) + " events behind, " +
+           std::to_string(hub_.ring_.size()) + " are kept";
+  }
+
+  void on_news(std::function<void()> call) override { news_ = std::move(call); }
+
+  void offer(const Text& frame) { frame_ = frame; }
+  void tell() {
+    if (news_) news_();
+  }
+
+ private:
+  std::size_t behind() const { return static_cast<std::size_t>(hub_.last_seq_ - read_); }
+
+  const Hub& hub_;  // the hub outlives every call, not necessarily every reader
+  std::uint64_t read_;
+  Text first_;
+  Text frame_;
+  std::function<void()> news_;
+};
+
+void Hub::publish(std::uint64_t seq, Text event) {
+  if (seq != last_seq_ + 1) throw std::logic_error("the event log has a hole");
+  last_seq_ = seq;
+  ring_.push_back(std::move(event));
+  if (ring_.size() > capacity_) ring_.pop_front();
+  tell_readers();
+}
+
+void Hub::publish_frame(Text frame) {
+  for (const auto& weak : readers_) {
+    if (const auto reader = weak.lock()) reader->offer(frame);
+  }
+  tell_readers();
+}
+
+FeedPtr Hub::resume(std::uint64_t since, Text first) {
+  if (since > last_seq_ || last_seq_ - since > ring_.size()) return nullptr;
+  const auto reader = std::make_shared<Reader>(*this, since, std::move(first));
+  readers_.push_back(reader);
+  return reader;
+}
+
+bool Hub::has_readers() {
+  std::erase_if(readers_, [](const auto& weak) { return weak.expired(); });
+  return !readers_.empty();
+}
+
+void Hub::tell_readers() {
+  std::erase_if(readers_, [](const auto& weak) { return weak.expired(); });
+  for (const auto& weak : readers_) {
+    if (const auto reader = weak.lock()) reader->tell();
+  }
+}
+
+}  // namespace armloom

@@ -1,0 +1,70 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "server/command/command.h"
+
+namespace {
+
+using namespace armloom;
+
+void add_cell(CLI::App& command, std::string& file) {
+  command.add_option("--cell", file, "cell file (JSON)")->required();
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Armloom: an execution server for robot cells with several arms");
+  app.require_subcommand(1);
+
+  ServeOptions serving;
+  CLI::App* serve_command = app.add_subcommand("serve", "run the server with simulated arms");
+  add_cell(*serve_command, serving.cell_file);
+  serve_command->add_option("--listen", serving.listen, "ADDRESS:PORT")->capture_default_str();
+  serve_command->add_option("--data", serving.data, "folder for a recording of the run");
+  serve_command->add_flag("--record", serving.record, "with --data: write states.csv, too");
+  serve_command->add_option("--speed", serving.speed, "cell seconds per second")
+      ->check(CLI::Range(0.001, 1000.0));
+  serve_command->add_option("--web", serving.web, "folder of the dashboard's files");
+  serve_command->add_option("--policy", serving.policy, "instead of the cell's");
+
+  std::string validated_file;
+  CLI::App* validate_command = app.add_subcommand("validate", "say what a cell holds, or its faults");
+  add_cell(*validate_command, validated_file);
+
+  SimulateOptions simulating;
+  CLI::App* simulate_command = app.add_subcommand("simulate", "run jobs on simulated time");
+  add_cell(*simulate_command, simulating.cell_file);
+  simulate_command->add_option("--jobs", simulating.jobs_file, "jobs file (JSON)")->required();
+  simulate_command->add_option("--policy", simulating.policy, "instead of the cell's");
+  simulate_command->add_option("--seed", simulating.seed, "of the arms' noise")->capture_default_str();
+  simulate_command->add_option("--out", simulating.out, "folder for the recording");
+
+  AuditOptions auditing;
+  CLI::App* audit_command = app.add_subcommand("audit", "re-check a recording for contacts");
+  add_cell(*audit_command, auditing.cell_file);
+  audit_command->add_option("--recording", auditing.recording, "folder with states.csv")->required();
+  audit_command->add_option("--step", auditing.step_s, "largest step between states, in seconds")
+      ->check(CLI::Range(1e-6, 10.0))
+      ->capture_default_str();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitDone : kExitBadInput;
+  }
+  if (serve_command->parsed()) return serve(serving);
+  if (validate_command->parsed()) return validate_cell(validated_file);
+  if (simulate_command->parsed()) return simulate_jobs(simulating);
+  return audit_recording(auditing);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "armloom: stopped by a fault of its own: " << error.what() << '\n';
+    return 70;  // EX_SOFTWARE
+  }
+}

@@ -1,0 +1,63 @@
+#include "server/recording/recording.h"
+
+#include <iterator>
+#include <system_error>
+
+#include "server/codec/cell_codec.h"
+#include "server/codec/json_writer.h"
+
+namespace armloom {
+namespace fs = std::filesystem;
+
+Result<std::unique_ptr<Recording>> Recording::create(const fs::path& folder, const Source& source,
+                                                     const Cell& cell, bool with_states) {
+  std::error_code ec;
+  fs::create_directories(folder, ec);
+  std::unique_ptr<Recording> recording(new Recording());
+  recording->folder_ = folder;
+  recording->events_.open(folder / "events.jsonl", std::ios::binary);
+  std::ofstream cell_copy(folder / "cell.json", std::ios::binary);
+  if (!recording->events_ || !cell_copy) {
+    return failure(Problem{ProblemKind::unavailable, "cannot-write", folder.string(),
+                           "the folder cannot be written", folder.string()});
+  }
+  cell_copy << relocate_cell_text(source.cell_text, source.cell_file.parent_path(), folder);
+  if (with_states) {
+    recording->states_.emplace(folder / "states.csv", cell);
+  } else {
+    fs::remove(folder / "states.csv", ec);  // of an earlier recording
+  }
+  return recording;
+}
+
+Recording::~Recording() {
+  if (jobs_open_) jobs_ << "\n]\n";
+}
+
+void Recording::jobs_file(std::string_view text) {
+  std::ofstream(folder_ / "jobs.json", std::ios::binary) << text;
+}
+
+void Recording::job(TimePoint at, std::string_view body) {
+  if (!jobs_open_) jobs_.open(folder_ / "jobs.json", std::ios::binary);
+  JsonWriter line;
+  line.begin_object().field("at", to_seconds(at)).key("job").raw(body).end_object();
+  jobs_ << (jobs_open_ ? ",\n" : "[\n") << line.text();
+  jobs_open_ = true;
+}
+
+bool Recording::good() const {
+  return events_.good() && (!states_ || states_->good()) && (!jobs_open_ || jobs_.good());
+}
+
+Result<std::string> read_text_file(const fs::path& file) {
+  std::error_code ec;
+  std::ifstream in(file, std::ios::binary);
+  if (!in || fs::is_directory(file, ec)) {
+    return failure(Problem{ProblemKind::not_found, "cannot-read", "",
+                           "the file does not exist or cannot be read", {}});
+  }
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+}  // namespace armloom

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/base/problem.h"
+#include "core/base/time.h"
+#include "server/recording/states_csv.h"
+
+namespace armloom {
+
+// A recording folder being written: events.jsonl, states.csv (if asked for), cell.json with its
+// paths made relative to the folder, jobs.json. Files of an earlier recording are replaced.
+// A disk that fills up does not stop the run; good() says so. Not thread-safe, but states may be
+// written from another thread than the rest.
+class Recording {
+ public:
+  struct Source {
+    std::filesystem::path cell_file;
+    std::string cell_text;
+  };
+  // Makes the folder. Problem (unavailable): it cannot be written.
+  [[nodiscard]] static Result<std::unique_ptr<Recording>> create(
+      const std::filesystem::path& folder, const Source& source, const Cell& cell, bool with_states);
+  ~Recording();
+
+  void event(std::string_view json) { events_ << json << '\n'; }
+  void state(TimePoint time, const Configuration& q) {
+    if (states_) states_->write(time, q);
+  }
+  // Either the whole jobs file at once, or job by job as they are accepted.
+  void jobs_file(std::string_view text);
+  void job(TimePoint at, std::string_view body);
+  void flush() { events_.flush(); }
+  [[nodiscard]] bool good() const;
+
+ private:
+  Recording() = default;
+  std::filesystem::path folder_;
+  std::ofstream events_;
+  std::optional<StatesWriter> states_;
+  std::ofstream jobs_;
+  bool jobs_open_ = false;  // an array that has to be closed
+};
+
+// A whole file as text. Problem (not_found): cannot be read.
+[[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& file);
+
+}  // namespace armloom

@@ -1,0 +1,97 @@
+#include "server/service.h"
+
+#include <chrono>
+#include <utility>
+
+#include "core/executive/real_time_loop.h"
+#include "server/api/api.h"
+#include "server/codec/views.h"
+#include "server/http/http_server.h"
+#include "server/http/static_files.h"
+#include "server/hub/broadcast.h"
+
+namespace armloom {
+
+class Service::Impl {
+ public:
+  explicit Impl(ServiceOptions options) : options_(std::move(options)), files_(options_.web) {}
+
+  std::optional<Problems> start(const CellPtr& cell, const Recording::Source& source) {
+    auto http = HttpServer::listen(options_.address, options_.port);
+    if (!http) return std::move(http.error());
+    http_ = std::move(*http);
+    if (options_.data) {
+      auto recording = Recording::create(*options_.data, source, *cell, options_.record_states);
+      if (!recording) return std::move(recording.error());
+      recording_ = std::move(*recording);
+    }
+    const WallClock clock(std::chrono::system_clock::now(), options_.speed);
+    const std::string stream = random_stream();
+    const auto post = [http_server = http_.get()](std::function<void()> task) {
+      http_server->post(std::move(task));
+    };
+    broadcast_ = std::make_unique<Broadcast>(
+        Broadcast::Parts{cell, stream, clock, hub_, recording_.get(), post});
+    ExecutiveOptions executive_options;
+    executive_options.policy = options_.policy;
+    auto loop = RealTimeLoop::start(cell, std::move(executive_options), options_.speed, *broadcast_);
+    if (!loop) return std::move(loop.error());
+    loop_ = std::move(*loop);
+    const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
+    api_ = std::make_unique<Api>(
+        Api::Parts{cell, stream, policy, clock, *loop_, hub_, recording_.get(), post});
+    api_->add_routes(router_);
+    router_.otherwise([this](const Request& request, const Router::Arguments&, Respond respond) {
+      respond(answer_file(request));
+    });
+    return std::nullopt;
+  }
+
+  void run(bool until_signal) {
+    Site site;
+    site.handle = [this](const Request& request, Respond respond) {
+      router_.dispatch(request, std::move(respond));
+    };
+    site.feed_path = "/api/v1/ws";
+    site.subscribe = [this](const Target& target, std::function<void(FeedPtr)> then) {
+      api_->subscribe(target, std::move(then));
+    };
+    http_->run(std::move(site), until_signal);
+  }
+
+  HttpServer& http() { return *http_; }
+
+ private:
+  Response answer_file(const Request& request) const {
+    if (!request.target.path.starts_with("/api/")) return files_.answer(request);
+    return problem_response({Problem{ProblemKind::not_found, "not-found", "request target",
+                                     "nothing is served at " + request.target.path,
+                                     request.target.path}});
+  }
+
+  // Destroyed from below: first the loop's threads end, last the sockets.
+  ServiceOptions options_;
+  StaticFiles files_;
+  Hub hub_;
+  Router router_;
+  std::unique_ptr<Recording> recording_;
+  std::unique_ptr<HttpServer> http_;
+  std::unique_ptr<Broadcast> broadcast_;
+  std::unique_ptr<Api> api_;
+  std::unique_ptr<RealTimeLoop> loop_;
+};
+
+Result<std::unique_ptr<Service>> Service::start(CellPtr cell, const Recording::Source& source,
+                                                ServiceOptions options) {
+  auto impl = std::make_unique<Impl>(std::move(options));
+  if (auto problems = impl->start(cell, source)) return failure(std::move(*problems));
+  return std::unique_ptr<Service>(new Service(std::move(impl)));
+}
+
+Service::Service(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Service::~Service() = default;
+std::uint16_t Service::port() const { return impl_->http().port(); }
+void Service::run(bool until_signal) { impl_->run(until_signal); }
+void Service::stop() { impl_->http().stop(); }
+
+}  // namespace armloom

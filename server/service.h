@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/problem.h"
+#include "core/model/cell.h"
+#include "server/recording/recording.h"
+
+namespace armloom {
+
+struct ServiceOptions {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 8080;  // zero: any free one
+  double speed = 1.0;         // cell seconds per wall second
+  std::string policy;         // empty: the cell's
+  std::filesystem::path web;  // the dashboard's files
+  std::optional<std::filesystem::path> data;  // where a recording is written
+  bool record_states = false;                 // states.csv as well
+};
+
+// The server: executive in real time, HTTP, WebSocket, dashboard. One thread for all connections
+// (the caller of run()), one for the executive, one for judgements.
+class Service {
+ public:
+  // Listens and begins to run the executive. Problems: those of Executive::create, the port in use,
+  // the data folder not writable.
+  [[nodiscard]] static Result<std::unique_ptr<Service>> start(CellPtr cell,
+                                                              const Recording::Source& source,
+                                                              ServiceOptions options);
+  ~Service();
+
+  [[nodiscard]] std::uint16_t port() const;
+  void run(bool until_signal);  // until stop(), or SIGINT or SIGTERM
+  void stop();                  // thread-safe
+
+ private:
+  class Impl;
+  explicit Service(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace armloom
