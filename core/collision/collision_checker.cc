@@ -85,6 +85,13 @@ struct CollisionChecker::Scratch {
     return smallest;
   }
 
+  // What the group keeps where different arms keep `clearance_m`.
+  [[nodiscard]] double limit_of(const Group& group, double clearance_m) const {
+    const Cell& cell = *bodies.cell;
+    const bool scaled = group.kind == Group::Kind::self && cell.clearance_m > 0.0;
+    return scaled ? clearance_m * (cell.self_clearance_m / cell.clearance_m) : clearance_m;
+  }
+
   [[nodiscard]] bool far_apart(const Group& group, double limit_m) const {
     if (!group.other) return false;
     const Eigen::AlignedBox3d& a = arm_box[group.arm.index()];
@@ -134,7 +141,7 @@ std::optional<Proximity> CollisionChecker::first_closer_than(const Configuration
   for (const Group& group : scratch_->bodies.groups) {
     if (!includes(group, arms)) continue;
     std::optional<NearPair> first;
-    scratch_->scan(group, clearance_m, [&](const NearPair& pair) {
+    scratch_->scan(group, scratch_->limit_of(group, clearance_m), [&](const NearPair& pair) {
       if (!first) first = pair;
       return -1e9;  // nothing is that deep: the rest is passed over
     });
@@ -148,7 +155,8 @@ std::vector<Proximity> CollisionChecker::all_closer_than(const Configuration& q,
   scratch_->move_to(q);
   std::vector<Proximity> found;
   for (const Group& group : scratch_->bodies.groups) {
-    if (const auto pair = scratch_->closest(group, clearance_m)) found.push_back(describe(*pair));
+    const double limit_m = scratch_->limit_of(group, clearance_m);
+    if (const auto pair = scratch_->closest(group, limit_m)) found.push_back(describe(*pair));
   }
   return found;
 }
@@ -171,9 +179,10 @@ void CollisionChecker::near_pairs(const Configuration& q, double clearance_m,
   scratch_->move_to(q);
   for (const Group& group : scratch_->bodies.groups) {
     if (!includes(group, of) || !includes(group, moved)) continue;
-    scratch_->scan(group, clearance_m, [&](const NearPair& pair) {
+    const double limit_m = scratch_->limit_of(group, clearance_m);
+    scratch_->scan(group, limit_m, [&](const NearPair& pair) {
       near.push_back(pair);
-      return clearance_m;
+      return limit_m;
     });
   }
 }

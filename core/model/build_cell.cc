@@ -1,5 +1,6 @@
 #include "core/model/build_cell.h"
 
+#include <algorithm>
 #include <set>
 
 #include "core/model/cell_checks.h"
@@ -120,6 +121,7 @@ void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
 void copy_settings(const CellDescription& description, Cell& cell) {
   cell.name = description.name;
   cell.clearance_m = description.clearance_m;
+  cell.self_clearance_m = std::min(description.self_clearance_m, description.clearance_m);
   cell.checking = description.checking;
   cell.scheduling = description.scheduling;
   cell.monitor = description.monitor;

@@ -98,6 +98,7 @@ struct Cell {
   std::set<std::pair<LinkId, std::string>> allowed_link_objects;
 
   double clearance_m = 0.02;
+  double self_clearance_m = 0.005;  // at most clearance_m
   CheckingSettings checking;
   SchedulingSettings scheduling;
   MonitorSettings monitor;

@@ -102,6 +102,7 @@ void check_pose(const Eigen::Isometry3d& X, const std::string& pointer, const st
 
 void check_settings(const CellDescription& d, Findings& findings) {
   require(d.clearance_m >= 0.0, d.clearance_m, "/clearance_m", "0 m or more", findings);
+  require(d.self_clearance_m >= 0.0, d.self_clearance_m, "/self_clearance_m", "0 m or more", findings);
 
   const auto positive = [&](Duration time, const char* pointer) {
     require(time > Duration::zero(), to_seconds(time), pointer, "greater than 0 s", findings);

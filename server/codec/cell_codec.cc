@@ -213,7 +213,7 @@ void read_execution(const JsonNode& node, ExecutionSettings& execution) {
 }
 
 void read_cell(const JsonNode& node, const fs::path& folder, CellDescription& cell) {
-  if (!node.object({"name", "robots", "objects", "allowed_collisions", "clearance_m", "checking",
+  if (!node.object({"name", "robots", "objects", "allowed_collisions", "clearance_m", "self_clearance_m", "checking",
                     "scheduling", "monitor", "execution"})) {
     return;
   }
@@ -231,6 +231,8 @@ void read_cell(const JsonNode& node, const fs::path& folder, CellDescription& ce
     pairs.each([&](const JsonNode& n) { read_allowed(n, cell); });
   });
   node.optional("clearance_m", [&](const JsonNode& n) { n.read_within(cell.clearance_m, 0.0, 1.0); });
+  node.optional("self_clearance_m",
+                [&](const JsonNode& n) { n.read_within(cell.self_clearance_m, 0.0, 1.0); });
   node.optional("checking", [&](const JsonNode& n) { read_checking(n, cell.checking); });
   node.optional("scheduling", [&](const JsonNode& n) { read_scheduling(n, cell.scheduling); });
   node.optional("monitor", [&](const JsonNode& n) { read_monitor(n, cell.monitor); });

@@ -85,6 +85,7 @@ void write_joint(JsonWriter& out, const Cell& cell, const Joint& joint) {
 
 void write_settings(JsonWriter& out, const Cell& cell) {
   out.field("clearance_m", cell.clearance_m);
+  out.field("self_clearance_m", cell.self_clearance_m);
   out.key("checking").begin_object();
   out.field("time_step_s", to_seconds(cell.checking.time_step));
   out.field("tracking_error_rad", cell.checking.tracking_error_rad);

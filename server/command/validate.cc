@@ -63,7 +63,8 @@ void print_arm(const Cell& cell, const Arm& arm) {
 }
 
 void print_settings(const Cell& cell) {
-  std::cout << "clearance " << cell.clearance_m << " m\n"
+  std::cout << "clearance " << cell.clearance_m << " m, " << cell.self_clearance_m
+            << " m within an arm\n"
             << "checking: time step " << to_seconds(cell.checking.time_step)
             << " s, tracking error " << cell.checking.tracking_error_rad << " rad, delay "
             << to_seconds(cell.checking.delay) << " s, limit tolerance "

@@ -112,7 +112,7 @@ TEST(T11, ASecondJobFromTheSameStartIsRefusedWithThePlace) {
 TEST(T11, TheOrderOfAnArmIsKept) {
   Crossing cell;
   cell.submit(slide("x", -1, 1, 4, "out"));
-  JobRequest back = slide("x", 1, -1, 1, "back");
+  JobRequest back = slide("x", 1, -1, 4, "back");
   back.priority = 10;
   cell.submit(std::move(back));
   cell.run_to_the_end();
