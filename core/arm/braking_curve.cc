@@ -24,8 +24,8 @@ void BrakingCurve::compute(RateLaw& law, Duration from, Duration authority) {
   while (place > from && square < 1.0) {
     const Duration before = std::max(place - kStep, Duration{});
     const double expected = std::min(1.0, square + 2.0 * deceleration * kStep_s);
-    deceleration = -law.brake({before, std::sqrt(expected)}, {place, std::sqrt(square)},
-                              kLimitShare);
+    deceleration =
+        -law.brake({before, std::sqrt(expected)}, {place, std::sqrt(square)}, kLimitShare);
     square = std::min(1.0, square + 2.0 * deceleration * kStep_s);
     squares_.push_back(square);
     place -= kStep;

@@ -19,7 +19,8 @@ class BrakingCurve {
   void compute(RateLaw& law, Duration from, Duration authority);
 
   [[nodiscard]] Duration authority() const { return authority_; }
-  // Up to here any rate in [0, 1] is allowed; at or before the `from` of compute() if it binds there.
+  // Up to here any rate in [0, 1] is allowed; at or before the `from` of compute() if it binds
+  // there.
   [[nodiscard]] Duration free_until() const { return free_until_; }
   // The square of the largest rate at `progress` (seconds); zero from the authority on.
   [[nodiscard]] double rate_squared(double progress_s) const;

@@ -32,7 +32,10 @@ void RateLaw::follow(TrajectoryPtr trajectory) {
     slowest = std::min(slowest, joint.brake / joint.velocity_max);
   }
   floor_ = std::min(kBrakeFloorShare * slowest, kRateChangeMax_1_s);
-  for (Sampled& sampled : sampled_) sampled.progress = Duration{-1};
+  for (Sampled& sampled : sampled_) {
+    sampled.progress = Duration{-1};
+    trajectory_->sample(Duration{}, sampled.state);  // has its size before the first tick
+  }
 }
 
 const JointState& RateLaw::sample(Duration progress) {
@@ -100,8 +103,8 @@ double RateLaw::rise(PathPoint first, double period_s) {
   const Interval a = within(sample(first.progress), first.rate, acceleration_, 1.0);
   const double begin = std::clamp(a.highest, 0.0, kRateChangeMax_1_s);
   const double rate_last = std::min(1.0, first.rate + begin * period_s);
-  const Duration last = std::min(first.progress + from_seconds(rate_last * period_s),
-                                 trajectory_->duration());
+  const Duration last =
+      std::min(first.progress + from_seconds(rate_last * period_s), trajectory_->duration());
   const Interval b = within(sample(last), rate_last, acceleration_, 1.0);
   return std::clamp(b.highest, 0.0, begin);
 }

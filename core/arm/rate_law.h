@@ -8,7 +8,8 @@
 
 namespace armloom {
 
-// A point of the phase plane of a motion: where on the path, and the rate r = ds/dt (1: as planned).
+// A point of the phase plane of a motion: where on the path, and the rate r = ds/dt (1: as
+// planned).
 struct PathPoint {
   Duration progress;
   double rate;
@@ -17,8 +18,8 @@ struct PathPoint {
 // How fast the rate of progress along a trajectory q(s) may change. The joints' acceleration is
 //   q'(s) s'' + q''(s) r^2
 // with ' the derivative by trajectory time, so each joint's limit is an interval of s'' (Bobrow,
-// Dubowsky and Gibson 1985). All joints of the trajectory count, also those of other arms: arms that
-// share a synchronous motion then brake and continue in step. All s'' are in 1/s.
+// Dubowsky and Gibson 1985). All joints of the trajectory count, also those of other arms: arms
+// that share a synchronous motion then brake and continue in step. All s'' are in 1/s.
 class RateLaw {
  public:
   // |s''| is never larger: where the path nearly rests, its limits say nothing.
@@ -30,8 +31,8 @@ class RateLaw {
   explicit RateLaw(CellPtr cell) : cell_(std::move(cell)) {}
   void follow(TrajectoryPtr trajectory);
 
-  // The strongest deceleration s'' < 0 for the stretch from `first` to `last`, within `share` of the
-  // joints' brake limits at both of its ends; where no s'' is, the one that breaks them least.
+  // The strongest deceleration s'' < 0 for the stretch from `first` to `last`, within `share` of
+  // the joints' brake limits at both of its ends; where no s'' is, the one that breaks them least.
   [[nodiscard]] double brake(PathPoint first, PathPoint last, double share = 1.0);
   // The strongest acceleration s'' >= 0 within the acceleration limits, on a tick of `period_s`.
   [[nodiscard]] double rise(PathPoint first, double period_s);
@@ -55,7 +56,7 @@ class RateLaw {
   TrajectoryPtr trajectory_;
   Eigen::VectorXd acceleration_;  // limits of the trajectory's joints, > 0
   Eigen::VectorXd brake_;
-  double floor_ = 0.0;            // smallest deceleration of a brake, > 0
+  double floor_ = 0.0;              // smallest deceleration of a brake, > 0
   std::array<Sampled, 2> sampled_;  // the last two places that were asked for
   std::size_t older_ = 0;
 };

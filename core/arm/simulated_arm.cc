@@ -61,6 +61,7 @@ void SimulatedArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration 
   if (!concerned) throw std::logic_error("SimulatedArm::start: none of its joints");
 
   trajectory->sample_positions(from_progress, path_);
+  path_target_ = path_;  // both have their size before the first tick
   Eigen::VectorXd offset = Eigen::VectorXd::Zero(position_.size());
   for (std::size_t j = 0; j < rows.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
@@ -183,8 +184,7 @@ void SimulatedArm::command(Duration period) {
 // A brake that ends within the tick covers its triangle only.
 SimulatedArm::Step SimulatedArm::braked(Duration progress, double rate, double period_s) {
   if (period_s <= 0.0) return {rate, 0.0};
-  const Duration last =
-      std::min(progress + from_seconds(rate * period_s), trajectory_->duration());
+  const Duration last = std::min(progress + from_seconds(rate * period_s), trajectory_->duration());
   const double change = law_.brake({progress, rate}, {last, rate});
   const double rate_after = rate + change * period_s;
   if (rate_after <= 0.0) return {0.0, rate * rate / (-2.0 * change)};

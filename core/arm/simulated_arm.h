@@ -19,7 +19,8 @@ namespace armloom {
 // Deterministic: the same seed and the same calls give the same feedback, bit for bit.
 //
 // What the interface leaves open:
-// - From the very start of a path (at rest there) the rate is one at once; elsewhere it begins at zero.
+// - From the very start of a path (at rest there) the rate is one at once; elsewhere it begins at
+// zero.
 // - Whoever shares a trajectory brakes alike: the limits of all its joints bind the rate, so the
 //   commanded progress of synchronous arms stays equal.
 // - At rest at its authority the phase stays `moving`; more authority continues the motion.
@@ -78,8 +79,8 @@ class SimulatedArm final : public ArmController {
   Duration authority_{};
   double rate_ = 0.0;  // commanded, 0..1
 
-  Eigen::VectorXd position_;     // of joints_: where the arm truly is
-  Eigen::VectorXd offset_;       // of joints_: what is left of the distance to the path at the start
+  Eigen::VectorXd position_;  // of joints_: where the arm truly is
+  Eigen::VectorXd offset_;    // of joints_: what is left of the distance to the path at the start
   bool has_offset_ = false;
   Eigen::VectorXd path_;         // scratch, of the trajectory's joints
   Eigen::VectorXd path_target_;  // the same

@@ -41,8 +41,8 @@ std::vector<MonitorFinding> Monitor::observe(const std::vector<Proximity>& too_c
     std::vector<ArmId> stops = moving_arms(proximity, moving);
     const auto before = known_.find(key);
     const bool found_before = before != known_.end();
-    const bool closer = found_before && !stops.empty() &&
-                        proximity.clearance_m < before->second - kCloserBy_m;
+    const bool closer =
+        found_before && !stops.empty() && proximity.clearance_m < before->second - kCloserBy_m;
     if (found_before && !closer) {
       still_known.emplace(std::move(key), before->second);
       continue;

@@ -48,8 +48,8 @@ Segment piece(const Waypoint& from, const Waypoint& to, Duration start, Duration
   }
   const double t2 = t * t;
   c.col(2) = 0.5 * from.a;
-  c.col(3) = (20.0 * d - (8.0 * to.v + 12.0 * from.v) * t - (3.0 * from.a - to.a) * t2) /
-             (2.0 * t2 * t);
+  c.col(3) =
+      (20.0 * d - (8.0 * to.v + 12.0 * from.v) * t - (3.0 * from.a - to.a) * t2) / (2.0 * t2 * t);
   c.col(4) = (-30.0 * d + (14.0 * to.v + 16.0 * from.v) * t + (3.0 * from.a - 2.0 * to.a) * t2) /
              (2.0 * t2 * t2);
   c.col(5) = (12.0 * d - 6.0 * (to.v + from.v) * t - (from.a - to.a) * t2) / (2.0 * t2 * t2 * t);
@@ -82,7 +82,8 @@ double needed_slowdown(const Trajectory& trajectory, const Cell& cell) {
       const Joint& joint = cell.joint(trajectory.joints()[j]);
       const auto i = static_cast<Eigen::Index>(j);
       needed = std::max(needed, std::abs(state.velocity[i]) / joint.velocity_max);
-      needed = std::max(needed, std::sqrt(std::abs(state.acceleration[i]) / joint.acceleration_max));
+      needed =
+          std::max(needed, std::sqrt(std::abs(state.acceleration[i]) / joint.acceleration_max));
     }
   }
   return needed;
@@ -156,8 +157,7 @@ Eigen::VectorXd at_start(const Trajectory& trajectory, const Cell& cell, ArmId a
                 cell.arm(arm).gripper_joints.end());
   Eigen::VectorXd q = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(joints.size()));
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto found =
-        std::find(trajectory.joints().begin(), trajectory.joints().end(), joints[j]);
+    const auto found = std::find(trajectory.joints().begin(), trajectory.joints().end(), joints[j]);
     if (found == trajectory.joints().end()) continue;
     q[static_cast<Eigen::Index>(j)] = trajectory.start()[found - trajectory.joints().begin()];
   }

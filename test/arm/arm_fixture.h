@@ -46,7 +46,8 @@ struct Bench {
     return tick();
   }
   // Until the phase is reached; fails the test after `most` of simulated time.
-  const ArmFeedback& tick_until(ArmFeedback::Phase phase, Duration most = std::chrono::seconds(120));
+  const ArmFeedback& tick_until(ArmFeedback::Phase phase,
+                                Duration most = std::chrono::seconds(120));
 
   CellPtr cell;
   SimulatedArm arm;

@@ -184,11 +184,13 @@ TEST(SimulatedArm, KeepsItsLimitsThroughBrakesAndContinuationsAtRandomTimes) {
       bench.arm.start(trajectory, at(0ms), {}, trajectory->duration());
       for (int i = 0; i < 200'000; ++i) {
         const ArmFeedback& feedback = bench.tick();
-        gauge.observe(feedback, feedback.phase == Phase::braking || feedback.phase == Phase::stopped);
+        gauge.observe(feedback,
+                      feedback.phase == Phase::braking || feedback.phase == Phase::stopped);
         if (feedback.phase == Phase::finished) break;
         if (feedback.phase == Phase::moving && random() % 500 == 0) bench.arm.brake();
         if (feedback.phase == Phase::stopped) {
-          bench.arm.start(trajectory, bench.now, feedback.measured_progress, trajectory->duration());
+          bench.arm.start(trajectory, bench.now, feedback.measured_progress,
+                          trajectory->duration());
         }
       }
       EXPECT_EQ(bench.tick().phase, Phase::finished) << seed;
@@ -235,7 +237,8 @@ TEST(SimulatedArm, RunsOneTrajectoryAfterAnother) {
 
 TEST(SimulatedArm, JointsThatTheTrajectoryDoesNotNameStayWhereTheyAre) {
   Example e;
-  const std::vector<JointId> some{JointId(2), JointId(9), JointId(3)};  // joint 9 is the right arm's
+  const std::vector<JointId> some{JointId(2), JointId(9),
+                                  JointId(3)};  // joint 9 is the right arm's
   const TrajectoryPtr trajectory = random_trajectory(*e.cell, some, {kLeft, kRight}, e.random);
   Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(8, 0.1, 0.8);
   q[2] = trajectory->start()[0];
@@ -289,7 +292,7 @@ TEST(SimulatedArm, TheSameSeedGivesTheSameBitsAndAnotherSeedDoesNot) {
 }
 
 TEST(SimulatedArm, NoiseIsOfTheStatedSizeAndOnlyInWhatIsMeasured) {
-  Example e({.noise_rad = 0.002});
+  Example e({.noise_rad = 0.05});
   const Eigen::VectorXd q = at_start(*e.trajectory, *e.cell, kLeft);
   double sum = 0.0;
   double squares = 0.0;
@@ -299,9 +302,9 @@ TEST(SimulatedArm, NoiseIsOfTheStatedSizeAndOnlyInWhatIsMeasured) {
     sum += error.sum();
     squares += error.squaredNorm();
   }
-  EXPECT_NEAR(sum / (8.0 * kTicks), 0.0, 5e-5);
-  EXPECT_NEAR(std::sqrt(squares / (8.0 * kTicks)), 0.002, 5e-5);
-  e.start_now();  // would throw if the noise had moved the arm: see the tolerance below
+  EXPECT_NEAR(sum / (8.0 * kTicks), 0.0, 1e-3);
+  EXPECT_NEAR(std::sqrt(squares / (8.0 * kTicks)), 0.05, 1e-3);
+  e.start_now();  // would throw, had the noise moved the arm past the start tolerance
   e.bench.tick_until(Phase::finished);
 }
 

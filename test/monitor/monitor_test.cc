@@ -19,12 +19,20 @@ const std::vector<bool> kLeftMoves{true, false};
 const std::vector<bool> kNoneMoves{false, false};
 
 Proximity hands(double clearance_m) {
-  return {.body_a = "left_hand", .body_b = "right_hand", .arm_a = kLeft, .arm_b = kRight,
-          .object_b = false, .clearance_m = clearance_m};
+  return {.body_a = "left_hand",
+          .body_b = "right_hand",
+          .arm_a = kLeft,
+          .arm_b = kRight,
+          .object_b = false,
+          .clearance_m = clearance_m};
 }
 Proximity hand_and_table(double clearance_m) {
-  return {.body_a = "right_hand", .body_b = "table", .arm_a = kRight, .arm_b = std::nullopt,
-          .object_b = true, .clearance_m = clearance_m};
+  return {.body_a = "right_hand",
+          .body_b = "table",
+          .arm_a = kRight,
+          .arm_b = std::nullopt,
+          .object_b = true,
+          .clearance_m = clearance_m};
 }
 Monitor monitor() { return Monitor(MonitorSettings{.stop_clearance_m = 0.01}); }
 
