@@ -23,9 +23,9 @@ Result<std::string> read_text_file(const std::filesystem::path& path, const std:
   if (!stream) return refuse(ProblemKind::invalid, "file-unreadable", "it cannot be opened");
 
   // One byte more than allowed tells "too long" even when the file grows while it is read.
-  std::string text(kMaxRobotFileBytes + 1, '\0');
   const auto size = std::filesystem::file_size(path, error);
-  if (!error && size < kMaxRobotFileBytes) text.resize(static_cast<std::size_t>(size) + 1);
+  const bool bounded = !error && size < kMaxRobotFileBytes;
+  std::string text((bounded ? static_cast<std::size_t>(size) : kMaxRobotFileBytes) + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) return refuse(ProblemKind::invalid, "file-unreadable", "reading failed");
   text.resize(static_cast<std::size_t>(stream.gcount()));
