@@ -26,8 +26,8 @@ WAYPOINTS = 11
 ARMS = {"left": "panda1", "right": "panda0"}
 # Where each arm goes, in order.
 VISITS = {
-    "left": ["coop_down", "left_push", "tiled_down", "ready", "coop_up", "twist_left"],
-    "right": ["tiled_down", "coop_down", "right_push", "coop_up", "ready", "twist_right"],
+    "left": ["tiled_up", "twist_right", "tiled_down", "coop_down", "mirror", "twist_left"],
+    "right": ["tiled_down", "mirror", "twist_left", "coop_down", "coop_up", "twist_right"],
 }
 
 
