@@ -94,6 +94,7 @@ std::vector<Body> make_bodies(const std::vector<PlacedShape>& shapes) {
   std::vector<Body> kept;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (dropped[i]) continue;
+    bodies[i].p_SE_P = bodies[i].X_PS.linear().col(2) * bodies[i].half_length_m;
     bodies[i].exact = make_exact_geometry(bodies[i]);
     kept.push_back(std::move(bodies[i]));
   }
@@ -104,8 +105,7 @@ void place(const Body& body, const Eigen::Isometry3d& X_WP, PlacedBody& placed) 
   if (body.kind == BodyKind::round) {
     placed.segment.center.noalias() = X_WP.linear() * body.X_PS.translation();
     placed.segment.center += X_WP.translation();
-    placed.segment.half.noalias() =
-        X_WP.linear() * (body.X_PS.linear().col(2) * body.half_length_m);
+    placed.segment.half.noalias() = X_WP.linear() * body.p_SE_P;
     return;
   }
   placed.X_WS = X_WP * body.X_PS;
@@ -138,6 +138,14 @@ Bound lower_bound(const Body& a, const PlacedBody& at_a, const Body& b, const Pl
   }
   const bool exact = a.kind == BodyKind::round && b.kind == BodyKind::round;
   return {segment_segment_distance(at_a.segment, at_b.segment) - a.radius_m - b.radius_m, exact};
+}
+
+bool clears_box(const Eigen::Vector3d& p_W, double radius_m, const Body& box,
+                const PlacedBody& at_box, double limit_m) {
+  const Eigen::Vector3d p_B = at_box.X_WS.linear().transpose() * (p_W - at_box.X_WS.translation());
+  const Eigen::Vector3d outside = (p_B.cwiseAbs() - box.half_size_m).cwiseMax(0.0);
+  const double reach = limit_m + radius_m;
+  return reach <= 0.0 || outside.squaredNorm() >= reach * reach;
 }
 
 double distance_below(const Body& a, const PlacedBody& at_a, const Body& b, const PlacedBody& at_b,

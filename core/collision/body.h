@@ -25,6 +25,7 @@ struct Body {
   double half_length_m = 0.0;  // of the axis; zero for spheres and boxes
   double radius_m = 0.0;       // about the axis; of a box: of its bounding sphere
   Eigen::Vector3d half_size_m = Eigen::Vector3d::Zero();  // boxes only
+  Eigen::Vector3d p_SE_P = Eigen::Vector3d::Zero();       // from the centre to the axis' upper end
   std::shared_ptr<const ExactGeometry> exact;
 
   // Of the bounding sphere about the origin of S.
@@ -52,6 +53,10 @@ struct Bound {
 };
 [[nodiscard]] Bound lower_bound(const Body& a, const PlacedBody& at_a, const Body& b,
                                 const PlacedBody& at_b);
+
+// Whether every point within radius_m of a point in the world keeps at least limit_m from the box.
+[[nodiscard]] bool clears_box(const Eigen::Vector3d& p_W, double radius_m, const Body& box,
+                              const PlacedBody& at_box, double limit_m);
 
 // min(distance, limit_m): cheap when the bound is not below the limit. Negative or zero in contact.
 [[nodiscard]] double distance_below(const Body& a, const PlacedBody& at_a, const Body& b,

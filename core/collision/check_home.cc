@@ -28,9 +28,11 @@ Problems check_home(const PlanningScenePtr& scene) {
   Problems problems;
   for (const NearPair& pair : near) {
     const Proximity proximity = checker.describe(pair);
+    const bool self = checker.is_self(pair.pair);
     char figures[120];
-    std::snprintf(figures, sizeof figures, ": %.4f m apart at home, clearance_m is %.4f",
-                  proximity.clearance_m, cell.clearance_m);
+    std::snprintf(figures, sizeof figures, ": %.4f m apart at home, %s is %.4f",
+                  proximity.clearance_m, self ? "self_clearance_m" : "clearance_m",
+                  self ? cell.self_clearance_m : cell.clearance_m);
     problems.push_back({ProblemKind::invalid, "home-conflict",
                         home_pointer(cell, *proximity.arm_a),
                         proximity.body_a + " and " + proximity.body_b + figures,

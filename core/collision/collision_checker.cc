@@ -15,9 +15,12 @@ bool includes(const Group& group, const std::vector<bool>& arms) {
   return arms[group.arm.index()] || (group.other && arms[group.other->index()]);
 }
 
+// A clearance of zero still forbids contact, where distances are zero.
+constexpr double kTouching_m = 1e-9;
+
 struct PlacedPart {
-  Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // of the bounding sphere
+  bool bodies_placed = false;                        // else only the sphere is
 };
 
 }  // namespace
@@ -43,12 +46,21 @@ struct CollisionChecker::Scratch {
   }
 
   void place_part(std::size_t index, const Eigen::Isometry3d& X_WP) {
+    parts[index].center = X_WP * bodies.parts[index].p_PC;
+    parts[index].bodies_placed = false;
+  }
+
+  // Most parts are settled by their spheres: their bodies are placed when first looked at.
+  void place_bodies(std::size_t index) {
+    if (parts[index].bodies_placed) return;
     const Part& part = bodies.parts[index];
-    parts[index].X_WP = X_WP;
-    parts[index].center = X_WP * part.p_PC;
+    const Eigen::Isometry3d& X_WP = part.link
+                                        ? X_WL[part.link->index()]
+                                        : bodies.cell->objects[index - bodies.links_end].X_WO;
     for (std::size_t i = part.bodies_begin; i < part.bodies_end; ++i) {
       place(bodies.bodies[i], X_WP, placed[i]);
     }
+    parts[index].bodies_placed = true;
   }
 
   void move_to(const Configuration& q) {
@@ -67,7 +79,7 @@ struct CollisionChecker::Scratch {
   }
 
   // min(distance of the pair, limit)
-  [[nodiscard]] double distance(const PartPair& pair, double limit_m) const {
+  [[nodiscard]] double distance(const PartPair& pair, double limit_m) {
     const Part& a = bodies.parts[pair.a];
     const Part& b = bodies.parts[pair.b];
     const double reach = limit_m + a.radius_m + b.radius_m;
@@ -75,6 +87,12 @@ struct CollisionChecker::Scratch {
     if ((parts[pair.a].center - parts[pair.b].center).squaredNorm() >= reach * reach) {
       return limit_m;
     }
+    place_bodies(pair.b);
+    if (b.lone_box && clears_box(parts[pair.a].center, a.radius_m, bodies.bodies[b.bodies_begin],
+                                 placed[b.bodies_begin], limit_m)) {
+      return limit_m;
+    }
+    place_bodies(pair.a);
     double smallest = limit_m;
     for (std::size_t i = a.bodies_begin; i < a.bodies_end; ++i) {
       for (std::size_t j = b.bodies_begin; j < b.bodies_end; ++j) {
@@ -89,7 +107,9 @@ struct CollisionChecker::Scratch {
   [[nodiscard]] double limit_of(const Group& group, double clearance_m) const {
     const Cell& cell = *bodies.cell;
     const bool scaled = group.kind == Group::Kind::self && cell.clearance_m > 0.0;
-    return scaled ? clearance_m * (cell.self_clearance_m / cell.clearance_m) : clearance_m;
+    const double limit_m =
+        scaled ? clearance_m * (cell.self_clearance_m / cell.clearance_m) : clearance_m;
+    return std::max(limit_m, kTouching_m);
   }
 
   [[nodiscard]] bool far_apart(const Group& group, double limit_m) const {
@@ -102,7 +122,7 @@ struct CollisionChecker::Scratch {
   // Calls visit(NearPair) for every pair of the group closer than the limit; visit returns the
   // limit to go on with.
   template <class Visit>
-  void scan(const Group& group, double limit_m, const Visit& visit) const {
+  void scan(const Group& group, double limit_m, const Visit& visit) {
     if (far_apart(group, limit_m)) return;
     for (std::size_t i = group.pairs_begin; i < group.pairs_end; ++i) {
       const double d = distance(bodies.pairs[i], limit_m);
@@ -111,7 +131,7 @@ struct CollisionChecker::Scratch {
   }
 
   // The closest pair of the group, when closer than the limit.
-  [[nodiscard]] std::optional<NearPair> closest(const Group& group, double limit_m) const {
+  [[nodiscard]] std::optional<NearPair> closest(const Group& group, double limit_m) {
     std::optional<NearPair> found;
     scan(group, limit_m, [&](const NearPair& pair) {
       found = pair;

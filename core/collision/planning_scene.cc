@@ -73,6 +73,8 @@ void add_part(PlanningScene::Bodies& scene, Part part, const std::vector<PlacedS
   for (Body& body : make_bodies(shapes)) scene.bodies.push_back(std::move(body));
   part.bodies_end = scene.bodies.size();
   bound(scene.bodies, part);
+  part.lone_box = part.bodies_end == part.bodies_begin + 1 &&
+                  scene.bodies.back().kind == BodyKind::box;
   if (part.arm) scene.parts_of_arm[part.arm->index()].push_back(scene.parts.size());
   scene.parts.push_back(std::move(part));
 }

@@ -23,6 +23,7 @@ struct Part {
   std::size_t bodies_end = 0;
   Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // centre and radius of its bounding sphere
   double radius_m = 0.0;
+  bool lone_box = false;  // its only body is a box: a sphere says little about a table
 };
 
 // Two parts that must not touch. The first belongs to the group's first arm.

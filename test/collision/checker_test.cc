@@ -54,6 +54,12 @@ PlanningScenePtr scene_of(const CellPtr& cell) {
 using NamePair = std::pair<std::string, std::string>;
 NamePair names(const std::string& a, const std::string& b) { return std::minmax(a, b); }
 
+double limit_for(const Cell& cell, const NamePair& pair) {
+  const bool self = (pair.first.starts_with("left") && pair.second.starts_with("left")) ||
+                    (pair.first.starts_with("right") && pair.second.starts_with("right"));
+  return self ? cell.self_clearance_m : cell.clearance_m;
+}
+
 // All pairs that matter, with plain FCL on every body: no filter, no groups.
 std::map<NamePair, double> brute_force(const Cell& cell, const Configuration& q) {
   struct Solid {
@@ -120,11 +126,12 @@ TEST(CollisionChecker, HidesNoPairThatBruteForceFinds) {
     }
     for (const auto& [pair, distance] : brute_force(*cell, q)) {
       const auto at = seen.find(pair);
-      if (distance < cell->clearance_m - 1e-6) {
+      const double limit_m = limit_for(*cell, pair);
+      if (distance < limit_m - 1e-6) {
         ASSERT_NE(at, seen.end()) << i << ": " << pair.first << " and " << pair.second;
         EXPECT_NEAR(std::max(0.0, at->second), distance, 1e-6) << i;
         ++found;
-      } else if (distance > cell->clearance_m + 1e-6) {
+      } else if (distance > limit_m + 1e-6) {
         EXPECT_EQ(at, seen.end()) << i << ": " << pair.first << " and " << pair.second;
       }
     }
@@ -198,6 +205,43 @@ TEST(CollisionChecker, AllNamesTheClosestOfEachCounterpart) {
   EXPECT_EQ(found[1].body_b, "left_link3");
   EXPECT_EQ(found[1].arm_b, left);
   EXPECT_NE(found[1].arm_a, right);
+}
+
+TEST(CollisionChecker, HoldsAnArmsOwnLinksToTheirOwnClearance) {
+  Cell cell;
+  cell.clearance_m = 0.02;
+  cell.self_clearance_m = 0.005;
+  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.05);
+  Configuration q(3);
+  q << 0.0, small::kHalfTurn - std::asin(0.11 / 0.3), 0.0;  // link3 begins 0.11 m beside link1
+  CollisionChecker checker(scene_of(small::shared(cell)));
+  EXPECT_TRUE(checker.all_closer_than(q, 0.02).empty());
+  cell.self_clearance_m = 0.012;
+  CollisionChecker stricter(scene_of(small::shared(cell)));
+  const auto found = stricter.all_closer_than(q, 0.02);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].clearance_m, 0.01, 1e-9);
+}
+
+TEST(CollisionChecker, ForbidsContactEvenWhereNoClearanceIsAsked) {
+  Cell cell = busy_cell();
+  cell.clearance_m = 0.0;
+  cell.self_clearance_m = 0.0;
+  const CellPtr shared = small::shared(cell);
+  CollisionChecker checker(scene_of(shared));
+  std::mt19937_64 random(3);
+  int contacts = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Configuration q = random_configuration(*shared, random);
+    double smallest = 1.0;
+    for (const auto& [pair, distance] : brute_force(*shared, q)) {
+      smallest = std::min(smallest, distance);
+    }
+    const bool found = checker.first_closer_than(q, 0.0, {true, true}).has_value();
+    EXPECT_EQ(found, smallest <= 0.0) << i;
+    contacts += found ? 1 : 0;
+  }
+  EXPECT_GT(contacts, 50);
 }
 
 TEST(PlanningScene, RefusesMeshesAndNamesThemAll) {
