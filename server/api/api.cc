@@ -216,7 +216,7 @@ void Api::ready(Respond respond) {
   ask([](Executive& executive) { return executive.now(); },
       [respond](TimePoint now) {
         JsonWriter out;
-        out.begin_object().field("ready", true).field("t_s", to_seconds(now)).end_object();
+        out.begin_object().field("ready", true).field("t_s", now).end_object();
         respond(json_response(200, out.take()));
       });
 }

@@ -87,23 +87,23 @@ void write_settings(JsonWriter& out, const Cell& cell) {
   out.field("clearance_m", cell.clearance_m);
   out.field("self_clearance_m", cell.self_clearance_m);
   out.key("checking").begin_object();
-  out.field("time_step_s", to_seconds(cell.checking.time_step));
+  out.field("time_step_s", cell.checking.time_step);
   out.field("tracking_error_rad", cell.checking.tracking_error_rad);
-  out.field("delay_s", to_seconds(cell.checking.delay));
+  out.field("delay_s", cell.checking.delay);
   out.field("limit_tolerance", cell.checking.limit_tolerance).end_object();
   out.key("scheduling").begin_object();
   out.field("policy", cell.scheduling.policy);
-  out.field("backlog_timeout_s", to_seconds(cell.scheduling.backlog_timeout));
-  out.field("aging_s", to_seconds(cell.scheduling.aging));
+  out.field("backlog_timeout_s", cell.scheduling.backlog_timeout);
+  out.field("aging_s", cell.scheduling.aging);
   out.field("on_idle_blocker", cell.scheduling.on_idle_blocker).end_object();
   out.key("monitor").begin_object();
   out.field("rate_hz", cell.monitor.rate_hz);
-  out.field("reaction_s", to_seconds(cell.monitor.reaction));
+  out.field("reaction_s", cell.monitor.reaction);
   out.field("stop_clearance_m", cell.monitor.stop_clearance_m).end_object();
   out.key("execution").begin_object();
   out.field("start_tolerance_rad", cell.execution.start_tolerance_rad);
   out.field("duration_scaling", cell.execution.duration_scaling);
-  out.field("duration_margin_s", to_seconds(cell.execution.duration_margin)).end_object();
+  out.field("duration_margin_s", cell.execution.duration_margin).end_object();
 }
 
 }  // namespace

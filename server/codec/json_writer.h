@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/base/time.h"
+
 namespace armloom {
 
 // Writes JSON text front to back, keys in the order in which they are given, without spaces.
@@ -28,6 +30,9 @@ class JsonWriter {
   JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
   JsonWriter& value(double number);
   JsonWriter& value(std::nullptr_t) { return raw("null"); }
+  // Seconds; divided, not multiplied, so that a whole millisecond is written as one.
+  JsonWriter& value(Duration time) { return value(static_cast<double>(time.count()) / 1e9); }
+  JsonWriter& value(TimePoint time) { return value(time.time_since_epoch()); }
   template <class T>
     requires std::is_integral_v<T>
   JsonWriter& value(T number) {

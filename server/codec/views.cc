@@ -22,12 +22,7 @@ void write_name_or_null(JsonWriter& out, std::string_view key, const std::string
 // "started_s": cell time or null, "started_at": wall time or null (absent without a clock).
 void write_time(JsonWriter& out, const std::string& what, std::optional<TimePoint> time,
                 const WallClock* clock) {
-  out.key(what + "_s");
-  if (time) {
-    out.value(to_seconds(*time));
-  } else {
-    out.value(nullptr);
-  }
+  out.field(what + "_s", time);
   if (clock == nullptr) return;
   out.key(what + "_at");
   if (time) {
@@ -78,7 +73,7 @@ void write(JsonWriter& out, const Alert& alert) {
 void begin_envelope(JsonWriter& out, const std::string& stream, std::uint64_t seq, const char* type,
                     TimePoint time, const WallClock* clock) {
   out.begin_object().field("stream", stream).field("seq", seq).field("type", type);
-  out.field("t_s", to_seconds(time));
+  out.field("t_s", time);
   if (clock != nullptr) out.field("at", clock->at(time));
   out.key("data");
 }
@@ -103,7 +98,7 @@ void write(JsonWriter& out, const JobView& job, const WallClock* clock) {
   write_time(out, "scheduled", job.scheduled_at, clock);
   write_time(out, "started", job.started_at, clock);
   write_time(out, "ended", job.ended_at, clock);
-  out.field("progress", job.progress).field("duration_s", to_seconds(job.duration));
+  out.field("progress", job.progress).field("duration_s", job.duration);
   out.field("stopping", job.stopping).key("waits_on").begin_array();
   for (const WaitView& wait : job.waits_on) write_wait(out, wait);
   out.end_array().key("result");
@@ -163,7 +158,7 @@ std::string snapshot_json(const Snapshot& snapshot, const Cell& cell, const std:
 std::string state_json(const StateFrame& frame, const Cell& cell) {
   constexpr int kDecimals = 6;
   JsonWriter out;
-  out.begin_object().field("type", "state").key("t_s").rounded(to_seconds(frame.time), kDecimals);
+  out.begin_object().field("type", "state").field("t_s", frame.time);
   out.key("q").begin_object();
   for (std::size_t i = 0; i < cell.joints.size(); ++i) {
     out.key(cell.joints[i].name).rounded(frame.q[static_cast<Eigen::Index>(i)], kDecimals);

@@ -11,7 +11,7 @@ namespace armloom {
 namespace {
 
 void write_finding(JsonWriter& out, const AuditFinding& finding) {
-  out.begin_object().field("time_s", to_seconds(finding.time)).key("links").begin_array();
+  out.begin_object().field("time_s", finding.time).key("links").begin_array();
   out.value(finding.body_a).value(finding.body_b).end_array();
   out.field("distance_m", finding.distance_m).end_object();
 }
@@ -28,7 +28,7 @@ std::string report_json(const AuditReport& report) {
   const auto& smallest = report.smallest_clearance;
   if (smallest) {
     out.field("smallest_clearance_m", smallest->distance_m);
-    out.field("time_s", to_seconds(smallest->time)).key("links").begin_array();
+    out.field("time_s", smallest->time).key("links").begin_array();
     out.value(smallest->body_a).value(smallest->body_b).end_array();
   } else {
     out.field("smallest_clearance_m", nullptr).field("time_s", nullptr);

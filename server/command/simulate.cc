@@ -80,11 +80,11 @@ TimePoint time_limit(const std::vector<TimedJob>& jobs, const Cell& cell) {
 
 struct Summary {
   std::string policy;
-  double makespan_s = 0.0;
+  Duration makespan{};
   std::map<std::string, std::size_t> jobs;
   std::size_t backlogged = 0;
-  double wait_mean_s = 0.0;
-  double wait_max_s = 0.0;
+  Duration wait_mean{};
+  Duration wait_max{};
 };
 
 Summary summarise(const SimulationResult& result, TimePoint first_submit) {
@@ -94,34 +94,35 @@ Summary summarise(const SimulationResult& result, TimePoint first_submit) {
     summary.jobs[to_string(state)] = 0;
   }
   summary.jobs["refused"] = result.refused.size();
-  std::size_t started = 0;
-  double wait_sum_s = 0.0;
+  std::int64_t started = 0;
+  Duration wait_sum{};
   for (const JobView& job : result.jobs) {
     ++summary.jobs[to_string(job.state)];
     if (!job.started_at) continue;
-    const double wait_s = to_seconds(*job.started_at - job.submitted_at);
+    const Duration wait = *job.started_at - job.submitted_at;
     ++started;
-    wait_sum_s += wait_s;
-    summary.wait_max_s = std::max(summary.wait_max_s, wait_s);
+    wait_sum += wait;
+    summary.wait_max = std::max(summary.wait_max, wait);
   }
-  if (started > 0) summary.wait_mean_s = wait_sum_s / static_cast<double>(started);
-  summary.makespan_s = std::max(0.0, to_seconds(result.figures.last_end - first_submit));
+  if (started > 0) summary.wait_mean = wait_sum / started;
+  if (started > 0) summary.makespan = result.figures.last_end - first_submit;
   return summary;
 }
 
 std::string summary_json(const Summary& summary, const SimulationResult& result, const Cell& cell,
                          double wall_s) {
   JsonWriter out;
-  out.begin_object().field("policy", summary.policy).field("makespan_s", summary.makespan_s);
+  out.begin_object().field("policy", summary.policy).field("makespan_s", summary.makespan);
   out.key("jobs").begin_object();
   for (const auto& [state, count] : summary.jobs) out.field(state, count);
   out.end_object().field("backlogged", summary.backlogged).key("arm_busy_ratio").begin_object();
   for (std::size_t arm = 0; arm < cell.arms.size(); ++arm) {
     const double busy_s = to_seconds(result.figures.busy[arm]);
-    out.field(cell.arms[arm].name, summary.makespan_s > 0.0 ? busy_s / summary.makespan_s : 0.0);
+    const double whole_s = to_seconds(summary.makespan);
+    out.key(cell.arms[arm].name).rounded(whole_s > 0.0 ? busy_s / whole_s : 0.0, 6);
   }
-  out.end_object().key("wait_s").begin_object().field("mean", summary.wait_mean_s);
-  out.field("max", summary.wait_max_s).end_object();
+  out.end_object().key("wait_s").begin_object().field("mean", summary.wait_mean);
+  out.field("max", summary.wait_max).end_object();
   out.field("min_clearance_m", result.figures.min_clearance_m);
   out.field("monitor_stops", result.figures.monitor_stops);
   out.field("wall_s", wall_s).end_object();

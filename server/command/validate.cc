@@ -116,7 +116,7 @@ int validate_cell(const std::string& cell_file) {
     complain(cell_file, executive.error());
     return kExitBadInput;
   }
-  const auto report = audit(cell, {RecordedState{TimePoint{}, cell.home()}}, kControlPeriod);
+  const auto report = audit(cell, {RecordedState{TimePoint{}, cell.home()}}, std::chrono::milliseconds(1));
   if (!report) {
     complain(cell_file, report.error());
     return kExitBadInput;

@@ -41,7 +41,7 @@ void Recording::jobs_file(std::string_view text) {
 void Recording::job(TimePoint at, std::string_view body) {
   if (!jobs_open_) jobs_.open(folder_ / "jobs.json", std::ios::binary);
   JsonWriter line;
-  line.begin_object().field("at", to_seconds(at)).key("job").raw(body).end_object();
+  line.begin_object().field("at", at).key("job").raw(body).end_object();
   jobs_ << (jobs_open_ ? ",\n" : "[\n") << line.text();
   jobs_open_ = true;
 }
