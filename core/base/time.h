@@ -23,7 +23,7 @@ using TimePoint = CellClock::time_point;
 [[nodiscard]] constexpr TimePoint at(Duration since_start) { return TimePoint{since_start}; }
 
 [[nodiscard]] constexpr double to_seconds(Duration d) {
-  return static_cast<double>(d.count()) * 1e-9;
+  return static_cast<double>(d.count()) / 1e9;
 }
 [[nodiscard]] constexpr double to_seconds(TimePoint t) { return to_seconds(t.time_since_epoch()); }
 
