@@ -99,8 +99,8 @@ Result<AuditedCell> AuditedCell::build(const Cell& cell) {
       const AuditedSolid& first = audited.solids_[a];
       const AuditedSolid& second = audited.solids_[b];
       if (may_touch(cell, first, second)) continue;
-      audited.pairs_.push_back({a, b, one_arm_only(first, second),
-                                -std::numeric_limits<double>::infinity(), 0.0});
+      audited.pairs_.push_back(
+          {a, b, one_arm_only(first, second), -std::numeric_limits<double>::infinity(), 0.0});
     }
   }
   return audited;
@@ -110,7 +110,8 @@ void AuditedCell::add(AuditedSolid solid, const std::vector<PlacedShape>& shapes
   if (shapes.empty()) return;
   for (const PlacedShape& placed : shapes) {
     const double radius = radius_of(placed.shape);
-    solid.elements.push_back({fcl::CollisionObjectd(geometry_of(placed.shape)), placed.X_LS, radius});
+    solid.elements.push_back(
+        {fcl::CollisionObjectd(geometry_of(placed.shape)), placed.X_LS, radius});
     solid.radius_m = std::max(solid.radius_m, placed.X_LS.translation().norm() + radius);
   }
   solids_.push_back(std::move(solid));

@@ -28,7 +28,7 @@ struct AuditedSolid {
   std::vector<Element> elements;
   double radius_m = 0.0;  // about the origin of the link, all elements within
   Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
-  double travel_m = 0.0;       // no point of it has moved farther than this since the beginning
+  double travel_m = 0.0;         // no point of it has moved farther than this since the beginning
   bool elements_placed = false;  // the FCL objects stand at X_WL
 };
 

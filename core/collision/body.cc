@@ -36,8 +36,7 @@ bool is_sphere(const Body& body) {
 // The sphere that caps the cylinder's end (+1 or -1 along its axis).
 std::optional<std::size_t> cap_at(const std::vector<Body>& bodies, const Body& cylinder,
                                   double end) {
-  const Eigen::Vector3d p_end =
-      cylinder.X_PS * Eigen::Vector3d(0, 0, end * cylinder.half_length_m);
+  const Eigen::Vector3d p_end = cylinder.X_PS * Eigen::Vector3d(0, 0, end * cylinder.half_length_m);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (is_sphere(bodies[i]) &&
         std::abs(bodies[i].radius_m - cylinder.radius_m) <= kMergeTolerance_m &&
@@ -50,8 +49,7 @@ std::optional<std::size_t> cap_at(const std::vector<Body>& bodies, const Body& c
 
 // Radius of a capsule about the cylinder's axis that still contains the cap.
 double radius_with(const Body& cylinder, double end, const Body& cap) {
-  const Eigen::Vector3d p_end =
-      cylinder.X_PS * Eigen::Vector3d(0, 0, end * cylinder.half_length_m);
+  const Eigen::Vector3d p_end = cylinder.X_PS * Eigen::Vector3d(0, 0, end * cylinder.half_length_m);
   return std::max(cylinder.radius_m, cap.radius_m + (cap.X_PS.translation() - p_end).norm());
 }
 
@@ -86,8 +84,8 @@ std::vector<Body> make_bodies(const std::vector<PlacedShape>& shapes) {
     const auto upper = cap_at(plain, body, 1.0);
     const auto lower = cap_at(plain, body, -1.0);
     if (!upper || !lower) continue;
-    body.radius_m = std::max(radius_with(body, 1.0, plain[*upper]),
-                             radius_with(body, -1.0, plain[*lower]));
+    body.radius_m =
+        std::max(radius_with(body, 1.0, plain[*upper]), radius_with(body, -1.0, plain[*lower]));
     body.kind = BodyKind::round;
     dropped[*upper] = dropped[*lower] = true;
   }
@@ -119,9 +117,9 @@ Eigen::Isometry3d shape_pose(const Body& body, const PlacedBody& placed) {
   Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
   X_WS.translation() = placed.segment.center;
   if (body.half_length_m > 0.0) {
-    X_WS.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(),
-                                                       placed.segment.half)
-                        .toRotationMatrix();
+    X_WS.linear() =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), placed.segment.half)
+            .toRotationMatrix();
   }
   return X_WS;
 }

@@ -33,8 +33,7 @@ Problems check_home(const PlanningScenePtr& scene) {
     std::snprintf(figures, sizeof figures, ": %.4f m apart at home, %s is %.4f",
                   proximity.clearance_m, self ? "self_clearance_m" : "clearance_m",
                   self ? cell.self_clearance_m : cell.clearance_m);
-    problems.push_back({ProblemKind::invalid, "home-conflict",
-                        home_pointer(cell, *proximity.arm_a),
+    problems.push_back({ProblemKind::invalid, "home-conflict", home_pointer(cell, *proximity.arm_a),
                         proximity.body_a + " and " + proximity.body_b + figures,
                         proximity.clearance_m});
   }

@@ -54,9 +54,8 @@ struct CollisionChecker::Scratch {
   void place_bodies(std::size_t index) {
     if (parts[index].bodies_placed) return;
     const Part& part = bodies.parts[index];
-    const Eigen::Isometry3d& X_WP = part.link
-                                        ? X_WL[part.link->index()]
-                                        : bodies.cell->objects[index - bodies.links_end].X_WO;
+    const Eigen::Isometry3d& X_WP =
+        part.link ? X_WL[part.link->index()] : bodies.cell->objects[index - bodies.links_end].X_WO;
     for (std::size_t i = part.bodies_begin; i < part.bodies_end; ++i) {
       place(bodies.bodies[i], X_WP, placed[i]);
     }
@@ -96,8 +95,8 @@ struct CollisionChecker::Scratch {
     double smallest = limit_m;
     for (std::size_t i = a.bodies_begin; i < a.bodies_end; ++i) {
       for (std::size_t j = b.bodies_begin; j < b.bodies_end; ++j) {
-        smallest = distance_below(bodies.bodies[i], placed[i], bodies.bodies[j], placed[j],
-                                  smallest);
+        smallest =
+            distance_below(bodies.bodies[i], placed[i], bodies.bodies[j], placed[j], smallest);
       }
     }
     return smallest;

@@ -26,8 +26,8 @@ struct NearPair {
 // larger than the true ones, nor smaller by more than 2e-7 m but in rare cases (exact_distance.h).
 // Configurations have one entry per joint of the cell (throws std::invalid_argument otherwise), arm
 // masks one per arm.
-// A `clearance_m` asked for is what arms keep from each other and from the scene; an arm's own links
-// are held to the share self_clearance_m / clearance_m of it, as the cell has them.
+// A `clearance_m` asked for is what arms keep from each other and from the scene; an arm's own
+// links are held to the share self_clearance_m / clearance_m of it, as the cell has them.
 class CollisionChecker {
  public:
   explicit CollisionChecker(PlanningScenePtr scene);

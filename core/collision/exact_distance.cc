@@ -26,7 +26,8 @@ class ExactGeometry {
 
 namespace {
 
-// FCL's tolerance bounds one step of GJK, not its error: at 1e-12 the error measured is below 1e-7 m.
+// FCL's tolerance bounds one step of GJK, not its error: at 1e-12 the error measured is below 1e-7
+// m.
 constexpr double kGjkTolerance = 1e-12;
 // Now and then (1 in 5000) GJK stops far from the end all the same; then it is asked again.
 constexpr double kProofGap_m = 5e-7;
@@ -64,8 +65,8 @@ Proof prove(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
   const double length = gap.norm();
   if (!(distance > 0.0) || !(length > 0.0)) return {0.0, 0.0};
   const Eigen::Vector3d n = gap / length;
-  const double proven = n.dot(X_WB.translation() - X_WA.translation()) - extent(a, X_WA, n) -
-                        extent(b, X_WB, n);
+  const double proven =
+      n.dot(X_WB.translation() - X_WA.translation()) - extent(a, X_WA, n) - extent(b, X_WB, n);
   return {distance, std::clamp(proven, 0.0, distance)};
 }
 

@@ -150,15 +150,15 @@ class Judgement {
     const Runner* own = runner_of(proximity.arm_a);
     const Runner* other = runner_of(proximity.arm_b);
     // Body a is the candidate's; of two candidates, the one that was named first.
-    const bool b_is_own = other != nullptr && other->candidate &&
-                          (own == nullptr || !own->candidate || other < own);
+    const bool b_is_own =
+        other != nullptr && other->candidate && (own == nullptr || !own->candidate || other < own);
     if (b_is_own) {
       std::swap(own, other);
       std::swap(proximity.body_a, proximity.body_b);
       std::swap(proximity.arm_a, proximity.arm_b);
     }
-    Conflict conflict{Conflict::With::scene, own->motion->job, std::nullopt, std::move(proximity),
-                      own->progress, Duration::zero()};
+    Conflict conflict{Conflict::With::scene, own->motion->job, std::nullopt,
+                      std::move(proximity),  own->progress,    Duration::zero()};
     if (checker_.is_self(near.pair) || own == other) {
       conflict.with = Conflict::With::self;
     } else if (other != nullptr) {
@@ -181,10 +181,10 @@ class Judgement {
   CollisionChecker& checker_;
   const Cell& cell_;
   Configuration q_;
-  std::vector<Runner> runners_;                 // candidates first
-  std::vector<const Runner*> runner_of_arm_;    // by ArmId; null: at rest
-  std::vector<bool> of_candidates_;             // by ArmId
-  std::vector<bool> moved_;                     // by ArmId: since the instant before
+  std::vector<Runner> runners_;               // candidates first
+  std::vector<const Runner*> runner_of_arm_;  // by ArmId; null: at rest
+  std::vector<bool> of_candidates_;           // by ArmId
+  std::vector<bool> moved_;                   // by ArmId: since the instant before
   std::vector<Parting> parting_;
   std::vector<NearPair> near_;
   Eigen::VectorXd positions_;

@@ -35,15 +35,15 @@ void find_bad_names(const Cell& cell, Problems& problems) {
     const std::string& name = cell.objects[i].name;
     if (names.insert(name).second) continue;
     problems.push_back({ProblemKind::invalid, "name-taken",
-                        "/objects/" + std::to_string(i) + "/name",
-                        "two objects are named " + name, name});
+                        "/objects/" + std::to_string(i) + "/name", "two objects are named " + name,
+                        name});
   }
   for (const auto& [link, object] : cell.allowed_link_objects) {
     if (names.contains(object)) continue;
-    problems.push_back({ProblemKind::invalid, "unknown-name", "/allowed_collisions",
-                        "no object is named " + object + " (allowed to touch " +
-                            cell.link(link).name + ")",
-                        object});
+    problems.push_back(
+        {ProblemKind::invalid, "unknown-name", "/allowed_collisions",
+         "no object is named " + object + " (allowed to touch " + cell.link(link).name + ")",
+         object});
   }
 }
 
@@ -52,9 +52,9 @@ void bound(const std::vector<Body>& bodies, Part& part) {
   Eigen::AlignedBox3d box;
   for (std::size_t i = part.bodies_begin; i < part.bodies_end; ++i) {
     const Eigen::Vector3d p = bodies[i].X_PS.translation();
-    const Eigen::Vector3d half = bodies[i].X_PS.linear().col(2).cwiseAbs() *
-                                     bodies[i].half_length_m +
-                                 Eigen::Vector3d::Constant(bodies[i].radius_m);
+    const Eigen::Vector3d half =
+        bodies[i].X_PS.linear().col(2).cwiseAbs() * bodies[i].half_length_m +
+        Eigen::Vector3d::Constant(bodies[i].radius_m);
     box.extend(p - half);
     box.extend(p + half);
   }
@@ -73,8 +73,8 @@ void add_part(PlanningScene::Bodies& scene, Part part, const std::vector<PlacedS
   for (Body& body : make_bodies(shapes)) scene.bodies.push_back(std::move(body));
   part.bodies_end = scene.bodies.size();
   bound(scene.bodies, part);
-  part.lone_box = part.bodies_end == part.bodies_begin + 1 &&
-                  scene.bodies.back().kind == BodyKind::box;
+  part.lone_box =
+      part.bodies_end == part.bodies_begin + 1 && scene.bodies.back().kind == BodyKind::box;
   if (part.arm) scene.parts_of_arm[part.arm->index()].push_back(scene.parts.size());
   scene.parts.push_back(std::move(part));
 }

@@ -16,10 +16,10 @@ namespace armloom {
 // A link with shapes, or an object: what is placed as one, with its bodies.
 struct Part {
   std::string name;
-  std::optional<LinkId> link;      // none: an object
-  std::optional<ArmId> arm;        // that moves it; none: it stands still
-  std::optional<RobotId> robot;    // none: an object
-  std::size_t bodies_begin = 0;    // range in Bodies::bodies
+  std::optional<LinkId> link;    // none: an object
+  std::optional<ArmId> arm;      // that moves it; none: it stands still
+  std::optional<RobotId> robot;  // none: an object
+  std::size_t bodies_begin = 0;  // range in Bodies::bodies
   std::size_t bodies_end = 0;
   Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // centre and radius of its bounding sphere
   double radius_m = 0.0;
@@ -41,7 +41,7 @@ struct PairGroup {
   };
   Kind kind;
   ArmId arm;
-  std::optional<ArmId> other;  // Kind::arms only, and larger than arm
+  std::optional<ArmId> other;   // Kind::arms only, and larger than arm
   std::size_t pairs_begin = 0;  // range in Bodies::pairs
   std::size_t pairs_end = 0;
 };
@@ -50,7 +50,7 @@ struct PairGroup {
 // group by link, then object.
 struct PlanningScene::Bodies {
   CellPtr cell;
-  std::vector<Part> parts;  // links in the order of their ids, then objects
+  std::vector<Part> parts;    // links in the order of their ids, then objects
   std::size_t links_end = 0;  // parts before it are links
   std::vector<Body> bodies;
   std::vector<PartPair> pairs;

@@ -135,8 +135,8 @@ TEST(Audit, FindsTheSameWhenEveryStateIsAuditedAlone) {
   std::vector<RecordedState> states;
   for (int i = 0; i < 2000; ++i) {
     const double t = 0.005 * i;
-    states.push_back({at(from_seconds(t)),
-                      Eigen::Vector2d(kUp + 0.45 * std::sin(1.7 * t), kUp - 0.4 * std::sin(2.3 * t))});
+    states.push_back({at(from_seconds(t)), Eigen::Vector2d(kUp + 0.45 * std::sin(1.7 * t),
+                                                           kUp - 0.4 * std::sin(2.3 * t))});
   }
   const AuditReport whole = report_of(cell, states, 5ms);
   double smallest = std::numeric_limits<double>::infinity();

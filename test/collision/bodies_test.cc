@@ -92,8 +92,7 @@ TEST(Bodies, DistancesAreNeverTooLargeAndHardlyEverTooSmall) {
     const Eigen::Isometry3d X_WA = reference::random_pose(random, 0.4);
     Eigen::Isometry3d X_WB = reference::random_pose(random, 0.4);
     if (i % 3 == 0) X_WB.linear() = X_WA.linear();  // parallel axes and faces
-    const reference::Bracket truth =
-        reference::distance(convex(a, X_WA), convex(b, X_WB), 4000);
+    const reference::Bracket truth = reference::distance(convex(a, X_WA), convex(b, X_WB), 4000);
     if (truth.upper - truth.lower > 1e-7) continue;  // the reference itself did not converge
     PlacedBody at_a;
     PlacedBody at_b;

@@ -78,7 +78,8 @@ std::map<NamePair, double> brute_force(const Cell& cell, const Configuration& q)
     solids.push_back({link.name, link.arm, i, false, make_bodies(link.shapes), X_WL[i]});
   }
   for (const CollisionObject& o : cell.objects) {
-    solids.push_back({o.name, {}, 0, true, make_bodies(std::vector<PlacedShape>(1, {o.shape})), o.X_WO});
+    solids.push_back(
+        {o.name, {}, 0, true, make_bodies(std::vector<PlacedShape>(1, {o.shape})), o.X_WO});
   }
   std::map<NamePair, double> found;
   for (const Solid& a : solids) {
@@ -188,7 +189,8 @@ TEST(CollisionChecker, ClosestBetweenArmsIsTheSmallestOverAllPairs) {
 
 TEST(CollisionChecker, AllNamesTheClosestOfEachCounterpart) {
   Cell cell;
-  const ArmId left = small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.05);
+  const ArmId left =
+      small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.05);
   const ArmId right = small::add_robot(cell, "right", small::at_xyz(0, 2, 0), {kZ}, 0.3, 0.05);
   cell.objects.push_back({"near", Sphere{0.1}, small::at_xyz(0.15, 0, 0.155)});
   cell.objects.push_back({"nearer", Sphere{0.1}, small::at_xyz(0.15, 0, -0.152)});

@@ -11,9 +11,9 @@ using namespace std::chrono_literals;
 using With = Conflict::With;
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 
-// Three arms in a row along x, bases 0.7 m apart, each one link of 0.4 m that turns about z: at zero
-// it points to its right neighbour, at pi to its left one. Two neighbours that point at each other
-// overlap; one that points there while the other points up (pi/2) does not.
+// Three arms in a row along x, bases 0.7 m apart, each one link of 0.4 m that turns about z: at
+// zero it points to its right neighbour, at pi to its left one. Two neighbours that point at each
+// other overlap; one that points there while the other points up (pi/2) does not.
 Cell row() {
   Cell cell;
   cell.clearance_m = 0.02;
@@ -139,18 +139,35 @@ TEST(Judge, PutsTheCandidateFirstInTheEvidenceWhicheverArmItIs) {
 }
 
 TEST(Judge, NamesEachCounterpartOfTheFirstInstantThatHasOne) {
-  Judged judged(row());
-  judged.question.method.step = 30s;  // the goal is the first instant looked at after the start
-  judged.question.rest[1] = kPi;
-  judged.question.candidates = {judged.motion(5, kA, kUp, 0, 2s), judged.motion(4, kC, kUp, kPi, 2s)};
-  EXPECT_EQ(judged().conflicts.size(), 1U);
-  judged.question.rest[1] = kUp;
-  judged.question.others = {judged.motion(3, kB, kUp, 0, 2s)};
-  judged.question.candidates.pop_back();
-  judged.question.candidates.push_back(judged.motion(4, kC, kUp, kPi, 2s));
+  Cell cell = row();
+  cell.objects.push_back({"post", Cylinder{0.02, 0.5}, small::at_xyz(0.2, -0.03, 0)});
+  cell.objects.push_back({"ball", Sphere{0.02}, small::at_xyz(0.1, -0.03, 0)});
+  Judged judged(cell);
+  judged.question.method.step = 30s;  // the goal is the only instant after the start
+  judged.question.rest[2] = kPi;      // c points at b, which will point at it
+  judged.question.candidates = {judged.motion(5, kA, kUp, 0, 2s)};
+  judged.question.others = {judged.motion(3, kB, kUp, kPi, 2s)};
+  const Verdict verdict = judged();
+  ASSERT_EQ(verdict.conflicts.size(), 3U);  // b and c among themselves are not the question
+  EXPECT_EQ(verdict.conflicts[0].with, With::motion);
+  EXPECT_EQ(verdict.conflicts[0].other_job, JobId{3});
+  EXPECT_EQ(verdict.conflicts[1].proximity.body_b, "post");
+  EXPECT_EQ(verdict.conflicts[2].proximity.body_b, "ball");
+  for (const Conflict& conflict : verdict.conflicts) EXPECT_EQ(conflict.candidate, JobId{5});
+}
+
+TEST(Judge, NamesTheStaticLinkOfAnotherRobotAsScene) {
+  Cell cell = row();
+  Link post = small::static_link("b_post", RobotId{1}, small::at_xyz(0.3, 0, 0));
+  small::add_shape(post, Sphere{0.05}, Eigen::Isometry3d::Identity());
+  small::add_link(cell, post);
+  Judged judged(cell);
+  judged.question.candidates = {judged.motion(5, kA, kUp, 0, 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
-  EXPECT_EQ(verdict.conflicts[0].candidate, JobId{4});
+  EXPECT_EQ(verdict.conflicts[0].with, With::scene);
+  EXPECT_EQ(verdict.conflicts[0].proximity.body_b, "b_post");
+  EXPECT_FALSE(verdict.conflicts[0].proximity.object_b);
 }
 
 // What the discrete check promises, and what it does not: the defect T4.
@@ -158,7 +175,8 @@ TEST(Judge, MissesAThinRodBetweenCoarseStepsAndFindsItWithFineOnes) {
   Cell cell = row();
   cell.clearance_m = 0.001;
   cell.links[1].shapes = small::capsule_along_x(0.0, 0.4, 0.005);
-  cell.objects.push_back({"rod", Cylinder{0.004, 0.5}, small::at_xyz(0.3 * std::cos(0.7), 0.3 * std::sin(0.7), 0)});
+  cell.objects.push_back(
+      {"rod", Cylinder{0.004, 0.5}, small::at_xyz(0.3 * std::cos(0.7), 0.3 * std::sin(0.7), 0)});
   Judged judged(cell);
   judged.question.candidates = {judged.motion(1, kA, kUp, 0, 1s)};
   judged.question.method.step = 100ms;
@@ -240,7 +258,8 @@ TEST(Judge, KnowsTheSceneAndTheCandidatesOwnLinks) {
 
 TEST(Judge, ChecksCandidatesAgainstEachOther) {
   Judged judged(row());
-  judged.question.candidates = {judged.motion(8, kB, kUp, kPi, 2s), judged.motion(7, kA, kUp, 0, 2s)};
+  judged.question.candidates = {judged.motion(8, kB, kUp, kPi, 2s),
+                                judged.motion(7, kA, kUp, 0, 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_EQ(verdict.conflicts[0].with, With::motion);

@@ -87,8 +87,8 @@ TEST(TwoPandas, CheckerAndAuditAgreeOnRandomStates) {
   EXPECT_GT(free, 100);
 }
 
-// What judge calls free keeps the clearance at its instants, as the audit sees them; what it calls a
-// conflict with the other arm or the table does not.
+// What judge calls free keeps the clearance at its instants, as the audit sees them; what it calls
+// a conflict with the other arm or the table does not.
 TEST(TwoPandas, AuditConfirmsWhatIsJudged) {
   Pandas pandas;
   const ArmId left{0};
@@ -104,8 +104,9 @@ TEST(TwoPandas, AuditConfirmsWhatIsJudged) {
       return small::sweep(*pandas.cell, {arm}, of_arm(*pandas.cell, from, arm),
                           of_arm(*pandas.cell, to, arm), duration);
     };
-    const Question question{1,  at(0s), {{JobId{1}, move(left, 2s), 0s}},
-                            {{JobId{2}, move(right, 3s), 500ms}}, from, {20ms}};
+    const Question question{
+        1,    at(0s), {{JobId{1}, move(left, 2s), 0s}}, {{JobId{2}, move(right, 3s), 500ms}},
+        from, {20ms}};
     const Verdict verdict = judge(question, pandas.checker);
     std::vector<RecordedState> states;
     Eigen::VectorXd positions;

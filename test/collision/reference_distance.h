@@ -11,7 +11,7 @@
 namespace armloom::reference {
 
 struct Convex {
-  enum class Kind { box, cylinder, capsule } kind;  // a sphere is a capsule of length zero
+  enum class Kind { box, cylinder, capsule } kind;        // a sphere is a capsule of length zero
   Eigen::Vector3d half_size_m = Eigen::Vector3d::Zero();  // box
   double radius_m = 0.0;
   double half_length_m = 0.0;  // along z, without a capsule's caps

@@ -31,8 +31,8 @@ inline std::vector<PlacedShape> capsule_along_x(double from, double to, double r
 }
 
 inline Link static_link(std::string name, RobotId robot, const Eigen::Isometry3d& X_WL) {
-  Link link{std::move(name), robot, {}, {}, X_WL, {}, JointKind::revolute,
-            Eigen::Vector3d::UnitZ(), 1.0, 0.0, {}};
+  Link link{std::move(name),          robot, {},  {}, X_WL, {}, JointKind::revolute,
+            Eigen::Vector3d::UnitZ(), 1.0,   0.0, {}};
   return link;
 }
 
@@ -47,8 +47,7 @@ inline LinkId add_link(Cell& cell, Link link) {
 // A robot with one arm: a static base without shape, then one capsule of length_m for each axis,
 // end to end along x. Neighbours may touch.
 inline ArmId add_robot(Cell& cell, const std::string& name, const Eigen::Isometry3d& X_WB,
-                       const std::vector<Eigen::Vector3d>& axes, double length_m,
-                       double radius_m) {
+                       const std::vector<Eigen::Vector3d>& axes, double length_m, double radius_m) {
   const RobotId robot{static_cast<std::uint32_t>(cell.robots.size())};
   const ArmId arm_id{static_cast<std::uint32_t>(cell.arms.size())};
   Arm arm{name, robot, name, {}, {}, {}, {}, {}};
