@@ -41,7 +41,7 @@ struct CollisionChecker::Scratch {
         placed(bodies.bodies.size()),
         arm_box(bodies.parts_of_arm.size()) {
     for (std::size_t i = bodies.links_end; i < bodies.parts.size(); ++i) {
-      place_part(i, bodies.cell->objects[i - bodies.links_end].X_WO);
+      place_part(i, bodies.objects[i - bodies.links_end].X_WO);
     }
   }
 
@@ -55,7 +55,7 @@ struct CollisionChecker::Scratch {
     if (parts[index].bodies_placed) return;
     const Part& part = bodies.parts[index];
     const Eigen::Isometry3d& X_WP =
-        part.link ? X_WL[part.link->index()] : bodies.cell->objects[index - bodies.links_end].X_WO;
+        part.link ? X_WL[part.link->index()] : bodies.objects[index - bodies.links_end].X_WO;
     for (std::size_t i = part.bodies_begin; i < part.bodies_end; ++i) {
       place(bodies.bodies[i], X_WP, placed[i]);
     }

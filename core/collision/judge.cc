@@ -29,15 +29,17 @@ struct Parting {
   bool still_close;
 };
 
-Duration clamped(const Motion& motion, Duration since_question) {
+Duration clamped(const Motion& motion, Duration since_question, bool standing) {
+  if (standing && motion.may_stand) since_question = Duration::zero();
   return std::clamp(motion.progress + since_question, Duration::zero(),
                     motion.trajectory->duration());
 }
 
 class Judgement {
  public:
-  Judgement(const Question& question, CollisionChecker& checker)
+  Judgement(const Question& question, CollisionChecker& checker, bool standing)
       : question_(question),
+        standing_(standing),
         checker_(checker),
         cell_(checker.scene().cell()),
         q_(question.rest),
@@ -89,7 +91,7 @@ class Judgement {
   bool advance(Duration t, bool first) {
     bool any = false;
     for (Runner& runner : runners_) {
-      const Duration progress = clamped(*runner.motion, t);
+      const Duration progress = clamped(*runner.motion, t, standing_);
       runner.moved = first || progress != runner.progress;
       runner.progress = progress;
       if (!runner.moved) continue;
@@ -178,6 +180,7 @@ class Judgement {
   }
 
   const Question& question_;
+  const bool standing_;  // those that may stand do
   CollisionChecker& checker_;
   const Cell& cell_;
   Configuration q_;
@@ -193,7 +196,13 @@ class Judgement {
 }  // namespace
 
 Verdict judge(const Question& question, CollisionChecker& checker) {
-  return Judgement(question, checker).run();
+  Verdict verdict = Judgement(question, checker, false).run();
+  const bool may_stand = std::any_of(question.others.begin(), question.others.end(),
+                                     [](const Motion& motion) { return motion.may_stand; });
+  if (!may_stand || verdict.kind != Verdict::Kind::free) return verdict;
+  Verdict standing = Judgement(question, checker, true).run();
+  standing.evaluations += verdict.evaluations;
+  return standing;
 }
 
 }  // namespace armloom

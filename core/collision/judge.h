@@ -24,6 +24,9 @@ namespace armloom {
 // reports every counterpart of that instant, each with its closest pair; two candidates that
 // conflict are reported once, the one that is named first as the candidate.
 //
+// Motions that may stand (Motion::may_stand) are judged twice: with all of them going on, and with
+// all of them standing where they are from the first instant on.
+//
 // Pairs of which neither side has moved since the last instant are not looked at again;
 // `evaluations` counts the instants that were looked at. Deterministic.
 // Preconditions (throws std::invalid_argument): step > 0, `rest` has one entry per joint, no arm in

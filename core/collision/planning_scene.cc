@@ -14,7 +14,7 @@ Problem mesh_problem(const std::string& pointer, const std::string& path) {
           "meshes are not supported yet: " + path, path};
 }
 
-void find_meshes(const Cell& cell, Problems& problems) {
+void find_link_meshes(const Cell& cell, Problems& problems) {
   for (const Link& link : cell.links) {
     for (const PlacedShape& placed : link.shapes) {
       if (const auto* mesh = std::get_if<Mesh>(&placed.shape)) {
@@ -22,22 +22,26 @@ void find_meshes(const Cell& cell, Problems& problems) {
       }
     }
   }
-  for (std::size_t i = 0; i < cell.objects.size(); ++i) {
-    if (const auto* mesh = std::get_if<Mesh>(&cell.objects[i].shape)) {
-      problems.push_back(mesh_problem("/objects/" + std::to_string(i) + "/mesh", mesh->path));
+}
+
+void find_object_problems(const std::vector<CollisionObject>& objects, Problems& problems) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const std::string pointer = "/objects/" + std::to_string(i);
+    if (const auto* mesh = std::get_if<Mesh>(&objects[i].shape)) {
+      problems.push_back(mesh_problem(pointer + "/mesh", mesh->path));
     }
+    const std::string& name = objects[i].name;
+    if (names.insert(name).second) continue;
+    problems.push_back({ProblemKind::conflict, "name-taken", pointer + "/name",
+                        "two objects are named " + name, name});
   }
 }
 
-void find_bad_names(const Cell& cell, Problems& problems) {
+// Only at the start: an object of the cell file may be taken away later.
+void find_unknown_allowed(const Cell& cell, Problems& problems) {
   std::set<std::string> names;
-  for (std::size_t i = 0; i < cell.objects.size(); ++i) {
-    const std::string& name = cell.objects[i].name;
-    if (names.insert(name).second) continue;
-    problems.push_back({ProblemKind::invalid, "name-taken",
-                        "/objects/" + std::to_string(i) + "/name", "two objects are named " + name,
-                        name});
-  }
+  for (const CollisionObject& object : cell.objects) names.insert(object.name);
   for (const auto& [link, object] : cell.allowed_link_objects) {
     if (names.contains(object)) continue;
     problems.push_back(
@@ -132,14 +136,16 @@ PlanningScene::~PlanningScene() = default;
 const Cell& PlanningScene::cell() const { return *bodies_->cell; }
 const PlanningScene::Bodies& PlanningScene::bodies() const { return *bodies_; }
 
+const std::vector<CollisionObject>& PlanningScene::objects() const { return bodies_->objects; }
+
 Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
   Problems problems;
-  find_meshes(*cell, problems);
-  find_bad_names(*cell, problems);
+  find_link_meshes(*cell, problems);
+  find_unknown_allowed(*cell, problems);
   if (!problems.empty()) return failure(std::move(problems));
 
-  const std::shared_ptr<PlanningScene> scene(new PlanningScene);
-  Bodies& bodies = *scene->bodies_;
+  PlanningScene links;  // without objects yet
+  Bodies& bodies = *links.bodies_;
   bodies.cell = cell;
   bodies.parts_of_arm.resize(cell->arms.size());
   for (std::size_t i = 0; i < cell->links.size(); ++i) {
@@ -152,11 +158,29 @@ Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
     add_part(bodies, std::move(part), link.shapes);
   }
   bodies.links_end = bodies.parts.size();
-  for (const CollisionObject& object : cell->objects) {
+  return links.with_objects(cell->objects);
+}
+
+Result<PlanningScenePtr> PlanningScene::with_objects(std::vector<CollisionObject> objects) const {
+  Problems problems;
+  find_object_problems(objects, problems);
+  if (!problems.empty()) return failure(std::move(problems));
+
+  const std::shared_ptr<PlanningScene> scene(new PlanningScene);
+  Bodies& bodies = *scene->bodies_;
+  bodies = *bodies_;
+  if (bodies.links_end < bodies.parts.size()) {
+    bodies.bodies.resize(bodies.parts[bodies.links_end].bodies_begin);
+    bodies.parts.resize(bodies.links_end);
+  }
+  bodies.pairs.clear();
+  bodies.groups.clear();
+  for (const CollisionObject& object : objects) {
     Part part;
     part.name = object.name;
     add_part(bodies, std::move(part), {{object.shape, Eigen::Isometry3d::Identity()}});
   }
+  bodies.objects = std::move(objects);
   add_pairs(bodies);
   return PlanningScenePtr(scene);
 }

@@ -21,6 +21,12 @@ class PlanningScene {
   [[nodiscard]] static Result<std::shared_ptr<const PlanningScene>> build(CellPtr cell);
   ~PlanningScene();
 
+  // The same cell with other objects; the links' shapes are shared. Pairs that may touch by an
+  // object's name still may. Problems: as build, with pointers "/objects/<index>/...".
+  [[nodiscard]] Result<std::shared_ptr<const PlanningScene>> with_objects(
+      std::vector<CollisionObject> objects) const;
+  [[nodiscard]] const std::vector<CollisionObject>& objects() const;
+
   [[nodiscard]] const Cell& cell() const;
 
   struct Bodies;  // FCL inside; only core/collision looks at it

@@ -50,6 +50,7 @@ struct PairGroup {
 // group by link, then object.
 struct PlanningScene::Bodies {
   CellPtr cell;
+  std::vector<CollisionObject> objects;
   std::vector<Part> parts;    // links in the order of their ids, then objects
   std::size_t links_end = 0;  // parts before it are links
   std::vector<Body> bodies;

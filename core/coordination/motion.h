@@ -17,6 +17,7 @@ struct Motion {
   JobId job;
   TrajectoryPtr trajectory;
   Duration progress;
+  bool may_stand = false;  // loses time: also to be judged as standing where it is, for ever
 
   [[nodiscard]] Duration remaining() const { return trajectory->duration() - progress; }
 };

@@ -45,9 +45,10 @@ bool Scheduler::holds_reservation(const Record& record) const {
 }
 
 bool Scheduler::at_head(const Record& record) const {
-  return std::ranges::all_of(record.job.trajectory->arms(), [&](ArmId arm) {
-    return order_[arm.index()].front() == record.job.id;
-  });
+  return record.job.after.empty() &&
+         std::ranges::all_of(record.job.trajectory->arms(), [&](ArmId arm) {
+           return order_[arm.index()].front() == record.job.id;
+         });
 }
 
 std::vector<const Job*> Scheduler::occupying() const {
@@ -117,6 +118,9 @@ void Scheduler::explain_waits() {
       if (ahead && !wait) wait = Wait{.kind = Wait::Kind::order, .job = *ahead, .arm = arm};
     }
     if (!waiting(record)) continue;
+    if (!wait && !record.job.after.empty()) {
+      wait = Wait{.kind = Wait::Kind::order, .job = record.job.after.front()};
+    }
     if (!wait) wait = stop_of(record);
     if (!wait) wait = capacity_of(record, occupied_by);
     if (wait) {
@@ -222,7 +226,7 @@ void Scheduler::ask(std::vector<JobId> jobs, bool recheck) {
     const Duration progress =
         holds_reservation(record) ? progress_at(record, start_at) : record.job.progress;
     (candidate ? question.candidates : question.others)
-        .push_back(Motion{id, record.job.trajectory, progress});
+        .push_back(Motion{id, record.job.trajectory, progress, record.job.late});
   }
   open_ = OpenQuestion{version_, start_at, std::move(jobs), recheck};
   effects_.push_back(Judge{std::move(question)});

@@ -22,6 +22,7 @@ struct Submit {
   TrajectoryPtr trajectory;
   int priority = 0;  // larger goes first
   Duration backlog_timeout;
+  std::vector<JobId> after = {};  // active jobs that have to succeed first; smaller ids than `job`
 };
 struct Cancel {
   JobId job;
@@ -54,10 +55,12 @@ struct Stop {
 struct Resume {
   std::vector<ArmId> arms;
 };
+// The planning scene is another one: what was judged on the old one is judged again.
+struct SceneChanged {};
 // A time asked for by WakeAt has come. Every other input does the same work besides.
 struct Wake {};
 
-using Input = std::variant<Submit, Cancel, Judged, MotionReport, Stop, Resume, Wake>;
+using Input = std::variant<Submit, Cancel, Judged, MotionReport, Stop, Resume, SceneChanged, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

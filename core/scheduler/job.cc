@@ -58,6 +58,8 @@ const char* to_string(Reason reason) {
       return "start_mismatch";
     case Reason::self_collision:
       return "self_collision";
+    case Reason::predecessor_failed:
+      return "predecessor_failed";
     case Reason::arm_fault:
       return "arm_fault";
     case Reason::overrun:

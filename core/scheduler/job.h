@@ -50,8 +50,9 @@ enum class Reason {
   completed,
   canceled_by_client,
   backlog_timeout,
-  start_mismatch,  // the arm does not stand where the trajectory begins
-  self_collision,  // the arm would hit itself: it can never run
+  start_mismatch,      // the arm does not stand where the trajectory begins
+  self_collision,      // the arm would hit itself: it can never run
+  predecessor_failed,  // a job named in `after` ended without success
   arm_fault,
   overrun,  // took longer than execution.duration_scaling and _margin allow
   server_restart,
@@ -64,6 +65,7 @@ struct Job {
   TrajectoryPtr trajectory;
   int priority = 0;
   Duration backlog_timeout{};
+  std::vector<JobId> after;  // those that have not ended yet
   JobState state = JobState::queued;
   bool stopping = false;  // braking: on the way to canceled, holding or failed
   TimePoint submitted_at{};
@@ -73,6 +75,7 @@ struct Job {
   std::optional<TimePoint> ended_at;
   Duration progress{};           // trajectory time, last measured
   TimePoint progress_seen_at{};  // when it was measured
+  bool late = false;             // loses time against its plan: may stand where it is for long
   std::vector<Wait> waits_on;
   std::optional<Reason> reason;  // terminal
   std::string detail;            // terminal: one sentence

@@ -23,11 +23,13 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   if (now < now_) throw std::invalid_argument("Scheduler: time went backwards");
   now_ = now;
   const auto* report = std::get_if<MotionReport>(&input);
+  const Version version_before = version_;
   std::visit([this](const auto& i) { on(i); }, input);
 
   // Progress alone, the bulk of all inputs, changes nothing that others wait for.
   const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&
-                             changed_.empty() && !(wake_at_ && *wake_at_ <= now_);
+                             changed_.empty() && version_ == version_before &&
+                             !(wake_at_ && *wake_at_ <= now_);
   if (!only_progress) settle();
 
   // What clients see comes first, so that an event is told before its consequences.
@@ -91,6 +93,7 @@ void Scheduler::on(const Submit& input) {
                            .trajectory = input.trajectory,
                            .priority = input.priority,
                            .backlog_timeout = input.backlog_timeout,
+                           .after = input.after,
                            .submitted_at = now_}};
   for (ArmId arm : input.trajectory->arms()) order_[arm.index()].push_back(input.job);
   active_.insert(input.job);
@@ -117,15 +120,38 @@ void Scheduler::on(const MotionReport& input) {
   Record& record = it->second;
   record.job.progress = input.progress;
   record.job.progress_seen_at = now_;
-  if (input.kind != MotionReport::Kind::progressed) {
+  if (input.kind == MotionReport::Kind::progressed) {
+    progress(record);
+  } else {
     come_to_rest(record, input);
-    return;
   }
-  if (record.job.state == JobState::scheduled) {
-    record.job.state = JobState::running;
-    if (!record.job.started_at) record.job.started_at = now_;
+}
+
+void Scheduler::progress(Record& record) {
+  Job& job = record.job;
+  if (job.state == JobState::scheduled) {
+    job.state = JobState::running;
+    if (!job.started_at) job.started_at = now_;
+    plan_from_here(record);
     changed(record);
   }
+  if (job.stopping) return;
+  const Duration lost = (now_ - record.plan_at) - (job.progress - record.plan_progress);
+  if (lost > cell_->checking.delay) {
+    // Motions beside it were admitted on a plan that it does not keep.
+    plan_from_here(record);
+    job.late = true;
+    disturbed_at_ = ++version_;
+  } else if (job.late && now_ - record.plan_at >= kOnTimeAgain) {
+    plan_from_here(record);
+    job.late = false;
+    ++version_;
+  }
+}
+
+void Scheduler::plan_from_here(Record& record) {
+  record.plan_at = now_;
+  record.plan_progress = record.job.progress;
 }
 
 void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
@@ -137,6 +163,7 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
   }
   ++version_;
   job.stopping = false;
+  job.late = false;
   record.overrun_at.reset();
   if (report.kind == MotionReport::Kind::finished) {
     end(record, JobState::succeeded, Reason::completed, "");
@@ -197,6 +224,8 @@ void Scheduler::on(const Resume& input) {
   ++version_;
 }
 
+void Scheduler::on(const SceneChanged&) { disturbed_at_ = ++version_; }
+
 void Scheduler::on(const Wake&) {}
 
 void Scheduler::end(Record& record, JobState state, Reason reason, std::string detail) {
@@ -212,6 +241,19 @@ void Scheduler::end(Record& record, JobState state, Reason reason, std::string d
   active_.erase(job.id);
   ++version_;
   changed(record);
+  forget_predecessor(job.id, state == JobState::succeeded);
+}
+
+// Nobody waits for a job that has ended: those that named it in `after` go on, or fail with it.
+void Scheduler::forget_predecessor(JobId ended, bool succeeded) {
+  const std::vector<JobId> later(active_.upper_bound(ended), active_.end());
+  for (JobId id : later) {
+    Record& record = records_.at(id);
+    if (std::erase(record.job.after, ended) == 0 || succeeded) continue;
+    if (is_terminal(record.job.state)) continue;  // failed meanwhile, with another of its own
+    end(record, JobState::failed, Reason::predecessor_failed,
+        "a job that it comes after did not succeed");
+  }
 }
 
 void Scheduler::expire_and_overrun() {

@@ -22,6 +22,9 @@ namespace armloom {
 inline constexpr Duration kAllowanceMin = std::chrono::milliseconds(3);
 inline constexpr Duration kAllowanceMax = std::chrono::seconds(1);
 
+// A late arm that keeps up with the clock for this long is late no more.
+inline constexpr Duration kOnTimeAgain = std::chrono::milliseconds(200);
+
 // The pure heart: queue, backlog, reservations, order per arm, stops. A deterministic state machine
 // without threads, clock, sockets or geometry. Admission and reservation are one step: a job that
 // is judged free holds its reservation before step() returns, and no other judgement is open.
@@ -31,9 +34,11 @@ inline constexpr Duration kAllowanceMax = std::chrono::seconds(1);
 // rest. Whatever changes reservations or rests gives them a new version: a verdict on an older one
 // is void and asked again, and every waiting job is tried again on the new one.
 //
-// An arm that comes to rest off its plan (canceled, stopped, faulted) may stand in the way of
-// motions that were admitted before: these are judged again, and those in conflict are held until
-// the way is free. While an arm is braking nothing is judged: where it will rest is not known yet.
+// An arm that comes to rest off its plan (canceled, stopped, faulted), that loses more than
+// checking.delay against its plan, or a scene that changes may endanger motions that were admitted
+// before: these are judged again, and those in conflict are held until the way is free. An arm that
+// loses time is judged twice: going on, and standing where it is. While an arm is braking nothing
+// is judged: where it will rest is not known yet.
 class Scheduler {
  public:
   // `rest` is where every joint stands at the beginning. The policy is not null.
@@ -66,6 +71,8 @@ class Scheduler {
     Version checked_at = 0;    // in motion: the version on which it was last found free
     Duration from_progress{};  // where the present dispatch begins
     std::optional<TimePoint> overrun_at;
+    Duration plan_progress{};  // progress at plan_at: from there it should advance with the clock
+    TimePoint plan_at{};
   };
   struct OpenQuestion {
     Version version;
@@ -81,7 +88,11 @@ class Scheduler {
   void on(const MotionReport& input);
   void on(const Stop& input);
   void on(const Resume& input);
+  void on(const SceneChanged& input);
   void on(const Wake& input);
+  void progress(Record& record);
+  void plan_from_here(Record& record);
+  void forget_predecessor(JobId ended, bool succeeded);
   void brake(Record& record, AfterStop then);
   void come_to_rest(Record& record, const MotionReport& report);
   void end(Record& record, JobState state, Reason reason, std::string detail);
