@@ -1,0 +1,137 @@
+// Every bad job of the contract: refused over HTTP with place and value; afterwards nothing is
+// stored and no arm has moved.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "test/server/panda_jobs.h"
+#include "test/server/running_server.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+
+struct BadJobCase {
+  const char* name;
+  std::function<std::string()> body;
+  int status;
+  const char* pointer;
+  const char* says;
+  const char* content_type = "application/json";
+};
+
+json good() { return test::move("left", test::kHome, test::kMiddle); }
+
+// The good job with one place changed.
+std::function<std::string()> with(const char* pointer, json value) {
+  return [=] {
+    json body = good();
+    body[json::json_pointer(pointer)] = value;
+    return body.dump();
+  };
+}
+std::function<std::string()> replaced(const char* pointer, const char* literal) {
+  return [=] {
+    json body = good();
+    body[json::json_pointer(pointer)] = "@here@";
+    std::string text = body.dump();
+    return text.replace(text.find("\"@here@\""), 8, literal);
+  };
+}
+std::function<std::string()> cut_to(std::size_t points) {
+  return [=] {
+    json body = good();
+    json& all = body["trajectory"]["points"];
+    while (all.size() > points) all.erase(all.size() - 1);
+    return body.dump();
+  };
+}
+
+void PrintTo(const BadJobCase& bad, std::ostream* out) { *out << bad.name; }
+
+class BadJobOverHttp : public test::RunningServer,
+                       public ::testing::WithParamInterface<BadJobCase> {};
+
+TEST_P(BadJobOverHttp, IsRefusedAndLeavesNothingBehind) {
+  start(10.0);
+  const json arms_before = get("/api/v1/arms").json();
+  const auto answer = post("/api/v1/jobs", GetParam().body(), GetParam().content_type);
+  EXPECT_EQ(answer.status, GetParam().status) << answer.body;
+  EXPECT_EQ(answer.headers.at("content-type"), "application/problem+json");
+  const json problem = answer.json();
+  EXPECT_EQ(problem["status"], GetParam().status);
+  EXPECT_EQ(problem["pointer"], GetParam().pointer) << answer.body;
+  EXPECT_NE(problem["detail"].get<std::string>().find(GetParam().says), std::string::npos)
+      << answer.body;
+  EXPECT_EQ(get("/api/v1/jobs").json()["jobs"], json::array());
+  EXPECT_EQ(get("/api/v1/arms").json(), arms_before);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BadJobOverHttp,
+    ::testing::Values(
+        BadJobCase{"UnknownJoint", with("/trajectory/joint_names/2", "left_panda_joint9"), 422,
+                   "/trajectory/joint_names/2", "left_panda_joint9"},
+        BadJobCase{"TooFewPositions", with("/trajectory/points/3/positions", {1, 2}), 422,
+                   "/trajectory/points/3/positions", "2"},
+        BadJobCase{"TooManyVelocities",
+                   with("/trajectory/points/3/velocities", {0, 0, 0, 0, 0, 0, 0, 0}), 422,
+                   "/trajectory/points/3/velocities", "8"},
+        BadJobCase{"Nan", replaced("/trajectory/points/3/positions/2", "NaN"), 400,
+                   "/trajectory/points/3/positions/2", "not JSON"},
+        BadJobCase{"Infinity", replaced("/trajectory/points/3/positions/2", "1e999"), 400,
+                   "/trajectory/points/3/positions/2", "double"},
+        BadJobCase{"TimesUnsorted", with("/trajectory/points/3/time_from_start", 0.1), 422,
+                   "/trajectory/points/3/time_from_start", "0.1"},
+        BadJobCase{"TimesEqual",
+                   with("/trajectory/points/3/time_from_start",
+                        good()["trajectory"]["points"][2]["time_from_start"]),
+                   422, "/trajectory/points/3/time_from_start", "0.6"},
+        BadJobCase{"LimitAtAWaypoint", with("/trajectory/points/3/velocities/1", 3.41), 422,
+                   "/trajectory/points/3/velocities/1", "3.41"},
+        BadJobCase{"Empty", cut_to(0), 422, "/trajectory/points", "empty"},
+        BadJobCase{"OnePoint", cut_to(1), 422, "/trajectory/points", "1 waypoint"},
+        BadJobCase{"BrokenJson", [] { return std::string(R"({"trajectory": {"points": [{"positions": [0, 1)"); },
+                   400, "/trajectory/points/0/positions/2", "ends too early"},
+        BadJobCase{"EmptyBody", [] { return std::string(); }, 400, "", "ends too early"},
+        BadJobCase{"NotAnObject", [] { return std::string("[1]"); }, 400, "", "an object"},
+        BadJobCase{"WrongContentType", [] { return good().dump(); }, 415, "Content-Type",
+                   "text/plain", "text/plain"},
+        BadJobCase{"UnknownField", with("/velocity_scaling", 0.5), 422, "/velocity_scaling",
+                   "unknown field"},
+        BadJobCase{"StartElsewhere",
+                   [] { return test::move("left", test::kMiddle, test::kHome).dump(); }, 422,
+                   "/trajectory/points/0/positions/1", "-0.7"}),
+    [](const auto& tested) { return tested.param.name; });
+
+class BadJobs : public test::RunningServer {};
+
+// A quintic between two waypoints at rest, too fast on the way.
+TEST_F(BadJobs, LimitsBrokenBetweenWaypointsAreRefused) {
+  start(1.0);
+  const json body = test::move("left", test::kHome, test::kMiddle, 0.9, 2);
+  const auto answer = post("/api/v1/jobs", body.dump());
+  EXPECT_EQ(answer.status, 422);
+  EXPECT_TRUE(answer.json()["pointer"].get<std::string>().starts_with("/trajectory/points/1"))
+      << answer.body;
+  EXPECT_TRUE(answer.json()["value"].is_number()) << answer.body;
+  EXPECT_EQ(get("/api/v1/jobs").json()["jobs"], json::array());
+}
+
+TEST_F(BadJobs, UnknownIdsAndReusedIdsAreSaid) {
+  start(1.0);
+  const auto missing = get("/api/v1/jobs/nothing");
+  EXPECT_EQ(missing.status, 404);
+  EXPECT_EQ(missing.json()["value"], "nothing");
+  EXPECT_EQ(test::request(port(), "DELETE", "/api/v1/jobs/nothing").status, 404);
+  json body = good();
+  body["id"] = "once";
+  EXPECT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
+  const auto again = post("/api/v1/jobs", body.dump());
+  EXPECT_EQ(again.status, 409);
+  EXPECT_EQ(again.json()["value"], "once");
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,117 @@
+#include "server/codec/cell_codec.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/model/build_cell.h"
+#include "server/recording/recording.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+const fs::path kConfig = fs::path(ARMLOOM_SOURCE_DIR) / "config";
+
+json two_pandas() {
+  return json::parse(read_text_file(kConfig / "two_pandas.json").value(), nullptr, true, true);
+}
+
+TEST(CellCodec, ReadsTheTwoPandaCell) {
+  const auto cell = read_cell_text(read_text_file(kConfig / "two_pandas.json").value(), kConfig);
+  ASSERT_TRUE(cell) << cell.error().front().detail;
+  ASSERT_EQ(cell->robots.size(), 2U);
+  const RobotDescription& right = cell->robots[1];
+  EXPECT_EQ(right.prefix, "right_");
+  EXPECT_EQ(fs::path(right.urdf), (kConfig / "../models/panda.urdf").lexically_normal());
+  EXPECT_NEAR(right.X_WB.translation().x(), 0.4, 1e-12);
+  EXPECT_NEAR((right.X_WB * Eigen::Vector3d::UnitX()).x(), -0.6, 1e-12);  // turned to the other
+  EXPECT_EQ(right.arms.front().home.size(), 7U);
+  EXPECT_EQ(right.arms.front().limits.at("panda_joint1").brake, 7.5);
+  EXPECT_EQ(right.controller.lag, std::chrono::milliseconds(20));
+  EXPECT_EQ(cell->objects.front().name, "table");
+  EXPECT_EQ(cell->checking.limit_tolerance, 0.05);
+  EXPECT_EQ(cell->monitor.stop_clearance_m, 0.01);
+}
+
+struct BadCell {
+  const char* name;
+  const char* at;
+  const char* value;
+  const char* says;
+};
+
+class BadCellFile : public ::testing::TestWithParam<BadCell> {};
+
+TEST_P(BadCellFile, IsRefusedWithItsPlace) {
+  json file = two_pandas();
+  const json::json_pointer place(GetParam().at);
+  if (GetParam().value == nullptr) {
+    file[place.parent_pointer()].erase(place.back());
+  } else {
+    file[place] = json::parse(GetParam().value);
+  }
+  const auto cell = read_cell_text(file.dump(), kConfig);
+  ASSERT_FALSE(cell);
+  EXPECT_EQ(cell.error().front().pointer, GetParam().at);
+  EXPECT_NE(cell.error().front().detail.find(GetParam().says), std::string::npos)
+      << cell.error().front().detail;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BadCellFile,
+    ::testing::Values(
+        BadCell{"UnknownKey", "/robots/0/urfd", "\"x\"", "unknown field \"urfd\""},
+        BadCell{"UnknownSetting", "/checking/time_step", "0.05", "unknown field"},
+        BadCell{"NoName", "/name", nullptr, "missing"},
+        BadCell{"NoUrdf", "/robots/1/urdf", nullptr, "missing"},
+        BadCell{"RobotsEmpty", "/robots", "[]", "at least one"},
+        BadCell{"ArmsEmpty", "/robots/0/arms", "[]", "at least one"},
+        BadCell{"XyzShort", "/robots/0/base/xyz", "[1, 2]", "expected 3 numbers, found 2"},
+        BadCell{"HomeIsText", "/robots/0/arms/0/home/3", "\"x\"", "a number"},
+        BadCell{"LimitIsZero", "/robots/0/arms/0/limits/panda_joint1/brake_rad_s2", "0", "greater"},
+        BadCell{"BoxIsFlat", "/objects/0/box", "[1, 1, 0]", "greater than zero"},
+        BadCell{"TwoShapes", "/objects/0", R"({"name": "x", "box": [1,1,1], "sphere": [1]})",
+                "exactly one"},
+        BadCell{"PairIsSingle", "/allowed_collisions/0", "[\"table\"]", "a pair"},
+        BadCell{"StepIsZero", "/checking/time_step_s", "0", "not within"},
+        BadCell{"RateIsHigh", "/monitor/rate_hz", "5000", "not within"},
+        BadCell{"Controller", "/robots/0/controller/type", "\"real\"", "sim"},
+        BadCell{"Clearance", "/clearance_m", "-0.1", "not within"}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(CellCodec, CopiesACellFileSoThatItLoadsElsewhere) {
+  const fs::path elsewhere = fs::path(::testing::TempDir()) / "armloom" / "copied";
+  fs::create_directories(elsewhere);
+  const std::string text = read_text_file(kConfig / "two_pandas.json").value();
+  const std::string copy = relocate_cell_text(text, kConfig, elsewhere);
+  const auto cell = read_cell_text(copy, elsewhere);
+  ASSERT_TRUE(cell);
+  EXPECT_TRUE(fs::exists(cell->robots.front().urdf)) << cell->robots.front().urdf;
+  EXPECT_TRUE(build_cell(*cell));
+}
+
+TEST(CellCodec, WritesTheCellAsTheDashboardNeedsIt) {
+  const auto description = read_cell_text(two_pandas().dump(), kConfig);
+  ASSERT_TRUE(description);
+  const auto cell = build_cell(*description);
+  ASSERT_TRUE(cell);
+  const json out = json::parse(cell_json(**cell, "sequential", 2.0));
+  EXPECT_EQ(out["name"], "two_pandas");
+  EXPECT_EQ(out["policy"], "sequential");
+  EXPECT_EQ(out["speed"], 2.0);
+  const json& right = out["robots"][1];
+  EXPECT_NE(right["urdf"].get<std::string>().find("<robot"), std::string::npos);
+  EXPECT_NEAR(std::abs(right["base"]["rpy"][2].get<double>()), 3.14159265358979, 1e-12);
+  EXPECT_EQ(right["arms"][0]["joints"][0], "right_panda_joint1");
+  EXPECT_EQ(right["arms"][0]["home"].size(), 7U);
+  EXPECT_EQ(out["objects"][0]["box"], json::parse("[2, 2, 0.1]"));
+  EXPECT_EQ(out["joints"][0]["arm"], "left");
+  EXPECT_EQ(out["joints"][0]["unit"], "rad");
+  EXPECT_EQ(out["scheduling"]["backlog_timeout_s"], 60.0);
+}
+
+}  // namespace
+}  // namespace armloom

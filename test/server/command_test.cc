@@ -1,0 +1,225 @@
+// The binary as outside tools call it: exit codes, the last line of stdout, one sentence on stderr.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "server/recording/recording.h"
+#include "test/server/panda_jobs.h"
+#include "test/server/wire.h"
+
+namespace armloom {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path kSource(ARMLOOM_SOURCE_DIR);
+const std::string kCell = (kSource / "config/two_pandas.json").string();
+
+struct Outcome {
+  int exit_code;
+  std::string out;
+  std::string err;
+  [[nodiscard]] json last_line() const {
+    const std::size_t end = out.find_last_not_of('\n');
+    const std::size_t begin = out.rfind('\n', end);
+    return json::parse(out.substr(begin == out.npos ? 0 : begin + 1));
+  }
+};
+
+class Command : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(::testing::TempDir()) / "armloom-command" /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  fs::path file(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  Outcome run(const std::string& arguments) const {
+    const std::string command = std::string(ARMLOOM_BINARY) + " " + arguments + " >" +
+                                (folder_ / "out").string() + " 2>" + (folder_ / "err").string();
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(folder_ / "out").value(),
+            read_text_file(folder_ / "err").value()};
+  }
+  // The two-Panda cell with one place changed, its paths made absolute.
+  fs::path changed_cell(const std::string& pointer, const json& value) const {
+    json cell = json::parse(read_text_file(kCell).value(), nullptr, true, true);
+    for (json& robot : cell["robots"]) {
+      robot["urdf"] = (kSource / "models/panda.urdf").string();
+      robot["srdf"] = (kSource / "models/panda.srdf").string();
+    }
+    cell[json::json_pointer(pointer)] = value;
+    return file("cell.json", cell.dump());
+  }
+  fs::path conflicting_jobs() const {
+    json jobs = json::array();
+    int number = 0;
+    for (const char* arm : {"left", "right"}) {
+      for (const auto& [from, to] : {std::pair{test::kHome, test::kMiddle}, {test::kMiddle, test::kHome}}) {
+        json job = test::move(arm, from, to);
+        job["id"] = "j" + std::to_string(number++);
+        jobs.push_back({{"at", 0.0}, {"job", job}});
+      }
+    }
+    return file("jobs.json", jobs.dump());
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Command, ValidatePrintsWhatACellHolds) {
+  const Outcome outcome = run("validate --cell " + kCell);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("left_panda_joint4"), std::string::npos);
+  EXPECT_NE(outcome.out.find("home clearance"), std::string::npos);
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Command, BadCellsAreNamedWithFilePlaceAndValue) {
+  const struct {
+    const char* pointer;
+    json value;
+    const char* says;
+  } cases[] = {
+      {"/robots/0/urdf", "missing.urdf", "missing.urdf"},
+      {"/robots/0/urdf", file("broken.urdf", "<robot name='x'><link").string(), "broken.urdf"},
+      {"/robots/1/arms/0/group", "no_such_group", "no_such_group"},
+      {"/robots/1/prefix", "left_", "left_"},
+      {"/clearance_m", "wide", "/clearance_m"},
+      {"/unknown", 1, "/unknown"},
+      {"/robots/1/base/xyz", {-0.3, 0, 0.1}, "/home"},  // on top of the other
+      {"/scheduling/policy", "hopeful", "hopeful"},
+  };
+  for (const auto& bad : cases) {
+    const fs::path cell = changed_cell(bad.pointer, bad.value);
+    const Outcome outcome = run("validate --cell " + cell.string());
+    EXPECT_EQ(outcome.exit_code, 2) << bad.pointer << outcome.out;
+    EXPECT_NE(outcome.err.find(bad.says), std::string::npos) << outcome.err;
+    EXPECT_EQ(run("simulate --cell " + cell.string() + " --jobs " + conflicting_jobs().string()).exit_code, 2);
+  }
+  EXPECT_EQ(run("validate --cell " + (folder_ / "nothing.json").string()).exit_code, 2);
+  EXPECT_EQ(run("validate --cell " + file("cut.json", "{\"name\": ").string()).exit_code, 2);
+}
+
+TEST_F(Command, UsageErrorsEndWithTwo) {
+  EXPECT_EQ(run("").exit_code, 2);
+  EXPECT_EQ(run("fly").exit_code, 2);
+  EXPECT_EQ(run("validate").exit_code, 2);
+  EXPECT_EQ(run("simulate --cell " + kCell + " --jobs x --seed minus").exit_code, 2);
+  EXPECT_EQ(run("--help").exit_code, 0);
+}
+
+TEST_F(Command, SimulateEndsWithOneLineOfFiguresAndRepeatsByteForByte) {
+  const std::string jobs = conflicting_jobs().string();
+  const std::string simulate = "simulate --cell " + kCell + " --jobs " + jobs + " --seed 7 --out ";
+  const Outcome outcome = run(simulate + (folder_ / "a").string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json figures = outcome.last_line();
+  EXPECT_EQ(figures["policy"], "timed_discrete");
+  EXPECT_EQ(figures["jobs"]["succeeded"], 4);
+  EXPECT_GE(figures["backlogged"], 1);
+  EXPECT_GT(figures["makespan_s"], 6.5);   // one has to wait ...
+  EXPECT_LT(figures["makespan_s"], 11.0);  // ... but not for everything
+  EXPECT_EQ(figures["monitor_stops"], 0);
+  EXPECT_EQ(figures["arm_busy_ratio"].size(), 2U);
+  EXPECT_EQ(figures["wait_s"]["max"].is_number(), true);
+
+  ASSERT_EQ(run(simulate + (folder_ / "b").string()).exit_code, 0);
+  for (const char* name : {"events.jsonl", "states.csv", "jobs.json"}) {
+    EXPECT_EQ(read_text_file(folder_ / "a" / name).value(), read_text_file(folder_ / "b" / name).value()) << name;
+  }
+  const Outcome audit = run("audit --cell " + (folder_ / "a/cell.json").string() + " --recording " + (folder_ / "a").string());
+  EXPECT_EQ(audit.exit_code, 0) << audit.err;
+  EXPECT_TRUE(audit.last_line()["contact"].is_null());
+  EXPECT_GT(audit.last_line()["smallest_clearance_m"], 0.0);
+}
+
+TEST_F(Command, AuditFindsTheContactInADoctoredRecording) {
+  ASSERT_EQ(run("simulate --cell " + kCell + " --jobs " + conflicting_jobs().string() + " --out " + folder_.string()).exit_code, 0);
+  // A state more: both arms reach across the middle of the table, through each other.
+  constexpr test::Pose kReaching{0, 0.3, 0, -1.8, 0, 2.1, 0.785};
+  std::string states = read_text_file(folder_ / "states.csv").value();
+  states += "1000";
+  for (int arm = 0; arm < 2; ++arm) {
+    for (const double q : kReaching) states += "," + std::to_string(q);
+    states += ",0";
+  }
+  file("states.csv", states + "\n");
+  const Outcome outcome = run("audit --step 0.01 --cell " + kCell + " --recording " + folder_.string());
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_EQ(outcome.last_line()["contact"]["links"].size(), 2U);
+
+  file("states.csv", states + "1001,x\n");
+  const Outcome broken = run("audit --cell " + kCell + " --recording " + folder_.string());
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_NE(broken.err.find("states.csv:"), std::string::npos) << broken.err;
+  EXPECT_EQ(run("audit --cell " + kCell + " --recording " + (folder_ / "no").string()).exit_code, 2);
+}
+
+TEST_F(Command, BadJobsFilesAreNamedBeforeAnythingRuns) {
+  json bad = test::move("left", test::kHome, test::kMiddle);
+  bad["trajectory"]["joint_names"][0] = "left_panda_joint9";
+  const std::string jobs = file("jobs.json", json::array({{{"at", 0}, {"job", bad}}}).dump()).string();
+  const Outcome outcome = run("simulate --cell " + kCell + " --jobs " + jobs + " --out " + (folder_ / "out-dir").string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("jobs.json:/0/job/trajectory/joint_names/0"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder_ / "out-dir"));
+  EXPECT_EQ(run("simulate --cell " + kCell + " --jobs " + file("no.json", "{").string()).exit_code, 2);
+}
+
+TEST_F(Command, AJobRefusedAtItsTimeCountsAndEndsWithOne) {
+  const json astray = test::move("left", test::kMiddle, test::kHome);  // the arm stands at home
+  const std::string jobs = file("jobs.json", json::array({{{"at", 0}, {"job", astray}}}).dump()).string();
+  const Outcome outcome = run("simulate --cell " + kCell + " --jobs " + jobs);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.last_line()["jobs"]["refused"], 1);
+  EXPECT_NE(outcome.err.find("jobs.json:/0/job/trajectory/points/0"), std::string::npos) << outcome.err;
+}
+
+// The address that the server prints, read through a pipe.
+TEST_F(Command, ServeSaysItsAddressRefusesATakenPortAndEndsCleanlyOnSigterm) {
+  int pipe_ends[2];
+  ASSERT_EQ(pipe(pipe_ends), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(pipe_ends[1], STDOUT_FILENO);
+    execl(ARMLOOM_BINARY, "armloom", "serve", "--cell", kCell.c_str(), "--listen", "127.0.0.1:0",
+          "--speed", "10", "--data", (folder_ / "data").c_str(), "--record", nullptr);
+    _exit(99);
+  }
+  close(pipe_ends[1]);
+  FILE* out = fdopen(pipe_ends[0], "r");
+  char line[256] = {};
+  ASSERT_NE(fgets(line, sizeof line, out), nullptr);
+  unsigned port = 0;
+  ASSERT_EQ(std::sscanf(line, "dashboard: http://127.0.0.1:%u/", &port), 1) << line;
+  EXPECT_EQ(test::request(static_cast<std::uint16_t>(port), "GET", "/readyz").status, 200);
+  EXPECT_EQ(test::request(static_cast<std::uint16_t>(port), "POST", "/api/v1/jobs",
+                          test::move("left", test::kHome, test::kMiddle).dump()).status, 202);
+  const Outcome second = run("serve --cell " + kCell + " --listen 127.0.0.1:" + std::to_string(port));
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_NE(second.err.find("cannot listen on 127.0.0.1:"), std::string::npos) << second.err;
+
+  kill(child, SIGTERM);
+  int status = 0;
+  waitpid(child, &status, 0);
+  fclose(out);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(json::parse(read_text_file(folder_ / "data/jobs.json").value()).size(), 1U);
+  EXPECT_NE(read_text_file(folder_ / "data/events.jsonl").value().find("\"state\":\"queued\""), std::string::npos);
+  EXPECT_EQ(run("audit --cell " + kCell + " --recording " + (folder_ / "data").string()).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,86 @@
+#include "server/hub/hub.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace armloom {
+namespace {
+
+Hub::Text text(const std::string& content) { return std::make_shared<const std::string>(content); }
+
+void publish(Hub& hub, std::uint64_t from, std::uint64_t to) {
+  for (std::uint64_t seq = from; seq <= to; ++seq) hub.publish(seq, text(std::to_string(seq)));
+}
+
+std::string read_all(Feed& feed) {
+  std::string all;
+  while (const auto message = feed.next()) all += *message + " ";
+  return all;
+}
+
+TEST(Hub, ServesEveryReaderInOrderAtItsOwnPace) {
+  Hub hub;
+  publish(hub, 1, 3);
+  const FeedPtr early = hub.resume(1);
+  const FeedPtr late = hub.resume(3, text("snapshot"));
+  publish(hub, 4, 5);
+  EXPECT_EQ(read_all(*early), "2 3 4 5 ");
+  EXPECT_EQ(read_all(*late), "snapshot 4 5 ");
+  EXPECT_EQ(read_all(*late), "");
+}
+
+TEST(Hub, GivesOnlyTheNewestFrameAndOnlyAfterEvents) {
+  Hub hub;
+  const FeedPtr feed = hub.resume(0);
+  hub.publish_frame(text("old"));
+  hub.publish_frame(text("new"));
+  publish(hub, 1, 1);
+  EXPECT_EQ(read_all(*feed), "1 new ");
+}
+
+TEST(Hub, TellsAReaderThatThereAreNews) {
+  Hub hub;
+  const FeedPtr feed = hub.resume(0);
+  int news = 0;
+  feed->on_news([&] { ++news; });
+  publish(hub, 1, 1);
+  hub.publish_frame(text("frame"));
+  EXPECT_EQ(news, 2);
+}
+
+TEST(Hub, DoesNotResumeWhatItNoLongerOrNotYetHas) {
+  Hub hub(10);
+  publish(hub, 1, 15);
+  EXPECT_TRUE(hub.resume(5));
+  EXPECT_FALSE(hub.resume(4));
+  EXPECT_TRUE(hub.resume(15));
+  EXPECT_FALSE(hub.resume(16));
+}
+
+TEST(Hub, SendsAReaderAwayThatFallsBehindAndSaysWhy) {
+  Hub hub(10);
+  const FeedPtr feed = hub.resume(0);
+  publish(hub, 1, 10);
+  EXPECT_EQ(feed->farewell(), "");
+  publish(hub, 11, 11);
+  EXPECT_EQ(feed->farewell(), "too slow: 11 events behind, 10 are kept");
+  EXPECT_FALSE(feed->next());
+}
+
+TEST(Hub, RefusesAHoleInTheLog) {
+  Hub hub;
+  publish(hub, 1, 1);
+  EXPECT_THROW(hub.publish(3, text("3")), std::logic_error);
+}
+
+TEST(Hub, ForgetsReadersThatAreGone) {
+  Hub hub;
+  FeedPtr feed = hub.resume(0);
+  EXPECT_TRUE(hub.has_readers());
+  feed.reset();
+  EXPECT_FALSE(hub.has_readers());
+}
+
+}  // namespace
+}  // namespace armloom

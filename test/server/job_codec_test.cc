@@ -1,0 +1,153 @@
+#include "server/codec/job_codec.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "test/server/panda_jobs.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+
+TEST(JobCodec, ReadsWhatTheContractShows) {
+  const auto job = read_job_text(R"({
+    "id": "pick-7", "name": "pick 7", "priority": -3, "backlog_timeout_s": 1.5,
+    "after": [], "on_timeout": "abort", "retime": false,
+    "trajectory": {
+      "header": {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": ""},
+      "joint_names": ["a", "b"],
+      "points": [
+        {"positions": [1, 2], "velocities": [0, 0], "accelerations": [], "effort": [],
+         "time_from_start": {"sec": 0, "nanosec": 0}},
+        {"positions": [1.5, 2], "velocities": [0, 0],
+         "time_from_start": {"sec": 2, "nanosec": 250000000}},
+        {"positions": [1.5, 2], "time_from_start": 3.5},
+        {"positions": [1.5, 2], "time_from_start": {"secs": 4, "nsecs": 5}}]}})");
+  ASSERT_TRUE(job) << job.error().front().detail;
+  EXPECT_EQ(job->key, "pick-7");
+  EXPECT_EQ(job->name, "pick 7");
+  EXPECT_EQ(job->priority, -3);
+  EXPECT_EQ(job->backlog_timeout, std::chrono::milliseconds(1500));
+  EXPECT_EQ(job->trajectory.joint_names, (std::vector<std::string>{"a", "b"}));
+  ASSERT_EQ(job->trajectory.points.size(), 4U);
+  EXPECT_EQ(job->trajectory.points[1].time_from_start_s, 2.25);
+  EXPECT_EQ(job->trajectory.points[2].time_from_start_s, 3.5);
+  EXPECT_DOUBLE_EQ(job->trajectory.points[3].time_from_start_s, 4.000000005);
+  EXPECT_TRUE(job->trajectory.points[0].accelerations.empty());
+}
+
+struct BadField {
+  const char* name;
+  const char* at;      // where the fault is put (JSON pointer)
+  const char* value;   // as JSON; nullptr: removed
+  ProblemKind kind;
+  const char* says;
+  const char* pointer = nullptr;  // of the answer, when it is another place
+};
+
+class BadJob : public ::testing::TestWithParam<BadField> {};
+
+TEST_P(BadJob, IsRefusedWithPointerAndValue) {
+  json body = test::move("left", test::kHome, test::kMiddle);
+  const json::json_pointer place(GetParam().at);
+  if (GetParam().value == nullptr) {
+    body[place.parent_pointer()].erase(place.back());
+  } else {
+    body[place] = json::parse(GetParam().value);
+  }
+  const auto job = read_job(body);
+  ASSERT_FALSE(job);
+  ASSERT_EQ(job.error().size(), 1U);
+  const Problem& problem = job.error().front();
+  EXPECT_EQ(problem.pointer, GetParam().pointer != nullptr ? GetParam().pointer : GetParam().at);
+  EXPECT_EQ(problem.kind, GetParam().kind);
+  EXPECT_NE(problem.detail.find(GetParam().says), std::string::npos) << problem.detail;
+  EXPECT_EQ(std::holds_alternative<std::monostate>(problem.value), GetParam().value == nullptr);
+}
+
+constexpr auto kMalformed = ProblemKind::malformed;
+constexpr auto kInvalid = ProblemKind::invalid;
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BadJob,
+    ::testing::Values(
+        BadField{"NoTrajectory", "/trajectory", nullptr, kInvalid, "missing"},
+        BadField{"TrajectoryIsText", "/trajectory", "\"x\"", kMalformed, "an object"},
+        BadField{"NoNames", "/trajectory/joint_names", nullptr, kInvalid, "missing"},
+        BadField{"NameIsNumber", "/trajectory/joint_names/2", "7", kMalformed, "a string"},
+        BadField{"PointsIsObject", "/trajectory/points", "{}", kMalformed, "an array"},
+        BadField{"PositionIsText", "/trajectory/points/3/positions/2", "\"NaN\"", kMalformed,
+                 "a number"},
+        BadField{"PositionIsNull", "/trajectory/points/3/positions/2", "null", kMalformed,
+                 "a number"},
+        BadField{"NoTime", "/trajectory/points/4/time_from_start", nullptr, kInvalid, "missing"},
+        BadField{"TimeIsText", "/trajectory/points/4/time_from_start", "\"1\"", kMalformed, "sec"},
+        BadField{"NanosecTooLarge", "/trajectory/points/4/time_from_start",
+                 R"({"sec": 1, "nanosec": 1000000000})", kInvalid, "1000000000",
+                 "/trajectory/points/4/time_from_start/nanosec"},
+        BadField{"SecIsFraction", "/trajectory/points/4/time_from_start",
+                 R"({"sec": 1.5, "nanosec": 0})", kMalformed, "an integer",
+                 "/trajectory/points/4/time_from_start/sec"},
+        BadField{"SecIsHuge", "/trajectory/points/4/time_from_start",
+                 R"({"sec": 18446744073709551615, "nanosec": 0})", kInvalid, "not within",
+                 "/trajectory/points/4/time_from_start/sec"},
+        BadField{"UnknownField", "/trajectoy", "1", kInvalid, "unknown field \"trajectoy\""},
+        BadField{"UnknownInPoint", "/trajectory/points/0/postions", "[]", kInvalid, "unknown field"},
+        BadField{"IdWithSlash", "/id", "\"a/b\"", kInvalid, "128"},
+        BadField{"IdIsDots", "/id", "\"..\"", kInvalid, "128"},
+        BadField{"IdEmpty", "/id", "\"\"", kInvalid, "128"},
+        BadField{"NameWithNewline", "/name", "\"a\\nb\"", kInvalid, "control"},
+        BadField{"PriorityIsFraction", "/priority", "1.5", kMalformed, "an integer"},
+        BadField{"PriorityIsHuge", "/priority", "99999999999", kInvalid, "not within"},
+        BadField{"TimeoutIsNegative", "/backlog_timeout_s", "-1", kInvalid, "not within"},
+        BadField{"AfterIsNotServed", "/after", "[\"x\"]", kInvalid, "not served"},
+        BadField{"RetimeIsNotServed", "/retime", "true", kInvalid, "parameterisation"}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(JobCodec, ListsEveryFaultOfABody) {
+  json body = test::move("left", test::kHome, test::kMiddle);
+  body["id"] = "a b";
+  body["priority"] = "high";
+  body["trajectory"]["points"][2]["positions"][0] = nullptr;
+  const auto job = read_job(body);
+  ASSERT_FALSE(job);
+  EXPECT_EQ(job.error().size(), 3U);
+}
+
+TEST(JobCodec, BoundsItsListOfFaults) {
+  json body = test::move("left", test::kHome, test::kMiddle);
+  body["trajectory"]["points"][0]["positions"] = std::vector<std::string>(1000, "x");
+  const auto job = read_job(body);
+  ASSERT_FALSE(job);
+  EXPECT_EQ(job.error().size(), 20U);
+}
+
+TEST(JobCodec, RefusesTooManyWaypointsBeforeReadingThem) {
+  json body = test::move("left", test::kHome, test::kMiddle);
+  body["trajectory"]["points"] = std::vector<int>(kWaypointsMax + 1, 0);
+  const auto job = read_job(body);
+  ASSERT_FALSE(job);
+  EXPECT_EQ(job.error().front().kind, ProblemKind::too_large);
+  EXPECT_EQ(job.error().size(), 1U);
+}
+
+TEST(JobsFile, ReadsTimesAndPointsIntoTheFile) {
+  const json job = test::move("left", test::kHome, test::kMiddle);
+  const auto jobs = read_jobs_text(json::array({{{"at", 0.25}, {"job", job}}}).dump());
+  ASSERT_TRUE(jobs);
+  EXPECT_EQ(jobs->front().at, at(std::chrono::milliseconds(250)));
+
+  json bad = job;
+  bad["trajectory"]["points"][1]["positions"][4] = "x";
+  const auto refused =
+      read_jobs_text(json::array({{{"at", 0}, {"job", job}}, {{"at", -1}, {"job", bad}}}).dump());
+  ASSERT_FALSE(refused);
+  ASSERT_EQ(refused.error().size(), 2U);
+  EXPECT_EQ(refused.error()[0].pointer, "/1/at");
+  EXPECT_EQ(refused.error()[1].pointer, "/1/job/trajectory/points/1/positions/4");
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <set>
+#include <thread>
+
+#include "test/server/panda_jobs.h"
+#include "test/server/running_server.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+
+class Jobs : public test::RunningServer {
+ protected:
+  static std::string body(const std::string& id, const test::Pose& from, const test::Pose& to,
+                          const std::string& arm = "left") {
+    json job = test::move(arm, from, to);
+    job["id"] = id;
+    return job.dump();
+  }
+  // Follows the events until all of these have ended; their last views by id.
+  static std::map<std::string, json> until_ended(test::Listener& listener, std::set<std::string> ids) {
+    std::map<std::string, json> ended;
+    while (!ids.empty()) {
+      const json job = listener.next_of("job")["data"];
+      if (job["result"].is_null() || ids.erase(job["id"]) == 0) continue;
+      ended[job["id"]] = job;
+    }
+    return ended;
+  }
+};
+
+TEST_F(Jobs, RunFromPostToSuccess) {
+  start(20.0);
+  test::Listener listener(port());
+  const auto posted = post("/api/v1/jobs", body("go", test::kHome, test::kMiddle));
+  ASSERT_EQ(posted.status, 202) << posted.body;
+  EXPECT_EQ(posted.headers.at("location"), "/api/v1/jobs/go");
+  EXPECT_EQ(posted.json()["duration_s"], 3.0);
+  const json ended = until_ended(listener, {"go"})["go"];
+  EXPECT_EQ(ended["state"], "succeeded") << ended;
+  EXPECT_EQ(ended["result"]["reason"], "completed");
+  EXPECT_EQ(ended["progress"], 1.0);
+  EXPECT_GT(ended["ended_s"], ended["started_s"]);
+  EXPECT_TRUE(ended["ended_at"].get<std::string>().ends_with("Z"));
+  EXPECT_EQ(get("/api/v1/jobs/go").json(), ended);
+  const json q = get("/api/v1/arms/left").json()["q"];
+  for (std::size_t j = 0; j < 7; ++j) EXPECT_NEAR(q[j].get<double>(), test::kMiddle[j], 1e-3);
+}
+
+// T1: two conflicting trajectories in the same instant, over HTTP.
+TEST_F(Jobs, OfTwoInConflictPostedAtOnceOneRunsAndTheOtherWaitsForIt) {
+  start(20.0);
+  test::Listener listener(port());
+  const std::array<std::string, 2> bodies = {body("l", test::kHome, test::kMiddle, "left"),
+                                             body("r", test::kHome, test::kMiddle, "right")};
+  // Both requests but their last byte lie ready; then two threads send these.
+  test::Wire first(port());
+  test::Wire second(port());
+  const std::array<test::Wire*, 2> wires = {&first, &second};
+  std::array<std::string, 2> texts;
+  for (std::size_t i = 0; i < 2; ++i) {
+    texts[i] = test::request_text("POST", "/api/v1/jobs", bodies[i], "application/json");
+    wires[i]->send(std::string_view(texts[i]).substr(0, texts[i].size() - 1));
+  }
+  std::thread other([&] { second.send("}"); });
+  first.send("}");
+  other.join();
+  EXPECT_EQ(test::read_answer(first).status, 202);
+  EXPECT_EQ(test::read_answer(second).status, 202);
+
+  std::string waited;
+  std::map<std::string, json> ended;
+  while (ended.size() < 1) {
+    const json job = listener.next_of("job")["data"];
+    if (job["state"] == "backlogged") {
+      waited = job["id"];
+      const std::string other_id = waited == "l" ? "r" : "l";
+      ASSERT_FALSE(job["waits_on"].empty()) << job;
+      EXPECT_EQ(job["waits_on"][0]["id"], other_id) << job;
+      EXPECT_EQ(job["waits_on"][0]["links"].size(), 2U);
+    }
+    if (job["state"] == "running") {
+      EXPECT_NE(job["id"], waited);
+    }
+    if (!job["result"].is_null()) ended[job["id"]] = job;
+  }
+  ASSERT_FALSE(waited.empty()) << "both ran";
+  EXPECT_EQ(ended.count(waited), 0U);
+  const std::string winner = ended.begin()->first;
+  EXPECT_EQ(ended[winner]["state"], "succeeded");
+
+  // The winner rests in the middle; when it goes home, the other gets its turn.
+  EXPECT_EQ(post("/api/v1/jobs", body("home", test::kMiddle, test::kHome,
+                                      winner == "l" ? "left" : "right")).status, 202);
+  const auto rest = until_ended(listener, {waited, "home"});
+  EXPECT_EQ(rest.at("home")["state"], "succeeded");
+  EXPECT_EQ(rest.at(waited)["state"], "succeeded");
+}
+
+TEST_F(Jobs, ACanceledJobBrakesOnItsPathAndSaysSo) {
+  start(1.0);
+  test::Listener listener(port());
+  ASSERT_EQ(post("/api/v1/jobs", body("long", test::kHome, test::kMiddle)).status, 202);
+  while (listener.next_of("job")["data"]["state"] != "running") {
+  }
+  const auto canceled = test::request(port(), "DELETE", "/api/v1/jobs/long");
+  EXPECT_EQ(canceled.status, 202) << canceled.body;
+  const json ended = until_ended(listener, {"long"})["long"];
+  EXPECT_EQ(ended["state"], "canceled");
+  EXPECT_EQ(ended["result"]["reason"], "canceled_by_client");
+  EXPECT_LT(ended["progress"], 1.0);
+  EXPECT_EQ(test::request(port(), "DELETE", "/api/v1/jobs/long").status, 409);
+}
+
+TEST_F(Jobs, StopHoldsThemAndResumeLetsThemEnd) {
+  start(5.0);
+  test::Listener listener(port());
+  ASSERT_EQ(post("/api/v1/jobs", body("go", test::kHome, test::kMiddle)).status, 202);
+  while (listener.next_of("job")["data"]["state"] != "running") {
+  }
+  const auto stopped = post("/api/v1/stop", "");
+  EXPECT_EQ(stopped.status, 202);
+  EXPECT_EQ(stopped.json()["stopped"], true);
+  while (listener.next_of("job")["data"]["state"] != "holding") {
+  }
+  EXPECT_EQ(get("/api/v1/queue").json()["stopped"], true);
+  EXPECT_EQ(get("/api/v1/queue").json()["running"][0]["id"], "go");
+  EXPECT_EQ(post("/api/v1/resume", "").json()["stopped"], false);
+  EXPECT_EQ(until_ended(listener, {"go"})["go"]["state"], "succeeded");
+}
+
+TEST_F(Jobs, AreListedNewestFirstInPages) {
+  start(1.0);
+  test::Pose from = test::kHome;
+  test::Pose to = test::kMiddle;
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_EQ(post("/api/v1/jobs", body("j" + std::to_string(i), from, to)).status, 202);
+    std::swap(from, to);
+  }
+  const json first = get("/api/v1/jobs?limit=2&arm=left").json();
+  EXPECT_EQ(first["jobs"][0]["id"], "j4");
+  EXPECT_EQ(first["jobs"][1]["id"], "j3");
+  const json second =
+      get("/api/v1/jobs?limit=3&cursor=" + first["next_cursor"].get<std::string>()).json();
+  EXPECT_EQ(second["jobs"][0]["id"], "j2");
+  EXPECT_EQ(second["jobs"].size(), 3U);
+  EXPECT_TRUE(second["next_cursor"].is_null());
+  EXPECT_EQ(get("/api/v1/jobs?arm=right").json()["jobs"], json::array());
+  EXPECT_EQ(get("/api/v1/jobs?state=succeeded").json()["jobs"], json::array());
+}
+
+}  // namespace
+}  // namespace armloom

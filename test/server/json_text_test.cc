@@ -1,0 +1,80 @@
+#include "server/codec/json_text.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "server/codec/json_writer.h"
+
+namespace armloom {
+namespace {
+
+struct BadText {
+  const char* name;
+  std::string text;
+  const char* slug;
+  const char* pointer;
+  const char* says;  // part of the detail
+};
+
+class BadJson : public ::testing::TestWithParam<BadText> {};
+
+TEST_P(BadJson, IsRefusedWithItsPlace) {
+  const auto result = parse_json(GetParam().text, JsonComments::refused);
+  ASSERT_FALSE(result);
+  const Problem& problem = result.error().front();
+  EXPECT_EQ(problem.slug, GetParam().slug);
+  EXPECT_EQ(problem.pointer, GetParam().pointer);
+  EXPECT_NE(problem.detail.find(GetParam().says), std::string::npos) << problem.detail;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BadJson,
+    ::testing::Values(
+        BadText{"Empty", "", "malformed-json", "", "ends too early"},
+        BadText{"Cut", R"({"a": [1, 2)", "malformed-json", "/a/2", "ends too early"},
+        BadText{"Nan", R"({"points": [{"positions": [0, NaN]}]})", "malformed-json",
+                "/points/0/positions/1", "line 1, column 31"},
+        BadText{"Trailing", "{}\n{}", "malformed-json", "", "line 2, column 1"},
+        BadText{"Huge", R"({"t": [0.5, 1e999]})", "malformed-json", "/t/1", "double"},
+        BadText{"Twice", R"({"a": {"b": 1, "b": 2}})", "duplicate-key", "/a/b", "twice"},
+        BadText{"Nul", std::string("{}\0{}", 5), "malformed-json", "", "NUL"},
+        BadText{"Utf8", "{\"a\": \"\xff\"}", "malformed-json", "/a", "line 1"},
+        BadText{"Comment", "{} // no", "malformed-json", "", "line 1"},
+        BadText{"Deep", std::string(33, '[') + std::string(33, ']'), "nesting-too-deep",
+                "/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0", "32"},
+        BadText{"Escapes", R"({"a/b": {"c~d": tru}})", "malformed-json", "/a~1b/c~0d", "line 1"}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(JsonText, SurvivesAMillionBrackets) {
+  EXPECT_FALSE(parse_json(std::string(1'000'000, '['), JsonComments::refused));
+}
+
+TEST(JsonText, AllowsCommentsWhereTheyAreAskedFor) {
+  const auto result = parse_json("{ /* a */ \"b\": 1 // c\n}", JsonComments::allowed);
+  ASSERT_TRUE(result);
+  EXPECT_EQ((*result)["b"], 1);
+}
+
+TEST(JsonText, NamesTheValueFound) {
+  const auto result = parse_json(R"({"a": -Infinity})", JsonComments::refused);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(std::get<std::string>(result.error().front().value), "-Infinity");
+}
+
+TEST(JsonWriter, WritesTextThatReadsBack) {
+  JsonWriter out;
+  out.begin_object().field("quote\"", "line\nbreak\x01 \xF0\x9F\xA6\xBE");
+  out.field("bad", std::string_view("a\xffz")).field("nan", 0.0 / 0.0).field("third", 1.0 / 3.0);
+  out.field("list", std::vector<double>{1.0, -0.5}).key("near").rounded(-1e-9, 6).end_object();
+  const auto json = nlohmann::json::parse(out.text());
+  EXPECT_EQ(json["quote\""], "line\nbreak\x01 \xF0\x9F\xA6\xBE");
+  EXPECT_EQ(json["bad"], "a\xEF\xBF\xBDz");
+  EXPECT_TRUE(json["nan"].is_null());
+  EXPECT_EQ(json["third"].get<double>(), 1.0 / 3.0);
+  EXPECT_EQ(json["list"].size(), 2U);
+  EXPECT_EQ(json["near"].dump(), "0");
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "core/model/build_cell.h"
+#include "server/codec/cell_codec.h"
+#include "server/recording/recording.h"
+#include "server/service.h"
+#include "test/server/wire.h"
+
+namespace armloom::test {
+
+// The real server on a free port of the loopback, with the two-Panda cell, for each test a new one.
+class RunningServer : public ::testing::Test {
+ protected:
+  void start(double speed, std::filesystem::path web = {}) {
+    const std::filesystem::path file = std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
+    const auto text = read_text_file(file);
+    ASSERT_TRUE(text);
+    const auto description = read_cell_text(*text, file.parent_path());
+    ASSERT_TRUE(description);
+    const auto cell = build_cell(*description);
+    ASSERT_TRUE(cell);
+    ServiceOptions options;
+    options.port = 0;
+    options.speed = speed;
+    options.web = std::move(web);
+    auto service = Service::start(*cell, {file, *text}, options);
+    ASSERT_TRUE(service) << service.error().front().detail;
+    service_ = std::move(*service);
+    thread_ = std::thread([this] { service_->run(false); });
+  }
+  void TearDown() override {
+    if (!service_) return;
+    service_->stop();
+    thread_.join();
+  }
+
+  std::uint16_t port() const { return service_->port(); }
+  Answer get(const std::string& target) { return request(port(), "GET", target); }
+  Answer post(const std::string& target, const std::string& body,
+              const std::string& type = "application/json") {
+    return request(port(), "POST", target, body, type);
+  }
+
+ private:
+  std::unique_ptr<Service> service_;
+  std::thread thread_;
+};
+
+}  // namespace armloom::test

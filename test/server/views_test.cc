@@ -1,0 +1,94 @@
+#include "server/codec/views.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "server/codec/problem_codec.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+
+JobView waiting_job() {
+  JobView job;
+  job.key = "b";
+  job.state = JobState::backlogged;
+  job.arms = {"right"};
+  job.submitted_at = at(milliseconds(1500));
+  job.duration = milliseconds(3000);
+  job.waits_on.push_back(WaitView{Wait::Kind::job, "a", "left", {"r7", "l7"}, 1.25, 0.5, 0.004, ""});
+  return job;
+}
+
+TEST(Views, AJobThatWaitsSaysForWhat) {
+  JsonWriter out;
+  const WallClock clock(std::chrono::system_clock::time_point{}, 2.0);
+  write(out, waiting_job(), &clock);
+  const json job = json::parse(out.text());
+  EXPECT_EQ(job["id"], "b");
+  EXPECT_EQ(job["state"], "backlogged");
+  EXPECT_EQ(job["submitted_s"], 1.5);
+  EXPECT_EQ(job["submitted_at"], "1970-01-01T00:00:00.750Z");  // the cell runs twice as fast
+  EXPECT_TRUE(job["started_s"].is_null());
+  EXPECT_TRUE(job["started_at"].is_null());
+  EXPECT_TRUE(job["result"].is_null());
+  const json expected = {{"kind", "job"},       {"id", "a"},           {"arm", "left"},
+                         {"links", {"r7", "l7"}}, {"own_time_s", 1.25}, {"other_time_s", 0.5},
+                         {"clearance_m", 0.004}};
+  EXPECT_EQ(job["waits_on"], json::array({expected}));
+}
+
+TEST(Views, AnEndedJobSaysWhy) {
+  JobView job = waiting_job();
+  job.waits_on.clear();
+  job.state = JobState::expired;
+  job.reason = Reason::backlog_timeout;
+  job.detail = "waited 60 s";
+  JsonWriter out;
+  write(out, job, nullptr);
+  const json result = json::parse(out.text());
+  EXPECT_EQ(result["result"], json({{"reason", "backlog_timeout"}, {"detail", "waited 60 s"}}));
+  EXPECT_FALSE(result.contains("submitted_at"));
+}
+
+TEST(Views, ASimulatedEventHasNoWallTime) {
+  const Event event{7, at(milliseconds(26682)), Alert{Alert::Level::warning, "x"}};
+  EXPECT_EQ(event_json(event, "s", nullptr),
+            R"({"stream":"s","seq":7,"type":"alert","t_s":26.682,)"
+            R"("data":{"level":"warning","text":"x"}})");
+}
+
+TEST(Views, TheStreamOfASeedIsAUuidAndRepeats) {
+  EXPECT_EQ(stream_of_seed(1), stream_of_seed(1));
+  EXPECT_NE(stream_of_seed(1), stream_of_seed(2));
+  const std::string stream = stream_of_seed(1);
+  EXPECT_EQ(stream.size(), 36U);
+  EXPECT_EQ(stream[14], '8');
+  EXPECT_NE(random_stream(), random_stream());
+  EXPECT_EQ(random_stream()[14], '4');
+}
+
+TEST(Problems, BecomeDocumentsAndSentences) {
+  const Problems problems{
+      {ProblemKind::invalid, "limit-exceeded", "/trajectory/points/14/velocities/3", "too fast", 3.41},
+      {ProblemKind::invalid, "x", "/y", "z", {}}};
+  const json document = json::parse(problem_json(problems));
+  EXPECT_EQ(document["status"], 422);
+  EXPECT_EQ(document["type"], "urn:armloom:problem:limit-exceeded");
+  EXPECT_EQ(document["title"], "Limit exceeded");
+  EXPECT_EQ(document["pointer"], "/trajectory/points/14/velocities/3");
+  EXPECT_EQ(document["value"], 3.41);
+  EXPECT_EQ(document["errors"].size(), 2U);
+  EXPECT_FALSE(json::parse(problem_json({problems[1]})).contains("errors"));
+  EXPECT_EQ(problem_sentence("cell.json", problems[0]),
+            "cell.json:/trajectory/points/14/velocities/3: too fast (found 3.41)");
+  EXPECT_EQ(problem_sentence("cell.json", {ProblemKind::invalid, "x", "a.urdf: joint b", "bad", {}}),
+            "a.urdf: joint b: bad");
+}
+
+}  // namespace
+}  // namespace armloom
