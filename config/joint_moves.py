@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Straight joint moves as Armloom jobs, and the jobs file config/two_pandas_jobs.json.
+"""Straight joint moves as Armloom jobs, and the jobs files of the cells in config/.
 
-    python3 config/joint_moves.py SCENARIO > config/two_pandas_jobs.json
+    python3 config/joint_moves.py CELL [SCENARIO] > config/CELL_jobs.json
 
-SCENARIO is a file with `home`, `poses` and `clear_from_home` (../shared/data/scenarios/
-panda_two.json). Each arm goes from home to poses of its `clear_from_home` list and back, all jobs
-submitted at time zero: 12 moves out and 12 back, many of them into the middle that both want.
+CELL is a name from CELLS below. Its arms go from home to each of their poses and back, all jobs
+submitted at time zero, many of them into the middle that all want. Poses that are names come from
+the file SCENARIO with `home`, `poses` and `clear_from_home`: ../shared/data/scenarios/panda_two.json
+for two_pandas, panda_four.json for four_pandas. The other cells' poses stand here.
 
 A move is the quintic from rest to rest in all joints at once,
     q(t) = q0 + (q1 - q0) (10 u^3 - 15 u^4 + 6 u^5),  u = t / T,
@@ -15,26 +16,92 @@ smallest that keeps both below SHARE of the joints' limits.
 import json
 import math
 import sys
+from typing import NamedTuple
 
-# Franka Emika Panda, rad/s (as in models/panda.urdf); rad/s^2 (as in config/two_pandas.json).
-VELOCITY_MAX = [2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61]
-ACCELERATION_MAX = [3.75] * 7
 SHARE = 0.8
 WAYPOINTS = 11
 
-# The scenario's names of the arms of config/two_pandas.json.
-ARMS = {"left": "panda1", "right": "panda0"}
-# Where each arm goes, in order.
-VISITS = {
-    "left": ["tiled_up", "twist_right", "tiled_down", "coop_down", "mirror", "twist_left"],
-    "right": ["tiled_down", "mirror", "twist_left", "coop_down", "coop_up", "twist_right"],
+
+class Robot(NamedTuple):
+    joints: list
+    velocity_max: list  # rad/s, as in models/
+    acceleration_max: list  # rad/s^2, as in config/
+    home: list
+
+
+class Arm(NamedTuple):
+    name: str
+    robot: Robot
+    prefix: str  # of the joints' names
+    poses: dict  # name -> configuration, or None: as in the scenario
+    in_scenario: str = ""  # the scenario's name of this arm
+
+
+PANDA = Robot([f"panda_joint{i}" for i in range(1, 8)],
+              [2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61], [3.75] * 7,
+              [0, -1.2, 0, -2.6, 0, 1.6, 0.785])
+UR5E = Robot(["shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint",
+              "wrist_2_joint", "wrist_3_joint"], [math.pi] * 6, [4] * 6,
+             [0, -2.3, 2.6, -1.87, -1.5708, 0])
+
+
+def named(*poses):
+    return dict.fromkeys(poses)
+
+
+CELLS = {
+    "two_pandas": [
+        Arm("left", PANDA, "left_", named("tiled_up", "twist_right", "tiled_down", "coop_down",
+                                          "mirror", "twist_left"), "panda1"),
+        Arm("right", PANDA, "right_", named("tiled_down", "mirror", "twist_left", "coop_down",
+                                            "coop_up", "twist_right"), "panda0"),
+    ],
+    "four_pandas": [
+        Arm("panda0", PANDA, "panda0_", named("down", "left_and_right",
+                                              "tiled_clean", "up_and_down"), "panda0"),
+        Arm("panda1", PANDA, "panda1_", named("up_and_down", "front",
+                                              "down", "left_and_right"), "panda1"),
+        Arm("panda2", PANDA, "panda2_", named("up_and_down", "left_and_right",
+                                              "tiled_mess", "front"), "panda2"),
+        Arm("panda3", PANDA, "panda3_", named("ready", "back", "up", "front_and_back"), "panda3"),
+    ],
+    # Tool down over the table; both reach beyond the middle between them.
+    "panda_and_ur5e": [
+        Arm("panda", PANDA, "panda_", {
+            "middle": [0, -0.1, 0, -2.0, 0, 1.9, 0.785],
+            "left": [0.4, 0.1, 0, -1.8, 0, 1.9, 0.785],
+            "right": [-0.4, 0.1, 0, -1.8, 0, 1.9, 0.785],
+            "far": [0, 0.3, 0, -1.6, 0, 1.9, 0.785],
+        }),
+        Arm("ur5e", UR5E, "ur5e_", {
+            "middle": [0, -1.5, 1.9, -1.97, -1.5708, 0],
+            "right": [-0.4, -1.3, 1.65, -1.92, -1.5708, 0],
+            "left": [0.4, -1.3, 1.65, -1.92, -1.5708, 0],
+            "far": [0, -1.2, 1.5, -1.87, -1.5708, 0],
+        }),
+    ],
+    # Side by side: each reaches before itself, between both, and before the other.
+    "dual_panda": [
+        Arm("left", PANDA, "left_", {
+            "between": [-0.5, 0.1, 0, -1.9, 0, 2.0, 0.785],
+            "ahead": [0, 0.2, 0, -1.8, 0, 2.0, 0.785],
+            "across": [-0.9, 0.4, 0, -1.5, 0, 1.9, 0.785],
+            "outside": [0.7, 0, 0, -2.0, 0, 2.0, 0.785],
+        }),
+        Arm("right", PANDA, "right_", {
+            "between": [0.5, 0.1, 0, -1.9, 0, 2.0, 0.785],
+            "across": [0.9, 0.4, 0, -1.5, 0, 1.9, 0.785],
+            "ahead": [0, 0.2, 0, -1.8, 0, 2.0, 0.785],
+            "outside": [-0.7, 0, 0, -2.0, 0, 2.0, 0.785],
+        }),
+    ],
 }
 
 
-def duration(q0, q1):
+def duration(q0, q1, robot=PANDA):
     """Seconds that the straight move takes, a multiple of 10 ms."""
     longest = 0.5
-    for a, b, velocity, acceleration in zip(q0, q1, VELOCITY_MAX, ACCELERATION_MAX):
+    for a, b, velocity, acceleration in zip(q0, q1, robot.velocity_max, robot.acceleration_max):
         dq = abs(b - a)
         longest = max(longest, 15 / 8 * dq / (SHARE * velocity),
                       math.sqrt(10 / math.sqrt(3) * dq / (SHARE * acceleration)))
@@ -42,7 +109,7 @@ def duration(q0, q1):
 
 
 def quintic(joint_names, q0, q1, T=None):
-    """A trajectory, as the body of POST /jobs wants it."""
+    """A trajectory, as the body of POST /jobs wants it; in the time of a Panda if T is not given."""
     T = T or duration(q0, q1)
     points = []
     for k in range(WAYPOINTS):
@@ -60,29 +127,45 @@ def quintic(joint_names, q0, q1, T=None):
     return {"joint_names": joint_names, "points": points}
 
 
-def jobs(scenario):
+def configuration(arm, pose, scenario):
+    """Of a pose in CELLS, or of the scenario's pose of that name."""
+    if arm.poses[pose] is not None:
+        return arm.poses[pose]
+    if scenario is None:
+        sys.exit(f"{pose} of {arm.name} stands in a scenario: name its file")
+    if pose not in scenario["clear_from_home"][arm.in_scenario]:
+        sys.exit(f"{pose} is not in clear_from_home of {arm.in_scenario}")
+    if scenario["home"] != arm.robot.home:
+        sys.exit(f"the scenario's home is {scenario['home']}, not {arm.robot.home}")
+    return scenario["poses"][pose][arm.in_scenario]
+
+
+def jobs(arms, scenario):
     listed = []
-    for arm, scenario_arm in ARMS.items():
-        names = [f"{arm}_panda_joint{i}" for i in range(1, 8)]
-        home = scenario["home"]
-        for n, pose in enumerate(VISITS[arm], start=1):
-            if pose not in scenario["clear_from_home"][scenario_arm]:
-                sys.exit(f"{pose} is not in clear_from_home of {scenario_arm}")
-            q = scenario["poses"][pose][scenario_arm]
-            listed.append((n, 0, arm, f"{arm}-{n}-to-{pose}", f"{pose}", names, home, q))
-            listed.append((n, 1, arm, f"{arm}-{n}-home", f"{pose} -> home", names, q, home))
+    for arm in arms:
+        names = [arm.prefix + joint for joint in arm.robot.joints]
+        home = arm.robot.home
+        for n, pose in enumerate(arm.poses, start=1):
+            q = configuration(arm, pose, scenario)
+            T = duration(home, q, arm.robot)
+            listed.append((n, 0, f"{arm.name}-{n}-to-{pose}", f"{arm.name}: {pose}",
+                           quintic(names, home, q, T)))
+            listed.append((n, 1, f"{arm.name}-{n}-home", f"{arm.name}: {pose} -> home",
+                           quintic(names, q, home, T)))
     listed.sort(key=lambda job: (job[0], job[1]))  # the arms take turns
-    return [{"at": 0.0, "job": {"id": key, "name": f"{arm}: {name}",
-                                "trajectory": quintic(names, q0, q1)}}
-            for _, _, arm, key, name, names, q0, q1 in listed]
+    return [{"at": 0.0, "job": {"id": key, "name": name, "trajectory": trajectory}}
+            for _, _, key, name, trajectory in listed]
 
 
 def main():
-    if len(sys.argv) != 2:
+    if len(sys.argv) not in (2, 3) or sys.argv[1] not in CELLS:
         sys.exit(__doc__)
-    with open(sys.argv[1]) as file:
-        scenario = json.load(file)
-    lines = ",\n".join(json.dumps(job, separators=(",", ":")) for job in jobs(scenario))
+    scenario = None
+    if len(sys.argv) == 3:
+        with open(sys.argv[2]) as file:
+            scenario = json.load(file)
+    made = jobs(CELLS[sys.argv[1]], scenario)
+    lines = ",\n".join(json.dumps(job, separators=(",", ":")) for job in made)
     print(f"[\n{lines}\n]")
 
 

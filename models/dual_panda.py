@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Two Pandas in one robot: writes dual_panda.urdf and dual_panda.srdf from panda.urdf and panda.srdf.
 
-    python3 models/dual_panda.py
+    python3 models/dual_panda.py [FOLDER]
 
-Both arms stand on one static plate, base_link, with their links and joints named left_panda_* and
-right_panda_*, and the groups left_arm, left_hand, right_arm and right_hand. What the SRDF says of
-one Panda holds for each; pairs between the arms stay enabled.
+They go to FOLDER, or beside this script. Both arms stand on one static plate, base_link, with
+their links and joints named left_panda_* and right_panda_*, and the groups left_arm, left_hand,
+right_arm and right_hand. What the SRDF says of one Panda holds for each; pairs between the arms
+stay enabled.
 """
 import pathlib
 import re
+import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 NOTE = "Written by models/dual_panda.py from models/panda.{}: change those, not this file."
@@ -20,11 +22,6 @@ PLATE = """  <!-- A steel plate, whose top is at height zero; both arms are bolt
     <collision><origin xyz="-0.03 0 -0.01"/><geometry><box size="0.36 1.06 0.02"/></geometry></collision>
   </link>
 """
-
-
-def inside(text, pattern):
-    """The first match, without the comment that heads the file."""
-    return re.search(pattern, text, re.DOTALL).group(1)
 
 
 def urdf():
@@ -45,12 +42,13 @@ def urdf():
 
 
 def srdf():
-    source = inside((HERE / "panda.srdf").read_text(), r'<robot name="panda">\n(.*)</robot>')
+    source = re.search(r'<robot name="panda">\n(.*)</robot>', (HERE / "panda.srdf").read_text(),
+                       re.DOTALL).group(1)
     parts = [f'<?xml version="1.0"?>\n<!-- {NOTE.format("srdf")} -->\n<robot name="dual_panda">']
     for side in SIDES:
         arm = source.replace("panda_arm", "arm").replace("panda_", f"{side}_panda_")
-        arm = re.sub(r'((?:group|parent_group|end_effector name)=|(?:group|end_effector) name=)"(arm|hand)"',
-                     rf'\1"{side}_\2"', arm)
+        arm = re.sub(r'(group|parent_group|group name|end_effector name)="(arm|hand)"',
+                     rf'\1="{side}_\2"', arm)
         arm = re.sub(r"  <virtual_joint.*?/>\n", "", arm)  # one for the whole robot, below
         parts += [arm, f'  <disable_collisions link1="base_link" link2="{side}_panda_link0" '
                   'reason="Adjacent"/>\n']
@@ -59,5 +57,6 @@ def srdf():
     return "\n".join(parts) + "\n</robot>\n"
 
 
-(HERE / "dual_panda.urdf").write_text(urdf())
-(HERE / "dual_panda.srdf").write_text(srdf())
+folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
+(folder / "dual_panda.urdf").write_text(urdf())
+(folder / "dual_panda.srdf").write_text(srdf())

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Every cell beside the two Pandas, as a user runs it: validate, simulate its jobs, audit.
+
+    test/scenarios/every_cell.py ARMLOOM
+
+Checks of each that nothing is wrong with it, that all its jobs (at least 12) succeed under
+timed_discrete, some after waiting for another arm, without a stop by the monitor, and that the
+audit finds no contact.
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+CONFIG = pathlib.Path(__file__).resolve().parents[2] / "config"
+CELLS = ("four_pandas", "panda_and_ur5e", "dual_panda")
+
+
+def run(armloom, *arguments):
+    done = subprocess.run([armloom, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=300)
+    if done.returncode != 0:
+        sys.exit(f"armloom {' '.join(map(str, arguments))}: exit {done.returncode}\n"
+                 f"{done.stdout[-2000:]}{done.stderr[-2000:]}")
+    return done.stdout.strip().splitlines()[-1]
+
+
+def check(claim, holds, figure):
+    print(f"{'ok  ' if holds else 'FAIL'} {claim}: {figure}")
+    if not holds:
+        sys.exit(1)
+
+
+def waited_for_another_arm(folder):
+    """Ids of jobs that were backlogged because another arm's job or rest was in the way."""
+    waited = set()
+    for line in (folder / "events.jsonl").read_text().splitlines():
+        event = json.loads(line)
+        if event["type"] == "job" and event["data"]["state"] == "backlogged":
+            if any(w["kind"] in ("job", "arm") and w["arm"] not in event["data"]["arms"]
+                   for w in event["data"]["waits_on"]):
+                waited.add(event["data"]["id"])
+    return sorted(waited)
+
+
+def run_cell(armloom, name, scratch):
+    cell, jobs = CONFIG / f"{name}.json", CONFIG / f"{name}_jobs.json"
+    total = len(json.loads(jobs.read_text()))
+    check(f"{name} has at least 12 jobs", total >= 12, total)
+    verdict = run(armloom, "validate", "--cell", cell)
+    check(f"nothing is wrong with {name}", verdict == "no fault found", verdict)
+
+    recording = pathlib.Path(scratch) / name
+    result = json.loads(run(armloom, "simulate", "--cell", cell, "--jobs", jobs, "--seed", "7",
+                            "--policy", "timed_discrete", "--out", recording))
+    print(json.dumps(result))
+    check("all succeed", result["jobs"]["succeeded"] == total, result["jobs"])
+    check("the monitor stops nothing", result["monitor_stops"] == 0, result["monitor_stops"])
+    waited = waited_for_another_arm(recording)
+    check("some waited for another arm", len(waited) >= 2, waited)
+    busy = result["arm_busy_ratio"]
+    check("the arms run beside each other", sum(busy.values()) > 1, busy)
+
+    audit = json.loads(run(armloom, "audit", "--cell", cell, "--recording", recording))
+    check("the audit finds no contact", audit["contact"] is None,
+          f"smallest clearance {audit['smallest_clearance_m']:.4f} m")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as scratch:
+        for name in CELLS:
+            run_cell(sys.argv[1], name, scratch)
+
+
+if __name__ == "__main__":
+    main()
