@@ -149,6 +149,8 @@ struct CollisionChecker::Scratch {
 
 CollisionChecker::CollisionChecker(PlanningScenePtr scene)
     : scratch_(std::make_unique<Scratch>(std::move(scene))) {}
+CollisionChecker::CollisionChecker(CollisionChecker&&) noexcept = default;
+CollisionChecker& CollisionChecker::operator=(CollisionChecker&&) noexcept = default;
 CollisionChecker::~CollisionChecker() = default;
 
 const PlanningScene& CollisionChecker::scene() const { return *scratch_->scene; }

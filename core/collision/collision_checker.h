@@ -31,6 +31,8 @@ struct NearPair {
 class CollisionChecker {
  public:
   explicit CollisionChecker(PlanningScenePtr scene);
+  CollisionChecker(CollisionChecker&&) noexcept;
+  CollisionChecker& operator=(CollisionChecker&&) noexcept;
   ~CollisionChecker();
 
   [[nodiscard]] const PlanningScene& scene() const;

@@ -68,6 +68,12 @@ struct QueueView {
   bool operator==(const QueueView&) const = default;
 };
 
+// The objects of the planning scene; `version` grows with every change.
+struct SceneView {
+  std::uint64_t version = 0;
+  std::vector<CollisionObject> objects;
+};
+
 struct MonitorEvent {
   MonitorFinding finding;
   std::vector<std::string> arms;     // of the pair
@@ -83,7 +89,7 @@ struct Alert {
 struct Event {
   std::uint64_t seq;
   TimePoint time;
-  std::variant<JobView, ArmView, QueueView, MonitorEvent, Alert> body;
+  std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, Alert> body;
 };
 
 // Poses: may be dropped.
@@ -98,6 +104,7 @@ struct Snapshot {
   std::uint64_t seq = 0;  // of the last event that is contained
   TimePoint time;
   QueueView queue;
+  SceneView scene;
   std::vector<ArmView> arms;
   std::vector<JobView> jobs;  // all not ended, then the latest ended, in order of submission
 };

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/arm/faulty_arm.h"
 #include "core/base/problem.h"
 #include "core/collision/judge.h"
 #include "core/executive/events.h"
@@ -22,6 +23,7 @@ struct JobRequest {
   TrajectoryRequest trajectory;
   int priority = 0;
   std::optional<Duration> backlog_timeout;  // absent: the cell's
+  std::vector<std::string> after;           // keys of jobs that have to succeed first
 };
 
 // Where judgements are computed. Called on the strand; `done` must be called exactly once, on the
@@ -29,7 +31,8 @@ struct JobRequest {
 class JudgePool {
  public:
   virtual ~JudgePool() = default;
-  virtual void ask(Question question, std::function<void(Verdict)> done) = 0;
+  virtual void ask(Question question, PlanningScenePtr scene,
+                   std::function<void(Verdict)> done) = 0;
 };
 
 // Where everything that happens is told. Called on the strand; must not block.
@@ -58,6 +61,25 @@ struct RunFigures {
   std::uint64_t monitor_stops = 0;
 };
 
+// The answer to "what if": the Verdict of the design.
+struct CheckView {
+  Verdict::Kind kind = Verdict::Kind::free;
+  std::optional<double> earliest_start_s;  // from now; absent: not known
+  std::optional<double> clearance_bound_m;
+  std::vector<WaitView> conflicts;
+  std::uint64_t evaluations = 0;
+  std::uint64_t scene_version = 0;
+};
+
+// A fault of a simulated arm, as a client asks for it.
+struct FaultRequest {
+  std::string arm;
+  ArmFault::Kind kind = ArmFault::Kind::stall;
+  std::optional<TimePoint> at;      // absent: now
+  std::optional<Duration> lasting;  // absent: until removed
+  double value = 0.0;
+};
+
 // The one strand where clock, scheduler, checks, monitor and arms meet. Not thread-safe: every
 // call comes from the strand's thread (the simulation's loop, or RealTimeLoop's thread). Owns no
 // thread and no clock: its drivers call tick() with growing cell time.
@@ -72,13 +94,37 @@ class Executive {
 
   // Validates and hands the job to the scheduler at time `now()`. Problems: everything validate()
   // finds (pointers begin with "/trajectory"), a key in use (conflict), the queue full
-  // (unavailable), a start away from where the arm will be, a motion in which the arm hits itself
-  // is found later (the job fails with Reason::self_collision).
+  // (unavailable), a start away from where the arm will be, an `after` that is not known, has
+  // failed, or is the job itself. A motion in which the arm hits itself is found later (the job
+  // fails with Reason::self_collision).
   [[nodiscard]] Result<JobView> submit(JobRequest request);
+  // Several at once, in order; a job may come `after` an earlier one of the batch. Atomic: all are
+  // accepted or none; problems point to "/jobs/<index>/...". Else each has its own answer.
+  [[nodiscard]] Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests,
+                                                                  bool atomic);
+  // Judges the job as if it were to start now, beside everything that holds a reservation, and
+  // changes nothing. `done` is called on the strand, at once or when the verdict is there.
+  void check(JobRequest request, std::function<void(Result<CheckView>)> done);
   // Problems: not_found; conflict when it has ended.
   [[nodiscard]] Result<JobView> cancel(const std::string& key);
+
+  void stop(const std::vector<ArmId>& arms, const std::string& cause);
+  void resume(const std::vector<ArmId>& arms);
   void stop_all(const std::string& cause);
   void resume_all();
+
+  // Objects of the planning scene. Every motion under way and every waiting job is judged again.
+  // Problems: a name in use or unknown, a shape inside an arm as measured (nearer than the
+  // monitor's stop_clearance).
+  [[nodiscard]] Result<void> add_object(CollisionObject object);
+  [[nodiscard]] Result<void> replace_object(CollisionObject object);
+  [[nodiscard]] Result<void> remove_object(const std::string& name);
+  [[nodiscard]] const std::vector<CollisionObject>& objects() const;
+  [[nodiscard]] std::uint64_t scene_version() const;
+
+  // Faults of the simulated arms. Problem: an unknown arm or fault.
+  [[nodiscard]] Result<std::uint64_t> inject(const FaultRequest& fault);
+  [[nodiscard]] Result<void> remove_fault(std::uint64_t id);
 
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
   [[nodiscard]] Snapshot snapshot() const;

@@ -1,9 +1,11 @@
 #include "core/executive/real_time_loop.h"
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -49,7 +51,7 @@ class Inbox {
 
 class RealTimeLoop::Impl final : public JudgePool {
  public:
-  Impl(double speed, PlanningScenePtr scene) : speed_(speed), checker_(std::move(scene)) {}
+  explicit Impl(double speed) : speed_(speed) {}
 
   ~Impl() override {
     // The judge first: it posts into the loop's inbox.
@@ -69,24 +71,28 @@ class RealTimeLoop::Impl final : public JudgePool {
     loop_ = std::jthread([this](std::stop_token stop) { cycle(stop); });
   }
 
-  // The scheduler has at most one question open, so this inbox holds at most one.
-  void ask(Question question, std::function<void(Verdict)> done) override {
-    questions_.post({std::move(question), std::move(done)});
+  // The scheduler has at most one question open; what else comes in are clients' checks.
+  void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
+    questions_.post({std::move(question), std::move(scene), std::move(done)});
   }
 
   void post(std::function<void(Executive&)> command) { commands_.post(std::move(command)); }
   double speed() const { return speed_; }
+  void set_speed(double speed) { speed_ = speed; }
 
  private:
   struct Asked {
     Question question;
+    PlanningScenePtr scene;
     std::function<void(Verdict)> done;
   };
 
   void judge_questions(std::stop_token stop) {
+    std::optional<CollisionChecker> checker;  // of the scene asked about last
     while (!stop.stop_requested()) {
       for (Asked& asked : questions_.take(stop)) {
-        post([verdict = judge(asked.question, checker_), done = std::move(asked.done)](Executive&) {
+        if (!checker || &checker->scene() != asked.scene.get()) checker.emplace(asked.scene);
+        post([verdict = judge(asked.question, *checker), done = std::move(asked.done)](Executive&) {
           done(verdict);
         });
       }
@@ -94,14 +100,14 @@ class RealTimeLoop::Impl final : public JudgePool {
   }
 
   void cycle(std::stop_token stop) {
-    const auto wall_period = std::chrono::duration_cast<Wall::duration>(
-        std::chrono::duration<double, std::nano>(kControlPeriod) / speed_);
     Wall::time_point due = Wall::now();
     TimePoint cell_now{};
     while (!stop.stop_requested()) {
       for (auto& command : commands_.take(stop, due)) command(*executive_);
       const Wall::time_point wall_now = Wall::now();
       if (wall_now - due > kCatchUpMax) due = wall_now;
+      const auto wall_period = std::chrono::duration_cast<Wall::duration>(
+          std::chrono::duration<double, std::nano>(kControlPeriod) / speed_.load());
       for (; due <= wall_now; due += wall_period) {
         executive_->tick(cell_now);
         cell_now += kControlPeriod;
@@ -109,8 +115,7 @@ class RealTimeLoop::Impl final : public JudgePool {
     }
   }
 
-  const double speed_;
-  CollisionChecker checker_;  // the judge thread's
+  std::atomic<double> speed_;
   Inbox<Asked> questions_;
   Inbox<std::function<void(Executive&)>> commands_;
   std::unique_ptr<Executive> executive_;  // the loop thread's
@@ -120,9 +125,7 @@ class RealTimeLoop::Impl final : public JudgePool {
 
 Result<std::unique_ptr<RealTimeLoop>> RealTimeLoop::start(CellPtr cell, ExecutiveOptions options,
                                                           double speed, Observer& observer) {
-  auto scene = PlanningScene::build(cell);
-  if (!scene) return failure(std::move(scene.error()));
-  auto impl = std::make_unique<Impl>(speed, std::move(*scene));
+  auto impl = std::make_unique<Impl>(speed);
   auto executive = Executive::create(cell, std::move(options), *impl, observer);
   if (!executive) return failure(std::move(executive.error()));
   impl->run(std::move(*executive));
@@ -135,5 +138,6 @@ void RealTimeLoop::post(std::function<void(Executive&)> command) {
   impl_->post(std::move(command));
 }
 double RealTimeLoop::speed() const { return impl_->speed(); }
+void RealTimeLoop::set_speed(double speed) { impl_->set_speed(speed); }
 
 }  // namespace armloom

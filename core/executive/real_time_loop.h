@@ -23,6 +23,7 @@ class RealTimeLoop {
   // Runs `command` on the strand, soon. Commands run in the order posted.
   void post(std::function<void(Executive&)> command);
   [[nodiscard]] double speed() const;
+  void set_speed(double speed);  // > 0; from the next control cycle on
 
  private:
   class Impl;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <utility>
 
 namespace armloom {
@@ -10,10 +11,9 @@ namespace armloom {
 // Computes at once, answers kSimulatedJudgement later.
 class Simulation::Judge final : public JudgePool {
  public:
-  explicit Judge(PlanningScenePtr scene) : checker_(std::move(scene)) {}
-
-  void ask(Question question, std::function<void(Verdict)> done) override {
-    pending_.push_back({now_ + kSimulatedJudgement, judge(question, checker_), std::move(done)});
+  void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
+    if (!checker_ || &checker_->scene() != scene.get()) checker_.emplace(std::move(scene));
+    pending_.push_back({now_ + kSimulatedJudgement, judge(question, *checker_), std::move(done)});
   }
 
   void deliver(TimePoint now) {
@@ -31,7 +31,7 @@ class Simulation::Judge final : public JudgePool {
     Verdict verdict;
     std::function<void(Verdict)> done;
   };
-  CollisionChecker checker_;
+  std::optional<CollisionChecker> checker_;  // of the scene asked about last
   TimePoint now_{};
   std::deque<Answer> pending_;
 };
@@ -41,9 +41,7 @@ Simulation::~Simulation() = default;
 
 Result<std::unique_ptr<Simulation>> Simulation::create(CellPtr cell, ExecutiveOptions options,
                                                        Observer& observer) {
-  auto scene = PlanningScene::build(cell);
-  if (!scene) return failure(std::move(scene.error()));
-  std::unique_ptr<Simulation> simulation(new Simulation(std::make_unique<Judge>(*scene)));
+  std::unique_ptr<Simulation> simulation(new Simulation(std::make_unique<Judge>()));
   auto executive = Executive::create(cell, std::move(options), *simulation->judge_, observer);
   if (!executive) return failure(std::move(executive.error()));
   simulation->executive_ = std::move(*executive);

@@ -1,7 +1,6 @@
 #include "core/executive/views.h"
 
 namespace armloom {
-namespace {
 
 WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names) {
   WaitView view{.kind = wait.kind, .detail = wait.detail};
@@ -15,8 +14,6 @@ WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names) {
   }
   return view;
 }
-
-}  // namespace
 
 JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   JobView view{.id = job.id,

@@ -16,6 +16,8 @@ class JobNames {
   [[nodiscard]] virtual std::string name(JobId job) const = 0;
 };
 
+[[nodiscard]] WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names);
+
 // The scheduler's job with names instead of ids.
 [[nodiscard]] JobView view_of(const Job& job, const Cell& cell, const JobNames& names);
 

@@ -15,6 +15,8 @@ std::string format(const char* text, const std::string& name, double a, double b
   return buffer;
 }
 
+}  // namespace
+
 Wait wait_for(const Conflict& conflict) {
   Wait wait{.kind = Wait::Kind::object,
             .proximity = conflict.proximity,
@@ -29,8 +31,6 @@ Wait wait_for(const Conflict& conflict) {
   }
   return wait;
 }
-
-}  // namespace
 
 bool Scheduler::waiting(const Record& record) {
   const JobState state = record.job.state;
@@ -211,6 +211,46 @@ void Scheduler::ask_next() {
   }
 }
 
+Question Scheduler::hypothetical(TrajectoryPtr trajectory, TimePoint start_at) const {
+  Question question{.version = version_,
+                    .start_at = start_at,
+                    .candidates = {Motion{JobId{0}, std::move(trajectory), Duration{}}},
+                    .others = {},
+                    .rest = rest_,
+                    .method = policy_->method()};
+  add_others(question, {});
+  return question;
+}
+
+std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory) const {
+  std::vector<Wait> waits;
+  for (ArmId arm : trajectory.arms()) {
+    const auto& queue = order_[arm.index()];
+    if (!queue.empty()) {
+      waits.push_back({.kind = Wait::Kind::order, .job = queue.back(), .arm = arm});
+    }
+    if (const auto& cause = stopped_[arm.index()]) {
+      waits.push_back({.kind = Wait::Kind::stop, .arm = arm, .detail = *cause});
+    }
+  }
+  if (const auto taken_by = policy_->capacity_taken_by(occupying())) {
+    waits.push_back({.kind = Wait::Kind::capacity, .job = *taken_by});
+  }
+  return waits;
+}
+
+// Every motion that holds a reservation and is none of the candidates.
+void Scheduler::add_others(Question& question, const std::vector<JobId>& candidates) const {
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    if (!holds_reservation(record) || std::ranges::find(candidates, id) != candidates.end()) {
+      continue;
+    }
+    question.others.push_back(
+        Motion{id, record.job.trajectory, progress_at(record, question.start_at), record.job.late});
+  }
+}
+
 void Scheduler::ask(std::vector<JobId> jobs, bool recheck) {
   const TimePoint start_at = now_ + allowance_;
   Question question{.version = version_,
@@ -219,15 +259,13 @@ void Scheduler::ask(std::vector<JobId> jobs, bool recheck) {
                     .others = {},
                     .rest = rest_,
                     .method = policy_->method()};
-  for (JobId id : active_) {
+  for (JobId id : jobs) {
     const Record& record = records_.at(id);
-    const bool candidate = std::ranges::find(jobs, id) != jobs.end();
-    if (!candidate && !holds_reservation(record)) continue;
     const Duration progress =
         holds_reservation(record) ? progress_at(record, start_at) : record.job.progress;
-    (candidate ? question.candidates : question.others)
-        .push_back(Motion{id, record.job.trajectory, progress, record.job.late});
+    question.candidates.push_back(Motion{id, record.job.trajectory, progress});
   }
+  add_others(question, jobs);
   open_ = OpenQuestion{version_, start_at, std::move(jobs), recheck};
   effects_.push_back(Judge{std::move(question)});
 }

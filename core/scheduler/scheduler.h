@@ -25,6 +25,9 @@ inline constexpr Duration kAllowanceMax = std::chrono::seconds(1);
 // A late arm that keeps up with the clock for this long is late no more.
 inline constexpr Duration kOnTimeAgain = std::chrono::milliseconds(200);
 
+// What a conflict makes a job wait for.
+[[nodiscard]] Wait wait_for(const Conflict& conflict);
+
 // The pure heart: queue, backlog, reservations, order per arm, stops. A deterministic state machine
 // without threads, clock, sockets or geometry. Admission and reservation are one step: a job that
 // is judged free holds its reservation before step() returns, and no other judgement is open.
@@ -51,6 +54,11 @@ class Scheduler {
   // Where every joint will stand when all accepted jobs have succeeded: a new job has to begin
   // there.
   [[nodiscard]] Configuration predicted_rest() const;
+
+  // What would be asked if this motion were to start at `start_at`; changes nothing.
+  [[nodiscard]] Question hypothetical(TrajectoryPtr trajectory, TimePoint start_at) const;
+  // What keeps a job with this motion from being judged now: its arms' queues and stops, capacity.
+  [[nodiscard]] std::vector<Wait> waits_before(const Trajectory& trajectory) const;
 
   [[nodiscard]] const Policy& policy() const { return *policy_; }
   [[nodiscard]] const Job* find(JobId job) const;   // null: unknown or forgotten
@@ -115,6 +123,7 @@ class Scheduler {
   [[nodiscard]] std::vector<JobId> held_together() const;
   [[nodiscard]] std::optional<JobId> next_candidate() const;
   void ask(std::vector<JobId> jobs, bool recheck);
+  void add_others(Question& question, const std::vector<JobId>& candidates) const;
   void admit(Record& record, TimePoint start_at);
   void refuse(Record& record, const Verdict& verdict, bool recheck);
   [[nodiscard]] std::vector<const Job*> occupying() const;  // scheduled, in motion, held

@@ -33,9 +33,8 @@ Problem no_such(const char* what, const std::string& name) {
 void shorten(std::vector<JobView>& jobs) {
   std::size_t ended = 0;
   for (const JobView& job : jobs) ended += is_terminal(job.state) ? 1U : 0U;
-  std::erase_if(jobs, [&](const JobView& job) {
-    return is_terminal(job.state) && ended-- > kSnapshotEnded;
-  });
+  std::erase_if(
+      jobs, [&](const JobView& job) { return is_terminal(job.state) && ended-- > kSnapshotEnded; });
 }
 
 void write_jobs(JsonWriter& out, const std::vector<JobView>& jobs,
@@ -73,14 +72,16 @@ void Api::add_routes(Router& router) {
   const std::string v1 = "/api/v1";
   router.add("POST", v1 + "/jobs",
              [this](const Request& r, const Arguments&, Respond respond) { post_job(r, respond); });
-  router.add("GET", v1 + "/jobs",
-             [this](const Request& r, const Arguments&, Respond respond) { list_jobs(r, respond); });
+  router.add("GET", v1 + "/jobs", [this](const Request& r, const Arguments&, Respond respond) {
+    list_jobs(r, respond);
+  });
   router.add("GET", v1 + "/jobs/{}", [this](const Request&, const Arguments& a, Respond respond) {
     get_job(a.front(), respond);
   });
-  router.add("DELETE", v1 + "/jobs/{}", [this](const Request&, const Arguments& a, Respond respond) {
-    cancel_job(a.front(), respond);
-  });
+  router.add("DELETE", v1 + "/jobs/{}",
+             [this](const Request&, const Arguments& a, Respond respond) {
+               cancel_job(a.front(), respond);
+             });
   router.add("GET", v1 + "/queue",
              [this](const Request&, const Arguments&, Respond respond) { get_queue(respond); });
   router.add("GET", v1 + "/arms",
@@ -94,7 +95,7 @@ void Api::add_routes(Router& router) {
   router.add("GET", v1 + "/scene", [this](const Request&, const Arguments&, Respond respond) {
     JsonWriter out;
     out.begin_object().key("objects");
-    write_objects(out, *parts_.cell);
+    write_objects(out, parts_.cell->objects);
     out.end_object();
     respond(json_response(200, out.take()));
   });
@@ -118,7 +119,8 @@ void Api::post_job(const Request& request, Respond respond) {
   }
   auto job = read_job_text(request.body);
   if (!job) return respond(problem_response(job.error()));
-  const auto body = std::make_shared<const std::string>(parts_.recording != nullptr ? request.body : "");
+  const auto body =
+      std::make_shared<const std::string>(parts_.recording != nullptr ? request.body : "");
   ask([job = std::make_shared<JobRequest>(std::move(*job))](
           Executive& executive) { return executive.submit(std::move(*job)); },
       [this, respond, body](const Result<JobView>& accepted) {
@@ -147,8 +149,7 @@ void Api::list_jobs(const Request& request, Respond respond) {
 void Api::get_job(const std::string& key, Respond respond) {
   ask([key](Executive& executive) { return executive.job(key); },
       [this, respond, key](const std::optional<JobView>& job) {
-        respond(job ? json_response(200, job_text(*job))
-                    : problem_response({no_such("job", key)}));
+        respond(job ? json_response(200, job_text(*job)) : problem_response({no_such("job", key)}));
       });
 }
 
@@ -193,8 +194,9 @@ void Api::list_arms(Respond respond) {
 void Api::get_arm(const std::string& name, Respond respond) {
   ask([](Executive& executive) { return executive.snapshot().arms; },
       [respond, name](const std::vector<ArmView>& arms) {
-        const auto arm = std::find_if(arms.begin(), arms.end(),
-                                      [&](const ArmView& candidate) { return candidate.name == name; });
+        const auto arm = std::find_if(arms.begin(), arms.end(), [&](const ArmView& candidate) {
+          return candidate.name == name;
+        });
         if (arm == arms.end()) return respond(problem_response({no_such("arm", name)}));
         JsonWriter out;
         write(out, *arm);

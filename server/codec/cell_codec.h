@@ -11,9 +11,9 @@
 
 namespace armloom {
 
-// A cell file (JSON, // and /* */ comments allowed) as plain data. Strict: unknown keys, wrong types
-// and numbers out of range are problems, places are JSON pointers into the file, all are returned.
-// Relative paths are resolved against `folder`. Robots' files are not opened.
+// A cell file (JSON, // and /* */ comments allowed) as plain data. Strict: unknown keys, wrong
+// types and numbers out of range are problems, places are JSON pointers into the file, all are
+// returned. Relative paths are resolved against `folder`. Robots' files are not opened.
 [[nodiscard]] Result<CellDescription> read_cell_text(std::string_view text,
                                                      const std::filesystem::path& folder);
 
@@ -26,7 +26,7 @@ namespace armloom {
 // The answer to GET /cell, with URDF and SRDF texts. `policy` and `speed` are those in force.
 [[nodiscard]] std::string cell_json(const Cell& cell, std::string_view policy, double speed);
 
-// {"objects": [...]}: the scene at start.
-void write_objects(JsonWriter& out, const Cell& cell);
+// An array of objects of the planning scene.
+void write_objects(JsonWriter& out, const std::vector<CollisionObject>& objects);
 
 }  // namespace armloom

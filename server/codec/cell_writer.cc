@@ -108,9 +108,9 @@ void write_settings(JsonWriter& out, const Cell& cell) {
 
 }  // namespace
 
-void write_objects(JsonWriter& out, const Cell& cell) {
+void write_objects(JsonWriter& out, const std::vector<CollisionObject>& objects) {
   out.begin_array();
-  for (const CollisionObject& object : cell.objects) {
+  for (const CollisionObject& object : objects) {
     out.begin_object().field("name", object.name);
     std::visit(ShapeWriter{out}, object.shape);
     write_pose(out, object.X_WO);
@@ -125,7 +125,7 @@ std::string cell_json(const Cell& cell, std::string_view policy, double speed) {
   out.key("robots").begin_array();
   for (const Robot& robot : cell.robots) write_robot(out, cell, robot);
   out.end_array().key("objects");
-  write_objects(out, cell);
+  write_objects(out, cell.objects);
   out.key("joints").begin_array();
   for (const Joint& joint : cell.joints) write_joint(out, cell, joint);
   out.end_array();

@@ -45,6 +45,7 @@ void write_wait(JsonWriter& out, const WaitView& wait) {
 const char* type_of(const JobView&) { return "job"; }
 const char* type_of(const ArmView&) { return "arm"; }
 const char* type_of(const QueueView&) { return "queue"; }
+const char* type_of(const SceneView&) { return "scene"; }
 const char* type_of(const MonitorEvent&) { return "monitor"; }
 const char* type_of(const Alert&) { return "alert"; }
 
@@ -52,6 +53,12 @@ void write(JsonWriter& out, const QueueView& queue) {
   out.begin_object().field("stopped", queue.stopped).field("queued", queue.queued);
   out.field("backlog", queue.backlog).field("scheduled", queue.scheduled);
   out.field("running", queue.running).end_object();
+}
+
+void write(JsonWriter& out, const SceneView& scene) {
+  out.begin_object().field("version", static_cast<std::int64_t>(scene.version)).key("objects");
+  write_objects(out, scene.objects);
+  out.end_object();
 }
 
 void write(JsonWriter& out, const MonitorEvent& event) {
@@ -149,7 +156,7 @@ std::string snapshot_json(const Snapshot& snapshot, const Cell& cell, const std:
   out.end_array().key("queue");
   write(out, snapshot.queue);
   out.key("objects");
-  write_objects(out, cell);
+  write_objects(out, snapshot.scene.objects);
   if (gap) out.field("gap", true);
   out.end_object().end_object();
   return out.take();

@@ -14,7 +14,7 @@ namespace {
 // Nothing runs here: the executive is only built, to learn what it would refuse.
 class NoJudges final : public JudgePool {
  public:
-  void ask(Question, std::function<void(Verdict)>) override {}
+  void ask(Question, PlanningScenePtr, std::function<void(Verdict)>) override {}
 };
 class NoObserver final : public Observer {
  public:
@@ -52,8 +52,8 @@ void print_joint(const Joint& joint) {
 
 void print_arm(const Cell& cell, const Arm& arm) {
   std::cout << "  arm " << arm.name << " (group " << arm.group << "), " << arm.joints.size()
-            << " joints, " << arm.links.size() << " links, shapes: "
-            << counted_shapes(cell, arm.links) << '\n';
+            << " joints, " << arm.links.size()
+            << " links, shapes: " << counted_shapes(cell, arm.links) << '\n';
   std::cout << "    home " << listed(arm.home) << '\n';
   std::cout << "    " << std::left << std::setw(30) << "joint" << std::right << std::setw(10)
             << "lower" << std::setw(10) << "upper" << std::setw(10) << "velocity" << std::setw(10)
@@ -96,8 +96,8 @@ void print_cell(const Cell& cell) {
   static constexpr const char* kNames[] = {"box", "cylinder", "sphere", "mesh"};
   for (const CollisionObject& object : cell.objects) {
     const Eigen::Vector3d& p = object.X_WO.translation();
-    std::cout << "object " << object.name << ": " << kNames[object.shape.index()] << " at "
-              << p.x() << ", " << p.y() << ", " << p.z() << '\n';
+    std::cout << "object " << object.name << ": " << kNames[object.shape.index()] << " at " << p.x()
+              << ", " << p.y() << ", " << p.z() << '\n';
   }
   print_settings(cell);
 }
@@ -116,7 +116,8 @@ int validate_cell(const std::string& cell_file) {
     complain(cell_file, executive.error());
     return kExitBadInput;
   }
-  const auto report = audit(cell, {RecordedState{TimePoint{}, cell.home()}}, std::chrono::milliseconds(1));
+  const auto report =
+      audit(cell, {RecordedState{TimePoint{}, cell.home()}}, std::chrono::milliseconds(1));
   if (!report) {
     complain(cell_file, report.error());
     return kExitBadInput;

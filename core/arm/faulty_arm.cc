@@ -1,0 +1,94 @@
+#include "core/arm/faulty_arm.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace armloom {
+
+using Phase = ArmFeedback::Phase;
+
+FaultyArm::FaultyArm(std::unique_ptr<ArmController> inner) : inner_(std::move(inner)) {
+  feedback_ = inner_->tick(now_);
+}
+
+void FaultyArm::inject(std::uint64_t id, ArmFault fault) { faults_.insert_or_assign(id, fault); }
+
+bool FaultyArm::remove(std::uint64_t id) { return faults_.erase(id) > 0; }
+
+const ArmFault* FaultyArm::active(ArmFault::Kind kind) const {
+  for (const auto& [id, fault] : faults_) {
+    const bool begun = fault.from <= now_;
+    const bool over = fault.until && *fault.until <= now_;
+    if (fault.kind == kind && begun && !over) return &fault;
+  }
+  return nullptr;
+}
+
+void FaultyArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration from_progress,
+                      Duration authority) {
+  if (const ArmFault* late = active(ArmFault::Kind::late_start)) {
+    start_at += from_seconds(late->value);
+  }
+  granted_ = allowed_ = authority;
+  creep_s_.reset();
+  inner_->start(std::move(trajectory), start_at, from_progress, authority);
+  under_way_ = true;
+}
+
+void FaultyArm::grant(Duration authority) {
+  granted_ = authority;
+  // What is withheld stays withheld; the next tick decides.
+  if (allowed_ > granted_ || (!active(ArmFault::Kind::stall) && !active(ArmFault::Kind::slow))) {
+    allowed_ = granted_;
+    inner_->grant(allowed_);
+  }
+}
+
+void FaultyArm::brake() { inner_->brake(); }
+
+void FaultyArm::release() {
+  inner_->release();
+  under_way_ = false;
+  giving_up_ = false;
+}
+
+const ArmFeedback& FaultyArm::tick(TimePoint now) {
+  const Duration period = now - std::exchange(now_, now);
+  if (faults_.empty()) return inner_->tick(now);
+  if (under_way_) {
+    if (active(ArmFault::Kind::fault)) give_up();
+    withhold(period);
+  }
+  feedback_ = inner_->tick(now);
+  if (giving_up_ && feedback_.phase == Phase::stopped) {
+    feedback_.phase = Phase::fault;
+    feedback_.detail = "the simulated controller gave up";
+  }
+  return feedback_;
+}
+
+void FaultyArm::give_up() {
+  giving_up_ = true;
+  inner_->brake();
+  std::erase_if(faults_, [this](const auto& entry) {
+    return entry.second.kind == ArmFault::Kind::fault && entry.second.from <= now_;
+  });
+}
+
+void FaultyArm::withhold(Duration period) {
+  const Duration at = feedback_.commanded_progress;
+  Duration allowed = granted_;
+  if (active(ArmFault::Kind::stall)) allowed = std::min(allowed, at);
+  if (const ArmFault* slow = active(ArmFault::Kind::slow)) {
+    if (!creep_s_) creep_s_ = to_seconds(at);
+    *creep_s_ += to_seconds(period) * std::clamp(slow->value, 0.0, 1.0);
+    allowed = std::min(allowed, from_seconds(*creep_s_));
+  } else {
+    creep_s_.reset();
+  }
+  if (allowed == allowed_) return;
+  allowed_ = allowed;
+  inner_->grant(allowed_);
+}
+
+}  // namespace armloom

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/collision/collision_checker.h"
+#include "core/executive/executive.h"
+#include "core/executive/motions.h"
+#include "core/executive/views.h"
+#include "core/monitor/monitor.h"
+#include "core/scheduler/scheduler.h"
+
+namespace armloom {
+
+class Executive::Impl final : public JobNames {
+ public:
+  Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
+       std::unique_ptr<const Policy> policy, std::vector<std::unique_ptr<FaultyArm>> arms,
+       JudgePool& judges, Observer& observer);
+
+  // submission.cc
+  Result<JobView> submit(JobRequest request);
+  Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests, bool atomic);
+  void check(JobRequest request, std::function<void(Result<CheckView>)> done);
+  Result<JobView> cancel(const std::string& key);
+
+  // surroundings.cc
+  Result<void> change_objects(std::vector<CollisionObject> objects);
+  Result<void> add_object(CollisionObject object);
+  Result<void> replace_object(CollisionObject object);
+  Result<void> remove_object(const std::string& name);
+  Result<std::uint64_t> inject(const FaultRequest& fault);
+  Result<void> remove_fault(std::uint64_t id);
+
+  // executive.cc
+  void step(const Input& input);
+  void tick(TimePoint now);
+
+  // telling.cc
+  std::optional<JobView> job(const std::string& key) const;
+  Snapshot snapshot() const;
+
+  std::string key(JobId job) const override { return labels_.at(job).key; }
+  std::string name(JobId job) const override { return labels_.at(job).name; }
+
+  std::vector<ArmId> all_arms() const;
+
+  CellPtr cell_;
+  ExecutiveOptions options_;
+  Scheduler scheduler_;
+  PlanningScenePtr scene_;
+  std::uint64_t scene_version_ = 1;
+  RunFigures figures_;
+  TimePoint now_{};
+
+ private:
+  struct Label {
+    std::string key;
+    std::string name;
+  };
+
+  // What a request has become once everything about it has been checked.
+  struct Prepared {
+    std::string key;  // empty: one is to be given
+    std::string name;
+    TrajectoryPtr trajectory;
+    int priority;
+    Duration backlog_timeout;
+    std::vector<std::string> after;
+  };
+  // Where joints will stand, and which keys are taken, when the jobs before it are accepted.
+  struct Ahead {
+    Configuration rest;
+    std::vector<std::string> keys;
+  };
+  Result<Prepared> prepare(JobRequest request, Ahead& ahead) const;
+  void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
+  void find_start_elsewhere(const Trajectory& trajectory, const Configuration& rest,
+                            Problems& problems) const;
+  JobView accept(Prepared prepared);
+  std::string free_key(JobId id) const;
+
+  void carry_out(const Effect& effect);
+  void watch();
+  void tell_job(JobId job);
+  void tell_arms();
+  void tell_queue();
+  void tell(std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, Alert> body);
+  void count(const JobView& ended);
+  ArmState state_of(ArmId arm) const;
+  ArmView view_of_arm(ArmId arm) const;
+  QueueView queue() const;
+
+  JudgePool& judges_;
+  Observer& observer_;
+  std::vector<FaultyArm*> faulty_;  // ArmId; owned by motions_
+  Motions motions_;
+  Monitor monitor_;
+  CollisionChecker checker_;
+  Duration monitor_period_;
+  TimePoint monitor_due_{};
+  Configuration watched_;  // the configuration that the monitor looked at last
+  std::vector<Proximity> clearance_;
+  std::optional<TimePoint> wake_at_;
+
+  std::unordered_map<std::string, JobId> ids_;
+  std::unordered_map<JobId, Label> labels_;
+  std::deque<JobId> ended_;  // oldest first
+  std::uint64_t next_job_ = 1;
+  std::uint64_t next_fault_ = 1;
+  std::uint64_t seq_ = 0;
+  std::vector<ArmState> told_arms_;
+  std::vector<std::string> told_arm_jobs_;
+  QueueView told_queue_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,196 @@
+// What clients ask for: jobs, batches, checks, cancels.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "core/executive/executive_impl.h"
+
+namespace armloom {
+namespace {
+
+Problems prefixed(const std::string& prefix, Problems problems) {
+  for (Problem& problem : problems) problem.pointer.insert(0, prefix);
+  return problems;
+}
+
+Problem key_in_use(const std::string& key) {
+  return Problem{ProblemKind::conflict, "id-in-use", "/id",
+                 "id \"" + key + "\" is in use by another job", key};
+}
+
+}  // namespace
+
+Result<JobView> Executive::Impl::submit(JobRequest request) {
+  Ahead ahead{scheduler_.predicted_rest(), {}};
+  auto prepared = prepare(std::move(request), ahead);
+  if (!prepared) return failure(std::move(prepared.error()));
+  return accept(std::move(*prepared));
+}
+
+Result<std::vector<Result<JobView>>> Executive::Impl::submit_batch(std::vector<JobRequest> requests,
+                                                                   bool atomic) {
+  std::vector<Result<JobView>> answers;
+  if (!atomic) {
+    for (JobRequest& request : requests) answers.push_back(submit(std::move(request)));
+    return answers;
+  }
+  Ahead ahead{scheduler_.predicted_rest(), {}};
+  std::vector<Prepared> all;
+  Problems problems;
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    auto prepared = prepare(std::move(requests[i]), ahead);
+    if (prepared) {
+      all.push_back(std::move(*prepared));
+    } else {
+      for (Problem& p : prefixed("/jobs/" + std::to_string(i), std::move(prepared.error()))) {
+        problems.push_back(std::move(p));
+      }
+    }
+  }
+  if (!problems.empty()) return failure(std::move(problems));
+  for (Prepared& prepared : all) answers.push_back(accept(std::move(prepared)));
+  return answers;
+}
+
+// Everything that can be said against a request, before anything is stored. `ahead` then holds what
+// the next request of a batch finds.
+Result<Executive::Impl::Prepared> Executive::Impl::prepare(JobRequest request, Ahead& ahead) const {
+  if (scheduler_.active().size() + ahead.keys.size() >= options_.waiting_max) {
+    return failure(Problem{
+        ProblemKind::unavailable, "queue-full", "",
+        "the queue is full: " + std::to_string(options_.waiting_max) + " jobs have not ended"});
+  }
+  Problems problems;
+  const bool taken =
+      ids_.contains(request.key) || std::ranges::find(ahead.keys, request.key) != ahead.keys.end();
+  if (!request.key.empty() && taken) problems.push_back(key_in_use(request.key));
+  find_bad_after(request, ahead, problems);
+  auto trajectory = validate(request.trajectory, *cell_);
+  if (!trajectory) {
+    for (Problem& p : prefixed("/trajectory", std::move(trajectory.error()))) {
+      problems.push_back(std::move(p));
+    }
+  } else {
+    find_start_elsewhere(**trajectory, ahead.rest, problems);
+  }
+  if (!problems.empty()) return failure(std::move(problems));
+
+  const Trajectory& motion = **trajectory;
+  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
+    ahead.rest[static_cast<Eigen::Index>(motion.joints()[j].index())] =
+        motion.goal()[static_cast<Eigen::Index>(j)];
+  }
+  ahead.keys.push_back(request.key);
+  return Prepared{std::move(request.key),
+                  std::move(request.name),
+                  std::move(*trajectory),
+                  request.priority,
+                  request.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
+                  std::move(request.after)};
+}
+
+// A job can only come after one that is known before it: so there are no rings.
+void Executive::Impl::find_bad_after(const JobRequest& request, const Ahead& ahead,
+                                     Problems& problems) const {
+  for (std::size_t i = 0; i < request.after.size(); ++i) {
+    const std::string& key = request.after[i];
+    const std::string pointer = "/after/" + std::to_string(i);
+    if (!key.empty() && std::ranges::find(ahead.keys, key) != ahead.keys.end()) continue;
+    if (key == request.key) {
+      problems.push_back({ProblemKind::invalid, "after-itself", pointer,
+                          "job \"" + key + "\" cannot come after itself", key});
+    } else if (const auto it = ids_.find(key); it == ids_.end()) {
+      problems.push_back({ProblemKind::invalid, "unknown-job", pointer,
+                          "no job before this one has the id \"" + key + "\"", key});
+    } else if (const Job& job = *scheduler_.find(it->second);
+               is_terminal(job.state) && job.state != JobState::succeeded) {
+      problems.push_back({ProblemKind::invalid, "predecessor-failed", pointer,
+                          "job \"" + key + "\" has ended without success: " + to_string(job.state),
+                          key});
+    }
+  }
+}
+
+void Executive::Impl::find_start_elsewhere(const Trajectory& trajectory, const Configuration& rest,
+                                           Problems& problems) const {
+  for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
+    const Joint& joint = cell_->joint(trajectory.joints()[j]);
+    const double begins = trajectory.start()[static_cast<Eigen::Index>(j)];
+    const double stands = rest[static_cast<Eigen::Index>(trajectory.joints()[j].index())];
+    if (std::abs(begins - stands) <= cell_->execution.start_tolerance_rad) continue;
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "waypoint 0, %s: begins at %.6g, but will stand at %.6g when the jobs accepted "
+                  "for the arm have run",
+                  joint.name.c_str(), begins, stands);
+    problems.push_back({ProblemKind::invalid, "start-mismatch",
+                        "/trajectory/points/0/positions/" + std::to_string(j), text, begins});
+  }
+}
+
+JobView Executive::Impl::accept(Prepared prepared) {
+  const JobId id{next_job_++};
+  const std::string key = prepared.key.empty() ? free_key(id) : std::move(prepared.key);
+  std::vector<JobId> after;
+  for (const std::string& before : prepared.after) {
+    const JobId job = ids_.at(before);
+    if (!is_terminal(scheduler_.find(job)->state)) after.push_back(job);
+  }
+  ids_.emplace(key, id);
+  labels_.emplace(id, Label{key, std::move(prepared.name)});
+  step(Submit{.job = id,
+              .trajectory = std::move(prepared.trajectory),
+              .priority = prepared.priority,
+              .backlog_timeout = prepared.backlog_timeout,
+              .after = std::move(after)});
+  return view_of(*scheduler_.find(id), *cell_, *this);
+}
+
+// "job-17"; where a client has taken that name, "job-17.2", ...
+std::string Executive::Impl::free_key(JobId id) const {
+  const std::string base = "job-" + std::to_string(id.value());
+  std::string key = base;
+  for (int n = 2; ids_.contains(key); ++n) key = base + "." + std::to_string(n);
+  return key;
+}
+
+void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
+  Ahead ahead{scheduler_.predicted_rest(), {}};
+  auto prepared = prepare(std::move(request), ahead);
+  if (!prepared) return done(failure(std::move(prepared.error())));
+  CheckView view{.kind = Verdict::Kind::conflict, .scene_version = scene_version_};
+  for (const Wait& wait : scheduler_.waits_before(*prepared->trajectory)) {
+    view.conflicts.push_back(view_of(wait, *cell_, *this));
+  }
+  if (!view.conflicts.empty()) return done(std::move(view));
+  judges_.ask(scheduler_.hypothetical(std::move(prepared->trajectory), now_), scene_,
+              [this, view, done = std::move(done)](const Verdict& verdict) mutable {
+                view.kind = verdict.kind;
+                if (verdict.kind == Verdict::Kind::free) view.earliest_start_s = 0.0;
+                view.clearance_bound_m = verdict.clearance_bound_m;
+                view.evaluations = verdict.evaluations;
+                for (const Conflict& conflict : verdict.conflicts) {
+                  view.conflicts.push_back(view_of(wait_for(conflict), *cell_, *this));
+                }
+                done(std::move(view));
+              });
+}
+
+Result<JobView> Executive::Impl::cancel(const std::string& key) {
+  const auto it = ids_.find(key);
+  if (it == ids_.end()) {
+    return failure(Problem{ProblemKind::not_found, "unknown-job", "",
+                           "no job has the id \"" + key + "\"", key});
+  }
+  const JobId id = it->second;
+  const JobState state = scheduler_.find(id)->state;
+  if (is_terminal(state)) {
+    return failure(Problem{ProblemKind::conflict, "job-has-ended", "",
+                           "job \"" + key + "\" has ended: " + to_string(state), key});
+  }
+  step(Cancel{id});
+  return view_of(*scheduler_.find(id), *cell_, *this);
+}
+
+}  // namespace armloom

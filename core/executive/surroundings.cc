@@ -1,0 +1,89 @@
+// What can change around the jobs: objects of the scene, faults of the simulated arms.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "core/executive/executive_impl.h"
+
+namespace armloom {
+namespace {
+
+auto named(const std::string& name) {
+  return [&name](const CollisionObject& object) { return object.name == name; };
+}
+
+Problem no_object(const std::string& name) {
+  return Problem{ProblemKind::not_found, "unknown-object", "",
+                 "no object is named \"" + name + "\"", name};
+}
+
+}  // namespace
+
+Result<void> Executive::Impl::add_object(CollisionObject object) {
+  std::vector<CollisionObject> objects = scene_->objects();
+  if (std::ranges::any_of(objects, named(object.name))) {
+    return failure(Problem{ProblemKind::conflict, "name-taken", "/name",
+                           "an object is named \"" + object.name + "\" already", object.name});
+  }
+  objects.push_back(std::move(object));
+  return change_objects(std::move(objects));
+}
+
+Result<void> Executive::Impl::replace_object(CollisionObject object) {
+  std::vector<CollisionObject> objects = scene_->objects();
+  const auto old = std::ranges::find_if(objects, named(object.name));
+  if (old == objects.end()) return failure(no_object(object.name));
+  *old = std::move(object);
+  return change_objects(std::move(objects));
+}
+
+Result<void> Executive::Impl::remove_object(const std::string& name) {
+  std::vector<CollisionObject> objects = scene_->objects();
+  if (std::erase_if(objects, named(name)) == 0) return failure(no_object(name));
+  return change_objects(std::move(objects));
+}
+
+// An object may not be set where an arm stands: that is a mistake, or an accident that the monitor
+// would answer with a stop.
+Result<void> Executive::Impl::change_objects(std::vector<CollisionObject> objects) {
+  auto scene = scene_->with_objects(std::move(objects));
+  if (!scene) return failure(std::move(scene.error()));
+  CollisionChecker checker(*scene);
+  const double limit_m = cell_->monitor.stop_clearance_m;
+  for (const Proximity& pair : checker.all_closer_than(motions_.measured(), limit_m)) {
+    if (!pair.object_b) continue;
+    char text[256];
+    std::snprintf(text, sizeof text, "%s would be %.4f m from %s as it stands now, limit %.4f m",
+                  pair.body_b.c_str(), pair.clearance_m, pair.body_a.c_str(), limit_m);
+    return failure(Problem{ProblemKind::conflict, "object-in-arm", "", text, pair.clearance_m});
+  }
+  scene_ = std::move(*scene);
+  checker_ = std::move(checker);
+  watched_.resize(0);  // the monitor looks again, though no arm has moved
+  ++scene_version_;
+  tell(SceneView{scene_version_, scene_->objects()});
+  step(SceneChanged{});
+  return {};
+}
+
+Result<std::uint64_t> Executive::Impl::inject(const FaultRequest& request) {
+  const auto arm = cell_->find_arm(request.arm);
+  if (!arm) {
+    return failure(Problem{ProblemKind::invalid, "unknown-arm", "/arm",
+                           "no arm is named \"" + request.arm + "\"", request.arm});
+  }
+  ArmFault fault{
+      .kind = request.kind, .from = request.at.value_or(now_), .until = {}, .value = request.value};
+  if (request.lasting) fault.until = fault.from + *request.lasting;
+  faulty_[arm->index()]->inject(next_fault_, fault);
+  return next_fault_++;
+}
+
+Result<void> Executive::Impl::remove_fault(std::uint64_t id) {
+  if (std::ranges::any_of(faulty_, [id](FaultyArm* arm) { return arm->remove(id); })) return {};
+  return failure(Problem{ProblemKind::not_found, "unknown-fault", "",
+                         "there is no fault " + std::to_string(id), static_cast<double>(id)});
+}
+
+}  // namespace armloom

@@ -1,0 +1,127 @@
+// What clients are told, and what they see when they ask.
+#include <algorithm>
+#include <utility>
+
+#include "core/executive/executive_impl.h"
+
+namespace armloom {
+
+void Executive::Impl::tell(
+    std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, Alert> body) {
+  observer_.on_event(Event{++seq_, now_, std::move(body)});
+}
+
+void Executive::Impl::tell_job(JobId job) {
+  JobView view = view_of(*scheduler_.find(job), *cell_, *this);
+  if (is_terminal(view.state)) count(view);
+  tell(std::move(view));
+}
+
+void Executive::Impl::count(const JobView& ended) {
+  figures_.last_end = std::max(figures_.last_end, *ended.ended_at);
+  ended_.push_back(ended.id);
+  while (ended_.size() > options_.ended_kept) {
+    const JobId oldest = ended_.front();
+    ended_.pop_front();
+    ids_.erase(labels_.at(oldest).key);
+    labels_.erase(oldest);
+    scheduler_.forget(oldest);
+  }
+}
+
+void Executive::Impl::tell_arms() {
+  for (ArmId arm : all_arms()) {
+    const ArmState state = state_of(arm);
+    const auto occupant = scheduler_.occupant(arm);
+    const std::string job = occupant ? key(*occupant) : std::string();
+    if (state == told_arms_[arm.index()] && job == told_arm_jobs_[arm.index()]) continue;
+    told_arms_[arm.index()] = state;
+    told_arm_jobs_[arm.index()] = job;
+    tell(view_of_arm(arm));
+  }
+}
+
+void Executive::Impl::tell_queue() {
+  QueueView now = queue();
+  if (now == told_queue_) return;
+  told_queue_ = now;
+  tell(std::move(now));
+}
+
+QueueView Executive::Impl::queue() const {
+  QueueView view{.policy = std::string(scheduler_.policy().name())};
+  view.stopped = std::ranges::all_of(all_arms(), [&](ArmId a) { return scheduler_.stopped(a); });
+  for (JobId id : scheduler_.active()) {
+    switch (scheduler_.find(id)->state) {
+      case JobState::queued:
+        view.queued.push_back(key(id));
+        break;
+      case JobState::backlogged:
+        view.backlog.push_back(key(id));
+        break;
+      case JobState::scheduled:
+        view.scheduled.push_back(key(id));
+        break;
+      default:
+        view.running.push_back(key(id));
+        break;
+    }
+  }
+  return view;
+}
+
+ArmState Executive::Impl::state_of(ArmId arm) const {
+  using Phase = ArmFeedback::Phase;
+  const Phase phase = motions_.feedback(arm).phase;
+  if (phase == Phase::fault) return ArmState::fault;
+  if (motions_.moving(arm)) return ArmState::moving;
+  if (phase == Phase::stopped && scheduler_.occupant(arm)) return ArmState::holding;
+  return scheduler_.stopped(arm) ? ArmState::stopped : ArmState::idle;
+}
+
+ArmView Executive::Impl::view_of_arm(ArmId id) const {
+  const Arm& arm = cell_->arm(id);
+  ArmView view{.name = arm.name,
+               .robot = cell_->robots[arm.robot.index()].name,
+               .state = state_of(id),
+               .home = {arm.home.begin(), arm.home.end()},
+               .deviation_rad = motions_.deviation(id)};
+  if (const auto job = scheduler_.occupant(id)) {
+    view.job = key(*job);
+    const Job& j = *scheduler_.find(*job);
+    view.progress = to_seconds(j.progress) / to_seconds(j.trajectory->duration());
+  }
+  for (JointId joint : arm.joints) {
+    view.joints.push_back(cell_->joint(joint).name);
+    view.q.push_back(motions_.measured()[static_cast<Eigen::Index>(joint.index())]);
+  }
+  return view;
+}
+
+std::vector<ArmId> Executive::Impl::all_arms() const {
+  std::vector<ArmId> arms;
+  for (std::size_t a = 0; a < cell_->arms.size(); ++a) {
+    arms.emplace_back(static_cast<std::uint32_t>(a));
+  }
+  return arms;
+}
+
+std::optional<JobView> Executive::Impl::job(const std::string& key) const {
+  const auto it = ids_.find(key);
+  if (it == ids_.end()) return std::nullopt;
+  return view_of(*scheduler_.find(it->second), *cell_, *this);
+}
+
+Snapshot Executive::Impl::snapshot() const {
+  Snapshot snapshot{.seq = seq_, .time = now_, .queue = queue()};
+  snapshot.scene = SceneView{scene_version_, scene_->objects()};
+  for (ArmId arm : all_arms()) snapshot.arms.push_back(view_of_arm(arm));
+  for (JobId id : ended_) snapshot.jobs.push_back(view_of(*scheduler_.find(id), *cell_, *this));
+  for (JobId id : scheduler_.active()) {
+    snapshot.jobs.push_back(view_of(*scheduler_.find(id), *cell_, *this));
+  }
+  std::ranges::sort(snapshot.jobs, {}, &JobView::id);
+  return snapshot;
+}
+
+}  // namespace armloom
