@@ -28,7 +28,8 @@ int run(int argc, char** argv) {
   serve_command->add_option("--policy", serving.policy, "instead of the cell's");
 
   std::string validated_file;
-  CLI::App* validate_command = app.add_subcommand("validate", "say what a cell holds, or its faults");
+  CLI::App* validate_command =
+      app.add_subcommand("validate", "say what a cell holds, or its faults");
   add_cell(*validate_command, validated_file);
 
   SimulateOptions simulating;
@@ -36,13 +37,15 @@ int run(int argc, char** argv) {
   add_cell(*simulate_command, simulating.cell_file);
   simulate_command->add_option("--jobs", simulating.jobs_file, "jobs file (JSON)")->required();
   simulate_command->add_option("--policy", simulating.policy, "instead of the cell's");
-  simulate_command->add_option("--seed", simulating.seed, "of the arms' noise")->capture_default_str();
+  simulate_command->add_option("--seed", simulating.seed, "of the arms' noise")
+      ->capture_default_str();
   simulate_command->add_option("--out", simulating.out, "folder for the recording");
 
   AuditOptions auditing;
   CLI::App* audit_command = app.add_subcommand("audit", "re-check a recording for contacts");
   add_cell(*audit_command, auditing.cell_file);
-  audit_command->add_option("--recording", auditing.recording, "folder with states.csv")->required();
+  audit_command->add_option("--recording", auditing.recording, "folder with states.csv")
+      ->required();
   audit_command->add_option("--step", auditing.step_s, "largest step between states, in seconds")
       ->check(CLI::Range(1e-6, 10.0))
       ->capture_default_str();

@@ -34,7 +34,8 @@ class Service::Impl {
         Broadcast::Parts{cell, stream, clock, hub_, recording_.get(), post});
     ExecutiveOptions executive_options;
     executive_options.policy = options_.policy;
-    auto loop = RealTimeLoop::start(cell, std::move(executive_options), options_.speed, *broadcast_);
+    auto loop =
+        RealTimeLoop::start(cell, std::move(executive_options), options_.speed, *broadcast_);
     if (!loop) return std::move(loop.error());
     loop_ = std::move(*loop);
     const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
@@ -64,9 +65,9 @@ class Service::Impl {
  private:
   Response answer_file(const Request& request) const {
     if (!request.target.path.starts_with("/api/")) return files_.answer(request);
-    return problem_response({Problem{ProblemKind::not_found, "not-found", "request target",
-                                     "nothing is served at " + request.target.path,
-                                     request.target.path}});
+    return problem_response(
+        {Problem{ProblemKind::not_found, "not-found", "request target",
+                 "nothing is served at " + request.target.path, request.target.path}});
   }
 
   // Destroyed from below: first the loop's threads end, last the sockets.

@@ -14,10 +14,10 @@ namespace armloom {
 
 struct ServiceOptions {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 8080;  // zero: any free one
-  double speed = 1.0;         // cell seconds per wall second
-  std::string policy;         // empty: the cell's
-  std::filesystem::path web;  // the dashboard's files
+  std::uint16_t port = 8080;                  // zero: any free one
+  double speed = 1.0;                         // cell seconds per wall second
+  std::string policy;                         // empty: the cell's
+  std::filesystem::path web;                  // the dashboard's files
   std::optional<std::filesystem::path> data;  // where a recording is written
   bool record_states = false;                 // states.csv as well
 };

@@ -24,7 +24,7 @@ class Api {
     WallClock clock;
     RealTimeLoop& loop;
     Hub& hub;
-    Recording* recording;  // null: none
+    Recording* recording;                             // null: none
     std::function<void(std::function<void()>)> post;  // to the server's thread, in order
   };
   explicit Api(Parts parts);

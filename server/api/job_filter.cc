@@ -7,9 +7,9 @@
 namespace armloom {
 namespace {
 
-constexpr JobState kStates[] = {JobState::queued,    JobState::backlogged, JobState::scheduled,
-                                JobState::running,   JobState::holding,    JobState::succeeded,
-                                JobState::canceled,  JobState::expired,    JobState::failed,
+constexpr JobState kStates[] = {JobState::queued,     JobState::backlogged, JobState::scheduled,
+                                JobState::running,    JobState::holding,    JobState::succeeded,
+                                JobState::canceled,   JobState::expired,    JobState::failed,
                                 JobState::interrupted};
 
 bool known_state(const std::string& name) {

@@ -14,7 +14,7 @@ namespace armloom {
 
 // The query of GET /jobs: ?state=&arm=&limit=&cursor=
 struct JobFilter {
-  inline static constexpr std::size_t kLimit = 100;      // when none is given
+  inline static constexpr std::size_t kLimit = 100;  // when none is given
   inline static constexpr std::size_t kLimitMax = 1000;
 
   std::string state;  // empty: any

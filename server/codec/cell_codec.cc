@@ -15,7 +15,9 @@ constexpr double kLengthMax_m = 1000.0;
 constexpr double kTimeMax_s = 1e6;
 
 std::string resolved(const std::string& path, const fs::path& folder) {
-  return (fs::path(path).is_absolute() ? fs::path(path) : folder / path).lexically_normal().string();
+  return (fs::path(path).is_absolute() ? fs::path(path) : folder / path)
+      .lexically_normal()
+      .string();
 }
 
 void read_path(const JsonNode& node, const fs::path& folder, std::string& out) {
@@ -26,7 +28,8 @@ void read_path(const JsonNode& node, const fs::path& folder, std::string& out) {
 }
 
 void read_name(const JsonNode& node, std::string& out) {
-  if (node.read(out) && out.empty()) node.invalid("empty-name", "a name is expected, found nothing");
+  if (node.read(out) && out.empty())
+    node.invalid("empty-name", "a name is expected, found nothing");
 }
 
 void read_seconds(const JsonNode& node, Duration& out) {
@@ -82,7 +85,8 @@ void read_controller(const JsonNode& node, ControllerDescription& controller) {
     }
   });
   node.optional("lag_s", [&](const JsonNode& n) { read_seconds(n, controller.lag); });
-  node.optional("noise_rad", [&](const JsonNode& n) { n.read_within(controller.noise_rad, 0.0, 1.0); });
+  node.optional("noise_rad",
+                [&](const JsonNode& n) { n.read_within(controller.noise_rad, 0.0, 1.0); });
 }
 
 void read_robot(const JsonNode& node, const fs::path& folder, RobotDescription& robot) {
@@ -161,8 +165,8 @@ void read_allowed(const JsonNode& node, CellDescription& cell) {
   std::vector<std::string> names;
   if (!node.read(names)) return;
   if (names.size() != 2) {
-    return node.invalid("wrong-size", "expected a pair of names, found " +
-                                          std::to_string(names.size()));
+    return node.invalid("wrong-size",
+                        "expected a pair of names, found " + std::to_string(names.size()));
   }
   cell.allowed_collisions.emplace_back(names[0], names[1]);
 }
@@ -213,8 +217,8 @@ void read_execution(const JsonNode& node, ExecutionSettings& execution) {
 }
 
 void read_cell(const JsonNode& node, const fs::path& folder, CellDescription& cell) {
-  if (!node.object({"name", "robots", "objects", "allowed_collisions", "clearance_m", "self_clearance_m", "checking",
-                    "scheduling", "monitor", "execution"})) {
+  if (!node.object({"name", "robots", "objects", "allowed_collisions", "clearance_m",
+                    "self_clearance_m", "checking", "scheduling", "monitor", "execution"})) {
     return;
   }
   node.required("name", [&](const JsonNode& n) { read_name(n, cell.name); });
@@ -230,7 +234,8 @@ void read_cell(const JsonNode& node, const fs::path& folder, CellDescription& ce
   node.optional("allowed_collisions", [&](const JsonNode& pairs) {
     pairs.each([&](const JsonNode& n) { read_allowed(n, cell); });
   });
-  node.optional("clearance_m", [&](const JsonNode& n) { n.read_within(cell.clearance_m, 0.0, 1.0); });
+  node.optional("clearance_m",
+                [&](const JsonNode& n) { n.read_within(cell.clearance_m, 0.0, 1.0); });
   node.optional("self_clearance_m",
                 [&](const JsonNode& n) { n.read_within(cell.self_clearance_m, 0.0, 1.0); });
   node.optional("checking", [&](const JsonNode& n) { read_checking(n, cell.checking); });

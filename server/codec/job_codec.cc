@@ -40,7 +40,8 @@ void read_time(const JsonNode& node, double& seconds) {
 }
 
 void read_waypoint(const JsonNode& node, WaypointRequest& point) {
-  if (!node.object({"positions", "velocities", "accelerations", "effort", "time_from_start"})) return;
+  if (!node.object({"positions", "velocities", "accelerations", "effort", "time_from_start"}))
+    return;
   node.required("positions", [&](const JsonNode& n) { n.read(point.positions); });
   node.optional("velocities", [&](const JsonNode& n) { n.read(point.velocities); });
   node.optional("accelerations", [&](const JsonNode& n) { n.read(point.accelerations); });
@@ -62,9 +63,7 @@ void read_trajectory(const JsonNode& node, TrajectoryRequest& trajectory) {
       return;
     }
     trajectory.points.reserve(n.raw().size());
-    n.each([&](const JsonNode& point) {
-      read_waypoint(point, trajectory.points.emplace_back());
-    });
+    n.each([&](const JsonNode& point) { read_waypoint(point, trajectory.points.emplace_back()); });
   });
 }
 

@@ -18,8 +18,8 @@ inline constexpr std::size_t kJobNameMax = 256;
 
 // The body of POST /jobs: its shape only; limits, names and times are validate()'s. `prefix` stands
 // in front of every pointer. All faults are returned, at most JsonNode::kFaultsMax.
-// ROS's `header` and `effort` are read over; `after`, `on_timeout` and `retime` may say what is done
-// anyway (nothing, "abort", false), anything else in them is refused.
+// ROS's `header` and `effort` are read over; `after`, `on_timeout` and `retime` may say what is
+// done anyway (nothing, "abort", false), anything else in them is refused.
 [[nodiscard]] Result<JobRequest> read_job(const nlohmann::json& body, std::string_view prefix = "");
 
 // The same from text.

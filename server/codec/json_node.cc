@@ -37,8 +37,7 @@ std::string JsonNode::pointer() const {
 
 void JsonNode::fault(ProblemKind kind, std::string slug, std::string detail) const {
   if (faults_->size() >= kFaultsMax) return;
-  faults_->push_back(
-      Problem{kind, std::move(slug), pointer(), std::move(detail), shown(*value_)});
+  faults_->push_back(Problem{kind, std::move(slug), pointer(), std::move(detail), shown(*value_)});
 }
 
 bool JsonNode::wrong_type(const char* expected) const {
@@ -51,8 +50,11 @@ void JsonNode::missing(std::string_view key) const {
   if (faults_->size() >= kFaultsMax) return;
   std::string place = pointer();
   append_key(place, key);
-  faults_->push_back(Problem{ProblemKind::invalid, "missing-field", std::move(place),
-                             "\"" + std::string(key) + "\" is missing", {}});
+  faults_->push_back(Problem{ProblemKind::invalid,
+                             "missing-field",
+                             std::move(place),
+                             "\"" + std::string(key) + "\" is missing",
+                             {}});
 }
 
 bool JsonNode::array() const { return value_->is_array() || wrong_type("an array"); }

@@ -127,12 +127,16 @@ class StrictBuilder {
     static constexpr std::size_t kShown = 40;
     if (offset >= text_.size()) return "";
     std::size_t begin = offset;
-    while (begin > 0 && offset - begin < kShown && kDelimiters.find(text_[begin - 1]) == kDelimiters.npos) --begin;
+    while (begin > 0 && offset - begin < kShown &&
+           kDelimiters.find(text_[begin - 1]) == kDelimiters.npos)
+      --begin;
     if (kDelimiters.find(text_[offset]) != kDelimiters.npos && begin < offset) {
       return std::string(text_.substr(begin, offset - begin));
     }
     std::size_t end = offset + 1;
-    while (end < text_.size() && end - begin < kShown && kDelimiters.find(text_[end]) == kDelimiters.npos) ++end;
+    while (end < text_.size() && end - begin < kShown &&
+           kDelimiters.find(text_[end]) == kDelimiters.npos)
+      ++end;
     return std::string(text_.substr(begin, end - begin));
   }
 

@@ -34,8 +34,7 @@ class JsonWriter {
   JsonWriter& value(Duration time) { return value(static_cast<double>(time.count()) / 1e9); }
   JsonWriter& value(TimePoint time) { return value(time.time_since_epoch()); }
   template <class T>
-    requires std::is_integral_v<T>
-  JsonWriter& value(T number) {
+  requires std::is_integral_v<T> JsonWriter& value(T number) {
     if constexpr (std::is_same_v<T, bool>) {
       return raw(number ? "true" : "false");
     } else {

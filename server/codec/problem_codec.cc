@@ -34,13 +34,20 @@ std::string spelled(const Problem& problem) {
 
 int status_of(ProblemKind kind) {
   switch (kind) {
-    case ProblemKind::malformed: return 400;
-    case ProblemKind::invalid: return 422;
-    case ProblemKind::not_found: return 404;
-    case ProblemKind::conflict: return 409;
-    case ProblemKind::too_large: return 413;
-    case ProblemKind::unsupported: return 415;
-    case ProblemKind::unavailable: return 503;
+    case ProblemKind::malformed:
+      return 400;
+    case ProblemKind::invalid:
+      return 422;
+    case ProblemKind::not_found:
+      return 404;
+    case ProblemKind::conflict:
+      return 409;
+    case ProblemKind::too_large:
+      return 413;
+    case ProblemKind::unsupported:
+      return 415;
+    case ProblemKind::unavailable:
+      return 503;
   }
   return 500;
 }
@@ -78,8 +85,9 @@ std::string problem_sentence(std::string_view file, const Problem& problem) {
   text += ": " + problem.detail;
   const bool has_value = !std::holds_alternative<std::monostate>(problem.value);
   const std::string value = spelled(problem);
-  const std::string bare =
-      std::holds_alternative<std::string>(problem.value) ? std::get<std::string>(problem.value) : value;
+  const std::string bare = std::holds_alternative<std::string>(problem.value)
+                               ? std::get<std::string>(problem.value)
+                               : value;
   if (has_value && !bare.empty() && problem.detail.find(bare) == std::string::npos) {
     text += " (found " + value + ")";
   }

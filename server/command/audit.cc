@@ -59,7 +59,8 @@ void print_report(const AuditReport& report) {
 int audit_recording(const AuditOptions& options) {
   const auto loaded = load_cell(options.cell_file);
   if (!loaded) return kExitBadInput;
-  const auto states = read_states(std::filesystem::path(options.recording) / "states.csv", *loaded->cell);
+  const auto states =
+      read_states(std::filesystem::path(options.recording) / "states.csv", *loaded->cell);
   if (!states) {
     complain(options.recording, states.error());
     return kExitBadInput;

@@ -12,7 +12,8 @@ namespace armloom {
 
 // Exit codes of every command.
 inline constexpr int kExitDone = 0;
-inline constexpr int kExitFound = 1;     // ran, and the answer is no: a contact, a job that did not end
+inline constexpr int kExitFound =
+    1;  // ran, and the answer is no: a contact, a job that did not end
 inline constexpr int kExitBadInput = 2;  // one sentence on stderr for each fault
 
 struct ServeOptions {

@@ -19,7 +19,8 @@ bool parse_listen(const std::string& text, std::string& address, std::uint16_t& 
   const std::size_t colon = text.rfind(':');
   if (colon == text.npos || colon == 0) return false;
   address = text.substr(0, colon);
-  if (address.front() == '[' && address.back() == ']') address = address.substr(1, address.size() - 2);
+  if (address.front() == '[' && address.back() == ']')
+    address = address.substr(1, address.size() - 2);
   const char* end = text.data() + text.size();
   const auto [stop, ec] = std::from_chars(text.data() + colon + 1, end, port);
   return ec == std::errc{} && stop == end;
@@ -72,10 +73,9 @@ int serve(const ServeOptions& options) {
     complain(options.cell_file, service.error());
     return kExitBadInput;
   }
-  spdlog::info("cell {}: {} arms, policy {}, speed {}", loaded->cell->name,
-               loaded->cell->arms.size(),
-               options.policy.empty() ? loaded->cell->scheduling.policy : options.policy,
-               options.speed);
+  spdlog::info(
+      "cell {}: {} arms, policy {}, speed {}", loaded->cell->name, loaded->cell->arms.size(),
+      options.policy.empty() ? loaded->cell->scheduling.policy : options.policy, options.speed);
   std::cout << "dashboard: " << dashboard_address(service_options.address, (*service)->port())
             << std::endl;
   (*service)->run(true);

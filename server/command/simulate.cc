@@ -1,11 +1,10 @@
-#include "core/executive/simulation.h"
-
 #include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <map>
 #include <set>
 
+#include "core/executive/simulation.h"
 #include "server/codec/job_codec.h"
 #include "server/codec/json_writer.h"
 #include "server/codec/problem_codec.h"
@@ -177,8 +176,11 @@ int simulate_jobs(const SimulateOptions& options) {
 
   complain_of_refusals(*result, options.jobs_file);
   if (recording != nullptr && !recording->good()) {
-    return refuse(options.out, {Problem{ProblemKind::unavailable, "cannot-write", "",
-                                        "the recording could not be written whole", {}}});
+    return refuse(options.out, {Problem{ProblemKind::unavailable,
+                                        "cannot-write",
+                                        "",
+                                        "the recording could not be written whole",
+                                        {}}});
   }
   Summary summary = summarise(*result, first_submit);
   summary.policy = options.policy.empty() ? cell.scheduling.policy : options.policy;

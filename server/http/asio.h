@@ -1,7 +1,9 @@
 #pragma once
 
 // The one way in which asio is included: awaitable.hpp of Boost 1.74 forgets <utility>.
+// clang-format off: first of all
 #include <utility>
+// clang-format on
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>

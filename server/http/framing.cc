@@ -10,7 +10,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool equals_ignoring_case(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
-    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
+    return std::tolower(static_cast<unsigned char>(x)) ==
+           std::tolower(static_cast<unsigned char>(y));
   });
 }
 
@@ -43,7 +44,8 @@ std::optional<std::string> framing_fault(const FramingFields& fields) {
   if (fields.hosts.empty() && fields.http_1_1) return "the Host field is missing";
   if (fields.hosts.size() > 1) return "the Host field occurs more than once";
   if (!fields.hosts.empty() && !valid_authority(fields.hosts.front())) {
-    return "Host is not a name with an optional port: \"" + std::string(fields.hosts.front()) + "\"";
+    return "Host is not a name with an optional port: \"" + std::string(fields.hosts.front()) +
+           "\"";
   }
   if (fields.content_lengths.size() > 1) return "the Content-Length field occurs more than once";
   if (!fields.content_lengths.empty()) {

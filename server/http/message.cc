@@ -92,8 +92,7 @@ Response http_problem(int status, std::string_view slug, std::string_view detail
   JsonWriter out;
   out.begin_object().field("type", "urn:armloom:problem:" + std::string(slug));
   out.field("title", title).field("status", status).field("detail", detail).end_object();
-  return Response{
-      status, "application/problem+json", out.take(), {{"Cache-Control", "no-store"}}};
+  return Response{status, "application/problem+json", out.take(), {{"Cache-Control", "no-store"}}};
 }
 
 }  // namespace armloom

@@ -53,9 +53,9 @@ void Router::dispatch(const Request& request, Respond respond) const {
     return respond(std::move(refused));
   }
   if (otherwise_) return otherwise_(request, {}, respond);
-  respond(problem_response({Problem{ProblemKind::not_found, "not-found", "request target",
-                                    "nothing is served at " + request.target.path,
-                                    request.target.path}}));
+  respond(problem_response(
+      {Problem{ProblemKind::not_found, "not-found", "request target",
+               "nothing is served at " + request.target.path, request.target.path}}));
 }
 
 }  // namespace armloom

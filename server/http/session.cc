@@ -68,8 +68,11 @@ std::optional<Response> origin_refusal(const RequestMessage& message, bool upgra
 
 Response response_to_error(ErrorCode ec) {
   if (ec == http::error::body_limit) {
-    return problem_response({Problem{ProblemKind::too_large, "body-too-large", "request body",
-                                     "a body may have at most 8 MiB", {}}});
+    return problem_response({Problem{ProblemKind::too_large,
+                                     "body-too-large",
+                                     "request body",
+                                     "a body may have at most 8 MiB",
+                                     {}}});
   }
   if (ec == http::error::header_limit) {
     return http_problem(431, "header-too-large", "the header may have at most 16 KiB");
@@ -138,7 +141,8 @@ asio::awaitable<Response> respond_to(const Site& site, RequestMessage& message) 
   auto target = parse_target(view(message.target()));
   if (!target) co_return problem_response(target.error());
   Request request;
-  request.method = message.method() == http::verb::head ? "GET" : std::string(message.method_string());
+  request.method =
+      message.method() == http::verb::head ? "GET" : std::string(message.method_string());
   request.target = std::move(*target);
   if (const auto type = message.find(http::field::content_type); type != message.end()) {
     request.content_type = std::string(type->value());
@@ -157,8 +161,8 @@ asio::awaitable<Response> respond_to(const Site& site, RequestMessage& message) 
 asio::awaitable<void> read_header(Connection& connection, RequestParser& parser, ErrorCode& ec) {
   if (connection.buffer.size() == 0) {
     connection.stream.expires_after(kIdleTime);
-    const std::size_t size = co_await connection.stream.async_read_some(
-        connection.buffer.prepare(4096), into(ec));
+    const std::size_t size =
+        co_await connection.stream.async_read_some(connection.buffer.prepare(4096), into(ec));
     connection.buffer.commit(size);
     if (ec) co_return;
   }

@@ -44,7 +44,8 @@ bool has_hidden_part(const fs::path& relative) {
                      [](const fs::path& part) { return part.string().starts_with('.'); });
 }
 
-// The regular file that `relative` leads to inside `folder`, links followed; empty when there is none.
+// The regular file that `relative` leads to inside `folder`, links followed; empty when there is
+// none.
 fs::path file_inside(const fs::path& folder, const fs::path& relative) {
   std::error_code ec;
   const fs::path root = fs::canonical(folder, ec);
@@ -68,10 +69,11 @@ Response StaticFiles::answer(const Request& request) const {
   std::ifstream in(file, std::ios::binary);
   if (file.empty() || !in) {
     const bool no_dashboard = path == "/";
-    return problem_response({Problem{
-        ProblemKind::not_found, "not-found", "request target",
-        no_dashboard ? "the dashboard is not built; ./server/run builds it" : "nothing is served at " + path,
-        path}});
+    return problem_response(
+        {Problem{ProblemKind::not_found, "not-found", "request target",
+                 no_dashboard ? "the dashboard is not built; ./server/run builds it"
+                              : "nothing is served at " + path,
+                 path}});
   }
   Response response;
   response.content_type = type_of(file);

@@ -7,8 +7,8 @@
 namespace armloom {
 
 // The files of a folder, as the dashboard needs them: GET only, "/" is index.html, MIME types by
-// extension. Files under /assets carry a hash in their names and may be cached for ever, the rest is
-// asked for again. Nothing outside the folder is served, not by "..", not through a link, and no
+// extension. Files under /assets carry a hash in their names and may be cached for ever, the rest
+// is asked for again. Nothing outside the folder is served, not by "..", not through a link, and no
 // file whose name begins with a dot.
 class StaticFiles {
  public:

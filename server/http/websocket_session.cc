@@ -11,7 +11,8 @@ namespace {
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 
-constexpr std::chrono::seconds kIdle{30};  // then the peer is pinged, and dropped if it stays silent
+constexpr std::chrono::seconds kIdle{
+    30};  // then the peer is pinged, and dropped if it stays silent
 constexpr std::size_t kMessageMax = 4096;  // that a client may send
 constexpr int kSendBuffer = 128 * 1024;    // bounds how old a pose can be when it arrives
 
@@ -53,7 +54,8 @@ asio::awaitable<void> write_feed(LinkPtr link) {
     }
     const std::string farewell = link->feed->farewell();
     if (!farewell.empty()) {
-      const websocket::close_reason reason(websocket::close_code::try_again_later, farewell.substr(0, 120));
+      const websocket::close_reason reason(websocket::close_code::try_again_later,
+                                           farewell.substr(0, 120));
       co_await link->socket.async_close(reason, into(ec));
       break;
     }
@@ -67,9 +69,9 @@ asio::awaitable<void> write_feed(LinkPtr link) {
 
 }  // namespace
 
-asio::awaitable<void> serve_websocket(
-    beast::tcp_stream stream, beast::http::request<beast::http::string_body> upgrade, Target target,
-    const Site& site) {
+asio::awaitable<void> serve_websocket(beast::tcp_stream stream,
+                                      beast::http::request<beast::http::string_body> upgrade,
+                                      Target target, const Site& site) {
   const auto link = std::make_shared<Link>(std::move(stream));
   ErrorCode ec;
   auto& socket = link->socket;

@@ -23,7 +23,7 @@ class Broadcast final : public Observer {
     std::string stream;
     WallClock clock;
     Hub& hub;
-    Recording* recording;  // null: none
+    Recording* recording;                             // null: none
     std::function<void(std::function<void()>)> post;  // to the server's thread, in order
   };
   explicit Broadcast(Parts parts) : parts_(std::move(parts)) {}

@@ -12,11 +12,11 @@
 
 namespace armloom {
 
-// Where events become messages for many readers. Holds the latest events in a ring, from which every
-// reader is served at its own pace and can resume; a reader that falls farther behind than the ring
-// is sent away and told so: events are never skipped in silence. Pose frames are not kept: a reader
-// gets the newest one when it has no event left to read.
-// Not thread-safe: everything on the server's thread.
+// Where events become messages for many readers. Holds the latest events in a ring, from which
+// every reader is served at its own pace and can resume; a reader that falls farther behind than
+// the ring is sent away and told so: events are never skipped in silence. Pose frames are not kept:
+// a reader gets the newest one when it has no event left to read. Not thread-safe: everything on
+// the server's thread.
 class Hub {
  public:
   using Text = std::shared_ptr<const std::string>;
@@ -24,7 +24,8 @@ class Hub {
 
   explicit Hub(std::size_t ring = kRing) : capacity_(ring) {}
 
-  // Precondition: seq follows the one before by one (throws std::logic_error): the log has no holes.
+  // Precondition: seq follows the one before by one (throws std::logic_error): the log has no
+  // holes.
   void publish(std::uint64_t seq, Text event);
   void publish_frame(Text frame);
 

@@ -54,8 +54,11 @@ Result<std::string> read_text_file(const fs::path& file) {
   std::error_code ec;
   std::ifstream in(file, std::ios::binary);
   if (!in || fs::is_directory(file, ec)) {
-    return failure(Problem{ProblemKind::not_found, "cannot-read", "",
-                           "the file does not exist or cannot be read", {}});
+    return failure(Problem{ProblemKind::not_found,
+                           "cannot-read",
+                           "",
+                           "the file does not exist or cannot be read",
+                           {}});
   }
   return std::string(std::istreambuf_iterator<char>(in), {});
 }

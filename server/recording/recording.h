@@ -25,7 +25,8 @@ class Recording {
   };
   // Makes the folder. Problem (unavailable): it cannot be written.
   [[nodiscard]] static Result<std::unique_ptr<Recording>> create(
-      const std::filesystem::path& folder, const Source& source, const Cell& cell, bool with_states);
+      const std::filesystem::path& folder, const Source& source, const Cell& cell,
+      bool with_states);
   ~Recording();
 
   void event(std::string_view json) { events_ << json << '\n'; }

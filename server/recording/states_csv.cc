@@ -52,7 +52,8 @@ class StatesReader {
     if (auto bad = read_header()) return failure(std::move(*bad));
     std::vector<RecordedState> states;
     while (next_line()) {
-      RecordedState state{TimePoint{}, Configuration::Zero(static_cast<Eigen::Index>(cell_.joints.size()))};
+      RecordedState state{TimePoint{},
+                          Configuration::Zero(static_cast<Eigen::Index>(cell_.joints.size()))};
       if (auto bad = read_row(state)) return failure(std::move(*bad));
       if (!states.empty() && state.time <= states.back().time) {
         return fault("time_s", "times must increase", std::string(split(line_).front()));
@@ -108,15 +109,18 @@ class StatesReader {
   std::optional<Problem> read_row(RecordedState& state) const {
     const auto fields = split(line_);
     if (fields.size() != columns_.size()) {
-      return problem("", "expected " + std::to_string(columns_.size()) + " fields, found " +
-                             std::to_string(fields.size()), line_);
+      return problem("",
+                     "expected " + std::to_string(columns_.size()) + " fields, found " +
+                         std::to_string(fields.size()),
+                     line_);
     }
     for (std::size_t i = 0; i < fields.size(); ++i) {
       double number = 0.0;
       const char* end = fields[i].data() + fields[i].size();
       const auto [stop, ec] = std::from_chars(fields[i].data(), end, number);
       if (ec != std::errc{} || stop != end || !std::isfinite(number) || std::abs(number) > 9e8) {
-        return problem(columns_[i], "expected a finite number", fields[i].empty() ? "nothing" : fields[i]);
+        return problem(columns_[i], "expected a finite number",
+                       fields[i].empty() ? "nothing" : fields[i]);
       }
       if (i == 0) {
         state.time = at(from_seconds(number));
@@ -165,7 +169,8 @@ void StatesWriter::flush() {
   buffer_.clear();
 }
 
-Result<std::vector<RecordedState>> read_states(const std::filesystem::path& file, const Cell& cell) {
+Result<std::vector<RecordedState>> read_states(const std::filesystem::path& file,
+                                               const Cell& cell) {
   return StatesReader(file, cell).read();
 }
 

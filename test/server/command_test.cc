@@ -65,7 +65,8 @@ class Command : public ::testing::Test {
     json jobs = json::array();
     int number = 0;
     for (const char* arm : {"left", "right"}) {
-      for (const auto& [from, to] : {std::pair{test::kHome, test::kMiddle}, {test::kMiddle, test::kHome}}) {
+      for (const auto& [from, to] :
+           {std::pair{test::kHome, test::kMiddle}, {test::kMiddle, test::kHome}}) {
         json job = test::move(arm, from, to);
         job["id"] = "j" + std::to_string(number++);
         jobs.push_back({{"at", 0.0}, {"job", job}});
@@ -105,7 +106,9 @@ TEST_F(Command, BadCellsAreNamedWithFilePlaceAndValue) {
     const Outcome outcome = run("validate --cell " + cell.string());
     EXPECT_EQ(outcome.exit_code, 2) << bad.pointer << outcome.out;
     EXPECT_NE(outcome.err.find(bad.says), std::string::npos) << outcome.err;
-    EXPECT_EQ(run("simulate --cell " + cell.string() + " --jobs " + conflicting_jobs().string()).exit_code, 2);
+    EXPECT_EQ(run("simulate --cell " + cell.string() + " --jobs " + conflicting_jobs().string())
+                  .exit_code,
+              2);
   }
   EXPECT_EQ(run("validate --cell " + (folder_ / "nothing.json").string()).exit_code, 2);
   EXPECT_EQ(run("validate --cell " + file("cut.json", "{\"name\": ").string()).exit_code, 2);
@@ -136,16 +139,22 @@ TEST_F(Command, SimulateEndsWithOneLineOfFiguresAndRepeatsByteForByte) {
 
   ASSERT_EQ(run(simulate + (folder_ / "b").string()).exit_code, 0);
   for (const char* name : {"events.jsonl", "states.csv", "jobs.json"}) {
-    EXPECT_EQ(read_text_file(folder_ / "a" / name).value(), read_text_file(folder_ / "b" / name).value()) << name;
+    EXPECT_EQ(read_text_file(folder_ / "a" / name).value(),
+              read_text_file(folder_ / "b" / name).value())
+        << name;
   }
-  const Outcome audit = run("audit --cell " + (folder_ / "a/cell.json").string() + " --recording " + (folder_ / "a").string());
+  const Outcome audit = run("audit --cell " + (folder_ / "a/cell.json").string() + " --recording " +
+                            (folder_ / "a").string());
   EXPECT_EQ(audit.exit_code, 0) << audit.err;
   EXPECT_TRUE(audit.last_line()["contact"].is_null());
   EXPECT_GT(audit.last_line()["smallest_clearance_m"], 0.0);
 }
 
 TEST_F(Command, AuditFindsTheContactInADoctoredRecording) {
-  ASSERT_EQ(run("simulate --cell " + kCell + " --jobs " + conflicting_jobs().string() + " --out " + folder_.string()).exit_code, 0);
+  ASSERT_EQ(run("simulate --cell " + kCell + " --jobs " + conflicting_jobs().string() + " --out " +
+                folder_.string())
+                .exit_code,
+            0);
   // A state more: both arms reach across the middle of the table, through each other.
   constexpr test::Pose kReaching{0, 0.3, 0, -1.8, 0, 2.1, 0.785};
   std::string states = read_text_file(folder_ / "states.csv").value();
@@ -155,7 +164,8 @@ TEST_F(Command, AuditFindsTheContactInADoctoredRecording) {
     states += ",0";
   }
   file("states.csv", states + "\n");
-  const Outcome outcome = run("audit --step 0.01 --cell " + kCell + " --recording " + folder_.string());
+  const Outcome outcome =
+      run("audit --step 0.01 --cell " + kCell + " --recording " + folder_.string());
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   EXPECT_EQ(outcome.last_line()["contact"]["links"].size(), 2U);
 
@@ -163,27 +173,34 @@ TEST_F(Command, AuditFindsTheContactInADoctoredRecording) {
   const Outcome broken = run("audit --cell " + kCell + " --recording " + folder_.string());
   EXPECT_EQ(broken.exit_code, 2);
   EXPECT_NE(broken.err.find("states.csv:"), std::string::npos) << broken.err;
-  EXPECT_EQ(run("audit --cell " + kCell + " --recording " + (folder_ / "no").string()).exit_code, 2);
+  EXPECT_EQ(run("audit --cell " + kCell + " --recording " + (folder_ / "no").string()).exit_code,
+            2);
 }
 
 TEST_F(Command, BadJobsFilesAreNamedBeforeAnythingRuns) {
   json bad = test::move("left", test::kHome, test::kMiddle);
   bad["trajectory"]["joint_names"][0] = "left_panda_joint9";
-  const std::string jobs = file("jobs.json", json::array({{{"at", 0}, {"job", bad}}}).dump()).string();
-  const Outcome outcome = run("simulate --cell " + kCell + " --jobs " + jobs + " --out " + (folder_ / "out-dir").string());
+  const std::string jobs =
+      file("jobs.json", json::array({{{"at", 0}, {"job", bad}}}).dump()).string();
+  const Outcome outcome = run("simulate --cell " + kCell + " --jobs " + jobs + " --out " +
+                              (folder_ / "out-dir").string());
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("jobs.json:/0/job/trajectory/joint_names/0"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("jobs.json:/0/job/trajectory/joint_names/0"), std::string::npos)
+      << outcome.err;
   EXPECT_FALSE(fs::exists(folder_ / "out-dir"));
-  EXPECT_EQ(run("simulate --cell " + kCell + " --jobs " + file("no.json", "{").string()).exit_code, 2);
+  EXPECT_EQ(run("simulate --cell " + kCell + " --jobs " + file("no.json", "{").string()).exit_code,
+            2);
 }
 
 TEST_F(Command, AJobRefusedAtItsTimeCountsAndEndsWithOne) {
   const json astray = test::move("left", test::kMiddle, test::kHome);  // the arm stands at home
-  const std::string jobs = file("jobs.json", json::array({{{"at", 0}, {"job", astray}}}).dump()).string();
+  const std::string jobs =
+      file("jobs.json", json::array({{{"at", 0}, {"job", astray}}}).dump()).string();
   const Outcome outcome = run("simulate --cell " + kCell + " --jobs " + jobs);
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.last_line()["jobs"]["refused"], 1);
-  EXPECT_NE(outcome.err.find("jobs.json:/0/job/trajectory/points/0"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("jobs.json:/0/job/trajectory/points/0"), std::string::npos)
+      << outcome.err;
 }
 
 // The address that the server prints, read through a pipe.
@@ -205,8 +222,11 @@ TEST_F(Command, ServeSaysItsAddressRefusesATakenPortAndEndsCleanlyOnSigterm) {
   ASSERT_EQ(std::sscanf(line, "dashboard: http://127.0.0.1:%u/", &port), 1) << line;
   EXPECT_EQ(test::request(static_cast<std::uint16_t>(port), "GET", "/readyz").status, 200);
   EXPECT_EQ(test::request(static_cast<std::uint16_t>(port), "POST", "/api/v1/jobs",
-                          test::move("left", test::kHome, test::kMiddle).dump()).status, 202);
-  const Outcome second = run("serve --cell " + kCell + " --listen 127.0.0.1:" + std::to_string(port));
+                          test::move("left", test::kHome, test::kMiddle).dump())
+                .status,
+            202);
+  const Outcome second =
+      run("serve --cell " + kCell + " --listen 127.0.0.1:" + std::to_string(port));
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_NE(second.err.find("cannot listen on 127.0.0.1:"), std::string::npos) << second.err;
 
@@ -217,8 +237,10 @@ TEST_F(Command, ServeSaysItsAddressRefusesATakenPortAndEndsCleanlyOnSigterm) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
   EXPECT_EQ(json::parse(read_text_file(folder_ / "data/jobs.json").value()).size(), 1U);
-  EXPECT_NE(read_text_file(folder_ / "data/events.jsonl").value().find("\"state\":\"queued\""), std::string::npos);
-  EXPECT_EQ(run("audit --cell " + kCell + " --recording " + (folder_ / "data").string()).exit_code, 0);
+  EXPECT_NE(read_text_file(folder_ / "data/events.jsonl").value().find("\"state\":\"queued\""),
+            std::string::npos);
+  EXPECT_EQ(run("audit --cell " + kCell + " --recording " + (folder_ / "data").string()).exit_code,
+            0);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
+#include "server/http/framing.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "server/http/framing.h"
 #include "server/http/message.h"
 #include "test/server/running_server.h"
 
@@ -35,7 +36,8 @@ TEST_F(Framing, RefusesWhatStockBeastLetsThroughAndCloses) {
       post + "Host: x\r\nTransfer-Encoding: identity\r\n\r\n" + kHidden,
       post + "Host: x\r\nTransfer-Encoding: \r\n\r\n" + kHidden,
       post + "Host: x\r\nTransfer-Encoding: gzip, chunked\r\n\r\n" + kHidden,
-      post + "Host: x\r\nTransfer-Encoding: chunked\r\nTransfer-Encoding: chunked\r\n\r\n" + kHidden,
+      post + "Host: x\r\nTransfer-Encoding: chunked\r\nTransfer-Encoding: chunked\r\n\r\n" +
+          kHidden,
       post + "Host: x\r\nTransfer-Encoding: chunked\r\nContent-Length: 5\r\n\r\n" + kHidden,
       post + "Host: x\r\nContent-Length: 5\r\nContent-Length: 6\r\n\r\nhello" + kHidden,
       post + "Host: x\r\nContent-Length: +5\r\n\r\nhello" + kHidden,
@@ -45,7 +47,8 @@ TEST_F(Framing, RefusesWhatStockBeastLetsThroughAndCloses) {
       post + "Host: a b\r\nContent-Length: 0\r\n\r\n",
       post + "Host: user@x\r\nContent-Length: 0\r\n\r\n",
       post + "Host: x:port\r\nContent-Length: 0\r\n\r\n",
-      "POST http://x/api/v1/stop HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Length: 0\r\n\r\n",
+      "POST http://x/api/v1/stop HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Length: "
+      "0\r\n\r\n",
       "\x16\x03\x01 this is not HTTP\r\n\r\n",
   };
   for (const std::string& bytes : cases) {
@@ -60,7 +63,8 @@ TEST_F(Framing, ServesRequestsOneAfterTheOtherOnOneConnection) {
   start(1.0);
   const std::string answer = answers_to(
       "GET /healthz HTTP/1.1\r\nHost: [::1]:8080\r\n\r\n"
-      "POST /api/v1/resume HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: Chunked\r\n\r\n5\r\nhello\r\n0\r\n\r\n"
+      "POST /api/v1/resume HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: "
+      "Chunked\r\n\r\n5\r\nhello\r\n0\r\n\r\n"
       "HEAD /healthz HTTP/1.1\r\nHost: x\r\n\r\n"
       "GET /healthz HTTP/1.0\r\n\r\n");
   EXPECT_EQ(count(answer, "HTTP/1.1 200 OK"), 2) << answer;
@@ -88,7 +92,9 @@ TEST_F(Framing, RefusesAHeaderThatIsTooLarge) {
 TEST_F(Framing, AsksForABodyThatWaitsToBeAskedFor) {
   start(1.0);
   test::Wire wire(port());
-  wire.send("POST /api/v1/resume HTTP/1.1\r\nHost: x\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n");
+  wire.send(
+      "POST /api/v1/resume HTTP/1.1\r\nHost: x\r\nExpect: 100-continue\r\nContent-Length: "
+      "2\r\n\r\n");
   EXPECT_EQ(wire.take_until("\r\n\r\n"), "HTTP/1.1 100 Continue\r\n\r\n");
   wire.send("{}");
   EXPECT_EQ(test::read_answer(wire).status, 202);
@@ -96,17 +102,22 @@ TEST_F(Framing, AsksForABodyThatWaitsToBeAskedFor) {
 
 TEST_F(Framing, PagesOfOtherSitesMayNotStopArms) {
   start(1.0);
-  const std::string post = "POST /api/v1/stop HTTP/1.1\r\nHost: localhost:80\r\nConnection: close\r\nContent-Length: 0\r\n";
-  EXPECT_TRUE(answers_to(post + "Origin: http://evil.example\r\n\r\n").starts_with("HTTP/1.1 403 "));
+  const std::string post =
+      "POST /api/v1/stop HTTP/1.1\r\nHost: localhost:80\r\nConnection: close\r\nContent-Length: "
+      "0\r\n";
+  EXPECT_TRUE(
+      answers_to(post + "Origin: http://evil.example\r\n\r\n").starts_with("HTTP/1.1 403 "));
   EXPECT_EQ(get("/api/v1/queue").json()["stopped"], false);
-  EXPECT_TRUE(answers_to(post + "Origin: http://localhost:80\r\n\r\n").starts_with("HTTP/1.1 202 "));
+  EXPECT_TRUE(
+      answers_to(post + "Origin: http://localhost:80\r\n\r\n").starts_with("HTTP/1.1 202 "));
 }
 
 TEST(Authority, IsANameWithAnOptionalPort) {
   for (const char* good : {"x", "localhost:8080", "127.0.0.1", "[::1]:80", "a-b.c_d", "x:"}) {
     EXPECT_TRUE(valid_authority(good)) << good;
   }
-  for (const char* bad : {"", ":80", "a b", "a,b", "a/b", "u@h", "[::1", "x:123456", "x:8a", "[]"}) {
+  for (const char* bad :
+       {"", ":80", "a b", "a,b", "a/b", "u@h", "[::1", "x:123456", "x:8a", "[]"}) {
     EXPECT_FALSE(valid_authority(bad)) << bad;
   }
 }

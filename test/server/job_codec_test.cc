@@ -40,8 +40,8 @@ TEST(JobCodec, ReadsWhatTheContractShows) {
 
 struct BadField {
   const char* name;
-  const char* at;      // where the fault is put (JSON pointer)
-  const char* value;   // as JSON; nullptr: removed
+  const char* at;     // where the fault is put (JSON pointer)
+  const char* value;  // as JSON; nullptr: removed
   ProblemKind kind;
   const char* says;
   const char* pointer = nullptr;  // of the answer, when it is another place
@@ -94,7 +94,8 @@ INSTANTIATE_TEST_SUITE_P(
                  R"({"sec": 18446744073709551615, "nanosec": 0})", kInvalid, "not within",
                  "/trajectory/points/4/time_from_start/sec"},
         BadField{"UnknownField", "/trajectoy", "1", kInvalid, "unknown field \"trajectoy\""},
-        BadField{"UnknownInPoint", "/trajectory/points/0/postions", "[]", kInvalid, "unknown field"},
+        BadField{"UnknownInPoint", "/trajectory/points/0/postions", "[]", kInvalid,
+                 "unknown field"},
         BadField{"IdWithSlash", "/id", "\"a/b\"", kInvalid, "128"},
         BadField{"IdIsDots", "/id", "\"..\"", kInvalid, "128"},
         BadField{"IdEmpty", "/id", "\"\"", kInvalid, "128"},

@@ -21,7 +21,8 @@ class Jobs : public test::RunningServer {
     return job.dump();
   }
   // Follows the events until all of these have ended; their last views by id.
-  static std::map<std::string, json> until_ended(test::Listener& listener, std::set<std::string> ids) {
+  static std::map<std::string, json> until_ended(test::Listener& listener,
+                                                 std::set<std::string> ids) {
     std::map<std::string, json> ended;
     while (!ids.empty()) {
       const json job = listener.next_of("job")["data"];
@@ -93,8 +94,10 @@ TEST_F(Jobs, OfTwoInConflictPostedAtOnceOneRunsAndTheOtherWaitsForIt) {
   EXPECT_EQ(ended[winner]["state"], "succeeded");
 
   // The winner rests in the middle; when it goes home, the other gets its turn.
-  EXPECT_EQ(post("/api/v1/jobs", body("home", test::kMiddle, test::kHome,
-                                      winner == "l" ? "left" : "right")).status, 202);
+  EXPECT_EQ(post("/api/v1/jobs",
+                 body("home", test::kMiddle, test::kHome, winner == "l" ? "left" : "right"))
+                .status,
+            202);
   const auto rest = until_ended(listener, {waited, "home"});
   EXPECT_EQ(rest.at("home")["state"], "succeeded");
   EXPECT_EQ(rest.at(waited)["state"], "succeeded");

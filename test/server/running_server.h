@@ -18,7 +18,8 @@ namespace armloom::test {
 class RunningServer : public ::testing::Test {
  protected:
   void start(double speed, std::filesystem::path web = {}) {
-    const std::filesystem::path file = std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
+    const std::filesystem::path file =
+        std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
     const auto text = read_text_file(file);
     ASSERT_TRUE(text);
     const auto description = read_cell_text(*text, file.parent_path());

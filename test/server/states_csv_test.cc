@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 CellPtr two_pandas() {
   const fs::path file = fs::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
-  return build_cell(read_cell_text(read_text_file(file).value(), file.parent_path()).value()).value();
+  return build_cell(read_cell_text(read_text_file(file).value(), file.parent_path()).value())
+      .value();
 }
 
 fs::path folder_of_test() {
@@ -50,9 +51,9 @@ TEST(StatesCsv, ReadsBackWhatItWrote) {
 
 struct BadRecording {
   const char* name;
-  int line;                     // to replace, from one
-  const char* from;             // its text ...
-  const char* to;               // ... becomes this
+  int line;          // to replace, from one
+  const char* from;  // its text ...
+  const char* to;    // ... becomes this
   const char* place;
   const char* says;
 };
@@ -61,7 +62,8 @@ class BadStates : public ::testing::TestWithParam<BadRecording> {};
 
 TEST_P(BadStates, AreRefusedWithLineAndColumn) {
   const CellPtr cell = two_pandas();
-  const fs::path file = fs::path(::testing::TempDir()) / (std::string("armloom-") + GetParam().name + ".csv");
+  const fs::path file =
+      fs::path(::testing::TempDir()) / (std::string("armloom-") + GetParam().name + ".csv");
   {
     StatesWriter writer(file, *cell);
     for (int tick = 1; tick <= 3; ++tick) {
@@ -123,8 +125,9 @@ TEST(Recording, HoldsEverythingThatARerunNeeds) {
     (*recording)->job(at(std::chrono::milliseconds(2)), R"({"id":"b"})");
   }
   EXPECT_EQ(read_text_file(folder / "events.jsonl").value(), "{\"seq\":1}\n");
-  EXPECT_EQ(read_text_file(folder / "jobs.json").value(),
-            "[\n{\"at\":0.001,\"job\":{\"id\":\"a\"}},\n{\"at\":0.002,\"job\":{\"id\":\"b\"}}\n]\n");
+  EXPECT_EQ(
+      read_text_file(folder / "jobs.json").value(),
+      "[\n{\"at\":0.001,\"job\":{\"id\":\"a\"}},\n{\"at\":0.002,\"job\":{\"id\":\"b\"}}\n]\n");
   EXPECT_TRUE(read_states(folder / "states.csv", *cell));
   EXPECT_TRUE(read_cell_text(read_text_file(folder / "cell.json").value(), folder));
 }

@@ -20,7 +20,8 @@ JobView waiting_job() {
   job.arms = {"right"};
   job.submitted_at = at(milliseconds(1500));
   job.duration = milliseconds(3000);
-  job.waits_on.push_back(WaitView{Wait::Kind::job, "a", "left", {"r7", "l7"}, 1.25, 0.5, 0.004, ""});
+  job.waits_on.push_back(
+      WaitView{Wait::Kind::job, "a", "left", {"r7", "l7"}, 1.25, 0.5, 0.004, ""});
   return job;
 }
 
@@ -36,7 +37,7 @@ TEST(Views, AJobThatWaitsSaysForWhat) {
   EXPECT_TRUE(job["started_s"].is_null());
   EXPECT_TRUE(job["started_at"].is_null());
   EXPECT_TRUE(job["result"].is_null());
-  const json expected = {{"kind", "job"},       {"id", "a"},           {"arm", "left"},
+  const json expected = {{"kind", "job"},         {"id", "a"},          {"arm", "left"},
                          {"links", {"r7", "l7"}}, {"own_time_s", 1.25}, {"other_time_s", 0.5},
                          {"clearance_m", 0.004}};
   EXPECT_EQ(job["waits_on"], json::array({expected}));
@@ -57,9 +58,8 @@ TEST(Views, AnEndedJobSaysWhy) {
 
 TEST(Views, ASimulatedEventHasNoWallTime) {
   const Event event{7, at(milliseconds(26682)), Alert{Alert::Level::warning, "x"}};
-  EXPECT_EQ(event_json(event, "s", nullptr),
-            R"({"stream":"s","seq":7,"type":"alert","t_s":26.682,)"
-            R"("data":{"level":"warning","text":"x"}})");
+  EXPECT_EQ(event_json(event, "s", nullptr), R"({"stream":"s","seq":7,"type":"alert","t_s":26.682,)"
+                                             R"("data":{"level":"warning","text":"x"}})");
 }
 
 TEST(Views, TheStreamOfASeedIsAUuidAndRepeats) {
@@ -73,9 +73,9 @@ TEST(Views, TheStreamOfASeedIsAUuidAndRepeats) {
 }
 
 TEST(Problems, BecomeDocumentsAndSentences) {
-  const Problems problems{
-      {ProblemKind::invalid, "limit-exceeded", "/trajectory/points/14/velocities/3", "too fast", 3.41},
-      {ProblemKind::invalid, "x", "/y", "z", {}}};
+  const Problems problems{{ProblemKind::invalid, "limit-exceeded",
+                           "/trajectory/points/14/velocities/3", "too fast", 3.41},
+                          {ProblemKind::invalid, "x", "/y", "z", {}}};
   const json document = json::parse(problem_json(problems));
   EXPECT_EQ(document["status"], 422);
   EXPECT_EQ(document["type"], "urn:armloom:problem:limit-exceeded");
@@ -86,8 +86,9 @@ TEST(Problems, BecomeDocumentsAndSentences) {
   EXPECT_FALSE(json::parse(problem_json({problems[1]})).contains("errors"));
   EXPECT_EQ(problem_sentence("cell.json", problems[0]),
             "cell.json:/trajectory/points/14/velocities/3: too fast (found 3.41)");
-  EXPECT_EQ(problem_sentence("cell.json", {ProblemKind::invalid, "x", "a.urdf: joint b", "bad", {}}),
-            "a.urdf: joint b: bad");
+  EXPECT_EQ(
+      problem_sentence("cell.json", {ProblemKind::invalid, "x", "a.urdf: joint b", "bad", {}}),
+      "a.urdf: joint b: bad");
 }
 
 }  // namespace

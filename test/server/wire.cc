@@ -127,7 +127,8 @@ std::optional<nlohmann::json> Listener::next() {
     if (opcode == 1) return nlohmann::json::parse(payload);
     if (opcode == 8) {
       if (size >= 2) {
-        closed_.code = static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]);
+        closed_.code =
+            static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]);
         closed_.reason = payload.substr(2);
       }
       return std::nullopt;
