@@ -1,10 +1,14 @@
 #include "core/model/build_cell.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
+#include <system_error>
 
 #include "core/model/cell_checks.h"
 #include "core/model/findings.h"
+#include "core/model/mesh.h"
+#include "core/model/mesh_path.h"
 #include "core/model/robot_build.h"
 #include "core/model/text_file.h"
 #include "core/model/urdf_reader.h"
@@ -20,8 +24,41 @@ std::optional<std::string> load(const std::string& path, const std::string& poin
   return std::nullopt;
 }
 
+// Fills in the shape's triangles when it is a mesh.
+void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& whose, MeshShelf& meshes,
+                  Findings& findings) {
+  auto* mesh = std::get_if<Mesh>(&shape);
+  if (mesh == nullptr) return;
+  auto data = meshes.get(mesh->path, mesh->scale, pointer, whose);
+  if (data) {
+    mesh->data = *std::move(data);
+    return;
+  }
+  for (Problem& problem : data.error()) findings.add(std::move(problem));
+}
+
+void load_meshes_of(RobotTree& tree, MeshShelf& meshes, Findings& findings) {
+  for (TreeLink& link : tree.links) {
+    const std::string place = tree.file + ": link " + link.name;
+    for (PlacedShape& placed : link.shapes) load_mesh_of(placed.shape, place, place, meshes, findings);
+  }
+}
+
+void load_meshes_of_objects(Cell& cell, MeshShelf& meshes, Findings& findings) {
+  for (std::size_t o = 0; o < cell.objects.size(); ++o) {
+    const auto* mesh = std::get_if<Mesh>(&cell.objects[o].shape);
+    std::error_code error;
+    // check_objects has told of the others.
+    if (mesh == nullptr || !std::filesystem::is_regular_file(mesh->path, error)) continue;
+    if (!mesh->scale.allFinite() || (mesh->scale.array() == 0.0).any()) continue;
+    load_mesh_of(cell.objects[o].shape, "/objects/" + std::to_string(o) + "/mesh",
+                 "object " + cell.objects[o].name, meshes, findings);
+  }
+}
+
 // The robot's files, or nothing with the reasons in `findings`.
-std::optional<RobotBuild> read_robot(const RobotDescription& description, std::size_t index, Findings& findings) {
+std::optional<RobotBuild> read_robot(const RobotDescription& description, std::size_t index, MeshShelf& meshes,
+                                     Findings& findings) {
   const std::string pointer = "/robots/" + std::to_string(index);
   const std::string whose = "robot " + description.name;
   auto urdf = load(description.urdf, pointer + "/urdf", whose, findings);
@@ -30,6 +67,7 @@ std::optional<RobotBuild> read_robot(const RobotDescription& description, std::s
   if (!urdf) return std::nullopt;
   auto tree = read_urdf(*std::move(urdf), description.urdf, description.packages, findings);
   if (!tree || (!srdf && !description.srdf.empty())) return std::nullopt;
+  load_meshes_of(*tree, meshes, findings);
 
   RobotBuild robot{.id = RobotId(static_cast<std::uint32_t>(index)), .pointer = pointer,
                    .description = &description, .tree = *std::move(tree), .semantics = std::nullopt,
@@ -110,6 +148,8 @@ void check_objects_are_no_links(const CellDescription& description, const std::s
 void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
   Robot& added = cell.robots[robot.id.index()];
   added.urdf_text = robot.tree.text;
+  added.mesh_files = mesh_files(robot.tree.text, std::filesystem::path(robot.description->urdf).parent_path(),
+                                robot.description->packages);
   if (robot.semantics) added.srdf_text = robot.semantics->text;
   add_joints(robot, cell);
   add_links(robot, cell);
@@ -129,7 +169,7 @@ void copy_settings(const CellDescription& description, Cell& cell) {
   for (const auto& object : description.objects) cell.objects.push_back({object.name, object.shape, object.X_WO});
   for (const auto& robot : description.robots) {
     cell.robots.push_back({.name = robot.name, .prefix = robot.prefix, .X_WB = robot.X_WB, .arms = {},
-                           .urdf_text = {}, .srdf_text = {}, .controller = robot.controller});
+                           .urdf_text = {}, .srdf_text = {}, .controller = robot.controller, .mesh_files = {}});
   }
 }
 
@@ -152,13 +192,15 @@ Result<CellPtr> build_cell(const CellDescription& description) {
 
   auto cell = std::make_shared<Cell>();
   copy_settings(description, *cell);
+  MeshShelf meshes;
+  load_meshes_of_objects(*cell, meshes, findings);
   std::set<std::string> links;
   std::set<std::string> joints;
   bool complete = true;
   for (std::size_t r = 0; r < description.robots.size(); ++r) {
     const RobotDescription& robot = description.robots[r];
     check_pose(robot.X_WB, "/robots/" + std::to_string(r) + "/base", "robot " + robot.name + ": base", findings);
-    auto build = read_robot(robot, r, findings);
+    auto build = read_robot(robot, r, meshes, findings);
     if (build) {
       check_prefixed_names(*build, links, joints, findings);
       add_robot(*std::move(build), *cell, findings);

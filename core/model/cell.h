@@ -74,6 +74,8 @@ struct Robot {
   std::string urdf_text;  // as read, for the dashboard
   std::string srdf_text;
   ControllerDescription controller;
+  // Meshes as the URDF names them (package://..., of visuals too) and their files, where they exist.
+  std::map<std::string, std::string> mesh_files;
 };
 
 struct CollisionObject {

@@ -1,8 +1,13 @@
 #include "core/model/mesh_path.h"
 
+#include <tinyxml2.h>
+
 #include <algorithm>
+#include <set>
 #include <string_view>
 #include <system_error>
+
+#include "core/model/mesh.h"
 
 namespace armloom {
 namespace {
@@ -52,6 +57,28 @@ tl::expected<fs::path, std::string> resolve_mesh(const std::string& uri, const f
     return tl::unexpected("is not a regular file: " + real_file.string());
   }
   return real_file;
+}
+
+std::map<std::string, std::string> mesh_files(const std::string& urdf_text, const fs::path& urdf_folder,
+                                              const std::map<std::string, std::string>& packages) {
+  // Calls for each element in the document's order.
+  struct MeshNames final : tinyxml2::XMLVisitor {
+    std::set<std::string> names;
+    bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute*) override {
+      const char* name = element.Attribute("filename");
+      if (std::string_view(element.Name()) == "mesh" && name != nullptr) names.insert(name);
+      return true;
+    }
+  } found;
+  tinyxml2::XMLDocument document;
+  document.Parse(urdf_text.data(), urdf_text.size());
+  document.Accept(&found);
+  std::map<std::string, std::string> files;
+  for (const std::string& name : found.names) {
+    if (!is_mesh_name(name)) continue;
+    if (const auto file = resolve_mesh(name, urdf_folder, packages)) files.emplace(name, file->string());
+  }
+  return files;
 }
 
 }  // namespace armloom

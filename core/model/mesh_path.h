@@ -18,4 +18,11 @@ namespace armloom {
     const std::string& uri, const std::filesystem::path& urdf_folder,
     const std::map<std::string, std::string>& packages);
 
+// All meshes that the URDF names, in visuals too, as it names them, with their files: those that
+// resolve_mesh finds and whose names say that they can be read (is_mesh_name). Precondition: the text
+// is XML, else nothing is found.
+[[nodiscard]] std::map<std::string, std::string> mesh_files(
+    const std::string& urdf_text, const std::filesystem::path& urdf_folder,
+    const std::map<std::string, std::string>& packages);
+
 }  // namespace armloom

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <memory>
 #include <string>
 #include <variant>
 
@@ -18,9 +19,12 @@ struct Cylinder {
 struct Sphere {
   double radius_m;
 };
+struct MeshData;  // core/model/mesh.h
 struct Mesh {
   std::string path;  // resolved file
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+  // The triangles, with the scale applied; every mesh of a Cell has them. Null in descriptions.
+  std::shared_ptr<const MeshData> data = nullptr;
 };
 using Shape = std::variant<Box, Cylinder, Sphere, Mesh>;
 
