@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/collision/exact_distance.h"
+#include "core/model/mesh.h"
 
 namespace armloom {
 namespace {
@@ -22,9 +23,17 @@ Body plain_body(const PlacedShape& placed) {
     body.kind = BodyKind::cylinder;
     body.half_length_m = 0.5 * cylinder->length_m;
     body.radius_m = cylinder->radius_m;
-  } else {
+  } else if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) {
     body.kind = BodyKind::round;
-    body.radius_m = std::get<Sphere>(placed.shape).radius_m;
+    body.radius_m = sphere->radius_m;
+  } else {
+    body.kind = BodyKind::hull;
+    body.hull = std::make_shared<const HullShape>(
+        fit_hull(std::get<Mesh>(placed.shape).data->hull));
+    body.X_PS = placed.X_LS * body.hull->X_MS;
+    body.half_length_m = body.hull->half_length_m;
+    body.radius_m = body.hull->radius_m;
+    body.half_size_m = body.hull->half_size_m;
   }
   return body;
 }
@@ -53,7 +62,8 @@ double radius_with(const Body& cylinder, double end, const Body& cap) {
   return std::max(cylinder.radius_m, cap.radius_m + (cap.X_PS.translation() - p_end).norm());
 }
 
-// The segment's distance from the box, in the box's frame; the box's size is in its body.
+// The segment's distance from the box, in the box's frame; the box's size is in its body (of a hull,
+// that of the box around it).
 double segment_to_box(const PlacedBody& at_box, const Body& box, const CenteredSegment& segment) {
   const auto R_BW = at_box.X_WS.linear().transpose();
   return segment_box_distance(
@@ -70,6 +80,21 @@ double face_gap(const Body& a, const PlacedBody& at_a, const Body& b, const Plac
   const Eigen::Vector3d gap_A = p_A.cwiseAbs() - a.half_size_m - width * b.half_size_m;
   const Eigen::Vector3d gap_B = p_B.cwiseAbs() - b.half_size_m - width.transpose() * a.half_size_m;
   return std::max(gap_A.maxCoeff(), gap_B.maxCoeff());
+}
+
+bool has_box(const Body& body) { return body.kind == BodyKind::box || body.kind == BodyKind::hull; }
+
+// At least one of them is a hull: the better of its capsule and its box.
+double bound_of_hull(const Body& a, const PlacedBody& at_a, const Body& b, const PlacedBody& at_b) {
+  if (a.kind != BodyKind::hull) return bound_of_hull(b, at_b, a, at_a);
+  if (b.kind == BodyKind::box) {
+    return std::max(segment_to_box(at_b, b, at_a.segment) - a.radius_m, face_gap(a, at_a, b, at_b));
+  }
+  const double capsules =
+      segment_segment_distance(at_a.segment, at_b.segment) - a.radius_m - b.radius_m;
+  const double boxes = has_box(b) ? face_gap(a, at_a, b, at_b)
+                                  : segment_to_box(at_a, a, at_b.segment) - b.radius_m;
+  return std::max(capsules, boxes);
 }
 
 }  // namespace
@@ -125,6 +150,9 @@ Eigen::Isometry3d shape_pose(const Body& body, const PlacedBody& placed) {
 }
 
 Bound lower_bound(const Body& a, const PlacedBody& at_a, const Body& b, const PlacedBody& at_b) {
+  if (a.kind == BodyKind::hull || b.kind == BodyKind::hull) {
+    return {bound_of_hull(a, at_a, b, at_b), false};
+  }
   const bool a_box = a.kind == BodyKind::box;
   const bool b_box = b.kind == BodyKind::box;
   if (a_box && b_box) return {face_gap(a, at_a, b, at_b), false};

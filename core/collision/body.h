@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/collision/hull_body.h"
 #include "core/collision/segment_distance.h"
 #include "core/model/shape.h"
 
@@ -16,16 +17,18 @@ enum class BodyKind {
   round,     // sphere or capsule: all points within radius of a segment
   cylinder,  // flat ends
   box,
+  hull,  // of a mesh
 };
 
 // One convex shape of a part (a link or an object), fixed in the part's frame P.
 struct Body {
   BodyKind kind = BodyKind::round;
   Eigen::Isometry3d X_PS = Eigen::Isometry3d::Identity();  // axis along z of S
-  double half_length_m = 0.0;  // of the axis; zero for spheres and boxes
+  double half_length_m = 0.0;  // of the axis; zero for spheres and boxes; of a hull's capsule
   double radius_m = 0.0;       // about the axis; of a box: of its bounding sphere
-  Eigen::Vector3d half_size_m = Eigen::Vector3d::Zero();  // boxes only
+  Eigen::Vector3d half_size_m = Eigen::Vector3d::Zero();  // of a box, or the box around a hull
   Eigen::Vector3d p_SE_P = Eigen::Vector3d::Zero();       // from the centre to the axis' upper end
+  std::shared_ptr<const HullShape> hull;                  // hulls only
   std::shared_ptr<const ExactGeometry> exact;
 
   // Of the bounding sphere about the origin of S.
@@ -34,14 +37,15 @@ struct Body {
 
 // The bodies of a link or object. A cylinder with a sphere of its radius centred at both ends
 // (within kMergeTolerance_m) becomes one capsule that contains all three; the spheres are dropped,
-// also when two cylinders share one. Everything else stays as it is. Precondition: no mesh.
+// also when two cylinders share one. A mesh becomes its convex hull. Everything else stays as it is.
+// Precondition: meshes hold their data.
 inline constexpr double kMergeTolerance_m = 1e-6;
 [[nodiscard]] std::vector<Body> make_bodies(const std::vector<PlacedShape>& shapes);
 
-// Where a body is in the world: its segment, and for boxes its full pose.
+// Where a body is in the world: its segment, and its full pose unless it is round.
 struct PlacedBody {
   CenteredSegment segment;
-  Eigen::Isometry3d X_WS;  // filled for boxes and cylinders only
+  Eigen::Isometry3d X_WS;  // not filled for round bodies
 };
 [[nodiscard]] Eigen::Isometry3d shape_pose(const Body& body, const PlacedBody& placed);
 void place(const Body& body, const Eigen::Isometry3d& X_WP, PlacedBody& placed);

@@ -2,6 +2,7 @@
 
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/distance.h>
@@ -41,6 +42,8 @@ double extent(const Body& body, const Eigen::Isometry3d& X_WS, const Eigen::Vect
       return n.cwiseAbs().dot(body.half_size_m);
     case BodyKind::cylinder:
       return along + body.radius_m * std::hypot(n.x(), n.y());
+    case BodyKind::hull:
+      return body.hull->extent(n);
     case BodyKind::round:
       break;
   }
@@ -66,8 +69,19 @@ Proof prove(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
   if (!(distance > 0.0) || !(length > 0.0)) return {0.0, 0.0};
   const Eigen::Vector3d n = gap / length;
   const double proven =
-      n.dot(X_WB.translation() - X_WA.translation()) - extent(a, X_WA, n) - extent(b, X_WB, n);
+      n.dot(X_WB.translation() - X_WA.translation()) - extent(a, X_WA, n) - extent(b, X_WB, -n);
   return {distance, std::clamp(proven, 0.0, distance)};
+}
+
+std::shared_ptr<fcl::CollisionGeometryd> convex_of(const ConvexHull& hull) {
+  auto faces = std::make_shared<std::vector<int>>();
+  for (const auto& face : hull.faces) {
+    faces->push_back(3);
+    for (const std::uint32_t i : face) faces->push_back(static_cast<int>(i));
+  }
+  return std::make_shared<fcl::Convexd>(
+      std::make_shared<const std::vector<Eigen::Vector3d>>(hull.vertices),
+      static_cast<int>(hull.faces.size()), std::move(faces));
 }
 
 }  // namespace
@@ -80,6 +94,9 @@ std::shared_ptr<const ExactGeometry> make_exact_geometry(const Body& body) {
       break;
     case BodyKind::cylinder:
       geometry = std::make_shared<fcl::Cylinderd>(body.radius_m, 2.0 * body.half_length_m);
+      break;
+    case BodyKind::hull:
+      geometry = convex_of(body.hull->hull);
       break;
     case BodyKind::round:
       if (body.half_length_m > 0.0) {

@@ -12,7 +12,8 @@ namespace armloom {
 class ExactGeometry;
 [[nodiscard]] std::shared_ptr<const ExactGeometry> make_exact_geometry(const Body& body);
 
-// Distance of two bodies at the given poses of their shape frames (m); zero in contact, and when
+// Distance of two bodies (a mesh: its hull) at the given poses of their shape frames (m); zero in
+// contact, and when
 // FCL throws. Never larger than the true distance; measured less than 2e-7 below it, but for one
 // random pair in some 60,000 (half a millimetre). FCL's GJK stops early and then returns up to
 // 0.8 mm too much (at distance_tolerance 1e-6), so its nearest points only give a direction: what

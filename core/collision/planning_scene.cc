@@ -1,6 +1,7 @@
 #include "core/collision/planning_scene.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -9,17 +10,19 @@
 namespace armloom {
 namespace {
 
-Problem mesh_problem(const std::string& pointer, const std::string& path) {
-  return {ProblemKind::unsupported, "mesh-unsupported", pointer,
-          "meshes are not supported yet: " + path, path};
+// Meshes are read when a cell is built, not here.
+std::optional<Problem> mesh_problem(const Shape& shape, const std::string& pointer) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  if (mesh == nullptr || mesh->data != nullptr) return std::nullopt;
+  return Problem{ProblemKind::unsupported, "mesh-not-loaded", pointer,
+                 "the mesh " + mesh->path + " has not been loaded", mesh->path};
 }
 
-void find_link_meshes(const Cell& cell, Problems& problems) {
+void find_link_problems(const Cell& cell, Problems& problems) {
   for (const Link& link : cell.links) {
     for (const PlacedShape& placed : link.shapes) {
-      if (const auto* mesh = std::get_if<Mesh>(&placed.shape)) {
-        problems.push_back(mesh_problem("link " + link.name, mesh->path));
-      }
+      auto problem = mesh_problem(placed.shape, "link " + link.name);
+      if (problem) problems.push_back(*std::move(problem));
     }
   }
 }
@@ -28,9 +31,8 @@ void find_object_problems(const std::vector<CollisionObject>& objects, Problems&
   std::set<std::string> names;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const std::string pointer = "/objects/" + std::to_string(i);
-    if (const auto* mesh = std::get_if<Mesh>(&objects[i].shape)) {
-      problems.push_back(mesh_problem(pointer + "/mesh", mesh->path));
-    }
+    auto problem = mesh_problem(objects[i].shape, pointer + "/mesh");
+    if (problem) problems.push_back(*std::move(problem));
     const std::string& name = objects[i].name;
     if (names.insert(name).second) continue;
     problems.push_back({ProblemKind::conflict, "name-taken", pointer + "/name",
@@ -140,7 +142,8 @@ const std::vector<CollisionObject>& PlanningScene::objects() const { return bodi
 
 Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
   Problems problems;
-  find_link_meshes(*cell, problems);
+  find_link_problems(*cell, problems);
+  find_object_problems(cell->objects, problems);
   find_unknown_allowed(*cell, problems);
   if (!problems.empty()) return failure(std::move(problems));
 

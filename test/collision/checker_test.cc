@@ -246,7 +246,7 @@ TEST(CollisionChecker, ForbidsContactEvenWhereNoClearanceIsAsked) {
   EXPECT_GT(contacts, 50);
 }
 
-TEST(PlanningScene, RefusesMeshesAndNamesThemAll) {
+TEST(PlanningScene, RefusesMeshesThatWereNotLoadedAndNamesThemAll) {
   Cell cell = busy_cell();
   small::add_shape(cell.links[2], Mesh{"hand.stl"}, Eigen::Isometry3d::Identity());
   cell.objects.push_back({"part", Mesh{"part.stl"}});
