@@ -17,6 +17,8 @@ struct BadInput {
   JobRequest request;
   const char* pointer;
   const char* detail;
+
+  friend void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
 };
 
 JobRequest points(std::vector<WaypointRequest> waypoints) {
