@@ -25,7 +25,7 @@ class Audit {
                             : at_least >= smallest_m_) {
         continue;
       }
-      note(time, pair, audited_.look(pair));
+      note(time, pair, audited_.look(pair, pair.contact_only ? 0.0 : smallest_m_));
     }
   }
 

@@ -19,6 +19,10 @@ namespace {
 // nothing is concluded for later states from closer than this, and contact is asked for by itself.
 constexpr double kDoubt_m = 1e-3;
 constexpr double kGjkTolerance = 1e-12;
+// FCL takes milliseconds for the distance of meshes, unless it may pass over what is farther than
+// some bound. What is asked for beyond the distance that matters saves as much travel until the pair
+// must be looked at again.
+constexpr double kLookAhead_m = 0.05;
 
 std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Shape& shape) {
   if (const auto* box = std::get_if<Box>(&shape)) return std::make_shared<fcl::Boxd>(box->size_m);
@@ -36,9 +40,10 @@ double radius_of(const Shape& shape) {
   return std::get<Sphere>(shape).radius_m;
 }
 
-bool has_mesh(const std::vector<PlacedShape>& shapes) {
+bool lacks_mesh(const std::vector<PlacedShape>& shapes) {
   return std::any_of(shapes.begin(), shapes.end(), [](const PlacedShape& placed) {
-    return std::holds_alternative<Mesh>(placed.shape);
+    const auto* mesh = std::get_if<Mesh>(&placed.shape);
+    return mesh != nullptr && mesh->data == nullptr;
   });
 }
 
@@ -52,10 +57,23 @@ bool one_arm_only(const AuditedSolid& a, const AuditedSolid& b) {
   return a.robot == b.robot && (!a.arm || !b.arm || a.arm == b.arm);
 }
 
-double distance_of(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
+using Element = AuditedSolid::Element;
+
+// Surfaces that do not touch: whether one of x's pieces lies inside of y.
+bool lies_inside(const Element& x, const Element& y) {
+  if (y.mesh == nullptr) return false;  // FCL's primitive shapes are solid
+  const Eigen::Isometry3d X_YX = y.object.getTransform().inverse() * x.object.getTransform();
+  if (x.mesh == nullptr) return y.mesh->encloses(X_YX.translation());
+  const std::vector<Eigen::Vector3d>& points = x.mesh->representatives();
+  return std::any_of(points.begin(), points.end(),
+                     [&](const Eigen::Vector3d& p) { return y.mesh->encloses(X_YX * p); });
+}
+
+// min(distance, most_m)
+double distance_of(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b, double most_m) {
   fcl::DistanceRequestd request;
   request.distance_tolerance = kGjkTolerance;
-  fcl::DistanceResultd result;
+  fcl::DistanceResultd result(most_m);
   const double distance = fcl::distance(&a, &b, request, result);
   if (!(distance > 0.0)) return 0.0;
   if (distance > kDoubt_m) return distance;
@@ -70,12 +88,12 @@ Result<AuditedCell> AuditedCell::build(const Cell& cell) {
   Problems problems;
   AuditedCell audited;
   const auto refuse_mesh = [&](const std::string& name) {
-    problems.push_back({ProblemKind::unsupported, "mesh-unsupported", name,
-                        "meshes are not supported yet: audit of " + name});
+    problems.push_back({ProblemKind::unsupported, "mesh-not-loaded", name,
+                        "the mesh of " + name + " has not been loaded"});
   };
   for (std::size_t i = 0; i < cell.links.size(); ++i) {
     const Link& link = cell.links[i];
-    if (has_mesh(link.shapes)) {
+    if (lacks_mesh(link.shapes)) {
       refuse_mesh(link.name);
       continue;
     }
@@ -84,7 +102,7 @@ Result<AuditedCell> AuditedCell::build(const Cell& cell) {
   }
   for (const CollisionObject& object : cell.objects) {
     const std::vector<PlacedShape> shapes(1, {object.shape, Eigen::Isometry3d::Identity()});
-    if (has_mesh(shapes)) {
+    if (lacks_mesh(shapes)) {
       refuse_mesh(object.name);
       continue;
     }
@@ -109,12 +127,21 @@ Result<AuditedCell> AuditedCell::build(const Cell& cell) {
 void AuditedCell::add(AuditedSolid solid, const std::vector<PlacedShape>& shapes) {
   if (shapes.empty()) return;
   for (const PlacedShape& placed : shapes) {
-    const double radius = radius_of(placed.shape);
-    solid.elements.push_back(
-        {fcl::CollisionObjectd(geometry_of(placed.shape)), placed.X_LS, radius});
-    solid.radius_m = std::max(solid.radius_m, placed.X_LS.translation().norm() + radius);
+    const Element& element = solid.elements.emplace_back(make_element(placed));
+    solid.radius_m =
+        std::max(solid.radius_m, element.X_LS.translation().norm() + element.radius_m);
   }
   solids_.push_back(std::move(solid));
+}
+
+AuditedSolid::Element AuditedCell::make_element(const PlacedShape& placed) {
+  const auto* mesh = std::get_if<Mesh>(&placed.shape);
+  if (mesh == nullptr) {
+    return {fcl::CollisionObjectd(geometry_of(placed.shape)), placed.X_LS, radius_of(placed.shape), nullptr};
+  }
+  auto audited = std::make_shared<const AuditedMesh>(*mesh->data);
+  const Eigen::Isometry3d X_LC = placed.X_LS * Eigen::Translation3d(audited->p_SC());
+  return {fcl::CollisionObjectd(audited->make_geometry()), X_LC, audited->radius_m(), audited};
 }
 
 void AuditedCell::move_to(const Cell& cell, const Configuration& q) {
@@ -147,18 +174,19 @@ void AuditedCell::place_elements(AuditedSolid& solid) const {
   solid.elements_placed = true;
 }
 
-double AuditedCell::look(AuditedPair& pair) {
+double AuditedCell::look(AuditedPair& pair, double matters_m) {
   AuditedSolid& a = solids_[pair.a];
   AuditedSolid& b = solids_[pair.b];
   place_elements(a);
   place_elements(b);
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = matters_m + kLookAhead_m;
   for (const AuditedSolid::Element& x : a.elements) {
     for (const AuditedSolid::Element& y : b.elements) {
       const double centers = (x.object.getTranslation() - y.object.getTranslation()).norm();
       if (centers - x.radius_m - y.radius_m >= smallest) continue;
       try {
-        smallest = std::min(smallest, distance_of(x.object, y.object));
+        smallest = std::min(smallest, distance_of(x.object, y.object, smallest));
+        if (lies_inside(x, y) || lies_inside(y, x)) smallest = 0.0;
       } catch (const std::exception&) {
         smallest = 0.0;
       }

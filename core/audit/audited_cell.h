@@ -4,10 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/audit/audited_mesh.h"
 #include "core/base/problem.h"
 #include "core/model/cell.h"
 #include "core/model/kinematics.h"
@@ -18,8 +20,9 @@ namespace armloom {
 struct AuditedSolid {
   struct Element {
     fcl::CollisionObjectd object;
-    Eigen::Isometry3d X_LS;
-    double radius_m;  // of its bounding sphere
+    Eigen::Isometry3d X_LS;  // of a mesh: to the middle of its bounding box
+    double radius_m;         // of its bounding sphere
+    std::shared_ptr<const AuditedMesh> mesh;  // null: a primitive shape
   };
   std::string name;
   std::optional<LinkId> link;  // none: an object
@@ -44,7 +47,7 @@ struct AuditedPair {
 // The cell as the audit sees it: every pair that is not allowed to touch, and where things are.
 class AuditedCell {
  public:
-  // Problems: meshes, which are not supported yet.
+  // Problems: meshes without data.
   [[nodiscard]] static Result<AuditedCell> build(const Cell& cell);
 
   // Moves everything to q and adds to each solid's travel.
@@ -55,11 +58,13 @@ class AuditedCell {
 
   // What the pair's distance cannot be below, from what was seen before and the travel since.
   [[nodiscard]] double at_least(const AuditedPair& pair) const;
-  // Asks FCL and remembers. Zero in contact, or when FCL throws.
-  [[nodiscard]] double look(AuditedPair& pair);
+  // Asks FCL and remembers: the distance when it is below `matters_m`, else that or more. Zero in
+  // contact, when one lies inside of the other, and when FCL throws.
+  [[nodiscard]] double look(AuditedPair& pair, double matters_m);
 
  private:
   void add(AuditedSolid solid, const std::vector<PlacedShape>& shapes);
+  static AuditedSolid::Element make_element(const PlacedShape& placed);
   void place_elements(AuditedSolid& solid) const;
 
   std::vector<AuditedSolid> solids_;

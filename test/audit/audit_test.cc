@@ -151,7 +151,7 @@ TEST(Audit, FindsTheSameWhenEveryStateIsAuditedAlone) {
   EXPECT_GT(smallest, 0.0);
 }
 
-TEST(Audit, RefusesMeshesAndNumbersThatAreNone) {
+TEST(Audit, RefusesMeshesThatWereNotLoadedAndNumbersThatAreNone) {
   Cell cell = pair_of_arms();
   auto states = turn({kUp, kUp}, {kUp, kUp}, 20ms, 10ms);
   states[1].q[0] = std::numeric_limits<double>::quiet_NaN();

@@ -1,0 +1,101 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "core/audit/audit.h"
+#include "test/collision/small_cell.h"
+#include "test/model/small_meshes.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
+constexpr double kUp = small::kHalfTurn / 2;
+
+// One arm of one link of 0.4 m that turns in the plane z = 0, with `shape` at its tip instead of a
+// capsule, and `object`.
+Cell cell_of(const Shape& shape, const Shape& object, const Eigen::Isometry3d& X_WO) {
+  Cell cell;
+  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, 0.4, 0.03);
+  cell.links[1].shapes.clear();
+  small::add_shape(cell.links[1], shape, small::at_xyz(0.4, 0, 0));
+  cell.objects.push_back({"part", object, X_WO});
+  return cell;
+}
+
+AuditReport at_angle(const Cell& cell, double q) {
+  auto report = audit(cell, {{at(0ms), Configuration::Constant(1, q)}}, 10ms);
+  EXPECT_TRUE(report.has_value());
+  return *report;
+}
+
+// A slot along y about x = 0, 0.2 m wide, that the tip at (0, 0.4, 0) stands in.
+const Eigen::Isometry3d kSlot = small::at_xyz(0, 0.4, -0.5);
+
+TEST(AuditMeshes, StandingInASlotIsNoContactThoughTheHullHasNoSlot) {
+  const Mesh channel = small::mesh_of(small::channel(0.2));
+  const Mesh tip = small::mesh_of(small::box_surface({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}));
+  for (const Shape& shape : {Shape(tip), Shape(Sphere{0.05}), Shape(Box{{0.1, 0.1, 0.1}})}) {
+    const AuditReport report = at_angle(cell_of(shape, channel, kSlot), kUp);
+    EXPECT_FALSE(report.first_contact.has_value());
+    ASSERT_TRUE(report.smallest_clearance.has_value());
+    EXPECT_NEAR(report.smallest_clearance->distance_m, 0.1 - 0.05, 1e-6);
+    EXPECT_EQ(report.smallest_clearance->body_b, "part");
+  }
+}
+
+TEST(AuditMeshes, LeaningOnTheWallOfASlotIsAContact) {
+  const Mesh channel = small::mesh_of(small::channel(0.2));
+  const Mesh tip = small::mesh_of(small::box_surface({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}));
+  for (const Shape& shape : {Shape(tip), Shape(Sphere{0.05}), Shape(Box{{0.1, 0.1, 0.1}})}) {
+    const AuditReport report = at_angle(cell_of(shape, channel, kSlot), kUp + 0.15);
+    ASSERT_TRUE(report.first_contact.has_value());
+    EXPECT_EQ(report.first_contact->body_a, "a_link1");
+    EXPECT_EQ(report.smallest_clearance->distance_m, 0.0);
+  }
+}
+
+TEST(AuditMeshes, ABodyWhollyInsideAnotherIsAContactWhicheverIsTheMesh) {
+  const small::Surface large = small::box_surface({-1, -1, -1}, {1, 1, 1});
+  const small::Surface small_box = small::box_surface({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05});
+  // A second piece, far outside: not its first piece but the second lies inside.
+  const small::Surface two = small::joined(small::box_surface({5, 5, 5}, {6, 6, 6}), small_box);
+  const std::pair<Shape, Shape> cases[] = {
+      {small::mesh_of(small_box), small::mesh_of(large)}, {Sphere{0.05}, small::mesh_of(large)},
+      {Cylinder{0.05, 0.1}, small::mesh_of(large)},       {small::mesh_of(small_box), Box{{2, 2, 2}}},
+      {small::mesh_of(small_box), Sphere{1}},             {small::mesh_of(large), Sphere{0.05}},
+      {small::mesh_of(large), small::mesh_of(small_box)}, {small::mesh_of(two), small::mesh_of(large)}};
+  for (std::size_t i = 0; i < std::size(cases); ++i) {
+    const AuditReport report = at_angle(cell_of(cases[i].first, cases[i].second, small::at_xyz(0.4, 0, 0)), 0.1);
+    EXPECT_TRUE(report.first_contact.has_value()) << "case " << i;
+  }
+}
+
+TEST(AuditMeshes, MeasuresTheSameOverAWholeTurnAsInEachStateAlone) {
+  Cell cell = cell_of(small::mesh_of(small::box_surface({-0.1, -0.05, -0.02}, {0.1, 0.05, 0.02})),
+                      small::mesh_of(small::box_surface({-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3})), small::at_xyz(0.75, 0, 0));
+  cell.objects.push_back({"wall", Box{{0.02, 1, 1}}, small::at_xyz(-0.6, 0, 0)});
+  std::vector<RecordedState> states;
+  double smallest = 1e9;
+  for (int i = 0; i <= 300; ++i) {
+    const Configuration q = Configuration::Constant(1, -2.0 + i * 0.0201);
+    states.push_back({at(i * 10ms), q});
+    smallest = std::min(smallest, at_angle(cell, q[0]).smallest_clearance->distance_m);
+  }
+  const auto whole = audit(cell, states, 10ms);
+  ASSERT_TRUE(whole.has_value());
+  EXPECT_FALSE(whole->first_contact.has_value());
+  EXPECT_NEAR(whole->smallest_clearance->distance_m, smallest, 1e-12);
+  EXPECT_GT(smallest, 0.05);
+}
+
+TEST(AuditMeshes, TheClearanceOfTwoBoxesIsTheGapBetweenTheirFaces) {
+  const Cell cell = cell_of(small::mesh_of(small::box_surface({-0.1, -0.05, -0.02}, {0.1, 0.05, 0.02})),
+                            small::mesh_of(small::box_surface({-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3})),
+                            small::at_xyz(0.75, 0, 0));
+  EXPECT_NEAR(at_angle(cell, 0.0).smallest_clearance->distance_m, 0.75 - 0.1 - 0.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace armloom
