@@ -54,7 +54,8 @@ void FaultyArm::release() {
 
 const ArmFeedback& FaultyArm::tick(TimePoint now) {
   const Duration period = now - std::exchange(now_, now);
-  if (faults_.empty()) return inner_->tick(now);
+  const bool sound = faults_.empty() && !giving_up_ && allowed_ == granted_;
+  if (sound) return inner_->tick(now);
   if (under_way_) {
     if (active(ArmFault::Kind::fault)) give_up();
     withhold(period);

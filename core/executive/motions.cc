@@ -23,10 +23,17 @@ Motions::Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> contr
       measured_(std::move(measured)) {}
 
 void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory) {
-  motions_[dispatch.job] = Motion{trajectory};
+  Motion& motion = motions_[dispatch.job];
+  motion.trajectory = trajectory;
+  motion.resting = motion.braking = false;
   for (ArmId arm : trajectory->arms()) {
+    // An arm that stands ahead of its siblings lets them catch up.
+    const auto stands_at = motion.stands_at.find(arm);
+    const Duration from =
+        stands_at == motion.stands_at.end() ? dispatch.from_progress : stands_at->second;
     // The paper's policies grant the whole trajectory at once.
-    controllers_[arm.index()]->start(trajectory, dispatch.start_at, dispatch.from_progress,
+    controllers_[arm.index()]->start(trajectory,
+                                     dispatch.start_at + (from - dispatch.from_progress), from,
                                      trajectory->duration());
   }
 }
@@ -54,8 +61,22 @@ const std::vector<MotionReport>& Motions::tick(TimePoint now) {
     }
   }
   reports_.clear();
-  for (auto& [job, motion] : motions_) report(job, motion);
+  for (auto& [job, motion] : motions_) {
+    report(job, motion);
+    if (motion.trajectory->arms().size() > 1 && !motion.resting) keep_together(motion);
+  }
   return reports_;
+}
+
+void Motions::keep_together(const Motion& motion) {
+  Duration last = motion.trajectory->duration();
+  for (ArmId arm : motion.trajectory->arms()) {
+    last = std::min(last, feedback_[arm.index()].commanded_progress);
+  }
+  for (ArmId arm : motion.trajectory->arms()) {
+    const bool ahead = feedback_[arm.index()].commanded_progress - last > kAhead;
+    controllers_[arm.index()]->grant(ahead ? last : motion.trajectory->duration());
+  }
 }
 
 void Motions::report(JobId job, Motion& motion) {
@@ -74,6 +95,9 @@ void Motions::report(JobId job, Motion& motion) {
   if (fault && !motion.braking) brake(job);
   if (all_rest) {
     motion.resting = true;
+    for (ArmId arm : motion.trajectory->arms()) {
+      motion.stands_at[arm] = feedback_[arm.index()].measured_progress;
+    }
     const auto kind = fault          ? MotionReport::Kind::faulted
                       : all_finished ? MotionReport::Kind::finished
                                      : MotionReport::Kind::stopped;

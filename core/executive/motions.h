@@ -11,8 +11,9 @@
 namespace armloom {
 
 // The arms and the motions on them: hands a job's trajectory to the controllers of its arms
-// and joins what they say into one report for the job (one progress, one end). Siblings of an arm
-// that faults are braked.
+// and joins what they say into one report for the job (one progress, that of the last; one end).
+// Siblings of an arm that faults are braked; siblings that get ahead of it by more than kAhead wait
+// on the path.
 class Motions {
  public:
   Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
@@ -34,12 +35,16 @@ class Motions {
   [[nodiscard]] double deviation(ArmId arm) const;
 
  private:
+  inline static constexpr Duration kAhead = std::chrono::milliseconds(50);
   struct Motion {
     TrajectoryPtr trajectory;
+    std::map<ArmId, Duration>
+        stands_at{};       // measured, where an arm rests on the path after a brake
     bool resting = false;  // its end has been reported
     bool braking = false;
   };
   void report(JobId job, Motion& motion);
+  void keep_together(const Motion& motion);
   [[nodiscard]] Eigen::VectorXd measured_joints(const Trajectory& trajectory) const;
 
   CellPtr cell_;

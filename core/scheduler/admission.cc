@@ -131,15 +131,18 @@ void Scheduler::explain_waits() {
   }
 }
 
-// A job at the head of its arms that cannot begin where they stand will never be able to.
+// A job at the head of its arms that cannot begin where they stand will never be able to. The end
+// of a job of several arms gives each of them a new head: hence until there are none.
 void Scheduler::fail_impossible_starts() {
-  for (auto& queue : order_) {
-    while (!queue.empty()) {
-      Record& head = records_.at(queue.front());
-      if (!waiting(head) || head.job.started_at || !at_head(head)) break;
-      auto mismatch = start_mismatch(*head.job.trajectory);
-      if (!mismatch) break;
+  for (std::size_t unchanged = 0, arm = 0; unchanged < order_.size();
+       arm = (arm + 1) % order_.size()) {
+    ++unchanged;
+    if (order_[arm].empty()) continue;
+    Record& head = records_.at(order_[arm].front());
+    if (!waiting(head) || head.job.started_at || !at_head(head)) continue;
+    if (auto mismatch = start_mismatch(*head.job.trajectory)) {
       end(head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));
+      unchanged = 0;
     }
   }
 }

@@ -195,6 +195,18 @@ TEST(Order, AThousandJobsBehindACanceledOneAllAnswer) {
   EXPECT_EQ(bench.terminal_events.size(), 1001u);
 }
 
+TEST(Order, TheEndOfAJobOfTwoArmsGivesBothANewHead) {
+  Bench bench(2);
+  const JobId runs = bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  const JobId both = bench.submit(move({0, 1}, 1, 2, 2s), at(2ms));  // arm 0 stands at 0
+  const JobId behind = bench.submit(move({0}, 2, 1, 2s), at(3ms));   // and here, too
+  bench.finished(runs, at(2s));
+  EXPECT_EQ(bench.job(both).reason, Reason::start_mismatch);
+  EXPECT_EQ(bench.job(behind).reason, Reason::start_mismatch);
+  EXPECT_FALSE(bench.question);
+}
+
 TEST(Order, PredictsWhereArmsWillStand) {
   Bench bench(2);
   bench.submit(move({0}, 0, 1, 2s), at(0ms));

@@ -1,0 +1,150 @@
+// The design's defect cases T6 and T7: arms that fault, stall, run slowly or start late; jobs that
+// are canceled in motion. Through the whole executive, on hand-driven time.
+#include <gtest/gtest.h>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+// The crossing, and a third axis far above it that nobody can touch.
+CellDescription crossing_and_far() {
+  CellDescription description = crossing_description();
+  RobotDescription far = description.robots[0];
+  far.name = far.arms[0].name = "far";
+  far.prefix = "far_";
+  far.X_WB.translation().z() = 5.0;
+  description.robots.push_back(far);
+  description.execution.duration_margin = 60s;  // late arms are not failed for it
+  return description;
+}
+
+void inject(Crossing& cell, FaultRequest fault) {
+  ASSERT_TRUE(cell.simulation->executive().inject(fault));
+}
+
+// x has left the crossing when y comes to it, unless x stalls there.
+TEST(T6, AStalledArmStopsOnlyThoseItEndangers) {
+  Crossing cell(crossing_and_far());
+  cell.submit(slide("x", -1, 1, 4, "stalls"));
+  cell.run_until(at(700ms));
+  cell.submit(slide("y", -1, 1, 8, "endangered"));  // at the origin 2.7 s after x
+  cell.submit(slide("far", -1, 1, 8, "unconcerned"));
+  cell.run_until(at(1900ms));
+  ASSERT_EQ(cell.job("endangered").state, JobState::running);
+  inject(cell, {.arm = "x", .kind = ArmFault::Kind::stall, .lasting = 10s});
+  cell.run_until(at(8s));
+  EXPECT_EQ(cell.job("stalls").state, JobState::running) << "late, not ended";
+  EXPECT_EQ(cell.job("endangered").state, JobState::holding);
+  EXPECT_EQ(cell.job("endangered").waits_on.front().job, "stalls");
+  EXPECT_EQ(cell.job("unconcerned").state, JobState::running);
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("stalls").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("endangered").state, JobState::succeeded) << "it goes on by itself";
+  EXPECT_NEAR(to_seconds(*cell.job("unconcerned").ended_at), 8.7, 0.3) << "undisturbed";
+  EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
+}
+
+TEST(T6, AFaultFailsItsJobAndStopsOnlyThoseItEndangers) {
+  Crossing cell(crossing_and_far());
+  cell.submit(slide("x", -1, 1, 4, "faults"));
+  cell.run_until(at(700ms));
+  cell.submit(slide("y", -1, 1, 8, "endangered"));
+  cell.submit(slide("far", -1, 1, 8, "unconcerned"));
+  cell.run_until(at(1900ms));
+  inject(cell, {.arm = "x", .kind = ArmFault::Kind::fault});
+  cell.run_until(at(20s));
+  EXPECT_EQ(cell.job("faults").state, JobState::failed);
+  EXPECT_EQ(cell.job("faults").reason, Reason::arm_fault);
+  EXPECT_EQ(cell.job("endangered").state, JobState::holding);
+  EXPECT_EQ(cell.job("endangered").waits_on.front().arm, "x");
+  EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
+
+  // The arm is taken out of the way after a resume.
+  const double stands = cell.log.last[0];
+  cell.simulation->executive().resume_all();
+  cell.submit(slide("x", stands, 1.5, 4, "taken away"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("endangered").state, JobState::succeeded);
+}
+
+TEST(T6, AnOverrunEndsItsJobAndLeavesTheOthersAlone) {
+  CellDescription description = crossing_and_far();
+  description.execution.duration_margin = 500ms;
+  Crossing cell(description);
+  cell.submit(slide("x", -1, -0.5, 2, "overruns"));
+  cell.submit(slide("far", -1, 1, 8, "unconcerned"));
+  inject(cell, {.arm = "x", .kind = ArmFault::Kind::slow, .value = 0.2});
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("overruns").state, JobState::failed);
+  EXPECT_EQ(cell.job("overruns").reason, Reason::overrun);
+  EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
+}
+
+TEST(Late, AnArmThatStartsLateTouchesNobody) {
+  Crossing cell(crossing_and_far());
+  inject(cell, {.arm = "x", .kind = ArmFault::Kind::late_start, .value = 2.0});
+  cell.submit(slide("x", -1, 1, 4, "late"));
+  cell.run_until(at(1500ms));
+  cell.submit(slide("y", -1, 1, 4, "other"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("late").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("other").state, JobState::succeeded);
+  EXPECT_GT(cell.log.closest_m, 0.0);
+}
+
+TEST(Late, ASlowArmIsWaitedForAndNobodyIsCanceled) {
+  Crossing cell(crossing_and_far());
+  cell.submit(slide("x", -1, 1, 4, "slow"));
+  cell.run_until(at(1s));
+  cell.submit(slide("y", -1, 1, 8, "waits for it"));
+  inject(cell, {.arm = "x", .kind = ArmFault::Kind::slow, .value = 0.3});
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("slow").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("waits for it").state, JobState::succeeded);
+  EXPECT_GT(cell.log.closest_m, 0.0);
+}
+
+TEST(T7, ACanceledJobBrakesAndItsReservationShrinksToWhereItStands) {
+  Crossing cell(crossing_and_far());
+  cell.submit(slide("x", -1, 1, 4, "canceled"));
+  cell.submit(slide("far", -1, 1, 4, "other"));
+  cell.submit(slide("y", -1, 1, 4, "waits"));
+  cell.run_until(at(800ms));
+  ASSERT_EQ(cell.job("waits").state, JobState::backlogged);
+  ASSERT_TRUE(cell.simulation->executive().cancel("canceled"));
+  EXPECT_TRUE(cell.job("canceled").stopping);
+  cell.run_until(at(1500ms));
+  EXPECT_EQ(cell.job("canceled").state, JobState::canceled);
+  EXPECT_LT(cell.log.last[0], -0.5) << "short of the crossing";
+  EXPECT_EQ(cell.job("waits").state, JobState::running) << "the crossing is free now";
+  EXPECT_EQ(cell.job("other").state, JobState::running);
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("waits").state, JobState::succeeded);
+  EXPECT_NEAR(to_seconds(*cell.job("other").ended_at), 4.0, 0.3) << "undisturbed";
+}
+
+TEST(Fault, OfAnUnknownArmOrAnUnknownFaultIsAProblem) {
+  Crossing cell;
+  const auto refused =
+      cell.simulation->executive().inject({.arm = "z", .kind = ArmFault::Kind::stall});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().pointer, "/arm");
+  EXPECT_FALSE(cell.simulation->executive().remove_fault(99));
+}
+
+TEST(Fault, CanBeTakenAwayAgain) {
+  Crossing cell(crossing_and_far());
+  cell.submit(slide("x", -1, -0.5, 2, "stalls"));
+  const auto fault =
+      cell.simulation->executive().inject({.arm = "x", .kind = ArmFault::Kind::stall});
+  ASSERT_TRUE(fault);
+  cell.run_until(at(5s));
+  EXPECT_EQ(cell.job("stalls").state, JobState::running);
+  ASSERT_TRUE(cell.simulation->executive().remove_fault(*fault));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("stalls").state, JobState::succeeded);
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,200 @@
+// Objects that are set, moved and taken away while jobs run and wait; batches, checks and jobs that
+// come after others.
+#include <gtest/gtest.h>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+CollisionObject ball_at(double x_m, const std::string& name = "ball") {
+  CollisionObject object{.name = name, .shape = Sphere{0.1}};
+  object.X_WO.translation().x() = x_m;
+  return object;
+}
+
+TEST(Scene, AnObjectSetInTheWayHoldsTheMotionUntilItIsTakenAway) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 8, "moves"));
+  cell.run_until(at(2s));
+  ASSERT_TRUE(cell.simulation->executive().add_object(ball_at(0.8)));
+  EXPECT_TRUE(std::holds_alternative<SceneView>(cell.log.events.back().body));
+  cell.run_until(at(10s));
+  EXPECT_EQ(cell.job("moves").state, JobState::holding);
+  EXPECT_EQ(cell.job("moves").waits_on.front().kind, Wait::Kind::object);
+  EXPECT_EQ(cell.job("moves").waits_on.front().links.back(), "ball");
+  ASSERT_TRUE(cell.simulation->executive().remove_object("ball"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("moves").state, JobState::succeeded);
+}
+
+TEST(Scene, AWaitingJobIsTriedAgainWhenTheObjectMoves) {
+  Crossing cell;
+  ASSERT_TRUE(cell.simulation->executive().add_object(ball_at(0.5)));
+  cell.submit(slide("x", -1, 1, 4, "waits"));
+  cell.run_until(at(1s));
+  EXPECT_EQ(cell.job("waits").state, JobState::backlogged);
+  CollisionObject aside = ball_at(0.5);
+  aside.X_WO.translation().z() = 2.0;
+  ASSERT_TRUE(cell.simulation->executive().replace_object(aside));
+  cell.run_until(at(1100ms));
+  EXPECT_EQ(cell.job("waits").state, JobState::running);
+}
+
+TEST(Scene, RefusesWhatCannotBe) {
+  Crossing cell;
+  Executive& executive = cell.simulation->executive();
+  const auto in_arm = executive.add_object(ball_at(-1.0));
+  ASSERT_FALSE(in_arm);
+  EXPECT_EQ(in_arm.error().front().slug, "object-in-arm");
+  EXPECT_TRUE(executive.objects().empty());
+  ASSERT_TRUE(executive.add_object(ball_at(1.5)));
+  const std::uint64_t version = executive.scene_version();
+  EXPECT_EQ(executive.add_object(ball_at(1.8)).error().front().kind, ProblemKind::conflict);
+  EXPECT_EQ(executive.replace_object(ball_at(1.8, "other")).error().front().kind,
+            ProblemKind::not_found);
+  EXPECT_EQ(executive.remove_object("other").error().front().kind, ProblemKind::not_found);
+  EXPECT_EQ(executive.scene_version(), version);
+}
+
+TEST(After, AJobWaitsForTheOnesItNames) {
+  Crossing cell;
+  cell.submit(slide("x", -1, -0.5, 2, "first"));
+  JobRequest second = slide("y", -1, -0.5, 2, "second");
+  second.after = {"first"};
+  cell.submit(second);
+  cell.run_until(at(1s));
+  EXPECT_EQ(cell.job("second").state, JobState::queued);
+  EXPECT_EQ(cell.job("second").waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(cell.job("second").waits_on.front().job, "first");
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("second").state, JobState::succeeded);
+  EXPECT_GE(*cell.job("second").started_at, *cell.job("first").ended_at);
+}
+
+TEST(After, AChainFailsWithItsFirstJob) {
+  Crossing cell;
+  cell.submit(slide("x", -1, -0.5, 2, "first"));
+  JobRequest second = slide("y", -1, -0.5, 2, "second");
+  second.after = {"first"};
+  cell.submit(second);
+  JobRequest third = slide("x", -0.5, -1, 2, "third");
+  third.after = {"second"};
+  cell.submit(third);
+  ASSERT_TRUE(cell.simulation->executive().cancel("first"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("second").reason, Reason::predecessor_failed);
+  EXPECT_EQ(cell.job("third").reason, Reason::predecessor_failed);
+}
+
+TEST(After, RefusesWhatIsUnknownItselfOrHasFailed) {
+  Crossing cell;
+  Executive& executive = cell.simulation->executive();
+  JobRequest job = slide("x", -1, -0.5, 2, "job");
+  job.after = {"nobody"};
+  EXPECT_EQ(executive.submit(job).error().front().pointer, "/after/0");
+  job.after = {"job"};
+  EXPECT_EQ(executive.submit(job).error().front().slug, "after-itself");
+  cell.submit(slide("x", -1, -0.5, 2, "canceled"));
+  ASSERT_TRUE(executive.cancel("canceled"));
+  cell.run_to_the_end();
+  job.after = {"canceled"};
+  EXPECT_EQ(executive.submit(job).error().front().slug, "predecessor-failed");
+}
+
+TEST(Batch, IsAcceptedWholeOrNotAtAll) {
+  Crossing cell;
+  Executive& executive = cell.simulation->executive();
+  JobRequest back = slide("x", -0.5, -1, 2, "back");
+  back.after = {"out"};
+  auto accepted = executive.submit_batch({slide("x", -1, -0.5, 2, "out"), back}, true);
+  ASSERT_TRUE(accepted);
+  EXPECT_EQ(accepted->size(), 2u);
+
+  // The second does not begin where the first ends; the third has the first one's id.
+  const auto refused =
+      executive.submit_batch({slide("y", -1, -0.5, 2, "one"), slide("y", -1, -0.5, 2, "two"),
+                              slide("y", -0.5, -1, 2, "one")},
+                             true);
+  ASSERT_FALSE(refused);
+  ASSERT_EQ(refused.error().size(), 2u);
+  EXPECT_EQ(refused.error()[0].pointer, "/jobs/1/trajectory/points/0/positions/0");
+  EXPECT_EQ(refused.error()[1].pointer, "/jobs/2/id");
+  EXPECT_FALSE(executive.job("one"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("back").state, JobState::succeeded);
+}
+
+TEST(Batch, NotAtomicAnswersEachForItself) {
+  Crossing cell;
+  auto answers = cell.simulation->executive().submit_batch(
+      {slide("y", 0, -0.5, 2, "bad"), slide("y", -1, -0.5, 2, "good")}, false);
+  ASSERT_TRUE(answers);
+  EXPECT_FALSE((*answers)[0]);
+  EXPECT_TRUE((*answers)[1]);
+}
+
+TEST(Check, AnswersWithEvidenceAndChangesNothing) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "runs"));
+  cell.run_until(at(100ms));
+  const std::size_t events = cell.log.events.size();
+  std::optional<CheckView> answer;
+  const auto keep = [&](Result<CheckView> view) {
+    ASSERT_TRUE(view);
+    answer = *view;
+  };
+  cell.simulation->executive().check(slide("y", -1, 1, 4), keep);
+  cell.run_until(at(110ms));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->kind, Verdict::Kind::conflict);
+  EXPECT_EQ(answer->conflicts.front().job, "runs");
+  EXPECT_GT(answer->evaluations, 0u);
+  EXPECT_FALSE(answer->earliest_start_s);
+
+  cell.simulation->executive().check(slide("y", -1, -0.5, 4), keep);
+  cell.run_until(at(120ms));
+  EXPECT_EQ(answer->kind, Verdict::Kind::free);
+  EXPECT_EQ(answer->earliest_start_s, 0.0);
+
+  cell.simulation->executive().check(slide("x", 1, -1, 4), keep);
+  EXPECT_EQ(answer->kind, Verdict::Kind::conflict);
+  EXPECT_EQ(answer->conflicts.front().kind, Wait::Kind::order);
+  EXPECT_EQ(cell.log.events.size(), events);
+  EXPECT_EQ(cell.simulation->executive().snapshot().jobs.size(), 1u);
+}
+
+TEST(Synchronous, ArmsOfOneTrajectoryStartAndEndTogether) {
+  CellDescription description = crossing_description();
+  description.robots[1].X_WB.translation().z() = 1.0;
+  Crossing cell(description);
+  JobRequest both;
+  both.key = "both";
+  both.trajectory.joint_names = {"y_slide", "x_slide"};
+  both.trajectory.points = {{{-1, -1}, {0, 0}, {0, 0}, 0.0}, {{0.5, 1}, {0, 0}, {0, 0}, 4.0}};
+  cell.submit(both);
+  cell.run_until(at(2s));
+  EXPECT_NEAR(cell.log.last[0] + 1, (cell.log.last[1] + 1) / 1.5 * 2, 1e-9);
+  EXPECT_EQ(cell.job("both").arms, (std::vector<std::string>{"x", "y"}));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("both").state, JobState::succeeded);
+}
+
+TEST(Synchronous, AFaultOfOneArmStopsItsSibling) {
+  CellDescription description = crossing_description();
+  description.robots[1].X_WB.translation().z() = 1.0;
+  Crossing cell(description);
+  JobRequest both;
+  both.key = "both";
+  both.trajectory.joint_names = {"x_slide", "y_slide"};
+  both.trajectory.points = {{{-1, -1}, {0, 0}, {0, 0}, 0.0}, {{1, 1}, {0, 0}, {0, 0}, 4.0}};
+  cell.submit(both);
+  cell.run_until(at(1500ms));
+  ASSERT_TRUE(cell.simulation->executive().inject({.arm = "x", .kind = ArmFault::Kind::fault}));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("both").reason, Reason::arm_fault);
+  EXPECT_LT(cell.log.last[1], 0.5) << "the sibling stopped, too";
+}
+
+}  // namespace
+}  // namespace armloom
