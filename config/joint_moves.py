@@ -43,6 +43,9 @@ PANDA = Robot([f"panda_joint{i}" for i in range(1, 8)],
 UR5E = Robot(["shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint",
               "wrist_2_joint", "wrist_3_joint"], [math.pi] * 6, [4] * 6,
              [0, -2.3, 2.6, -1.87, -1.5708, 0])
+# A Fanuc M-10iA; its wrist hangs straight down where joint 5 is joint 2 - joint 3 - pi/2.
+FANUC = Robot([f"joint_{i}" for i in range(1, 7)], [3.67, 3.32, 3.67, 6.98, 6.98, 10.47],
+              [3.75] * 6, [0, -0.5, -0.5, 0, -1.57, 0])
 
 
 def named(*poses):
@@ -93,6 +96,21 @@ CELLS = {
             "across": [0.9, 0.4, 0, -1.5, 0, 1.9, 0.785],
             "ahead": [0, 0.2, 0, -1.8, 0, 2.0, 0.785],
             "outside": [-0.7, 0, 0, -2.0, 0, 2.0, 0.785],
+        }),
+    ],
+    # Tool down over the table; the two middles are one place.
+    "two_fanucs": [
+        Arm("left", FANUC, "left_", {
+            "middle": [0, 0.3, -0.4, 0, -0.87, 0],
+            "left": [0.5, 0.2, -0.5, 0, -0.87, 1.0],
+            "far": [0, 0.6, -0.2, 0, -0.77, 0],
+            "right": [-0.5, 0.4, -0.4, 0, -0.77, -1.0],
+        }),
+        Arm("right", FANUC, "right_", {
+            "left": [0.5, 0.2, -0.5, 0, -0.87, 1.0],
+            "middle": [0, 0.3, -0.4, 0, -0.87, 0],
+            "right": [-0.5, 0.4, -0.4, 0, -0.77, -1.0],
+            "far": [0, 0.6, -0.2, 0, -0.77, 0],
         }),
     ],
 }

@@ -3,7 +3,7 @@
 # folder $1 where they need one; the robot with two arms in models/ is what dual_panda.py makes.
 set -e
 top=$(cd "$(dirname "$0")/../.." && pwd)
-for cell in panda_and_ur5e dual_panda; do
+for cell in panda_and_ur5e dual_panda two_fanucs; do
   python3 "$top/config/joint_moves.py" "$cell" | cmp - "$top/config/${cell}_jobs.json"
 done
 made=$(mktemp -d)
