@@ -44,8 +44,9 @@ class Executive::Impl final : public JobNames {
   std::optional<JobView> job(const std::string& key) const;
   Snapshot snapshot() const;
 
-  std::string key(JobId job) const override { return labels_.at(job).key; }
-  std::string name(JobId job) const override { return labels_.at(job).name; }
+  // Empty for a job that has been forgotten since.
+  std::string key(JobId job) const override;
+  std::string name(JobId job) const override;
 
   std::vector<ArmId> all_arms() const;
 

@@ -11,6 +11,16 @@ void Executive::Impl::tell(
   observer_.on_event(Event{++seq_, now_, std::move(body)});
 }
 
+std::string Executive::Impl::key(JobId job) const {
+  const auto label = labels_.find(job);
+  return label == labels_.end() ? std::string() : label->second.key;
+}
+
+std::string Executive::Impl::name(JobId job) const {
+  const auto label = labels_.find(job);
+  return label == labels_.end() ? std::string() : label->second.name;
+}
+
 void Executive::Impl::tell_job(JobId job) {
   JobView view = view_of(*scheduler_.find(job), *cell_, *this);
   if (is_terminal(view.state)) count(view);
