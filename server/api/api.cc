@@ -7,6 +7,7 @@
 #include "server/api/job_filter.h"
 #include "server/codec/cell_codec.h"
 #include "server/codec/job_codec.h"
+#include "server/codec/mesh_address.h"
 #include "server/codec/views.h"
 
 namespace armloom {
@@ -52,6 +53,7 @@ void write_jobs(JsonWriter& out, const std::vector<JobView>& jobs,
 
 Api::Api(Parts parts)
     : parts_(std::move(parts)),
+      meshes_(*parts_.cell),
       cell_text_(cell_json(*parts_.cell, parts_.policy, parts_.loop.speed())) {}
 
 template <class Ask, class Then>
@@ -92,6 +94,8 @@ void Api::add_routes(Router& router) {
   router.add("GET", v1 + "/cell", [this](const Request&, const Arguments&, Respond respond) {
     respond(json_response(200, cell_text_));
   });
+  router.add("GET", kMeshFolder + std::string("{}"),
+             [this](const Request&, const Arguments& a, Respond respond) { respond(meshes_.answer(a.front())); });
   router.add("GET", v1 + "/scene", [this](const Request&, const Arguments&, Respond respond) {
     JsonWriter out;
     out.begin_object().key("objects");

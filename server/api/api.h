@@ -5,6 +5,7 @@
 
 #include "core/executive/real_time_loop.h"
 #include "core/model/cell.h"
+#include "server/api/cell_meshes.h"
 #include "server/codec/wall_clock.h"
 #include "server/http/router.h"
 #include "server/hub/hub.h"
@@ -53,6 +54,7 @@ class Api {
   [[nodiscard]] std::string job_text(const JobView& job) const;
 
   Parts parts_;
+  CellMeshes meshes_;
   std::string cell_text_;  // written once: a cell does not change while it runs
 };
 

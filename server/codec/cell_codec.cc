@@ -1,5 +1,7 @@
 #include "server/codec/cell_codec.h"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -12,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLengthMax_m = 1000.0;
+constexpr double kAngleMax_rad = 100.0;
 constexpr double kTimeMax_s = 1e6;
 
 std::string resolved(const std::string& path, const fs::path& folder) {
@@ -37,12 +40,18 @@ void read_seconds(const JsonNode& node, Duration& out) {
   if (node.read_within(seconds, 0.0, kTimeMax_s)) out = from_seconds(seconds);
 }
 
+void read_bounded(const JsonNode& node, double highest, Eigen::Vector3d& out) {
+  if (!node.read_numbers(out.data(), 3) || (out.array().abs() <= highest).all()) return;
+  node.invalid("out-of-range", "each number is at most " + std::to_string(std::lround(highest)) +
+                                   " in size, found " + node.raw().dump());
+}
+
 // Position in metres and fixed-axis roll, pitch, yaw in rad, as URDF has them.
 void read_pose(const JsonNode& node, Eigen::Isometry3d& X) {
   Eigen::Vector3d xyz = Eigen::Vector3d::Zero();
   Eigen::Vector3d rpy = Eigen::Vector3d::Zero();
-  node.optional("xyz", [&](const JsonNode& n) { n.read_numbers(xyz.data(), 3); });
-  node.optional("rpy", [&](const JsonNode& n) { n.read_numbers(rpy.data(), 3); });
+  node.optional("xyz", [&](const JsonNode& n) { read_bounded(n, kLengthMax_m, xyz); });
+  node.optional("rpy", [&](const JsonNode& n) { read_bounded(n, kAngleMax_rad, rpy); });
   X = Eigen::Translation3d(xyz) * Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
       Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
       Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX());
@@ -146,8 +155,12 @@ void read_shape(const JsonNode& node, const fs::path& folder, Shape& shape) {
     ++shapes;
     Mesh mesh{};
     read_path(n, folder, mesh.path);
+    node.optional("scale", [&](const JsonNode& s) { s.read_numbers(mesh.scale.data(), 3); });
     shape = mesh;
   });
+  if (node.raw().contains("scale") && !node.raw().contains("mesh")) {
+    node.invalid("scale-without-mesh", "only a mesh has a scale");
+  }
   if (shapes != 1) {
     node.invalid("no-shape", "exactly one of box, cylinder, sphere, mesh is expected, found " +
                                  std::to_string(shapes));
@@ -155,7 +168,7 @@ void read_shape(const JsonNode& node, const fs::path& folder, Shape& shape) {
 }
 
 void read_object(const JsonNode& node, const fs::path& folder, ObjectDescription& object) {
-  if (!node.object({"name", "box", "cylinder", "sphere", "mesh", "xyz", "rpy"})) return;
+  if (!node.object({"name", "box", "cylinder", "sphere", "mesh", "scale", "xyz", "rpy"})) return;
   node.required("name", [&](const JsonNode& n) { read_name(n, object.name); });
   read_shape(node, folder, object.shape);
   read_pose(node, object.X_WO);
@@ -252,6 +265,36 @@ void relocate(nlohmann::json& owner, const char* key, const fs::path& from, cons
 }
 
 }  // namespace
+
+Result<CollisionObject> read_object_text(std::string_view text,
+                                         const std::optional<std::string>& name) {
+  auto body = parse_json(text, JsonComments::refused);
+  if (!body) return failure(body.error());
+  Problems faults;
+  if (name && body->is_object() && !body->contains("name")) (*body)["name"] = *name;
+  const JsonNode node(*body, "", faults);
+  ObjectDescription object;
+  if (node.is_object() && node.has("mesh")) {
+    node.optional("mesh", [](const JsonNode& n) {
+      n.invalid("unsupported", "meshes are part of the cell file; over HTTP an object is a box, a "
+                               "cylinder or a sphere");
+    });
+  } else {
+    read_object(node, "", object);
+  }
+  node.optional("name", [&](const JsonNode& n) {
+    const bool plain = std::ranges::none_of(object.name, [](char c) {
+      return static_cast<unsigned char>(c) < 0x20 || c == '/' || c == '\\';
+    });
+    if (object.name.size() > kObjectNameMax || !plain) {
+      n.invalid("bad-name", "a name is at most 128 bytes without slashes and control characters");
+    } else if (name && n.raw().is_string() && n.raw() != *name) {
+      n.invalid("name-differs", "the name differs from \"" + *name + "\" in the address");
+    }
+  });
+  if (!faults.empty()) return failure(std::move(faults));
+  return CollisionObject{std::move(object.name), object.shape, object.X_WO};
+}
 
 Result<CellDescription> read_cell_text(std::string_view text, const fs::path& folder) {
   const auto file = parse_json(text, JsonComments::allowed);

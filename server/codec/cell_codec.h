@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,9 +24,17 @@ namespace armloom {
                                              const std::filesystem::path& from,
                                              const std::filesystem::path& to);
 
-// The answer to GET /cell, with URDF and SRDF texts. `policy` and `speed` are those in force.
+// The answer to GET /cell, with URDF and SRDF texts, and for each robot the addresses of the meshes
+// that its URDF names ("meshes", by the name there). `policy` and `speed` are those in force.
 [[nodiscard]] std::string cell_json(const Cell& cell, std::string_view policy, double speed);
 
+// The body of POST and PUT /scene/objects: an object as in a cell file, but no mesh: a client names
+// no file of the server. `name`: of the URL, which one in the body has to agree with.
+inline constexpr std::size_t kObjectNameMax = 128;
+[[nodiscard]] Result<CollisionObject> read_object_text(std::string_view text,
+                                                       const std::optional<std::string>& name);
+
+void write_object(JsonWriter& out, const CollisionObject& object);
 // An array of objects of the planning scene.
 void write_objects(JsonWriter& out, const std::vector<CollisionObject>& objects);
 

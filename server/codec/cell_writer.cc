@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "server/codec/cell_codec.h"
+#include "server/codec/mesh_address.h"
 
 namespace armloom {
 namespace {
@@ -39,7 +40,11 @@ struct ShapeWriter {
   void operator()(const Sphere& sphere) const {
     out.key("sphere").begin_array().value(sphere.radius_m).end_array();
   }
-  void operator()(const Mesh& mesh) const { out.field("mesh", mesh.path); }
+  void operator()(const Mesh& mesh) const {
+    out.field("mesh", mesh_address(mesh.path));
+    out.key("scale");
+    write_vector(out, mesh.scale);
+  }
 };
 
 void write_arm(JsonWriter& out, const Cell& cell, const Arm& arm) {
@@ -64,6 +69,9 @@ void write_robot(JsonWriter& out, const Cell& cell, const Robot& robot) {
   write_pose(out, robot.X_WB);
   out.end_object();
   out.field("urdf", robot.urdf_text).field("srdf", robot.srdf_text);
+  out.key("meshes").begin_object();
+  for (const auto& [uri, path] : robot.mesh_files) out.field(uri, mesh_address(path));
+  out.end_object();
   out.key("arms").begin_array();
   for (const ArmId id : robot.arms) write_arm(out, cell, cell.arm(id));
   out.end_array().end_object();
@@ -108,14 +116,16 @@ void write_settings(JsonWriter& out, const Cell& cell) {
 
 }  // namespace
 
+void write_object(JsonWriter& out, const CollisionObject& object) {
+  out.begin_object().field("name", object.name);
+  std::visit(ShapeWriter{out}, object.shape);
+  write_pose(out, object.X_WO);
+  out.end_object();
+}
+
 void write_objects(JsonWriter& out, const std::vector<CollisionObject>& objects) {
   out.begin_array();
-  for (const CollisionObject& object : objects) {
-    out.begin_object().field("name", object.name);
-    std::visit(ShapeWriter{out}, object.shape);
-    write_pose(out, object.X_WO);
-    out.end_object();
-  }
+  for (const CollisionObject& object : objects) write_object(out, object);
   out.end_array();
 }
 

@@ -75,6 +75,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCell{"BoxIsFlat", "/objects/0/box", "[1, 1, 0]", "greater than zero"},
         BadCell{"TwoShapes", "/objects/0", R"({"name": "x", "box": [1,1,1], "sphere": [1]})",
                 "exactly one"},
+        BadCell{"ScaleOfABox", "/objects/0", R"({"name": "x", "box": [1,1,1], "scale": [1,1,1]})",
+                "only a mesh has a scale"},
         BadCell{"PairIsSingle", "/allowed_collisions/0", "[\"table\"]", "a pair"},
         BadCell{"StepIsZero", "/checking/time_step_s", "0", "not within"},
         BadCell{"RateIsHigh", "/monitor/rate_hz", "5000", "not within"},

@@ -14,12 +14,12 @@
 
 namespace armloom::test {
 
-// The real server on a free port of the loopback, with the two-Panda cell, for each test a new one.
+// The real server on a free port of the loopback, with the two-Panda cell (or that of `file`),
+// for each test a new one.
 class RunningServer : public ::testing::Test {
  protected:
-  void start(double speed, std::filesystem::path web = {}) {
-    const std::filesystem::path file =
-        std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
+  void start(double speed, std::filesystem::path web = {}, std::filesystem::path file = {}) {
+    if (file.empty()) file = std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
     const auto text = read_text_file(file);
     ASSERT_TRUE(text);
     const auto description = read_cell_text(*text, file.parent_path());
