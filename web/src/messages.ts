@@ -68,11 +68,13 @@ export interface Job {
 export type Shape =
   | { kind: 'box'; size: [number, number, number] }
   | { kind: 'cylinder'; radius: number; length: number }
-  | { kind: 'sphere'; radius: number };
+  | { kind: 'sphere'; radius: number }
+  /** Served at `address` by the same server; in metres once scaled. */
+  | { kind: 'mesh'; address: string; scale: [number, number, number] };
 
 export interface SceneObject {
   name: string;
-  /** null for a shape that this page cannot draw (a mesh). */
+  /** null for a shape that this page does not know. */
   shape: Shape | null;
   xyz: [number, number, number];
   rpy: [number, number, number];
@@ -90,6 +92,8 @@ export interface CellRobot {
   prefix: string;
   base: { xyz: [number, number, number]; rpy: [number, number, number] };
   urdf: string;
+  /** Where the meshes are served that the URDF names, by the name there ("package://..."). */
+  meshes: Record<string, string>;
   arms: CellArm[];
 }
 
@@ -356,6 +360,8 @@ function read_shape(f: Field): Shape | null {
   }
   const sphere = f.get('sphere').or_null((e) => e.list((n) => n.number()));
   if (sphere?.[0] !== undefined) return { kind: 'sphere', radius: sphere[0] };
+  const mesh = f.get('mesh').or_null((e) => e.text());
+  if (mesh) return { kind: 'mesh', address: mesh, scale: f.get('scale').or_null((e) => e.triple()) ?? [1, 1, 1] };
   return null;
 }
 
@@ -378,6 +384,7 @@ function read_robot(f: Field): CellRobot {
     prefix: f.get('prefix').or_null((e) => e.text()) ?? '',
     base: { xyz: base.get('xyz').triple(), rpy: base.get('rpy').triple() },
     urdf: f.get('urdf').text(),
+    meshes: f.get('meshes').or_null((e) => e.texts_by_name()) ?? {},
     arms: f.get('arms').list((arm) => ({
       name: arm.get('name').text(),
       joints: arm.get('joints').list((e) => e.text()),
@@ -470,6 +477,11 @@ class Field {
     if (typeof this.value !== 'object' || this.value === null || Array.isArray(this.value)) this.fail('an object');
     for (const key of Object.keys(this.value as object)) this.get(key).number();
     return this.value as Record<string, number>;
+  }
+  texts_by_name(): Record<string, string> {
+    if (typeof this.value !== 'object' || this.value === null || Array.isArray(this.value)) this.fail('an object');
+    for (const key of Object.keys(this.value as object)) this.get(key).text();
+    return this.value as Record<string, string>;
   }
   fail(expected: string): never {
     const found = JSON.stringify(this.value)?.slice(0, 60) ?? 'nothing';

@@ -89,6 +89,18 @@ describe('the cell', () => {
     expect(read.ok && read.value.joints[0]?.acceleration_max).toBeNull();
   });
 
+  it('says where the meshes of robots and objects are served', () => {
+    const meshes = { 'package://p/a.stl': '/api/v1/cell/meshes/1.stl' };
+    const objects = [{ name: 'part', mesh: '/api/v1/cell/meshes/2.obj', scale: [1, 1, -2], xyz: [1, 0, 0] }];
+    const read = parse_cell({ ...cell, objects, robots: [{ ...cell.robots[0], meshes }] });
+    expect(read.ok && read.value.robots[0]?.meshes).toEqual(meshes);
+    expect(read.ok && read.value.objects[0]?.shape).toEqual({ kind: 'mesh', address: '/api/v1/cell/meshes/2.obj', scale: [1, 1, -2] });
+    const plain = parse_cell(cell);
+    expect(plain.ok && plain.value.robots[0]?.meshes).toEqual({});
+    const wrong = parse_cell({ ...cell, robots: [{ ...cell.robots[0], meshes: { a: 1 } }] });
+    expect(!wrong.ok && wrong.fault).toMatch(/^\/robots\/0\/meshes\/a: expected a string/);
+  });
+
   it('is refused with the place of the fault', () => {
     const read = parse_cell({ ...cell, robots: [{ ...cell.robots[0], base: { xyz: [1, 2], rpy: [0, 0, 0] } }] });
     expect(!read.ok && read.fault).toMatch(/^\/robots\/0\/base\/xyz: expected three numbers/);

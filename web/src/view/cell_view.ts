@@ -7,6 +7,7 @@ import type { Store } from '../store';
 import { RobotModel } from './robot';
 import { dispose, object_mesh } from './shapes';
 import { Stage } from './stage';
+import { SurfaceShelf, type Surfaces } from './surfaces';
 
 interface Label { element: HTMLElement; name: HTMLElement; state: HTMLElement }
 
@@ -15,6 +16,7 @@ export class CellView {
   private readonly robots_ = new Map<string, RobotModel>();
   private readonly labels_ = new Map<string, Label>();
   private objects_ = new THREE.Group();
+  private readonly shelf_ = new SurfaceShelf();
   private cell_: Cell | null = null;
   private shown_objects_: SceneObject[] | null = null;
   private readonly off_: (() => void)[];
@@ -70,17 +72,38 @@ export class CellView {
       this.stage_.scene.remove(robot.root);
     }
     this.robots_.clear();
+    this.frame_cell(cell);
+    const addresses = cell.robots.flatMap((robot) => Object.values(robot.meshes));
+    if (addresses.length === 0) return this.add_robots(cell, new Map());
+    void this.shelf_.load(addresses).then((surfaces) => {
+      if (this.cell_ !== cell) return;  // another run has begun meanwhile
+      this.add_robots(cell, surfaces);
+      this.frame_robots();
+      this.follow();
+    });
+  }
+
+  private add_robots(cell: Cell, surfaces: Surfaces): void {
     for (const robot of cell.robots) {
       try {
-        const model = new RobotModel(robot);
+        const model = new RobotModel(robot, surfaces);
         this.robots_.set(robot.name, model);
         this.stage_.scene.add(model.root);
       } catch (error) {
         console.warn(`robot ${robot.name} cannot be drawn:`, error);
       }
     }
-    this.frame_cell(cell);
     this.stage_.invalidate(true);
+  }
+
+  /** Looks at the robots as they stand: those with meshes come in all sizes. */
+  private frame_robots(): void {
+    this.move();
+    const box = new THREE.Box3();
+    for (const robot of this.robots_.values()) box.expandByObject(robot.root);
+    if (box.isEmpty()) return;
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    this.stage_.frame(sphere.center, 0.85 * sphere.radius);
   }
 
   /** Looks at the robots' bases with a little more than an arm's reach around them. */
@@ -95,10 +118,19 @@ export class CellView {
 
   private show_objects(objects: SceneObject[]): void {
     this.shown_objects_ = objects;
+    const addresses = objects.flatMap(({ shape }) => (shape?.kind === 'mesh' ? [shape.address] : []));
+    if (addresses.length === 0) return this.add_objects(objects, new Map());
+    void this.shelf_.load(addresses).then((surfaces) => {
+      if (this.shown_objects_ === objects) this.add_objects(objects, surfaces);
+    });
+  }
+
+  private add_objects(objects: SceneObject[], surfaces: Surfaces): void {
     dispose(this.objects_);
     this.objects_.clear();
     for (const object of objects) {
-      const mesh = object_mesh(object);
+      const surface = object.shape?.kind === 'mesh' ? surfaces.get(object.shape.address) : null;
+      const mesh = object_mesh(object, surface ?? null);
       if (mesh) this.objects_.add(mesh);
     }
     this.stage_.invalidate(true);

@@ -1,14 +1,15 @@
 // One robot of the cell, built from its URDF text by urdf-loader and moved joint by joint.
 //
-// The URDF's names carry no prefix; joint names outside are prefix + URDF name. Meshes are not
-// loaded (the server does not serve them): a robot is drawn with its primitives, visuals first,
-// collision shapes when it has no visual that can be drawn.
+// The URDF's names carry no prefix; joint names outside are prefix + URDF name. A robot is drawn by
+// its visuals. A link whose visual meshes cannot be read is drawn by its collision shapes in the
+// visuals' colour, and so is a robot without visuals; a link of which nothing can be read is a mark.
 
 import * as THREE from 'three';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
 import type { ArmState, CellArm, CellRobot } from '../messages';
 import { kStateColours } from '../palette';
-import { place } from './shapes';
+import type { Surfaces } from './surfaces';
+import { mark_geometry, place } from './shapes';
 import { merge_links } from './skin';
 
 const kStill_rad = 1e-5;
@@ -24,9 +25,10 @@ export class RobotModel {
   private readonly joints_: { name: string; key: string; value: number }[];
   private readonly skin_: THREE.MeshStandardMaterial;
 
-  /** Throws when the text is not a URDF. */
-  constructor(robot: CellRobot) {
-    this.root = parse(robot.urdf);
+  /** `surfaces`: what was read of the robot's meshes, by address. Throws when the text is not a URDF. */
+  constructor(robot: CellRobot, surfaces: Surfaces = new Map()) {
+    this.root = load(robot, surfaces);
+    choose_shapes(this.root);
     this.skin_ = merge_links(this.root);
     place(this.root, robot.base.xyz, robot.base.rpy);
     this.joints_ = Object.keys(this.root.joints).map((key) => ({ name: robot.prefix + key, key, value: NaN }));
@@ -73,24 +75,51 @@ export class RobotModel {
   }
 }
 
-function parse(urdf: string): URDFRobot {
-  const visuals = load(urdf, 'visual');
-  return has_meshes(visuals) ? visuals : load(urdf, 'collision');
-}
-
-function load(urdf: string, shapes: 'visual' | 'collision'): URDFRobot {
+function load(robot: CellRobot, surfaces: Surfaces): URDFRobot {
   const loader = new URDFLoader();
-  loader.parseVisual = shapes === 'visual';
-  loader.parseCollision = shapes === 'collision';
-  loader.loadMeshCb = (_url, _manager, done) => done(new THREE.Object3D());
-  const robot = loader.parse(urdf);
+  loader.parseVisual = true;
+  loader.parseCollision = true;
+  // Names stay as the URDF has them: the server's table of meshes goes by these.
+  loader.packages = (name: string) => `package://${name}`;
+  loader.loadMeshCb = (name, _manager, done) => {
+    const surface = surfaces.get(robot.meshes[name] ?? '') ?? null;
+    const mesh = new THREE.Mesh(surface ?? undefined);
+    mesh.userData['missing'] = surface === null;
+    done(mesh);
+  };
+  const root = loader.parse(robot.urdf);
   // Limits are the server's matter; what it measured is drawn as it is.
-  for (const joint of Object.values(robot.joints)) joint.ignoreLimits = true;
-  return robot;
+  for (const joint of Object.values(root.joints)) joint.ignoreLimits = true;
+  return root;
 }
 
-function has_meshes(root: THREE.Object3D): boolean {
-  let found = false;
-  root.traverse((node) => { found ||= node instanceof THREE.Mesh; });
+/** Leaves each link with what is to be drawn of it. Meshes that could not be read are marked `missing`. */
+export function choose_shapes(root: Pick<URDFRobot, 'links'>): void {
+  const links = Object.values(root.links).map((link) => {
+    const of_kind = (kind: string) => link.children.filter((child) => kind in child);
+    return { link, visuals: of_kind('isURDFVisual'), colliders: of_kind('isURDFCollider') };
+  });
+  const any_visual = links.some(({ visuals }) => visuals.some((visual) => meshes_below(visual).some(is_read)));
+  for (const { link, visuals, colliders } of links) {
+    const named = visuals.flatMap(meshes_below);
+    const by_colliders = !named.some(is_read) && (named.length > 0 || !any_visual);
+    const colour = named.find((mesh) => !is_read(mesh))?.material;
+    for (const node of by_colliders ? visuals : colliders) node.removeFromParent();
+    const drawn = (by_colliders ? colliders : visuals).flatMap(meshes_below);
+    for (const mesh of drawn) {
+      if (!is_read(mesh)) mesh.removeFromParent();
+      else if (by_colliders && colour) mesh.material = colour;
+    }
+    if (drawn.length > 0 && !drawn.some(is_read)) link.add(new THREE.Mesh(mark_geometry(), new THREE.MeshPhongMaterial()));
+  }
+}
+
+function meshes_below(root: THREE.Object3D): THREE.Mesh[] {
+  const found: THREE.Mesh[] = [];
+  root.traverse((node) => { if (node instanceof THREE.Mesh) found.push(node); });
   return found;
+}
+
+function is_read(mesh: THREE.Mesh): boolean {
+  return mesh.userData['missing'] !== true;
 }

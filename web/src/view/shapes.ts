@@ -10,10 +10,15 @@ export function place(object: THREE.Object3D, xyz: readonly number[], rpy: reado
   object.rotation.set(rpy[0] ?? 0, rpy[1] ?? 0, rpy[2] ?? 0, 'ZYX');
 }
 
-/** The object as a mesh with fine edges; null for a shape that cannot be drawn. */
-export function object_mesh(object: SceneObject): THREE.Object3D | null {
+/**
+ * The object as a mesh with fine edges; null for a shape that cannot be drawn. `surface`: what the
+ * server has at the address of its mesh; without it the object is drawn as a mark where it stands.
+ */
+export function object_mesh(object: SceneObject, surface: THREE.BufferGeometry | null = null): THREE.Object3D | null {
   if (!object.shape) return null;
-  const geometry = shape_geometry(object.shape);
+  const geometry = object.shape.kind === 'mesh'
+    ? scaled(surface ?? mark_geometry(), surface ? object.shape.scale : [1, 1, 1])
+    : shape_geometry(object.shape);
   const material = new THREE.MeshStandardMaterial({ color: 0x2c323b, roughness: 0.85, metalness: 0 });
   const mesh = new THREE.Mesh(geometry, material);
   mesh.name = object.name;
@@ -28,7 +33,34 @@ export function object_mesh(object: SceneObject): THREE.Object3D | null {
   return mesh;
 }
 
-function shape_geometry(shape: Shape): THREE.BufferGeometry {
+/** What stands where a mesh should be that cannot be read. */
+export function mark_geometry(): THREE.BufferGeometry {
+  return new THREE.OctahedronGeometry(0.06);
+}
+
+function scaled(geometry: THREE.BufferGeometry, [x, y, z]: readonly [number, number, number]): THREE.BufferGeometry {
+  const copy = geometry.clone().applyMatrix4(new THREE.Matrix4().makeScale(x, y, z));
+  return x * y * z < 0 ? turned_inside_out(copy) : copy;
+}
+
+/** Mirroring turns triangles away from the eye: this turns them back. */
+export function turned_inside_out(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
+  const plain = geometry.index ? geometry.toNonIndexed() : geometry;
+  for (const attribute of Object.values(plain.attributes)) {
+    const size = attribute.itemSize;
+    const array = attribute.array;
+    for (let i = 0; i + 3 * size <= array.length; i += 3 * size) {
+      for (let k = 0; k < size; k++) {
+        const second = array[i + size + k] ?? 0;
+        array[i + size + k] = array[i + 2 * size + k] ?? 0;
+        array[i + 2 * size + k] = second;
+      }
+    }
+  }
+  return plain;
+}
+
+function shape_geometry(shape: Exclude<Shape, { kind: 'mesh' }>): THREE.BufferGeometry {
   switch (shape.kind) {
     case 'box': return new THREE.BoxGeometry(...shape.size);
     // three's cylinder stands along y, ours along z.

@@ -7,6 +7,7 @@
 import * as THREE from 'three';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
 import type { URDFRobot } from 'urdf-loader';
+import { turned_inside_out } from './shapes';
 
 // urdf-loader builds every sphere and cylinder with unit size and scales the mesh.
 const kSphere = new THREE.SphereGeometry(1, 20, 12);
@@ -18,7 +19,7 @@ export function merge_links(robot: URDFRobot): THREE.MeshStandardMaterial {
   robot.updateMatrixWorld(true);
   for (const link of Object.values(robot.links)) {
     const parts = meshes_of(link);
-    const merged = parts.length ? mergeGeometries(parts.map((part) => painted(part, link))) : null;
+    const merged = parts.length ? mergeGeometries(alike(parts.map((part) => painted(part, link)))) : null;
     if (!merged) continue;
     for (const part of parts) part.removeFromParent();
     const mesh = new THREE.Mesh(merged, skin);
@@ -44,13 +45,23 @@ function meshes_of(link: THREE.Object3D): THREE.Mesh[] {
 function painted(mesh: THREE.Mesh, link: THREE.Object3D): THREE.BufferGeometry {
   const X_LM = link.matrixWorld.clone().invert().multiply(mesh.matrixWorld);
   const geometry = simpler(mesh.geometry).clone().applyMatrix4(X_LM);
-  geometry.deleteAttribute('uv');
+  if (!geometry.hasAttribute('normal')) geometry.computeVertexNormals();
+  for (const name of Object.keys(geometry.attributes)) {
+    if (name !== 'position' && name !== 'normal') geometry.deleteAttribute(name);
+  }
+  geometry.morphAttributes = {};
   const material = [mesh.material].flat()[0] as THREE.MeshPhongMaterial;
   const count = geometry.getAttribute('position').count;
   const colours = new Float32Array(3 * count);
   for (let i = 0; i < count; i++) material.color.toArray(colours, 3 * i);
   geometry.setAttribute('color', new THREE.BufferAttribute(colours, 3));
-  return geometry;
+  return X_LM.determinant() < 0 ? turned_inside_out(geometry) : geometry;
+}
+
+/** Only geometries with an index, or only without one, can be merged: meshes of files have none. */
+function alike(geometries: THREE.BufferGeometry[]): THREE.BufferGeometry[] {
+  if (geometries.every((geometry) => geometry.index)) return geometries;
+  return geometries.map((geometry) => (geometry.index ? geometry.toNonIndexed() : geometry));
 }
 
 function simpler(geometry: THREE.BufferGeometry): THREE.BufferGeometry {

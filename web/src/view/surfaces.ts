@@ -1,0 +1,100 @@
+// The surfaces of mesh files that the server serves: STL, OBJ and COLLADA, each read once.
+//
+// Only the address itself is asked for: whatever a file names besides (materials, textures) is not
+// loaded. Points are in the file's own frame, in metres; the up axis of a COLLADA file is not
+// applied, as the server does not apply it either.
+
+import * as THREE from 'three';
+import { ColladaLoader } from 'three/addons/loaders/ColladaLoader.js';
+import { OBJLoader } from 'three/addons/loaders/OBJLoader.js';
+import { STLLoader } from 'three/addons/loaders/STLLoader.js';
+import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
+import { turned_inside_out } from './shapes';
+
+/** By address; null when it cannot be read. */
+export type Surfaces = ReadonlyMap<string, THREE.BufferGeometry | null>;
+type FetchBytes = (address: string) => Promise<ArrayBuffer>;
+
+export class SurfaceShelf {
+  private readonly loading_ = new Map<string, Promise<THREE.BufferGeometry | null>>();
+
+  constructor(private readonly fetch_: FetchBytes = fetch_bytes) {}
+
+  /** Kept when all have been read or have failed; never rejected. */
+  async load(addresses: readonly string[]): Promise<Surfaces> {
+    const all = [...new Set(addresses)].map(async (address) => [address, await this.get(address)] as const);
+    return new Map(await Promise.all(all));
+  }
+
+  private get(address: string): Promise<THREE.BufferGeometry | null> {
+    let loading = this.loading_.get(address);
+    if (!loading) {
+      loading = this.read(address);
+      this.loading_.set(address, loading);
+    }
+    return loading;
+  }
+
+  private async read(address: string): Promise<THREE.BufferGeometry | null> {
+    try {
+      return parse_surface(address, await this.fetch_(address));
+    } catch (error) {
+      console.warn(`mesh ${address} cannot be read:`, error);
+      this.loading_.delete(address);  // another time it may be there
+      return null;
+    }
+  }
+}
+
+async function fetch_bytes(address: string): Promise<ArrayBuffer> {
+  // An address from the cell is a path of this server, and nothing else.
+  if (!/^\/api\//.test(address)) throw new Error('not an address of this server');
+  const response = await fetch(address);
+  if (!response.ok) throw new Error(`${response.status} ${response.statusText}`);
+  return response.arrayBuffer();
+}
+
+/** Triangles with positions and normals, without index. Throws when there are none. */
+export function parse_surface(name: string, bytes: ArrayBuffer): THREE.BufferGeometry {
+  const geometries = flat(parse(name, bytes));
+  const merged = geometries.length ? mergeGeometries(geometries) : null;
+  if (!merged || merged.getAttribute('position').count < 3) throw new Error('holds no triangle');
+  return merged;
+}
+
+function parse(name: string, bytes: ArrayBuffer): THREE.Object3D {
+  const kind = /\.(stl|obj|dae)$/i.exec(name)?.[1]?.toLowerCase();
+  if (kind === 'stl') return new THREE.Mesh(new STLLoader().parse(bytes));
+  const text = () => new TextDecoder().decode(bytes);
+  if (kind === 'obj') return new OBJLoader().parse(text());
+  if (kind !== 'dae') throw new Error('is neither STL nor OBJ nor COLLADA');
+  const quiet = new THREE.LoadingManager();
+  quiet.setURLModifier(() => 'data:,');
+  const document = new ColladaLoader(quiet).parse(text(), '');
+  if (!document) throw new Error('is not a COLLADA document');
+  const root = new THREE.Group();
+  // Only its scale is kept, which is the unit; its turn is the up axis.
+  document.scene.quaternion.identity();
+  root.add(document.scene);
+  return root;
+}
+
+/** All triangles below, in the root's frame. */
+function flat(root: THREE.Object3D): THREE.BufferGeometry[] {
+  const found: THREE.BufferGeometry[] = [];
+  root.updateMatrixWorld(true);
+  root.traverse((node) => {
+    if (!(node instanceof THREE.Mesh)) return;
+    const source = node.geometry as THREE.BufferGeometry;
+    const plain = source.index ? source.toNonIndexed() : source.clone();
+    if (!plain.hasAttribute('normal')) plain.computeVertexNormals();
+    for (const attribute of Object.keys(plain.attributes)) {
+      if (attribute !== 'position' && attribute !== 'normal') plain.deleteAttribute(attribute);
+    }
+    plain.morphAttributes = {};
+    plain.clearGroups();
+    plain.applyMatrix4(node.matrixWorld);
+    found.push(node.matrixWorld.determinant() < 0 ? turned_inside_out(plain) : plain);
+  });
+  return found;
+}
