@@ -1,0 +1,36 @@
+#include "core/model/cell_checks.h"
+#include "server/codec/cell_codec.h"
+#include "test/fuzz/problems.h"
+
+// A cell file: reading it, the checks that need no robot, and writing it for another folder.
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace armloom;
+  const std::string text = fuzz::text_of(data, size);
+  const auto cell = read_cell_text(text, "/nowhere/config");
+  if (!cell) {
+    fuzz::demand_readable(cell.error());
+    return 0;
+  }
+  Findings findings;
+  check_names(*cell, findings);
+  check_objects(*cell, findings);
+  check_settings(*cell, findings);
+  for (const RobotDescription& robot : cell->robots) {
+    check_pose(robot.X_WB, "/robots", "robot", findings);
+  }
+  const std::size_t count = findings.count();
+  const Problems problems = findings.take();
+  fuzz::demand((count == 0) == problems.empty());
+  if (!problems.empty()) fuzz::demand_readable(problems);
+
+  const std::string moved = relocate_cell_text(text, "/nowhere/config", "/nowhere/recording");
+  const auto again = read_cell_text(moved, "/nowhere/recording");
+  fuzz::demand(again.has_value());
+  fuzz::demand(again->robots.size() == cell->robots.size());
+  for (std::size_t r = 0; r < cell->robots.size(); ++r) {
+    fuzz::demand(again->robots[r].urdf == cell->robots[r].urdf);
+    fuzz::demand(again->robots[r].srdf == cell->robots[r].srdf);
+  }
+  return 0;
+}

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/problem.h"
+#include "server/codec/problem_codec.h"
+#include "test/fuzz/fuzz.h"
+
+namespace armloom::fuzz {
+
+// What a refusal promises, whatever was read: at least one problem, each with a sentence, and an
+// answer that is JSON (the values found may be any bytes).
+inline void demand_readable(const Problems& problems) {
+  demand(!problems.empty());
+  for (const Problem& problem : problems) {
+    demand(!problem.slug.empty() && !problem.detail.empty());
+    demand(!problem_sentence("file", problem).empty());
+  }
+  const auto answer = nlohmann::json::parse(problem_json(problems), nullptr, false);
+  demand(answer.is_object());
+  demand(answer["status"].get<int>() >= 400 && answer["status"].get<int>() < 500);
+}
+
+}  // namespace armloom::fuzz
