@@ -25,13 +25,12 @@ class Service::Impl {
       if (!recording) return std::move(recording.error());
       recording_ = std::move(*recording);
     }
-    const WallClock clock(std::chrono::system_clock::now(), options_.speed);
-    const std::string stream = random_stream();
+    clock_.emplace(std::chrono::system_clock::now(), options_.speed);
     const auto post = [http_server = http_.get()](std::function<void()> task) {
       http_server->post(std::move(task));
     };
     broadcast_ = std::make_unique<Broadcast>(
-        Broadcast::Parts{cell, stream, clock, hub_, recording_.get(), post});
+        Broadcast::Parts{cell, stream_, *clock_, hub_, recording_.get(), post});
     ExecutiveOptions executive_options;
     executive_options.policy = options_.policy;
     auto loop =
@@ -40,7 +39,7 @@ class Service::Impl {
     loop_ = std::move(*loop);
     const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
     api_ = std::make_unique<Api>(
-        Api::Parts{cell, stream, policy, clock, *loop_, hub_, recording_.get(), post});
+        ApiParts{cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), post});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request, const Router::Arguments&, Respond respond) {
       respond(answer_file(request));
@@ -54,6 +53,9 @@ class Service::Impl {
       router_.dispatch(request, std::move(respond));
     };
     site.feed_path = "/api/v1/ws";
+    site.events_path = "/api/v1/events";
+    site.stream = stream_;
+    site.end = [this] { hub_.end(); };
     site.subscribe = [this](const Target& target, std::function<void(FeedPtr)> then) {
       api_->subscribe(target, std::move(then));
     };
@@ -73,6 +75,8 @@ class Service::Impl {
   // Destroyed from below: first the loop's threads end, last the sockets.
   ServiceOptions options_;
   StaticFiles files_;
+  const std::string stream_ = random_stream();
+  std::optional<WallClock> clock_;
   Hub hub_;
   Router router_;
   std::unique_ptr<Recording> recording_;

@@ -201,7 +201,8 @@ std::uint64_t Executive::scene_version() const { return impl_->scene_version_; }
 Result<std::uint64_t> Executive::inject(const FaultRequest& fault) { return impl_->inject(fault); }
 Result<void> Executive::remove_fault(std::uint64_t id) { return impl_->remove_fault(id); }
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
-Snapshot Executive::snapshot() const { return impl_->snapshot(); }
+Snapshot Executive::snapshot(std::size_t ended_max) const { return impl_->snapshot(ended_max); }
+std::vector<ArmView> Executive::arms() const { return impl_->arms(); }
 TimePoint Executive::now() const { return impl_->now_; }
 bool Executive::all_ended() const { return impl_->scheduler_.active().empty(); }
 const RunFigures& Executive::figures() const { return impl_->figures_; }

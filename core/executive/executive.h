@@ -127,7 +127,9 @@ class Executive {
   [[nodiscard]] Result<void> remove_fault(std::uint64_t id);
 
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
-  [[nodiscard]] Snapshot snapshot() const;
+  // With the `ended_max` jobs that ended last, at most.
+  [[nodiscard]] Snapshot snapshot(std::size_t ended_max = ~std::size_t{0}) const;
+  [[nodiscard]] std::vector<ArmView> arms() const;
   [[nodiscard]] TimePoint now() const;
   [[nodiscard]] bool all_ended() const;  // no job is active
   [[nodiscard]] const RunFigures& figures() const;

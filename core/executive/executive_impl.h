@@ -42,7 +42,8 @@ class Executive::Impl final : public JobNames {
 
   // telling.cc
   std::optional<JobView> job(const std::string& key) const;
-  Snapshot snapshot() const;
+  Snapshot snapshot(std::size_t ended_max) const;
+  std::vector<ArmView> arms() const;
 
   // Empty for a job that has been forgotten since.
   std::string key(JobId job) const override;

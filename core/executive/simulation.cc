@@ -60,11 +60,15 @@ void Simulation::run_until(TimePoint time) {
 
 Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
                                   std::vector<TimedJob> jobs, TimePoint time_limit,
-                                  Observer& observer) {
+                                  Observer& observer, const std::vector<FaultRequest>& faults) {
   options.ended_kept = std::max(options.ended_kept, jobs.size());
   auto simulation = Simulation::create(std::move(cell), std::move(options), observer);
   if (!simulation) return failure(std::move(simulation.error()));
   Executive& executive = (*simulation)->executive();
+
+  for (const FaultRequest& fault : faults) {
+    if (auto injected = executive.inject(fault); !injected) return failure(injected.error());
+  }
 
   std::vector<std::size_t> order(jobs.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

@@ -56,9 +56,11 @@ struct SimulationResult {
   TimePoint ended_at{};
 };
 
-// Submits the jobs at their times and runs until all have ended, or until `time_limit`.
+// Submits the jobs at their times and runs until all have ended, or until `time_limit`. Problems:
+// as create(); a fault of an unknown arm.
 [[nodiscard]] Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
                                                 std::vector<TimedJob> jobs, TimePoint time_limit,
-                                                Observer& observer);
+                                                Observer& observer,
+                                                const std::vector<FaultRequest>& faults = {});
 
 }  // namespace armloom

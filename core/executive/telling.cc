@@ -122,11 +122,18 @@ std::optional<JobView> Executive::Impl::job(const std::string& key) const {
   return view_of(*scheduler_.find(it->second), *cell_, *this);
 }
 
-Snapshot Executive::Impl::snapshot() const {
-  Snapshot snapshot{.seq = seq_, .time = now_, .queue = queue()};
+std::vector<ArmView> Executive::Impl::arms() const {
+  std::vector<ArmView> arms;
+  for (ArmId arm : all_arms()) arms.push_back(view_of_arm(arm));
+  return arms;
+}
+
+Snapshot Executive::Impl::snapshot(std::size_t ended_max) const {
+  Snapshot snapshot{.seq = seq_, .time = now_, .queue = queue(), .arms = arms()};
   snapshot.scene = SceneView{scene_version_, scene_->objects()};
-  for (ArmId arm : all_arms()) snapshot.arms.push_back(view_of_arm(arm));
-  for (JobId id : ended_) snapshot.jobs.push_back(view_of(*scheduler_.find(id), *cell_, *this));
+  for (std::size_t i = ended_.size() - std::min(ended_max, ended_.size()); i < ended_.size(); ++i) {
+    snapshot.jobs.push_back(view_of(*scheduler_.find(ended_[i]), *cell_, *this));
+  }
   for (JobId id : scheduler_.active()) {
     snapshot.jobs.push_back(view_of(*scheduler_.find(id), *cell_, *this));
   }

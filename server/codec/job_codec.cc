@@ -50,7 +50,37 @@ void read_waypoint(const JsonNode& node, WaypointRequest& point) {
                 [&](const JsonNode& n) { read_time(n, point.time_from_start_s); });
 }
 
+// MoveIt's RobotTrajectory holds the trajectory of the joints one level deeper, beside one of
+// floating joints, which no cell has. Problems are then to be found below "/joint_trajectory".
+constexpr const char* kNested = "joint_trajectory";
+
+bool is_nested(const JsonNode& node) { return node.raw().is_object() && node.has(kNested); }
+
+// The multi-DoF trajectory as ROS prints one that is empty.
+void read_empty_multi_dof(const JsonNode& node) {
+  if (!node.is_object()) return;
+  for (const char* list : {"joint_names", "points"}) {
+    node.optional(list, [](const JsonNode& n) {
+      if (n.array() && !n.raw().empty()) {
+        n.invalid("unsupported", "joints of several degrees of freedom are not moved by any arm");
+      }
+    });
+  }
+}
+
 void read_trajectory(const JsonNode& node, TrajectoryRequest& trajectory) {
+  if (is_nested(node)) {
+    if (!node.object({kNested, "multi_dof_joint_trajectory"})) return;
+    node.optional("multi_dof_joint_trajectory",
+                  [](const JsonNode& n) { read_empty_multi_dof(n); });
+    return node.required(kNested, [&](const JsonNode& n) {
+      if (is_nested(n)) {
+        n.invalid("unknown-field", "a trajectory is nested once, not twice");
+      } else {
+        read_trajectory(n, trajectory);
+      }
+    });
+  }
   if (!node.object({"joint_names", "points", "header"})) return;
   node.optional("header", [&](const JsonNode& n) { (void)n.is_object(); });
   node.required("joint_names", [&](const JsonNode& n) { n.read(trajectory.joint_names); });
@@ -87,13 +117,19 @@ void read_name(const JsonNode& node, std::string& name) {
   }
 }
 
+void read_after(const JsonNode& node, JobRequest& job) {
+  if (!node.array()) return;
+  if (node.raw().size() > kAfterMax) {
+    node.fault(ProblemKind::too_large, "too-many-predecessors",
+               std::to_string(node.raw().size()) + " ids, at most " + std::to_string(kAfterMax) +
+                   " are read");
+    return;
+  }
+  node.each([&](const JsonNode& n) { read_key(n, job.after.emplace_back()); });
+}
+
 // Fields of the contract whose other values are still to come: what is accepted is what is done.
 void read_fixed_choices(const JsonNode& node) {
-  node.optional("after", [](const JsonNode& n) {
-    if (n.array() && !n.raw().empty()) {
-      n.invalid("not-served", "\"after\" is not served by this version; leave it out");
-    }
-  });
   node.optional("on_timeout", [](const JsonNode& n) {
     std::string choice;
     if (n.read(choice) && choice != "abort") {
@@ -126,6 +162,7 @@ void read_job_fields(const JsonNode& node, JobRequest& job) {
     double seconds = 0.0;
     if (n.read_within(seconds, 0.0, kTimeMax_s)) job.backlog_timeout = from_seconds(seconds);
   });
+  node.optional("after", [&](const JsonNode& n) { read_after(n, job); });
   read_fixed_choices(node);
   if (!node.has("steps")) {
     node.required("trajectory", [&](const JsonNode& n) { read_trajectory(n, job.trajectory); });
@@ -146,6 +183,40 @@ Result<JobRequest> read_job_text(std::string_view text) {
   const auto body = parse_json(text, JsonComments::refused);
   if (!body) return failure(body.error());
   return read_job(*body);
+}
+
+Result<BatchRequest> read_batch_text(std::string_view text) {
+  const auto body = parse_json(text, JsonComments::refused);
+  if (!body) return failure(body.error());
+  Problems faults;
+  BatchRequest batch;
+  const JsonNode node(*body, "", faults);
+  if (!node.object({"jobs", "atomic"})) return failure(std::move(faults));
+  node.optional("atomic", [&](const JsonNode& n) { n.read(batch.atomic); });
+  node.required("jobs", [&](const JsonNode& n) {
+    if (!n.array()) return;
+    if (n.raw().empty()) n.invalid("no-job", "a batch has at least one job");
+    if (n.raw().size() > kBatchMax) {
+      n.fault(ProblemKind::too_large, "too-many-jobs",
+              std::to_string(n.raw().size()) + " jobs, at most " + std::to_string(kBatchMax) +
+                  " are read");
+      return;
+    }
+    for (std::size_t i = 0; i < n.raw().size(); ++i) {
+      const nlohmann::json& job = n.raw()[i];
+      // Alone each job has its own answer, with places in its own body.
+      const std::string prefix = batch.atomic ? "/jobs/" + std::to_string(i) : "";
+      batch.jobs.push_back({read_job(job, prefix), job.dump()});
+    }
+  });
+  for (const BatchRequest::Entry& entry : batch.jobs) {
+    if (!batch.atomic || entry.job) continue;
+    for (const Problem& problem : entry.job.error()) {
+      if (faults.size() < JsonNode::kFaultsMax) faults.push_back(problem);
+    }
+  }
+  if (!faults.empty()) return failure(std::move(faults));
+  return batch;
 }
 
 Result<std::vector<TimedJob>> read_jobs_text(std::string_view text) {

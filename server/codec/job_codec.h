@@ -15,15 +15,30 @@ namespace armloom {
 inline constexpr std::size_t kJobKeyMax = 128;
 // Of a job's name: for people, any text without control characters.
 inline constexpr std::size_t kJobNameMax = 256;
+inline constexpr std::size_t kAfterMax = 100;   // predecessors of one job
+inline constexpr std::size_t kBatchMax = 1000;  // jobs of one batch
 
 // The body of POST /jobs: its shape only; limits, names and times are validate()'s. `prefix` stands
 // in front of every pointer. All faults are returned, at most JsonNode::kFaultsMax.
-// ROS's `header` and `effort` are read over; `after`, `on_timeout` and `retime` may say what is
-// done anyway (nothing, "abort", false), anything else in them is refused.
+// ROS's `header` and `effort` are read over; `on_timeout` and `retime` may say what is done anyway
+// ("abort", false), anything else in them is refused. The trajectory may stand one level deeper, as
+// MoveIt has it ("trajectory": {"joint_trajectory": {...}}).
 [[nodiscard]] Result<JobRequest> read_job(const nlohmann::json& body, std::string_view prefix = "");
 
 // The same from text.
 [[nodiscard]] Result<JobRequest> read_job_text(std::string_view text);
+
+// The body of POST /batches: {"jobs": [...], "atomic": true}. Of an atomic batch every job could be
+// read; else each entry says for itself whether it could.
+struct BatchRequest {
+  struct Entry {
+    Result<JobRequest> job;
+    std::string text;  // the body of this job
+  };
+  bool atomic = true;
+  std::vector<Entry> jobs;
+};
+[[nodiscard]] Result<BatchRequest> read_batch_text(std::string_view text);
 
 // A jobs file: an array of {"at": seconds, "job": {...}}, in any order of time.
 [[nodiscard]] Result<std::vector<TimedJob>> read_jobs_text(std::string_view text);

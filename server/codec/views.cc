@@ -126,6 +126,23 @@ void write(JsonWriter& out, const ArmView& arm) {
   out.field("home", arm.home).field("deviation_rad", arm.deviation_rad).end_object();
 }
 
+void write_fields(JsonWriter& out, const CheckView& verdict) {
+  const char* kind = verdict.kind == Verdict::Kind::free       ? "free"
+                     : verdict.kind == Verdict::Kind::conflict ? "conflict"
+                                                               : "undecided";
+  out.field("verdict", kind).field("earliest_start_s", verdict.earliest_start_s);
+  out.field("clearance_bound_m", verdict.clearance_bound_m).key("conflicts").begin_array();
+  for (const WaitView& wait : verdict.conflicts) write_wait(out, wait);
+  out.end_array().field("evaluations", verdict.evaluations);
+  out.field("scene_version", verdict.scene_version);
+}
+
+void write(JsonWriter& out, const CheckView& verdict) {
+  out.begin_object();
+  write_fields(out, verdict);
+  out.end_object();
+}
+
 std::string event_json(const Event& event, const std::string& stream, const WallClock* clock) {
   JsonWriter out;
   const char* type = std::visit([](const auto& body) { return type_of(body); }, event.body);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/executive/events.h"
+#include "core/executive/executive.h"
 #include "core/model/cell.h"
 #include "server/codec/json_writer.h"
 #include "server/codec/wall_clock.h"
@@ -15,6 +16,10 @@ namespace armloom {
 
 void write(JsonWriter& out, const JobView& job, const WallClock* clock);
 void write(JsonWriter& out, const ArmView& arm);
+// A Verdict, as a whole object.
+void write(JsonWriter& out, const CheckView& verdict);
+// Its fields alone, so that others can stand beside them.
+void write_fields(JsonWriter& out, const CheckView& verdict);
 
 // One envelope {"stream", "seq", "type", "t_s", "at", "data"}.
 [[nodiscard]] std::string event_json(const Event& event, const std::string& stream,

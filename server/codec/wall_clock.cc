@@ -5,11 +5,26 @@
 
 namespace armloom {
 
+void WallClock::anchor(TimePoint time, Wall wall, double speed) {
+  anchors_.push_back({time, wall, speed});
+  if (anchors_.size() > kAnchorsMax) anchors_.pop_front();
+}
+
+void WallClock::observe(TimePoint time, Wall wall) {
+  const auto off = std::chrono::abs(wall - wall_at(time));
+  if (off > kSlip) anchor(time, wall, anchors_.back().speed);
+}
+
+WallClock::Wall WallClock::wall_at(TimePoint time) const {
+  auto anchor = anchors_.rbegin();
+  while (anchor->time > time && std::next(anchor) != anchors_.rend()) ++anchor;
+  const std::chrono::duration<double> since(to_seconds(time - anchor->time) / anchor->speed);
+  return anchor->wall + std::chrono::duration_cast<Wall::duration>(since);
+}
+
 std::string WallClock::at(TimePoint time) const {
   using std::chrono::milliseconds;
-  const std::chrono::duration<double> since_start(to_seconds(time) / speed_);
-  const auto wall = start_ + std::chrono::duration_cast<std::chrono::nanoseconds>(since_start);
-  const auto total_ms = std::chrono::floor<milliseconds>(wall).time_since_epoch().count();
+  const auto total_ms = std::chrono::floor<milliseconds>(wall_at(time)).time_since_epoch().count();
   const std::time_t seconds = static_cast<std::time_t>(total_ms / 1000);
   std::tm parts{};
   gmtime_r(&seconds, &parts);

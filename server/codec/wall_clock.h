@@ -1,25 +1,43 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <deque>
 #include <string>
 
 #include "core/base/time.h"
 
 namespace armloom {
 
-// Turns cell time into wall time: cell time zero was at `start`, and cell time runs `speed` times
-// as fast as the wall.
+// Turns cell time into wall time by anchors: at each, both times are known, and from there cell
+// time runs `speed` times as fast as the wall. A new anchor says nothing about the time before it:
+// an instant that was told once keeps its wall time. Not thread-safe: the server's thread.
 class WallClock {
  public:
-  WallClock(std::chrono::system_clock::time_point start, double speed)
-      : start_(start), speed_(speed) {}
+  using Wall = std::chrono::system_clock::time_point;
+  inline static constexpr std::size_t kAnchorsMax = 256;  // the oldest ones are given up
+  // Cell time that is farther from the wall's than this has slipped (a busy machine).
+  inline static constexpr std::chrono::milliseconds kSlip{100};
 
+  WallClock(Wall start, double speed) : anchors_{{TimePoint{}, start, speed}} {}
+
+  // From cell time `time` on, which is `wall`, cell time runs at `speed` > 0. `time` does not go
+  // backwards from call to call.
+  void anchor(TimePoint time, Wall wall, double speed);
+  // `time` was observed at `wall`: a slip is made up for.
+  void observe(TimePoint time, Wall wall);
+
+  [[nodiscard]] Wall wall_at(TimePoint time) const;
   // RFC 3339 in UTC with milliseconds: "2026-11-21T09:33:00.125Z".
   [[nodiscard]] std::string at(TimePoint time) const;
 
  private:
-  std::chrono::system_clock::time_point start_;
-  double speed_;
+  struct Anchor {
+    TimePoint time;
+    Wall wall;
+    double speed;
+  };
+  std::deque<Anchor> anchors_;  // never empty, times ascending
 };
 
 }  // namespace armloom

@@ -8,6 +8,8 @@
 namespace armloom {
 namespace {
 
+constexpr std::chrono::milliseconds kFarewell{500};
+
 Problem cannot_listen(const std::string& address, std::uint16_t port, const std::string& why) {
   const std::string place = address + ":" + std::to_string(port);
   return Problem{ProblemKind::unavailable, "cannot-listen", "--listen",
@@ -37,7 +39,7 @@ class HttpServer::Impl {
       signals_.add(SIGINT);
       signals_.add(SIGTERM);
       signals_.async_wait([this](ErrorCode ec, int) {
-        if (!ec) io_.stop();
+        if (!ec) end();
       });
     }
     asio::co_spawn(io_, accept(), asio::detached);
@@ -48,15 +50,33 @@ class HttpServer::Impl {
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
 
  private:
+  // Feeds are told that the server ends, and connections get a moment to read it.
+  void end() {
+    ErrorCode ignored;
+    acceptor_.close(ignored);
+    ending_ = true;
+    site_.end();
+    farewell_.expires_after(kFarewell);
+    farewell_.async_wait([this](ErrorCode) { io_.stop(); });
+    if (connections_ == 0) io_.stop();
+  }
+
+  asio::awaitable<void> serve(tcp::socket socket) {
+    ++connections_;
+    co_await serve_connection(std::move(socket), site_);
+    if (--connections_ == 0 && ending_) io_.stop();
+  }
+
   asio::awaitable<void> accept() {
     asio::steady_timer pause(io_);
     for (;;) {
       ErrorCode ec;
       tcp::socket socket = co_await acceptor_.async_accept(into(ec));
       if (!ec) {
-        asio::co_spawn(io_, serve_connection(std::move(socket), site_), asio::detached);
+        asio::co_spawn(io_, serve(std::move(socket)), asio::detached);
         continue;
       }
+      if (ending_) co_return;
       // Out of file descriptors, most likely: others must end first.
       pause.expires_after(std::chrono::milliseconds(50));
       co_await pause.async_wait(into(ec));
@@ -67,6 +87,9 @@ class HttpServer::Impl {
   asio::io_context io_{1};
   tcp::acceptor acceptor_{io_};
   asio::signal_set signals_{io_};
+  asio::steady_timer farewell_{io_};
+  std::size_t connections_ = 0;
+  bool ending_ = false;
 };
 
 Result<std::unique_ptr<HttpServer>> HttpServer::listen(const std::string& address,

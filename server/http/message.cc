@@ -73,6 +73,21 @@ Result<Target> parse_target(std::string_view text) {
   return target;
 }
 
+std::string url_segment(std::string_view text) {
+  static constexpr char kHex[] = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : text) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (letter || (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_' || c == '~') {
+      out += c;
+    } else {
+      const auto byte = static_cast<unsigned char>(c);
+      out += {'%', kHex[byte >> 4U], kHex[byte & 0xFU]};
+    }
+  }
+  return out;
+}
+
 Response json_response(int status, std::string body) {
   return Response{status, "application/json", std::move(body), {{"Cache-Control", "no-store"}}};
 }

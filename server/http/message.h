@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -27,6 +28,9 @@ struct Target {
 // occurs twice the last one counts.
 [[nodiscard]] Result<Target> parse_target(std::string_view text);
 
+// `text` as one segment of a path: everything but unreserved characters percent-encoded.
+[[nodiscard]] std::string url_segment(std::string_view text);
+
 // A whole request, framing checked. Plain data: handlers know nothing of sockets.
 struct Request {
   std::string method;  // "GET"; a HEAD comes as GET, its answer loses the body later
@@ -49,25 +53,40 @@ struct Response {
 // To be called exactly once, on the server's thread.
 using Respond = std::function<void(Response)>;
 
-// One reader of the event stream, as a WebSocket sees it. All calls on the server's thread.
+// Why a reader of the event stream is sent away.
+struct Farewell {
+  enum class Why { too_slow, server_ends };
+  Why why;
+  std::string text;
+};
+
+// One reader of the event stream, as a WebSocket or SSE sees it. All calls on the server's thread.
 class Feed {
  public:
+  struct Message {
+    std::shared_ptr<const std::string> text;
+    std::optional<std::uint64_t> seq;  // none: a pose frame, which may be passed over
+  };
   virtual ~Feed() = default;
-  // The next message to send; null: nothing at present.
-  virtual std::shared_ptr<const std::string> next() = 0;
-  // Why the reader is sent away; empty while it may stay.
-  [[nodiscard]] virtual std::string farewell() const = 0;
+  // The next message to send; absent: nothing at present.
+  virtual std::optional<Message> next() = 0;
+  // Absent while the reader may stay.
+  [[nodiscard]] virtual std::optional<Farewell> farewell() const = 0;
   // `call` is called whenever next() or farewell() may have something new.
   virtual void on_news(std::function<void()> call) = 0;
 };
 using FeedPtr = std::shared_ptr<Feed>;
 
-// What the listener serves. Both functions are called on the server's thread and answer through
-// their callback, at once or later. Request and target are only valid during the call.
+// What the listener serves. All functions are called on the server's thread; the first two answer
+// through their callback, at once or later. Request and target are only valid during the call.
 struct Site {
   std::function<void(const Request&, Respond)> handle;
-  std::string feed_path;  // WebSocket upgrades are accepted here and nowhere else
+  // `?stream=&since=` resume; else the feed begins with a snapshot.
   std::function<void(const Target&, std::function<void(FeedPtr)>)> subscribe;
+  std::function<void()> end;  // the server ends: every feed says farewell
+  std::string feed_path;      // WebSocket upgrades are accepted here and nowhere else
+  std::string events_path;    // the same feed as Server-Sent Events
+  std::string stream;         // stands in the ids of those events
 };
 
 }  // namespace armloom

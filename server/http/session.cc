@@ -8,6 +8,7 @@
 #include <ctime>
 #include <optional>
 
+#include "server/http/event_stream.h"
 #include "server/http/framing.h"
 #include "server/http/websocket_session.h"
 
@@ -98,7 +99,7 @@ asio::awaitable<void> send(Connection& connection, Response response, unsigned v
   for (const auto& [name, value] : response.headers) message.set(name, value);
   if (!response.content_type.empty()) message.set(http::field::content_type, response.content_type);
   message.keep_alive(keep_alive);
-  message.content_length(response.body.size());
+  if (response.status != 204) message.content_length(response.body.size());
   if (!without_body) message.body() = std::move(response.body);
   connection.stream.expires_after(kWriteTime);
   co_await http::async_write(connection.stream, message, into(ec));
@@ -191,6 +192,23 @@ bool wants_feed(const RequestMessage& message, const Site& site) {
   return target.substr(0, target.find('?')) == site.feed_path;
 }
 
+bool wants_events(const RequestMessage& message, const Site& site) {
+  const std::string_view target = view(message.target());
+  return message.method() == http::verb::get &&
+         target.substr(0, target.find('?')) == site.events_path;
+}
+
+// Answers with the event stream until it ends, and the connection with it.
+asio::awaitable<bool> serve_events(Connection& connection, const RequestMessage& message,
+                                   const Site& site) {
+  auto target = parse_target(view(message.target()));
+  if (!target) co_return false;
+  const auto last_event = message.find("Last-Event-ID");
+  if (last_event != message.end()) resume_after(view(last_event->value()), *target);
+  co_await serve_event_stream(std::move(connection.stream), std::move(*target), site);
+  co_return true;
+}
+
 // One request and its answer. Whether another may follow on the connection.
 asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
   ErrorCode ec;
@@ -219,6 +237,9 @@ asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
     co_return false;
   }
   RequestMessage message = parser.release();
+  if (wants_events(message, site) && co_await serve_events(connection, message, site)) {
+    co_return false;
+  }
   const bool keep_alive = message.keep_alive();
   const bool without_body = message.method() == http::verb::head;
   const unsigned version = message.version();

@@ -52,15 +52,16 @@ asio::awaitable<void> write_feed(LinkPtr link) {
       co_await wait_for_news(link);
       continue;
     }
-    const std::string farewell = link->feed->farewell();
-    if (!farewell.empty()) {
-      const websocket::close_reason reason(websocket::close_code::try_again_later,
-                                           farewell.substr(0, 120));
+    if (const auto farewell = link->feed->farewell()) {
+      const auto code = farewell->why == Farewell::Why::too_slow
+                            ? websocket::close_code::try_again_later
+                            : websocket::close_code::going_away;
+      const websocket::close_reason reason(code, farewell->text.substr(0, 120));
       co_await link->socket.async_close(reason, into(ec));
       break;
     }
     if (const auto message = link->feed->next()) {
-      co_await link->socket.async_write(asio::buffer(*message), into(ec));
+      co_await link->socket.async_write(asio::buffer(*message->text), into(ec));
     } else {
       co_await wait_for_news(link);
     }

@@ -24,7 +24,9 @@ void Broadcast::on_state(const StateFrame& frame) {
   const auto now = std::chrono::steady_clock::now();
   if (now < next_frame_) return;
   next_frame_ = std::max(next_frame_ + kFramePeriod, now);
-  parts_.post([this, frame = std::make_shared<const StateFrame>(frame)] {
+  const auto wall = std::chrono::system_clock::now();
+  parts_.post([this, wall, frame = std::make_shared<const StateFrame>(frame)] {
+    parts_.clock.observe(frame->time, wall);
     if (!parts_.hub.has_readers()) return;
     parts_.hub.publish_frame(std::make_shared<const std::string>(state_json(*frame, *parts_.cell)));
   });

@@ -21,7 +21,7 @@ class Broadcast final : public Observer {
   struct Parts {
     CellPtr cell;
     std::string stream;
-    WallClock clock;
+    WallClock& clock;  // the server's thread's
     Hub& hub;
     Recording* recording;                             // null: none
     std::function<void(std::function<void()>)> post;  // to the server's thread, in order

@@ -10,21 +10,23 @@ class Hub::Reader final : public Feed {
   Reader(const Hub& hub, std::uint64_t since, Text first)
       : hub_(hub), read_(since), first_(std::move(first)) {}
 
-  Text next() override {
-    if (first_) return std::exchange(first_, nullptr);
-    if (behind() > hub_.ring_.size()) return nullptr;
+  std::optional<Message> next() override {
+    if (first_) return Message{std::exchange(first_, nullptr), read_};
+    if (behind() > hub_.ring_.size()) return std::nullopt;
     if (behind() > 0) {
-      Text event = hub_.ring_[hub_.ring_.size() - behind()];
-      ++read_;
-      return event;
+      const Text event = hub_.ring_[hub_.ring_.size() - behind()];
+      return Message{event, ++read_};
     }
-    return std::exchange(frame_, nullptr);
+    if (frame_) return Message{std::exchange(frame_, nullptr), std::nullopt};
+    return std::nullopt;
   }
 
-  std::string farewell() const override {
-    if (first_ || behind() <= hub_.ring_.size()) return "";
-    return "too slow: " + std::to_string(behind()) + " events behind, " +
-           std::to_string(hub_.ring_.size()) + " are kept";
+  std::optional<Farewell> farewell() const override {
+    if (hub_.ended_) return Farewell{Farewell::Why::server_ends, "the server ends"};
+    if (first_ || behind() <= hub_.ring_.size()) return std::nullopt;
+    return Farewell{Farewell::Why::too_slow, "too slow: " + std::to_string(behind()) +
+                                                 " events behind, " +
+                                                 std::to_string(hub_.ring_.size()) + " are kept"};
   }
 
   void on_news(std::function<void()> call) override { news_ = std::move(call); }
@@ -56,6 +58,11 @@ void Hub::publish_frame(Text frame) {
   for (const auto& weak : readers_) {
     if (const auto reader = weak.lock()) reader->offer(frame);
   }
+  tell_readers();
+}
+
+void Hub::end() {
+  ended_ = true;
   tell_readers();
 }
 

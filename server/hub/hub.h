@@ -33,6 +33,9 @@ class Hub {
   // Null: the events after `since` are not all in the ring, or `since` is still to come.
   [[nodiscard]] FeedPtr resume(std::uint64_t since, Text first = nullptr);
 
+  // Sends every reader away, those to come as well.
+  void end();
+
   [[nodiscard]] std::uint64_t last_seq() const { return last_seq_; }
   [[nodiscard]] bool has_readers();
 
@@ -43,6 +46,7 @@ class Hub {
   std::size_t capacity_;
   std::deque<Text> ring_;  // ends with the event last_seq_
   std::uint64_t last_seq_ = 0;
+  bool ended_ = false;
   std::vector<std::weak_ptr<Reader>> readers_;
 };
 

@@ -15,7 +15,7 @@ void publish(Hub& hub, std::uint64_t from, std::uint64_t to) {
 
 std::string read_all(Feed& feed) {
   std::string all;
-  while (const auto message = feed.next()) all += *message + " ";
+  while (const auto message = feed.next()) all += *message->text + " ";
   return all;
 }
 
@@ -62,10 +62,33 @@ TEST(Hub, SendsAReaderAwayThatFallsBehindAndSaysWhy) {
   Hub hub(10);
   const FeedPtr feed = hub.resume(0);
   publish(hub, 1, 10);
-  EXPECT_EQ(feed->farewell(), "");
+  EXPECT_FALSE(feed->farewell());
   publish(hub, 11, 11);
-  EXPECT_EQ(feed->farewell(), "too slow: 11 events behind, 10 are kept");
+  ASSERT_TRUE(feed->farewell());
+  EXPECT_EQ(feed->farewell()->why, Farewell::Why::too_slow);
+  EXPECT_EQ(feed->farewell()->text, "too slow: 11 events behind, 10 are kept");
   EXPECT_FALSE(feed->next());
+}
+
+TEST(Hub, NumbersEventsAndTheSnapshotButNoFrames) {
+  Hub hub;
+  publish(hub, 1, 3);
+  const FeedPtr feed = hub.resume(2, text("snapshot"));
+  hub.publish_frame(text("frame"));
+  EXPECT_EQ(feed->next()->seq, 2U);
+  EXPECT_EQ(feed->next()->seq, 3U);
+  EXPECT_EQ(feed->next()->seq, std::nullopt);
+}
+
+TEST(Hub, SendsEveryReaderAwayAtItsEnd) {
+  Hub hub;
+  const FeedPtr feed = hub.resume(0);
+  int news = 0;
+  feed->on_news([&] { ++news; });
+  hub.end();
+  EXPECT_EQ(news, 1);
+  ASSERT_TRUE(feed->farewell());
+  EXPECT_EQ(feed->farewell()->why, Farewell::Why::server_ends);
 }
 
 TEST(Hub, RefusesAHoleInTheLog) {

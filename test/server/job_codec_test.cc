@@ -47,6 +47,8 @@ struct BadField {
   const char* pointer = nullptr;  // of the answer, when it is another place
 };
 
+void PrintTo(const BadField& bad, std::ostream* out) { *out << bad.name; }
+
 class BadJob : public ::testing::TestWithParam<BadField> {};
 
 TEST_P(BadJob, IsRefusedWithPointerAndValue) {
@@ -103,9 +105,46 @@ INSTANTIATE_TEST_SUITE_P(
         BadField{"PriorityIsFraction", "/priority", "1.5", kMalformed, "an integer"},
         BadField{"PriorityIsHuge", "/priority", "99999999999", kInvalid, "not within"},
         BadField{"TimeoutIsNegative", "/backlog_timeout_s", "-1", kInvalid, "not within"},
-        BadField{"AfterIsNotServed", "/after", "[\"x\"]", kInvalid, "not served"},
+        BadField{"AfterIsText", "/after", "\"x\"", kMalformed, "an array"},
+        BadField{"AfterHoldsNoId", "/after", "[\"x\", \"a b\"]", kInvalid, "128", "/after/1"},
+        BadField{"StepsAreNotServed", "/steps", "[]", kInvalid, "not served"},
         BadField{"RetimeIsNotServed", "/retime", "true", kInvalid, "parameterisation"}),
     [](const auto& tested) { return tested.param.name; });
+
+TEST(JobCodec, ReadsPredecessors) {
+  json body = test::move("left", test::kHome, test::kMiddle);
+  body["after"] = {"place-6", "x"};
+  const auto job = read_job(body);
+  ASSERT_TRUE(job);
+  EXPECT_EQ(job->after, (std::vector<std::string>{"place-6", "x"}));
+  body["after"] = std::vector<std::string>(101, "x");
+  EXPECT_EQ(read_job(body).error().front().kind, ProblemKind::too_large);
+}
+
+TEST(JobCodec, ReadsMoveItsNestingAndPointsIntoIt) {
+  json body = test::move("left", test::kHome, test::kMiddle);
+  const auto plain = read_job(body);
+  body["trajectory"] = {
+      {"joint_trajectory", body["trajectory"]},
+      {"multi_dof_joint_trajectory",
+       {{"header", json::object()}, {"joint_names", json::array()}, {"points", json::array()}}}};
+  const auto nested = read_job(body);
+  ASSERT_TRUE(nested) << nested.error().front().detail;
+  EXPECT_EQ(nested->trajectory.joint_names, plain->trajectory.joint_names);
+  EXPECT_EQ(nested->trajectory.points.size(), plain->trajectory.points.size());
+
+  json moves_a_base = body;
+  moves_a_base["trajectory"]["multi_dof_joint_trajectory"]["joint_names"] = {"base"};
+  EXPECT_EQ(read_job(moves_a_base).error().front().pointer,
+            "/trajectory/multi_dof_joint_trajectory/joint_names");
+  json unreadable = body;
+  unreadable["trajectory"]["joint_trajectory"]["points"][1]["positions"][0] = "x";
+  EXPECT_EQ(read_job(unreadable).error().front().pointer,
+            "/trajectory/joint_trajectory/points/1/positions/0");
+  json twice = body;
+  twice["trajectory"] = {{"joint_trajectory", body["trajectory"]}};
+  EXPECT_EQ(read_job(twice).error().front().pointer, "/trajectory/joint_trajectory");
+}
 
 TEST(JobCodec, ListsEveryFaultOfABody) {
   json body = test::move("left", test::kHome, test::kMiddle);

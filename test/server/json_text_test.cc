@@ -17,6 +17,8 @@ struct BadText {
   const char* says;  // part of the detail
 };
 
+void PrintTo(const BadText& bad, std::ostream* out) { *out << bad.name; }
+
 class BadJson : public ::testing::TestWithParam<BadText> {};
 
 TEST_P(BadJson, IsRefusedWithItsPlace) {
