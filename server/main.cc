@@ -32,6 +32,13 @@ int run(int argc, char** argv) {
       app.add_subcommand("validate", "say what a cell holds, or its faults");
   add_cell(*validate_command, validated_file);
 
+  CheckOptions checking;
+  CLI::App* check_command =
+      app.add_subcommand("check", "judge jobs against each other without running them");
+  add_cell(*check_command, checking.cell_file);
+  check_command->add_option("--jobs", checking.jobs_file, "jobs file (JSON)")->required();
+  check_command->add_option("--policy", checking.policy, "instead of the cell's");
+
   SimulateOptions simulating;
   CLI::App* simulate_command = app.add_subcommand("simulate", "run jobs on simulated time");
   add_cell(*simulate_command, simulating.cell_file);
@@ -40,6 +47,7 @@ int run(int argc, char** argv) {
   simulate_command->add_option("--seed", simulating.seed, "of the arms' noise")
       ->capture_default_str();
   simulate_command->add_option("--out", simulating.out, "folder for the recording");
+  simulate_command->add_option("--faults", simulating.faults_file, "faults file (JSON)");
 
   AuditOptions auditing;
   CLI::App* audit_command = app.add_subcommand("audit", "re-check a recording for contacts");
@@ -57,6 +65,7 @@ int run(int argc, char** argv) {
   }
   if (serve_command->parsed()) return serve(serving);
   if (validate_command->parsed()) return validate_cell(validated_file);
+  if (check_command->parsed()) return check_jobs_file(checking);
   if (simulate_command->parsed()) return simulate_jobs(simulating);
   return audit_recording(auditing);
 }

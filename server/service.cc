@@ -21,7 +21,8 @@ class Service::Impl {
     if (!http) return std::move(http.error());
     http_ = std::move(*http);
     if (options_.data) {
-      auto recording = Recording::create(*options_.data, source, *cell, options_.record_states);
+      auto recording = Recording::create(Recording::unused_folder(*options_.data), source, *cell,
+                                         options_.record_states);
       if (!recording) return std::move(recording.error());
       recording_ = std::move(*recording);
     }
@@ -63,6 +64,9 @@ class Service::Impl {
   }
 
   HttpServer& http() { return *http_; }
+  std::optional<std::filesystem::path> recorded_to() const {
+    return recording_ ? std::optional(recording_->folder()) : std::nullopt;
+  }
 
  private:
   Response answer_file(const Request& request) const {
@@ -96,6 +100,7 @@ Result<std::unique_ptr<Service>> Service::start(CellPtr cell, const Recording::S
 Service::Service(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Service::~Service() = default;
 std::uint16_t Service::port() const { return impl_->http().port(); }
+std::optional<std::filesystem::path> Service::recorded_to() const { return impl_->recorded_to(); }
 void Service::run(bool until_signal) { impl_->run(until_signal); }
 void Service::stop() { impl_->http().stop(); }
 

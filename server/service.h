@@ -18,7 +18,8 @@ struct ServiceOptions {
   double speed = 1.0;                         // cell seconds per wall second
   std::string policy;                         // empty: the cell's
   std::filesystem::path web;                  // the dashboard's files
-  std::optional<std::filesystem::path> data;  // where a recording is written
+  std::optional<std::filesystem::path> data;  // where a recording is written; one in
+                                              // it is kept (Recording::unused_folder)
   bool record_states = false;                 // states.csv as well
 };
 
@@ -34,6 +35,7 @@ class Service {
   ~Service();
 
   [[nodiscard]] std::uint16_t port() const;
+  [[nodiscard]] std::optional<std::filesystem::path> recorded_to() const;
   void run(bool until_signal);  // until stop(), or SIGINT or SIGTERM
   void stop();                  // thread-safe
 

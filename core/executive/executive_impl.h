@@ -16,6 +16,10 @@
 
 namespace armloom {
 
+// Every joint of the motion that does not begin (within the tolerance) where `rest` has it.
+void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory,
+                          const Configuration& rest, Problems& problems);
+
 class Executive::Impl final : public JobNames {
  public:
   Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
@@ -81,8 +85,6 @@ class Executive::Impl final : public JobNames {
   };
   Result<Prepared> prepare(JobRequest request, Ahead& ahead) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
-  void find_start_elsewhere(const Trajectory& trajectory, const Configuration& rest,
-                            Problems& problems) const;
   JobView accept(Prepared prepared);
   std::string free_key(JobId id) const;
 

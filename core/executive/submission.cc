@@ -72,7 +72,7 @@ Result<Executive::Impl::Prepared> Executive::Impl::prepare(JobRequest request, A
       problems.push_back(std::move(p));
     }
   } else {
-    find_start_elsewhere(**trajectory, ahead.rest, problems);
+    find_start_elsewhere(*cell_, **trajectory, ahead.rest, problems);
   }
   if (!problems.empty()) return failure(std::move(problems));
 
@@ -112,13 +112,13 @@ void Executive::Impl::find_bad_after(const JobRequest& request, const Ahead& ahe
   }
 }
 
-void Executive::Impl::find_start_elsewhere(const Trajectory& trajectory, const Configuration& rest,
-                                           Problems& problems) const {
+void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory,
+                          const Configuration& rest, Problems& problems) {
   for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
-    const Joint& joint = cell_->joint(trajectory.joints()[j]);
+    const Joint& joint = cell.joint(trajectory.joints()[j]);
     const double begins = trajectory.start()[static_cast<Eigen::Index>(j)];
     const double stands = rest[static_cast<Eigen::Index>(trajectory.joints()[j].index())];
-    if (std::abs(begins - stands) <= cell_->execution.start_tolerance_rad) continue;
+    if (std::abs(begins - stands) <= cell.execution.start_tolerance_rad) continue;
     char text[256];
     std::snprintf(text, sizeof text,
                   "waypoint 0, %s: begins at %.6g, but will stand at %.6g when the jobs accepted "

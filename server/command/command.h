@@ -29,12 +29,21 @@ int serve(const ServeOptions& options);
 
 int validate_cell(const std::string& cell_file);
 
+// A Verdict as JSON for each job of the file, one a line.
+struct CheckOptions {
+  std::string cell_file;
+  std::string jobs_file;
+  std::string policy;
+};
+int check_jobs_file(const CheckOptions& options);
+
 struct SimulateOptions {
   std::string cell_file;
   std::string jobs_file;
   std::string policy;
   std::uint64_t seed = 1;
-  std::string out;  // empty: no recording
+  std::string out;          // empty: no recording
+  std::string faults_file;  // empty: none
 };
 int simulate_jobs(const SimulateOptions& options);
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/executive/simulation.h"
+#include "server/codec/fault_codec.h"
 #include "server/codec/job_codec.h"
 #include "server/codec/json_writer.h"
 #include "server/codec/problem_codec.h"
@@ -63,9 +64,13 @@ Problems faults_of(const std::vector<TimedJob>& jobs, const Cell& cell) {
 
 // After this much cell time something is wrong: every job has waited as long as it may and run as
 // long as it may, one after the other.
-TimePoint time_limit(const std::vector<TimedJob>& jobs, const Cell& cell) {
+TimePoint time_limit(const std::vector<TimedJob>& jobs, const std::vector<FaultRequest>& faults,
+                     const Cell& cell) {
   double limit_s = 60.0;
   double last_s = 0.0;
+  for (const FaultRequest& fault : faults) {
+    limit_s += to_seconds(fault.lasting.value_or(Duration{}));
+  }
   for (const TimedJob& timed : jobs) {
     const auto& points = timed.job.trajectory.points;
     const double duration_s = points.empty() ? 0.0 : points.back().time_from_start_s;
@@ -154,6 +159,14 @@ int simulate_jobs(const SimulateOptions& options) {
   if (const Problems faults = faults_of(*jobs, cell); !faults.empty()) {
     return refuse(options.jobs_file, faults);
   }
+  std::vector<FaultRequest> faults;
+  if (!options.faults_file.empty()) {
+    const auto faults_text = read_text_file(options.faults_file);
+    if (!faults_text) return refuse(options.faults_file, faults_text.error());
+    auto read = read_faults_text(*faults_text, cell);
+    if (!read) return refuse(options.faults_file, read.error());
+    faults = std::move(*read);
+  }
   std::unique_ptr<Recording> recording;
   if (!options.out.empty()) {
     auto created = Recording::create(options.out, {loaded->file, loaded->text}, cell, true);
@@ -164,13 +177,14 @@ int simulate_jobs(const SimulateOptions& options) {
 
   TimePoint first_submit = TimePoint::max();
   for (const TimedJob& timed : *jobs) first_submit = std::min(first_submit, timed.at);
-  const TimePoint limit = time_limit(*jobs, cell);
+  const TimePoint limit = time_limit(*jobs, faults, cell);
   ExecutiveOptions executive_options;
   executive_options.policy = options.policy;
   executive_options.seed = options.seed;
   Watcher watcher(recording.get(), stream_of_seed(options.seed));
   const auto wall_start = std::chrono::steady_clock::now();
-  const auto result = simulate(loaded->cell, executive_options, std::move(*jobs), limit, watcher);
+  const auto result =
+      simulate(loaded->cell, executive_options, std::move(*jobs), limit, watcher, faults);
   if (!result) return refuse(options.cell_file, result.error());
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
 

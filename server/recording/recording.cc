@@ -1,5 +1,6 @@
 #include "server/recording/recording.h"
 
+#include <ctime>
 #include <iterator>
 #include <system_error>
 
@@ -8,6 +9,21 @@
 
 namespace armloom {
 namespace fs = std::filesystem;
+
+fs::path Recording::unused_folder(const fs::path& folder) {
+  std::error_code ec;
+  if (!fs::exists(folder / "events.jsonl", ec)) return folder;
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char name[32];
+  std::strftime(name, sizeof name, "%Y-%m-%dT%H-%M-%SZ", &parts);
+  fs::path fresh = folder / name;
+  for (int n = 2; fs::exists(fresh, ec); ++n) {
+    fresh = folder / (name + ("." + std::to_string(n)));
+  }
+  return fresh;
+}
 
 Result<std::unique_ptr<Recording>> Recording::create(const fs::path& folder, const Source& source,
                                                      const Cell& cell, bool with_states) {

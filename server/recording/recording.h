@@ -23,6 +23,10 @@ class Recording {
     std::filesystem::path cell_file;
     std::string cell_text;
   };
+  // `folder`, or when that holds a recording already a new folder in it, named after the present
+  // time ("2026-11-21T09-33-00Z"): a server that starts again loses nothing.
+  [[nodiscard]] static std::filesystem::path unused_folder(const std::filesystem::path& folder);
+
   // Makes the folder. Problem (unavailable): it cannot be written.
   [[nodiscard]] static Result<std::unique_ptr<Recording>> create(
       const std::filesystem::path& folder, const Source& source, const Cell& cell,
@@ -38,6 +42,7 @@ class Recording {
   void job(TimePoint at, std::string_view body);
   void flush() { events_.flush(); }
   [[nodiscard]] bool good() const;
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
   Recording() = default;

@@ -1,0 +1,179 @@
+#include "core/executive/dry_run.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "core/collision/collision_checker.h"
+#include "core/collision/judge.h"
+#include "core/executive/executive_impl.h"
+
+namespace armloom {
+namespace {
+
+// A job with the time at which it begins if everything goes as planned.
+struct Planned {
+  std::string key;
+  std::string name;
+  TrajectoryPtr trajectory;
+  TimePoint asked;
+  TimePoint starts;
+
+  [[nodiscard]] TimePoint ends() const { return starts + trajectory->duration(); }
+};
+
+void put_at_goal(const Trajectory& motion, Configuration& q) {
+  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
+    q[static_cast<Eigen::Index>(motion.joints()[j].index())] =
+        motion.goal()[static_cast<Eigen::Index>(j)];
+  }
+}
+
+// Reads the jobs in the order of the file: where each arm stands, and when it is free.
+class Plan final : public JobNames {
+ public:
+  explicit Plan(const Cell& cell)
+      : cell_(cell), rest_(cell.home()), free_at_(cell.arms.size(), TimePoint{}) {}
+
+  void add(const TimedJob& timed, Problems& problems) {
+    const std::string place = "/" + std::to_string(jobs_.size() + refused_) + "/job";
+    const auto refuse = [&](Problem problem) {
+      problem.pointer.insert(0, place);
+      problems.push_back(std::move(problem));
+    };
+    const std::size_t before = problems.size();
+    Planned job{timed.job.key, timed.job.name, nullptr, timed.at, timed.at};
+    if (job.key.empty()) job.key = "job-" + std::to_string(jobs_.size() + refused_ + 1);
+    if (by_key_.contains(job.key)) {
+      refuse({ProblemKind::conflict, "id-in-use", "/id",
+              "the id is used by an earlier job of the file", job.key});
+    }
+    for (std::size_t i = 0; i < timed.job.after.size(); ++i) {
+      const std::string& key = timed.job.after[i];
+      if (const auto it = by_key_.find(key); it != by_key_.end()) {
+        job.starts = std::max(job.starts, jobs_[it->second].ends());
+      } else {
+        refuse({ProblemKind::invalid, "unknown-job", "/after/" + std::to_string(i),
+                "no job before this one has the id \"" + key + "\"", key});
+      }
+    }
+    auto trajectory = validate(timed.job.trajectory, cell_);
+    Problems found = trajectory ? Problems{} : std::move(trajectory.error());
+    for (Problem& problem : found) problem.pointer.insert(0, "/trajectory");
+    if (trajectory) find_start_elsewhere(cell_, **trajectory, rest_, found);
+    for (Problem& problem : found) refuse(std::move(problem));
+    if (problems.size() > before) {
+      ++refused_;
+      return;
+    }
+    job.trajectory = std::move(*trajectory);
+    for (ArmId arm : job.trajectory->arms()) {
+      job.starts = std::max(job.starts, free_at_[arm.index()]);
+    }
+    for (ArmId arm : job.trajectory->arms()) free_at_[arm.index()] = job.ends();
+    put_at_goal(*job.trajectory, rest_);
+    by_key_.emplace(job.key, jobs_.size());
+    jobs_.push_back(std::move(job));
+  }
+
+  [[nodiscard]] const std::vector<Planned>& jobs() const { return jobs_; }
+  std::string key(JobId job) const override { return jobs_[job.value() - 1].key; }
+  std::string name(JobId job) const override { return jobs_[job.value() - 1].name; }
+
+ private:
+  const Cell& cell_;
+  Configuration rest_;
+  std::vector<TimePoint> free_at_;
+  std::vector<Planned> jobs_;
+  std::map<std::string, std::size_t> by_key_;
+  std::size_t refused_ = 0;
+};
+
+JobId id_of(std::size_t index) { return JobId{index + 1}; }
+
+// What `index` finds at its start; `begun`: indices of those that have begun, in order of starts.
+Question question_for(const Plan& plan, std::size_t index, const std::vector<std::size_t>& begun,
+                      const Cell& cell, const Policy& policy) {
+  const Planned& job = plan.jobs()[index];
+  Question question{.version = 1,
+                    .start_at = job.starts,
+                    .candidates = {Motion{id_of(index), job.trajectory, Duration{}}},
+                    .others = {},
+                    .rest = cell.home(),
+                    .method = policy.method()};
+  for (std::size_t other : begun) {
+    const Planned& earlier = plan.jobs()[other];
+    if (earlier.ends() <= job.starts) {
+      put_at_goal(*earlier.trajectory, question.rest);
+    } else {
+      question.others.push_back(
+          Motion{id_of(other), earlier.trajectory, job.starts - earlier.starts});
+    }
+  }
+  return question;
+}
+
+std::optional<JobId> capacity(const Question& question, const Policy& policy) {
+  std::vector<Job> jobs;
+  for (const Motion& motion : question.others) {
+    jobs.push_back(
+        Job{.id = motion.job, .trajectory = motion.trajectory, .state = JobState::running});
+  }
+  std::vector<const Job*> pointers;
+  for (const Job& job : jobs) pointers.push_back(&job);
+  return policy.capacity_taken_by(pointers);
+}
+
+CheckView judged(const Question& question, const Plan& plan, const Cell& cell, const Policy& policy,
+                 CollisionChecker& checker) {
+  CheckView view{.kind = Verdict::Kind::conflict, .scene_version = 1};
+  if (const auto taken_by = capacity(question, policy)) {
+    const Wait wait{.kind = Wait::Kind::capacity, .job = *taken_by};
+    view.conflicts.push_back(view_of(wait, cell, plan));
+    return view;
+  }
+  const Verdict verdict = judge(question, checker);
+  view.kind = verdict.kind;
+  view.clearance_bound_m = verdict.clearance_bound_m;
+  view.evaluations = verdict.evaluations;
+  for (const Conflict& conflict : verdict.conflicts) {
+    view.conflicts.push_back(view_of(wait_for(conflict), cell, plan));
+  }
+  return view;
+}
+
+}  // namespace
+
+Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& policy_name,
+                                           const std::vector<TimedJob>& jobs) {
+  auto policy = make_policy(policy_name.empty() ? cell->scheduling.policy : policy_name, *cell);
+  if (!policy) return failure(std::move(policy.error()));
+  auto scene = PlanningScene::build(cell);
+  if (!scene) return failure(std::move(scene.error()));
+  Plan plan(*cell);
+  Problems problems;
+  for (const TimedJob& timed : jobs) plan.add(timed, problems);
+  if (!problems.empty()) return failure(std::move(problems));
+
+  std::vector<std::size_t> order(jobs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return plan.jobs()[i].starts; });
+  CollisionChecker checker(*scene);
+  std::vector<CheckedJob> checked(jobs.size());
+  std::vector<std::size_t> begun;
+  for (std::size_t index : order) {
+    const Planned& job = plan.jobs()[index];
+    checked[index].key = job.key;
+    CheckView& view = checked[index].verdict;
+    view = judged(question_for(plan, index, begun, *cell, **policy), plan, *cell, **policy,
+                  checker);
+    if (view.kind == Verdict::Kind::free) {
+      view.earliest_start_s = to_seconds(job.starts - job.asked);
+    }
+    begun.push_back(index);
+  }
+  return checked;
+}
+
+}  // namespace armloom

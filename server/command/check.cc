@@ -1,0 +1,36 @@
+#include <iostream>
+
+#include "core/executive/dry_run.h"
+#include "server/codec/job_codec.h"
+#include "server/codec/json_writer.h"
+#include "server/codec/views.h"
+#include "server/command/command.h"
+#include "server/recording/recording.h"
+
+namespace armloom {
+
+int check_jobs_file(const CheckOptions& options) {
+  const auto loaded = load_cell(options.cell_file);
+  if (!loaded) return kExitBadInput;
+  const auto refuse = [&](const Problems& problems) {
+    complain(options.jobs_file, problems);
+    return kExitBadInput;
+  };
+  const auto text = read_text_file(options.jobs_file);
+  if (!text) return refuse(text.error());
+  const auto jobs = read_jobs_text(*text);
+  if (!jobs) return refuse(jobs.error());
+  const auto checked = check_jobs(loaded->cell, options.policy, *jobs);
+  if (!checked) return refuse(checked.error());
+  for (const CheckedJob& job : *checked) {
+    JsonWriter out;
+    out.begin_object().field("id", job.key);
+    write_fields(out, job.verdict);
+    out.end_object();
+    std::cout << out.text() << '\n';
+  }
+  std::cout.flush();
+  return kExitDone;
+}
+
+}  // namespace armloom
