@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Executes the README's tour with curl as it stands and compares what comes back.
+"""Executes the README's examples with curl as they stand and compares what comes back.
 
     test/readme/tour.py ARMLOOM
 
@@ -23,8 +23,8 @@ MARK = "==== end of block ===="
 
 
 def blocks(readme):
-    """The tour's (commands, expected values), in order."""
-    tour = readme.split("## A tour with curl")[1].split("\n## ")[0]
+    """The (commands, expected values) of the tour and of the rest of the API, in order."""
+    tour = readme.split("## A tour with curl")[1].split("\n## Cells and robots")[0]
     found = re.findall(r"```sh\n(.*?)```\n```json\n(.*?)```", tour, re.S)
     return [(commands, list(values(expected))) for commands, expected in found]
 
@@ -100,7 +100,7 @@ def main():
         if probe.returncode == 0:
             os.execvpe("unshare", inside, dict(os.environ, ARMLOOM_TOUR_INSIDE="1"))
     tour = blocks((TOP / "README.md").read_text())
-    if len(tour) < 8:
+    if len(tour) < 13:
         sys.exit(f"only {len(tour)} blocks found in the README")
     server = subprocess.Popen([sys.argv[1], "serve", "--cell", TOP / "config/two_pandas.json"],
                               stdout=subprocess.DEVNULL)
