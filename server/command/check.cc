@@ -21,7 +21,12 @@ int check_jobs_file(const CheckOptions& options) {
   const auto jobs = read_jobs_text(*text);
   if (!jobs) return refuse(jobs.error());
   const auto checked = check_jobs(loaded->cell, options.policy, *jobs);
-  if (!checked) return refuse(checked.error());
+  if (!checked) {
+    // A policy is the cell's business, everything else is the jobs'.
+    const bool of_cell = checked.error().front().pointer.starts_with("/scheduling");
+    complain(of_cell ? options.cell_file : options.jobs_file, checked.error());
+    return kExitBadInput;
+  }
   for (const CheckedJob& job : *checked) {
     JsonWriter out;
     out.begin_object().field("id", job.key);

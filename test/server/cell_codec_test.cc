@@ -43,6 +43,8 @@ struct BadCell {
   const char* says;
 };
 
+void PrintTo(const BadCell& bad, std::ostream* out) { *out << bad.name; }
+
 class BadCellFile : public ::testing::TestWithParam<BadCell> {};
 
 TEST_P(BadCellFile, IsRefusedWithItsPlace) {

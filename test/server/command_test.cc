@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "server/recording/recording.h"
 #include "test/server/panda_jobs.h"
@@ -203,6 +204,93 @@ TEST_F(Command, AJobRefusedAtItsTimeCountsAndEndsWithOne) {
       << outcome.err;
 }
 
+TEST_F(Command, CheckJudgesJobsAgainstEachOtherWithoutRunningThem) {
+  const Outcome outcome =
+      run("check --cell " + kCell + " --jobs " + conflicting_jobs().string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::vector<json> verdicts;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) verdicts.push_back(json::parse(line));
+  ASSERT_EQ(verdicts.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(verdicts[i]["id"], "j" + std::to_string(i));
+  EXPECT_EQ(verdicts[0]["verdict"], "free");
+  EXPECT_EQ(verdicts[0]["earliest_start_s"], 0.0);
+  EXPECT_EQ(verdicts[2]["verdict"], "conflict");
+  EXPECT_EQ(verdicts[2]["conflicts"][0]["id"], "j0");
+  EXPECT_GT(verdicts[2]["evaluations"], 0);
+  EXPECT_TRUE(verdicts[2]["earliest_start_s"].is_null());
+
+  json one_arm = json::parse(read_text_file(conflicting_jobs()).value());
+  one_arm.erase(3);
+  one_arm.erase(2);
+  const Outcome in_order = run("check --cell " + kCell + " --jobs " +
+                               file("one_arm.json", one_arm.dump()).string());
+  EXPECT_EQ(in_order.last_line()["verdict"], "free");
+  EXPECT_EQ(in_order.last_line()["earliest_start_s"], 3.0);  // when j0 has ended
+
+  const Outcome sequential = run("check --policy sequential --cell " + kCell + " --jobs " +
+                                 conflicting_jobs().string());
+  EXPECT_NE(sequential.out.find("\"kind\":\"capacity\",\"id\":\"j0\""), std::string::npos)
+      << sequential.out;
+}
+
+TEST_F(Command, CheckNamesBadJobsWithFilePlaceAndValue) {
+  json jobs = json::parse(read_text_file(conflicting_jobs()).value());
+  jobs[3]["job"] = test::move("right", test::kHome, test::kMiddle);  // it will stand in the middle
+  const Outcome astray =
+      run("check --cell " + kCell + " --jobs " + file("astray.json", jobs.dump()).string());
+  EXPECT_EQ(astray.exit_code, 2);
+  EXPECT_NE(astray.err.find("astray.json:/3/job/trajectory/points/0/positions/1"),
+            std::string::npos)
+      << astray.err;
+  EXPECT_EQ(astray.out, "");
+  const Outcome policy = run("check --policy hopeful --cell " + kCell + " --jobs " +
+                             conflicting_jobs().string());
+  EXPECT_EQ(policy.exit_code, 2);
+  EXPECT_NE(policy.err.find("hopeful"), std::string::npos) << policy.err;
+}
+
+TEST_F(Command, SimulateWithFaultsLosesTimeAndNothingElse) {
+  const std::string simulate =
+      "simulate --cell " + changed_cell("/execution/duration_margin_s", 60).string() + " --jobs " +
+      conflicting_jobs().string();
+  const Outcome without = run(simulate);
+  ASSERT_EQ(without.exit_code, 0) << without.err;
+  const std::string faults =
+      file("faults.json", R"([{"at_s": 1, "arm": "left", "kind": "stall", "for_s": 5},
+                              {"at_s": 0, "arm": "right", "kind": "late_start", "value": 0.5}])")
+          .string();
+  const Outcome with = run(simulate + " --faults " + faults);
+  ASSERT_EQ(with.exit_code, 0) << with.err;
+  EXPECT_EQ(with.last_line()["jobs"]["succeeded"], 4);
+  EXPECT_EQ(with.last_line()["monitor_stops"], 0);
+  EXPECT_GT(with.last_line()["makespan_s"], without.last_line()["makespan_s"].get<double>() + 4.0);
+}
+
+TEST_F(Command, BadFaultsFilesAreNamedWithFilePlaceAndValue) {
+  const struct {
+    const char* text;
+    const char* says;
+  } cases[] = {
+      {"{}", "faults.json: expected an array"},
+      {"[", "faults.json:/0: line 1"},
+      {R"([{"arm": "left", "kind": "stall"}])", "faults.json:/0/at_s: "},
+      {R"([{"at_s": 0, "arm": "middle", "kind": "stall"}])", "faults.json:/0/arm: no arm"},
+      {R"([{"at_s": 0, "arm": "left", "kind": "drift"}])", "faults.json:/0/kind: "},
+      {R"([{"at_s": 0, "arm": "left", "kind": "slow", "value": 2}])", "faults.json:/0/value: 2"},
+      {R"([{"at_s": -1, "arm": "left", "kind": "stall"}])", "faults.json:/0/at_s: -1"},
+  };
+  const std::string jobs = conflicting_jobs().string();
+  for (const auto& bad : cases) {
+    const Outcome outcome = run("simulate --cell " + kCell + " --jobs " + jobs + " --faults " +
+                                file("faults.json", bad.text).string());
+    EXPECT_EQ(outcome.exit_code, 2) << bad.text;
+    EXPECT_NE(outcome.err.find(bad.says), std::string::npos) << bad.text << outcome.err;
+  }
+  EXPECT_EQ(run("simulate --cell " + kCell + " --jobs " + jobs + " --faults nothing.json").exit_code,
+            2);
+}
+
 // The address that the server prints, read through a pipe.
 TEST_F(Command, ServeSaysItsAddressRefusesATakenPortAndEndsCleanlyOnSigterm) {
   int pipe_ends[2];
@@ -230,7 +318,12 @@ TEST_F(Command, ServeSaysItsAddressRefusesATakenPortAndEndsCleanlyOnSigterm) {
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_NE(second.err.find("cannot listen on 127.0.0.1:"), std::string::npos) << second.err;
 
+  test::Listener listener(static_cast<std::uint16_t>(port));
+  EXPECT_EQ(listener.next_event()["type"], "snapshot");
   kill(child, SIGTERM);
+  while (listener.next()) {
+  }
+  EXPECT_EQ(listener.closed().code, 1001) << "going away";
   int status = 0;
   waitpid(child, &status, 0);
   fclose(out);
@@ -241,6 +334,21 @@ TEST_F(Command, ServeSaysItsAddressRefusesATakenPortAndEndsCleanlyOnSigterm) {
             std::string::npos);
   EXPECT_EQ(run("audit --cell " + kCell + " --recording " + (folder_ / "data").string()).exit_code,
             0);
+}
+
+TEST(RecordingFolder, IsAnotherWhenOneIsThere) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "armloom-recording-folder";
+  fs::remove_all(folder);
+  EXPECT_EQ(Recording::unused_folder(folder), folder);
+  fs::create_directories(folder);
+  EXPECT_EQ(Recording::unused_folder(folder), folder) << "nothing in it yet";
+  std::ofstream(folder / "events.jsonl") << "{}\n";
+  const fs::path second = Recording::unused_folder(folder);
+  EXPECT_EQ(second.parent_path(), folder);
+  fs::create_directories(second);
+  const fs::path third = Recording::unused_folder(folder);
+  EXPECT_NE(third, second);
+  EXPECT_EQ(third.parent_path(), folder);
 }
 
 }  // namespace

@@ -78,6 +78,66 @@ TEST_F(EventFeed, GivesASnapshotWithAGapToAReaderOfAnotherRun) {
   }
 }
 
+// One Server-Sent Event: its id and its data.
+struct SentEvent {
+  std::string id;
+  json data;
+};
+SentEvent next_sent(test::Wire& wire) {
+  SentEvent event;
+  for (;;) {
+    std::string line = wire.take_until("\n");
+    line.pop_back();
+    if (line.empty() && !event.data.is_null()) return event;
+    if (line.starts_with("id: ")) event.id = line.substr(4);
+    if (line.starts_with("data: ")) event.data = json::parse(line.substr(6));
+  }
+}
+
+TEST_F(EventFeed, ComesAsServerSentEventsAndResumesByTheLastId) {
+  start(20.0);
+  const std::string get_events = "GET /api/v1/events HTTP/1.1\r\nHost: localhost\r\n";
+  std::vector<SentEvent> all;
+  {
+    test::Wire wire(port());
+    wire.send(get_events + "\r\n");
+    const std::string head = wire.take_until("\r\n\r\n");
+    EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
+    EXPECT_NE(head.find("text/event-stream"), std::string::npos) << head;
+    all.push_back(next_sent(wire));
+    run_one_job();
+    while (!ends_go(all.back().data)) all.push_back(next_sent(wire));
+  }
+  EXPECT_EQ(all.front().data["type"], "snapshot");
+  for (const SentEvent& event : all) {
+    EXPECT_EQ(event.id, event.data["stream"].get<std::string>() + ":" +
+                            std::to_string(event.data["seq"].get<std::uint64_t>()));
+    EXPECT_NE(event.data["type"], "state");  // poses only if asked for
+  }
+  test::Wire again(port());
+  again.send(get_events + "Last-Event-ID: " + all.front().id + "\r\n\r\n");
+  (void)again.take_until("\r\n\r\n");
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_EQ(next_sent(again).data, all[i].data);
+
+  test::Wire stranger(port());
+  stranger.send(get_events + "Last-Event-ID: nonsense\r\n\r\n");
+  (void)stranger.take_until("\r\n\r\n");
+  EXPECT_EQ(next_sent(stranger).data["data"]["gap"], true);
+}
+
+TEST_F(EventFeed, ShowsPosesAsServerSentEventsIfAskedFor) {
+  start(1.0);
+  test::Wire wire(port());
+  wire.send("GET /api/v1/events?poses=1 HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  (void)wire.take_until("\r\n\r\n");
+  EXPECT_EQ(next_sent(wire).data["type"], "snapshot");
+  const SentEvent frame = next_sent(wire);
+  EXPECT_EQ(frame.data["type"], "state");
+  EXPECT_EQ(frame.id, "");
+  EXPECT_EQ(test::request(port(), "HEAD", "/api/v1/events").status, 200);
+  EXPECT_EQ(test::request(port(), "POST", "/api/v1/events", "{}").status, 405);
+}
+
 TEST_F(EventFeed, IsClosedToPagesOfOtherSites) {
   start(1.0);
   test::Wire wire(port());

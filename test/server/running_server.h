@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -43,6 +44,26 @@ class RunningServer : public ::testing::Test {
 
   std::uint16_t port() const { return service_->port(); }
   Answer get(const std::string& target) { return request(port(), "GET", target); }
+  Answer put(const std::string& target, const std::string& body) {
+    return request(port(), "PUT", target, body);
+  }
+  Answer remove(const std::string& target) { return request(port(), "DELETE", target); }
+  // The next view of this job, from the events, for which `is` holds.
+  template <class Is>
+  static nlohmann::json next_job(Listener& listener, const std::string& id, Is is) {
+    for (;;) {
+      const nlohmann::json job = listener.next_of("job")["data"];
+      if (job["id"] == id && is(job)) return job;
+    }
+  }
+  static nlohmann::json until(Listener& listener, const std::string& id, const std::string& state) {
+    return next_job(listener, id, [&](const auto& job) {
+      if (job["state"] != state && !job["result"].is_null()) {
+        throw std::runtime_error("ended instead: " + job.dump());
+      }
+      return job["state"] == state;
+    });
+  }
   Answer post(const std::string& target, const std::string& body,
               const std::string& type = "application/json") {
     return request(port(), "POST", target, body, type);

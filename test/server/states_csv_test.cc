@@ -58,6 +58,8 @@ struct BadRecording {
   const char* says;
 };
 
+void PrintTo(const BadRecording& bad, std::ostream* out) { *out << bad.name; }
+
 class BadStates : public ::testing::TestWithParam<BadRecording> {};
 
 TEST_P(BadStates, AreRefusedWithLineAndColumn) {

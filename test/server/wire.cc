@@ -84,6 +84,7 @@ Answer read_answer(Wire& wire, bool head) {
     answer.headers[name] = line.substr(colon + 2, line.size() - colon - 4);
   }
   if (answer.status == 100) return read_answer(wire, head);
+  if (answer.status == 204) return answer;
   if (!head) answer.body = wire.take(std::stoul(answer.headers.at("content-length")));
   return answer;
 }
@@ -91,7 +92,7 @@ Answer read_answer(Wire& wire, bool head) {
 std::string request_text(const std::string& method, const std::string& target,
                          const std::string& body, const std::string& content_type) {
   std::string text = method + " " + target + " HTTP/1.1\r\nHost: 127.0.0.1\r\n";
-  if (!body.empty() || method == "POST") {
+  if (!body.empty() || method == "POST" || method == "PUT") {
     text += "Content-Type: " + content_type + "\r\n";
     text += "Content-Length: " + std::to_string(body.size()) + "\r\n";
   }

@@ -1,0 +1,110 @@
+// Clients with a bad day: too much, too deep, too slow, too many. Each is told what was wrong, and
+// the others notice nothing.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "test/server/panda_jobs.h"
+#include "test/server/running_server.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+class Limits : public test::RunningServer {
+ protected:
+  void expect_problem(const std::string& body, int status, const std::string& pointer,
+                      const std::string& says) {
+    const auto answer = post("/api/v1/jobs", body);
+    EXPECT_EQ(answer.status, status) << answer.body.substr(0, 500);
+    const json problem = answer.json();
+    EXPECT_EQ(problem["pointer"], pointer) << answer.body.substr(0, 500);
+    EXPECT_NE(problem["detail"].get<std::string>().find(says), std::string::npos)
+        << answer.body.substr(0, 500);
+    EXPECT_EQ(get("/api/v1/jobs").json()["jobs"], json::array());
+  }
+};
+
+TEST_F(Limits, AMillionWaypointsAreRefusedQuickly) {
+  start(1.0);
+  std::string points(2'000'000, ',');
+  for (std::size_t i = 0; i < points.size(); i += 2) points[i] = '0';
+  points.back() = ' ';
+  const auto before = Clock::now();
+  expect_problem(R"({"trajectory": {"joint_names": ["left_panda_joint1"], "points": [)" + points +
+                     "]}}",
+                 413, "/trajectory/points", "1000000 waypoints, at most 10000");
+  EXPECT_LT(Clock::now() - before, std::chrono::seconds(5));
+}
+
+TEST_F(Limits, ABodyOverEightMegabytesIsRefused) {
+  start(1.0);
+  const auto answer = post("/api/v1/jobs", std::string(8 * 1024 * 1024 + 1, ' '));
+  EXPECT_EQ(answer.status, 413);
+  EXPECT_NE(answer.json()["detail"].get<std::string>().find("8 MiB"), std::string::npos);
+  EXPECT_EQ(get("/healthz").status, 200);
+}
+
+TEST_F(Limits, TextThatIsNoPlainJsonIsRefusedWithItsPlace) {
+  start(1.0);
+  expect_problem(R"({"trajectory": )" + std::string(1'000'000, '['), 413,
+                 "/trajectory" + [] {
+                   std::string zeros;
+                   for (int i = 0; i < 31; ++i) zeros += "/0";
+                   return zeros;
+                 }(), "32");
+  expect_problem(R"({"id": "a", "id": "b"})", 400, "/id", "twice");
+  expect_problem(std::string("{\"id\": \"a\0b\"}", 13), 400, "", "line 1, column 10");
+  expect_problem("{\"id\": \"\xff\xfe\"}", 400, "/id", "line 1");
+  expect_problem(R"({"priority": 1e999})", 400, "/priority", "double");
+  expect_problem(R"({"priority": 99999999999999999999999999999})", 400, "/priority", "an integer");
+  json huge = test::move("left", test::kHome, test::kMiddle);
+  huge["trajectory"]["points"][1]["time_from_start"] = {{"sec", 1ULL << 40U}, {"nanosec", 0}};
+  expect_problem(huge.dump(), 422, "/trajectory/points/1/time_from_start/sec", "1099511627776");
+}
+
+// Both at once: each is cut off at ten seconds, counted from its first byte.
+TEST_F(Limits, SlowHeadersAndBodiesAreCutOffAtTenSeconds) {
+  start(1.0);
+  const auto before = Clock::now();
+  test::Wire header(port());
+  header.send("POST /api/v1/jobs HTTP/1.1\r\nHost: a\r\n");
+  test::Wire body(port());
+  body.send(
+      "POST /api/v1/jobs HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\n"
+      "Content-Length: 100\r\n\r\n{");
+  for (int i = 0; i < 8; ++i) {  // a byte now and then does not help
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    header.send("X");
+    body.send(" ");
+  }
+  EXPECT_EQ(get("/healthz").status, 200);
+  (void)header.take_all();
+  (void)body.take_all();
+  const auto took = Clock::now() - before;
+  EXPECT_GT(took, std::chrono::seconds(9));
+  EXPECT_LT(took, std::chrono::seconds(13));
+}
+
+TEST_F(Limits, HundredsOfIdleConnectionsChangeNothingForOthers) {
+  start(20.0);
+  std::vector<std::unique_ptr<test::Wire>> idle;
+  for (int i = 0; i < 350; ++i) idle.push_back(std::make_unique<test::Wire>(port()));
+  std::vector<std::unique_ptr<test::Listener>> deaf;  // never read
+  for (int i = 0; i < 10; ++i) deaf.push_back(std::make_unique<test::Listener>(port()));
+  test::Listener listener(port());
+  json job = test::move("left", test::kHome, test::kMiddle);
+  job["id"] = "go";
+  const auto before = Clock::now();
+  ASSERT_EQ(post("/api/v1/jobs", job.dump()).status, 202);
+  until(listener, "go", "succeeded");
+  EXPECT_LT(Clock::now() - before, std::chrono::seconds(3));  // 0.15 s alone
+  const json one_more = get("/api/v1/jobs/go").json();
+  EXPECT_EQ(one_more["state"], "succeeded");
+}
+
+}  // namespace
+}  // namespace armloom
