@@ -37,6 +37,16 @@ void Router::add(std::string method, std::string_view pattern, Answer answer) {
   routes_.push_back(Route{std::move(method), segments_of(pattern), std::move(answer)});
 }
 
+std::vector<std::string> Router::routes() const {
+  std::vector<std::string> names;
+  for (const Route& route : routes_) {
+    std::string name = route.method + " ";
+    for (const std::string& segment : route.segments) name += "/" + segment;
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
 void Router::dispatch(const Request& request, Respond respond) const {
   const std::vector<std::string> path = segments_of(request.target.path);
   std::string allow;

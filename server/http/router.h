@@ -21,6 +21,9 @@ class Router {
   // Answers requests for paths that no pattern fits (the dashboard's files).
   void otherwise(Answer answer) { otherwise_ = std::move(answer); }
 
+  // "GET /api/v1/jobs/{}", in the order in which they were added.
+  [[nodiscard]] std::vector<std::string> routes() const;
+
   // 404 when nothing fits the path, 405 with Allow when only the method does not fit.
   void dispatch(const Request& request, Respond respond) const;
 

@@ -1,0 +1,315 @@
+// openapi.json is complete and true: every operation in it is called with good and bad requests, so
+// that every status it lists is seen (but 503, which takes a server in distress), and every answer
+// and message is held against its schema.
+// Its examples are the good requests. The routes are compared with the program's own table in
+// routes_test.cc.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import {after, before, test} from 'node:test';
+
+import {Contract} from './contract.mjs';
+import {ask, handshake, openEvents, openWebSocket, startServer} from './server.mjs';
+
+const top = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), '../..');
+const binary = process.env.ARMLOOM_BINARY ?? path.join(top, 'build/armloom');
+const v1 = '/api/v1';
+const json = {'Content-Type': 'application/json'};
+const tetrahedron = `v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n`;
+
+let folder, server, contract, example;
+const streams = [];
+
+// The two-Panda cell with a mesh in it, so that there is one to be served.
+function writeCell() {
+  fs.writeFileSync(path.join(folder, 'tetrahedron.obj'), tetrahedron);
+  fs.mkdirSync(path.join(folder, 'web'));
+  fs.writeFileSync(path.join(folder, 'web/index.html'), '<!doctype html><title>dashboard</title>');
+  const text = fs.readFileSync(path.join(top, 'config/two_pandas.json'), 'utf8')
+    .replace(/\/\*[^]*?\*\//g, '').replace(/^\s*\/\/.*$|\s\/\/\s.*$/gm, '')
+    .replaceAll('../models/', path.join(top, 'models') + '/');
+  const cell = JSON.parse(text);
+  cell.objects.push({name: 'tetrahedron', mesh: 'tetrahedron.obj', xyz: [0, 3, 0]});
+  fs.writeFileSync(path.join(folder, 'cell.json'), JSON.stringify(cell));
+}
+
+// Asks, holds the answer against openapi.json, and demands the status.
+async function call(status, method, template, {args = {}, query = '', body, headers = {}, raw, ...rest} = {}) {
+  const target = template.replace(/\{(\w+)\}/g, (all, name) => encodeURIComponent(args[name])) + query;
+  const text = raw ?? (body === undefined ? undefined : JSON.stringify(body));
+  const answer = await ask(server.port, method, target,
+                           {...rest, body: text, headers: {...(text === undefined ? {} : json), ...headers}});
+  contract.answer(template, method, answer);
+  assert.equal(answer.status, status, `${method} ${target}: ${answer.text.slice(0, 400)}`);
+  // A body that the schema takes may still be wrong; one that is accepted must fit it.
+  if (body !== undefined && status < 300) assert.ok(contract.fitsBody(template, method, body), `${method} ${target}: accepted, but not to the schema`);
+  return answer.headers['content-type']?.includes('json') ? JSON.parse(answer.text) : answer.text;
+}
+
+async function until(what, condition) {
+  const end = Date.now() + 15_000;
+  for (;;) {
+    const value = await condition();
+    if (value) return value;
+    assert.ok(Date.now() < end, `waited 15 s for ${what}`);
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+}
+const ended = (id) => until(`the end of ${id}`, async () => {
+  const job = await call(200, 'GET', `${v1}/jobs/{id}`, {args: {id}});
+  return job.result && job;
+});
+
+before(async () => {
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), 'armloom-openapi-'));
+  writeCell();
+  server = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', '10', '--web', path.join(folder, 'web')]);
+  const {text} = await ask(server.port, 'GET', '/openapi.json');
+  contract = new Contract(JSON.parse(text));
+  example = (template, method, name) => structuredClone(contract.document.paths[template][method.toLowerCase()]
+    .requestBody.content['application/json'].examples[name].value);
+});
+after(() => {
+  for (const stream of streams) stream.close();
+  server?.end();
+  fs.rmSync(folder, {recursive: true, force: true});
+});
+
+test('The document is the one in the repository, and each schema in it compiles', async () => {
+  const file = JSON.parse(fs.readFileSync(path.join(top, 'server/openapi/openapi.json'), 'utf8'));
+  assert.deepEqual(await call(200, 'GET', '/openapi.json'), file);
+  assert.match(file.openapi, /^3\.1\./);
+  contract.compileAll();
+  const ids = contract.operations().map(({operation}) => operation.operationId);
+  assert.equal(new Set(ids).size, ids.length, 'an operationId occurs twice');
+  for (const {path: template, method, operation} of contract.operations()) {
+    const declared = (operation.parameters ?? []).filter((p) => p.in === 'path').map((p) => p.name);
+    assert.deepEqual(declared, [...template.matchAll(/\{(\w+)\}/g)].map((m) => m[1]), template);
+    for (const [type, content] of Object.entries(operation.requestBody?.content ?? {})) {
+      assert.equal(type, 'application/json');
+      for (const [name, {value}] of Object.entries(content.examples)) {
+        assert.ok(contract.fitsBody(template, method, value), `example ${name} of ${method} ${template}`);
+      }
+    }
+  }
+});
+
+test('The readers of events are told everything from a snapshot on', async () => {
+  const told = (value) => contract.message(value);
+  let snapshot;
+  streams.push(await openWebSocket(server.port, `${v1}/ws`, told));
+  contract.saw(`${v1}/ws`, 'GET', 101);
+  const events = await openEvents(server.port, `${v1}/events`, {}, ({id, data}) => {
+    snapshot ??= data;
+    assert.equal(id, `${data.stream}:${data.seq}`);
+    told(data);
+  });
+  streams.push(events);
+  contract.answer(`${v1}/events`, 'GET', {...events, text: ''});
+  await until('the snapshot', () => snapshot);
+  assert.equal(snapshot.type, 'snapshot');
+
+  let again;
+  streams.push(await openEvents(server.port, `${v1}/events?poses=1`, {'Last-Event-ID': `${snapshot.stream}:999999`},
+                                ({data}) => { again ??= data; told(data); }));
+  await until('a snapshot after a gap', () => again);
+  assert.equal(again.data.gap, true);
+});
+
+test('What only reads', async () => {
+  await call(200, 'GET', '/');
+  await call(200, 'GET', '/docs');
+  await call(200, 'GET', '/healthz');
+  await call(200, 'GET', '/readyz');
+  const cell = await call(200, 'GET', `${v1}/cell`);
+  const mesh = cell.objects.find((object) => object.mesh).mesh;
+  await call(200, 'GET', `${v1}/cell/meshes/{name}`, {args: {name: path.basename(mesh)}});
+  await call(404, 'GET', `${v1}/cell/meshes/{name}`, {args: {name: '0123456789abcdef.stl'}});
+  await call(200, 'GET', `${v1}/arms`);
+  await call(200, 'GET', `${v1}/arms/{name}`, {args: {name: 'left'}});
+  await call(404, 'GET', `${v1}/arms/{name}`, {args: {name: 'no body'}});
+  await call(200, 'GET', `${v1}/queue`);
+  await call(200, 'GET', `${v1}/scene`);
+  await call(200, 'GET', `${v1}/jobs`, {query: '?state=running&arm=left&limit=7'});
+  for (const query of ['?limit=0', '?state=tired', '?arm=none', '?cursor=x', '?page=2']) {
+    await call(422, 'GET', `${v1}/jobs`, {query});
+  }
+  await call(404, 'GET', `${v1}/jobs/{id}`, {args: {id: 'nothing'}});
+});
+
+test('Jobs, good and bad', async () => {
+  await call(200, 'POST', `${v1}/check`, {body: example(`${v1}/check`, 'POST', 'reach')});
+  const reach = example(`${v1}/jobs`, 'POST', 'reach');
+  await call(202, 'POST', `${v1}/jobs`, {body: reach});
+  await call(409, 'POST', `${v1}/jobs`, {body: reach});
+  await call(409, 'POST', `${v1}/check`, {body: reach});
+  const right = (text) => JSON.parse(JSON.stringify(text).replaceAll('left_', 'right_'));
+  const meet = {...right(reach), id: 'meet'};
+  const verdict = await call(200, 'POST', `${v1}/check`, {body: {...meet, id: 'what-if'}});
+  assert.equal(verdict.verdict, 'conflict');
+  await call(202, 'POST', `${v1}/jobs`, {body: meet});
+  await until('the reason why it waits', async () =>
+    (await call(200, 'GET', `${v1}/queue`)).backlog.find((job) => job.waits_on.length > 0));
+  await call(202, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'meet'}});
+  await call(409, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'meet'}});
+  await call(404, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'nothing'}});
+  await call(202, 'POST', `${v1}/jobs`, {body: example(`${v1}/jobs`, 'POST', 'moveit')});
+  assert.equal((await ended('reach')).result.reason, 'completed');
+  await ended('swing');
+  const page = await call(200, 'GET', `${v1}/jobs`, {query: '?limit=1'});
+  await call(200, 'GET', `${v1}/jobs`, {query: `?limit=1&cursor=${page.next_cursor}`});
+
+  const broken = (change) => { const job = structuredClone(reach); delete job.id; change(job); return job; };
+  const bad = [
+    [422, broken((job) => { job.trajectory.joint_names[3] = 'elbow'; })],
+    [422, broken((job) => { job.trajectory.points[1].positions[0] = 99; job.trajectory.points[1].positions[1] = 99; })],
+    [422, broken((job) => { delete job.trajectory; })],
+    [422, broken((job) => { job.retime = true; })],
+    [422, broken((job) => { job.after = ['nothing']; })],
+    [400, broken((job) => { job.priority = 'high'; })],
+    [413, broken((job) => { job.trajectory.points = Array(10_001).fill(job.trajectory.points[0]); })]];
+  for (const [status, body] of bad) await call(status, 'POST', `${v1}/jobs`, {body});
+  for (const raw of ['', '{', '[1]', '{"id": "a", "id": "b"}', '{"id": 1e999}', '{"id": "\u0000"}']) {
+    await call(400, 'POST', `${v1}/jobs`, {raw});
+  }
+  await call(413, 'POST', `${v1}/jobs`, {raw: '['.repeat(5000)});
+});
+
+test('Batches, good and bad', async () => {
+  const at = `${v1}/batches`;
+  // Where the arms stand now, left in the middle: its first waypoint is taken from there.
+  const batch = example(at, 'POST', 'both');
+  const {arms} = await call(200, 'GET', `${v1}/arms`);
+  for (const job of batch.jobs) {
+    const arm = arms.find((candidate) => candidate.joints[0] === job.trajectory.joint_names[0]);
+    const rest = (q) => ({...job.trajectory.points[0], positions: q});
+    const from = arm.q.slice(0, 7);
+    job.trajectory.points = [rest(from), {...rest(from.map((q, j) => (j === 0 ? q + (q > 0 ? -0.2 : 0.2) : q))), time_from_start: 4}];
+  }
+  const wrong = structuredClone(batch);
+  wrong.jobs[1].trajectory.joint_names[0] = 'elbow';
+  const refused = await call(422, 'POST', at, {body: wrong});
+  assert.match(refused.pointer, /^\/jobs\/1\//);
+  const taken = structuredClone(batch);
+  taken.jobs[0].id = 'reach';
+  await call(409, 'POST', at, {body: taken});
+  assert.equal((await call(202, 'POST', at, {body: batch})).jobs.length, 2);
+  wrong.jobs[0].id = 'batch-left-2';
+  delete wrong.jobs[1].id;
+  wrong.jobs[0].trajectory.points.forEach((point) => { point.positions = batch.jobs[0].trajectory.points[1].positions; });
+  const mixed = await call(207, 'POST', at, {body: {...wrong, atomic: false}});
+  assert.deepEqual(mixed.results.map((result) => result.status), [202, 422], JSON.stringify(mixed));
+});
+
+test('Arms stop and go on', async () => {
+  for (const verb of ['stop', 'resume']) {
+    await call(202, 'POST', `${v1}/arms/{name}/${verb}`, {args: {name: 'left'}});
+    await call(404, 'POST', `${v1}/arms/{name}/${verb}`, {args: {name: 'nobody'}});
+  }
+  assert.deepEqual(await call(202, 'POST', `${v1}/stop`), {stopped: true});
+  assert.deepEqual(await call(202, 'POST', `${v1}/resume`), {stopped: false});
+});
+
+test('Objects come and go', async () => {
+  const rod = example(`${v1}/scene/objects`, 'POST', 'rod');
+  await call(201, 'POST', `${v1}/scene/objects`, {body: rod});
+  await call(409, 'POST', `${v1}/scene/objects`, {body: rod});
+  await call(409, 'POST', `${v1}/scene/objects`, {body: {name: 'in the arm', box: [2, 2, 2], xyz: [0, 0, 1]}});
+  const box = example(`${v1}/scene/objects/{name}`, 'PUT', 'box');
+  await call(201, 'PUT', `${v1}/scene/objects/{name}`, {args: {name: 'a box'}, body: box});
+  await call(200, 'PUT', `${v1}/scene/objects/{name}`, {args: {name: 'a box'}, body: {...box, name: 'a box', rpy: [0, 0, 1]}});
+  await call(409, 'PUT', `${v1}/scene/objects/{name}`, {args: {name: 'a box'}, body: {box: [2, 2, 2], xyz: [0, 0, 1]}});
+  await call(422, 'PUT', `${v1}/scene/objects/{name}`, {args: {name: 'a box'}, body: {...box, name: 'another'}});
+  for (const body of [{name: 'm', mesh: '/etc/passwd'}, {name: 'n'}, {name: 'z', box: [0, 1, 1]}, {name: 'b', box: [1, 1, 1], sphere: [1]}]) {
+    await call(422, 'POST', `${v1}/scene/objects`, {body});
+    assert.ok(!contract.fitsBody(`${v1}/scene/objects`, 'POST', body), JSON.stringify(body));
+  }
+  const {version} = await call(200, 'GET', `${v1}/scene`);
+  const gone = await call(200, 'DELETE', `${v1}/scene/objects/{name}`, {args: {name: 'rod'}});
+  assert.ok(gone.version > version);
+  await call(404, 'DELETE', `${v1}/scene/objects/{name}`, {args: {name: 'rod'}});
+});
+
+test('Speed and faults', async () => {
+  for (const body of [{speed: 0}, {speed: 1001}, {}]) await call(422, 'PUT', `${v1}/sim/speed`, {body});
+  const fault = await call(201, 'POST', `${v1}/sim/faults`, {body: example(`${v1}/sim/faults`, 'POST', 'slow')});
+  await call(204, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
+  await call(404, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
+  await call(404, 'DELETE', `${v1}/sim/faults/{id}`, {args: {id: 'first'}});
+  for (const body of [{arm: 'nobody', kind: 'stall'}, {arm: 'left', kind: 'drift'}, {arm: 'left', kind: 'slow'},
+                      {arm: 'left', kind: 'slow', value: 2}]) {
+    await call(422, 'POST', `${v1}/sim/faults`, {body});
+  }
+  await call(201, 'POST', `${v1}/sim/faults`, {body: {arm: 'right', kind: 'stall', at_s: 0, for_s: 0.1}});
+  await call(200, 'PUT', `${v1}/sim/speed`, {body: example(`${v1}/sim/speed`, 'PUT', 'double')});
+});
+
+test('Requests that no operation takes', async () => {
+  const args = {id: 'x', name: 'x'};
+  const large = 'x'.repeat(20 * 1024);
+  for (const {path: template, method, operation} of contract.operations()) {
+    const listed = operation.responses;
+    await call(400, method, template, {args, query: '?a=%zz'});
+    await call(431, method, template, {args, headers: {'X-Large': large}});
+    await call(417, method, template, {args, headers: {Expect: 'the unexpected'}});
+    await call(413, method, template, {args, headers: {'Content-Length': 9 << 20}, bodyless: true});
+    const socket = template === `${v1}/ws`;
+    if (403 in listed) await call(403, method, template, {args, headers: {Origin: 'http://elsewhere.example', ...(socket ? handshake() : {})}});
+    if (426 in listed) await call(426, method, template);
+    if (operation.requestBody) {
+      await call(415, method, template, {args, raw: '{}', headers: {'Content-Type': 'text/plain'}});
+      await call(422, method, template, {args, body: {bogus: 1}});
+      assert.ok(!contract.fitsBody(template, method, {bogus: 1}), `${template} takes unknown fields`);
+      await call(400, method, template, {args, raw: '{"a": '});
+    }
+  }
+});
+
+test('Each path answers the methods that are listed, HEAD with GET, and no other', async () => {
+  for (const [template, methods] of Object.entries(contract.document.paths)) {
+    const target = template.replace(/\{\w+\}/g, 'x');
+    const refused = await ask(server.port, 'PATCH', target);
+    assert.equal(refused.status, 405, `PATCH ${target}`);
+    contract.schema('Problem', JSON.parse(refused.text));
+    const allowed = refused.headers.allow.split(', ').sort();
+    const listed = Object.keys(methods).flatMap((method) => (method === 'get' ? ['GET', 'HEAD'] : [method.toUpperCase()])).sort();
+    assert.deepEqual(allowed, listed, template);
+    const stream = template === `${v1}/events` || template === `${v1}/ws`;
+    if (!methods.get || stream) continue;
+    const [head, get] = [await ask(server.port, 'HEAD', target), await ask(server.port, 'GET', target)];
+    assert.deepEqual([head.status, head.headers['content-type'], head.text], [get.status, get.headers['content-type'], ''], target);
+  }
+  const nothing = await ask(server.port, 'GET', `${v1}/nothing`);
+  assert.equal(nothing.status, 404);
+  contract.schema('Problem', JSON.parse(nothing.text));
+});
+
+test('A server whose dashboard is not built says so', async () => {
+  const bare = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--web', path.join(folder, 'nothing')]);
+  try {
+    const answer = await ask(bare.port, 'GET', '/');
+    assert.equal(answer.status, 404);
+    contract.answer('/', 'GET', answer);
+  } finally {
+    bare.end();
+  }
+});
+
+test('Nothing that openapi.json lists was left out', () => {
+  const lacking = [];
+  let answers = 0;
+  for (const {path: template, method, operation} of contract.operations()) {
+    const seen = contract.seen.get(`${method} ${template}`) ?? new Set();
+    const statuses = [...seen].sort();
+    answers += statuses.length;
+    console.log(`${method.padEnd(6)} ${template}: ${statuses.join(' ')}`);
+    for (const status of Object.keys(operation.responses)) {
+      if (status !== '503' && !seen.has(status)) lacking.push(`${method} ${template}: ${status}`);
+    }
+  }
+  const messages = [...contract.messages].map(([type, count]) => `${type} ${count}`).join(', ');
+  console.log(`${contract.operations().length} operations, ${answers} kinds of answer; messages: ${messages}`);
+  assert.deepEqual(lacking, [], 'listed, but never seen');
+  for (const type of ['snapshot', 'job', 'arm', 'queue', 'scene', 'state']) assert.ok(contract.messages.has(type), `no ${type} message`);
+});
