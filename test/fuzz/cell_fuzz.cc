@@ -2,11 +2,14 @@
 #include "server/codec/cell_codec.h"
 #include "test/fuzz/problems.h"
 
-// A cell file: reading it, the checks that need no robot, and writing it for another folder.
+// The body of POST /scene/objects, and a cell file: reading it, the checks that need no robot, and writing it for another folder.
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace armloom;
   const std::string text = fuzz::text_of(data, size);
+  if (const auto object = read_object_text(text, {}); !object) {
+    fuzz::demand_readable(object.error());
+  }
   const auto cell = read_cell_text(text, "/nowhere/config");
   if (!cell) {
     fuzz::demand_readable(cell.error());

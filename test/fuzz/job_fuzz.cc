@@ -6,10 +6,12 @@
 #include "core/model/build_cell.h"
 #include "core/trajectory/validate.h"
 #include "server/codec/cell_codec.h"
+#include "server/codec/fault_codec.h"
 #include "server/codec/job_codec.h"
 #include "test/fuzz/problems.h"
 
-// The body of POST /jobs, and a jobs file: shape, then validate() on the two-Panda cell.
+// The bodies of POST /jobs, /batches, /sim/faults and a jobs file: shape, then validate() of each job
+// on the two-Panda cell.
 
 namespace armloom::fuzz {
 namespace {
@@ -66,5 +68,15 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   } else {
     fuzz::demand_readable(jobs.error());
   }
+  if (const auto batch = read_batch_text(text)) {
+    fuzz::demand(!batch->jobs.empty());
+    for (const BatchRequest::Entry& entry : batch->jobs) {
+      fuzz::demand(entry.job.has_value() || !batch->atomic);
+      if (entry.job) fuzz::try_job(*entry.job, *cell);
+    }
+  } else {
+    fuzz::demand_readable(batch.error());
+  }
+  if (const auto fault = read_fault_text(text); !fault) fuzz::demand_readable(fault.error());
   return 0;
 }

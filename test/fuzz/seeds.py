@@ -52,6 +52,8 @@ def job_seeds():
     yield cubic
     yield {"trajectory": {"joint_trajectory": job["trajectory"], "multi_dof_joint_trajectory": {"points": []}}}
     yield [timed, {"at": 1.5, "job": cubic}]
+    yield {"jobs": [job, cubic], "atomic": False}
+    yield {"arm": "left", "kind": "late_start", "at_s": 1, "for_s": 2.5, "value": 0.5}
     yield {"steps": [{"wait_s": 1}, {"attach": {"object": "rod", "link": "left_panda_hand"}}]}
 
 
@@ -60,6 +62,7 @@ def cell_seeds():
         if not file.name.endswith("_jobs.json"):
             yield uncommented(file.read_text())
             yield file.read_text()
+    yield json.dumps({"name": "rod", "cylinder": [0.015, 0.5], "xyz": [0, 0.9, 0.4], "rpy": [0, 0, 1]})
     yield json.dumps({"name": "c", "clearance_m": 0.02, "self_clearance_m": 0.005,
                       "robots": [{"name": "r", "urdf": "r.urdf", "srdf": "../r.srdf", "prefix": "r_",
                                   "base": {"xyz": [0, 0, 1], "rpy": [0, 0, 1.5]}, "packages": {"p": "../p"},
