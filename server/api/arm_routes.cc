@@ -75,9 +75,8 @@ void add_arm_routes(Router& router, const ApiParts& parts) {
                executive.stop(arms, "operator");
              }));
   router.add("POST", api + "/arms/{}/resume",
-             of_one_arm(parts, 202, [](Executive& executive, const Arms& arms) {
-               executive.resume(arms);
-             }));
+             of_one_arm(parts, 202,
+                        [](Executive& executive, const Arms& arms) { executive.resume(arms); }));
   router.add("POST", api + "/stop", of_all_arms(parts, true));
   router.add("POST", api + "/resume", of_all_arms(parts, false));
 }

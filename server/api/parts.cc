@@ -17,9 +17,9 @@ Result<void> check_content_type(const Request& request) {
 }
 
 Response no_such(const char* what, const std::string& name) {
-  return problem_response({Problem{ProblemKind::not_found, std::string("no-such-") + what,
-                                   "request target",
-                                   std::string("there is no ") + what + " \"" + name + "\"", name}});
+  return problem_response(
+      {Problem{ProblemKind::not_found, std::string("no-such-") + what, "request target",
+               std::string("there is no ") + what + " \"" + name + "\"", name}});
 }
 
 }  // namespace armloom

@@ -9,7 +9,8 @@ namespace {
 
 using Arguments = Router::Arguments;
 
-constexpr std::size_t kObjectsMax = 1000;  // that clients may set into the scene, the cell's included
+constexpr std::size_t kObjectsMax =
+    1000;  // that clients may set into the scene, the cell's included
 
 // What a change of the scene has come to.
 struct Changed {
@@ -24,10 +25,10 @@ bool is_known(const Executive& executive, const std::string& name) {
 
 Result<Changed> add(Executive& executive, const CollisionObject& object) {
   if (executive.objects().size() >= kObjectsMax) {
-    return failure(Problem{ProblemKind::unavailable, "scene-full", "",
-                           "the scene holds " + std::to_string(kObjectsMax) +
-                               " objects already; take some away first",
-                           static_cast<double>(kObjectsMax)});
+    return failure(Problem{
+        ProblemKind::unavailable, "scene-full", "",
+        "the scene holds " + std::to_string(kObjectsMax) + " objects already; take some away first",
+        static_cast<double>(kObjectsMax)});
   }
   if (auto added = executive.add_object(object); !added) return failure(std::move(added.error()));
   return Changed{executive.scene_version(), true};

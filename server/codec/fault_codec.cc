@@ -38,16 +38,15 @@ void read_kind(const JsonNode& node, Kind& kind) {
     node.invalid("unsupported-fault", "the simulated arms have no \"" + name +
                                           "\" yet; they have stall, slow, late_start, fault");
   } else {
-    node.invalid("unknown-fault", "no fault is called \"" + name +
-                                      "\"; known are stall, slow, late_start, fault");
+    node.invalid("unknown-fault",
+                 "no fault is called \"" + name + "\"; known are stall, slow, late_start, fault");
   }
 }
 
 void read_value(const JsonNode& node, FaultRequest& fault) {
   if (fault.kind == Kind::slow || fault.kind == Kind::late_start) {
     const double highest = fault.kind == Kind::slow ? 1.0 : kTimeMax_s;
-    node.required("value",
-                  [&](const JsonNode& n) { n.read_within(fault.value, 0.0, highest); });
+    node.required("value", [&](const JsonNode& n) { n.read_within(fault.value, 0.0, highest); });
   } else {
     node.optional("value", [&](const JsonNode& n) { n.read(fault.value); });
   }

@@ -71,8 +71,7 @@ void read_empty_multi_dof(const JsonNode& node) {
 void read_trajectory(const JsonNode& node, TrajectoryRequest& trajectory) {
   if (is_nested(node)) {
     if (!node.object({kNested, "multi_dof_joint_trajectory"})) return;
-    node.optional("multi_dof_joint_trajectory",
-                  [](const JsonNode& n) { read_empty_multi_dof(n); });
+    node.optional("multi_dof_joint_trajectory", [](const JsonNode& n) { read_empty_multi_dof(n); });
     return node.required(kNested, [&](const JsonNode& n) {
       if (is_nested(n)) {
         n.invalid("unknown-field", "a trajectory is nested once, not twice");

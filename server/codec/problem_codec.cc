@@ -82,7 +82,8 @@ std::string problem_sentence(std::string_view file, const Problem& problem) {
   } else {
     text = problem.pointer;
   }
-  text += ": " + problem.detail;
+  if (problem.detail.starts_with(problem.pointer) && !problem.pointer.empty()) text.clear();
+  text += (text.empty() ? "" : ": ") + problem.detail;
   const bool has_value = !std::holds_alternative<std::monostate>(problem.value);
   const std::string value = spelled(problem);
   const std::string bare = std::holds_alternative<std::string>(problem.value)

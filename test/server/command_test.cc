@@ -205,8 +205,7 @@ TEST_F(Command, AJobRefusedAtItsTimeCountsAndEndsWithOne) {
 }
 
 TEST_F(Command, CheckJudgesJobsAgainstEachOtherWithoutRunningThem) {
-  const Outcome outcome =
-      run("check --cell " + kCell + " --jobs " + conflicting_jobs().string());
+  const Outcome outcome = run("check --cell " + kCell + " --jobs " + conflicting_jobs().string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::vector<json> verdicts;
   std::istringstream lines(outcome.out);
@@ -223,13 +222,13 @@ TEST_F(Command, CheckJudgesJobsAgainstEachOtherWithoutRunningThem) {
   json one_arm = json::parse(read_text_file(conflicting_jobs()).value());
   one_arm.erase(3);
   one_arm.erase(2);
-  const Outcome in_order = run("check --cell " + kCell + " --jobs " +
-                               file("one_arm.json", one_arm.dump()).string());
+  const Outcome in_order =
+      run("check --cell " + kCell + " --jobs " + file("one_arm.json", one_arm.dump()).string());
   EXPECT_EQ(in_order.last_line()["verdict"], "free");
   EXPECT_EQ(in_order.last_line()["earliest_start_s"], 3.0);  // when j0 has ended
 
-  const Outcome sequential = run("check --policy sequential --cell " + kCell + " --jobs " +
-                                 conflicting_jobs().string());
+  const Outcome sequential =
+      run("check --policy sequential --cell " + kCell + " --jobs " + conflicting_jobs().string());
   EXPECT_NE(sequential.out.find("\"kind\":\"capacity\",\"id\":\"j0\""), std::string::npos)
       << sequential.out;
 }
@@ -244,16 +243,16 @@ TEST_F(Command, CheckNamesBadJobsWithFilePlaceAndValue) {
             std::string::npos)
       << astray.err;
   EXPECT_EQ(astray.out, "");
-  const Outcome policy = run("check --policy hopeful --cell " + kCell + " --jobs " +
-                             conflicting_jobs().string());
+  const Outcome policy =
+      run("check --policy hopeful --cell " + kCell + " --jobs " + conflicting_jobs().string());
   EXPECT_EQ(policy.exit_code, 2);
   EXPECT_NE(policy.err.find("hopeful"), std::string::npos) << policy.err;
 }
 
 TEST_F(Command, SimulateWithFaultsLosesTimeAndNothingElse) {
-  const std::string simulate =
-      "simulate --cell " + changed_cell("/execution/duration_margin_s", 60).string() + " --jobs " +
-      conflicting_jobs().string();
+  const std::string simulate = "simulate --cell " +
+                               changed_cell("/execution/duration_margin_s", 60).string() +
+                               " --jobs " + conflicting_jobs().string();
   const Outcome without = run(simulate);
   ASSERT_EQ(without.exit_code, 0) << without.err;
   const std::string faults =
@@ -287,8 +286,8 @@ TEST_F(Command, BadFaultsFilesAreNamedWithFilePlaceAndValue) {
     EXPECT_EQ(outcome.exit_code, 2) << bad.text;
     EXPECT_NE(outcome.err.find(bad.says), std::string::npos) << bad.text << outcome.err;
   }
-  EXPECT_EQ(run("simulate --cell " + kCell + " --jobs " + jobs + " --faults nothing.json").exit_code,
-            2);
+  EXPECT_EQ(
+      run("simulate --cell " + kCell + " --jobs " + jobs + " --faults nothing.json").exit_code, 2);
 }
 
 // The address that the server prints, read through a pipe.

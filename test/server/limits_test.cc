@@ -34,9 +34,9 @@ TEST_F(Limits, AMillionWaypointsAreRefusedQuickly) {
   for (std::size_t i = 0; i < points.size(); i += 2) points[i] = '0';
   points.back() = ' ';
   const auto before = Clock::now();
-  expect_problem(R"({"trajectory": {"joint_names": ["left_panda_joint1"], "points": [)" + points +
-                     "]}}",
-                 413, "/trajectory/points", "1000000 waypoints, at most 10000");
+  expect_problem(
+      R"({"trajectory": {"joint_names": ["left_panda_joint1"], "points": [)" + points + "]}}", 413,
+      "/trajectory/points", "1000000 waypoints, at most 10000");
   EXPECT_LT(Clock::now() - before, std::chrono::seconds(5));
 }
 
@@ -51,11 +51,13 @@ TEST_F(Limits, ABodyOverEightMegabytesIsRefused) {
 TEST_F(Limits, TextThatIsNoPlainJsonIsRefusedWithItsPlace) {
   start(1.0);
   expect_problem(R"({"trajectory": )" + std::string(1'000'000, '['), 413,
-                 "/trajectory" + [] {
-                   std::string zeros;
-                   for (int i = 0; i < 31; ++i) zeros += "/0";
-                   return zeros;
-                 }(), "32");
+                 "/trajectory" +
+                     [] {
+                       std::string zeros;
+                       for (int i = 0; i < 31; ++i) zeros += "/0";
+                       return zeros;
+                     }(),
+                 "32");
   expect_problem(R"({"id": "a", "id": "b"})", 400, "/id", "twice");
   expect_problem(std::string("{\"id\": \"a\0b\"}", 13), 400, "", "line 1, column 10");
   expect_problem("{\"id\": \"\xff\xfe\"}", 400, "/id", "line 1");

@@ -189,8 +189,7 @@ TEST_F(Verbs, ObjectsThatCannotBeAreRefusedWithPlaceAndValue) {
   expect_refused(post(objects, R"({"name": "f", "sphere": [1], "colour": "red"})"), 422, "/colour",
                  "red");
   expect_refused(put(objects + "/a", R"({"name": "b", "sphere": [1]})"), 422, "/name", "b");
-  const auto into_arm =
-      post(objects, R"({"name": "b", "sphere": [0.3], "xyz": [-0.4, 0, 0.5]})");
+  const auto into_arm = post(objects, R"({"name": "b", "sphere": [0.3], "xyz": [-0.4, 0, 0.5]})");
   EXPECT_EQ(into_arm.status, 409) << into_arm.body;
   EXPECT_EQ(into_arm.json()["type"], "urn:armloom:problem:object-in-arm");
   EXPECT_NE(into_arm.json()["detail"].get<std::string>().find("left_panda"), std::string::npos);
@@ -200,10 +199,10 @@ TEST_F(Verbs, ObjectsThatCannotBeAreRefusedWithPlaceAndValue) {
 TEST_F(Verbs, AnObjectInTheWayMakesAJobWaitUntilItIsTakenAway) {
   start(20.0);
   test::Listener listener(port());
-  ASSERT_EQ(post("/api/v1/scene/objects",
-                 R"({"name": "ball", "sphere": [0.1], "xyz": [0.05, 0, 1.0]})")
-                .status,
-            201);
+  ASSERT_EQ(
+      post("/api/v1/scene/objects", R"({"name": "ball", "sphere": [0.1], "xyz": [0.05, 0, 1.0]})")
+          .status,
+      201);
   ASSERT_EQ(post("/api/v1/jobs", job("l", test::kHome, test::kMiddle).dump()).status, 202);
   const json waits = until(listener, "l", "backlogged")["waits_on"][0];
   EXPECT_EQ(waits["kind"], "object") << waits;
