@@ -31,6 +31,7 @@ const kFlags = [
 const kPatience_ms = 20_000;
 // A robot of the cell covers several thousand pixels of the view; labels and text far fewer.
 const kLeastRobot_px = 3000;
+const kLeastObject_px = 1500;
 
 let server;
 let server_output = '';
@@ -106,6 +107,36 @@ test('the example moves an idle arm and brings it back', { timeout: 60_000 }, as
   assert.equal(await finished.getAttribute('data-state'), 'succeeded');
 });
 
+test('details of a running job show how far it is', { timeout: 60_000 }, async () => {
+  await open_form();
+  await page.locator('[data-test=example-right]').click();
+  await page.locator('[data-test=send]').click();
+  const id = await page.locator('[data-test=accepted] button').innerText();
+  await page.locator('[data-test=accepted] button').click();
+  await page.waitForFunction(() => {
+    const { state, progress } = JSON.parse(document.querySelector('[data-test=raw]')?.textContent ?? '{}');
+    return state === 'running' && progress > 0;
+  });
+  await page.screenshot(path_for('details'));
+  await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();
+  await page.getByRole('button', { name: 'Close', exact: true }).click();
+});
+
+test('an object of the scene appears, moves and vanishes', { timeout: 60_000 }, async () => {
+  const crate = { box: [0.3, 0.3, 0.4], rpy: [0, 0, 0] };
+  const empty = await picture('scene-empty');
+  const changed = async (name) => (await difference(browser, empty, await picture(name)));
+  await ask('PUT', '/scene/objects/crate', { ...crate, xyz: [-0.3, 0.9, 0.4] }, 2);
+  const first = await changed('scene-first');
+  assert.ok(first.count > kLeastObject_px, `${first.count} pixels changed`);
+  await ask('PUT', '/scene/objects/crate', { ...crate, xyz: [0.3, 0.9, 0.4] }, 2);
+  const second = await changed('scene-second');
+  assert.ok(second.count > kLeastObject_px && second.x > first.x + 0.1, `from ${first.x} to ${second.x}`);
+  await ask('DELETE', '/scene/objects/crate', undefined, 1);
+  const last = await changed('scene-last');
+  assert.ok(last.count < kLeastObject_px / 10, `${last.count} pixels are left`);
+});
+
 test('nothing so far was an error in the console', () => {
   assert.deepEqual(errors, []);
 });
@@ -145,6 +176,19 @@ async function send(job) {
   await open_form();
   await page.locator('[data-test=job-text]').fill(JSON.stringify(job, null, 1));
   await page.locator('[data-test=send]').click();
+}
+
+/** Asks the server for a change of the scene, and waits until the page knows so many objects. */
+async function ask(method, path, body, count) {
+  const status = await page.evaluate(async ([method, path, body]) => {
+    const headers = { 'content-type': 'application/json' };
+    return (await fetch(`/api/v1${path}`, { method, headers, body: JSON.stringify(body) })).status;
+  }, [method, path, body]);
+  assert.ok(status < 300, `${method} ${path}: ${status}`);
+  await page.waitForFunction(([body, count]) => {
+    const objects = window.armloom.objects();
+    return objects.length === count && (!body || objects.some((object) => object.xyz[0] === body.xyz[0]));
+  }, [body, count]);
 }
 
 function left_arm() {

@@ -1,6 +1,6 @@
 // The HTTP calls that the page makes. Every answer is a value: what was asked for, or a Problem.
 
-import { parse_cell, parse_problem, type Cell, type Problem } from './messages';
+import { parse_cell, parse_job, parse_problem, type Cell, type Job, type Problem } from './messages';
 
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
 export type Fetch = (url: string, init?: RequestInit) => Promise<Response>;
@@ -13,6 +13,13 @@ export class Api {
     if (!answer.ok) return answer;
     const cell = parse_cell(answer.value);
     return cell.ok ? { ok: true, value: cell.value } : { ok: false, problem: own_problem('The cell cannot be read', cell.fault) };
+  }
+
+  async job(id: string): Promise<Answer<Job>> {
+    const answer = await this.ask('GET', `/jobs/${encodeURIComponent(id)}`);
+    if (!answer.ok) return answer;
+    const job = parse_job(answer.value);
+    return job.ok ? { ok: true, value: job.value } : { ok: false, problem: own_problem('The job cannot be read', job.fault) };
   }
 
   /** Posts the text as it stands: the server is the judge of it, JSON errors included. */

@@ -2,6 +2,7 @@
 //
 //   armloom.q()                           joint name -> measured position
 //   armloom.jobs()                        every job that the page knows, as the server wrote it
+//   armloom.objects()                     the objects of the scene
 //   armloom.is_drawn()                    whether every robot of the cell stands in the view
 //   armloom.drawn()                       a promise, kept once all that changed has been drawn
 //   armloom.set_robot_visible(name, yes)  draws the cell with or without one robot, so that a
@@ -13,6 +14,7 @@ import type { CellView } from './view/cell_view';
 export interface DebugHook {
   q(): Record<string, number>;
   jobs(): unknown[];
+  objects(): unknown[];
   is_drawn(): boolean;
   drawn(): Promise<void>;
   set_robot_visible(name: string, visible: boolean): void;
@@ -26,6 +28,7 @@ export function install_debug_hook(store: Store, view: CellView): void {
   window.armloom = {
     q: () => ({ ...store.q }),
     jobs: () => store.all_jobs().map((job) => job.raw),
+    objects: () => [...store.objects],
     is_drawn: () => view.is_drawn(),
     drawn: () => view.drawn(),
     set_robot_visible: (name, visible) => view.set_robot_visible(name, visible),

@@ -39,7 +39,7 @@ const connection = new Connection({
     if (store.reject(kind)) console.warn(`${kind} message (further ones are only counted): ${what}`);
   },
 });
-const actions = new Actions(api, store, () => connection.retry_now());
+const actions = new Actions(api, store, timers, () => connection.retry_now());
 
 async function load_cell(attempt = 1): Promise<void> {
   const answer = await api.cell();

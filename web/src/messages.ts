@@ -212,6 +212,10 @@ export function parse_cell(value: unknown): Parsed<Cell> {
   return attempt(() => read_cell(at(value, '')));
 }
 
+export function parse_job(value: unknown): Parsed<Job> {
+  return attempt(() => read_job(at(value, '')));
+}
+
 export function parse_problem(value: unknown): Parsed<Problem> {
   return attempt(() => read_problem(at(value, '')));
 }

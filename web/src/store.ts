@@ -64,7 +64,9 @@ export class Store {
       this.take_frame(message);
       return;
     }
-    this.t_s = Math.max(message.stream === this.stream ? this.t_s : 0, message.t_s);
+    const same_run = message.stream === this.stream;
+    const restarted = this.stream !== null && !same_run;
+    this.t_s = Math.max(same_run ? this.t_s : 0, message.t_s);
     this.stream = message.stream;
     switch (message.type) {
       case 'snapshot': {
@@ -77,7 +79,8 @@ export class Store {
         this.jobs_ = new Map(data.jobs.map((job) => [job.id, { job, t_s: message.t_s }]));
         this.set_order(data.queue);
         this.objects = data.objects;
-        if (data.gap) this.note(message.t_s, 'info', 'alert', 'Some events were missed while the connection was lost.');
+        if (restarted) this.note(message.t_s, 'warning', 'alert', 'The server was restarted: jobs from before are gone.');
+        else if (data.gap) this.note(message.t_s, 'info', 'alert', 'Some events were missed while the connection was lost.');
         break;
       }
       case 'job':
@@ -126,6 +129,17 @@ export class Store {
 
   set_link(link: Link): void {
     this.link = link;
+    this.changed();
+  }
+
+  /**
+   * A job as it was fetched: it brings what events do not repeat while a job runs, its progress.
+   * An event may have overtaken the answer, so one of another state than the known one is dropped.
+   */
+  refresh_job(job: Job): void {
+    const known = this.jobs_.get(job.id)?.job;
+    if (!known || known.state !== job.state || this.is_terminal(known)) return;
+    this.jobs_.set(job.id, { job, t_s: this.t_s });
     this.changed();
   }
 

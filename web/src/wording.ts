@@ -1,6 +1,7 @@
 // What the page says about jobs, in words. Pure functions from the contract's data to sentences.
 
-import type { Job, JobState, MonitorData, WaitsOn } from './messages';
+import type { Link } from './connection';
+import type { Clearance, Job, MonitorData, WaitsOn } from './messages';
 
 /** An id short enough for a list: a long machine-made one is cut, a name that a client chose stays. */
 export function short_id(id: string): string {
@@ -15,9 +16,9 @@ export function millimetres(m: number): string {
 }
 
 export function seconds(s: number): string {
-  if (s < 60) return `${s.toFixed(s < 10 ? 2 : 1)} s`;
-  const minutes = Math.floor(s / 60);
-  return `${minutes} min ${Math.floor(s - 60 * minutes)} s`;
+  if (s < 59.95) return `${s.toFixed(1)} s`;
+  const whole = Math.round(s);
+  return `${Math.floor(whole / 60)} min ${whole % 60} s`;
 }
 
 /** Cell time as h:mm:ss.t, for the header and the event list. */
@@ -59,13 +60,50 @@ function subject(w: WaitsOn): string {
 function approach(w: WaitsOn): string {
   if (!w.links) return '';
   const [own, other] = w.links;
-  const when = w.own_time_s === null ? '' : ` at ${w.own_time_s.toFixed(2)} s`;
+  // The job has not begun: the time counts from its own start, whenever that will be.
+  const when = w.own_time_s === null ? '' : `, ${w.own_time_s.toFixed(2)} s into its motion`;
   if (w.clearance_m === null || w.clearance_m <= 0) return `${own} would touch ${other}${when}`;
   return `${own} would come within ${millimetres(w.clearance_m)} of ${other}${when}`;
 }
 
-export function state_in_words(state: JobState): string {
-  return state === 'canceled' ? 'cancelled' : state;
+export interface Figure { text: string; title: string }
+
+/** The one number that matters at this stage of a job's life, and what it means. */
+export function figure_in_words(job: Job, now_s: number, progress: number): Figure {
+  if (job.stopping) return { text: 'stopping', title: 'Brakes on its path' };
+  switch (job.state) {
+    case 'running': return { text: `${seconds((1 - progress) * (job.duration_s ?? 0))} left`, title: 'Time until its motion ends' };
+    case 'holding': return { text: 'holding', title: 'Stands still on its path' };
+    case 'queued': case 'backlogged': case 'scheduled': return waited(job, now_s);
+    default: break;
+  }
+  if (job.started_s === null) return waited(job, job.ended_s);
+  if (job.ended_s === null) return { text: '', title: '' };
+  return { text: `ran ${seconds(job.ended_s - job.started_s)}`, title: 'From its start to its end' };
+}
+
+function waited(job: Job, until_s: number | null): Figure {
+  if (job.submitted_s === null || until_s === null) return { text: '', title: '' };
+  return { text: `waited ${seconds(Math.max(0, until_s - job.submitted_s))}`, title: 'Since it was submitted, without having started' };
+}
+
+/** What a refused request held at the place of the fault; empty when the server does not say. */
+export function found_in_words(value: unknown): string {
+  return value === undefined || value === null || value === '' ? '' : `found ${JSON.stringify(value).slice(0, 200)}`;
+}
+
+/** Between what a clearance was measured. */
+export function clearance_in_words(clearance: Clearance): string {
+  return clearance.arms.length > 1 ? 'arm to arm' : 'arm to object';
+}
+
+/** Why nothing can be asked of the server now; null when it can. */
+export function why_mute(link: Link): string | null {
+  switch (link.status) {
+    case 'open': return null;
+    case 'connecting': return 'Not connected to the server yet';
+    case 'lost': return 'The connection to the server is lost';
+  }
 }
 
 const kSaidByState: ReadonlySet<string> = new Set(['completed', 'succeeded', 'canceled', 'canceled_by_client']);

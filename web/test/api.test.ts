@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { Api } from '../src/api';
+import { job_json } from './samples';
 
 function api_that_answers(status: number, body: string) {
   const asked: { url: string; init: RequestInit | undefined }[] = [];
@@ -22,6 +23,15 @@ describe('the HTTP calls', () => {
     const { api, asked } = api_that_answers(202, '');
     expect((await api.cancel_job('a/b?c')).ok).toBe(true);
     expect(asked[0]?.url).toBe('/api/v1/jobs/a%2Fb%3Fc');
+  });
+
+  it('fetch one job, checked', async () => {
+    const { api, asked } = api_that_answers(200, JSON.stringify(job_json('a/1', { state: 'running', progress: 0.4 })));
+    const answer = await api.job('a/1');
+    expect(asked[0]?.url).toBe('/api/v1/jobs/a%2F1');
+    expect(answer.ok && answer.value.progress).toBe(0.4);
+    const wrong = await api_that_answers(200, JSON.stringify(job_json('a', { state: 'flying' }))).api.job('a');
+    expect(!wrong.ok && wrong.problem.detail).toMatch(/^\/state: expected one of/);
   });
 
   it('answer a problem document with its place and value', async () => {

@@ -27,7 +27,7 @@ describe('a message of the server', () => {
       envelope('queue', 3, { stopped: true, ...ids }),
       envelope('monitor', 4, { kind: 'contact', arms: ['left'], links: ['a', 'b'], clearance_m: 0, limit_m: 0.01, stopped: ['left'] }),
       envelope('alert', 5, { level: 'warning', text: 'x' }),
-      envelope('scene', 6, { objects: [{ name: 'rod', cylinder: [0.015, 0.5], xyz: [0, 0, 1], rpy: [0, 0, 0] }, { name: 'ball', sphere: [0.1] }] }),
+      envelope('scene', 6, { version: 2, objects: [{ name: 'rod', cylinder: [0.015, 0.5], xyz: [0, 0, 1], rpy: [0, 0, 0] }, { name: 'ball', sphere: [0.1] }] }),
       frame(7, { left_panda_joint1: 0.5 }),
     ];
     expect(texts.map((text) => good(text).type)).toEqual(['job', 'arm', 'queue', 'monitor', 'alert', 'scene', 'state']);

@@ -1,5 +1,5 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import { parse_message } from '../src/messages';
+import { parse_job, parse_message, type Job } from '../src/messages';
 import { Store, type JobList } from '../src/store';
 import { arm_json, envelope, frame, job_json, snapshot } from './samples';
 
@@ -9,6 +9,12 @@ function take(text: string): void {
   const parsed = parse_message(text);
   if (parsed.kind !== 'message') throw new Error(JSON.stringify(parsed));
   store.take(parsed.message);
+}
+
+function fetched(over: object): Job {
+  const parsed = parse_job(job_json('a', over));
+  if (!parsed.ok) throw new Error(parsed.fault);
+  return parsed.value;
 }
 
 const ids = (list: JobList) => store.jobs(list).map((job) => job.id);
@@ -73,6 +79,54 @@ describe('the store', () => {
     expect(ids('queued')).toEqual(['b']);
     expect(store.stopped).toBe(true);
     expect(store.notices[0]?.text).toMatch(/missed/);
+  });
+
+  it('says that the server was restarted instead of that events were missed', () => {
+    take(envelope('job', 2, job_json('a', { state: 'running' })));
+    take(snapshot(1, { gap: true }, { stream: 'another run', t_s: 0.5 }));
+    expect(store.all_jobs()).toEqual([]);
+    expect(store.notices.map((notice) => notice.text)).toEqual(['The server was restarted: jobs from before are gone.']);
+  });
+
+  it('says nothing when it first connects', () => {
+    expect(store.notices).toEqual([]);
+  });
+
+  it('shows alerts with their level and time', () => {
+    take(envelope('alert', 2, { level: 'warning', text: 'stopped: left (operator)' }, { t_s: 4.5 }));
+    take(envelope('alert', 3, { level: 'error', text: 'job a failed' }));
+    expect(store.notices.map(({ level, text }) => [level, text])).toEqual([
+      ['error', 'job a failed'], ['warning', 'stopped: left (operator)']]);
+    expect(store.notices[1]).toMatchObject({ t_s: 4.5, source: 'alert' });
+  });
+
+  it('takes a fetched job for its progress, which goes on from there', () => {
+    take(envelope('job', 10, job_json('a', { state: 'running', started_s: 10 })));
+    take(frame(12, {}));
+    store.refresh_job(fetched({ state: 'running', started_s: 10, progress: 0.6 }));
+    expect(store.job('a')?.raw).toMatchObject({ progress: 0.6 });
+    take(frame(13, {}));
+    expect(store.progress(store.job('a')!)).toBeCloseTo(0.85);
+  });
+
+  it('drops a fetched job that an event has overtaken', () => {
+    take(envelope('job', 10, job_json('a', { state: 'succeeded', progress: 1 })));
+    store.refresh_job(fetched({ state: 'running', progress: 0.9 }));
+    expect(store.job('a')?.state).toBe('succeeded');
+    take(snapshot(11));
+    store.refresh_job(fetched({ state: 'running', progress: 0.9 }));
+    expect(store.job('a')).toBeNull();
+  });
+
+  it('lets objects of the scene appear, move and vanish', () => {
+    const crate = { name: 'crate', box: [0.2, 0.2, 0.3], xyz: [0, 0.75, 0.45], rpy: [0, 0, 0] };
+    const seen = [[crate], [{ ...crate, xyz: [1, 0, 0] }], []].map((objects, i) => {
+      const before = store.objects;
+      take(envelope('scene', 2 + i, { version: 2 + i, objects }));
+      expect(store.objects).not.toBe(before);  // by which the view knows that it must draw them again
+      return store.objects.map(({ name, xyz }) => [name, ...xyz]);
+    });
+    expect(seen).toEqual([[['crate', 0, 0.75, 0.45]], [['crate', 1, 0, 0]], []]);
   });
 
   it('follows the clock of a new run of the server, which starts at zero', () => {

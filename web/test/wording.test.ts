@@ -1,6 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import { parse_message, type Job, type WaitsOn } from '../src/messages';
-import { clock, millimetres, monitor_in_words, reason_in_words, result_in_words, seconds, short_id } from '../src/wording';
+import {
+  clearance_in_words, clock, figure_in_words, found_in_words, millimetres, monitor_in_words, reason_in_words,
+  result_in_words, seconds, short_id, why_mute,
+} from '../src/wording';
 import { envelope, job_json, wait_json } from './samples';
 
 function job(over: object): Job {
@@ -18,10 +21,10 @@ const kBare = { links: null, own_time_s: null, clearance_m: null };
 describe('the reason why a job waits', () => {
   it('names the other job, the links, how close and when', () => {
     expect(reason({})).toBe(
-      'waits for job place-6 of right: left_panda_hand would come within 12 mm of right_panda_link6 at 1.24 s');
+      'waits for job place-6 of right: left_panda_hand would come within 12 mm of right_panda_link6, 1.24 s into its motion');
   });
   it('says touch when nothing is left between the links', () => {
-    expect(reason({ clearance_m: -0.004 })).toContain('left_panda_hand would touch right_panda_link6 at 1.24 s');
+    expect(reason({ clearance_m: -0.004 })).toContain('left_panda_hand would touch right_panda_link6, 1.24 s into its motion');
   });
   it('does without what the server does not know', () => {
     expect(reason(kBare)).toBe('waits for job place-6 of right to end');
@@ -56,6 +59,46 @@ describe('how a job ended', () => {
   });
 });
 
+describe('the figure of a job', () => {
+  const figure = (over: object, progress = 0) => figure_in_words(job({ submitted_s: 1, ...over }), 2.4, progress).text;
+
+  it('says what its seconds are', () => {
+    expect(figure({ state: 'running', started_s: 1, duration_s: 4 }, 0.85)).toBe('0.6 s left');
+    expect(['queued', 'backlogged', 'scheduled'].map((state) => figure({ state }))).toEqual(Array(3).fill('waited 1.4 s'));
+    expect(figure({ state: 'succeeded', started_s: 1, ended_s: 2.3 })).toBe('ran 1.3 s');
+  });
+  it('is how long a job waited that ended without a start', () => {
+    expect(figure({ state: 'expired', ended_s: 2 })).toBe('waited 1.0 s');
+  });
+  it('is a word while no time is known', () => {
+    expect(figure({ state: 'holding', started_s: 1 })).toBe('holding');
+    expect(figure({ state: 'running', started_s: 1, stopping: true })).toBe('stopping');
+    expect(figure({ state: 'queued', submitted_s: null })).toBe('');
+  });
+});
+
+describe('what was found at the place of a fault', () => {
+  it('is said as JSON, and not at all when the server does not say', () => {
+    expect([3.41, 'x', [0]].map(found_in_words)).toEqual(['found 3.41', 'found "x"', 'found [0]']);
+    expect([undefined, null, ''].map(found_in_words)).toEqual(['', '', '']);
+  });
+});
+
+describe('a clearance', () => {
+  it('names what it was measured between', () => {
+    const named = (arms: string[]) => clearance_in_words({ arms, m: 0.1, links: null });
+    expect([named(['left', 'right']), named(['left'])]).toEqual(['arm to arm', 'arm to object']);
+  });
+});
+
+describe('the buttons', () => {
+  it('are mute unless the connection is open, and say why', () => {
+    expect(why_mute({ status: 'open' })).toBeNull();
+    expect(why_mute({ status: 'connecting' })).toMatch(/not connected/i);
+    expect(why_mute({ status: 'lost', attempt: 1, retry_in_ms: 250 })).toMatch(/lost/);
+  });
+});
+
 describe('a monitor event', () => {
   it('says which links, how close, and who was stopped', () => {
     const event = { kind: 'clearance', arms: ['left', 'right'], links: ['a', 'b'] as [string, string], clearance_m: 0.0091, limit_m: 0.01, stopped: ['left', 'right'] };
@@ -66,7 +109,7 @@ describe('a monitor event', () => {
 describe('figures', () => {
   it('have units and sensible digits', () => {
     expect([0.0004, 0.0123, 1.5].map(millimetres)).toEqual(['0.4 mm', '12 mm', '1.50 m']);
-    expect([1.234, 12.34, 75].map(seconds)).toEqual(['1.23 s', '12.3 s', '1 min 15 s']);
+    expect([1.234, 12.34, 59.97, 75].map(seconds)).toEqual(['1.2 s', '12.3 s', '1 min 0 s', '1 min 15 s']);
     expect([0, 3661.29].map(clock)).toEqual(['0:00:00.0', '1:01:01.2']);
   });
   it('cut machine-made ids and keep chosen ones', () => {

@@ -2,6 +2,8 @@
 
 import { signal_of, type Signal } from './signal';
 import type { Api, Answer } from '../api';
+import type { Timers } from '../connection';
+import { follow_job } from '../follow_job';
 import type { Store } from '../store';
 
 /** What stands in the drawer beside the cell: the form for a new job, a job's details, or nothing. */
@@ -12,7 +14,15 @@ export class Actions {
   /** The last thing that the server refused, until it is put away. */
   readonly refusal: Signal<string | null> = signal_of<string | null>(null);
 
-  constructor(readonly api: Api, private readonly store_: Store, readonly retry_connection: () => void) {}
+  constructor(
+    readonly api: Api, private readonly store_: Store, private readonly timers_: Timers,
+    readonly retry_connection: () => void,
+  ) {}
+
+  /** Keeps a job's details fresh until it ends or the answer is called. */
+  follow_job(id: string): () => void {
+    return follow_job(id, this.api, this.store_, this.timers_);
+  }
 
   async stop(): Promise<void> {
     if (await this.ask('Stop', this.api.stop())) this.store_.set_stopped(true);

@@ -3,7 +3,7 @@
 import { useEffect, useRef } from 'preact/hooks';
 import type { Store } from '../store';
 import { CellView } from '../view/cell_view';
-import { millimetres } from '../wording';
+import { clearance_in_words, millimetres } from '../wording';
 import type { Actions } from './actions';
 import { DrawerPanel } from './drawer';
 import { use_signal } from './signal';
@@ -25,8 +25,14 @@ export function CellPanel({ store, actions, on_view }: Props) {
     return () => view.close();
   }, [store]);
   useEffect(() => {
-    const cover = panel.current?.querySelector('.drawer');
-    shown.current?.set_covered(cover ? cover.getBoundingClientRect().width + 14 : 0);
+    const step_aside = () => {
+      const cover = panel.current?.querySelector('.drawer');
+      shown.current?.set_covered(cover ? cover.getBoundingClientRect().width + 14 : 0);
+    };
+    step_aside();
+    const observer = new ResizeObserver(step_aside);
+    if (panel.current) observer.observe(panel.current);
+    return () => observer.disconnect();
   }, [drawer.show]);
   return (
     <div ref={panel} class={`cell${store.stopped ? ' stopped' : ''}`}>
@@ -48,8 +54,8 @@ function ClearanceFigure({ store }: { store: Store }) {
   const limit_m = store.cell?.clearance_m ?? 0;
   const level = nearest.m < limit_m ? 'low' : nearest.m < 3 * limit_m ? 'near' : '';
   return (
-    <div class={`clearance ${level}`} title="The smallest distance that the monitor measures now">
-      <span class="dim">clearance</span> <b class="mono">{millimetres(nearest.m)}</b>
+    <div class={`clearance ${level}`} title="The smallest clearance that the monitor measures now">
+      <span class="dim">{clearance_in_words(nearest)}</span> <b class="mono">{millimetres(nearest.m)}</b>
       {nearest.links && <div class="small dim">{nearest.links[0]} – {nearest.links[1]}</div>}
     </div>
   );

@@ -4,7 +4,7 @@ import { useEffect, useState } from 'preact/hooks';
 import { example_job, pretty } from '../example';
 import type { Problem } from '../messages';
 import type { Store } from '../store';
-import { clock, reason_in_words, result_in_words, state_in_words } from '../wording';
+import { clock, found_in_words, reason_in_words, result_in_words, why_mute } from '../wording';
 import type { Actions } from './actions';
 import { use_signal } from './signal';
 import { use_store } from './use_store';
@@ -24,7 +24,7 @@ export function DrawerPanel({ store, actions }: Props) {
   return (
     <aside class="drawer">
       <button class="close" aria-label="Close" onClick={() => actions.drawer.set({ show: 'nothing' })}>×</button>
-      {drawer.show === 'new' ? <NewJob store={store} actions={actions} /> : <JobDetail id={drawer.id} store={store} />}
+      {drawer.show === 'new' ? <NewJob store={store} actions={actions} /> : <JobDetail id={drawer.id} store={store} actions={actions} />}
     </aside>
   );
 }
@@ -44,7 +44,9 @@ function NewJob({ store, actions }: Props) {
     set_outcome({ kind: 'none' });
   };
   const idle = [...store.arms.values()].filter((arm) => arm.state === 'idle' && arm.job === null);
+  const mute = why_mute(store.link);
   const send = async () => {
+    if (mute !== null) return;
     set_outcome({ kind: 'sending' });
     const answer = await actions.api.post_job(text);
     set_outcome(answer.ok ? { kind: 'accepted', id: id_of(answer.value) } : { kind: 'refused', problem: answer.problem });
@@ -72,7 +74,8 @@ function NewJob({ store, actions }: Props) {
         onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) void send(); }} />
       <div class="line">
         <span class="grow dim small">Ctrl + Enter sends</span>
-        <button class="primary" disabled={text.trim() === '' || outcome.kind === 'sending'} data-test="send" onClick={() => void send()}>
+        <button class="primary" data-test="send" title={mute ?? ''} onClick={() => void send()}
+          disabled={text.trim() === '' || outcome.kind === 'sending' || mute !== null}>
           {outcome.kind === 'sending' ? 'Sending…' : 'Send'}
         </button>
       </div>
@@ -95,23 +98,25 @@ function Refused({ problem }: { problem: Problem }) {
         <div key={i} class="fault">
           {fault.detail && <div>{fault.detail}</div>}
           {fault.pointer && <div class="mono small dim">{fault.pointer}</div>}
-          {fault.value !== undefined && fault.value !== null && <div class="mono small">found {JSON.stringify(fault.value).slice(0, 200)}</div>}
+          {found_in_words(fault.value) !== '' && <div class="mono small">{found_in_words(fault.value)}</div>}
         </div>
       ))}
     </div>
   );
 }
 
-function JobDetail({ id, store }: { id: string; store: Store }) {
+function JobDetail({ id, store, actions }: Props & { id: string }) {
   use_store(store);
   const job = store.job(id);
+  const goes_on = job !== null && !store.is_terminal(job);
+  useEffect(() => (goes_on ? actions.follow_job(id) : undefined), [actions, id, goes_on]);
   if (!job) return <><h2>{id}</h2><p class="hint">This job is no longer known to the page.</p></>;
   const times: [string, number | null][] = [['submitted', job.submitted_s], ['started', job.started_s], ['ended', job.ended_s]];
   const words = job.result ? result_in_words(job) : reason_in_words(job);
   return (
     <>
       <h2 class="ellipsis">{job.name ?? job.id}</h2>
-      <p class="hint"><span class="mono">{job.id}</span> · {job.arms.join(' + ')} · {state_in_words(job.state)}</p>
+      <p class="hint"><span class="mono">{job.id}</span> · {job.arms.join(' + ')} · {job.state}</p>
       {words !== '' && <p class="words">{words}</p>}
       <dl class="facts">
         {times.map(([name, t_s]) => <div key={name}><dt>{name}</dt><dd class="mono">{t_s === null ? '–' : clock(t_s)}</dd></div>)}

@@ -1,12 +1,13 @@
 // The top line: which cell, how it runs, whether we hear it, and Stop.
 
 import type { Store } from '../store';
-import { clock } from '../wording';
+import { clock, why_mute } from '../wording';
 import type { Actions } from './actions';
 import { use_store } from './use_store';
 
 export function Header({ store, actions }: { store: Store; actions: Actions }) {
   use_store(store, 'live');
+  const mute = why_mute(store.link);
   return (
     <header class="header">
       <Logo />
@@ -17,8 +18,10 @@ export function Header({ store, actions }: { store: Store; actions: Actions }) {
       <span class="fact"><i>cell time</i> <span class="mono">{clock(store.t_s)}</span></span>
       <ConnectionState store={store} />
       <span class="spacer" />
-      <button class="resume" disabled={!store.stopped} onClick={() => void actions.resume()}>Resume</button>
-      <button class="stop" title="Brake all arms on their paths" onClick={() => void actions.stop()}>Stop</button>
+      <button class="resume" disabled={!store.stopped || mute !== null} title={mute ?? 'Let the arms go on'}
+        onClick={() => void actions.resume()}>Resume</button>
+      <button class="stop" disabled={mute !== null} title={mute ?? 'Brake all arms on their paths'}
+        onClick={() => void actions.stop()}>Stop</button>
     </header>
   );
 }

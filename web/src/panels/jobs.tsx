@@ -3,7 +3,7 @@
 import type { Job } from '../messages';
 import { arm_colour } from '../palette';
 import type { JobList, Store } from '../store';
-import { reason_in_words, result_in_words, seconds, short_id, state_in_words } from '../wording';
+import { figure_in_words, reason_in_words, result_in_words, short_id, why_mute } from '../wording';
 import type { Actions } from './actions';
 import { Bar } from './arms';
 import { use_signal } from './signal';
@@ -46,6 +46,7 @@ function Row({ job, store, actions }: Props & { job: Job }) {
   const open = () => actions.drawer.set(selected ? { show: 'nothing' } : { show: 'job', id: job.id });
   const all_arms = [...store.arms.keys()];
   const ended = store.is_terminal(job);
+  const mute = why_mute(store.link);
   return (
     <article
       class={`job ${job.state}${selected ? ' selected' : ''}`} data-test={`job-${job.id}`} data-state={job.state}
@@ -63,7 +64,7 @@ function Row({ job, store, actions }: Props & { job: Job }) {
         {(job.state === 'running' || job.state === 'holding') && <Bar share={store.progress(job)} />}
       </button>
       {!ended && (
-        <button class="cancel" disabled={job.stopping} title={`Cancel ${job.id}`} aria-label={`Cancel ${job.id}`}
+        <button class="cancel" disabled={job.stopping || mute !== null} title={mute ?? `Cancel ${job.id}`} aria-label={`Cancel ${job.id}`}
           onClick={() => void actions.cancel(job.id)}>
           ×
         </button>
@@ -72,19 +73,14 @@ function Row({ job, store, actions }: Props & { job: Job }) {
   );
 }
 
-/** The one number that matters at this stage of a job's life. */
 function Figure({ job, store }: { job: Job; store: Store }) {
-  if (store.is_terminal(job)) {
-    const took_s = job.started_s !== null && job.ended_s !== null ? job.ended_s - job.started_s : null;
-    return <><span class="verdict">{state_in_words(job.state)}</span><span class="mono figure">{took_s === null ? '–' : seconds(took_s)}</span></>;
-  }
-  if (job.state === 'running') {
-    const left_s = (1 - store.progress(job)) * (job.duration_s ?? 0);
-    return <span class="mono figure">{job.stopping ? 'stopping' : `${seconds(left_s)} left`}</span>;
-  }
-  if (job.state === 'holding') return <span class="figure">{job.stopping ? 'stopping' : 'holding'}</span>;
-  const waited_s = job.submitted_s === null ? null : Math.max(0, store.t_s - job.submitted_s);
-  return <span class="mono figure">{waited_s === null ? '' : seconds(waited_s)}</span>;
+  const { text, title } = figure_in_words(job, store.t_s, store.progress(job));
+  return (
+    <>
+      {store.is_terminal(job) && <span class="verdict">{job.state}</span>}
+      <span class="figure" title={title} data-test="figure">{text}</span>
+    </>
+  );
 }
 
 function Words({ job }: { job: Job }) {

@@ -10,7 +10,7 @@ export function Notices({ store }: { store: Store }) {
     <section class="notices">
       <h2>Events<span class="count">{store.notices.length}</span></h2>
       <div class="scroll">
-        {store.notices.length === 0 && <p class="none">The monitor has nothing to report.</p>}
+        {store.notices.length === 0 && <p class="none">Nothing to report yet.</p>}
         {store.notices.map((notice) => (
           <div key={notice.key} class={`notice ${notice.level}`}>
             <span class="mono">{clock(notice.t_s)}</span>

@@ -19,7 +19,7 @@ export function object_mesh(object: SceneObject, surface: THREE.BufferGeometry |
   const geometry = object.shape.kind === 'mesh'
     ? scaled(surface ?? mark_geometry(), surface ? object.shape.scale : [1, 1, 1])
     : shape_geometry(object.shape);
-  const material = new THREE.MeshStandardMaterial({ color: 0x2c323b, roughness: 0.85, metalness: 0 });
+  const material = new THREE.MeshStandardMaterial({ color: 0x2c323b, emissive: 0x161b22, roughness: 0.85, metalness: 0 });
   const mesh = new THREE.Mesh(geometry, material);
   mesh.name = object.name;
   mesh.castShadow = true;

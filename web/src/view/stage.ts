@@ -71,10 +71,17 @@ export class Stage {
     this.resize();
   }
 
-  /** Moves the middle of the picture to the middle of what is not covered. */
+  /** Moves the middle of the picture to the middle of what is not covered, and as far away as it needs. */
   set_covered(left_px: number): void {
     if (left_px === this.covered_px_) return;
+    const half_before = this.half_angle();
     this.covered_px_ = left_px;
+    if (this.moved_by_user_) {
+      // The user's own direction is kept; what filled the free part before fills it again.
+      const further = Math.sin(half_before) / Math.sin(this.half_angle());
+      this.camera.position.sub(this.controls_.target).multiplyScalar(further).add(this.controls_.target);
+      this.controls_.update();
+    }
     this.resize();
   }
 
@@ -142,11 +149,16 @@ export class Stage {
     this.invalidate(true);
   }
 
-  private look_from_default(): void {
+  /** Half of the angle under which the free part of the picture is seen, the narrower of up and across. */
+  private half_angle(): number {
     const half_up = THREE.MathUtils.degToRad(this.camera.fov / 2);
     const { clientWidth: width, clientHeight: height } = this.host_;
     const free_aspect = Math.max(0.2, (width - this.covered_px_) / height);
-    const half = Math.min(half_up, Math.atan(Math.tan(half_up) * free_aspect));
+    return Math.min(half_up, Math.atan(Math.tan(half_up) * free_aspect));
+  }
+
+  private look_from_default(): void {
+    const half = this.half_angle();
     this.camera.position.copy(this.target_).addScaledVector(kDirection, this.radius_ / Math.sin(half));
     this.controls_.target.copy(this.target_);
     this.controls_.update();
