@@ -56,6 +56,11 @@ class Service::Impl {
     site.feed_path = "/api/v1/ws";
     site.events_path = "/api/v1/events";
     site.stream = stream_;
+    site.wind_down = [this](std::function<void()> done) {
+      loop_->post([done = std::move(done)](Executive& executive) {
+        executive.wind_down("the server ends", done);
+      });
+    };
     site.end = [this] { hub_.end(); };
     site.subscribe = [this](const Target& target, std::function<void(FeedPtr)> then) {
       api_->subscribe(target, std::move(then));

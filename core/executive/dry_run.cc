@@ -166,8 +166,8 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
     const Planned& job = plan.jobs()[index];
     checked[index].key = job.key;
     CheckView& view = checked[index].verdict;
-    view = judged(question_for(plan, index, begun, *cell, **policy), plan, *cell, **policy,
-                  checker);
+    view =
+        judged(question_for(plan, index, begun, *cell, **policy), plan, *cell, **policy, checker);
     if (view.kind == Verdict::Kind::free) {
       view.earliest_start_s = to_seconds(job.starts - job.asked);
     }

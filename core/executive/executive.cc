@@ -101,6 +101,10 @@ void Executive::Impl::tick(TimePoint now) {
   }
   tell_arms();
   observer_.on_tick(now_, motions_.measured());
+  if (wound_down_ && !any_moving()) {
+    step(Interrupt{});
+    std::exchange(wound_down_, nullptr)();
+  }
 }
 
 // ---- The monitor ----
@@ -138,7 +142,10 @@ Result<std::unique_ptr<Executive>> Executive::create(CellPtr cell, ExecutiveOpti
                                                      JudgePool& judges, Observer& observer) {
   auto policy =
       make_policy(options.policy.empty() ? cell->scheduling.policy : options.policy, *cell);
-  if (!policy) return failure(std::move(policy.error()));
+  if (!policy) {
+    if (!options.policy.empty()) policy.error().front().pointer = "--policy";
+    return failure(std::move(policy.error()));
+  }
   auto scene = PlanningScene::build(cell);
   if (!scene) return failure(std::move(scene.error()));
   if (auto problems = check_home(*scene); !problems.empty()) return failure(std::move(problems));
@@ -182,9 +189,18 @@ void Executive::check(JobRequest request, std::function<void(Result<CheckView>)>
 }
 Result<JobView> Executive::cancel(const std::string& key) { return impl_->cancel(key); }
 void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause) {
+  impl_->tell(
+      Alert{Alert::Level::warning, "stopped: " + impl_->names_of(arms) + " (" + cause + ")"});
   impl_->step(Stop{arms, cause});
 }
-void Executive::resume(const std::vector<ArmId>& arms) { impl_->step(Resume{arms}); }
+void Executive::resume(const std::vector<ArmId>& arms) {
+  impl_->tell(Alert{Alert::Level::info, "resumed: " + impl_->names_of(arms)});
+  impl_->step(Resume{arms});
+}
+void Executive::wind_down(const std::string& cause, std::function<void()> done) {
+  impl_->wound_down_ = std::move(done);
+  stop_all(cause);
+}
 void Executive::stop_all(const std::string& cause) { stop(impl_->all_arms(), cause); }
 void Executive::resume_all() { resume(impl_->all_arms()); }
 Result<void> Executive::add_object(CollisionObject object) {

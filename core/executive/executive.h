@@ -112,6 +112,9 @@ class Executive {
   void resume(const std::vector<ArmId>& arms);
   void stop_all(const std::string& cause);
   void resume_all();
+  // The last act: stops all arms, and when they are at rest every job that has not ended becomes
+  // `interrupted`; then `done` is called, on the strand. Accepts no job from now on.
+  void wind_down(const std::string& cause, std::function<void()> done);
 
   // Objects of the planning scene. Every motion under way and every waiting job is judged again.
   // Problems: a name in use or unknown, a shape inside an arm as measured (nearer than the

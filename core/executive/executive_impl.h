@@ -17,8 +17,8 @@
 namespace armloom {
 
 // Every joint of the motion that does not begin (within the tolerance) where `rest` has it.
-void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory,
-                          const Configuration& rest, Problems& problems);
+void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const Configuration& rest,
+                          Problems& problems);
 
 class Executive::Impl final : public JobNames {
  public:
@@ -53,7 +53,11 @@ class Executive::Impl final : public JobNames {
   std::string key(JobId job) const override;
   std::string name(JobId job) const override;
 
+  void tell(std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, Alert> body);
+  std::string names_of(const std::vector<ArmId>& arms) const;  // "left, right"
+
   std::vector<ArmId> all_arms() const;
+  bool any_moving() const;
 
   CellPtr cell_;
   ExecutiveOptions options_;
@@ -62,6 +66,7 @@ class Executive::Impl final : public JobNames {
   std::uint64_t scene_version_ = 1;
   RunFigures figures_;
   TimePoint now_{};
+  std::function<void()> wound_down_;  // set: the last act has begun
 
  private:
   struct Label {
@@ -93,7 +98,6 @@ class Executive::Impl final : public JobNames {
   void tell_job(JobId job);
   void tell_arms();
   void tell_queue();
-  void tell(std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, Alert> body);
   void count(const JobView& ended);
   ArmState state_of(ArmId arm) const;
   ArmView view_of_arm(ArmId arm) const;

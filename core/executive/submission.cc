@@ -56,6 +56,10 @@ Result<std::vector<Result<JobView>>> Executive::Impl::submit_batch(std::vector<J
 // Everything that can be said against a request, before anything is stored. `ahead` then holds what
 // the next request of a batch finds.
 Result<Executive::Impl::Prepared> Executive::Impl::prepare(JobRequest request, Ahead& ahead) const {
+  if (wound_down_) {
+    return failure(Problem{ProblemKind::unavailable, "server-ends", "",
+                           "the server is ending and accepts no job"});
+  }
   if (scheduler_.active().size() + ahead.keys.size() >= options_.waiting_max) {
     return failure(Problem{
         ProblemKind::unavailable, "queue-full", "",
@@ -112,8 +116,8 @@ void Executive::Impl::find_bad_after(const JobRequest& request, const Ahead& ahe
   }
 }
 
-void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory,
-                          const Configuration& rest, Problems& problems) {
+void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const Configuration& rest,
+                          Problems& problems) {
   for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
     const Joint& joint = cell.joint(trajectory.joints()[j]);
     const double begins = trajectory.start()[static_cast<Eigen::Index>(j)];
@@ -180,8 +184,8 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
 Result<JobView> Executive::Impl::cancel(const std::string& key) {
   const auto it = ids_.find(key);
   if (it == ids_.end()) {
-    return failure(Problem{ProblemKind::not_found, "unknown-job", "",
-                           "no job has the id \"" + key + "\"", key});
+    return failure(Problem{ProblemKind::not_found, "no-such-job", "request target",
+                           "there is no job \"" + key + "\"", key});
   }
   const JobId id = it->second;
   const JobState state = scheduler_.find(id)->state;

@@ -24,7 +24,14 @@ std::string Executive::Impl::name(JobId job) const {
 void Executive::Impl::tell_job(JobId job) {
   JobView view = view_of(*scheduler_.find(job), *cell_, *this);
   if (is_terminal(view.state)) count(view);
+  std::optional<Alert> alert;
+  if (view.state == JobState::failed || view.state == JobState::expired) {
+    alert = Alert{Alert::Level::warning,
+                  "job " + view.key + " " + to_string(view.state) + ": " +
+                      (view.detail.empty() ? to_string(*view.reason) : view.detail)};
+  }
   tell(std::move(view));
+  if (alert) tell(std::move(*alert));
 }
 
 void Executive::Impl::count(const JobView& ended) {
@@ -114,6 +121,16 @@ std::vector<ArmId> Executive::Impl::all_arms() const {
     arms.emplace_back(static_cast<std::uint32_t>(a));
   }
   return arms;
+}
+
+std::string Executive::Impl::names_of(const std::vector<ArmId>& arms) const {
+  std::string names;
+  for (ArmId arm : arms) names += (names.empty() ? "" : ", ") + cell_->arm(arm).name;
+  return names;
+}
+
+bool Executive::Impl::any_moving() const {
+  return std::ranges::any_of(all_arms(), [this](ArmId arm) { return motions_.moving(arm); });
 }
 
 std::optional<JobView> Executive::Impl::job(const std::string& key) const {

@@ -57,10 +57,13 @@ struct Resume {
 };
 // The planning scene is another one: what was judged on the old one is judged again.
 struct SceneChanged {};
+// The server ends: every job that has not ended is interrupted. Sent when the arms are at rest.
+struct Interrupt {};
 // A time asked for by WakeAt has come. Every other input does the same work besides.
 struct Wake {};
 
-using Input = std::variant<Submit, Cancel, Judged, MotionReport, Stop, Resume, SceneChanged, Wake>;
+using Input =
+    std::variant<Submit, Cancel, Judged, MotionReport, Stop, Resume, SceneChanged, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

@@ -1,10 +1,20 @@
 #include "core/scheduler/scheduler.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
 namespace armloom {
+namespace {
+
+std::string seconds_text(Duration duration) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g s", to_seconds(duration));
+  return text;
+}
+
+}  // namespace
 
 Scheduler::Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configuration rest)
     : cell_(std::move(cell)),
@@ -214,7 +224,10 @@ void Scheduler::on(const Stop& input) {
     if (!stopped_[arm.index()]) stopped_[arm.index()] = input.cause;
     if (const auto job = occupant(arm)) {
       Record& record = records_.at(*job);
-      if (holds_reservation(record) && !record.job.stopping) brake(record, AfterStop::hold);
+      if (holds_reservation(record) && !record.job.stopping) {
+        brake(record, AfterStop::hold);
+        set_waits(record, {Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = input.cause}});
+      }
     }
   }
 }
@@ -226,6 +239,17 @@ void Scheduler::on(const Resume& input) {
 
 void Scheduler::on(const SceneChanged&) { disturbed_at_ = ++version_; }
 
+void Scheduler::on(const Interrupt&) {
+  const std::vector<JobId> ids(active_.begin(), active_.end());
+  for (JobId id : ids) {
+    Record& record = records_.at(id);
+    if (is_terminal(record.job.state)) continue;  // failed with the one that it came after
+    const bool moved = record.job.started_at.has_value();
+    end(record, JobState::interrupted, Reason::server_restart,
+        moved ? "the server ended while it was under way" : "the server ended before it began");
+  }
+}
+
 void Scheduler::on(const Wake&) {}
 
 void Scheduler::end(Record& record, JobState state, Reason reason, std::string detail) {
@@ -235,7 +259,7 @@ void Scheduler::end(Record& record, JobState state, Reason reason, std::string d
   job.ended_at = now_;
   job.reason = reason;
   job.detail = std::move(detail);
-  job.waits_on.clear();
+  if (state != JobState::expired) job.waits_on.clear();  // else: what it waited for in vain
   if (state == JobState::succeeded) job.progress = job.trajectory->duration();
   for (ArmId arm : job.trajectory->arms()) std::erase(order_[arm.index()], job.id);
   active_.erase(job.id);
@@ -264,7 +288,7 @@ void Scheduler::expire_and_overrun() {
     const bool backlogged = job.state == JobState::backlogged;
     if (backlogged && now_ >= *job.backlogged_at + job.backlog_timeout) {
       end(record, JobState::expired, Reason::backlog_timeout,
-          "waited " + std::to_string(to_seconds(job.backlog_timeout)) + " s in the backlog");
+          "waited " + seconds_text(job.backlog_timeout) + " in the backlog");
     } else if (record.overrun_at && now_ >= *record.overrun_at && !job.stopping) {
       record.fail_reason = Reason::overrun;
       record.fail_detail = "still moving after duration_scaling and duration_margin";

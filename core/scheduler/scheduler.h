@@ -97,6 +97,7 @@ class Scheduler {
   void on(const Stop& input);
   void on(const Resume& input);
   void on(const SceneChanged& input);
+  void on(const Interrupt& input);
   void on(const Wake& input);
   void progress(Record& record);
   void plan_from_here(Record& record);

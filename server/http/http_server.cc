@@ -9,6 +9,7 @@ namespace armloom {
 namespace {
 
 constexpr std::chrono::milliseconds kFarewell{500};
+constexpr auto kWindDownMax = std::chrono::seconds(5);  // for arms to come to rest
 
 Problem cannot_listen(const std::string& address, std::uint16_t port, const std::string& why) {
   const std::string place = address + ":" + std::to_string(port);
@@ -39,7 +40,7 @@ class HttpServer::Impl {
       signals_.add(SIGINT);
       signals_.add(SIGTERM);
       signals_.async_wait([this](ErrorCode ec, int) {
-        if (!ec) end();
+        if (!ec) wind_down();
       });
     }
     asio::co_spawn(io_, accept(), asio::detached);
@@ -50,11 +51,24 @@ class HttpServer::Impl {
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
 
  private:
-  // Feeds are told that the server ends, and connections get a moment to read it.
-  void end() {
+  // Nobody new; what runs comes to rest. A second signal does not wait for that.
+  void wind_down() {
     ErrorCode ignored;
     acceptor_.close(ignored);
     ending_ = true;
+    signals_.async_wait([this](ErrorCode ec, int) {
+      if (!ec) end();
+    });
+    farewell_.expires_after(kWindDownMax);
+    farewell_.async_wait([this](ErrorCode ec) {
+      if (!ec) end();
+    });
+    site_.wind_down([this] { asio::post(io_, [this] { end(); }); });
+  }
+
+  // Feeds are told that the server ends, and connections get a moment to read it.
+  void end() {
+    if (std::exchange(said_farewell_, true)) return;
     site_.end();
     farewell_.expires_after(kFarewell);
     farewell_.async_wait([this](ErrorCode) { io_.stop(); });
@@ -64,7 +78,7 @@ class HttpServer::Impl {
   asio::awaitable<void> serve(tcp::socket socket) {
     ++connections_;
     co_await serve_connection(std::move(socket), site_);
-    if (--connections_ == 0 && ending_) io_.stop();
+    if (--connections_ == 0 && said_farewell_) io_.stop();
   }
 
   asio::awaitable<void> accept() {
@@ -90,6 +104,7 @@ class HttpServer::Impl {
   asio::steady_timer farewell_{io_};
   std::size_t connections_ = 0;
   bool ending_ = false;
+  bool said_farewell_ = false;
 };
 
 Result<std::unique_ptr<HttpServer>> HttpServer::listen(const std::string& address,

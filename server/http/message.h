@@ -83,6 +83,8 @@ struct Site {
   std::function<void(const Request&, Respond)> handle;
   // `?stream=&since=` resume; else the feed begins with a snapshot.
   std::function<void(const Target&, std::function<void(FeedPtr)>)> subscribe;
+  // The server is asked to end: bring everything to rest, then call `done` (from any thread).
+  std::function<void(std::function<void()> done)> wind_down;
   std::function<void()> end;  // the server ends: every feed says farewell
   std::string feed_path;      // WebSocket upgrades are accepted here and nowhere else
   std::string events_path;    // the same feed as Server-Sent Events

@@ -11,6 +11,9 @@ namespace {
 constexpr std::size_t kBuffer = 1U << 20U;
 constexpr std::int64_t kNano = 1'000'000'000;
 
+// A recording has one row per control tick. What happened in a longer hole cannot be audited.
+constexpr Duration kGapMax = std::chrono::milliseconds(50);
+
 // `nano` billionths as a decimal fraction with `decimals` (3 or 9) places.
 void append_fraction(std::string& out, std::int64_t nano, int decimals) {
   char text[32];
@@ -58,6 +61,11 @@ class StatesReader {
       if (!states.empty() && state.time <= states.back().time) {
         return fault("time_s", "times must increase", std::string(split(line_).front()));
       }
+      if (!states.empty() && state.time - states.back().time > kGapMax) {
+        return fault("time_s", "rows are missing: more than 50 ms since the row before",
+                     std::string(split(line_).front()));
+      }
+      if (in_.eof()) return fault("", "the last row is cut off: no end of line", {});
       states.push_back(std::move(state));
     }
     if (states.empty()) return fault("", "there is no row of states", {});

@@ -63,6 +63,23 @@ TEST(Cancel, HoldsAMotionThatReliedOnTheOtherLeaving) {
   EXPECT_GT(cell.log.closest_m, 0.0);
 }
 
+TEST(WindDown, BringsArmsToRestAndEndsEveryJobOnce) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "moves"));
+  cell.submit(slide("y", -1, 1, 4, "waits"));
+  cell.run_until(at(1500ms));
+  bool done = false;
+  cell.simulation->executive().wind_down("the server ends", [&] { done = true; });
+  EXPECT_FALSE(cell.simulation->executive().submit(slide("x", 1, -1, 4)));
+  cell.run_until(at(3s));
+  EXPECT_TRUE(done);
+  EXPECT_EQ(cell.job("moves").state, JobState::interrupted);
+  EXPECT_EQ(cell.job("waits").state, JobState::interrupted);
+  const Configuration stands = cell.log.last;
+  cell.run_until(at(5s));
+  EXPECT_EQ(cell.log.last, stands);
+}
+
 TEST(Cancel, OfAnEndedOrUnknownJobIsAProblem) {
   Crossing cell;
   cell.submit(slide("x", -1, -0.5, 2, "one"));

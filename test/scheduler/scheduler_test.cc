@@ -143,6 +143,8 @@ TEST(Backlog, ExpiresAJobAtItsDeadlineAndNotBefore) {
   bench.step(Wake{}, at(102ms));
   EXPECT_EQ(bench.state(job), JobState::expired);
   EXPECT_EQ(bench.job(job).reason, Reason::backlog_timeout);
+  EXPECT_EQ(bench.job(job).detail, "waited 0.1 s in the backlog");
+  EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::object) << "in vain, for this";
   EXPECT_EQ(bench.terminal_events[job], 1);
 }
 

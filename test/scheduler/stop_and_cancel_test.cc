@@ -155,6 +155,21 @@ TEST(Resume, TriesHeldMotionsTogetherFirstThenOneByOne) {
   EXPECT_EQ(bench.question->candidates.front().job, bench.jobs[1]);
 }
 
+TEST(Interrupt, EndsEveryJobOnce) {
+  Running bench(2);
+  const JobId waits = bench.submit(move({0}, 1, 0, 2s), at(100ms));
+  bench.step(Stop{{ArmId{0}, ArmId{1}}, "the server ends"}, at(500ms));
+  EXPECT_EQ(bench.job(bench.jobs[0]).waits_on.front().detail, "the server ends") << "while braking";
+  bench.stopped(bench.jobs[0], 600ms, at(700ms));
+  bench.stopped(bench.jobs[1], 600ms, at(700ms));
+  bench.step(Interrupt{}, at(701ms));
+  for (JobId job : {bench.jobs[0], bench.jobs[1], waits}) {
+    EXPECT_EQ(bench.state(job), JobState::interrupted);
+    EXPECT_EQ(bench.job(job).reason, Reason::server_restart);
+    EXPECT_EQ(bench.terminal_events[job], 1);
+  }
+}
+
 TEST(Fault, FailsTheJobAndStopsItsArmUntilResumed) {
   Running bench(2);
   bench.step(MotionReport{bench.jobs[0], MotionReport::Kind::faulted, 500ms,
