@@ -59,12 +59,14 @@ void print_report(const AuditReport& report) {
 int audit_recording(const AuditOptions& options) {
   const auto loaded = load_cell(options.cell_file);
   if (!loaded) return kExitBadInput;
+  std::vector<std::string> doubts;
   const auto states =
-      read_states(std::filesystem::path(options.recording) / "states.csv", *loaded->cell);
+      read_states(std::filesystem::path(options.recording) / "states.csv", *loaded->cell, &doubts);
   if (!states) {
     complain(options.recording, states.error());
     return kExitBadInput;
   }
+  for (const std::string& doubt : doubts) std::cerr << "armloom: warning: " << doubt << '\n';
   const auto report = audit(*loaded->cell, *states, from_seconds(options.step_s));
   if (!report) {
     complain(options.cell_file, report.error());

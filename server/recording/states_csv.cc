@@ -12,6 +12,7 @@ constexpr std::size_t kBuffer = 1U << 20U;
 constexpr std::int64_t kNano = 1'000'000'000;
 
 // A recording has one row per control tick. What happened in a longer hole cannot be audited.
+constexpr std::size_t kDoubtsMax = 10;
 constexpr Duration kGapMax = std::chrono::milliseconds(50);
 
 // `nano` billionths as a decimal fraction with `decimals` (3 or 9) places.
@@ -46,8 +47,9 @@ std::vector<std::string_view> split(std::string_view line) {
 // Reads line after line and keeps the place for problems.
 class StatesReader {
  public:
-  StatesReader(const std::filesystem::path& file, const Cell& cell)
-      : in_(file), name_(file.filename().string()), cell_(cell) {}
+  StatesReader(const std::filesystem::path& file, const Cell& cell,
+               std::vector<std::string>* doubts)
+      : in_(file), name_(file.filename().string()), cell_(cell), doubts_(doubts) {}
 
   Result<std::vector<RecordedState>> read() {
     if (!in_) return fault("", "cannot be opened", {});
@@ -62,10 +64,10 @@ class StatesReader {
         return fault("time_s", "times must increase", std::string(split(line_).front()));
       }
       if (!states.empty() && state.time - states.back().time > kGapMax) {
-        return fault("time_s", "rows are missing: more than 50 ms since the row before",
-                     std::string(split(line_).front()));
+        doubt(
+            "more than 50 ms without a row before this one: what happened in between is not known");
       }
-      if (in_.eof()) return fault("", "the last row is cut off: no end of line", {});
+      if (in_.eof()) doubt("the last row has no end of line and may be cut off");
       states.push_back(std::move(state));
     }
     if (states.empty()) return fault("", "there is no row of states", {});
@@ -73,6 +75,11 @@ class StatesReader {
   }
 
  private:
+  void doubt(const char* what) const {
+    if (doubts_ == nullptr || doubts_->size() >= kDoubtsMax) return;
+    doubts_->push_back(name_ + ":" + std::to_string(line_number_) + ": " + what);
+  }
+
   bool next_line() {
     if (!std::getline(in_, line_)) return false;
     ++line_number_;
@@ -142,6 +149,7 @@ class StatesReader {
   std::ifstream in_;
   std::string name_;
   const Cell& cell_;
+  std::vector<std::string>* doubts_;
   std::string line_;
   std::size_t line_number_ = 0;
   std::vector<std::string> columns_;
@@ -177,9 +185,9 @@ void StatesWriter::flush() {
   buffer_.clear();
 }
 
-Result<std::vector<RecordedState>> read_states(const std::filesystem::path& file,
-                                               const Cell& cell) {
-  return StatesReader(file, cell).read();
+Result<std::vector<RecordedState>> read_states(const std::filesystem::path& file, const Cell& cell,
+                                               std::vector<std::string>* doubts) {
+  return StatesReader(file, cell, doubts).read();
 }
 
 }  // namespace armloom

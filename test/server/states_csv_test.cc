@@ -42,11 +42,18 @@ TEST(StatesCsv, ReadsBackWhatItWrote) {
   EXPECT_NE(text.find("\n0.001,-0.123456789,"), std::string::npos);
   EXPECT_NE(text.find("\n1.002,0.000000000,-1.200000000,"), std::string::npos);
   EXPECT_EQ(text.find("-0.000000000"), std::string::npos);
-  const auto states = read_states(file, *cell);
+  std::vector<std::string> doubts;
+  const auto states = read_states(file, *cell, &doubts);
   ASSERT_TRUE(states) << states.error().front().detail;
   ASSERT_EQ(states->size(), 3U);
+  EXPECT_EQ(doubts.size(), 2U) << "two holes of a second";
   EXPECT_EQ((*states)[2].time, at(std::chrono::nanoseconds(2'000'000'001)));
   EXPECT_LT(((*states)[0].q - q).cwiseAbs().maxCoeff(), 0.6e-9);
+
+  std::ofstream(file) << text.substr(0, text.size() - 5);  // killed while it wrote
+  doubts.clear();
+  ASSERT_TRUE(read_states(file, *cell, &doubts));
+  EXPECT_EQ(doubts.back(), "states.csv:4: the last row has no end of line and may be cut off");
 }
 
 struct BadRecording {
