@@ -87,7 +87,10 @@ tl::expected<Facets, std::string> run_qhull(const Points& points) {
                                 options, nullptr, errors.file());
   Facets facets;
   if (code == 0) facets = facets_of(&qhull);
-  qh_freeqhull(&qhull, qh_ALL);
+  qh_freeqhull(&qhull, !qh_ALL);
+  int kept_blocks = 0;
+  int kept_bytes = 0;
+  qh_memfreeshort(&qhull, &kept_blocks, &kept_bytes);
   if (code != 0) return tl::unexpected("qhull: " + errors.first_line());
   return facets;
 }

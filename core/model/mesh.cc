@@ -1,5 +1,6 @@
 #include "core/model/mesh.h"
 
+#include <assimp/BaseImporter.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -17,6 +18,7 @@
 #include <set>
 #include <system_error>
 
+#include "core/model/dae_essence.h"
 #include "core/model/findings.h"
 #include "core/model/mesh_bounds.h"
 
@@ -39,6 +41,8 @@ tl::unexpected<Refusal> refuse(ProblemKind kind, std::string slug, std::string w
                                decltype(Problem::value) value = {}) {
   return tl::unexpected(Refusal{kind, std::move(slug), std::move(why), std::move(value)});
 }
+
+enum class MeshFormat { stl, obj, dae };
 
 std::optional<MeshFormat> format_of(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
@@ -171,7 +175,10 @@ void keep_only(Assimp::Importer& importer, const char* extension) {
   std::set<Assimp::BaseImporter*> others;
   for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) others.insert(importer.GetImporter(i));
   others.erase(importer.GetImporter(extension));
-  for (Assimp::BaseImporter* other : others) importer.UnregisterLoader(other);
+  for (Assimp::BaseImporter* other : others) {
+    importer.UnregisterLoader(other);
+    delete other;  // assimp forgets it without freeing it
+  }
 }
 
 Checked<MeshData> import(const std::string& bytes, MeshFormat format, const Eigen::Vector3d& scale) {
@@ -214,21 +221,33 @@ Checked<void> check_vertices(const MeshData& mesh) {
   return {};
 }
 
+// The bytes as assimp may read them: a DAE is cut down, and none has too many triangles.
+Checked<std::string> checked_bytes(const std::string& path, MeshFormat format) {
+  auto bytes = read_bytes(path);
+  if (!bytes) return bytes;
+  std::size_t most = 0;
+  if (format == MeshFormat::dae) {
+    auto essence = read_dae_essence(*bytes);
+    if (!essence) return refuse(ProblemKind::malformed, "mesh-unreadable", essence.error());
+    most = essence->triangles;
+    bytes = std::move(essence->text);
+  } else {
+    most = format == MeshFormat::stl ? most_triangles_of_stl(*bytes) : most_triangles_of_obj(*bytes);
+  }
+  if (most <= kMaxMeshTriangles) return bytes;
+  return refuse(ProblemKind::too_large, "mesh-too-large",
+                "it has " + std::to_string(most) + " triangles, at most " +
+                    std::to_string(kMaxMeshTriangles) + " are read", static_cast<double>(most));
+}
+
 Checked<MeshPtr> load(const std::string& path, const Eigen::Vector3d& scale) {
   const auto format = format_of(path);
   if (!format) {
     return refuse(ProblemKind::unsupported, "mesh-format", "only .stl, .obj and .dae are read",
                   fs::path(path).extension().string());
   }
-  const auto bytes = read_bytes(path);
+  const auto bytes = checked_bytes(path, *format);
   if (!bytes) return tl::unexpected(bytes.error());
-  const auto most = most_triangles(*format, *bytes);
-  if (!most) return refuse(ProblemKind::malformed, "mesh-unreadable", most.error());
-  if (*most > kMaxMeshTriangles) {
-    return refuse(ProblemKind::too_large, "mesh-too-large",
-                  "it has " + std::to_string(*most) + " triangles, at most " +
-                      std::to_string(kMaxMeshTriangles) + " are read", static_cast<double>(*most));
-  }
   auto mesh = import(*bytes, *format, scale);
   if (!mesh) return tl::unexpected(mesh.error());
   if (const auto sound = check_vertices(*mesh); !sound) return tl::unexpected(sound.error());

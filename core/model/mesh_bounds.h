@@ -1,20 +1,16 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <string_view>
-
-#include <tl/expected.hpp>
 
 namespace armloom {
 
-enum class MeshFormat { stl, obj, dae };
-
 // How many triangles the file cannot have more than, by counting and without building anything, so
-// that a file that would fill the memory is known before it is read. A DAE counts each geometry as
-// often as its nodes place it, which may grow exponentially: saturates at 10^15. The error is half a
-// sentence ("it is no XML: ..."): a DAE that is no XML, or whose nodes place themselves.
-[[nodiscard]] tl::expected<std::size_t, std::string> most_triangles(MeshFormat format,
-                                                                    std::string_view bytes);
+// that a file that would fill the memory is known before it is read.
+//   STL   binary: what the header says (80 bytes, the number, 50 bytes for each); text: a third of
+//         the words "vertex"
+//   OBJ   a face of n corners is n - 2 triangles
+[[nodiscard]] std::size_t most_triangles_of_stl(std::string_view bytes);
+[[nodiscard]] std::size_t most_triangles_of_obj(std::string_view bytes);
 
 }  // namespace armloom
