@@ -103,7 +103,7 @@ export class CellView {
     for (const robot of this.robots_.values()) box.expandByObject(robot.root);
     if (box.isEmpty()) return;
     const sphere = box.getBoundingSphere(new THREE.Sphere());
-    this.stage_.frame(sphere.center, 0.85 * sphere.radius);
+    this.stage_.frame(sphere.center, 0.95 * sphere.radius);
   }
 
   /** Looks at the robots' bases with a little more than an arm's reach around them. */
