@@ -25,12 +25,10 @@ void check_complete(const Cell& cell, const std::vector<ArmId>& arms,
   for (const ArmId arm : arms) {
     for (const JointId id : cell.arm(arm).joints) {
       if (named.contains(id)) continue;
-      problems.add({ProblemKind::invalid,
-                    "missing-joint",
-                    "/joint_names",
+      problems.add({ProblemKind::invalid, "missing-joint", "/joint_names",
                     "joint " + cell.joint(id).name + " of arm " + cell.arm(arm).name +
                         " is missing; a motion names every joint of each arm that it moves",
-                    {}});
+                    static_cast<double>(named.size())});
     }
   }
 }

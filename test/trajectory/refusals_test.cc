@@ -96,7 +96,7 @@ TEST(Validate, RefusesNamesThatItCannotMove) {
 
 TEST(Validate, RefusesAnArmThatIsNotWhole) {
   expect_only(request_of({"pair_b"}, {{0, 0, 0}, {1, 0.1, 0}}), "missing-joint", "/joint_names",
-              "pair_a");
+              1.0);
   // A gripper joint alone touches its arm too.
   EXPECT_EQ(refused(request_of({"left_panda_finger_joint1"}, {{0, 0, 0}, {1, 0.01, 0}})).size(),
             7u);
