@@ -36,9 +36,9 @@ class ArmController {
 
   [[nodiscard]] virtual const std::vector<JointId>& joints() const = 0;
 
-  // Follow `trajectory` from `from_progress`, beginning at cell time `start_at` (if that has passed:
-  // at the next tick), but never past `authority` (trajectory time): the controller brakes by
-  // itself so that it comes to rest there. Only its own joints of the trajectory concern it.
+  // Follow `trajectory` from `from_progress`, beginning at cell time `start_at` (if that has
+  // passed: at the next tick), but never past `authority` (trajectory time): the controller brakes
+  // by itself so that it comes to rest there. Only its own joints of the trajectory concern it.
   // Precondition: idle, stopped, finished; the arm stands at the trajectory's `from_progress`.
   virtual void start(TrajectoryPtr trajectory, TimePoint start_at, Duration from_progress,
                      Duration authority) = 0;

@@ -20,8 +20,8 @@ namespace {
 constexpr double kDoubt_m = 1e-3;
 constexpr double kGjkTolerance = 1e-12;
 // FCL takes milliseconds for the distance of meshes, unless it may pass over what is farther than
-// some bound. What is asked for beyond the distance that matters saves as much travel until the pair
-// must be looked at again.
+// some bound. What is asked for beyond the distance that matters saves as much travel until the
+// pair must be looked at again.
 constexpr double kLookAhead_m = 0.05;
 
 std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Shape& shape) {
@@ -128,8 +128,7 @@ void AuditedCell::add(AuditedSolid solid, const std::vector<PlacedShape>& shapes
   if (shapes.empty()) return;
   for (const PlacedShape& placed : shapes) {
     const Element& element = solid.elements.emplace_back(make_element(placed));
-    solid.radius_m =
-        std::max(solid.radius_m, element.X_LS.translation().norm() + element.radius_m);
+    solid.radius_m = std::max(solid.radius_m, element.X_LS.translation().norm() + element.radius_m);
   }
   solids_.push_back(std::move(solid));
 }
@@ -137,7 +136,8 @@ void AuditedCell::add(AuditedSolid solid, const std::vector<PlacedShape>& shapes
 AuditedSolid::Element AuditedCell::make_element(const PlacedShape& placed) {
   const auto* mesh = std::get_if<Mesh>(&placed.shape);
   if (mesh == nullptr) {
-    return {fcl::CollisionObjectd(geometry_of(placed.shape)), placed.X_LS, radius_of(placed.shape), nullptr};
+    return {fcl::CollisionObjectd(geometry_of(placed.shape)), placed.X_LS, radius_of(placed.shape),
+            nullptr};
   }
   auto audited = std::make_shared<const AuditedMesh>(*mesh->data);
   const Eigen::Isometry3d X_LC = placed.X_LS * Eigen::Translation3d(audited->p_SC());

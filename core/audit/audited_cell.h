@@ -20,8 +20,8 @@ namespace armloom {
 struct AuditedSolid {
   struct Element {
     fcl::CollisionObjectd object;
-    Eigen::Isometry3d X_LS;  // of a mesh: to the middle of its bounding box
-    double radius_m;         // of its bounding sphere
+    Eigen::Isometry3d X_LS;                   // of a mesh: to the middle of its bounding box
+    double radius_m;                          // of its bounding sphere
     std::shared_ptr<const AuditedMesh> mesh;  // null: a primitive shape
   };
   std::string name;

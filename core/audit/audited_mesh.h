@@ -21,14 +21,16 @@ class AuditedMesh {
   [[nodiscard]] std::shared_ptr<fcl::CollisionGeometryd> make_geometry() const;
 
   // One vertex of each connected piece of the surface: a piece that touches nothing is inside of
-  // another surface if this vertex is. Of the kMaxRepresentatives largest pieces, should a file be a
-  // heap of crumbs.
+  // another surface if this vertex is. Of the kMaxRepresentatives largest pieces, should a file be
+  // a heap of crumbs.
   static constexpr std::size_t kMaxRepresentatives = 64;
-  [[nodiscard]] const std::vector<Eigen::Vector3d>& representatives() const { return representatives_; }
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& representatives() const {
+    return representatives_;
+  }
 
-  // Whether the surface closes around the point: whether rays from it cross one of its pieces an odd
-  // number of times (the majority of three rays, as one may graze an edge). Orientation plays no
-  // part. Points on the surface may be either; surfaces with holes do not close around anything.
+  // Whether the surface closes around the point: whether rays from it cross one of its pieces an
+  // odd number of times (the majority of three rays, as one may graze an edge). Orientation plays
+  // no part. Points on the surface may be either; surfaces with holes do not close around anything.
   [[nodiscard]] bool encloses(const Eigen::Vector3d& p_C) const;
 
  private:
@@ -36,7 +38,8 @@ class AuditedMesh {
     Eigen::AlignedBox3d box;
     std::vector<Triangle> triangles;
   };
-  [[nodiscard]] bool crosses_odd(const Piece& piece, const Eigen::Vector3d& p, const Eigen::Vector3d& ray) const;
+  [[nodiscard]] bool crosses_odd(const Piece& piece, const Eigen::Vector3d& p,
+                                 const Eigen::Vector3d& ray) const;
 
   Eigen::Vector3d p_SC_;
   double radius_m_ = 0.0;

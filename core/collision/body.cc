@@ -28,8 +28,8 @@ Body plain_body(const PlacedShape& placed) {
     body.radius_m = sphere->radius_m;
   } else {
     body.kind = BodyKind::hull;
-    body.hull = std::make_shared<const HullShape>(
-        fit_hull(std::get<Mesh>(placed.shape).data->hull));
+    body.hull =
+        std::make_shared<const HullShape>(fit_hull(std::get<Mesh>(placed.shape).data->hull));
     body.X_PS = placed.X_LS * body.hull->X_MS;
     body.half_length_m = body.hull->half_length_m;
     body.radius_m = body.hull->radius_m;
@@ -62,8 +62,8 @@ double radius_with(const Body& cylinder, double end, const Body& cap) {
   return std::max(cylinder.radius_m, cap.radius_m + (cap.X_PS.translation() - p_end).norm());
 }
 
-// The segment's distance from the box, in the box's frame; the box's size is in its body (of a hull,
-// that of the box around it).
+// The segment's distance from the box, in the box's frame; the box's size is in its body (of a
+// hull, that of the box around it).
 double segment_to_box(const PlacedBody& at_box, const Body& box, const CenteredSegment& segment) {
   const auto R_BW = at_box.X_WS.linear().transpose();
   return segment_box_distance(
@@ -92,8 +92,8 @@ double bound_of_hull(const Body& a, const PlacedBody& at_a, const Body& b, const
   }
   const double capsules =
       segment_segment_distance(at_a.segment, at_b.segment) - a.radius_m - b.radius_m;
-  const double boxes = has_box(b) ? face_gap(a, at_a, b, at_b)
-                                  : segment_to_box(at_a, a, at_b.segment) - b.radius_m;
+  const double boxes =
+      has_box(b) ? face_gap(a, at_a, b, at_b) : segment_to_box(at_a, a, at_b.segment) - b.radius_m;
   return std::max(capsules, boxes);
 }
 

@@ -61,7 +61,8 @@ HullShape fit_hull(const ConvexHull& hull_M) {
   }
   for (const Eigen::Vector3d& p : shape.hull.vertices) {
     const double beside = std::hypot(p.x(), p.y());
-    const double cap = std::sqrt(std::max(0.0, (shape.radius_m - beside) * (shape.radius_m + beside)));
+    const double cap =
+        std::sqrt(std::max(0.0, (shape.radius_m - beside) * (shape.radius_m + beside)));
     shape.half_length_m = std::max(shape.half_length_m, std::abs(p.z()) - cap);
   }
   shape.radius_m *= 1.0 + 4.0 * std::numeric_limits<double>::epsilon();

@@ -12,12 +12,12 @@ namespace armloom {
 
 // Everything that a collision query needs and that does not move: the shapes of all links and
 // objects as FCL geometry (each cylinder with two end spheres of its radius merged into the exact
-// capsule, each mesh its convex hull), and the pairs that must be looked at (the allowed-collision matrix, applied).
-// Immutable and shared by all threads; a changed scene is a new one.
+// capsule, each mesh its convex hull), and the pairs that must be looked at (the allowed-collision
+// matrix, applied). Immutable and shared by all threads; a changed scene is a new one.
 class PlanningScene {
  public:
-  // Problems: a mesh whose data is missing (Mesh::data), an object name used twice or unknown in the cell's
-  // allowed collisions.
+  // Problems: a mesh whose data is missing (Mesh::data), an object name used twice or unknown in
+  // the cell's allowed collisions.
   [[nodiscard]] static Result<std::shared_ptr<const PlanningScene>> build(CellPtr cell);
   ~PlanningScene();
 

@@ -16,8 +16,8 @@
 namespace armloom {
 namespace {
 
-std::optional<std::string> load(const std::string& path, const std::string& pointer, const std::string& whose,
-                                Findings& findings) {
+std::optional<std::string> load(const std::string& path, const std::string& pointer,
+                                const std::string& whose, Findings& findings) {
   auto text = read_text_file(path, pointer, whose);
   if (text) return *std::move(text);
   for (Problem& problem : text.error()) findings.add(std::move(problem));
@@ -25,8 +25,8 @@ std::optional<std::string> load(const std::string& path, const std::string& poin
 }
 
 // Fills in the shape's triangles when it is a mesh.
-void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& whose, MeshShelf& meshes,
-                  Findings& findings) {
+void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& whose,
+                  MeshShelf& meshes, Findings& findings) {
   auto* mesh = std::get_if<Mesh>(&shape);
   if (mesh == nullptr) return;
   auto data = meshes.get(mesh->path, mesh->scale, pointer, whose);
@@ -40,7 +40,8 @@ void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& w
 void load_meshes_of(RobotTree& tree, MeshShelf& meshes, Findings& findings) {
   for (TreeLink& link : tree.links) {
     const std::string place = tree.file + ": link " + link.name;
-    for (PlacedShape& placed : link.shapes) load_mesh_of(placed.shape, place, place, meshes, findings);
+    for (PlacedShape& placed : link.shapes)
+      load_mesh_of(placed.shape, place, place, meshes, findings);
   }
 }
 
@@ -57,8 +58,8 @@ void load_meshes_of_objects(Cell& cell, MeshShelf& meshes, Findings& findings) {
 }
 
 // The robot's files, or nothing with the reasons in `findings`.
-std::optional<RobotBuild> read_robot(const RobotDescription& description, std::size_t index, MeshShelf& meshes,
-                                     Findings& findings) {
+std::optional<RobotBuild> read_robot(const RobotDescription& description, std::size_t index,
+                                     MeshShelf& meshes, Findings& findings) {
   const std::string pointer = "/robots/" + std::to_string(index);
   const std::string whose = "robot " + description.name;
   auto urdf = load(description.urdf, pointer + "/urdf", whose, findings);
@@ -69,9 +70,13 @@ std::optional<RobotBuild> read_robot(const RobotDescription& description, std::s
   if (!tree || (!srdf && !description.srdf.empty())) return std::nullopt;
   load_meshes_of(*tree, meshes, findings);
 
-  RobotBuild robot{.id = RobotId(static_cast<std::uint32_t>(index)), .pointer = pointer,
-                   .description = &description, .tree = *std::move(tree), .semantics = std::nullopt,
-                   .links = {}, .joints = {}};
+  RobotBuild robot{.id = RobotId(static_cast<std::uint32_t>(index)),
+                   .pointer = pointer,
+                   .description = &description,
+                   .tree = *std::move(tree),
+                   .semantics = std::nullopt,
+                   .links = {},
+                   .joints = {}};
   if (srdf) {
     robot.semantics = read_srdf(*std::move(srdf), description.srdf, robot.tree, findings);
     if (!robot.semantics) return std::nullopt;
@@ -86,10 +91,16 @@ void add_joints(RobotBuild& robot, Cell& cell) {
       continue;
     }
     robot.joints.push_back(JointId(static_cast<std::uint32_t>(cell.joints.size())));
-    cell.joints.push_back({.name = robot.description->prefix + link.joint, .robot = robot.id, .arm = std::nullopt,
-                           .kind = *link.motion, .lower = link.lower, .upper = link.upper,
-                           .velocity_max = link.velocity_max, .acceleration_max = kDefaultAcceleration,
-                           .jerk_max = kDefaultJerk, .brake = 2.0 * kDefaultAcceleration});
+    cell.joints.push_back({.name = robot.description->prefix + link.joint,
+                           .robot = robot.id,
+                           .arm = std::nullopt,
+                           .kind = *link.motion,
+                           .lower = link.lower,
+                           .upper = link.upper,
+                           .velocity_max = link.velocity_max,
+                           .acceleration_max = kDefaultAcceleration,
+                           .jerk_max = kDefaultJerk,
+                           .brake = 2.0 * kDefaultAcceleration});
   }
 }
 
@@ -97,11 +108,21 @@ void add_joints(RobotBuild& robot, Cell& cell) {
 void add_links(RobotBuild& robot, Cell& cell) {
   for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
     TreeLink& source = robot.tree.links[i];
-    Link link{.name = robot.description->prefix + source.name, .robot = robot.id, .arm = std::nullopt,
-              .parent = std::nullopt, .X_PJ = source.X_PJ, .driver = robot.joints[i], .motion = JointKind::revolute,
-              .axis = source.axis, .multiplier = 1.0, .offset = 0.0, .shapes = std::move(source.shapes)};
-    if (source.parent) link.parent = robot.links[*source.parent];
-    else link.X_PJ = robot.description->X_WB;
+    Link link{.name = robot.description->prefix + source.name,
+              .robot = robot.id,
+              .arm = std::nullopt,
+              .parent = std::nullopt,
+              .X_PJ = source.X_PJ,
+              .driver = robot.joints[i],
+              .motion = JointKind::revolute,
+              .axis = source.axis,
+              .multiplier = 1.0,
+              .offset = 0.0,
+              .shapes = std::move(source.shapes)};
+    if (source.parent)
+      link.parent = robot.links[*source.parent];
+    else
+      link.X_PJ = robot.description->X_WB;
     if (source.motion) link.motion = *source.motion;
     if (source.mimic) {
       link.driver = robot.joints[source.mimic->driver];
@@ -115,8 +136,8 @@ void add_links(RobotBuild& robot, Cell& cell) {
 
 // Prefixed names must not repeat. Two robots of one URDF without prefixes repeat all of them: the
 // first is enough to tell.
-void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links, std::set<std::string>& joints,
-                          Findings& findings) {
+void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links,
+                          std::set<std::string>& joints, Findings& findings) {
   const auto first_taken = [&](const auto& by_name, std::set<std::string>& known) {
     std::optional<std::string> taken;
     for (const auto& entry : by_name) {
@@ -129,14 +150,15 @@ void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links,
     if (!name) return;
     findings.in_cell("duplicate-name", robot.pointer + "/prefix",
                      "robot " + robot.description->name + ": " + kind + " " + *name +
-                         " is a name of another robot too; prefixes must differ", robot.description->prefix);
+                         " is a name of another robot too; prefixes must differ",
+                     robot.description->prefix);
   };
   report("link", first_taken(robot.tree.by_link, links));
   report("joint", first_taken(robot.tree.by_joint, joints));
 }
 
-void check_objects_are_no_links(const CellDescription& description, const std::set<std::string>& links,
-                                Findings& findings) {
+void check_objects_are_no_links(const CellDescription& description,
+                                const std::set<std::string>& links, Findings& findings) {
   for (std::size_t o = 0; o < description.objects.size(); ++o) {
     const std::string& name = description.objects[o].name;
     if (!links.contains(name)) continue;
@@ -148,8 +170,9 @@ void check_objects_are_no_links(const CellDescription& description, const std::s
 void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
   Robot& added = cell.robots[robot.id.index()];
   added.urdf_text = robot.tree.text;
-  added.mesh_files = mesh_files(robot.tree.text, std::filesystem::path(robot.description->urdf).parent_path(),
-                                robot.description->packages);
+  added.mesh_files =
+      mesh_files(robot.tree.text, std::filesystem::path(robot.description->urdf).parent_path(),
+                 robot.description->packages);
   if (robot.semantics) added.srdf_text = robot.semantics->text;
   add_joints(robot, cell);
   add_links(robot, cell);
@@ -166,15 +189,23 @@ void copy_settings(const CellDescription& description, Cell& cell) {
   cell.scheduling = description.scheduling;
   cell.monitor = description.monitor;
   cell.execution = description.execution;
-  for (const auto& object : description.objects) cell.objects.push_back({object.name, object.shape, object.X_WO});
+  for (const auto& object : description.objects)
+    cell.objects.push_back({object.name, object.shape, object.X_WO});
   for (const auto& robot : description.robots) {
-    cell.robots.push_back({.name = robot.name, .prefix = robot.prefix, .X_WB = robot.X_WB, .arms = {},
-                           .urdf_text = {}, .srdf_text = {}, .controller = robot.controller, .mesh_files = {}});
+    cell.robots.push_back({.name = robot.name,
+                           .prefix = robot.prefix,
+                           .X_WB = robot.X_WB,
+                           .arms = {},
+                           .urdf_text = {},
+                           .srdf_text = {},
+                           .controller = robot.controller,
+                           .mesh_files = {}});
   }
 }
 
 void require_an_arm(const CellDescription& description, Findings& findings) {
-  if (description.robots.empty()) return findings.in_cell("no-robot", "/robots", "the cell has no robot");
+  if (description.robots.empty())
+    return findings.in_cell("no-robot", "/robots", "the cell has no robot");
   for (const auto& robot : description.robots) {
     if (!robot.arms.empty()) return;
   }
@@ -199,7 +230,8 @@ Result<CellPtr> build_cell(const CellDescription& description) {
   bool complete = true;
   for (std::size_t r = 0; r < description.robots.size(); ++r) {
     const RobotDescription& robot = description.robots[r];
-    check_pose(robot.X_WB, "/robots/" + std::to_string(r) + "/base", "robot " + robot.name + ": base", findings);
+    check_pose(robot.X_WB, "/robots/" + std::to_string(r) + "/base",
+               "robot " + robot.name + ": base", findings);
     auto build = read_robot(robot, r, meshes, findings);
     if (build) {
       check_prefixed_names(*build, links, joints, findings);

@@ -15,7 +15,9 @@ std::optional<Id> find_by_name(const Things& things, std::string_view name) {
 
 }  // namespace
 
-std::optional<ArmId> Cell::find_arm(std::string_view arm_name) const { return find_by_name<ArmId>(arms, arm_name); }
+std::optional<ArmId> Cell::find_arm(std::string_view arm_name) const {
+  return find_by_name<ArmId>(arms, arm_name);
+}
 std::optional<JointId> Cell::find_joint(std::string_view joint_name) const {
   return find_by_name<JointId>(joints, joint_name);
 }
@@ -30,7 +32,8 @@ Configuration Cell::home() const {
   }
   for (const Arm& each : arms) {
     for (std::size_t j = 0; j < each.joints.size(); ++j) {
-      q[static_cast<Eigen::Index>(each.joints[j].index())] = each.home[static_cast<Eigen::Index>(j)];
+      q[static_cast<Eigen::Index>(each.joints[j].index())] =
+          each.home[static_cast<Eigen::Index>(j)];
     }
   }
   return q;

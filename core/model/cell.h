@@ -30,7 +30,7 @@ struct Joint {
   RobotId robot;
   std::optional<ArmId> arm;  // the arm that it belongs to, as arm or gripper joint
   JointKind kind;
-  double lower;             // rad or m; -inf/+inf for continuous joints
+  double lower;  // rad or m; -inf/+inf for continuous joints
   double upper;
   double velocity_max;      // > 0; rad/s or m/s
   double acceleration_max;  // > 0
@@ -74,7 +74,8 @@ struct Robot {
   std::string urdf_text;  // as read, for the dashboard
   std::string srdf_text;
   ControllerDescription controller;
-  // Meshes as the URDF names them (package://..., of visuals too) and their files, where they exist.
+  // Meshes as the URDF names them (package://..., of visuals too) and their files, where they
+  // exist.
   std::map<std::string, std::string> mesh_files;
 };
 
@@ -88,10 +89,10 @@ struct CollisionObject {
 // Built by build_cell (core/model/build_cell.h), which checks everything first.
 struct Cell {
   std::string name;
-  std::vector<Robot> robots;  // RobotId
-  std::vector<Arm> arms;      // ArmId
-  std::vector<Joint> joints;  // JointId
-  std::vector<Link> links;    // LinkId; parents before children
+  std::vector<Robot> robots;             // RobotId
+  std::vector<Arm> arms;                 // ArmId
+  std::vector<Joint> joints;             // JointId
+  std::vector<Link> links;               // LinkId; parents before children
   std::vector<CollisionObject> objects;  // the scene at start
 
   // Pairs of links that need no check (SRDF, same rigid body), smaller id first.

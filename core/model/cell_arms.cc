@@ -12,15 +12,19 @@ std::string span_text(const Joint& joint) {
 }
 
 // Without an SRDF the robot is one arm of all its joints, and its group has no name.
-std::optional<RobotSemantics::JointSet> group_joints(const RobotBuild& robot, const ArmDescription& arm,
-                                                     const std::string& pointer, Findings& findings) {
+std::optional<RobotSemantics::JointSet> group_joints(const RobotBuild& robot,
+                                                     const ArmDescription& arm,
+                                                     const std::string& pointer,
+                                                     Findings& findings) {
   const auto refuse = [&](const std::string& why) {
-    findings.in_cell("unknown-group", pointer + "/group", "arm " + arm.name + ": " + why, arm.group);
+    findings.in_cell("unknown-group", pointer + "/group", "arm " + arm.name + ": " + why,
+                     arm.group);
     return std::nullopt;
   };
   RobotSemantics::JointSet joints;
   if (!robot.semantics) {
-    if (!arm.group.empty()) return refuse("group " + arm.group + " needs an SRDF, and the robot has none");
+    if (!arm.group.empty())
+      return refuse("group " + arm.group + " needs an SRDF, and the robot has none");
     for (std::size_t i = 0; i < robot.joints.size(); ++i) {
       if (robot.joints[i]) joints.insert(i);
     }
@@ -41,8 +45,9 @@ Eigen::VectorXd read_home(const ArmDescription& description, const std::vector<J
   const bool given = description.home.size() == joints.size();
   if (!given && !description.home.empty()) {
     findings.in_cell("wrong-size", pointer + "/home",
-                     "arm " + description.name + ": home has " + std::to_string(description.home.size()) +
-                         " values, the group has " + std::to_string(joints.size()) + " joints",
+                     "arm " + description.name + ": home has " +
+                         std::to_string(description.home.size()) + " values, the group has " +
+                         std::to_string(joints.size()) + " joints",
                      static_cast<double>(description.home.size()));
   }
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -51,8 +56,9 @@ Eigen::VectorXd read_home(const ArmDescription& description, const std::vector<J
     home[static_cast<Eigen::Index>(j)] = value;
     if (std::isfinite(value) && value >= joint.lower && value <= joint.upper) continue;
     findings.in_cell("limit-exceeded", pointer + "/home/" + std::to_string(j),
-                     "arm " + description.name + ": home of " + joint.name + " is " + text_of(value) + ", outside " +
-                         span_text(joint), value);
+                     "arm " + description.name + ": home of " + joint.name + " is " +
+                         text_of(value) + ", outside " + span_text(joint),
+                     value);
   }
   return home;
 }
@@ -62,30 +68,36 @@ void read_limit(const std::optional<double>& value, const char* key, const std::
   if (!value) return;
   limit = *value;
   if (std::isfinite(*value) && *value > 0.0) return;
-  findings.in_cell("not-positive", pointer + "/" + key,
-                   "joint " + joint + ": " + key + " is " + text_of(*value) + ", it must be greater than 0", *value);
+  findings.in_cell(
+      "not-positive", pointer + "/" + key,
+      "joint " + joint + ": " + key + " is " + text_of(*value) + ", it must be greater than 0",
+      *value);
 }
 
 // Precondition: joint.arm is settled. Limits may name joints of the arm and of its gripper.
-void read_limits(const RobotBuild& robot, const ArmDescription& arm, ArmId id, const std::string& arm_pointer,
-                 Cell& cell, Findings& findings) {
+void read_limits(const RobotBuild& robot, const ArmDescription& arm, ArmId id,
+                 const std::string& arm_pointer, Cell& cell, Findings& findings) {
   for (const auto& [name, given] : arm.limits) {
     const std::string pointer = arm_pointer + "/limits/" + pointer_token(name);
     const auto link = robot.tree.by_joint.find(name);
-    const auto joint_id = link == robot.tree.by_joint.end() ? std::nullopt : robot.joints[link->second];
+    const auto joint_id =
+        link == robot.tree.by_joint.end() ? std::nullopt : robot.joints[link->second];
     if (!joint_id || cell.joint(*joint_id).arm != id) {
-      findings.in_cell("unknown-joint", pointer, "arm " + arm.name + " has no joint " + name + " to limit", name);
+      findings.in_cell("unknown-joint", pointer,
+                       "arm " + arm.name + " has no joint " + name + " to limit", name);
       continue;
     }
     Joint& joint = cell.joints[joint_id->index()];
-    read_limit(given.acceleration, "acceleration_rad_s2", pointer, name, joint.acceleration_max, findings);
+    read_limit(given.acceleration, "acceleration_rad_s2", pointer, name, joint.acceleration_max,
+               findings);
     read_limit(given.jerk, "jerk_rad_s3", pointer, name, joint.jerk_max, findings);
     joint.brake = 2.0 * joint.acceleration_max;
     read_limit(given.brake, "brake_rad_s2", pointer, name, joint.brake, findings);
   }
 }
 
-void read_named_states(const RobotBuild& robot, Arm& arm, const RobotSemantics::JointSet& group, Findings& findings) {
+void read_named_states(const RobotBuild& robot, Arm& arm, const RobotSemantics::JointSet& group,
+                       Findings& findings) {
   if (!robot.semantics) return;
   const auto states = robot.semantics->states.find(arm.group);
   if (states == robot.semantics->states.end()) return;
@@ -96,9 +108,13 @@ void read_named_states(const RobotBuild& robot, Arm& arm, const RobotSemantics::
       const auto value = state.find(joint);
       values[row++] = value == state.end() ? 0.0 : value->second;
       if (value != state.end()) continue;
-      const std::string place = robot.semantics->file + ": group_state " + name + " of " + arm.group;
-      findings.add({ProblemKind::invalid, "missing", place,
-                    place + ": joint " + robot.tree.links[joint].joint + " has no value", {}});
+      const std::string place =
+          robot.semantics->file + ": group_state " + name + " of " + arm.group;
+      findings.add({ProblemKind::invalid,
+                    "missing",
+                    place,
+                    place + ": joint " + robot.tree.links[joint].joint + " has no value",
+                    {}});
     }
     arm.named_states.emplace(name, std::move(values));
   }
@@ -117,8 +133,10 @@ Upstream upstream_of(const RobotBuild& robot, const Cell& cell) {
     auto arms = parent ? up.arms[*parent] : std::set<ArmId>{};
     auto loose = parent ? up.loose_joints[*parent] : std::set<JointId>{};
     if (const auto driver = cell.link(robot.links[i]).driver) {
-      if (const auto arm = cell.joint(*driver).arm) arms.insert(*arm);
-      else loose.insert(*driver);
+      if (const auto arm = cell.joint(*driver).arm)
+        arms.insert(*arm);
+      else
+        loose.insert(*driver);
     }
     up.arms.push_back(std::move(arms));
     up.loose_joints.push_back(std::move(loose));
@@ -129,20 +147,24 @@ Upstream upstream_of(const RobotBuild& robot, const Cell& cell) {
 void refuse_shared_joints(const RobotBuild& robot, const Cell& cell, Findings& findings) {
   const Upstream up = upstream_of(robot, cell);
   const auto refuse = [&](const std::string& sentence) {
-    findings.in_cell("shared-joint", robot.pointer + "/arms", "robot " + robot.description->name + ": " + sentence);
+    findings.in_cell("shared-joint", robot.pointer + "/arms",
+                     "robot " + robot.description->name + ": " + sentence);
   };
   std::set<std::set<ArmId>> told;
   std::map<JointId, std::set<ArmId>> arms_below;
   for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
-    for (const JointId joint : up.loose_joints[i]) arms_below[joint].insert(up.arms[i].begin(), up.arms[i].end());
+    for (const JointId joint : up.loose_joints[i])
+      arms_below[joint].insert(up.arms[i].begin(), up.arms[i].end());
     if (up.arms[i].size() < 2 || !told.insert(up.arms[i]).second) continue;
-    refuse("arms " + cell.arm(*up.arms[i].begin()).name + " and " + cell.arm(*up.arms[i].rbegin()).name +
-           " both move link " + cell.link(robot.links[i]).name + "; such arms are one arm");
+    refuse("arms " + cell.arm(*up.arms[i].begin()).name + " and " +
+           cell.arm(*up.arms[i].rbegin()).name + " both move link " +
+           cell.link(robot.links[i]).name + "; such arms are one arm");
   }
   for (const auto& [joint, arms] : arms_below) {
     if (arms.size() < 2) continue;
     refuse("arms " + cell.arm(*arms.begin()).name + " and " + cell.arm(*arms.rbegin()).name +
-           " share the movable joint " + cell.joint(joint).name + " above them; such arms are one arm");
+           " share the movable joint " + cell.joint(joint).name +
+           " above them; such arms are one arm");
   }
 }
 
@@ -155,15 +177,22 @@ void add_arms(const RobotBuild& robot, Cell& cell, Findings& findings) {
     const auto group = group_joints(robot, description, pointer, findings);
     if (!group) continue;
     const ArmId id(static_cast<std::uint32_t>(cell.arms.size()));
-    Arm arm{.name = description.name, .robot = robot.id, .group = description.group, .joints = {},
-            .gripper_joints = {}, .links = {}, .home = {}, .named_states = {}};
+    Arm arm{.name = description.name,
+            .robot = robot.id,
+            .group = description.group,
+            .joints = {},
+            .gripper_joints = {},
+            .links = {},
+            .home = {},
+            .named_states = {}};
     for (const std::size_t index : *group) {
       const JointId joint_id = *robot.joints[index];
       Joint& joint = cell.joints[joint_id.index()];
       arm.joints.push_back(joint_id);
       if (joint.arm) {
         findings.in_cell("shared-joint", pointer + "/group",
-                         "arm " + arm.name + ": joint " + joint.name + " belongs to arm " + cell.arm(*joint.arm).name,
+                         "arm " + arm.name + ": joint " + joint.name + " belongs to arm " +
+                             cell.arm(*joint.arm).name,
                          joint.name);
       } else {
         joint.arm = id;
@@ -204,8 +233,8 @@ void assign_to_arms(const RobotBuild& robot, Cell& cell, Findings& findings) {
   refuse_shared_joints(robot, cell, findings);
   if (arms.size() != robot.description->arms.size()) return;  // an arm without group was reported
   for (std::size_t a = 0; a < arms.size(); ++a) {
-    read_limits(robot, robot.description->arms[a], arms[a], robot.pointer + "/arms/" + std::to_string(a), cell,
-                findings);
+    read_limits(robot, robot.description->arms[a], arms[a],
+                robot.pointer + "/arms/" + std::to_string(a), cell, findings);
   }
 }
 

@@ -15,7 +15,7 @@ namespace armloom {
 // A cell file as plain data, before anything in it has been checked against the robots' URDFs.
 // Defaults here are the documented defaults of the file. Names are as the file spells them.
 
-struct JointLimitsDescription {  // URDFs carry none of these; absent means the stated default
+struct JointLimitsDescription {        // URDFs carry none of these; absent means the stated default
   std::optional<double> acceleration;  // rad/s^2 (m/s^2), default kDefaultAcceleration
   std::optional<double> jerk;          // rad/s^3 (m/s^3), default kDefaultJerk
   std::optional<double> brake;         // rad/s^2 (m/s^2), default twice the acceleration
@@ -24,8 +24,8 @@ inline constexpr double kDefaultAcceleration = 3.75;
 inline constexpr double kDefaultJerk = 7500.0;
 
 struct ArmDescription {
-  std::string name;   // unique in the cell
-  std::string group;  // SRDF group (a chain, or joints) that the arm consists of
+  std::string name;          // unique in the cell
+  std::string group;         // SRDF group (a chain, or joints) that the arm consists of
   std::vector<double> home;  // group order; empty: every joint at zero, clamped to its limits
   std::map<std::string, JointLimitsDescription> limits;  // by URDF joint name, without prefix
 };
@@ -82,7 +82,8 @@ struct CellDescription {
   std::vector<ObjectDescription> objects;
   std::vector<std::pair<std::string, std::string>> allowed_collisions;  // link or object names
   double clearance_m = 0.02;
-  double self_clearance_m = 0.005;  // of an arm's own links, which pass each other closely by design
+  double self_clearance_m =
+      0.005;  // of an arm's own links, which pass each other closely by design
   CheckingSettings checking;
   SchedulingSettings scheduling;
   MonitorSettings monitor;

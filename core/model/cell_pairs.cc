@@ -9,7 +9,8 @@ void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell) {
   const auto allow = [&](std::size_t a, std::size_t b) {
     cell.allowed_link_pairs.insert(std::minmax(robot.links[a], robot.links[b]));
   };
-  std::map<std::size_t, std::vector<std::size_t>> bodies;  // first link of a rigid body -> its links
+  std::map<std::size_t, std::vector<std::size_t>>
+      bodies;  // first link of a rigid body -> its links
   std::vector<std::size_t> body_of;
   for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
     const TreeLink& link = robot.tree.links[i];
@@ -36,17 +37,21 @@ void allow_pairs_of_cell(const CellDescription& description, Cell& cell, Finding
     const bool a_object = !a && is_object(first);
     const bool b_object = !b && is_object(second);
     if (!a && !a_object) {
-      findings.in_cell("unknown-name", pointer + "/0", "allowed collision: there is no link or object " + first, first);
+      findings.in_cell("unknown-name", pointer + "/0",
+                       "allowed collision: there is no link or object " + first, first);
     }
     if (!b && !b_object) {
-      findings.in_cell("unknown-name", pointer + "/1", "allowed collision: there is no link or object " + second,
-                       second);
+      findings.in_cell("unknown-name", pointer + "/1",
+                       "allowed collision: there is no link or object " + second, second);
     }
     if (a_object && b_object) {
-      findings.in_cell("two-objects", pointer, "allowed collision: " + first + " and " + second +
-                       " are both objects, which are never checked against each other", first);
+      findings.in_cell("two-objects", pointer,
+                       "allowed collision: " + first + " and " + second +
+                           " are both objects, which are never checked against each other",
+                       first);
     } else if (a && b && a == b) {
-      findings.in_cell("same-link", pointer, "allowed collision: " + first + " is named twice", first);
+      findings.in_cell("same-link", pointer, "allowed collision: " + first + " is named twice",
+                       first);
     } else if (a && b) {
       cell.allowed_link_pairs.insert(std::minmax(*a, *b));
     } else if (a && b_object) {

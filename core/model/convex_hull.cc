@@ -113,8 +113,9 @@ std::optional<Points> thickened(const Points& points) {
   Points cubes;
   for (const Eigen::Vector3d& p : points) {
     for (int corner = 0; corner < 8; ++corner) {
-      cubes.push_back(p + 0.5 * kFlat_m * Eigen::Vector3d(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1,
-                                                          corner & 4 ? 1 : -1));
+      cubes.push_back(
+          p + 0.5 * kFlat_m *
+                  Eigen::Vector3d(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
     }
   }
   return cubes;
@@ -135,7 +136,9 @@ Points directions() {
   for (std::size_t i = 0; i < 12; ++i) {
     for (std::size_t j = i + 1; j < 12; ++j) {
       for (std::size_t k = j + 1; k < 12; ++k) {
-        const auto near = [&](std::size_t a, std::size_t b) { return (corners[a] - corners[b]).norm() < 2.1; };
+        const auto near = [&](std::size_t a, std::size_t b) {
+          return (corners[a] - corners[b]).norm() < 2.1;
+        };
         if (near(i, j) && near(j, k) && near(i, k)) faces.push_back({i, j, k});
       }
     }

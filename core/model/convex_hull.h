@@ -4,9 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <vector>
-
 #include <tl/expected.hpp>
+#include <vector>
 
 namespace armloom {
 

@@ -50,8 +50,8 @@ unsigned count_of(const XMLElement& element, const char* attribute, unsigned oth
   unsigned value = otherwise;
   const auto read = element.QueryUnsignedAttribute(attribute, &value);
   if (read == tinyxml2::XML_SUCCESS || read == tinyxml2::XML_NO_ATTRIBUTE) return value;
-  throw Fault{std::string("<") + element.Name() + "> " + attribute + " is '" + element.Attribute(attribute) +
-              "', which is no count"};
+  throw Fault{std::string("<") + element.Name() + "> " + attribute + " is '" +
+              element.Attribute(attribute) + "', which is no count"};
 }
 
 // Calls visit(number) for each word of the element's text; every one must be a Number.
@@ -66,8 +66,8 @@ void each_number(const XMLElement& element, const char* what, const Visit& visit
     Number number{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc{} || end != word.data() + word.size()) {
-      throw Fault{std::string("<") + element.Name() + "> holds '" + std::string(word.substr(0, 40)) +
-                  "', which is no " + what};
+      throw Fault{std::string("<") + element.Name() + "> holds '" +
+                  std::string(word.substr(0, 40)) + "', which is no " + what};
     }
     visit(number);
     text.remove_prefix(word.size());
@@ -91,8 +91,9 @@ std::size_t check_source(XMLElement& source) {
     if (!is_one_of(array, {"float_array"})) return;
     const std::size_t numbers = count_numbers<double>(array, "number");
     if (count_of(array, "count", 0) != numbers) {
-      throw Fault{"<float_array> says that it holds " + std::to_string(count_of(array, "count", 0)) +
-                  " numbers and holds " + std::to_string(numbers)};
+      throw Fault{"<float_array> says that it holds " +
+                  std::to_string(count_of(array, "count", 0)) + " numbers and holds " +
+                  std::to_string(numbers)};
     }
     if (array.Attribute("id") != nullptr) arrays[array.Attribute("id")] = numbers;
   });
@@ -104,7 +105,8 @@ std::size_t check_source(XMLElement& source) {
       const std::size_t stride = count_of(accessor, "stride", 1);
       std::size_t parameters = 0;
       each_child(accessor, [&](XMLElement&) { ++parameters; });
-      const std::size_t end = count_of(accessor, "offset", 0) + stride * count_of(accessor, "count", 0);
+      const std::size_t end =
+          count_of(accessor, "offset", 0) + stride * count_of(accessor, "count", 0);
       if (array == arrays.end() || parameters > stride || end > array->second) {
         throw Fault{"an <accessor> asks for more than its array holds"};
       }
@@ -160,7 +162,8 @@ class DaeReader {
  public:
   // Cuts and checks the document. Throws Fault.
   explicit DaeReader(XMLElement& root) {
-    keep_children(root, {"asset", "library_geometries", "library_nodes", "library_visual_scenes", "scene"});
+    keep_children(
+        root, {"asset", "library_geometries", "library_nodes", "library_visual_scenes", "scene"});
     each_child(root, [&](XMLElement& library) {
       if (is_one_of(library, {"library_geometries"})) {
         each_child(library, [&](XMLElement& geometry) { read_geometry(geometry); });
@@ -177,7 +180,8 @@ class DaeReader {
     keep_children(geometry, {"mesh"});
     std::size_t triangles = 0;
     each_child(geometry, [&](XMLElement& mesh) {
-      keep_children(mesh, {"source", "vertices", "triangles", "polylist", "polygons", "tristrips", "trifans"});
+      keep_children(mesh, {"source", "vertices", "triangles", "polylist", "polygons", "tristrips",
+                           "trifans"});
       std::size_t elements = 0;
       each_child(mesh, [&](XMLElement& part) {
         if (is_one_of(part, {"source"})) elements = std::max(elements, check_source(part));
@@ -197,11 +201,13 @@ class DaeReader {
         throw Fault{std::string("<") + child.Name() + "> is not supported"};
       }
     });
-    keep_children(node, {"node", "matrix", "translate", "rotate", "scale", "lookat", "instance_geometry",
-                         "instance_node"});
+    keep_children(node, {"node", "matrix", "translate", "rotate", "scale", "lookat",
+                         "instance_geometry", "instance_node"});
     const char* id = node.Attribute("id");
-    if (is_one_of(node, {"visual_scene"})) scenes_.emplace_back(id == nullptr ? "" : id, &node);
-    else if (id != nullptr) nodes_.try_emplace(id, &node);
+    if (is_one_of(node, {"visual_scene"}))
+      scenes_.emplace_back(id == nullptr ? "" : id, &node);
+    else if (id != nullptr)
+      nodes_.try_emplace(id, &node);
     each_child(node, [&](XMLElement& child) {
       if (is_one_of(child, {"node"})) return read_node(child);
       if (is_one_of(child, {"instance_geometry", "instance_node"})) return child.DeleteChildren();
@@ -216,7 +222,8 @@ class DaeReader {
     if (known != placed_.end()) return known->second;
     if (!open_.insert(&node).second) throw Fault{"its nodes place themselves"};
     std::size_t total = 0;
-    for (const auto* child = node.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    for (const auto* child = node.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
       total = sum(total, of_child(*child));
     }
     open_.erase(&node);

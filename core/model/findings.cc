@@ -18,13 +18,17 @@ void Findings::add(Problem problem) {
 
 void Findings::in_cell(std::string slug, std::string pointer, std::string detail,
                        decltype(Problem::value) value) {
-  add({ProblemKind::invalid, std::move(slug), std::move(pointer), std::move(detail), std::move(value)});
+  add({ProblemKind::invalid, std::move(slug), std::move(pointer), std::move(detail),
+       std::move(value)});
 }
 
 Problems Findings::take() {
   if (dropped_ > 0) {
-    kept_.push_back({ProblemKind::invalid, "too-many-problems", "",
-                     "and " + std::to_string(dropped_) + " more problems of the cell", {}});
+    kept_.push_back({ProblemKind::invalid,
+                     "too-many-problems",
+                     "",
+                     "and " + std::to_string(dropped_) + " more problems of the cell",
+                     {}});
   }
   return std::move(kept_);
 }
@@ -38,9 +42,12 @@ std::string text_of(double number) {
 std::string pointer_token(std::string name) {
   std::string token;
   for (const char c : name) {
-    if (c == '~') token += "~0";
-    else if (c == '/') token += "~1";
-    else token += c;
+    if (c == '~')
+      token += "~0";
+    else if (c == '/')
+      token += "~1";
+    else
+      token += c;
   }
   return token;
 }

@@ -20,8 +20,9 @@ void move(const Link& link, double value, Eigen::Isometry3d& X) {
 
 void forward_kinematics(const Cell& cell, const Configuration& q, LinkPoses& X_WL) {
   if (static_cast<std::size_t>(q.size()) != cell.joints.size()) {
-    throw std::invalid_argument("forward_kinematics: q has " + std::to_string(q.size()) + " entries, the cell has " +
-                                std::to_string(cell.joints.size()) + " joints");
+    throw std::invalid_argument("forward_kinematics: q has " + std::to_string(q.size()) +
+                                " entries, the cell has " + std::to_string(cell.joints.size()) +
+                                " joints");
   }
   X_WL.resize(cell.links.size());
   for (std::size_t l = 0; l < cell.links.size(); ++l) {
@@ -29,7 +30,8 @@ void forward_kinematics(const Cell& cell, const Configuration& q, LinkPoses& X_W
     Eigen::Isometry3d& X = X_WL[l];
     X = link.parent ? X_WL[link.parent->index()] * link.X_PJ : link.X_PJ;
     if (link.driver) {
-      move(link, link.multiplier * q[static_cast<Eigen::Index>(link.driver->index())] + link.offset, X);
+      move(link, link.multiplier * q[static_cast<Eigen::Index>(link.driver->index())] + link.offset,
+           X);
     }
   }
 }

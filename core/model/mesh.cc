@@ -67,7 +67,8 @@ Checked<std::string> read_bytes(const std::string& path) {
   if (size > kMaxMeshBytes) {
     return refuse(ProblemKind::too_large, "mesh-too-large",
                   "it has " + std::to_string(size) + " bytes, at most " +
-                      std::to_string(kMaxMeshBytes) + " are read", static_cast<double>(size));
+                      std::to_string(kMaxMeshBytes) + " are read",
+                  static_cast<double>(size));
   }
   std::ifstream stream(path, std::ios::binary);
   std::string bytes(static_cast<std::size_t>(size), '\0');
@@ -90,7 +91,9 @@ class OneStream final : public Assimp::IOStream {
   }
   std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
   aiReturn Seek(std::size_t offset, aiOrigin origin) override {
-    const std::size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? place_ : bytes_.size();
+    const std::size_t from = origin == aiOrigin_SET   ? 0
+                             : origin == aiOrigin_CUR ? place_
+                                                      : bytes_.size();
     if (offset > bytes_.size() - from) return aiReturn_FAILURE;
     place_ = from + offset;
     return aiReturn_SUCCESS;
@@ -145,7 +148,8 @@ class Collector {
       if (face.mNumIndices != 3) continue;  // points and lines have no surface
       if (mesh.triangles.size() >= kMaxMeshTriangles) return false;
       Triangle triangle{};
-      for (std::size_t i = 0; i < 3; ++i) triangle[i] = vertex(part.mVertices[face.mIndices[i]], X_FN);
+      for (std::size_t i = 0; i < 3; ++i)
+        triangle[i] = vertex(part.mVertices[face.mIndices[i]], X_FN);
       mesh.triangles.push_back(triangle);
     }
     return true;
@@ -173,7 +177,8 @@ class Collector {
 // Only the importer for the file's own kind: assimp else also looks at the content.
 void keep_only(Assimp::Importer& importer, const char* extension) {
   std::set<Assimp::BaseImporter*> others;
-  for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) others.insert(importer.GetImporter(i));
+  for (std::size_t i = 0; i < importer.GetImporterCount(); ++i)
+    others.insert(importer.GetImporter(i));
   others.erase(importer.GetImporter(extension));
   for (Assimp::BaseImporter* other : others) {
     importer.UnregisterLoader(other);
@@ -181,7 +186,8 @@ void keep_only(Assimp::Importer& importer, const char* extension) {
   }
 }
 
-Checked<MeshData> import(const std::string& bytes, MeshFormat format, const Eigen::Vector3d& scale) {
+Checked<MeshData> import(const std::string& bytes, MeshFormat format,
+                         const Eigen::Vector3d& scale) {
   static constexpr const char* kExtensions[] = {"stl", "obj", "dae"};
   const char* extension = kExtensions[static_cast<std::size_t>(format)];
   const std::string name = std::string("mesh.") + extension;
@@ -192,8 +198,9 @@ Checked<MeshData> import(const std::string& bytes, MeshFormat format, const Eige
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     const std::string reason = importer.GetErrorString();
-    return refuse(ProblemKind::malformed, "mesh-unreadable",
-                  "it cannot be read as " + std::string(extension) + (reason.empty() ? "" : ": " + reason));
+    return refuse(
+        ProblemKind::malformed, "mesh-unreadable",
+        "it cannot be read as " + std::string(extension) + (reason.empty() ? "" : ": " + reason));
   }
   Collector collector(scale);
   if (!collector.add(*scene, *scene->mRootNode, aiMatrix4x4())) {
@@ -204,17 +211,20 @@ Checked<MeshData> import(const std::string& bytes, MeshFormat format, const Eige
 }
 
 Checked<void> check_vertices(const MeshData& mesh) {
-  if (mesh.triangles.empty()) return refuse(ProblemKind::invalid, "mesh-empty", "it holds no triangle");
+  if (mesh.triangles.empty())
+    return refuse(ProblemKind::invalid, "mesh-empty", "it holds no triangle");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Eigen::Vector3d& p = mesh.vertices[i];
     for (int axis = 0; axis < 3; ++axis) {
-      const std::string place = "vertex " + std::to_string(i) + ": " + "xyz"[axis] + " is " + text_of(p[axis]);
+      const std::string place =
+          "vertex " + std::to_string(i) + ": " + "xyz"[axis] + " is " + text_of(p[axis]);
       if (!std::isfinite(p[axis])) {
         return refuse(ProblemKind::invalid, "mesh-not-finite", place, text_of(p[axis]));
       }
       if (std::abs(p[axis]) > kMaxMeshReach_m) {
         return refuse(ProblemKind::too_large, "mesh-too-large",
-                      place + " m, at most " + text_of(kMaxMeshReach_m) + " m are allowed", p[axis]);
+                      place + " m, at most " + text_of(kMaxMeshReach_m) + " m are allowed",
+                      p[axis]);
       }
     }
   }
@@ -232,12 +242,14 @@ Checked<std::string> checked_bytes(const std::string& path, MeshFormat format) {
     most = essence->triangles;
     bytes = std::move(essence->text);
   } else {
-    most = format == MeshFormat::stl ? most_triangles_of_stl(*bytes) : most_triangles_of_obj(*bytes);
+    most =
+        format == MeshFormat::stl ? most_triangles_of_stl(*bytes) : most_triangles_of_obj(*bytes);
   }
   if (most <= kMaxMeshTriangles) return bytes;
   return refuse(ProblemKind::too_large, "mesh-too-large",
                 "it has " + std::to_string(most) + " triangles, at most " +
-                    std::to_string(kMaxMeshTriangles) + " are read", static_cast<double>(most));
+                    std::to_string(kMaxMeshTriangles) + " are read",
+                static_cast<double>(most));
 }
 
 Checked<MeshPtr> load(const std::string& path, const Eigen::Vector3d& scale) {
@@ -252,7 +264,8 @@ Checked<MeshPtr> load(const std::string& path, const Eigen::Vector3d& scale) {
   if (!mesh) return tl::unexpected(mesh.error());
   if (const auto sound = check_vertices(*mesh); !sound) return tl::unexpected(sound.error());
   auto hull = convex_hull(mesh->vertices);
-  if (!hull) return refuse(ProblemKind::invalid, "mesh-hull", "it has no convex hull: " + hull.error());
+  if (!hull)
+    return refuse(ProblemKind::invalid, "mesh-hull", "it has no convex hull: " + hull.error());
   mesh->hull = *std::move(hull);
   return std::make_shared<const MeshData>(*std::move(mesh));
 }

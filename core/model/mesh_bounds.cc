@@ -27,10 +27,12 @@ std::size_t most_triangles_of_stl(std::string_view bytes) {
   if (bytes.size() >= kHeader) {
     std::uint32_t count = 0;
     std::memcpy(&count, bytes.data() + 80, sizeof count);
-    if (bytes.size() == kHeader + std::size_t{50} * count || !bytes.starts_with("solid")) return count;
+    if (bytes.size() == kHeader + std::size_t{50} * count || !bytes.starts_with("solid"))
+      return count;
   }
   std::size_t corners = 0;
-  for (auto at = bytes.find("vertex"); at != bytes.npos; at = bytes.find("vertex", at + 6)) ++corners;
+  for (auto at = bytes.find("vertex"); at != bytes.npos; at = bytes.find("vertex", at + 6))
+    ++corners;
   return corners / 3;
 }
 

@@ -21,8 +21,9 @@ bool is_below(const fs::path& folder, const fs::path& file) {
 
 }  // namespace
 
-tl::expected<fs::path, std::string> resolve_mesh(const std::string& uri, const fs::path& urdf_folder,
-                                                 const std::map<std::string, std::string>& packages) {
+tl::expected<fs::path, std::string> resolve_mesh(
+    const std::string& uri, const fs::path& urdf_folder,
+    const std::map<std::string, std::string>& packages) {
   constexpr std::string_view kPackage = "package://";
   fs::path folder = urdf_folder;
   fs::path inside = uri;
@@ -30,7 +31,8 @@ tl::expected<fs::path, std::string> resolve_mesh(const std::string& uri, const f
     const auto slash = uri.find('/', kPackage.size());
     const auto name = uri.substr(kPackage.size(), slash - kPackage.size());
     const auto package = packages.find(name);
-    if (slash == std::string::npos) return tl::unexpected<std::string>("names no file in its package");
+    if (slash == std::string::npos)
+      return tl::unexpected<std::string>("names no file in its package");
     if (package == packages.end()) {
       return tl::unexpected("is in package '" + name + "', which the cell's packages do not name");
     }
@@ -59,7 +61,8 @@ tl::expected<fs::path, std::string> resolve_mesh(const std::string& uri, const f
   return real_file;
 }
 
-std::map<std::string, std::string> mesh_files(const std::string& urdf_text, const fs::path& urdf_folder,
+std::map<std::string, std::string> mesh_files(const std::string& urdf_text,
+                                              const fs::path& urdf_folder,
                                               const std::map<std::string, std::string>& packages) {
   // Calls for each element in the document's order.
   struct MeshNames final : tinyxml2::XMLVisitor {
@@ -76,7 +79,8 @@ std::map<std::string, std::string> mesh_files(const std::string& urdf_text, cons
   std::map<std::string, std::string> files;
   for (const std::string& name : found.names) {
     if (!is_mesh_name(name)) continue;
-    if (const auto file = resolve_mesh(name, urdf_folder, packages)) files.emplace(name, file->string());
+    if (const auto file = resolve_mesh(name, urdf_folder, packages))
+      files.emplace(name, file->string());
   }
   return files;
 }

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <map>
 #include <string>
-
 #include <tl/expected.hpp>
 
 namespace armloom {
@@ -19,8 +18,8 @@ namespace armloom {
     const std::map<std::string, std::string>& packages);
 
 // All meshes that the URDF names, in visuals too, as it names them, with their files: those that
-// resolve_mesh finds and whose names say that they can be read (is_mesh_name). Precondition: the text
-// is XML, else nothing is found.
+// resolve_mesh finds and whose names say that they can be read (is_mesh_name). Precondition: the
+// text is XML, else nothing is found.
 [[nodiscard]] std::map<std::string, std::string> mesh_files(
     const std::string& urdf_text, const std::filesystem::path& urdf_folder,
     const std::map<std::string, std::string>& packages);

@@ -18,9 +18,9 @@ struct RobotBuild {
   std::string pointer;  // "/robots/0"
   const RobotDescription* description;
   RobotTree tree;
-  std::optional<RobotSemantics> semantics;          // none: the robot has no SRDF
-  std::vector<LinkId> links;                        // tree index -> link of the cell
-  std::vector<std::optional<JointId>> joints;       // tree index -> joint of the cell, if independent
+  std::optional<RobotSemantics> semantics;     // none: the robot has no SRDF
+  std::vector<LinkId> links;                   // tree index -> link of the cell
+  std::vector<std::optional<JointId>> joints;  // tree index -> joint of the cell, if independent
 };
 
 // Adds the robot's arms to the cell, with joints, home, limits and named states; then settles which

@@ -41,7 +41,7 @@ struct TreeLink {
 struct RobotTree {
   std::string file;  // file name without folder, as places name it
   std::string text;
-  std::vector<TreeLink> links;                // depth first: parents before children
+  std::vector<TreeLink> links;                  // depth first: parents before children
   std::map<std::string, std::size_t> by_link;   // link name -> index
   std::map<std::string, std::size_t> by_joint;  // joint name -> index of the link that it moves
 };

@@ -21,19 +21,21 @@ struct Group {
 
 class GroupReader {
  public:
-  GroupReader(const std::string& file, const RobotTree& tree, const std::set<std::string>& virtual_joints,
-              Findings& findings)
+  GroupReader(const std::string& file, const RobotTree& tree,
+              const std::set<std::string>& virtual_joints, Findings& findings)
       : file_(file), tree_(tree), virtual_joints_(virtual_joints), findings_(findings) {}
 
   void read(const XMLElement& element) {
-    const XmlPlace at_line(file_ + ": group at line " + std::to_string(element.GetLineNum()), findings_);
+    const XmlPlace at_line(file_ + ": group at line " + std::to_string(element.GetLineNum()),
+                           findings_);
     const std::string name = at_line.name(element, "name");
     if (name.empty()) return;
     const XmlPlace place = place_of(name);
     const auto [entry, first] = groups_.emplace(name, Group{});
     if (!first) return place.report("duplicate-name", "more than one group has this name", name);
     place.only_children(element, {"chain", "joint", "link", "group", "passive_joint"});
-    for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    for (const auto* child = element.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
       read_member(*child, place, entry->second);
     }
   }
@@ -45,7 +47,9 @@ class GroupReader {
   }
 
  private:
-  XmlPlace place_of(const std::string& group) const { return {file_ + ": group " + group, findings_}; }
+  XmlPlace place_of(const std::string& group) const {
+    return {file_ + ": group " + group, findings_};
+  }
 
   void read_member(const XMLElement& member, const XmlPlace& place, Group& group) {
     const std::string_view tag = member.Name();
@@ -58,7 +62,8 @@ class GroupReader {
     const auto& index = tag == "joint" ? tree_.by_joint : tree_.by_link;
     const auto found = index.find(name);
     if (found == index.end()) {
-      return place.report("unknown-name", std::string(tag) + " " + name + " is not in " + tree_.file, name);
+      return place.report("unknown-name",
+                          std::string(tag) + " " + name + " is not in " + tree_.file, name);
     }
     add(found->second, group);
   }
@@ -71,18 +76,22 @@ class GroupReader {
     std::optional<std::size_t> link = *tip;
     for (; link && *link != *base; link = tree_.links[*link].parent) joints.insert(*link);
     if (!link) {
-      return place.report("broken-chain", "tip_link " + tree_.links[*tip].name + " is not below base_link " +
-                          tree_.links[*base].name, tree_.links[*tip].name);
+      return place.report("broken-chain",
+                          "tip_link " + tree_.links[*tip].name + " is not below base_link " +
+                              tree_.links[*base].name,
+                          tree_.links[*tip].name);
     }
     for (const std::size_t joint : joints) add(joint, group);
   }
 
-  std::optional<std::size_t> link_at(const XMLElement& chain, const char* end, const XmlPlace& place) const {
+  std::optional<std::size_t> link_at(const XMLElement& chain, const char* end,
+                                     const XmlPlace& place) const {
     const std::string name = place.name(chain, end);
     if (name.empty()) return std::nullopt;
     const auto found = tree_.by_link.find(name);
     if (found != tree_.by_link.end()) return found->second;
-    place.report("unknown-name", "chain " + std::string(end) + " " + name + " is not in " + tree_.file, name);
+    place.report("unknown-name",
+                 "chain " + std::string(end) + " " + name + " is not in " + tree_.file, name);
     return std::nullopt;
   }
 
@@ -99,7 +108,8 @@ class GroupReader {
       if (found == groups_.end()) {
         place_of(name).report("unknown-name", "group " + subgroup + " does not exist", subgroup);
       } else if (found->second.mark == Group::Mark::open) {
-        place_of(name).report("group-cycle", "group " + subgroup + " holds this group too: a cycle", subgroup);
+        place_of(name).report("group-cycle", "group " + subgroup + " holds this group too: a cycle",
+                              subgroup);
       } else {
         const JointSet& below = joints_of(subgroup, found->second);
         group.joints.insert(below.begin(), below.end());
@@ -118,8 +128,10 @@ class GroupReader {
 
 }  // namespace
 
-std::map<std::string, JointSet> read_groups(const XMLElement& srdf, const std::string& file, const RobotTree& tree,
-                                            const std::set<std::string>& virtual_joints, Findings& findings) {
+std::map<std::string, JointSet> read_groups(const XMLElement& srdf, const std::string& file,
+                                            const RobotTree& tree,
+                                            const std::set<std::string>& virtual_joints,
+                                            Findings& findings) {
   constexpr std::size_t kMaxGroups = 1000;  // also bounds how deep groups can hold each other
   GroupReader reader(file, tree, virtual_joints, findings);
   std::size_t count = 0;
@@ -127,7 +139,8 @@ std::map<std::string, JointSet> read_groups(const XMLElement& srdf, const std::s
        group = group->NextSiblingElement("group")) {
     if (++count > kMaxGroups) {
       XmlPlace(file + ": robot", findings)
-          .report("too-many-groups", "more than " + std::to_string(kMaxGroups) + " groups", {}, ProblemKind::too_large);
+          .report("too-many-groups", "more than " + std::to_string(kMaxGroups) + " groups", {},
+                  ProblemKind::too_large);
       break;
     }
     reader.read(*group);

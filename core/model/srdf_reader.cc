@@ -23,9 +23,11 @@ class SrdfReader {
     const std::size_t before = findings_.count();
     semantics.groups = read_groups(srdf_, file_, tree_, virtual_joints, findings_);
     if (findings_.count() == before) {  // states of broken groups would only repeat what is wrong
-      for_each("group_state", [&](const XMLElement& state) { read_state(state, virtual_joints, semantics); });
+      for_each("group_state",
+               [&](const XMLElement& state) { read_state(state, virtual_joints, semantics); });
     }
-    for_each("passive_joint", [&](const XMLElement& passive) { read_passive_joint(passive, virtual_joints); });
+    for_each("passive_joint",
+             [&](const XMLElement& passive) { read_passive_joint(passive, virtual_joints); });
     read_allowed_pairs(semantics);
     return semantics;
   }
@@ -33,30 +35,35 @@ class SrdfReader {
  private:
   template <class Visit>
   void for_each(const char* tag, Visit visit) const {
-    for (const auto* child = srdf_.FirstChildElement(tag); child != nullptr; child = child->NextSiblingElement(tag)) {
+    for (const auto* child = srdf_.FirstChildElement(tag); child != nullptr;
+         child = child->NextSiblingElement(tag)) {
       visit(*child);
     }
   }
 
   XmlPlace at_line(const XMLElement& element) const {
-    return {file_ + ": " + element.Name() + " at line " + std::to_string(element.GetLineNum()), findings_};
+    return {file_ + ": " + element.Name() + " at line " + std::to_string(element.GetLineNum()),
+            findings_};
   }
 
   std::set<std::string> read_virtual_joints() const {
     std::set<std::string> names;
-    for_each("virtual_joint", [&](const XMLElement& joint) { names.insert(at_line(joint).name(joint, "name")); });
+    for_each("virtual_joint",
+             [&](const XMLElement& joint) { names.insert(at_line(joint).name(joint, "name")); });
     return names;
   }
 
   // The value of a passive joint is not ours to command; only its name can be wrong.
-  void read_passive_joint(const XMLElement& passive, const std::set<std::string>& virtual_joints) const {
+  void read_passive_joint(const XMLElement& passive,
+                          const std::set<std::string>& virtual_joints) const {
     const XmlPlace place = at_line(passive);
     const std::string name = place.name(passive, "name");
     if (name.empty() || virtual_joints.contains(name) || tree_.by_joint.contains(name)) return;
     place.report("unknown-name", "joint " + name + " is not in " + tree_.file, name);
   }
 
-  void read_state(const XMLElement& element, const std::set<std::string>& virtual_joints, RobotSemantics& semantics) const {
+  void read_state(const XMLElement& element, const std::set<std::string>& virtual_joints,
+                  RobotSemantics& semantics) const {
     const XmlPlace line = at_line(element);
     const std::string name = line.name(element, "name");
     const std::string group = line.name(element, "group");
@@ -85,15 +92,19 @@ class SrdfReader {
     if (found == tree_.by_joint.end()) {
       return place.report("unknown-name", "joint " + name + " is not in " + tree_.file, name);
     }
-    const auto value = XmlPlace(place.text() + ": joint " + name, findings_).number(element, "value", Presence::required);
+    const auto value = XmlPlace(place.text() + ": joint " + name, findings_)
+                           .number(element, "value", Presence::required);
     const TreeLink& link = tree_.links[found->second];
-    if (!value || !link.is_independent()) return;  // fixed and mimic joints have no value of their own
+    if (!value || !link.is_independent())
+      return;  // fixed and mimic joints have no value of their own
     if (!group.contains(found->second)) {
       return place.report("foreign-joint", "joint " + name + " is not in the group", name);
     }
     if (*value < link.lower || *value > link.upper) {
-      place.report("limit-exceeded", "joint " + name + " is at " + text_of(*value) + ", outside [" +
-                   text_of(link.lower) + ", " + text_of(link.upper) + "]", *value);
+      place.report("limit-exceeded",
+                   "joint " + name + " is at " + text_of(*value) + ", outside [" +
+                       text_of(link.lower) + ", " + text_of(link.upper) + "]",
+                   *value);
     }
     if (!state.emplace(found->second, *value).second) {
       place.report("duplicate-name", "joint " + name + " has more than one value", name);
@@ -116,7 +127,9 @@ class SrdfReader {
       const auto a = link_at(element, "link1");
       const auto b = link_at(element, "link2");
       if (!a || !b) return;
-      if (a == b) return at_line(element).report("same-link", "link1 and link2 are the same link", tree_.links[*a].name);
+      if (a == b)
+        return at_line(element).report("same-link", "link1 and link2 are the same link",
+                                       tree_.links[*a].name);
       visit(std::minmax(*a, *b));
     });
   }
@@ -128,8 +141,10 @@ class SrdfReader {
         if (other != *link) semantics.allowed_pairs.insert(std::minmax(*link, other));
       }
     });
-    for_each_pair("enable_collisions", [&](const auto& pair) { semantics.allowed_pairs.erase(pair); });
-    for_each_pair("disable_collisions", [&](const auto& pair) { semantics.allowed_pairs.insert(pair); });
+    for_each_pair("enable_collisions",
+                  [&](const auto& pair) { semantics.allowed_pairs.erase(pair); });
+    for_each_pair("disable_collisions",
+                  [&](const auto& pair) { semantics.allowed_pairs.insert(pair); });
   }
 
   const XMLElement& srdf_;
@@ -140,8 +155,8 @@ class SrdfReader {
 
 }  // namespace
 
-std::optional<RobotSemantics> read_srdf(std::string text, const std::filesystem::path& path, const RobotTree& tree,
-                                        Findings& findings) {
+std::optional<RobotSemantics> read_srdf(std::string text, const std::filesystem::path& path,
+                                        const RobotTree& tree, Findings& findings) {
   const std::size_t before = findings.count();
   const std::string file = path.filename().string();
   tinyxml2::XMLDocument document;

@@ -20,13 +20,16 @@ void check_origin(const XMLElement& parent, const XmlPlace& place) {
   }
 }
 
-void check_positive(const XMLElement& shape, const char* attribute, std::size_t size, const XmlPlace& place) {
+void check_positive(const XMLElement& shape, const char* attribute, std::size_t size,
+                    const XmlPlace& place) {
   const auto read = place.numbers(shape, attribute, size, Presence::required);
   if (!read) return;
   for (const double number : *read) {
     if (number > 0.0) continue;
-    place.report("not-positive", std::string(shape.Name()) + " " + attribute + " is " + text_of(number) +
-                                     " m, it must be greater than 0", number);
+    place.report("not-positive",
+                 std::string(shape.Name()) + " " + attribute + " is " + text_of(number) +
+                     " m, it must be greater than 0",
+                 number);
   }
 }
 
@@ -56,9 +59,10 @@ void check_collision(const XMLElement& collision, const XmlPlace& place) {
     check_positive(*shape, "radius", 1, place);
     return check_positive(*shape, "length", 1, place);
   }
-  place.report("unsupported-shape", "collision geometry <" + std::string(kind) +
-               "> is not supported (box, cylinder, sphere, mesh are)", std::string(kind),
-               ProblemKind::unsupported);
+  place.report("unsupported-shape",
+               "collision geometry <" + std::string(kind) +
+                   "> is not supported (box, cylinder, sphere, mesh are)",
+               std::string(kind), ProblemKind::unsupported);
 }
 
 // Visuals and masses play no part in the model; their numbers still reach the dashboard.
@@ -88,8 +92,8 @@ void check_inertial(const XMLElement& link, const XmlPlace& place) {
 }
 
 void check_link(const XMLElement& link, const XmlPlace& place) {
-  place.only_children(link, {"inertial", "visual", "collision", "contact", "sensor", "gazebo", "material",
-                             "self_collision_checking", "verbose"});
+  place.only_children(link, {"inertial", "visual", "collision", "contact", "sensor", "gazebo",
+                             "material", "self_collision_checking", "verbose"});
   check_inertial(link, place);
   for (const auto* visual = link.FirstChildElement("visual"); visual != nullptr;
        visual = visual->NextSiblingElement("visual")) {
@@ -104,19 +108,25 @@ void check_link(const XMLElement& link, const XmlPlace& place) {
 void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace& place) {
   const bool movable = type != "fixed";
   const bool bounded = type == "revolute" || type == "prismatic";
-  const auto* limit = place.only_child(joint, "limit", movable ? Presence::required : Presence::optional);
+  const auto* limit =
+      place.only_child(joint, "limit", movable ? Presence::required : Presence::optional);
   if (limit == nullptr) return;
   const auto presence = movable ? Presence::required : Presence::optional;
   place.number(*limit, "effort", presence);
   const auto velocity = place.number(*limit, "velocity", presence);
   if (movable && velocity && *velocity <= 0.0) {
-    place.report("not-positive", "limit velocity is " + text_of(*velocity) + ", it must be greater than 0", *velocity);
+    place.report("not-positive",
+                 "limit velocity is " + text_of(*velocity) + ", it must be greater than 0",
+                 *velocity);
   }
   // The URDF specification lets lower and upper be absent and takes 0: a joint that cannot move.
-  const auto lower = place.number(*limit, "lower", bounded ? Presence::required : Presence::optional);
-  const auto upper = place.number(*limit, "upper", bounded ? Presence::required : Presence::optional);
+  const auto lower =
+      place.number(*limit, "lower", bounded ? Presence::required : Presence::optional);
+  const auto upper =
+      place.number(*limit, "upper", bounded ? Presence::required : Presence::optional);
   if (bounded && lower && upper && *lower > *upper) {
-    place.report("limits-crossed", "limit lower " + text_of(*lower) + " is above upper " + text_of(*upper), *lower);
+    place.report("limits-crossed",
+                 "limit lower " + text_of(*lower) + " is above upper " + text_of(*upper), *lower);
   }
 }
 
@@ -128,13 +138,14 @@ void check_axis(const XMLElement& joint, const XmlPlace& place) {
   const double norm = std::hypot((*read)[0], (*read)[1], (*read)[2]);
   const std::string_view type = joint.Attribute("type");
   if (type != "fixed" && (norm < 1e-6 || !std::isfinite(norm))) {
-    place.report("zero-axis", std::string("axis xyz '") + axis->Attribute("xyz") + "' has no direction", norm);
+    place.report("zero-axis",
+                 std::string("axis xyz '") + axis->Attribute("xyz") + "' has no direction", norm);
   }
 }
 
 void check_joint(const XMLElement& joint, const XmlPlace& place) {
-  place.only_children(joint, {"origin", "parent", "child", "axis", "limit", "mimic", "dynamics", "calibration",
-                              "safety_controller", "joint_properties", "gazebo"});
+  place.only_children(joint, {"origin", "parent", "child", "axis", "limit", "mimic", "dynamics",
+                              "calibration", "safety_controller", "joint_properties", "gazebo"});
   const std::string type = place.name(joint, "type");
   if (type.empty()) return;
   if (type == "floating" || type == "planar") {
@@ -156,8 +167,9 @@ void check_joint(const XMLElement& joint, const XmlPlace& place) {
 
 std::string place_of(const XMLElement& element, const std::string& file) {
   const char* name = element.Attribute("name");
-  const std::string known = name != nullptr && *name != '\0' ? std::string(" ") + name
-                                                             : " at line " + std::to_string(element.GetLineNum());
+  const std::string known = name != nullptr && *name != '\0'
+                                ? std::string(" ") + name
+                                : " at line " + std::to_string(element.GetLineNum());
   return file + ": " + element.Name() + known;
 }
 
@@ -166,7 +178,8 @@ std::string place_of(const XMLElement& element, const std::string& file) {
 void check_urdf_elements(const XMLElement& robot, const std::string& file, Findings& findings) {
   XmlPlace(file + ": robot", findings).name(robot, "name");
   std::size_t links = 0;
-  for (const auto* child = robot.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+  for (const auto* child = robot.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
     const std::string_view tag = child->Name();
     const XmlPlace place(place_of(*child, file), findings);
     if (tag == "link") {
@@ -178,9 +191,10 @@ void check_urdf_elements(const XMLElement& robot, const std::string& file, Findi
   }
   if (links > kMaxLinksOfRobot) {
     XmlPlace(file + ": robot", findings)
-        .report("too-many-links", std::to_string(links) + " links, at most " +
-                std::to_string(kMaxLinksOfRobot) + " are allowed", static_cast<double>(links),
-                ProblemKind::too_large);
+        .report("too-many-links",
+                std::to_string(links) + " links, at most " + std::to_string(kMaxLinksOfRobot) +
+                    " are allowed",
+                static_cast<double>(links), ProblemKind::too_large);
   }
 }
 

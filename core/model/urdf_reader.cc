@@ -37,7 +37,8 @@ void keep_children(XMLElement& element, std::initializer_list<std::string_view> 
 std::string essence(XMLElement& robot) {
   robot.DeleteAttribute("version");
   keep_children(robot, {"link", "joint"});
-  for (auto* child = robot.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+  for (auto* child = robot.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
     if (std::string_view(child->Name()) == "link") {
       keep_children(*child, {"collision"});
     } else if (std::string_view(child->Attribute("type")) == "fixed") {
@@ -53,7 +54,10 @@ std::string essence(XMLElement& robot) {
 
 urdf::ModelInterfaceSharedPtr parse_with_urdfdom(const std::string& xml) {
   // urdfdom writes to the console; our users get one sentence instead.
-  static const bool silenced = [] { console_bridge::noOutputHandler(); return true; }();
+  static const bool silenced = [] {
+    console_bridge::noOutputHandler();
+    return true;
+  }();
   static_cast<void>(silenced);
   try {
     return urdf::parseURDF(xml);
@@ -64,7 +68,8 @@ urdf::ModelInterfaceSharedPtr parse_with_urdfdom(const std::string& xml) {
 
 std::size_t links_written(const XMLElement& robot) {
   std::size_t count = 0;
-  for (const auto* link = robot.FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link")) {
+  for (const auto* link = robot.FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
     ++count;
   }
   return count;
@@ -72,7 +77,8 @@ std::size_t links_written(const XMLElement& robot) {
 
 std::size_t collisions_written(const XMLElement& robot, const std::string& link_name) {
   std::size_t count = 0;
-  for (const auto* link = robot.FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link")) {
+  for (const auto* link = robot.FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
     if (link_name != link->Attribute("name")) continue;
     for (const auto* collision = link->FirstChildElement("collision"); collision != nullptr;
          collision = collision->NextSiblingElement("collision")) {
@@ -95,14 +101,16 @@ struct MeshFolders {
   const std::map<std::string, std::string>* packages;
 };
 
-std::optional<Shape> shape_of(const urdf::Geometry& geometry, const MeshFolders& folders, const XmlPlace& place) {
+std::optional<Shape> shape_of(const urdf::Geometry& geometry, const MeshFolders& folders,
+                              const XmlPlace& place) {
   if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry)) {
     return Box{Eigen::Vector3d(box->dim.x, box->dim.y, box->dim.z)};
   }
   if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(&geometry)) {
     return Cylinder{cylinder->radius, cylinder->length};
   }
-  if (const auto* sphere = dynamic_cast<const urdf::Sphere*>(&geometry)) return Sphere{sphere->radius};
+  if (const auto* sphere = dynamic_cast<const urdf::Sphere*>(&geometry))
+    return Sphere{sphere->radius};
   const auto* mesh = dynamic_cast<const urdf::Mesh*>(&geometry);
   if (mesh == nullptr) return std::nullopt;
   const auto path = resolve_mesh(mesh->filename, folders.urdf_folder, *folders.packages);
@@ -128,7 +136,8 @@ void read_joint(const urdf::Joint& joint, TreeLink& link) {
   link.velocity_max = joint.limits->velocity;
 }
 
-void read_shapes(const urdf::Link& source, const MeshFolders& folders, const XmlPlace& place, TreeLink& link) {
+void read_shapes(const urdf::Link& source, const MeshFolders& folders, const XmlPlace& place,
+                 TreeLink& link) {
   for (const auto& collision : source.collision_array) {
     if (auto shape = shape_of(*collision->geometry, folders, place)) {
       link.shapes.push_back({std::move(*shape), pose_of(collision->origin)});
@@ -137,9 +146,10 @@ void read_shapes(const urdf::Link& source, const MeshFolders& folders, const Xml
 }
 
 // Appends the links depth first, so that parents come before children and a chain stays together.
-void read_links(const urdf::ModelInterface& model, const XMLElement& robot, const MeshFolders& folders,
-                Findings& findings, RobotTree& tree) {
-  std::vector<std::pair<urdf::LinkConstSharedPtr, std::optional<std::size_t>>> open{{model.getRoot(), std::nullopt}};
+void read_links(const urdf::ModelInterface& model, const XMLElement& robot,
+                const MeshFolders& folders, Findings& findings, RobotTree& tree) {
+  std::vector<std::pair<urdf::LinkConstSharedPtr, std::optional<std::size_t>>> open{
+      {model.getRoot(), std::nullopt}};
   while (!open.empty()) {
     const auto [source, parent] = open.back();
     open.pop_back();
@@ -164,7 +174,8 @@ void read_links(const urdf::ModelInterface& model, const XMLElement& robot, cons
     if (!link.parent) continue;
     const auto& mimic = model.getJoint(link.joint)->mimic;
     if (mimic != nullptr) {
-      link.mimic = TreeLink::Mimic{tree.by_joint.at(mimic->joint_name), mimic->multiplier, mimic->offset};
+      link.mimic =
+          TreeLink::Mimic{tree.by_joint.at(mimic->joint_name), mimic->multiplier, mimic->offset};
     }
   }
 }
@@ -172,7 +183,8 @@ void read_links(const urdf::ModelInterface& model, const XMLElement& robot, cons
 }  // namespace
 
 std::optional<RobotTree> read_urdf(std::string text, const std::filesystem::path& path,
-                                   const std::map<std::string, std::string>& packages, Findings& findings) {
+                                   const std::map<std::string, std::string>& packages,
+                                   Findings& findings) {
   RobotTree tree;
   tree.file = path.filename().string();
   tree.text = std::move(text);
@@ -186,8 +198,10 @@ std::optional<RobotTree> read_urdf(std::string text, const std::filesystem::path
   if (findings.count() != before) return std::nullopt;
 
   const auto model = parse_with_urdfdom(essence(*robot));
-  if (model == nullptr || model->getRoot() == nullptr || model->links_.size() != links_written(*robot)) {
-    XmlPlace(tree.file + ": robot", findings).report("urdf-refused", "urdfdom cannot read the file");
+  if (model == nullptr || model->getRoot() == nullptr ||
+      model->links_.size() != links_written(*robot)) {
+    XmlPlace(tree.file + ": robot", findings)
+        .report("urdf-refused", "urdfdom cannot read the file");
     return std::nullopt;
   }
   read_links(*model, *robot, MeshFolders{path.parent_path(), &packages}, findings, tree);

@@ -20,10 +20,12 @@ struct Names {
 
 Names unique_names(const XMLElement& robot, const std::string& file, Findings& findings) {
   Names names;
-  for (const auto* child = robot.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+  for (const auto* child = robot.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
     const std::string tag = child->Name();
     if (tag != "link" && tag != "joint") continue;
-    const XmlPlace at_line(file + ": " + tag + " at line " + std::to_string(child->GetLineNum()), findings);
+    const XmlPlace at_line(file + ": " + tag + " at line " + std::to_string(child->GetLineNum()),
+                           findings);
     const std::string name = at_line.name(*child, "name");
     if (name.empty()) continue;
     auto& known = tag == "link" ? names.links : names.joints;
@@ -36,7 +38,8 @@ Names unique_names(const XMLElement& robot, const std::string& file, Findings& f
 }
 
 // The link that <parent> or <child> of a joint names; empty and reported when there is none.
-std::string link_at(const XMLElement& joint, const char* end, const Names& names, const XmlPlace& place) {
+std::string link_at(const XMLElement& joint, const char* end, const Names& names,
+                    const XmlPlace& place) {
   const auto* element = place.only_child(joint, end, Presence::required);
   if (element == nullptr) return {};
   std::string link = place.name(*element, "link");
@@ -80,7 +83,8 @@ void check_connections(const Names& names, const std::string& file, Findings& fi
     children.emplace(parent, child);
     const auto [above, first] = joint_above.emplace(child, name);
     if (!first) {
-      place.report("two-parents", "child link " + child + " already hangs on joint " + above->second, child);
+      place.report("two-parents",
+                   "child link " + child + " already hangs on joint " + above->second, child);
     }
   }
   if (findings.count() != before) return;  // roots and loops would only repeat it
@@ -98,7 +102,8 @@ void check_connections(const Names& names, const std::string& file, Findings& fi
   }
   const auto loop = roots.empty() ? links : without_reachable(links, *roots.begin(), children);
   if (!loop.empty()) {
-    place.report("loop", "links hang in a loop and not below a root: " + listed(loop), listed(loop));
+    place.report("loop", "links hang in a loop and not below a root: " + listed(loop),
+                 listed(loop));
   }
 }
 
@@ -116,7 +121,8 @@ void check_mimics(const Names& names, const std::string& file, Findings& finding
       place.report("mimic-chain", "the joint mimics itself", followed);
     } else if (driver->second->FirstChildElement("mimic") != nullptr) {
       place.report("mimic-chain", "mimic joint " + followed + " is a mimic itself", followed);
-    } else if (const char* type = driver->second->Attribute("type"); type != nullptr && std::string_view(type) == "fixed") {
+    } else if (const char* type = driver->second->Attribute("type");
+               type != nullptr && std::string_view(type) == "fixed") {
       place.report("mimic-fixed", "mimic joint " + followed + " is fixed", followed);
     }
   }

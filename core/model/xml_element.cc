@@ -20,7 +20,8 @@ const tinyxml2::XMLUnknown* find_declaration(const tinyxml2::XMLNode& node) {
 
 // An element that a xacro macro stands behind, anywhere in the file.
 const tinyxml2::XMLElement* find_xacro(const tinyxml2::XMLElement& element) {
-  for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+  for (const auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
     if (std::string_view(child->Name()).starts_with("xacro:")) return child;
     if (const auto* below = find_xacro(*child)) return below;
   }
@@ -28,7 +29,8 @@ const tinyxml2::XMLElement* find_xacro(const tinyxml2::XMLElement& element) {
 }
 
 std::string why_malformed(const tinyxml2::XMLDocument& document, const std::string& text) {
-  if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) return "elements are nested too deeply";
+  if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED)
+    return "elements are nested too deeply";
   if (text.find("<!DOCTYPE") != std::string::npos) return "a DOCTYPE is not allowed";
   return std::string("the XML is malformed (") + document.ErrorName() + ")";
 }
@@ -54,7 +56,8 @@ tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string
     return refuse(second->GetLineNum(), "the file holds more than one XML element");
   }
   if (std::string_view(root->Name()) != "robot") {
-    return refuse(root->GetLineNum(), std::string("the root element is <") + root->Name() + ">, not <robot>");
+    return refuse(root->GetLineNum(),
+                  std::string("the root element is <") + root->Name() + ">, not <robot>");
   }
   if (const auto* xacro = find_xacro(*root)) {
     return refuse(xacro->GetLineNum(), "the file is xacro, expand it first");
@@ -84,7 +87,8 @@ std::optional<std::vector<double>> XmlPlace::numbers(const tinyxml2::XMLElement&
   }
   auto read = parse_numbers(text);
   if (!read || read->size() != size) {
-    const std::string wanted = size == 1 ? "a finite number" : std::to_string(size) + " finite numbers";
+    const std::string wanted =
+        size == 1 ? "a finite number" : std::to_string(size) + " finite numbers";
     report("not-a-number", what + " is '" + text + "', not " + wanted, std::string(text));
     return std::nullopt;
   }
@@ -104,7 +108,8 @@ const tinyxml2::XMLElement* XmlPlace::only_child(const tinyxml2::XMLElement& ele
                                                  const char* child, Presence presence) const {
   const auto* first = element.FirstChildElement(child);
   if (first == nullptr) {
-    if (presence == Presence::required) report("missing", std::string("<") + child + "> is missing");
+    if (presence == Presence::required)
+      report("missing", std::string("<") + child + "> is missing");
   } else if (first->NextSiblingElement(child) != nullptr) {
     report("duplicate", std::string("more than one <") + child + ">");
   }
@@ -113,7 +118,8 @@ const tinyxml2::XMLElement* XmlPlace::only_child(const tinyxml2::XMLElement& ele
 
 void XmlPlace::only_children(const tinyxml2::XMLElement& element,
                              std::initializer_list<std::string_view> known) const {
-  for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+  for (const auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
     const std::string_view tag = child->Name();
     // An element of another namespace (drake:..., mujoco:...) is an extension, not a misspelling.
     if (tag.find(':') != std::string_view::npos) continue;

@@ -19,9 +19,10 @@ namespace armloom {
 enum class Presence { required, optional };
 
 // Reads XML into `document`. DOCTYPE and entity declarations are refused, and so is nesting deeper
-// than tinyxml2's bound (100), a second root element and unexpanded xacro. Returns the <robot> element, or null after adding what is wrong to
-// `findings` (place: "panda.urdf:12", the line).
-[[nodiscard]] tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string& file,
+// than tinyxml2's bound (100), a second root element and unexpanded xacro. Returns the <robot>
+// element, or null after adding what is wrong to `findings` (place: "panda.urdf:12", the line).
+[[nodiscard]] tinyxml2::XMLElement* parse_robot_xml(const std::string& text,
+                                                    const std::string& file,
                                                     tinyxml2::XMLDocument& document,
                                                     Findings& findings);
 
@@ -29,7 +30,8 @@ enum class Presence { required, optional };
 // it was made with: "panda.urdf: joint panda_joint3". The sentence is place + ": " + what is wrong.
 class XmlPlace {
  public:
-  XmlPlace(std::string place, Findings& findings) : place_(std::move(place)), findings_(&findings) {}
+  XmlPlace(std::string place, Findings& findings)
+      : place_(std::move(place)), findings_(&findings) {}
 
   [[nodiscard]] const std::string& text() const { return place_; }
   void report(std::string slug, const std::string& sentence, decltype(Problem::value) value = {},

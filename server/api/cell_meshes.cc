@@ -12,8 +12,8 @@
 namespace armloom {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kTypes{{
-    {".stl", "model/stl"}, {".obj", "model/obj"}, {".dae", "model/vnd.collada+xml"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kTypes{
+    {{".stl", "model/stl"}, {".obj", "model/obj"}, {".dae", "model/vnd.collada+xml"}}};
 
 Response not_found(const std::string& name, const std::string& why) {
   return problem_response(

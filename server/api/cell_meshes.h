@@ -8,8 +8,8 @@
 
 namespace armloom {
 
-// The mesh files that the cell names, for the dashboard: those of the robots' URDFs, visuals too, and
-// of the objects at start. A request holds a name of mesh_address.h, never a path.
+// The mesh files that the cell names, for the dashboard: those of the robots' URDFs, visuals too,
+// and of the objects at start. A request holds a name of mesh_address.h, never a path.
 class CellMeshes {
  public:
   explicit CellMeshes(const Cell& cell);

@@ -276,8 +276,9 @@ Result<CollisionObject> read_object_text(std::string_view text,
   ObjectDescription object;
   if (node.is_object() && node.has("mesh")) {
     node.optional("mesh", [](const JsonNode& n) {
-      n.invalid("unsupported", "meshes are part of the cell file; over HTTP an object is a box, a "
-                               "cylinder or a sphere");
+      n.invalid("unsupported",
+                "meshes are part of the cell file; over HTTP an object is a box, a "
+                "cylinder or a sphere");
     });
   } else {
     read_object(node, "", object);

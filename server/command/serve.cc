@@ -76,7 +76,8 @@ int serve(const ServeOptions& options) {
   spdlog::info(
       "cell {}: {} arms, policy {}, speed {}", loaded->cell->name, loaded->cell->arms.size(),
       options.policy.empty() ? loaded->cell->scheduling.policy : options.policy, options.speed);
-  if (const auto folder = (*service)->recorded_to()) spdlog::info("recorded to {}", folder->string());
+  if (const auto folder = (*service)->recorded_to())
+    spdlog::info("recorded to {}", folder->string());
   std::cout << "dashboard: " << dashboard_address(service_options.address, (*service)->port())
             << std::endl;
   (*service)->run(true);

@@ -13,10 +13,9 @@ Response page(const char* content_type, std::string_view text) {
 }  // namespace
 
 void add_openapi_routes(Router& router) {
-  router.add("GET", "/openapi.json",
-             [](const Request&, const Router::Arguments&, Respond respond) {
-               respond(page("application/json", openapi_json()));
-             });
+  router.add("GET", "/openapi.json", [](const Request&, const Router::Arguments&, Respond respond) {
+    respond(page("application/json", openapi_json()));
+  });
   router.add("GET", "/docs", [](const Request&, const Router::Arguments&, Respond respond) {
     Response response = page("text/html; charset=utf-8", docs_html());
     response.headers.emplace_back(

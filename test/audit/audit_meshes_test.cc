@@ -61,20 +61,25 @@ TEST(AuditMeshes, ABodyWhollyInsideAnotherIsAContactWhicheverIsTheMesh) {
   const small::Surface small_box = small::box_surface({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05});
   // A second piece, far outside: not its first piece but the second lies inside.
   const small::Surface two = small::joined(small::box_surface({5, 5, 5}, {6, 6, 6}), small_box);
-  const std::pair<Shape, Shape> cases[] = {
-      {small::mesh_of(small_box), small::mesh_of(large)}, {Sphere{0.05}, small::mesh_of(large)},
-      {Cylinder{0.05, 0.1}, small::mesh_of(large)},       {small::mesh_of(small_box), Box{{2, 2, 2}}},
-      {small::mesh_of(small_box), Sphere{1}},             {small::mesh_of(large), Sphere{0.05}},
-      {small::mesh_of(large), small::mesh_of(small_box)}, {small::mesh_of(two), small::mesh_of(large)}};
+  const std::pair<Shape, Shape> cases[] = {{small::mesh_of(small_box), small::mesh_of(large)},
+                                           {Sphere{0.05}, small::mesh_of(large)},
+                                           {Cylinder{0.05, 0.1}, small::mesh_of(large)},
+                                           {small::mesh_of(small_box), Box{{2, 2, 2}}},
+                                           {small::mesh_of(small_box), Sphere{1}},
+                                           {small::mesh_of(large), Sphere{0.05}},
+                                           {small::mesh_of(large), small::mesh_of(small_box)},
+                                           {small::mesh_of(two), small::mesh_of(large)}};
   for (std::size_t i = 0; i < std::size(cases); ++i) {
-    const AuditReport report = at_angle(cell_of(cases[i].first, cases[i].second, small::at_xyz(0.4, 0, 0)), 0.1);
+    const AuditReport report =
+        at_angle(cell_of(cases[i].first, cases[i].second, small::at_xyz(0.4, 0, 0)), 0.1);
     EXPECT_TRUE(report.first_contact.has_value()) << "case " << i;
   }
 }
 
 TEST(AuditMeshes, MeasuresTheSameOverAWholeTurnAsInEachStateAlone) {
   Cell cell = cell_of(small::mesh_of(small::box_surface({-0.1, -0.05, -0.02}, {0.1, 0.05, 0.02})),
-                      small::mesh_of(small::box_surface({-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3})), small::at_xyz(0.75, 0, 0));
+                      small::mesh_of(small::box_surface({-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3})),
+                      small::at_xyz(0.75, 0, 0));
   cell.objects.push_back({"wall", Box{{0.02, 1, 1}}, small::at_xyz(-0.6, 0, 0)});
   std::vector<RecordedState> states;
   double smallest = 1e9;
@@ -91,9 +96,10 @@ TEST(AuditMeshes, MeasuresTheSameOverAWholeTurnAsInEachStateAlone) {
 }
 
 TEST(AuditMeshes, TheClearanceOfTwoBoxesIsTheGapBetweenTheirFaces) {
-  const Cell cell = cell_of(small::mesh_of(small::box_surface({-0.1, -0.05, -0.02}, {0.1, 0.05, 0.02})),
-                            small::mesh_of(small::box_surface({-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3})),
-                            small::at_xyz(0.75, 0, 0));
+  const Cell cell =
+      cell_of(small::mesh_of(small::box_surface({-0.1, -0.05, -0.02}, {0.1, 0.05, 0.02})),
+              small::mesh_of(small::box_surface({-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3})),
+              small::at_xyz(0.75, 0, 0));
   EXPECT_NEAR(at_angle(cell, 0.0).smallest_clearance->distance_m, 0.75 - 0.1 - 0.5, 1e-9);
 }
 

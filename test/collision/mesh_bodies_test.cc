@@ -58,7 +58,8 @@ double brute_distance(const Solid& a, const Solid& b) {
       for (std::size_t k = 0; k < 3; ++k) {
         nearest = std::min({nearest, point_to_triangle(s[k], t), point_to_triangle(t[k], s)});
         for (std::size_t m = 0; m < 3; ++m) {
-          nearest = std::min(nearest, edge_to_edge(s[k], s[(k + 1) % 3] - s[k], t[m], t[(m + 1) % 3] - t[m]));
+          nearest = std::min(
+              nearest, edge_to_edge(s[k], s[(k + 1) % 3] - s[k], t[m], t[(m + 1) % 3] - t[m]));
         }
       }
     }
@@ -66,7 +67,8 @@ double brute_distance(const Solid& a, const Solid& b) {
   return nearest;
 }
 
-// A plane between them, across the line of their nearest corners' centres, proves that they are apart.
+// A plane between them, across the line of their nearest corners' centres, proves that they are
+// apart.
 bool apart(const Solid& a, const Solid& b) {
   for (const auto* solid : {&a, &b}) {
     const Solid& other = solid == &a ? b : a;
@@ -85,7 +87,8 @@ Points random_points(std::mt19937_64& random, int count, const Eigen::Vector3d& 
   std::normal_distribution<double> place;
   Points points;
   for (int i = 0; i < count; ++i) {
-    points.emplace_back(Eigen::Vector3d(place(random), place(random), place(random)).cwiseProduct(size));
+    points.emplace_back(
+        Eigen::Vector3d(place(random), place(random), place(random)).cwiseProduct(size));
   }
   return points;
 }
@@ -101,8 +104,8 @@ Solid solid_at(const Mesh& mesh, const Eigen::Isometry3d& X_WM) {
   return solid;
 }
 
-double distance_of(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b, const Eigen::Isometry3d& X_WB,
-                   double limit_m = 1e3) {
+double distance_of(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
+                   const Eigen::Isometry3d& X_WB, double limit_m = 1e3) {
   PlacedBody at_a{};
   PlacedBody at_b{};
   place(a, X_WA, at_a);
@@ -120,7 +123,8 @@ TEST(MeshBody, IsAsFarFromAnotherAsTheirNearestFeatures) {
     const Eigen::Isometry3d X_WB = reference::random_pose(random, 0.4);
     const Solid solid_a = solid_at(a, X_WA);
     const Solid solid_b = solid_at(b, X_WB);
-    const double distance = distance_of(make_bodies({{a}}).front(), X_WA, make_bodies({{b}}).front(), X_WB);
+    const double distance =
+        distance_of(make_bodies({{a}}).front(), X_WA, make_bodies({{b}}).front(), X_WB);
     const double truth = brute_distance(solid_a, solid_b);
     ASSERT_LE(distance, truth + 1e-12) << i;  // never too large, also where they overlap
     if (!apart(solid_a, solid_b)) continue;
@@ -165,10 +169,11 @@ TEST(MeshBody, LiesInItsCapsuleAndItsBox) {
 
 TEST(MeshBody, FilterNeverExceedsTheExactDistance) {
   std::mt19937_64 random(14);
-  const std::vector<PlacedShape> shapes[] = {{{Box{{0.1, 0.2, 0.05}}}},
-                                             {{Sphere{0.07}}},
-                                             {{Cylinder{0.05, 0.3}}},
-                                             {{cloud(random_points(random, 30, {0.1, 0.02, 0.05}))}}};
+  const std::vector<PlacedShape> shapes[] = {
+      {{Box{{0.1, 0.2, 0.05}}}},
+      {{Sphere{0.07}}},
+      {{Cylinder{0.05, 0.3}}},
+      {{cloud(random_points(random, 30, {0.1, 0.02, 0.05}))}}};
   for (int i = 0; i < 4000; ++i) {
     const Body a = make_bodies(shapes[3]).front();
     const Body b = make_bodies(shapes[i % 4]).front();
@@ -180,15 +185,19 @@ TEST(MeshBody, FilterNeverExceedsTheExactDistance) {
     EXPECT_LE(lower_bound(a, at_a, b, at_b).distance_m, exact + 3e-7) << i;
     EXPECT_LE(lower_bound(b, at_b, a, at_a).distance_m, exact + 3e-7) << i;
     for (const double limit : {0.01, 0.1}) {
-      EXPECT_NEAR(std::max(0.0, distance_below(a, at_a, b, at_b, limit)), std::min(limit, exact), 1e-6) << i;
+      EXPECT_NEAR(std::max(0.0, distance_below(a, at_a, b, at_b, limit)), std::min(limit, exact),
+                  1e-6)
+          << i;
     }
   }
 }
 
 TEST(MeshBody, ABodyInsideOfAnotherTouchesIt) {
-  const Body crate = make_bodies({{small::mesh_of(small::box_surface({-1, -1, -1}, {1, 1, 1}))}}).front();
+  const Body crate =
+      make_bodies({{small::mesh_of(small::box_surface({-1, -1, -1}, {1, 1, 1}))}}).front();
   const Body ball = make_bodies({{Sphere{0.1}}}).front();
-  const Body part = make_bodies({{small::mesh_of(small::box_surface({-.1, -.1, -.1}, {.1, .1, .1}))}}).front();
+  const Body part =
+      make_bodies({{small::mesh_of(small::box_surface({-.1, -.1, -.1}, {.1, .1, .1}))}}).front();
   const Eigen::Isometry3d X = small::at_xyz(0.3, 0.2, -0.1);
   EXPECT_LE(distance_of(crate, small::at_xyz(0, 0, 0), ball, X), 0.0);
   EXPECT_LE(distance_of(part, X, crate, small::at_xyz(0, 0, 0)), 0.0);
@@ -198,7 +207,8 @@ TEST(PlanningScene, SeesMeshesOfLinksAndObjectsAsTheirHulls) {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {Eigen::Vector3d::UnitZ()}, 0.4, 0.03);
   // A slot that the arm stands in without touching: the hull has no slot.
-  cell.objects.push_back({"channel", small::mesh_of(small::channel(0.3)), small::at_xyz(0.0, -0.2, -0.5)});
+  cell.objects.push_back(
+      {"channel", small::mesh_of(small::channel(0.3)), small::at_xyz(0.0, -0.2, -0.5)});
   auto scene = PlanningScene::build(small::shared(cell));
   ASSERT_TRUE(scene.has_value());
   CollisionChecker checker(*scene);

@@ -2,7 +2,8 @@
 #include "server/codec/cell_codec.h"
 #include "test/fuzz/problems.h"
 
-// The body of POST /scene/objects, and a cell file: reading it, the checks that need no robot, and writing it for another folder.
+// The body of POST /scene/objects, and a cell file: reading it, the checks that need no robot, and
+// writing it for another folder.
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace armloom;

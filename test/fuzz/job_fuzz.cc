@@ -10,8 +10,8 @@
 #include "server/codec/job_codec.h"
 #include "test/fuzz/problems.h"
 
-// The bodies of POST /jobs, /batches, /sim/faults and a jobs file: shape, then validate() of each job
-// on the two-Panda cell.
+// The bodies of POST /jobs, /batches, /sim/faults and a jobs file: shape, then validate() of each
+// job on the two-Panda cell.
 
 namespace armloom::fuzz {
 namespace {

@@ -28,7 +28,8 @@ bool allows(const Cell& cell, const std::string& a, const std::string& b) {
 TEST(Arms, HoldTheirGroupsIndependentJointsFromBaseToTip) {
   const CellPtr cell = build_or_fail(two_arms_description());
   EXPECT_THAT(names_of(*cell, cell->arms[0].joints), ElementsAre("t_l_slide", "t_l_turn"));
-  EXPECT_THAT(names_of(*cell, cell->arms[1].joints), ElementsAre("t_r_spin", "t_r_bend", "t_r_last"));
+  EXPECT_THAT(names_of(*cell, cell->arms[1].joints),
+              ElementsAre("t_r_spin", "t_r_bend", "t_r_last"));
 }
 
 TEST(Arms, OwnTheGripperBelowThemAndTheLinksThatTheyMove) {
@@ -36,7 +37,8 @@ TEST(Arms, OwnTheGripperBelowThemAndTheLinksThatTheyMove) {
   const Arm& left = cell->arms[0];
   EXPECT_THAT(names_of(*cell, left.gripper_joints), ElementsAre("t_l_grip"));
   EXPECT_EQ(cell->joint(left.gripper_joints[0]).arm, ArmId(0));
-  EXPECT_THAT(names_of(*cell, left.links), UnorderedElementsAre("t_l1", "t_l2", "t_l_hand", "t_l_finger1", "t_l_finger2"));
+  EXPECT_THAT(names_of(*cell, left.links),
+              UnorderedElementsAre("t_l1", "t_l2", "t_l_hand", "t_l_finger1", "t_l_finger2"));
   EXPECT_THAT(cell->arms[1].gripper_joints, testing::IsEmpty());
   EXPECT_EQ(cell->link(*cell->find_link("t_post")).arm, std::nullopt);
   EXPECT_EQ(cell->link(*cell->find_link("t_r3")).arm, ArmId(1));
@@ -45,7 +47,9 @@ TEST(Arms, OwnTheGripperBelowThemAndTheLinksThatTheyMove) {
 TEST(Arms, StandAtHomeAndElsewhereAtZeroWithinTheLimits) {
   const CellPtr cell = build_or_fail(two_arms_description());
   const Configuration q = cell->home();
-  const auto at_home = [&](const char* joint) { return q[static_cast<Eigen::Index>(cell->find_joint(joint)->index())]; };
+  const auto at_home = [&](const char* joint) {
+    return q[static_cast<Eigen::Index>(cell->find_joint(joint)->index())];
+  };
   EXPECT_EQ(at_home("t_l_slide"), 0.3);
   EXPECT_EQ(at_home("t_l_turn"), -0.5);
   EXPECT_EQ(at_home("t_l_grip"), 0.0);
@@ -61,8 +65,10 @@ TEST(Arms, KnowTheirNamedStatesInTheOrderOfTheirJoints) {
 
 TEST(Arms, TakeTheLimitsOfTheCellFile) {
   auto description = two_arms_description();
-  description.robots[0].arms[0].limits["l_turn"] = {.acceleration = 2.0, .jerk = 100.0, .brake = std::nullopt};
-  description.robots[0].arms[0].limits["l_grip"] = {.acceleration = std::nullopt, .jerk = std::nullopt, .brake = 1.0};
+  description.robots[0].arms[0].limits["l_turn"] = {
+      .acceleration = 2.0, .jerk = 100.0, .brake = std::nullopt};
+  description.robots[0].arms[0].limits["l_grip"] = {
+      .acceleration = std::nullopt, .jerk = std::nullopt, .brake = 1.0};
   const CellPtr cell = build_or_fail(description);
   const Joint& turn = cell->joint(*cell->find_joint("t_l_turn"));
   EXPECT_EQ(turn.acceleration_max, 2.0);
@@ -72,7 +78,8 @@ TEST(Arms, TakeTheLimitsOfTheCellFile) {
   EXPECT_EQ(turn.lower, -2.0);
   EXPECT_EQ(turn.upper, 2.5);
   EXPECT_EQ(cell->joint(*cell->find_joint("t_l_grip")).brake, 1.0);
-  EXPECT_EQ(cell->joint(*cell->find_joint("t_r_spin")).upper, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(cell->joint(*cell->find_joint("t_r_spin")).upper,
+            std::numeric_limits<double>::infinity());
 }
 
 TEST(Links, ComeAfterTheirParentsAndCarryTheirShapes) {
@@ -88,18 +95,19 @@ TEST(Links, ComeAfterTheirParentsAndCarryTheirShapes) {
   EXPECT_EQ(std::get<Sphere>(post.shapes[1].shape).radius_m, 0.09);
   const Link& l2 = cell->link(*cell->find_link("t_l2"));
   ASSERT_EQ(l2.shapes.size(), 1u);
-  EXPECT_THAT(std::get<Mesh>(l2.shapes[0].shape).path, testing::EndsWith("test/model/data/shapes/tetra.stl"));
+  EXPECT_THAT(std::get<Mesh>(l2.shapes[0].shape).path,
+              testing::EndsWith("test/model/data/shapes/tetra.stl"));
   EXPECT_EQ(std::get<Mesh>(l2.shapes[0].shape).scale, Eigen::Vector3d(0.5, 0.5, 2));
 }
 
 TEST(AllowedPairs, AreThoseOfTheSrdfAndOfOneRigidBody) {
   const CellPtr cell = build_or_fail(two_arms_description());
-  EXPECT_TRUE(allows(*cell, "t_base", "t_post"));    // rigid
-  EXPECT_TRUE(allows(*cell, "t_l_hand", "t_l2"));    // rigid
-  EXPECT_TRUE(allows(*cell, "t_r1", "t_r2"));        // SRDF
-  EXPECT_TRUE(allows(*cell, "t_l_hand", "t_r1"));    // disabled by default
+  EXPECT_TRUE(allows(*cell, "t_base", "t_post"));      // rigid
+  EXPECT_TRUE(allows(*cell, "t_l_hand", "t_l2"));      // rigid
+  EXPECT_TRUE(allows(*cell, "t_r1", "t_r2"));          // SRDF
+  EXPECT_TRUE(allows(*cell, "t_l_hand", "t_r1"));      // disabled by default
   EXPECT_FALSE(allows(*cell, "t_l_hand", "t_r_tip"));  // and enabled again
-  EXPECT_FALSE(allows(*cell, "t_post", "t_l1"));     // adjacent, but the SRDF does not say so
+  EXPECT_FALSE(allows(*cell, "t_post", "t_l1"));       // adjacent, but the SRDF does not say so
   EXPECT_FALSE(allows(*cell, "t_r3", "t_r_tip"));
 }
 
@@ -126,22 +134,28 @@ TEST(AllowedPairs, TakeLinksOfAnyRobotFromTheCellFile) {
 
 // A torso under both arms; `torso` is its joint's type line.
 std::string torso_urdf(const std::string& torso_type) {
-  const auto revolute = [](const std::string& name, const std::string& parent, const std::string& child) {
-    return "<joint name='" + name + "' type='revolute'><parent link='" + parent + "'/><child link='" + child +
+  const auto revolute = [](const std::string& name, const std::string& parent,
+                           const std::string& child) {
+    return "<joint name='" + name + "' type='revolute'><parent link='" + parent +
+           "'/><child link='" + child +
            "'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>";
   };
   return "<robot name='r'><link name='base'/><link name='torso'/><link name='a'/><link name='b'/>"
-         "<joint name='waist' type='" + torso_type + "'><parent link='base'/><child link='torso'/>"
+         "<joint name='waist' type='" +
+         torso_type +
+         "'><parent link='base'/><child link='torso'/>"
          "<limit lower='-1' upper='1' effort='1' velocity='1'/></joint>" +
          revolute("ja", "torso", "a") + revolute("jb", "torso", "b") + "</robot>";
 }
 
-CellDescription torso_cell(const ScratchFolder& folder, const std::string& torso_type, const std::string& group_a) {
+CellDescription torso_cell(const ScratchFolder& folder, const std::string& torso_type,
+                           const std::string& group_a) {
   RobotDescription robot;
   robot.name = "r";
   robot.urdf = folder.write("r.urdf", torso_urdf(torso_type));
-  robot.srdf = folder.write("r.srdf", "<robot name='r'><group name='ga'>" + group_a +
-                                          "</group><group name='gb'><joint name='jb'/></group></robot>");
+  robot.srdf =
+      folder.write("r.srdf", "<robot name='r'><group name='ga'>" + group_a +
+                                 "</group><group name='gb'><joint name='jb'/></group></robot>");
   robot.arms = {{"A", "ga", {}, {}}, {"B", "gb", {}, {}}};
   CellDescription cell;
   cell.robots.push_back(robot);
@@ -150,8 +164,9 @@ CellDescription torso_cell(const ScratchFolder& folder, const std::string& torso
 
 TEST(SharedJoints, AreRefusedWhenTheTorsoBelongsToOneOfTheArms) {
   const ScratchFolder folder;
-  EXPECT_THAT(problems_of(torso_cell(folder, "revolute", "<joint name='waist'/><joint name='ja'/>")),
-              HasSubstr("/robots/0/arms | robot r: arms A and B both move link b"));
+  EXPECT_THAT(
+      problems_of(torso_cell(folder, "revolute", "<joint name='waist'/><joint name='ja'/>")),
+      HasSubstr("/robots/0/arms | robot r: arms A and B both move link b"));
 }
 
 TEST(SharedJoints, AreRefusedWhenTheTorsoBelongsToNoArm) {
@@ -168,7 +183,8 @@ TEST(SharedJoints, AreRefusedWhenTwoGroupsHoldTheSameJoint) {
 
 TEST(SharedJoints, DoNotIncludeAFixedTorso) {
   const ScratchFolder folder;
-  EXPECT_EQ(problems_of(torso_cell(folder, "fixed", "<joint name='waist'/><joint name='ja'/>")), "");
+  EXPECT_EQ(problems_of(torso_cell(folder, "fixed", "<joint name='waist'/><joint name='ja'/>")),
+            "");
 }
 
 }  // namespace

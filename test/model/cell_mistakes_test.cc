@@ -32,72 +32,120 @@ TEST_P(CellMistake, IsTheOnlyProblemAndNamedByPointerAndValue) {
   GetParam().make(description);
   const auto cell = build_cell(description);
   ASSERT_FALSE(cell.has_value()) << "accepted";
-  ASSERT_EQ(cell.error().size(), 1u) << cell.error()[0].detail << "\n" << cell.error().back().detail;
+  ASSERT_EQ(cell.error().size(), 1u) << cell.error()[0].detail << "\n"
+                                     << cell.error().back().detail;
   EXPECT_EQ(cell.error()[0].pointer, GetParam().pointer);
   EXPECT_THAT(cell.error()[0].detail, HasSubstr(GetParam().sentence));
 }
 
-#define MISTAKE(statement, pointer, sentence) \
-  Mistake { #statement, [](CellDescription& cell) { statement; }, pointer, sentence }
+#define MISTAKE(statement, pointer, sentence)                                \
+  Mistake {                                                                  \
+#statement, [](CellDescription & cell) { statement; }, pointer, sentence \
+  }
 
 ArmDescription& left(CellDescription& cell) { return cell.robots[0].arms[0]; }
 
-INSTANTIATE_TEST_SUITE_P(Settings, CellMistake, testing::Values(
-    MISTAKE(cell.clearance_m = -0.01; cell.monitor.stop_clearance_m = 0, "/clearance_m", "clearance_m is -0.01, it must be 0 m or more"),
-    MISTAKE(cell.clearance_m = kNaN, "/clearance_m", "clearance_m is nan"),
-    MISTAKE(cell.checking.time_step = 0s, "/checking/time_step_s", "time_step_s is 0, it must be greater than 0 s"),
-    MISTAKE(cell.checking.tracking_error_rad = -1, "/checking/tracking_error_rad", "it must be 0 or more"),
-    MISTAKE(cell.checking.delay = -1ms, "/checking/delay_s", "delay_s is -0.001"),
-    MISTAKE(cell.checking.limit_tolerance = 1, "/checking/limit_tolerance", "at least 0 and less than 1"),
-    MISTAKE(cell.scheduling.backlog_timeout = 0s, "/scheduling/backlog_timeout_s", "greater than 0 s"),
-    MISTAKE(cell.scheduling.aging = -1s, "/scheduling/aging_s", "aging_s is -1"),
-    MISTAKE(cell.scheduling.on_idle_blocker = "shove", "/scheduling/on_idle_blocker", "'shove', it must be report or park"),
-    MISTAKE(cell.monitor.rate_hz = 0, "/monitor/rate_hz", "greater than 0 and at most 1000 Hz"),
-    MISTAKE(cell.monitor.rate_hz = 1001, "/monitor/rate_hz", "rate_hz is 1001"),
-    MISTAKE(cell.monitor.rate_hz = kNaN, "/monitor/rate_hz", "rate_hz is nan"),
-    MISTAKE(cell.monitor.reaction = -1ms, "/monitor/reaction_s", "0 or more"),
-    MISTAKE(cell.monitor.stop_clearance_m = 0.03, "/monitor/stop_clearance_m", "stop_clearance_m is 0.03, it must be at most clearance_m (0.02 m)"),
-    MISTAKE(cell.execution.start_tolerance_rad = 0, "/execution/start_tolerance_rad", "greater than 0"),
-    MISTAKE(cell.execution.duration_scaling = 0.9, "/execution/duration_scaling", "duration_scaling is 0.9, it must be 1 or more"),
-    MISTAKE(cell.execution.duration_margin = -1s, "/execution/duration_margin_s", "0 or more"),
-    MISTAKE(cell.robots[0].controller.lag = -1ms, "/robots/0/controller/lag_s", "lag_s is -0.001"),
-    MISTAKE(cell.robots[0].controller.noise_rad = -0.1, "/robots/0/controller/noise_rad", "noise_rad is -0.1")));
+INSTANTIATE_TEST_SUITE_P(
+    Settings, CellMistake,
+    testing::Values(
+        MISTAKE(cell.clearance_m = -0.01; cell.monitor.stop_clearance_m = 0, "/clearance_m",
+                                          "clearance_m is -0.01, it must be 0 m or more"),
+        MISTAKE(cell.clearance_m = kNaN, "/clearance_m", "clearance_m is nan"),
+        MISTAKE(cell.checking.time_step = 0s, "/checking/time_step_s",
+                "time_step_s is 0, it must be greater than 0 s"),
+        MISTAKE(cell.checking.tracking_error_rad = -1, "/checking/tracking_error_rad",
+                "it must be 0 or more"),
+        MISTAKE(cell.checking.delay = -1ms, "/checking/delay_s", "delay_s is -0.001"),
+        MISTAKE(cell.checking.limit_tolerance = 1, "/checking/limit_tolerance",
+                "at least 0 and less than 1"),
+        MISTAKE(cell.scheduling.backlog_timeout = 0s, "/scheduling/backlog_timeout_s",
+                "greater than 0 s"),
+        MISTAKE(cell.scheduling.aging = -1s, "/scheduling/aging_s", "aging_s is -1"),
+        MISTAKE(cell.scheduling.on_idle_blocker = "shove", "/scheduling/on_idle_blocker",
+                "'shove', it must be report or park"),
+        MISTAKE(cell.monitor.rate_hz = 0, "/monitor/rate_hz", "greater than 0 and at most 1000 Hz"),
+        MISTAKE(cell.monitor.rate_hz = 1001, "/monitor/rate_hz", "rate_hz is 1001"),
+        MISTAKE(cell.monitor.rate_hz = kNaN, "/monitor/rate_hz", "rate_hz is nan"),
+        MISTAKE(cell.monitor.reaction = -1ms, "/monitor/reaction_s", "0 or more"),
+        MISTAKE(cell.monitor.stop_clearance_m = 0.03, "/monitor/stop_clearance_m",
+                "stop_clearance_m is 0.03, it must be at most clearance_m (0.02 m)"),
+        MISTAKE(cell.execution.start_tolerance_rad = 0, "/execution/start_tolerance_rad",
+                "greater than 0"),
+        MISTAKE(cell.execution.duration_scaling = 0.9, "/execution/duration_scaling",
+                "duration_scaling is 0.9, it must be 1 or more"),
+        MISTAKE(cell.execution.duration_margin = -1s, "/execution/duration_margin_s", "0 or more"),
+        MISTAKE(cell.robots[0].controller.lag = -1ms, "/robots/0/controller/lag_s",
+                "lag_s is -0.001"),
+        MISTAKE(cell.robots[0].controller.noise_rad = -0.1, "/robots/0/controller/noise_rad",
+                "noise_rad is -0.1")));
 
-INSTANTIATE_TEST_SUITE_P(Arms, CellMistake, testing::Values(
-    MISTAKE(left(cell).home = {0.3}, "/robots/0/arms/0/home", "home has 1 values, the group has 2 joints"),
-    MISTAKE(left(cell).home[1] = 2.6, "/robots/0/arms/0/home/1", "home of t_l_turn is 2.6, outside [-2, 2.5] rad"),
-    MISTAKE(left(cell).home[0] = 0.05, "/robots/0/arms/0/home/0", "home of t_l_slide is 0.05, outside [0.1, 0.7] m"),
-    MISTAKE(left(cell).home[1] = kNaN, "/robots/0/arms/0/home/1", "home of t_l_turn is nan"),
-    MISTAKE(cell.robots[0].arms[1].home = (std::vector<double>{kInfinity, 1, 0}), "/robots/0/arms/1/home/0", "home of t_r_spin is inf"),
-    MISTAKE(left(cell).group = "hand", "/robots/0/arms/0/group", "group 'hand' is not in two_arms.srdf"),
-    MISTAKE(left(cell).limits["r_spin"], "/robots/0/arms/0/limits/r_spin", "arm left has no joint r_spin to limit"),
-    MISTAKE(left(cell).limits["a/b~c"], "/robots/0/arms/0/limits/a~1b~0c", "arm left has no joint a/b~c"),
-    MISTAKE(left(cell).limits["l_grip_mirror"], "/robots/0/arms/0/limits/l_grip_mirror", "no joint l_grip_mirror"),
-    MISTAKE(left(cell).limits["l_turn"].acceleration = 0, "/robots/0/arms/0/limits/l_turn/acceleration_rad_s2", "acceleration_rad_s2 is 0, it must be greater than 0"),
-    MISTAKE(left(cell).limits["l_turn"].jerk = kInfinity, "/robots/0/arms/0/limits/l_turn/jerk_rad_s3", "jerk_rad_s3 is inf"),
-    MISTAKE(left(cell).limits["l_turn"].brake = kNaN, "/robots/0/arms/0/limits/l_turn/brake_rad_s2", "brake_rad_s2 is nan")));
+INSTANTIATE_TEST_SUITE_P(
+    Arms, CellMistake,
+    testing::Values(MISTAKE(left(cell).home = {0.3}, "/robots/0/arms/0/home",
+                            "home has 1 values, the group has 2 joints"),
+                    MISTAKE(left(cell).home[1] = 2.6, "/robots/0/arms/0/home/1",
+                            "home of t_l_turn is 2.6, outside [-2, 2.5] rad"),
+                    MISTAKE(left(cell).home[0] = 0.05, "/robots/0/arms/0/home/0",
+                            "home of t_l_slide is 0.05, outside [0.1, 0.7] m"),
+                    MISTAKE(left(cell).home[1] = kNaN, "/robots/0/arms/0/home/1",
+                            "home of t_l_turn is nan"),
+                    MISTAKE(cell.robots[0].arms[1].home = (std::vector<double>{kInfinity, 1, 0}),
+                            "/robots/0/arms/1/home/0", "home of t_r_spin is inf"),
+                    MISTAKE(left(cell).group = "hand", "/robots/0/arms/0/group",
+                            "group 'hand' is not in two_arms.srdf"),
+                    MISTAKE(left(cell).limits["r_spin"], "/robots/0/arms/0/limits/r_spin",
+                            "arm left has no joint r_spin to limit"),
+                    MISTAKE(left(cell).limits["a/b~c"], "/robots/0/arms/0/limits/a~1b~0c",
+                            "arm left has no joint a/b~c"),
+                    MISTAKE(left(cell).limits["l_grip_mirror"],
+                            "/robots/0/arms/0/limits/l_grip_mirror", "no joint l_grip_mirror"),
+                    MISTAKE(left(cell).limits["l_turn"].acceleration = 0,
+                            "/robots/0/arms/0/limits/l_turn/acceleration_rad_s2",
+                            "acceleration_rad_s2 is 0, it must be greater than 0"),
+                    MISTAKE(left(cell).limits["l_turn"].jerk = kInfinity,
+                            "/robots/0/arms/0/limits/l_turn/jerk_rad_s3", "jerk_rad_s3 is inf"),
+                    MISTAKE(left(cell).limits["l_turn"].brake = kNaN,
+                            "/robots/0/arms/0/limits/l_turn/brake_rad_s2", "brake_rad_s2 is nan")));
 
-INSTANTIATE_TEST_SUITE_P(Names, CellMistake, testing::Values(
-    MISTAKE(cell.robots[0].name = "", "/robots/0/name", "a name of a robot is empty"),
-    MISTAKE(cell.robots[0].arms[1].name = "left", "/robots/0/arms/1/name", "the name left of an arm is taken"),
-    MISTAKE(cell.objects.push_back(cell.objects[0]), "/objects/1/name", "the name table of an object is taken"),
-    MISTAKE(cell.objects[0].name = "t_post", "/objects/0/name", "the name t_post of an object is a link's name too"),
-    MISTAKE(cell.robots[0].arms.clear(), "/robots/0/arms", "no robot of the cell has an arm"),
-    MISTAKE(cell.robots.clear(), "/robots", "the cell has no robot"),
-    MISTAKE(cell.allowed_collisions.emplace_back("t_post", "chair"), "/allowed_collisions/0/1", "there is no link or object chair"),
-    MISTAKE(cell.allowed_collisions.emplace_back("post", "table"), "/allowed_collisions/0/0", "there is no link or object post"),
-    MISTAKE(cell.allowed_collisions.emplace_back("t_post", "t_post"), "/allowed_collisions/0", "t_post is named twice"),
-    MISTAKE(cell.allowed_collisions.emplace_back("table", "table"), "/allowed_collisions/0", "are both objects")));
+INSTANTIATE_TEST_SUITE_P(
+    Names, CellMistake,
+    testing::Values(
+        MISTAKE(cell.robots[0].name = "", "/robots/0/name", "a name of a robot is empty"),
+        MISTAKE(cell.robots[0].arms[1].name = "left", "/robots/0/arms/1/name",
+                "the name left of an arm is taken"),
+        MISTAKE(cell.objects.push_back(cell.objects[0]), "/objects/1/name",
+                "the name table of an object is taken"),
+        MISTAKE(cell.objects[0].name = "t_post", "/objects/0/name",
+                "the name t_post of an object is a link's name too"),
+        MISTAKE(cell.robots[0].arms.clear(), "/robots/0/arms", "no robot of the cell has an arm"),
+        MISTAKE(cell.robots.clear(), "/robots", "the cell has no robot"),
+        MISTAKE(cell.allowed_collisions.emplace_back("t_post", "chair"), "/allowed_collisions/0/1",
+                "there is no link or object chair"),
+        MISTAKE(cell.allowed_collisions.emplace_back("post", "table"), "/allowed_collisions/0/0",
+                "there is no link or object post"),
+        MISTAKE(cell.allowed_collisions.emplace_back("t_post", "t_post"), "/allowed_collisions/0",
+                "t_post is named twice"),
+        MISTAKE(cell.allowed_collisions.emplace_back("table", "table"), "/allowed_collisions/0",
+                "are both objects")));
 
-INSTANTIATE_TEST_SUITE_P(Geometry, CellMistake, testing::Values(
-    MISTAKE(cell.robots[0].X_WB.translation().x() = kNaN, "/robots/0/base", "robot twin: base: the pose holds a number that is not finite"),
-    MISTAKE(cell.robots[0].X_WB.linear() *= 2, "/robots/0/base", "not a rotation and a translation"),
-    MISTAKE(cell.objects[0].X_WO.translation().x() = kInfinity, "/objects/0", "object table: the pose holds"),
-    MISTAKE(cell.objects[0].shape = (Box{{1, 0, 1}}), "/objects/0/box/1", "box side is 0 m, it must be greater than 0"),
-    MISTAKE(cell.objects[0].shape = (Cylinder{-1, 1}), "/objects/0/cylinder/0", "cylinder radius is -1 m"),
-    MISTAKE(cell.objects[0].shape = (Cylinder{1, kNaN}), "/objects/0/cylinder/1", "cylinder length is nan m"),
-    MISTAKE(cell.objects[0].shape = Sphere{kInfinity}, "/objects/0/sphere/0", "sphere radius is inf m"),
-    MISTAKE(cell.objects[0].shape = Mesh{"missing.stl"}, "/objects/0/mesh", "mesh missing.stl is not a file that exists")));
+INSTANTIATE_TEST_SUITE_P(
+    Geometry, CellMistake,
+    testing::Values(MISTAKE(cell.robots[0].X_WB.translation().x() = kNaN, "/robots/0/base",
+                            "robot twin: base: the pose holds a number that is not finite"),
+                    MISTAKE(cell.robots[0].X_WB.linear() *= 2, "/robots/0/base",
+                            "not a rotation and a translation"),
+                    MISTAKE(cell.objects[0].X_WO.translation().x() = kInfinity, "/objects/0",
+                            "object table: the pose holds"),
+                    MISTAKE(cell.objects[0].shape = (Box{{1, 0, 1}}), "/objects/0/box/1",
+                            "box side is 0 m, it must be greater than 0"),
+                    MISTAKE(cell.objects[0].shape = (Cylinder{-1, 1}), "/objects/0/cylinder/0",
+                            "cylinder radius is -1 m"),
+                    MISTAKE(cell.objects[0].shape = (Cylinder{1, kNaN}), "/objects/0/cylinder/1",
+                            "cylinder length is nan m"),
+                    MISTAKE(cell.objects[0].shape = Sphere{kInfinity}, "/objects/0/sphere/0",
+                            "sphere radius is inf m"),
+                    MISTAKE(cell.objects[0].shape = Mesh{"missing.stl"}, "/objects/0/mesh",
+                            "mesh missing.stl is not a file that exists")));
 
 TEST(CellNames, OfTwoRobotsWithoutPrefixesAreToldOncePerKind) {
   CellDescription cell = two_pandas_description();
@@ -107,7 +155,8 @@ TEST(CellNames, OfTwoRobotsWithoutPrefixesAreToldOncePerKind) {
   ASSERT_FALSE(built.has_value());
   ASSERT_EQ(built.error().size(), 2u);
   EXPECT_EQ(built.error()[0].pointer, "/robots/1/prefix");
-  EXPECT_THAT(built.error()[0].detail, HasSubstr("robot right: link left_panda_hand is a name of another robot too"));
+  EXPECT_THAT(built.error()[0].detail,
+              HasSubstr("robot right: link left_panda_hand is a name of another robot too"));
   EXPECT_THAT(built.error()[1].detail, HasSubstr("robot right: joint left_panda_finger_joint1"));
 }
 

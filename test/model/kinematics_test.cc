@@ -34,7 +34,8 @@ KDL::Joint joint_of(const urdf::Joint& joint) {
 void add_children(const urdf::Link& link, KDL::Tree& tree) {
   for (const auto& child : link.child_links) {
     const auto& joint = *child->parent_joint;
-    const KDL::Segment segment(child->name, joint_of(joint), frame_of(joint.parent_to_joint_origin_transform));
+    const KDL::Segment segment(child->name, joint_of(joint),
+                               frame_of(joint.parent_to_joint_origin_transform));
     ASSERT_TRUE(tree.addSegment(segment, link.name)) << child->name;
     add_children(*child, tree);
   }
@@ -43,11 +44,14 @@ void add_children(const urdf::Link& link, KDL::Tree& tree) {
 // The same robot in Orocos KDL, straight from the URDF: shares nothing with core/model.
 struct KdlRobot {
   explicit KdlRobot(const RobotDescription& description)
-      : model(urdf::parseURDFFile(description.urdf)), tree(model->getRoot()->name), prefix(description.prefix) {
-    X_WB = KDL::Frame(KDL::Rotation(description.X_WB(0, 0), description.X_WB(0, 1), description.X_WB(0, 2),
-                                    description.X_WB(1, 0), description.X_WB(1, 1), description.X_WB(1, 2),
-                                    description.X_WB(2, 0), description.X_WB(2, 1), description.X_WB(2, 2)),
-                      KDL::Vector(description.X_WB(0, 3), description.X_WB(1, 3), description.X_WB(2, 3)));
+      : model(urdf::parseURDFFile(description.urdf)),
+        tree(model->getRoot()->name),
+        prefix(description.prefix) {
+    X_WB = KDL::Frame(
+        KDL::Rotation(description.X_WB(0, 0), description.X_WB(0, 1), description.X_WB(0, 2),
+                      description.X_WB(1, 0), description.X_WB(1, 1), description.X_WB(1, 2),
+                      description.X_WB(2, 0), description.X_WB(2, 1), description.X_WB(2, 2)),
+        KDL::Vector(description.X_WB(0, 3), description.X_WB(1, 3), description.X_WB(2, 3)));
     add_children(*model->getRoot(), tree);
   }
 
@@ -55,9 +59,11 @@ struct KdlRobot {
     KDL::JntArray out(tree.getNrOfJoints());
     for (const auto& [name, joint] : model->joints_) {
       if (joint->type == urdf::Joint::FIXED) continue;
-      const double value = joint->mimic == nullptr
-                               ? q.at(prefix + name)
-                               : joint->mimic->multiplier * q.at(prefix + joint->mimic->joint_name) + joint->mimic->offset;
+      const double value =
+          joint->mimic == nullptr
+              ? q.at(prefix + name)
+              : joint->mimic->multiplier * q.at(prefix + joint->mimic->joint_name) +
+                    joint->mimic->offset;
       out(tree.getSegment(joint->child_link_name)->second.q_nr) = value;
     }
     return out;
@@ -92,7 +98,8 @@ double compare_with_kdl(const CellDescription& description, std::uint32_t seed, 
     std::map<std::string, double> by_name;
     for (std::size_t j = 0; j < cell->joints.size(); ++j) {
       const Joint& joint = cell->joints[j];
-      std::uniform_real_distribution<double> within(std::max(joint.lower, -7.0), std::min(joint.upper, 7.0));
+      std::uniform_real_distribution<double> within(std::max(joint.lower, -7.0),
+                                                    std::min(joint.upper, 7.0));
       by_name[joint.name] = q[static_cast<Eigen::Index>(j)] = within(random);
     }
     forward_kinematics(*cell, q, X_WL);
@@ -103,7 +110,9 @@ double compare_with_kdl(const CellDescription& description, std::uint32_t seed, 
       for (const auto& [name, link] : robot.model->links_) {
         KDL::Frame X_BL = KDL::Frame::Identity();
         EXPECT_GE(solver.JntToCart(q_kdl, X_BL, name), 0) << name;
-        worst = std::max(worst, largest_difference(robot.X_WB * X_BL, X_WL[cell->find_link(robot.prefix + name)->index()]));
+        worst = std::max(worst,
+                         largest_difference(robot.X_WB * X_BL,
+                                            X_WL[cell->find_link(robot.prefix + name)->index()]));
         ++compared;
       }
     }

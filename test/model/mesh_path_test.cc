@@ -15,13 +15,15 @@ class MeshPath : public testing::Test {
     folder_.write("robot/meshes/a.stl", "solid a");
     folder_.write("package/meshes/b.stl", "solid b");
     folder_.write("secret.stl", "solid secret");
-    std::filesystem::create_symlink(folder_.path() / "secret.stl", folder_.path() / "package/meshes/link.stl");
+    std::filesystem::create_symlink(folder_.path() / "secret.stl",
+                                    folder_.path() / "package/meshes/link.stl");
     std::filesystem::create_symlink(folder_.path(), folder_.path() / "package/up");
     std::filesystem::create_symlink("b.stl", folder_.path() / "package/meshes/inner.stl");
   }
 
   tl::expected<std::filesystem::path, std::string> resolve(const std::string& uri) const {
-    return resolve_mesh(uri, folder_.path() / "robot", {{"p", (folder_.path() / "package").string()}});
+    return resolve_mesh(uri, folder_.path() / "robot",
+                        {{"p", (folder_.path() / "package").string()}});
   }
   std::string refusal(const std::string& uri) const {
     const auto path = resolve(uri);
@@ -32,9 +34,12 @@ class MeshPath : public testing::Test {
 };
 
 TEST_F(MeshPath, FindsFilesInPackagesAndNextToTheUrdf) {
-  EXPECT_EQ(resolve("package://p/meshes/b.stl"), std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
-  EXPECT_EQ(resolve("package://p/meshes/../meshes/inner.stl"), std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
-  EXPECT_EQ(resolve("meshes/a.stl"), std::filesystem::canonical(folder_.path() / "robot/meshes/a.stl"));
+  EXPECT_EQ(resolve("package://p/meshes/b.stl"),
+            std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
+  EXPECT_EQ(resolve("package://p/meshes/../meshes/inner.stl"),
+            std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
+  EXPECT_EQ(resolve("meshes/a.stl"),
+            std::filesystem::canonical(folder_.path() / "robot/meshes/a.stl"));
 }
 
 TEST_F(MeshPath, StaysInsideItsFolderAsWritten) {

@@ -21,7 +21,8 @@ const Eigen::Vector3d kOne = Eigen::Vector3d::Ones();
 
 class MeshFile : public testing::Test {
  protected:
-  MeshPtr load(const std::string& name, const std::string& bytes, const Eigen::Vector3d& scale = kOne) {
+  MeshPtr load(const std::string& name, const std::string& bytes,
+               const Eigen::Vector3d& scale = kOne) {
     auto mesh = load_mesh(folder_.write(name, bytes), scale, "/here", "robot a");
     EXPECT_TRUE(mesh.has_value()) << mesh.error().front().detail;
     return mesh ? *mesh : std::make_shared<const MeshData>();
@@ -46,8 +47,10 @@ Eigen::AlignedBox3d bounds(const std::vector<Eigen::Vector3d>& points) {
 }
 
 void expect_bounds(const MeshData& mesh, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  EXPECT_LT((bounds(mesh.vertices).min() - low).norm(), 1e-6) << bounds(mesh.vertices).min().transpose();
-  EXPECT_LT((bounds(mesh.vertices).max() - high).norm(), 1e-6) << bounds(mesh.vertices).max().transpose();
+  EXPECT_LT((bounds(mesh.vertices).min() - low).norm(), 1e-6)
+      << bounds(mesh.vertices).min().transpose();
+  EXPECT_LT((bounds(mesh.vertices).max() - high).norm(), 1e-6)
+      << bounds(mesh.vertices).max().transpose();
 }
 
 double volume(const std::vector<Eigen::Vector3d>& p, const std::vector<Triangle>& triangles) {
@@ -59,8 +62,9 @@ double volume(const std::vector<Eigen::Vector3d>& p, const std::vector<Triangle>
 constexpr const char* kPlaced = R"(<node><instance_geometry url="#g"/></node>)";
 
 TEST_F(MeshFile, IsTheSameBoxFromEachFormat) {
-  for (const auto& mesh : {load("a.stl", small::stl_text(box_)), load("b.STL", small::stl_bytes(box_)),
-                           load("c.obj", small::obj_text(box_)), load("d.dae", small::dae_text(box_, "", kPlaced))}) {
+  for (const auto& mesh :
+       {load("a.stl", small::stl_text(box_)), load("b.STL", small::stl_bytes(box_)),
+        load("c.obj", small::obj_text(box_)), load("d.dae", small::dae_text(box_, "", kPlaced))}) {
     EXPECT_EQ(mesh->vertices.size(), 8U);
     EXPECT_EQ(mesh->triangles.size(), 12U);
     expect_bounds(*mesh, {-0.1, -0.2, 0.5}, {0.3, 0.4, 0.75});
@@ -74,7 +78,8 @@ TEST_F(MeshFile, IsScaledAndMirroredAlongEachAxis) {
 }
 
 TEST_F(MeshFile, IsInMetresWhateverTheUnitOfItsDocument) {
-  const MeshPtr mesh = load("a.dae", small::dae_text(box_, R"(<unit name="centimeter" meter="0.01"/>)", kPlaced));
+  const MeshPtr mesh =
+      load("a.dae", small::dae_text(box_, R"(<unit name="centimeter" meter="0.01"/>)", kPlaced));
   expect_bounds(*mesh, {-0.001, -0.002, 0.005}, {0.003, 0.004, 0.0075});
 }
 
@@ -91,12 +96,14 @@ TEST_F(MeshFile, StandsWhereTheNodesOfItsDocumentPlaceIt) {
 
 TEST_F(MeshFile, KeepsItsAxesWhateverItsDocumentCallsUp) {
   for (const char* up : {"X_UP", "Y_UP", "Z_UP"}) {
-    expect_bounds(*load("a.dae", small::dae_text(box_, "", kPlaced, "", up)), {-0.1, -0.2, 0.5}, {0.3, 0.4, 0.75});
+    expect_bounds(*load("a.dae", small::dae_text(box_, "", kPlaced, "", up)), {-0.1, -0.2, 0.5},
+                  {0.3, 0.4, 0.75});
   }
 }
 
 TEST_F(MeshFile, FacesWithManyCornersBecomeTriangles) {
-  const MeshPtr mesh = load("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 2 5\n");
+  const MeshPtr mesh =
+      load("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 2 5\n");
   EXPECT_EQ(mesh->triangles.size(), 3U);
 }
 
@@ -104,7 +111,8 @@ TEST_F(MeshFile, SaysWhyItCannotBeRead) {
   const auto says = [&](const Problem& problem, const char* slug, const std::string& why) {
     EXPECT_EQ(problem.slug, slug);
     EXPECT_EQ(problem.pointer, "/here");
-    EXPECT_THAT(problem.detail, testing::AllOf(testing::StartsWith("robot a: mesh /"), HasSubstr(why)));
+    EXPECT_THAT(problem.detail,
+                testing::AllOf(testing::StartsWith("robot a: mesh /"), HasSubstr(why)));
     EXPECT_NE(problem.value.index(), 0U);
   };
   says(refusal((folder_.path() / "none.stl").string()), "file-missing", "there is no such file");
@@ -123,13 +131,17 @@ TEST_F(MeshFile, SaysWhyItCannotBeRead) {
     return refusal("changed.dae", changed.replace(changed.find(from), from.size(), to));
   };
   says(with("<p>0 2 3", "<p>0 x 3"), "mesh-unreadable", "<p> holds 'x', which is no index");
-  says(with("<p>0 2 3", "<p>0 2 8"), "mesh-unreadable", "<p> holds index 8, the sources have 8 elements");
+  says(with("<p>0 2 3", "<p>0 2 8"), "mesh-unreadable",
+       "<p> holds index 8, the sources have 8 elements");
   says(with("<p>0 2 3", "<p>"), "mesh-unreadable", "<triangles> holds other than it says");
-  says(with("count=\"24\"", "count=\"25\""), "mesh-unreadable", "says that it holds 25 numbers and holds 24");
+  says(with("count=\"24\"", "count=\"25\""), "mesh-unreadable",
+       "says that it holds 25 numbers and holds 24");
   says(with("count=\"8\"", "count=\"9\""), "mesh-unreadable", "asks for more than its array holds");
-  says(with("stride=\"3\"", "stride=\"2\""), "mesh-unreadable", "asks for more than its array holds");
+  says(with("stride=\"3\"", "stride=\"2\""), "mesh-unreadable",
+       "asks for more than its array holds");
   says(with("offset=\"0\"", "offset=\"-1\""), "mesh-unreadable", "<input>");
-  says(with("<instance_geometry", "<skew>1 2 3</skew><instance_geometry"), "mesh-unreadable", "<skew> is not supported");
+  says(with("<instance_geometry", "<skew>1 2 3</skew><instance_geometry"), "mesh-unreadable",
+       "<skew> is not supported");
   says(with("<instance_geometry url=\"#g\"", "<instance_controller url=\"#c\""), "mesh-unreadable",
        "<instance_controller> is not supported");
   says(refusal("short.stl", small::stl_bytes(box_).substr(0, 200)), "mesh-unreadable", "stl");
@@ -143,7 +155,8 @@ TEST_F(MeshFile, NamesTheVertexThatIsNotFinite) {
   bad.vertices[3].y() = std::numeric_limits<double>::infinity();
   EXPECT_THAT(refusal("inf.stl", small::stl_bytes(bad)).detail, HasSubstr(": y is inf"));
   bad.vertices[3].y() = -2000.0;
-  EXPECT_THAT(refusal("far.stl", small::stl_bytes(bad)).detail, HasSubstr("y is -2000 m, at most 1000 m"));
+  EXPECT_THAT(refusal("far.stl", small::stl_bytes(bad)).detail,
+              HasSubstr("y is -2000 m, at most 1000 m"));
 }
 
 TEST_F(MeshFile, RefusesAMillionTrianglesWithoutBuildingThem) {
@@ -152,7 +165,8 @@ TEST_F(MeshFile, RefusesAMillionTrianglesWithoutBuildingThem) {
   const std::uint32_t million = 1'000'000;
   std::memcpy(stl.data() + 80, &million, sizeof million);
   EXPECT_THAT(refusal("a.stl", stl).detail, HasSubstr("it has 1000000 triangles, at most 500000"));
-  EXPECT_THAT(refusal("lie.stl", small::stl_bytes(box_, 4'000'000'000U)).detail, HasSubstr("4000000000 triangles"));
+  EXPECT_THAT(refusal("lie.stl", small::stl_bytes(box_, 4'000'000'000U)).detail,
+              HasSubstr("4000000000 triangles"));
   std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 0; i < 1'000'000; ++i) obj += "f 1 2 3\n";
   EXPECT_THAT(refusal("a.obj", obj).detail, HasSubstr("it has 1000000 triangles"));
@@ -161,7 +175,8 @@ TEST_F(MeshFile, RefusesAMillionTrianglesWithoutBuildingThem) {
   EXPECT_THAT(refusal("fan.obj", fan).detail, HasSubstr("it has 1000000 triangles"));
   small::Surface many = box_;
   many.triangles.assign(1'000'000, {0, 1, 2});
-  EXPECT_THAT(refusal("a.dae", small::dae_text(many, "", kPlaced)).detail, HasSubstr("it has 1000000 triangles"));
+  EXPECT_THAT(refusal("a.dae", small::dae_text(many, "", kPlaced)).detail,
+              HasSubstr("it has 1000000 triangles"));
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
@@ -179,18 +194,25 @@ TEST_F(MeshFile, RefusesNodesThatMultiplyOrPlaceThemselves) {
   }
   const std::string scene = R"(<node><instance_node url="#n60"/></node>)";
   EXPECT_EQ(refusal("bomb.dae", small::dae_text(box_, "", scene, nodes)).slug, "mesh-too-large");
-  const std::string ring = R"(<node id="a"><instance_node url="#b"/></node><node id="b"><instance_node url="#a"/></node>)";
-  EXPECT_THAT(refusal("ring.dae", small::dae_text(box_, "", R"(<node><instance_node url="#a"/></node>)", ring)).detail,
+  const std::string ring =
+      R"(<node id="a"><instance_node url="#b"/></node><node id="b"><instance_node url="#a"/></node>)";
+  EXPECT_THAT(refusal("ring.dae",
+                      small::dae_text(box_, "", R"(<node><instance_node url="#a"/></node>)", ring))
+                  .detail,
               HasSubstr("its nodes place themselves"));
 }
 
 // Cut, overwritten and doubled at random places: read or refused with a reason, never worse.
 TEST_F(MeshFile, SurvivesBrokenBytes) {
   std::mt19937_64 random(3);
-  const auto below = [&](std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random); };
+  const auto below = [&](std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+  };
   const std::string nodes = R"(<node id="n"><instance_geometry url="#g"/></node>)";
   const std::pair<const char*, std::string> sound[] = {
-      {"a.stl", small::stl_bytes(box_)}, {"b.stl", small::stl_text(box_)}, {"c.obj", small::obj_text(box_)},
+      {"a.stl", small::stl_bytes(box_)},
+      {"b.stl", small::stl_text(box_)},
+      {"c.obj", small::obj_text(box_)},
       {"d.dae", small::dae_text(box_, "", R"(<node><instance_node url="#n"/></node>)", nodes)}};
   int refused = 0;
   for (int round = 0; round < 400; ++round) {
@@ -200,10 +222,18 @@ TEST_F(MeshFile, SurvivesBrokenBytes) {
         const std::size_t at = below(bytes.size());
         const std::size_t length = std::min(below(20) + 1, bytes.size() - at);
         switch (below(4)) {
-          case 0: bytes.resize(at + 1); break;
-          case 1: bytes.insert(at, bytes.substr(at, length)); break;
-          case 2: bytes[at] = static_cast<char>(below(256)); break;
-          default: bytes.replace(at, length, std::to_string(random())); break;
+          case 0:
+            bytes.resize(at + 1);
+            break;
+          case 1:
+            bytes.insert(at, bytes.substr(at, length));
+            break;
+          case 2:
+            bytes[at] = static_cast<char>(below(256));
+            break;
+          default:
+            bytes.replace(at, length, std::to_string(random()));
+            break;
         }
       }
       const auto mesh = load_mesh(folder_.write(name, bytes), kOne, "/here", "robot a");
@@ -215,7 +245,8 @@ TEST_F(MeshFile, SurvivesBrokenBytes) {
       for (const Triangle& t : (*mesh)->triangles) {
         for (const std::uint32_t i : t) ASSERT_LT(i, (*mesh)->vertices.size());
       }
-      for (const Eigen::Vector3d& p : (*mesh)->vertices) ASSERT_LE(p.cwiseAbs().maxCoeff(), kMaxMeshReach_m);
+      for (const Eigen::Vector3d& p : (*mesh)->vertices)
+        ASSERT_LE(p.cwiseAbs().maxCoeff(), kMaxMeshReach_m);
       EXPECT_FALSE((*mesh)->hull.faces.empty());
     }
   }
@@ -237,7 +268,8 @@ TEST(ConvexHullOf, ContainsEveryPointAndIsClosed) {
       const Eigen::Vector3d& a = hull.vertices[face[0]];
       const Eigen::Vector3d n = (hull.vertices[face[1]] - a).cross(hull.vertices[face[2]] - a);
       if (n.norm() < 1e-9) continue;  // a sliver has no plane
-      for (const Eigen::Vector3d& p : points) ASSERT_LE(n.normalized().dot(p - a), kHullTolerance_m);
+      for (const Eigen::Vector3d& p : points)
+        ASSERT_LE(n.normalized().dot(p - a), kHullTolerance_m);
     }
     if (count == 20000) {
       for (const Eigen::Vector3d& p : hull.vertices) EXPECT_LT(p.norm(), 1.035);
@@ -252,7 +284,8 @@ TEST(ConvexHullOf, OfAFlatSheetIsAThinPlateAroundIt) {
     const Eigen::Vector3d p(std::cos(i), std::sin(i), 0);
     sheet.push_back(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal) * p);
   }
-  for (const auto& points : {sheet, std::vector<Eigen::Vector3d>(3, kOne), {kOne, 2 * kOne, 3 * kOne}}) {
+  for (const auto& points :
+       {sheet, std::vector<Eigen::Vector3d>(3, kOne), {kOne, 2 * kOne, 3 * kOne}}) {
     const ConvexHull hull = convex_hull(points).value();
     EXPECT_GT(volume(hull.vertices, hull.faces), 0.0);
     for (const Eigen::Vector3d& p : hull.vertices) {
@@ -275,7 +308,8 @@ class MeshCell : public MeshFile {
   CellDescription description() {
     CellDescription cell;
     cell.name = "c";
-    cell.robots.push_back({.name = "r", .urdf = folder_.write("r.urdf", kRobot), .srdf = "", .prefix = "r_"});
+    cell.robots.push_back(
+        {.name = "r", .urdf = folder_.write("r.urdf", kRobot), .srdf = "", .prefix = "r_"});
     cell.robots[0].packages["p"] = (folder_.path() / "package").string();
     cell.robots[0].arms.push_back({.name = "r", .group = ""});
     return cell;
@@ -314,8 +348,10 @@ TEST_F(MeshCell, NamesTheLinkOrObjectWhoseMeshIsBad) {
 TEST_F(MeshCell, RefusesAMeshThatALinkLeadsOutOfItsPackage) {
   folder_.write("secret.stl", small::stl_bytes(box_));
   std::filesystem::create_directory(folder_.path() / "package");
-  std::filesystem::create_symlink(folder_.path() / "secret.stl", folder_.path() / "package/part.stl");
-  EXPECT_THAT(problems_of(description()), testing::AllOf(HasSubstr("r.urdf: link l"), HasSubstr("through a link")));
+  std::filesystem::create_symlink(folder_.path() / "secret.stl",
+                                  folder_.path() / "package/part.stl");
+  EXPECT_THAT(problems_of(description()),
+              testing::AllOf(HasSubstr("r.urdf: link l"), HasSubstr("through a link")));
 }
 
 }  // namespace

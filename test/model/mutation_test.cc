@@ -19,24 +19,35 @@ std::string text_of_file(const std::string& path) {
 
 // A few random edits: bytes replaced, pieces dropped, doubled or swapped for awkward tokens.
 std::string mutated(std::string text, std::mt19937& random) {
-  static const char* const kTokens[] = {"nan", "-", "1e308", "<", ">", "/>", "\"", "&#0;", "&amp;", "<!--", "joint",
-                                        "link", "-0", "9e-300", "mimic", "<![CDATA[", "\xff", " "};
-  const auto below = [&](std::size_t bound) { return std::uniform_int_distribution<std::size_t>(0, bound - 1)(random); };
+  static const char* const kTokens[] = {"nan", "-",      "1e308", "<",         ">",     "/>",
+                                        "\"",  "&#0;",   "&amp;", "<!--",      "joint", "link",
+                                        "-0",  "9e-300", "mimic", "<![CDATA[", "\xff",  " "};
+  const auto below = [&](std::size_t bound) {
+    return std::uniform_int_distribution<std::size_t>(0, bound - 1)(random);
+  };
   for (std::size_t edits = 1 + below(3); edits > 0 && !text.empty(); --edits) {
     const std::size_t at = below(text.size());
     const std::size_t length = std::min(below(60) + 1, text.size() - at);
     switch (below(4)) {
-      case 0: text[at] = static_cast<char>(below(255) + 1); break;
-      case 1: text.erase(at, length); break;
-      case 2: text.insert(below(text.size()), text.substr(at, length)); break;
-      default: text.replace(at, std::min<std::size_t>(length, 4), kTokens[below(std::size(kTokens))]);
+      case 0:
+        text[at] = static_cast<char>(below(255) + 1);
+        break;
+      case 1:
+        text.erase(at, length);
+        break;
+      case 2:
+        text.insert(below(text.size()), text.substr(at, length));
+        break;
+      default:
+        text.replace(at, std::min<std::size_t>(length, 4), kTokens[below(std::size(kTokens))]);
     }
   }
   return text;
 }
 
 // Either a cell whose every pose is finite, or problems with place and sentence.
-void expect_cell_or_problems(const CellDescription& description, const std::string& text, int& built) {
+void expect_cell_or_problems(const CellDescription& description, const std::string& text,
+                             int& built) {
   const auto cell = build_cell(description);
   if (!cell) {
     ASSERT_FALSE(cell.error().empty());

@@ -22,7 +22,8 @@ TEST(Panda, HasSevenJointsAndOneGripperJoint) {
               testing::ElementsAre("right_panda_joint1", "right_panda_joint2", "right_panda_joint3",
                                    "right_panda_joint4", "right_panda_joint5", "right_panda_joint6",
                                    "right_panda_joint7"));
-  EXPECT_THAT(names_of(*cell, cell->arms[0].gripper_joints), testing::ElementsAre("left_panda_finger_joint1"));
+  EXPECT_THAT(names_of(*cell, cell->arms[0].gripper_joints),
+              testing::ElementsAre("left_panda_finger_joint1"));
   EXPECT_TRUE(cell->arms[0].named_states.contains("ready"));
 }
 
@@ -50,7 +51,8 @@ TEST(Panda, StandsWithItsFlangeWhereTheDataSheetSaysAtZero) {
     const Eigen::Isometry3d& X_W0 = X_WL[cell->find_link(arm + "_panda_link0")->index()];
     const Eigen::Isometry3d& X_W8 = X_WL[cell->find_link(arm + "_panda_link8")->index()];
     const Eigen::Isometry3d X_08 = X_W0.inverse() * X_W8;
-    EXPECT_TRUE(X_08.translation().isApprox(Eigen::Vector3d(0.088, 0, 0.926), 1e-6)) << X_08.translation().transpose();
+    EXPECT_TRUE(X_08.translation().isApprox(Eigen::Vector3d(0.088, 0, 0.926), 1e-6))
+        << X_08.translation().transpose();
     // The flange looks down: x forward, z towards the floor.
     EXPECT_NEAR(X_08.linear()(0, 0), 1.0, 1e-6);
     EXPECT_NEAR(X_08.linear()(2, 2), -1.0, 1e-6);
@@ -60,7 +62,8 @@ TEST(Panda, StandsWithItsFlangeWhereTheDataSheetSaysAtZero) {
 TEST(Panda, AllowsTheTableToTouchBothBases) {
   const CellPtr cell = build_or_fail(two_pandas_description());
   EXPECT_TRUE(cell->allowed_link_objects.contains({*cell->find_link("left_panda_link0"), "table"}));
-  EXPECT_TRUE(cell->allowed_link_objects.contains({*cell->find_link("right_panda_link0"), "table"}));
+  EXPECT_TRUE(
+      cell->allowed_link_objects.contains({*cell->find_link("right_panda_link0"), "table"}));
   EXPECT_EQ(cell->allowed_link_objects.size(), 2u);
 }
 

@@ -23,10 +23,15 @@ struct Surface {
 inline Surface box_surface(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   Surface box;
   for (int i = 0; i < 8; ++i) {
-    box.vertices.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
+    box.vertices.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(),
+                              i & 4 ? high.z() : low.z());
   }
-  for (const auto& [a, b, c, d] : {std::array<std::uint32_t, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+  for (const auto& [a, b, c, d] : {std::array<std::uint32_t, 4>{0, 2, 3, 1},
+                                   {4, 5, 7, 6},
+                                   {0, 1, 5, 4},
+                                   {2, 6, 7, 3},
+                                   {0, 4, 6, 2},
+                                   {1, 3, 7, 5}}) {
     box.triangles.push_back({a, b, c});
     box.triangles.push_back({a, c, d});
   }
@@ -36,15 +41,17 @@ inline Surface box_surface(const Eigen::Vector3d& low, const Eigen::Vector3d& hi
 inline Surface joined(Surface a, const Surface& b) {
   const auto first = static_cast<std::uint32_t>(a.vertices.size());
   a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const Triangle& t : b.triangles) a.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  for (const Triangle& t : b.triangles)
+    a.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   return a;
 }
 
 // Two walls with a slot of `slot_m` between them along x, on a floor: concave. 1 m wide, 1 m high.
 inline Surface channel(double slot_m) {
   const double s = slot_m / 2;
-  return joined(joined(box_surface({-0.5, -0.5, 0}, {-s, 0.5, 1}), box_surface({s, -0.5, 0}, {0.5, 0.5, 1})),
-                box_surface({-0.5, -0.5, -0.1}, {0.5, 0.5, 0}));
+  return joined(
+      joined(box_surface({-0.5, -0.5, 0}, {-s, 0.5, 1}), box_surface({s, -0.5, 0}, {0.5, 0.5, 1})),
+      box_surface({-0.5, -0.5, -0.1}, {0.5, 0.5, 0}));
 }
 
 inline std::string number(double value) {
@@ -90,14 +97,16 @@ inline std::string obj_text(const Surface& surface) {
     text += "v " + number(p.x()) + " " + number(p.y()) + " " + number(p.z()) + "\n";
   }
   for (const Triangle& t : surface.triangles) {
-    text += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " + std::to_string(t[2] + 1) + "\n";
+    text += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " +
+            std::to_string(t[2] + 1) + "\n";
   }
   return text;
 }
 
 // `scene`: what stands inside of <visual_scene>; `nodes`: inside of <library_nodes>.
-inline std::string dae_text(const Surface& surface, const std::string& unit, const std::string& scene,
-                            const std::string& nodes = "", const std::string& up_axis = "Z_UP") {
+inline std::string dae_text(const Surface& surface, const std::string& unit,
+                            const std::string& scene, const std::string& nodes = "",
+                            const std::string& up_axis = "Z_UP") {
   std::string floats;
   for (const Eigen::Vector3d& p : surface.vertices) {
     floats += number(p.x()) + " " + number(p.y()) + " " + number(p.z()) + " ";
@@ -109,18 +118,24 @@ inline std::string dae_text(const Surface& surface, const std::string& unit, con
   const std::string points = std::to_string(surface.vertices.size());
   return R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
- <asset>)" + unit + "<up_axis>" + up_axis + R"(</up_axis></asset>
+ <asset>)" +
+         unit + "<up_axis>" + up_axis + R"(</up_axis></asset>
  <library_geometries><geometry id="g"><mesh>
-  <source id="p"><float_array id="pa" count=")" + std::to_string(3 * surface.vertices.size()) + "\">" + floats +
-         R"(</float_array><technique_common><accessor source="#pa" count=")" + points + R"(" stride="3">
+  <source id="p"><float_array id="pa" count=")" +
+         std::to_string(3 * surface.vertices.size()) + "\">" + floats +
+         R"(</float_array><technique_common><accessor source="#pa" count=")" + points +
+         R"(" stride="3">
    <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
   </accessor></technique_common></source>
   <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-  <triangles count=")" + std::to_string(surface.triangles.size()) +
+  <triangles count=")" +
+         std::to_string(surface.triangles.size()) +
          R"("><input semantic="VERTEX" source="#v" offset="0"/><p>)" + indices + R"(</p></triangles>
  </mesh></geometry></library_geometries>
- <library_nodes>)" + nodes + R"(</library_nodes>
- <library_visual_scenes><visual_scene id="s">)" + scene + R"(</visual_scene></library_visual_scenes>
+ <library_nodes>)" +
+         nodes + R"(</library_nodes>
+ <library_visual_scenes><visual_scene id="s">)" +
+         scene + R"(</visual_scene></library_visual_scenes>
  <scene><instance_visual_scene url="#s"/></scene>
 </COLLADA>
 )";

@@ -30,8 +30,12 @@ RobotDescription panda(const std::string& name, double x, double yaw) {
 
 }  // namespace
 
-std::string data_file(const std::string& name) { return std::string(ARMLOOM_SOURCE_DIR "/test/model/data/") + name; }
-std::string model_file(const std::string& name) { return std::string(ARMLOOM_SOURCE_DIR "/models/") + name; }
+std::string data_file(const std::string& name) {
+  return std::string(ARMLOOM_SOURCE_DIR "/test/model/data/") + name;
+}
+std::string model_file(const std::string& name) {
+  return std::string(ARMLOOM_SOURCE_DIR "/models/") + name;
+}
 
 CellDescription two_arms_description() {
   RobotDescription robot;
@@ -39,7 +43,8 @@ CellDescription two_arms_description() {
   robot.urdf = data_file("two_arms.urdf");
   robot.srdf = data_file("two_arms.srdf");
   robot.prefix = "t_";
-  robot.X_WB = Eigen::Translation3d(1, -2, 0.5) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
+  robot.X_WB = Eigen::Translation3d(1, -2, 0.5) *
+               Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
   robot.packages = {{"shapes", data_file("shapes")}};
   robot.arms.push_back({"left", "left_arm", {0.3, -0.5}, {}});
   robot.arms.push_back({"right", "right_arm", {}, {}});
@@ -54,7 +59,8 @@ CellDescription two_pandas_description() {
   CellDescription cell;
   cell.name = "two_pandas";
   cell.robots = {panda("left", -0.4, 0.0), panda("right", 0.4, -std::numbers::pi)};
-  cell.objects.push_back({"table", Box{{2, 2, 0.1}}, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.05))});
+  cell.objects.push_back(
+      {"table", Box{{2, 2, 0.1}}, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.05))});
   cell.allowed_collisions = {{"table", "left_panda_link0"}, {"right_panda_link0", "table"}};
   return cell;
 }

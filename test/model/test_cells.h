@@ -39,6 +39,7 @@ class ScratchFolder {
 };
 
 // The text of a file with `from`, which must occur in it exactly once, replaced by `to`.
-[[nodiscard]] std::string file_with(const std::string& path, const std::string& from, const std::string& to);
+[[nodiscard]] std::string file_with(const std::string& path, const std::string& from,
+                                    const std::string& to);
 
 }  // namespace armloom

@@ -13,8 +13,9 @@ TEST(XmlNumbers, ReadsDecimalNumbersAsTheyStand) {
 }
 
 TEST(XmlNumbers, RefusesWhatTheXmlLibrariesWouldGuessAt) {
-  for (const char* token : {"", "nan", "NaN", "inf", "-inf", "infinity", "1e999", "-1e999", "0x10", "1,5", "1.5m",
-                            " 1", "1 ", "--1", "+-1", "-+1", "1e", "e5", ".", "${pi}"}) {
+  for (const char* token :
+       {"",     "nan", "NaN", "inf", "-inf", "infinity", "1e999", "-1e999", "0x10", "1,5",
+        "1.5m", " 1",  "1 ",  "--1", "+-1",  "-+1",      "1e",    "e5",     ".",    "${pi}"}) {
     EXPECT_EQ(parse_number(token), std::nullopt) << token;
   }
 }

@@ -19,8 +19,10 @@ constexpr const char* kUrdf = R"(<robot name="r"><link name="l">
   <collision><geometry><mesh filename="package://p/part.stl"/></geometry></collision>
 </link><link name="tip"/><joint name="j" type="revolute"><parent link="l"/><child link="tip"/>
 <limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>)";
-constexpr const char* kSrdf = R"(<robot name="r"><group name="g"><joint name="j"/></group></robot>)";
-constexpr const char* kCell = R"({"name": "m", "robots": [{"name": "r", "urdf": "r.urdf", "srdf": "r.srdf",
+constexpr const char* kSrdf =
+    R"(<robot name="r"><group name="g"><joint name="j"/></group></robot>)";
+constexpr const char* kCell =
+    R"({"name": "m", "robots": [{"name": "r", "urdf": "r.urdf", "srdf": "r.srdf",
   "packages": {"p": "package"}, "arms": [{"name": "r", "group": "g"}]}],
   "objects": [{"name": "crate", "mesh": "crate.obj", "scale": [1, 2, 0.5], "xyz": [5, 0, 0]}]})";
 
@@ -66,9 +68,10 @@ TEST_F(MeshRoutes, ServeTheMeshesThatTheCellNames) {
 
 TEST_F(MeshRoutes, ServeNoOtherFileAndTellNoPath) {
   start(1.0, {}, folder_ / "cell.json");
-  for (const std::string& path : {std::string("../cell.json"), std::string("r.urdf"), folder_.string(),
-                                  std::string("package%2fsecret.txt"), std::string("0000000000000000.stl"),
-                                  mesh_name((folder_ / "package/secret.txt").string()), std::string("")}) {
+  for (const std::string& path :
+       {std::string("../cell.json"), std::string("r.urdf"), folder_.string(),
+        std::string("package%2fsecret.txt"), std::string("0000000000000000.stl"),
+        mesh_name((folder_ / "package/secret.txt").string()), std::string("")}) {
     const auto answer = get(kMeshFolder + path);
     EXPECT_TRUE(answer.status == 404 || answer.status == 400) << path << ": " << answer.status;
     EXPECT_EQ(answer.body.find("secret\""), std::string::npos);
@@ -78,7 +81,8 @@ TEST_F(MeshRoutes, ServeNoOtherFileAndTellNoPath) {
 
 TEST_F(MeshRoutes, SayThatAMeshHasGone) {
   start(1.0, {}, folder_ / "cell.json");
-  const std::string address = get("/api/v1/cell").json()["robots"][0]["meshes"]["package://p/part.stl"];
+  const std::string address =
+      get("/api/v1/cell").json()["robots"][0]["meshes"]["package://p/part.stl"];
   fs::remove(folder_ / "package/part.stl");
   EXPECT_EQ(get(address).status, 404);
 }
