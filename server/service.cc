@@ -17,7 +17,7 @@ class Service::Impl {
   explicit Impl(ServiceOptions options) : options_(std::move(options)), files_(options_.web) {}
 
   std::optional<Problems> start(const CellPtr& cell, const Recording::Source& source) {
-    auto http = HttpServer::listen(options_.address, options_.port);
+    auto http = HttpServer::listen(options_.address, options_.port, options_.connections_max);
     if (!http) return std::move(http.error());
     http_ = std::move(*http);
     if (options_.data) {
@@ -56,6 +56,7 @@ class Service::Impl {
     site.feed_path = "/api/v1/ws";
     site.events_path = "/api/v1/events";
     site.stream = stream_;
+    site.keep_alive = options_.keep_alive;
     site.wind_down = [this](std::function<void()> done) {
       loop_->post([done = std::move(done)](Executive& executive) {
         executive.wind_down("the server ends", done);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -14,13 +16,15 @@ namespace armloom {
 
 struct ServiceOptions {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 8080;                  // zero: any free one
-  double speed = 1.0;                         // cell seconds per wall second
-  std::string policy;                         // empty: the cell's
-  std::filesystem::path web;                  // the dashboard's files
-  std::optional<std::filesystem::path> data;  // where a recording is written; one in
-                                              // it is kept (Recording::unused_folder)
-  bool record_states = false;                 // states.csv as well
+  std::uint16_t port = 8080;                     // zero: any free one
+  double speed = 1.0;                            // cell seconds per wall second
+  std::string policy;                            // empty: the cell's
+  std::filesystem::path web;                     // the dashboard's files
+  std::optional<std::filesystem::path> data;     // where a recording is written; one in
+                                                 // it is kept (Recording::unused_folder)
+  bool record_states = false;                    // states.csv as well
+  std::size_t connections_max = 4096;            // one more is refused with 503
+  std::chrono::milliseconds keep_alive{15'000};  // of /events, when there are none
 };
 
 // The server: executive in real time, HTTP, WebSocket, dashboard. One thread for all connections

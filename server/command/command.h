@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
+#include <string_view>
 
 #include "core/base/problem.h"
 #include "core/model/cell.h"
@@ -58,6 +58,7 @@ int audit_recording(const AuditOptions& options);
 
 struct LoadedCell {
   CellPtr cell;
+  CellDescription description;
   std::filesystem::path file;
   std::string text;  // of the cell file
 };
@@ -66,5 +67,9 @@ struct LoadedCell {
 
 // "armloom: config/x.json:/robots/0/urdf: ..." on stderr, one line for each problem.
 void complain(const std::string& file, const Problems& problems);
+
+// The problems, with those of this slug said to be at an option of the command line: "--out".
+[[nodiscard]] Problems said_of_option(Problems problems, std::string_view slug,
+                                      std::string_view option);
 
 }  // namespace armloom

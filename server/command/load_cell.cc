@@ -14,15 +14,22 @@ void complain(const std::string& file, const Problems& problems) {
   }
 }
 
+Problems said_of_option(Problems problems, std::string_view slug, std::string_view option) {
+  for (Problem& problem : problems) {
+    if (problem.slug == slug) problem.pointer = option;
+  }
+  return problems;
+}
+
 std::optional<LoadedCell> load_cell(const std::string& cell_file) {
-  LoadedCell loaded{nullptr, cell_file, {}};
+  LoadedCell loaded{nullptr, {}, cell_file, {}};
   auto text = read_text_file(loaded.file);
   if (!text) {
     complain(cell_file, text.error());
     return std::nullopt;
   }
   loaded.text = std::move(*text);
-  const auto description = read_cell_text(loaded.text, loaded.file.parent_path());
+  auto description = read_cell_text(loaded.text, loaded.file.parent_path());
   if (!description) {
     complain(cell_file, description.error());
     return std::nullopt;
@@ -33,6 +40,7 @@ std::optional<LoadedCell> load_cell(const std::string& cell_file) {
     return std::nullopt;
   }
   loaded.cell = std::move(*cell);
+  loaded.description = std::move(*description);
   return loaded;
 }
 

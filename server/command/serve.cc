@@ -35,12 +35,17 @@ fs::path web_folder(const std::string& asked) {
   return fs::is_directory(in_repository, ec) ? in_repository : binary.parent_path() / "web";
 }
 
-// Each connection is a file descriptor: take as many as the system gives.
-void raise_descriptor_limit() {
+// Each connection is a file descriptor: takes as many as the system gives, leaves some for files
+// and returns how many connections there may be.
+std::size_t connections_within_descriptors(std::size_t wanted) {
+  constexpr rlim_t kOther = 64;
   rlimit limit{};
-  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
   limit.rlim_cur = limit.rlim_max;
   setrlimit(RLIMIT_NOFILE, &limit);
+  getrlimit(RLIMIT_NOFILE, &limit);
+  if (limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= wanted + kOther) return wanted;
+  return limit.rlim_cur > 2 * kOther ? static_cast<std::size_t>(limit.rlim_cur - kOther) : kOther;
 }
 
 std::string dashboard_address(const std::string& address, std::uint16_t port) {
@@ -65,12 +70,16 @@ int serve(const ServeOptions& options) {
   service_options.web = web_folder(options.web);
   if (!options.data.empty()) service_options.data = options.data;
   service_options.record_states = options.record;
-  raise_descriptor_limit();
+  service_options.connections_max = connections_within_descriptors(service_options.connections_max);
   std::signal(SIGPIPE, SIG_IGN);
 
   auto service = Service::start(loaded->cell, {loaded->file, loaded->text}, service_options);
   if (!service) {
-    complain(options.cell_file, service.error());
+    Problems problems = said_of_option(std::move(service.error()), "cannot-write", "--data");
+    if (!options.policy.empty()) {
+      problems = said_of_option(std::move(problems), "unknown-policy", "--policy");
+    }
+    complain(options.cell_file, problems);
     return kExitBadInput;
   }
   spdlog::info(

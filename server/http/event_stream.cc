@@ -57,6 +57,8 @@ std::string event_text(const Feed::Message& message, const std::string& stream) 
 asio::awaitable<void> write_feed(LinkPtr link, bool poses, const Site& site) {
   ErrorCode ec;
   co_await write(link, kHead, ec);
+  // Counted from the last byte sent: news that this reader does not get wakes it, too.
+  auto keep_alive_at = std::chrono::steady_clock::now() + site.keep_alive;
   while (!ec && !link->closed) {
     if (link->feed) {
       if (const auto farewell = link->feed->farewell()) {
@@ -67,13 +69,16 @@ asio::awaitable<void> write_feed(LinkPtr link, bool poses, const Site& site) {
         if (!message->seq && !poses) continue;
         const std::string text = event_text(*message, site.stream);
         co_await write(link, text, ec);
+        keep_alive_at = std::chrono::steady_clock::now() + site.keep_alive;
         continue;
       }
     }
-    link->news.expires_after(kKeepAlive);
+    link->news.expires_at(keep_alive_at);
     ErrorCode woken;
     co_await link->news.async_wait(into(woken));
-    if (!woken) co_await write(link, ": keep-alive\n\n", ec);
+    if (woken) continue;
+    co_await write(link, ": keep-alive\n\n", ec);
+    keep_alive_at = std::chrono::steady_clock::now() + site.keep_alive;
   }
   link->stream.close();
 }

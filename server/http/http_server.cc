@@ -9,6 +9,7 @@ namespace armloom {
 namespace {
 
 constexpr std::chrono::milliseconds kFarewell{500};
+constexpr std::size_t kRefusingMax = 32;                // at once; beyond, closed without a word
 constexpr auto kWindDownMax = std::chrono::seconds(5);  // for arms to come to rest
 
 Problem cannot_listen(const std::string& address, std::uint16_t port, const std::string& why) {
@@ -21,6 +22,8 @@ Problem cannot_listen(const std::string& address, std::uint16_t port, const std:
 
 class HttpServer::Impl {
  public:
+  explicit Impl(std::size_t connections_max) : connections_max_(connections_max) {}
+
   std::optional<Problem> open(const std::string& address, std::uint16_t port) {
     ErrorCode ec;
     const auto ip = asio::ip::make_address(address, ec);
@@ -81,13 +84,31 @@ class HttpServer::Impl {
     if (--connections_ == 0 && said_farewell_) io_.stop();
   }
 
+  asio::awaitable<void> refuse(tcp::socket socket) {
+    Response full = http_problem(
+        503, "too-many-connections",
+        std::to_string(connections_max_) + " connections are open, more are not served at once");
+    full.headers.emplace_back("Retry-After", "1");
+    ++refusing_;
+    co_await refuse_connection(std::move(socket), std::move(full));
+    --refusing_;
+  }
+
+  void take(tcp::socket socket) {
+    if (connections_ < connections_max_) {
+      asio::co_spawn(io_, serve(std::move(socket)), asio::detached);
+    } else if (refusing_ < kRefusingMax) {
+      asio::co_spawn(io_, refuse(std::move(socket)), asio::detached);
+    }
+  }
+
   asio::awaitable<void> accept() {
     asio::steady_timer pause(io_);
     for (;;) {
       ErrorCode ec;
       tcp::socket socket = co_await acceptor_.async_accept(into(ec));
       if (!ec) {
-        asio::co_spawn(io_, serve(std::move(socket)), asio::detached);
+        take(std::move(socket));
         continue;
       }
       if (ending_) co_return;
@@ -102,14 +123,17 @@ class HttpServer::Impl {
   tcp::acceptor acceptor_{io_};
   asio::signal_set signals_{io_};
   asio::steady_timer farewell_{io_};
+  const std::size_t connections_max_;
   std::size_t connections_ = 0;
+  std::size_t refusing_ = 0;
   bool ending_ = false;
   bool said_farewell_ = false;
 };
 
 Result<std::unique_ptr<HttpServer>> HttpServer::listen(const std::string& address,
-                                                       std::uint16_t port) {
-  auto impl = std::make_unique<Impl>();
+                                                       std::uint16_t port,
+                                                       std::size_t connections_max) {
+  auto impl = std::make_unique<Impl>(connections_max);
   if (auto problem = impl->open(address, port)) return failure(std::move(*problem));
   return std::unique_ptr<HttpServer>(new HttpServer(std::move(impl)));
 }

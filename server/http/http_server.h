@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -13,10 +14,12 @@ namespace armloom {
 // The listening socket and the one thread on which every connection is served.
 class HttpServer {
  public:
-  // Binds and listens; nothing is accepted before run(). Port zero: any free one.
+  // Binds and listens; nothing is accepted before run(). Port zero: any free one. Whoever connects
+  // while `connections_max` are open is answered 503 ("too-many-connections") and closed.
   // Problem (unavailable, "cannot-listen"): the address is no IP address, or the port is in use.
   [[nodiscard]] static Result<std::unique_ptr<HttpServer>> listen(const std::string& address,
-                                                                  std::uint16_t port);
+                                                                  std::uint16_t port,
+                                                                  std::size_t connections_max);
   ~HttpServer();
 
   [[nodiscard]] std::uint16_t port() const;

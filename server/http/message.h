@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -89,6 +90,7 @@ struct Site {
   std::string feed_path;      // WebSocket upgrades are accepted here and nowhere else
   std::string events_path;    // the same feed as Server-Sent Events
   std::string stream;         // stands in the ids of those events
+  std::chrono::milliseconds keep_alive{15'000};  // no event for so long: a comment line is sent
 };
 
 }  // namespace armloom

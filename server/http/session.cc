@@ -259,4 +259,11 @@ asio::awaitable<void> serve_connection(tcp::socket socket, const Site& site) {
   }
 }
 
+asio::awaitable<void> refuse_connection(tcp::socket socket, Response why) {
+  Connection connection(std::move(socket));
+  ErrorCode ec;
+  co_await send(connection, std::move(why), 11, false, false, ec);
+  if (!ec) co_await linger(connection);
+}
+
 }  // namespace armloom

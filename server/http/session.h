@@ -15,4 +15,7 @@ inline constexpr std::chrono::seconds kWriteTime{30};  // for a whole response
 // Runs on the server's thread; `site` outlives it.
 asio::awaitable<void> serve_connection(tcp::socket socket, const Site& site);
 
+// Says `why` at once, whatever is asked, and closes.
+asio::awaitable<void> refuse_connection(tcp::socket socket, Response why);
+
 }  // namespace armloom

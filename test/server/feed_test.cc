@@ -125,6 +125,23 @@ TEST_F(EventFeed, ComesAsServerSentEventsAndResumesByTheLastId) {
   EXPECT_EQ(next_sent(stranger).data["data"]["gap"], true);
 }
 
+// Pose frames, which this reader does not get, must not put the comment off.
+TEST_F(EventFeed, SendsACommentWhenThereWasNoEventForAWhile) {
+  options_.keep_alive = std::chrono::milliseconds(200);
+  start(1.0);
+  test::Wire wire(port());
+  wire.send("GET /api/v1/events HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  (void)wire.take_until("\r\n\r\n");
+  EXPECT_EQ(next_sent(wire).data["type"], "snapshot");
+  const auto before = std::chrono::steady_clock::now();
+  EXPECT_EQ(wire.take_until("\n\n"), ": keep-alive\n\n");
+  EXPECT_EQ(wire.take_until("\n\n"), ": keep-alive\n\n");
+  const auto took = std::chrono::steady_clock::now() - before;
+  EXPECT_GT(took, std::chrono::milliseconds(350));
+  run_one_job();
+  EXPECT_EQ(next_sent(wire).data["type"], "job");
+}
+
 TEST_F(EventFeed, ShowsPosesAsServerSentEventsIfAskedFor) {
   start(1.0);
   test::Wire wire(port());

@@ -1,6 +1,7 @@
 // Clients with a bad day: too much, too deep, too slow, too many. Each is told what was wrong, and
 // the others notice nothing.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <thread>
@@ -91,10 +92,26 @@ TEST_F(Limits, SlowHeadersAndBodiesAreCutOffAtTenSeconds) {
   EXPECT_LT(took, std::chrono::seconds(13));
 }
 
-TEST_F(Limits, HundredsOfIdleConnectionsChangeNothingForOthers) {
+// Both ends of every connection are in this process.
+void allow_descriptors(rlim_t count) {
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
+  if (limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur < count) {
+    limit.rlim_cur = limit.rlim_max;
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &limit), 0);
+  }
+  ASSERT_GE(limit.rlim_cur, count) << "the system gives too few file descriptors";
+}
+
+TEST_F(Limits, AThousandIdleConnectionsChangeNothingForOthers) {
+  ASSERT_NO_FATAL_FAILURE(allow_descriptors(2'200));
   start(20.0);
   std::vector<std::unique_ptr<test::Wire>> idle;
-  for (int i = 0; i < 350; ++i) idle.push_back(std::make_unique<test::Wire>(port()));
+  for (int i = 0; i < 1'000; ++i) idle.push_back(std::make_unique<test::Wire>(port()));
+  // The last in the queue of those to be accepted: when it is served, all of them are held.
+  test::Wire last(port());
+  last.send(test::request_text("GET", "/healthz", "", ""));
+  ASSERT_EQ(test::read_answer(last).status, 200);
   std::vector<std::unique_ptr<test::Listener>> deaf;  // never read
   for (int i = 0; i < 10; ++i) deaf.push_back(std::make_unique<test::Listener>(port()));
   test::Listener listener(port());
@@ -102,10 +119,42 @@ TEST_F(Limits, HundredsOfIdleConnectionsChangeNothingForOthers) {
   job["id"] = "go";
   const auto before = Clock::now();
   ASSERT_EQ(post("/api/v1/jobs", job.dump()).status, 202);
+  for (int i = 0; i < 20; ++i) {
+    const auto asked = Clock::now();
+    EXPECT_EQ(get("/healthz").status, 200);
+    EXPECT_LT(Clock::now() - asked, std::chrono::milliseconds(500));
+  }
   until(listener, "go", "succeeded");
   EXPECT_LT(Clock::now() - before, std::chrono::seconds(3));  // 0.15 s alone
   const json one_more = get("/api/v1/jobs/go").json();
   EXPECT_EQ(one_more["state"], "succeeded");
+  for (const auto& wire : {std::ref(idle.front()), std::ref(idle.back())}) {  // held, and served
+    wire.get()->send(test::request_text("GET", "/healthz", "", ""));
+    EXPECT_EQ(test::read_answer(*wire.get()).status, 200);
+  }
+}
+
+TEST_F(Limits, AConnectionTooManyIsToldSoAndTheOthersAreServed) {
+  options_.connections_max = 5;
+  start(1.0);
+  std::vector<std::unique_ptr<test::Wire>> held;
+  for (int i = 0; i < 5; ++i) held.push_back(std::make_unique<test::Wire>(port()));
+  const auto refused = get("/healthz");
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:too-many-connections");
+  EXPECT_EQ(refused.json()["detail"], "5 connections are open, more are not served at once");
+  EXPECT_EQ(refused.headers.at("retry-after"), "1");
+  EXPECT_EQ(refused.headers.at("connection"), "close");
+  for (const auto& wire : held) {
+    wire->send(test::request_text("GET", "/healthz", "", ""));
+    EXPECT_EQ(test::read_answer(*wire).status, 200);
+  }
+  // One ends: there is room again.
+  held.back()->send("GET /healthz HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
+  (void)held.back()->take_all();
+  held.pop_back();
+  const auto deadline = Clock::now() + std::chrono::seconds(5);
+  while (get("/healthz").status != 200) ASSERT_LT(Clock::now(), deadline);
 }
 
 }  // namespace

@@ -27,11 +27,10 @@ class RunningServer : public ::testing::Test {
     ASSERT_TRUE(description);
     const auto cell = build_cell(*description);
     ASSERT_TRUE(cell);
-    ServiceOptions options;
-    options.port = 0;
-    options.speed = speed;
-    options.web = std::move(web);
-    auto service = Service::start(*cell, {file, *text}, options);
+    options_.port = 0;
+    options_.speed = speed;
+    options_.web = std::move(web);
+    auto service = Service::start(*cell, {file, *text}, options_);
     ASSERT_TRUE(service) << service.error().front().detail;
     service_ = std::move(*service);
     thread_ = std::thread([this] { service_->run(false); });
@@ -68,6 +67,8 @@ class RunningServer : public ::testing::Test {
               const std::string& type = "application/json") {
     return request(port(), "POST", target, body, type);
   }
+
+  ServiceOptions options_;  // for start(), which sets port, speed and web
 
  private:
   std::unique_ptr<Service> service_;
