@@ -103,6 +103,61 @@ TEST_F(Jobs, OfTwoInConflictPostedAtOnceOneRunsAndTheOtherWaitsForIt) {
   EXPECT_EQ(rest.at(waited)["state"], "succeeded");
 }
 
+// The finger joint is in no group: it is the gripper joint of the arm above it.
+TEST_F(Jobs, MoveArmAndGripperInOneTrajectory) {
+  start(5.0);
+  const auto with_finger = [](json job, double from_m, double to_m) {
+    job["trajectory"]["joint_names"].push_back("left_panda_finger_joint1");
+    const auto& arm = job["trajectory"]["points"];
+    const double begins = arm.front()["positions"][1], ends = arm.back()["positions"][1];
+    for (json& point : job["trajectory"]["points"]) {  // in step with joint 2
+      const double scale = (to_m - from_m) / (ends - begins);
+      const double position = from_m + (point["positions"][1].get<double>() - begins) * scale;
+      point["velocities"].push_back(point["velocities"][1].get<double>() * scale);
+      point["accelerations"].push_back(point["accelerations"][1].get<double>() * scale);
+      point["positions"].push_back(position);
+    }
+    return job;
+  };
+  test::Listener listener(port());
+  const auto finger_m = [&] {
+    return listener.next_of("state")["q"]["left_panda_finger_joint1"].get<double>();
+  };
+  EXPECT_EQ(finger_m(), 0.0);
+  json open = with_finger(test::move("left", test::kHome, test::kMiddle), 0.0, 0.035);
+  open["id"] = "open";
+  ASSERT_EQ(post("/api/v1/jobs", open.dump()).status, 202);
+  next_job(listener, "open", [](const json& job) { return job["state"] == "running"; });
+  bool between = false;
+  for (double last = 0.0; last < 0.03;) {
+    const double now = finger_m();
+    EXPECT_GE(now, last - 1e-6);
+    between = between || (now > 0.002 && now < 0.033);
+    last = now;
+  }
+  EXPECT_TRUE(between) << "it must move, not jump";
+  EXPECT_EQ(until_ended(listener, {"open"})["open"]["result"]["reason"], "completed");
+  const json q = listener.next_of("state")["q"];
+  EXPECT_NEAR(q["left_panda_finger_joint1"].get<double>(), 0.035, 1e-4);
+  EXPECT_EQ(q["right_panda_finger_joint1"], 0.0);
+  for (std::size_t j = 0; j < 7; ++j) {
+    EXPECT_NEAR(q["left_panda_joint" + std::to_string(j + 1)].get<double>(), test::kMiddle[j],
+                1e-3);
+  }
+
+  // From here the finger is open: a job that believes it closed is refused, with what was found.
+  const json back = test::move("left", test::kMiddle, test::kHome);
+  const auto refused = post("/api/v1/jobs", with_finger(back, 0.0, 0.035).dump());
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_EQ(refused.json()["pointer"], "/trajectory/points/0/positions/7");
+  // An arm's own joints may move without it; the finger stays.
+  json arm_alone = back;
+  arm_alone["id"] = "back";
+  ASSERT_EQ(post("/api/v1/jobs", arm_alone.dump()).status, 202);
+  EXPECT_EQ(until_ended(listener, {"back"})["back"]["result"]["reason"], "completed");
+  EXPECT_NEAR(finger_m(), 0.035, 1e-4);
+}
+
 TEST_F(Jobs, ACanceledJobBrakesOnItsPathAndSaysSo) {
   start(1.0);
   test::Listener listener(port());
