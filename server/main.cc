@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <exception>
 #include <iostream>
 
@@ -10,6 +11,15 @@ using namespace armloom;
 
 void add_cell(CLI::App& command, std::string& file) {
   command.add_option("--cell", file, "cell file (JSON)")->required();
+}
+
+// The parser's own reading of an unsigned number takes -1 for the largest one.
+std::string not_a_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, ec] = std::from_chars(text.data(), end, seed);
+  if (ec == std::errc{} && stop == end) return {};
+  return text + " is no whole number from 0 to 18446744073709551615";
 }
 
 int run(int argc, char** argv) {
@@ -45,6 +55,7 @@ int run(int argc, char** argv) {
   simulate_command->add_option("--jobs", simulating.jobs_file, "jobs file (JSON)")->required();
   simulate_command->add_option("--policy", simulating.policy, "instead of the cell's");
   simulate_command->add_option("--seed", simulating.seed, "of the arms' noise")
+      ->check(not_a_seed)
       ->capture_default_str();
   simulate_command->add_option("--out", simulating.out, "folder for the recording");
   simulate_command->add_option("--faults", simulating.faults_file, "faults file (JSON)");

@@ -95,6 +95,7 @@ JsonWriter& JsonWriter::value(std::string_view text) {
 
 JsonWriter& JsonWriter::value(double number) {
   if (!std::isfinite(number)) return raw("null");
+  if (number == 0.0) number = 0.0;  // no "-0"
   char digits[40];
   const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
   return raw({digits, static_cast<std::size_t>(end - digits)});
@@ -102,8 +103,7 @@ JsonWriter& JsonWriter::value(double number) {
 
 JsonWriter& JsonWriter::rounded(double number, int decimals) {
   const double scale = std::pow(10.0, decimals);
-  const double near = std::round(number * scale) / scale;
-  return value(near == 0.0 ? 0.0 : near);  // no "-0"
+  return value(std::round(number * scale) / scale);
 }
 
 JsonWriter& JsonWriter::raw(std::string_view json) {

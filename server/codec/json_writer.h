@@ -15,8 +15,9 @@ namespace armloom {
 
 // Writes JSON text front to back, keys in the order in which they are given, without spaces.
 // Numbers are written in the shortest form that reads back the same; numbers that JSON does not
-// have (NaN, infinities) become null, bytes that are not UTF-8 become U+FFFD: the text is always
-// valid JSON. Nesting is the caller's duty: each begin has its end, each key its value.
+// have (NaN, infinities) become null, -0 becomes 0, bytes that are not UTF-8 become U+FFFD: the
+// text is always valid JSON. Nesting is the caller's duty: each begin has its end, each key its
+// value.
 class JsonWriter {
  public:
   JsonWriter& begin_object() { return open('{'); }

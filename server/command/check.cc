@@ -20,11 +20,15 @@ int check_jobs_file(const CheckOptions& options) {
   if (!text) return refuse(text.error());
   const auto jobs = read_jobs_text(*text);
   if (!jobs) return refuse(jobs.error());
-  const auto checked = check_jobs(loaded->cell, options.policy, *jobs);
+  auto checked = check_jobs(loaded->cell, options.policy, *jobs);
   if (!checked) {
     // A policy is the cell's business, everything else is the jobs'.
     const bool of_cell = checked.error().front().pointer.starts_with("/scheduling");
-    complain(of_cell ? options.cell_file : options.jobs_file, checked.error());
+    Problems problems = std::move(checked.error());
+    if (!options.policy.empty()) {
+      problems = said_of_option(std::move(problems), "unknown-policy", "--policy");
+    }
+    complain(of_cell ? options.cell_file : options.jobs_file, problems);
     return kExitBadInput;
   }
   for (const CheckedJob& job : *checked) {

@@ -170,7 +170,10 @@ int simulate_jobs(const SimulateOptions& options) {
   std::unique_ptr<Recording> recording;
   if (!options.out.empty()) {
     auto created = Recording::create(options.out, {loaded->file, loaded->text}, cell, true);
-    if (!created) return refuse(options.cell_file, created.error());
+    if (!created) {
+      return refuse(options.cell_file,
+                    said_of_option(std::move(created.error()), "cannot-write", "--out"));
+    }
     recording = std::move(*created);
     recording->jobs_file(*text);
   }
@@ -183,18 +186,20 @@ int simulate_jobs(const SimulateOptions& options) {
   executive_options.seed = options.seed;
   Watcher watcher(recording.get(), stream_of_seed(options.seed));
   const auto wall_start = std::chrono::steady_clock::now();
-  const auto result =
-      simulate(loaded->cell, executive_options, std::move(*jobs), limit, watcher, faults);
-  if (!result) return refuse(options.cell_file, result.error());
+  auto result = simulate(loaded->cell, executive_options, std::move(*jobs), limit, watcher, faults);
+  if (!result) {
+    Problems problems = std::move(result.error());
+    if (!options.policy.empty()) {
+      problems = said_of_option(std::move(problems), "unknown-policy", "--policy");
+    }
+    return refuse(options.cell_file, problems);
+  }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
 
   complain_of_refusals(*result, options.jobs_file);
   if (recording != nullptr && !recording->good()) {
-    return refuse(options.out, {Problem{ProblemKind::unavailable,
-                                        "cannot-write",
-                                        "",
-                                        "the recording could not be written whole",
-                                        {}}});
+    return refuse("", {Problem{ProblemKind::unavailable, "cannot-write", "--out",
+                               "the recording could not be written whole", options.out}});
   }
   Summary summary = summarise(*result, first_submit);
   summary.policy = options.policy.empty() ? cell.scheduling.policy : options.policy;

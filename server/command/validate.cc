@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -6,6 +7,8 @@
 
 #include "core/audit/audit.h"
 #include "core/executive/executive.h"
+#include "core/model/cell_checks.h"
+#include "server/codec/problem_codec.h"
 #include "server/command/command.h"
 
 namespace armloom {
@@ -23,9 +26,13 @@ class NoObserver final : public Observer {
   void on_state(const StateFrame&) override {}
 };
 
+double no_minus_zero(double number) { return number == 0.0 ? 0.0 : number; }
+
 std::string listed(const Eigen::VectorXd& q) {
   std::ostringstream text;
-  for (Eigen::Index i = 0; i < q.size(); ++i) text << (i > 0 ? ", " : "") << q[i];
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    text << (i > 0 ? ", " : "") << no_minus_zero(q[i]);
+  }
   return text.str();
 }
 
@@ -42,24 +49,40 @@ std::string counted_shapes(const Cell& cell, const std::vector<LinkId>& links) {
   return text.empty() ? "none" : text;
 }
 
-void print_joint(const Joint& joint) {
-  const char* unit = joint.kind == JointKind::prismatic ? "m" : "rad";
-  std::cout << "    " << std::left << std::setw(30) << joint.name << std::right << std::setw(10)
-            << joint.lower << std::setw(10) << joint.upper << std::setw(10) << joint.velocity_max
-            << std::setw(10) << joint.acceleration_max << std::setw(10) << joint.jerk_max
-            << std::setw(10) << joint.brake << "  " << unit << '\n';
+// `marked` limits were not given by the cell file.
+void print_limit(double limit, bool marked = false) {
+  std::cout << std::setw(9) << no_minus_zero(limit) << (marked ? '*' : ' ');
 }
 
-void print_arm(const Cell& cell, const Arm& arm) {
+void print_joint(const Joint& joint, const JointLimitsDescription& given) {
+  std::cout << "    " << std::left << std::setw(30) << joint.name << std::right;
+  print_limit(joint.lower);
+  print_limit(joint.upper);
+  print_limit(joint.velocity_max);
+  print_limit(joint.acceleration_max, !given.acceleration);
+  print_limit(joint.jerk_max, !given.jerk);
+  print_limit(joint.brake, !given.brake);
+  std::cout << " " << (joint.kind == JointKind::prismatic ? "m" : "rad") << '\n';
+}
+
+void print_arm(const Cell& cell, const Arm& arm, const ArmDescription& description) {
+  const std::string& prefix = cell.robots[arm.robot.index()].prefix;
+  const auto print = [&](JointId id) {
+    const auto given = description.limits.find(cell.joint(id).name.substr(prefix.size()));
+    print_joint(cell.joint(id),
+                given == description.limits.end() ? JointLimitsDescription{} : given->second);
+  };
   std::cout << "  arm " << arm.name << " (group " << arm.group << "), " << arm.joints.size()
             << " joints, " << arm.links.size()
             << " links, shapes: " << counted_shapes(cell, arm.links) << '\n';
   std::cout << "    home " << listed(arm.home) << '\n';
-  std::cout << "    " << std::left << std::setw(30) << "joint" << std::right << std::setw(10)
-            << "lower" << std::setw(10) << "upper" << std::setw(10) << "velocity" << std::setw(10)
-            << "accel." << std::setw(10) << "jerk" << std::setw(10) << "brake" << '\n';
-  for (const JointId id : arm.joints) print_joint(cell.joint(id));
-  for (const JointId id : arm.gripper_joints) print_joint(cell.joint(id));
+  std::cout << "    " << std::left << std::setw(30) << "joint" << std::right;
+  for (const char* limit : {"lower", "upper", "velocity", "accel.", "jerk", "brake"}) {
+    std::cout << std::setw(9) << limit << ' ';
+  }
+  std::cout << '\n';
+  std::for_each(arm.joints.begin(), arm.joints.end(), print);
+  std::for_each(arm.gripper_joints.begin(), arm.gripper_joints.end(), print);
 }
 
 void print_settings(const Cell& cell) {
@@ -81,23 +104,30 @@ void print_settings(const Cell& cell) {
             << to_seconds(cell.execution.duration_margin) << " s\n";
 }
 
-void print_cell(const Cell& cell) {
+void print_cell(const Cell& cell, const CellDescription& description) {
   std::cout << std::setprecision(6) << "cell " << cell.name << ": " << cell.robots.size()
             << " robots, " << cell.arms.size() << " arms, " << cell.joints.size() << " joints, "
             << cell.links.size() << " links, " << cell.objects.size() << " objects\n";
-  for (const Robot& robot : cell.robots) {
+  for (std::size_t r = 0; r < cell.robots.size(); ++r) {
+    const Robot& robot = cell.robots[r];
     const Eigen::Vector3d& p = robot.X_WB.translation();
-    std::cout << "robot " << robot.name << " (prefix \"" << robot.prefix << "\") at " << p.x()
-              << ", " << p.y() << ", " << p.z() << "; controller " << robot.controller.type
-              << ", lag " << to_seconds(robot.controller.lag) << " s, noise "
-              << robot.controller.noise_rad << " rad\n";
-    for (const ArmId id : robot.arms) print_arm(cell, cell.arm(id));
+    std::cout << "robot " << robot.name << " (prefix \"" << robot.prefix << "\") at "
+              << no_minus_zero(p.x()) << ", " << no_minus_zero(p.y()) << ", "
+              << no_minus_zero(p.z()) << "; controller " << robot.controller.type << ", lag "
+              << to_seconds(robot.controller.lag) << " s, noise " << robot.controller.noise_rad
+              << " rad\n";
+    for (std::size_t a = 0; a < robot.arms.size(); ++a) {
+      print_arm(cell, cell.arm(robot.arms[a]), description.robots[r].arms[a]);
+    }
   }
+  std::cout << "  * a default: acceleration " << kDefaultAcceleration << ", jerk " << kDefaultJerk
+            << ", brake twice the acceleration\n";
   static constexpr const char* kNames[] = {"box", "cylinder", "sphere", "mesh"};
   for (const CollisionObject& object : cell.objects) {
     const Eigen::Vector3d& p = object.X_WO.translation();
-    std::cout << "object " << object.name << ": " << kNames[object.shape.index()] << " at " << p.x()
-              << ", " << p.y() << ", " << p.z() << '\n';
+    std::cout << "object " << object.name << ": " << kNames[object.shape.index()] << " at "
+              << no_minus_zero(p.x()) << ", " << no_minus_zero(p.y()) << ", "
+              << no_minus_zero(p.z()) << '\n';
   }
   print_settings(cell);
 }
@@ -108,7 +138,10 @@ int validate_cell(const std::string& cell_file) {
   const auto loaded = load_cell(cell_file);
   if (!loaded) return kExitBadInput;
   const Cell& cell = *loaded->cell;
-  print_cell(cell);
+  print_cell(cell, loaded->description);
+  for (const Problem& doubt : doubts_about_limits(loaded->description, cell)) {
+    std::cerr << "armloom: warning: " << problem_sentence(cell_file, doubt) << '\n';
+  }
 
   NoJudges judges;
   NoObserver observer;

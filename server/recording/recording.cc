@@ -35,7 +35,8 @@ Result<std::unique_ptr<Recording>> Recording::create(const fs::path& folder, con
   std::ofstream cell_copy(folder / "cell.json", std::ios::binary);
   if (!recording->events_ || !cell_copy) {
     return failure(Problem{ProblemKind::unavailable, "cannot-write", folder.string(),
-                           "the folder cannot be written", folder.string()});
+                           "the folder " + folder.string() + " cannot be written",
+                           folder.string()});
   }
   cell_copy << relocate_cell_text(source.cell_text, source.cell_file.parent_path(), folder);
   if (with_states) {

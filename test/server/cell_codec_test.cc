@@ -117,5 +117,17 @@ TEST(CellCodec, WritesTheCellAsTheDashboardNeedsIt) {
   EXPECT_EQ(out["scheduling"]["backlog_timeout_s"], 60.0);
 }
 
+TEST(CellCodec, WritesAPoseWithoutMinusZero) {
+  json cell = two_pandas();
+  cell["robots"][0]["base"]["rpy"] = {-0.0, 0.0, -0.0};
+  const auto description = read_cell_text(cell.dump(), kConfig);
+  ASSERT_TRUE(description);
+  const std::string out = cell_json(**build_cell(*description), "sequential", 1.0);
+  EXPECT_NE(out.find("\"rpy\":[0,0,0]"), out.npos);
+  for (const char* minus_zero : {"[-0,", "[-0]", ",-0,", ",-0]", ":-0,", ":-0}"}) {
+    EXPECT_EQ(out.find(minus_zero), out.npos) << minus_zero;
+  }
+}
+
 }  // namespace
 }  // namespace armloom

@@ -87,6 +87,92 @@ TEST_F(Command, ValidatePrintsWhatACellHolds) {
   EXPECT_EQ(outcome.err, "");
 }
 
+TEST_F(Command, ValidateMarksTheLimitsThatAreDefaults) {
+  const fs::path cell =
+      changed_cell("/robots/0/arms/0/limits",
+                   {{"panda_joint1", {{"acceleration_rad_s2", 5}, {"jerk_rad_s3", 900}}}});
+  const Outcome outcome = run("validate --cell " + cell.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto limits = [&](const std::string& joint) {  // without the spaces between
+    std::istringstream line(outcome.out.substr(outcome.out.find("    " + joint) + 4));
+    std::string text, word;
+    for (int i = 0; i < 8 && line >> word; ++i) text += (i > 0 ? " " : "") + word;
+    return text;
+  };
+  EXPECT_EQ(limits("left_panda_joint1"), "left_panda_joint1 -2.8973 2.8973 2.175 5 900 10* rad");
+  EXPECT_EQ(limits("left_panda_joint2"),
+            "left_panda_joint2 -1.7628 1.7628 2.175 3.75* 7500* 7.5* rad");
+  EXPECT_EQ(limits("left_panda_finger_joint1"),
+            "left_panda_finger_joint1 0 0.04 0.2 3.75* 7500* 7.5* m");
+  EXPECT_NE(outcome.out.find("* a default: acceleration 3.75, jerk 7500, brake twice"),
+            std::string::npos);
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Command, ValidateWarnsOfABrakeWeakerThanTheAcceleration) {
+  const fs::path cell =
+      changed_cell("/robots/1/arms/0/limits", {{"panda_joint1", {{"brake_rad_s2", 1.5}}},
+                                               {"panda_joint2", {{"brake_rad_s2", 3.75}}},
+                                               {"panda_finger_joint1", {{"brake_m_s2", 0.5}}}});
+  const Outcome outcome = run("validate --cell " + cell.string());
+  EXPECT_EQ(outcome.exit_code, 0) << "no fault";
+  const std::string limits = cell.string() + ":/robots/1/arms/0/limits/";
+  EXPECT_EQ(outcome.err,
+            "armloom: warning: " + limits +
+                "panda_finger_joint1/brake_m_s2: joint right_panda_finger_joint1: brake_m_s2 is "
+                "0.5, less than its acceleration_m_s2 of 3.75\n"
+                "armloom: warning: " +
+                limits +
+                "panda_joint1/brake_rad_s2: joint right_panda_joint1: brake_rad_s2 is 1.5, less "
+                "than its acceleration_rad_s2 of 3.75\n");
+}
+
+TEST_F(Command, NothingIsPrintedAsMinusZero) {
+  const fs::path cell =
+      changed_cell("/robots/0/arms/0/home", {-0.0, -1.2, -0.0, -2.6, 0.0, 1.6, 0.785});
+  const Outcome outcome = run("validate --cell " + cell.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::istringstream words(outcome.out);
+  for (std::string word; words >> word;) {
+    EXPECT_FALSE(word == "-0" || word == "-0," || word == "-0;") << outcome.out;
+  }
+  EXPECT_NE(outcome.out.find("home 0, -1.2, 0, -2.6, 0, 1.6, 0.785"), std::string::npos);
+}
+
+TEST_F(Command, AnOptionThatCannotBeFollowedIsNamed) {
+  const std::string jobs = conflicting_jobs().string();
+  const fs::path taken = file("taken", "a file where a folder should be");
+  const std::string simulate = "simulate --cell " + kCell + " --jobs " + jobs;
+  const struct {
+    std::string arguments;
+    std::string says;
+  } cases[] = {
+      {simulate + " --seed -1", "--seed: -1 is no whole number from 0 to 18446744073709551615"},
+      {simulate + " --seed 7.5", "--seed: 7.5 is no whole number"},
+      {simulate + " --seed 18446744073709551616", "--seed: 18446744073709551616 is no"},
+      {simulate + " --out " + taken.string(),
+       "armloom: --out: the folder " + taken.string() + " cannot be written\n"},
+      {"serve --listen 127.0.0.1:0 --cell " + kCell + " --data " + taken.string(),
+       "armloom: --data: the folder " + taken.string() + " cannot be written\n"},
+      {"serve --cell " + kCell + " --listen 8080", "armloom: --listen: expected ADDRESS:PORT"},
+      {"serve --cell " + kCell + " --listen 127.0.0.1:70000",
+       "armloom: --listen: expected ADDRESS:PORT"},
+      {"serve --cell " + kCell + " --listen elsewhere:8080",
+       "armloom: --listen: cannot listen on elsewhere:8080: not an IP address"},
+      {"serve --listen 127.0.0.1:0 --cell " + kCell + " --policy hopeful", "armloom: --policy: "},
+      {simulate + " --policy hopeful", "armloom: --policy: "},
+      {"check --cell " + kCell + " --jobs " + jobs + " --policy hopeful", "armloom: --policy: "},
+  };
+  for (const auto& bad : cases) {
+    const Outcome outcome = run(bad.arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << bad.arguments;
+    EXPECT_NE(outcome.err.find(bad.says), std::string::npos) << bad.arguments << '\n'
+                                                             << outcome.err;
+    EXPECT_EQ(outcome.err.find("two_pandas.json"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(run(simulate + " --seed 18446744073709551615").exit_code, 0);
+}
+
 TEST_F(Command, BadCellsAreNamedWithFilePlaceAndValue) {
   const struct {
     const char* pointer;

@@ -78,5 +78,12 @@ TEST(JsonWriter, WritesTextThatReadsBack) {
   EXPECT_EQ(json["near"].dump(), "0");
 }
 
+TEST(JsonWriter, HasNoMinusZero) {
+  JsonWriter out;
+  out.begin_array().value(-0.0).value(std::vector<double>{-0.0, 0.0}).rounded(-0.0, 3);
+  out.rounded(-1e-9, 6).value(-1e-9).end_array();
+  EXPECT_EQ(out.text(), "[0,[0,0],0,0,-1e-09]");
+}
+
 }  // namespace
 }  // namespace armloom
