@@ -1,10 +1,11 @@
 // openapi.json is complete and true: every operation in it is called with good and bad requests, so
-// that every status it lists is seen (but 503, which takes a server in distress), and every answer
-// and message is held against its schema.
+// that every status it lists is seen (of 503, which takes a server in distress, only a few), and
+// every answer and message is held against its schema.
 // Its examples are the good requests. The routes are compared with the program's own table in
 // routes_test.cc.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
+import http from 'node:http';
 import os from 'node:os';
 import path from 'node:path';
 import {after, before, test} from 'node:test';
@@ -296,6 +297,61 @@ test('A server whose dashboard is not built says so', async () => {
   }
 });
 
+// With a time step longer than both motions only their ends are compared, and both are admitted.
+test('What the monitor stops is told', async () => {
+  const cell = JSON.parse(fs.readFileSync(path.join(folder, 'cell.json'), 'utf8'));
+  Object.assign(cell, {clearance_m: 0.1, checking: {...cell.checking, time_step_s: 10},
+                       monitor: {...cell.monitor, stop_clearance_m: 0.1}});
+  fs.writeFileSync(path.join(folder, 'blind.json'), JSON.stringify(cell));
+  const blind = await startServer(binary, ['--cell', path.join(folder, 'blind.json'), '--speed', '5']);
+  const told = [];
+  const stream = await openWebSocket(blind.port, `${v1}/ws`, (message) => { contract.message(message); told.push(message); });
+  try {
+    const {id, ...there} = example(`${v1}/jobs`, 'POST', 'reach');
+    const [from, to] = there.trajectory.points;
+    there.trajectory.points = [from, to, {...from, time_from_start: {sec: 2 * to.time_from_start.sec, nanosec: 0}}];
+    for (const arm of ['left_', 'right_']) {
+      const body = JSON.stringify(there).replaceAll('left_', arm);
+      const answer = await ask(blind.port, 'POST', `${v1}/jobs`, {body, headers: json});
+      contract.answer(`${v1}/jobs`, 'POST', answer);
+      assert.equal(answer.status, 202, answer.text);
+    }
+    const {data} = await until('the monitor', () => told.find((message) => message.type === 'monitor'));
+    assert.ok(data.clearance_m < 0.1);
+    assert.deepEqual(data.stopped.sort(), ['left', 'right']);
+  } finally {
+    stream.close();
+    blind.end();
+  }
+});
+
+// So slow that its arm is still braking when the next request comes, on a connection held open: new
+// ones are not accepted any more.
+test('A server that ends accepts no job', async () => {
+  const ending = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', '0.02']);
+  const agent = new http.Agent({keepAlive: true, maxSockets: 1});
+  const submit = () => ask(ending.port, 'POST', `${v1}/jobs`,
+                           {body: JSON.stringify(example(`${v1}/jobs`, 'POST', 'reach')), headers: json, agent});
+  try {
+    assert.equal((await submit()).status, 202);
+    await until('the motion', async () => {
+      const {text} = await ask(ending.port, 'GET', `${v1}/arms/left`, {agent});
+      const arm = JSON.parse(text);
+      return arm.state === 'moving' && arm.progress > 0.005;
+    });
+    ending.end();
+    const refused = await until('the refusal', async () => {
+      const answer = await submit();
+      contract.answer(`${v1}/jobs`, 'POST', answer);
+      return answer.status === 503 && answer;
+    });
+    assert.equal(JSON.parse(refused.text).type, 'urn:armloom:problem:server-ends');
+  } finally {
+    agent.destroy();
+    ending.end();
+  }
+});
+
 test('Nothing that openapi.json lists was left out', () => {
   const lacking = [];
   let answers = 0;
@@ -311,5 +367,6 @@ test('Nothing that openapi.json lists was left out', () => {
   const messages = [...contract.messages].map(([type, count]) => `${type} ${count}`).join(', ');
   console.log(`${contract.operations().length} operations, ${answers} kinds of answer; messages: ${messages}`);
   assert.deepEqual(lacking, [], 'listed, but never seen');
-  for (const type of ['snapshot', 'job', 'arm', 'queue', 'scene', 'state']) assert.ok(contract.messages.has(type), `no ${type} message`);
+  assert.ok(contract.seen.get(`POST ${v1}/jobs`).has('503'), 'no 503');
+  for (const type of ['snapshot', 'job', 'arm', 'queue', 'scene', 'state', 'monitor', 'alert']) assert.ok(contract.messages.has(type), `no ${type} message`);
 });
