@@ -1,10 +1,12 @@
 #include "core/collision/planning_scene.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "core/collision/link_capsules.h"
 #include "core/collision/scene_bodies.h"
 
 namespace armloom {
@@ -76,7 +78,12 @@ void bound(const std::vector<Body>& bodies, Part& part) {
 void add_part(PlanningScene::Bodies& scene, Part part, const std::vector<PlacedShape>& shapes) {
   if (shapes.empty()) return;
   part.bodies_begin = scene.bodies.size();
-  for (Body& body : make_bodies(shapes)) scene.bodies.push_back(std::move(body));
+  std::vector<Body> bodies = make_bodies(shapes);
+  LinkCapsules fitted = fit_capsules(bodies);
+  part.capsules = std::move(fitted.capsules);
+  part.capsule_excess_m = fitted.excess_m;
+  scene.bodies.insert(scene.bodies.end(), std::make_move_iterator(bodies.begin()),
+                      std::make_move_iterator(bodies.end()));
   part.bodies_end = scene.bodies.size();
   bound(scene.bodies, part);
   part.lone_box =

@@ -8,6 +8,7 @@
 
 #include "core/base/ids.h"
 #include "core/collision/body.h"
+#include "core/collision/capsule_fit.h"
 #include "core/collision/planning_scene.h"
 #include "core/model/cell.h"
 
@@ -23,7 +24,9 @@ struct Part {
   std::size_t bodies_end = 0;
   Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // centre and radius of its bounding sphere
   double radius_m = 0.0;
-  bool lone_box = false;  // its only body is a box: a sphere says little about a table
+  bool lone_box = false;              // its only body is a box: a sphere says little about a table
+  std::vector<LinkCapsule> capsules;  // one or two, in P; each body lies in one (link_capsules.h)
+  double capsule_excess_m = 0.0;      // how far they stand off the bodies
 };
 
 // Two parts that must not touch. The first belongs to the group's first arm.
