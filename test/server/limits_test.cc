@@ -122,7 +122,7 @@ TEST_F(Limits, AThousandIdleConnectionsChangeNothingForOthers) {
   for (int i = 0; i < 20; ++i) {
     const auto asked = Clock::now();
     EXPECT_EQ(get("/healthz").status, 200);
-    EXPECT_LT(Clock::now() - asked, std::chrono::milliseconds(500));
+    EXPECT_LT(Clock::now() - asked, std::chrono::seconds(1));
   }
   until(listener, "go", "succeeded");
   EXPECT_LT(Clock::now() - before, std::chrono::seconds(3));  // 0.15 s alone
