@@ -1,0 +1,214 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/collision/link_capsules.h"
+#include "core/collision/scene_bodies.h"
+#include "test/collision/reference_distance.h"
+#include "test/collision/small_cell.h"
+#include "test/model/small_meshes.h"
+#include "test/model/test_cells.h"
+
+namespace armloom {
+namespace {
+
+Eigen::Vector3d random_direction(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  return Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+}
+
+// A point of the surface of the shape itself, not of what the code under test makes of it.
+Eigen::Vector3d surface_point(const PlacedShape& placed, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const Eigen::Vector3d n = random_direction(random);
+  Eigen::Vector3d p;
+  if (const auto* box = std::get_if<Box>(&placed.shape)) {
+    p = box->size_m.cwiseProduct(Eigen::Vector3d(unit(random), unit(random), unit(random)));
+    p[static_cast<int>(random() % 3)] = unit(random) < 0 ? -1e9 : 1e9;
+    p = p.cwiseMin(box->size_m).cwiseMax(-box->size_m) / 2;
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&placed.shape)) {
+    const double angle = small::kHalfTurn * unit(random);
+    p = {cylinder->radius_m * std::cos(angle), cylinder->radius_m * std::sin(angle),
+         std::copysign(cylinder->length_m / 2, unit(random))};
+  } else if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) {
+    p = sphere->radius_m * n;
+  } else {
+    const auto& vertices = std::get<Mesh>(placed.shape).data->vertices;
+    p = vertices[random() % vertices.size()];
+  }
+  return placed.X_LS * p;
+}
+
+PlacedShape random_shape(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> size(0.01, 0.3);
+  const Eigen::Isometry3d X = reference::random_pose(random, 0.5);
+  switch (random() % 4) {
+    case 0:
+      return {Sphere{size(random)}, X};
+    case 1:
+      return {Cylinder{size(random), 2 * size(random)}, X};
+    case 2:
+      return {Box{{size(random), size(random), 3 * size(random)}}, X};
+    default: {
+      const Eigen::Vector3d half(size(random), size(random), size(random));
+      return {small::mesh_of(small::box_surface(-half, half)), X};
+    }
+  }
+}
+
+double outside(const LinkCapsule& capsule, const Eigen::Vector3d& p) {
+  // By other code than what fits and checks.
+  const CenteredSegment segment{(capsule.p_PA + capsule.p_PB) / 2,
+                                (capsule.p_PB - capsule.p_PA) / 2};
+  return segment_segment_distance(segment, {p, Eigen::Vector3d::Zero()}) - capsule.radius_m;
+}
+
+double volume(const LinkCapsules& fitted) {
+  double sum = 0.0;
+  for (const LinkCapsule& capsule : fitted.capsules) sum += capsule.volume_m3();
+  return sum;
+}
+
+TEST(LinkCapsules, HoldEveryPointOfRandomPartsEachShapeInOneOfThem) {
+  std::mt19937_64 random(41);
+  int with_two = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    std::vector<PlacedShape> shapes;
+    const std::size_t count = 1 + random() % 10;
+    for (std::size_t i = 0; i < count; ++i) shapes.push_back(random_shape(random));
+    const LinkCapsules fitted = fit_capsules(make_bodies(shapes));
+    ASSERT_GE(fitted.capsules.size(), 1U);
+    ASSERT_LE(fitted.capsules.size(), 2U);
+    if (fitted.capsules.size() == 2) ++with_two;
+    for (const PlacedShape& shape : shapes) {
+      std::vector<double> worst(fitted.capsules.size(), -1e9);
+      for (int i = 0; i < 200; ++i) {
+        const Eigen::Vector3d p = surface_point(shape, random);
+        for (std::size_t c = 0; c < worst.size(); ++c) {
+          worst[c] = std::max(worst[c], outside(fitted.capsules[c], p));
+        }
+      }
+      EXPECT_LE(*std::min_element(worst.begin(), worst.end()), 1e-15) << "trial " << trial;
+    }
+  }
+  EXPECT_GT(with_two, 20);
+}
+
+TEST(LinkCapsules, OfALoneRoundBodyAreThatBodyToTheBit) {
+  std::mt19937_64 random(42);
+  for (int i = 0; i < 100; ++i) {
+    auto shapes = small::capsule_along_x(-0.1 - 0.01 * i, 0.3, 0.05);
+    const Eigen::Isometry3d X = reference::random_pose(random, 1.0);
+    for (PlacedShape& shape : shapes) shape.X_LS = X * shape.X_LS;
+    const auto bodies = make_bodies(shapes);
+    ASSERT_EQ(bodies.size(), 1U);
+    const LinkCapsules fitted = fit_capsules(bodies);
+    ASSERT_EQ(fitted.capsules.size(), 1U);
+    const LinkCapsule& capsule = fitted.capsules.front();
+    EXPECT_EQ(capsule.radius_m, bodies[0].radius_m);
+    EXPECT_EQ(capsule.p_PA, bodies[0].X_PS.translation() - bodies[0].p_SE_P);
+    EXPECT_EQ(capsule.p_PB, bodies[0].X_PS.translation() + bodies[0].p_SE_P);
+    EXPECT_LE(fitted.excess_m, 1e-12);
+  }
+}
+
+TEST(LinkCapsules, OfABodyThatHoldsTheOthersAreThatBody) {
+  auto shapes = small::capsule_along_x(-0.2, 0.2, 0.1);
+  shapes.push_back({Box{{0.3, 0.05, 0.05}}, small::at_xyz(0.02, 0.01, 0)});
+  const LinkCapsules fitted = fit_capsules(make_bodies(shapes));
+  ASSERT_EQ(fitted.capsules.size(), 1U);
+  EXPECT_EQ(fitted.capsules.front().radius_m, make_bodies(shapes).front().radius_m);
+}
+
+TEST(LinkCapsules, OfALongBarAreNoThickerThanItsCrossSection) {
+  std::mt19937_64 random(43);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Isometry3d X = reference::random_pose(random, 1.0);
+    const LinkCapsules fitted = fit_capsules(make_bodies({{Box{{0.06, 0.08, 1.0}}, X}}));
+    ASSERT_EQ(fitted.capsules.size(), 1U);
+    EXPECT_LE(fitted.capsules.front().radius_m, 0.05 * 1.02);
+    EXPECT_LE((fitted.capsules.front().p_PB - fitted.capsules.front().p_PA).norm(), 1.0);
+    // The side stands off 50 mm - 30 mm, a cap's tip almost a radius.
+    EXPECT_GE(fitted.excess_m, 0.02);
+    EXPECT_LE(fitted.excess_m, 0.05);
+  }
+}
+
+TEST(LinkCapsules, OfACubeAreTheBallAround) {
+  const LinkCapsules fitted = fit_capsules(make_bodies({{Box{{0.2, 0.2, 0.2}}}}));
+  const double ball = 4.0 / 3.0 * small::kHalfTurn * std::pow(0.1 * std::sqrt(3.0), 3);
+  EXPECT_LE(volume(fitted), ball * 1.001);
+}
+
+TEST(LinkCapsules, OfTwoRoundBodiesAtAnAngleAreBothOfThem) {
+  auto shapes = small::capsule_along_x(0.0, 0.5, 0.04);
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  turn.linear() = Eigen::AngleAxisd(1.4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  for (PlacedShape shape : small::capsule_along_x(0.0, 0.4, 0.06)) {
+    shape.X_LS = turn * shape.X_LS;
+    shapes.push_back(shape);
+  }
+  const auto bodies = make_bodies(shapes);
+  const LinkCapsules fitted = fit_capsules(bodies);
+  ASSERT_EQ(bodies.size(), 2U);
+  ASSERT_EQ(fitted.capsules.size(), 2U);
+  EXPECT_LE(fitted.excess_m, 1e-3);
+}
+
+TEST(LinkCapsules, AreFarLessThanAPrincipalAxisCapsuleWhereThatIsBad) {
+  // A flat disc: its principal axis says nothing; the best capsule is close to a ball.
+  const LinkCapsules disc = fit_capsules(make_bodies({{Cylinder{0.2, 0.02}}}));
+  const double ball = 4.0 / 3.0 * small::kHalfTurn * std::pow(std::hypot(0.2, 0.01), 3);
+  EXPECT_LE(volume(disc), ball * 1.005);
+}
+
+TEST(LinkCapsules, ContainsSaysNoAsSoonAsACornerStandsOut) {
+  const Body box = make_bodies({{Box{{0.1, 0.1, 0.4}}}}).front();
+  const double across = std::hypot(0.05, 0.05);
+  const Eigen::Vector3d half(0, 0, 0.2);
+  EXPECT_TRUE(contains(LinkCapsule{-half, half, across * (1 + 1e-12)}, box));
+  EXPECT_FALSE(contains(LinkCapsule{-half, half, across * (1 - 1e-12)}, box));
+  const Body can = make_bodies({{Cylinder{0.1, 0.4}}}).front();
+  EXPECT_TRUE(contains(LinkCapsule{-half, half, 0.1013}, can));
+  EXPECT_FALSE(contains(LinkCapsule{-half, half, 0.0999}, can));
+  const Body ball = make_bodies({{Sphere{0.1}}}).front();
+  EXPECT_TRUE(contains(LinkCapsule{-half, half, 0.1}, ball));
+  EXPECT_FALSE(contains(LinkCapsule{-half, half, std::nextafter(0.1, 0.0)}, ball));
+}
+
+TEST(LinkCapsules, AreTheSameEachTime) {
+  std::mt19937_64 random(44);
+  std::vector<PlacedShape> shapes;
+  for (int i = 0; i < 5; ++i) shapes.push_back(random_shape(random));
+  const LinkCapsules first = fit_capsules(make_bodies(shapes));
+  const LinkCapsules second = fit_capsules(make_bodies(shapes));
+  ASSERT_EQ(first.capsules.size(), second.capsules.size());
+  for (std::size_t i = 0; i < first.capsules.size(); ++i) {
+    EXPECT_EQ(first.capsules[i].p_PA, second.capsules[i].p_PA);
+    EXPECT_EQ(first.capsules[i].p_PB, second.capsules[i].p_PB);
+    EXPECT_EQ(first.capsules[i].radius_m, second.capsules[i].radius_m);
+  }
+}
+
+TEST(LinkCapsules, OfThePandasStandOffAFewCentimetres) {
+  const auto scene = PlanningScene::build(build_or_fail(two_pandas_description()));
+  ASSERT_TRUE(scene.has_value());
+  const PlanningScene::Bodies& bodies = (*scene)->bodies();
+  for (std::size_t i = 0; i < bodies.links_end; ++i) {
+    const Part& part = bodies.parts[i];
+    ASSERT_FALSE(part.capsules.empty()) << part.name;
+    for (std::size_t b = part.bodies_begin; b < part.bodies_end; ++b) {
+      EXPECT_TRUE(std::any_of(part.capsules.begin(), part.capsules.end(),
+                              [&](const auto& c) { return contains(c, bodies.bodies[b]); }))
+          << part.name;
+    }
+    RecordProperty(part.name, std::to_string(part.capsules.size()) + " capsules, " +
+                                  std::to_string(part.capsule_excess_m) + " m");
+    EXPECT_LE(part.capsule_excess_m, 0.05) << part.name;
+  }
+}
+
+}  // namespace
+}  // namespace armloom
