@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/model/cell.h"
+
+namespace armloom::bench {
+
+// The cells of the benchmarks, made of the Pandas of config/two_pandas.json. Throw
+// std::runtime_error with what was wrong when a file does not read.
+
+// config/two_pandas.json itself.
+[[nodiscard]] CellPtr two_pandas();
+
+// `count` Pandas with their bases evenly on a circle of that radius, facing its centre, on one
+// table under all of them.
+[[nodiscard]] CellPtr circle_of_pandas(std::size_t count, double radius_m);
+
+// A hall: `count` Pandas side by side along x, `spacing_m` apart, all facing +y, on one long table.
+// Arms are in the order of x.
+[[nodiscard]] CellPtr line_of_pandas(std::size_t count, double spacing_m);
+
+}  // namespace armloom::bench

@@ -1,0 +1,95 @@
+#include "test/bench/link_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/model/convex_hull.h"
+
+namespace armloom::bench {
+namespace {
+
+// qhull may leave a point this far outside of a face; the mesh is that much larger, twice.
+constexpr double kMargin_m = 2.0 * kHullTolerance_m;
+
+// The largest n·p over the body's points p in P; n of unit length.
+double support(const Body& body, const Eigen::Vector3d& n) {
+  const Eigen::Vector3d n_S = body.X_PS.linear().transpose() * n;
+  const double middle = n.dot(body.X_PS.translation());
+  const double along = std::abs(n_S.z()) * body.half_length_m;
+  switch (body.kind) {
+    case BodyKind::box:
+      return middle + n_S.cwiseAbs().dot(body.half_size_m);
+    case BodyKind::cylinder:
+      return middle + along + body.radius_m * std::hypot(n_S.x(), n_S.y());
+    case BodyKind::hull:
+      return middle + body.hull->extent(n_S);
+    case BodyKind::round:
+      break;
+  }
+  return middle + along + body.radius_m;
+}
+
+double support(const std::vector<Body>& bodies, const Eigen::Vector3d& n) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const Body& body : bodies) largest = std::max(largest, support(body, n));
+  return largest;
+}
+
+// Evenly spread unit vectors: a spiral whose turns advance by the golden angle.
+std::vector<Eigen::Vector3d> directions(std::size_t count) {
+  const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  std::vector<Eigen::Vector3d> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
+    const double r = std::sqrt(1.0 - z * z);
+    const double angle = golden * static_cast<double>(i);
+    all.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+  }
+  return all;
+}
+
+ConvexHull hull_of(const std::vector<Eigen::Vector3d>& points) {
+  auto hull = convex_hull(points);
+  if (!hull) throw std::runtime_error("link mesh: " + hull.error());
+  return std::move(*hull);
+}
+
+Eigen::Vector3d normal(const ConvexHull& hull, const std::array<std::uint32_t, 3>& face) {
+  const Eigen::Vector3d& a = hull.vertices[face[0]];
+  return (hull.vertices[face[1]] - a).cross(hull.vertices[face[2]] - a).normalized();
+}
+
+}  // namespace
+
+LinkMesh circumscribed_mesh(const std::vector<Body>& bodies, std::size_t triangles) {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const Body& body : bodies) center += body.X_PS.translation();
+  center /= static_cast<double>(bodies.size());
+
+  // A plane at height h above the centre along n is the point n / h of the dual; the corners of the
+  // polytope are the faces of the dual's hull, read the same way.
+  std::vector<Eigen::Vector3d> dual;
+  for (const Eigen::Vector3d& n : directions((triangles + 8) / 4)) {
+    dual.push_back(n / (support(bodies, n) - n.dot(center) + kMargin_m));
+  }
+  const ConvexHull planes = hull_of(dual);
+  std::vector<Eigen::Vector3d> corners;
+  for (const auto& face : planes.faces) {
+    const Eigen::Vector3d n = normal(planes, face);
+    corners.push_back(center + n / n.dot(planes.vertices[face[0]]));
+  }
+  const ConvexHull mesh = hull_of(corners);
+  for (const auto& face : mesh.faces) {
+    const Eigen::Vector3d n = normal(mesh, face);
+    if (!n.allFinite()) continue;  // a sliver without area
+    if (n.dot(mesh.vertices[face[0]]) < support(bodies, n)) {
+      throw std::logic_error("link mesh: a body leaves its mesh");
+    }
+  }
+  return {mesh.vertices, mesh.faces};
+}
+
+}  // namespace armloom::bench
