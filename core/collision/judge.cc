@@ -39,6 +39,7 @@ class Judgement {
  public:
   Judgement(const Question& question, CollisionChecker& checker, bool standing)
       : question_(question),
+        step_(std::get<TimedDiscrete>(question.method).step),
         standing_(standing),
         checker_(checker),
         cell_(checker.scene().cell()),
@@ -46,7 +47,7 @@ class Judgement {
         runner_of_arm_(cell_.arms.size(), nullptr),
         of_candidates_(cell_.arms.size(), false),
         moved_(cell_.arms.size(), true) {
-    if (question.method.step <= Duration::zero()) {
+    if (step_ <= Duration::zero()) {
       throw std::invalid_argument("judge: the time step must be positive");
     }
     if (static_cast<std::size_t>(question.rest.size()) != cell_.joints.size()) {
@@ -61,7 +62,7 @@ class Judgement {
     Duration end = Duration::zero();
     for (const Runner& runner : runners_) end = std::max(end, runner.motion->remaining());
     Verdict verdict{Verdict::Kind::free, question_.version, {}, std::nullopt, 0};
-    for (Duration t = Duration::zero();; t = std::min(t + question_.method.step, end)) {
+    for (Duration t = Duration::zero();; t = std::min(t + step_, end)) {
       const bool first = t == Duration::zero();
       if (advance(t, first) || first) {
         ++verdict.evaluations;
@@ -180,6 +181,7 @@ class Judgement {
   }
 
   const Question& question_;
+  const Duration step_;
   const bool standing_;  // those that may stand do
   CollisionChecker& checker_;
   const Cell& cell_;

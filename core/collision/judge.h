@@ -29,7 +29,8 @@ namespace armloom {
 //
 // Pairs of which neither side has moved since the last instant are not looked at again;
 // `evaluations` counts the instants that were looked at. Deterministic.
-// Preconditions (throws std::invalid_argument): step > 0, `rest` has one entry per joint, no arm in
+// Preconditions (throws std::invalid_argument): the method is TimedDiscrete (throws
+// std::bad_variant_access) with step > 0, `rest` has one entry per joint, no arm in
 // two motions.
 [[nodiscard]] Verdict judge(const Question& question, CollisionChecker& checker);
 

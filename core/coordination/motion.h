@@ -1,5 +1,6 @@
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include "core/base/ids.h"
@@ -27,7 +28,15 @@ struct TimedDiscrete {  // the paper's: at equal instants, every `step`; between
                         // promised
   Duration step;
 };
-using CheckMethod = TimedDiscrete;
+struct Certified {  // for every instant, with proof
+  Duration lag;     // each motion may be this far behind its plan ...
+  bool stopping;    // ... and may have to stop at any time: what it still passes then counts too
+  double tracking_error;  // of each joint against its path (rad, m)
+};
+struct Swept {  // whatever the times: all of what remains of one against all of the other
+  double tracking_error;
+};
+using CheckMethod = std::variant<TimedDiscrete, Certified, Swept>;
 
 // "May these candidates start together at the question's instant, beside everything else?"
 // Plain data: complete, self-contained, safe to hand to another thread.

@@ -1,6 +1,8 @@
 #include "core/trajectory/trajectory.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -27,6 +29,42 @@ void accelerations_at(const Coefficients& c, double t, Eigen::VectorXd& out) {
       ((20.0 * c.col(5) * t + 12.0 * c.col(4)) * t + 6.0 * c.col(3)) * t + 2.0 * c.col(2);
 }
 
+// Taylor coefficients about t: c[0..5] of one joint.
+std::array<double, 6> shifted(const Coefficients& c, Eigen::Index j, double t) {
+  std::array<double, 6> p{c(j, 0), c(j, 1), c(j, 2), c(j, 3), c(j, 4), c(j, 5)};
+  for (std::size_t k = 0; k < 5; ++k) {
+    for (std::size_t i = 5; i-- > k;) p[i] += t * p[i + 1];
+  }
+  return p;
+}
+
+// Largest |p(t) - p[0]| for |t| <= h, at most.
+double swing(const std::array<double, 6>& p, double h) {
+  double sum = 0.0;
+  for (std::size_t k = 5; k >= 1; --k) sum = (sum + std::abs(p[k])) * h;
+  return sum;
+}
+
+SegmentBounds bounds_of(const Segment& segment) {
+  const Eigen::Index size = segment.coefficients.rows();
+  SegmentBounds bounds{Eigen::VectorXd(size), Eigen::VectorXd(size), Eigen::VectorXd(size),
+                       Eigen::VectorXd(size)};
+  const double h = 0.5 * to_seconds(segment.duration);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const auto p = shifted(segment.coefficients, j, h);
+    const double far = swing(p, h);
+    bounds.lower[j] = p[0] - far;
+    bounds.upper[j] = p[0] + far;
+    bounds.speed[j] = std::abs(p[1]) + swing({0.0, 2 * p[2], 3 * p[3], 4 * p[4], 5 * p[5], 0.0}, h);
+    bounds.acceleration[j] =
+        2 * std::abs(p[2]) + swing({0.0, 6 * p[3], 12 * p[4], 20 * p[5], 0.0, 0.0}, h);
+  }
+  return bounds;
+}
+
+// A stretch of a segment this long is bounded by its speed; longer ones by their own polynomial.
+constexpr double kShort_s = 0.25;
+
 void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
@@ -52,6 +90,7 @@ Trajectory::Trajectory(std::vector<JointId> joints, std::vector<ArmId> arms,
             "Trajectory: a segment needs one row for each joint");
     require(segment.coefficients.allFinite(), "Trajectory: a coefficient is not finite");
     starts_.push_back(segment.start);
+    bounds_.push_back(bounds_of(segment));
     duration_ += segment.duration;
   }
   start_ = segments_.front().coefficients.col(0);
@@ -92,6 +131,50 @@ void Trajectory::sample_positions(Duration progress, Eigen::VectorXd& position) 
   } else {
     const Segment& segment = segments_[segment_at(progress)];
     positions_at(segment.coefficients, to_seconds(progress - segment.start), position);
+  }
+}
+
+void Trajectory::enclose_positions(Duration from, Duration to, Eigen::VectorXd& lower,
+                                   Eigen::VectorXd& upper) const {
+  sample_positions(from, lower);
+  upper = lower;
+  if (to <= Duration::zero() || from >= duration_) return;
+  const Eigen::Index size = lower.size();
+  const auto widen = [&](Eigen::Index j, double low, double high) {
+    lower[j] = std::min(lower[j], low);
+    upper[j] = std::max(upper[j], high);
+  };
+  const Duration end = std::min(to, duration_);
+  for (std::size_t i = segment_at(std::max(from, Duration::zero()));
+       i < segments_.size() && segments_[i].start < end; ++i) {
+    const Segment& segment = segments_[i];
+    const SegmentBounds& bounds = bounds_[i];
+    const Duration first = std::max(from - segment.start, Duration::zero());
+    const Duration last = std::min(end - segment.start, segment.duration);
+    if (first == Duration::zero() && last == segment.duration) {
+      for (Eigen::Index j = 0; j < size; ++j) widen(j, bounds.lower[j], bounds.upper[j]);
+      continue;
+    }
+    const double h = 0.5 * to_seconds(last - first);
+    const double middle = to_seconds(first) + h;
+    const bool by_speed = to_seconds(segment.duration) <= kShort_s;
+    for (Eigen::Index j = 0; j < size; ++j) {
+      double center = 0.0;
+      double far = 0.0;
+      if (by_speed) {
+        const auto& c = segment.coefficients;
+        center = ((((c(j, 5) * middle + c(j, 4)) * middle + c(j, 3)) * middle + c(j, 2)) * middle +
+                  c(j, 1)) *
+                     middle +
+                 c(j, 0);
+        far = bounds.speed[j] * h;
+      } else {
+        const auto p = shifted(segment.coefficients, j, middle);
+        center = p[0];
+        far = swing(p, h);
+      }
+      widen(j, std::max(center - far, bounds.lower[j]), std::min(center + far, bounds.upper[j]));
+    }
   }
 }
 

@@ -24,6 +24,15 @@ struct Segment {
   Eigen::Matrix<double, Eigen::Dynamic, 6> coefficients;
 };
 
+// What a segment's joints cannot exceed on it: positions lie in [lower, upper], |velocity| <=
+// speed, |acceleration| <= acceleration. rad, rad/s, rad/s^2 (m).
+struct SegmentBounds {
+  Eigen::VectorXd lower;
+  Eigen::VectorXd upper;
+  Eigen::VectorXd speed;
+  Eigen::VectorXd acceleration;
+};
+
 // A valid timed trajectory of the joints of one or more arms: parsed, within limits, at rest at
 // both ends. Immutable; made only by validate() (core/trajectory/validate.h) and shared freely,
 // between threads too. Interpolation is that of ROS's joint_trajectory_controller: cubic where
@@ -49,6 +58,14 @@ class Trajectory {
   void sample(Duration progress, JointState& state) const;
   void sample_positions(Duration progress, Eigen::VectorXd& position) const;
 
+  // Of each segment, from its Taylor polynomial at the middle: sound but for rounding (1e-12).
+  [[nodiscard]] const std::vector<SegmentBounds>& bounds() const { return bounds_; }
+  // Encloses every position between two instants (before zero the start, after the end the goal);
+  // tight for stretches shorter than their segments. lower and upper are resized where they must.
+  // Sound but for rounding (1e-12). Precondition: from <= to.
+  void enclose_positions(Duration from, Duration to, Eigen::VectorXd& lower,
+                         Eigen::VectorXd& upper) const;
+
  private:
   // Precondition: 0 <= progress < duration.
   [[nodiscard]] std::size_t segment_at(Duration progress) const;
@@ -56,7 +73,8 @@ class Trajectory {
   std::vector<JointId> joints_;
   std::vector<ArmId> arms_;
   std::vector<Segment> segments_;
-  std::vector<Duration> starts_;  // of the segments, close together for the search
+  std::vector<SegmentBounds> bounds_;  // of the segments
+  std::vector<Duration> starts_;       // of the segments, close together for the search
   Duration duration_;
   Eigen::VectorXd start_;
   Eigen::VectorXd goal_;

@@ -34,7 +34,7 @@ struct Judged {
     question.version = 42;
     question.start_at = at(0s);
     question.rest = Configuration::Constant(static_cast<Eigen::Index>(cell->joints.size()), kUp);
-    question.method.step = 50ms;
+    question.method = TimedDiscrete{50ms};
   }
   Motion motion(std::uint64_t job, ArmId arm, double from, double to, Duration duration,
                 Duration progress = 0s) const {
@@ -143,7 +143,7 @@ TEST(Judge, NamesEachCounterpartOfTheFirstInstantThatHasOne) {
   cell.objects.push_back({"post", Cylinder{0.02, 0.5}, small::at_xyz(0.2, -0.03, 0)});
   cell.objects.push_back({"ball", Sphere{0.02}, small::at_xyz(0.1, -0.03, 0)});
   Judged judged(cell);
-  judged.question.method.step = 30s;  // the goal is the only instant after the start
+  judged.question.method = TimedDiscrete{30s};  // the goal is the only instant after the start
   judged.question.rest[2] = kPi;      // c points at b, which will point at it
   judged.question.candidates = {judged.motion(5, kA, kUp, 0, 2s)};
   judged.question.others = {judged.motion(3, kB, kUp, kPi, 2s)};
@@ -179,9 +179,9 @@ TEST(Judge, MissesAThinRodBetweenCoarseStepsAndFindsItWithFineOnes) {
       {"rod", Cylinder{0.004, 0.5}, small::at_xyz(0.3 * std::cos(0.7), 0.3 * std::sin(0.7), 0)});
   Judged judged(cell);
   judged.question.candidates = {judged.motion(1, kA, kUp, 0, 1s)};
-  judged.question.method.step = 100ms;
+  judged.question.method = TimedDiscrete{100ms};
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
-  judged.question.method.step = 5ms;
+  judged.question.method = TimedDiscrete{5ms};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_EQ(verdict.conflicts[0].with, With::scene);
@@ -194,7 +194,7 @@ TEST(Judge, LooksAtTheGoalEvenWhenTheStepIsLongerThanTheMotion) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 1s)};
-  judged.question.method.step = 30s;
+  judged.question.method = TimedDiscrete{30s};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_EQ(verdict.conflicts[0].own_time, 1s);
@@ -303,7 +303,7 @@ TEST(Judge, RefusesBrokenQuestions) {
   judged.question.others = {judged.motion(1, kA, kUp, 0, 1s)};
   EXPECT_THROW((void)judged(), std::invalid_argument);
   judged.question.others.clear();
-  judged.question.method.step = 0s;
+  judged.question.method = TimedDiscrete{0s};
   EXPECT_THROW((void)judged(), std::invalid_argument);
 }
 

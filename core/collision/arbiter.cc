@@ -1,0 +1,243 @@
+#include "core/collision/arbiter.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/collision/judge.h"
+#include "core/collision/motion_store.h"
+#include "core/collision/stopping_reach.h"
+
+namespace armloom {
+namespace {
+
+// How the two motions of a pair may be off their plans, by the question's method.
+struct Freedom {
+  double lag_s = 0.0;
+  double reaction_s = 0.0;
+  bool stopping = false;
+  bool swept = false;
+  double tracking_error = 0.0;
+};
+
+Freedom freedom_of(const CheckMethod& method, const Cell& cell) {
+  if (const auto* swept = std::get_if<Swept>(&method)) {
+    return {.swept = true, .tracking_error = swept->tracking_error};
+  }
+  const auto& certified = std::get<Certified>(method);
+  return {.lag_s = to_seconds(certified.lag),
+          .reaction_s = to_seconds(cell.monitor.reaction),
+          .stopping = certified.stopping,
+          .tracking_error = certified.tracking_error};
+}
+
+// One arm of a motion, or an arm at rest.
+struct Mover {
+  ArmId arm;
+  const Motion* motion;  // null: at rest
+  MotionStore::Entry* entry;
+};
+
+}  // namespace
+
+class Arbiter::Impl {
+ public:
+  explicit Impl(PlanningScenePtr scene) : store_(std::move(scene)), checker_(store_.scene()) {}
+
+  void look_at(PlanningScenePtr scene) {
+    if (scene == store_.scene()) return;
+    if (&scene->cell() != &store_.scene()->cell()) {
+      store_ = MotionStore(std::move(scene));
+    } else {
+      store_.look_at(std::move(scene));
+    }
+    checker_ = CollisionChecker(store_.scene());
+  }
+
+  [[nodiscard]] const PlanningScenePtr& scene() const { return store_.scene(); }
+
+  Verdict judge(const Question& question) {
+    if (std::holds_alternative<TimedDiscrete>(question.method)) {
+      return armloom::judge(question, checker_);
+    }
+    const Cell& cell = store_.scene()->cell();
+    if (static_cast<std::size_t>(question.rest.size()) != cell.joints.size()) {
+      throw std::invalid_argument("Arbiter: rest must have one entry per joint of the cell");
+    }
+    freedom_ = freedom_of(question.method, cell);
+    verdict_ = {Verdict::Kind::free, question.version, {}, cell.clearance_m, 0};
+    store_.begin_question();
+    gather(question);
+    const auto candidates = std::partition_point(parts_.begin(), parts_.end(), [&](const Mover& p) {
+      return p.motion != nullptr && is_candidate(question, p.motion);
+    });
+    for (auto own = parts_.begin(); own != candidates; ++own) {
+      ask_alone(*own);
+      for (auto other = own + 1; other != parts_.end(); ++other) ask_pair(*own, *other);
+    }
+    if (verdict_.kind != Verdict::Kind::free) verdict_.clearance_bound_m.reset();
+    return std::move(verdict_);
+  }
+
+ private:
+  static bool is_candidate(const Question& question, const Motion* motion) {
+    return !question.candidates.empty() && motion >= question.candidates.data() &&
+           motion < question.candidates.data() + question.candidates.size();
+  }
+
+  // Arms of candidates, of others, and those at rest, in this order.
+  void gather(const Question& question) {
+    const Cell& cell = store_.scene()->cell();
+    std::vector<bool> moved(cell.arms.size(), false);
+    parts_.clear();
+    const auto add = [&](const Motion& motion) {
+      for (const ArmId arm : motion.trajectory->arms()) {
+        if (moved[arm.index()]) {
+          throw std::invalid_argument("Arbiter: two motions of arm " + cell.arm(arm).name);
+        }
+        moved[arm.index()] = true;
+        parts_.push_back(
+            {arm, &motion,
+             &store_.motion(motion.trajectory, arm, question.rest, freedom_.tracking_error)});
+      }
+    };
+    for (const Motion& motion : question.candidates) add(motion);
+    for (const Motion& motion : question.others) add(motion);
+    for (std::uint32_t a = 0; a < cell.arms.size(); ++a) {
+      if (moved[a]) continue;
+      parts_.push_back({ArmId{a}, nullptr,
+                        &store_.motion(nullptr, ArmId{a}, question.rest, freedom_.tracking_error)});
+    }
+  }
+
+  [[nodiscard]] double lead_of(const Mover& part) const {
+    if (freedom_.swept) return Region::kUnbounded;
+    if (!freedom_.stopping || part.motion == nullptr) return 0.0;
+    return freedom_.reaction_s + part.entry->stopping_reach_s;
+  }
+  [[nodiscard]] double lag_of(const Mover& part) const {
+    if (freedom_.swept) return Region::kUnbounded;
+    if (part.motion == nullptr) return 0.0;
+    return part.motion->may_stand ? Region::kUnbounded : freedom_.lag_s;
+  }
+  [[nodiscard]] static double progress_of(const Mover& part) {
+    return part.motion == nullptr ? 0.0 : to_seconds(part.motion->progress);
+  }
+
+  [[nodiscard]] Region region_of(const Mover& a, const Mover& b) const {
+    return {.progress_a = progress_of(a),
+            .progress_b = progress_of(b),
+            .lag_a = lag_of(a),
+            .lag_b = lag_of(b),
+            .lead_a = lead_of(a),
+            .lead_b = lead_of(b),
+            .duration_a = to_seconds(a.entry->tube->duration()),
+            .duration_b = to_seconds(b.entry->tube->duration())};
+  }
+
+  void ask_alone(const Mover& own) {
+    const Region region{.progress_a = std::max(progress_of(own), 0.0),
+                        .duration_a = to_seconds(own.entry->tube->duration())};
+    ask(store_.self(*own.entry), region, own, nullptr, false);
+    ask(store_.still(*own.entry), region, own, nullptr, false);
+  }
+
+  void ask_pair(const Mover& own, const Mover& other) {
+    if (store_.out_of_reach(own.arm, other.arm)) return;
+    const bool turned = other.arm < own.arm;
+    const Mover& a = turned ? other : own;
+    const Mover& b = turned ? own : other;
+    ask(store_.pair(*a.entry, *b.entry), region_of(a, b), own, &other, turned);
+  }
+
+  void ask(const MotionStore::Diagram& diagram, const Region& region, const Mover& own,
+           const Mover* other, bool turned) {
+    if (diagram.pairs->empty()) return;
+    const double longest_s = std::max(region.duration_a, region.duration_b);
+    const auto budget = static_cast<std::uint64_t>(kBudget * std::max(1.0, longest_s / 10.0));
+    CoordinationDiagram::Answer answer = diagram.cells->ask(region, budget);
+    verdict_.evaluations += answer.evaluations;
+    if (answer.free) return;
+    const auto time = [](double progress) { return std::max(from_seconds(progress), Duration{}); };
+    const auto close =
+        diagram.cells->too_close_at(time(region.progress_a), time(region.progress_b));
+    if (!close.empty()) {
+      const PairSet parting = held_to_less(*diagram.pairs, close);
+      CoordinationDiagram alone = store_.with_pairs(diagram, parting);
+      answer = alone.ask(region, budget);
+      verdict_.evaluations += answer.evaluations;
+      if (answer.free) return;
+    }
+    report(answer, *diagram.bodies, own, other, turned);
+  }
+
+  static PairSet held_to_less(PairSet pairs, const std::vector<CoordinationDiagram::Close>& close) {
+    const auto lower = [&](auto& entries, std::vector<NarrowPair>& narrow) {
+      for (std::size_t i = 0; i < entries.size(); ++i) {
+        const auto found =
+            std::ranges::find(close, narrow[i].pair, &CoordinationDiagram::Close::pair);
+        if (found == close.end()) continue;
+        narrow[i].limit_m = std::max(kPartingShare * found->distance_m, 1e-9);
+        entries[i].limit_up = round_up(narrow[i].limit_m);
+      }
+    };
+    lower(pairs.pairs, pairs.narrow);
+    lower(pairs.boxes, pairs.narrow_boxes);
+    return pairs;
+  }
+
+  void report(const CoordinationDiagram::Answer& answer, const PlanningScene::Bodies& bodies,
+              const Mover& own, const Mover* other, bool turned) {
+    if (answer.proven) {
+      verdict_.kind = Verdict::Kind::conflict;
+    } else if (verdict_.kind == Verdict::Kind::free) {
+      verdict_.kind = Verdict::Kind::undecided;
+    }
+    const CoordinationDiagram::Finding& found = *answer.conflict;
+    const PartPair& pair = bodies.pairs[found.pair.index()];
+    const auto& a = bodies.parts[pair.a];
+    const auto& b = bodies.parts[pair.b];
+    Conflict conflict{Conflict::With::scene,
+                      own.motion->job,
+                      std::nullopt,
+                      {a.name, b.name, a.arm, b.arm, !b.link, found.distance_m},
+                      turned ? found.time_b : found.time_a,
+                      turned ? found.time_a : found.time_b};
+    if (turned) {
+      std::swap(conflict.proximity.body_a, conflict.proximity.body_b);
+      std::swap(conflict.proximity.arm_a, conflict.proximity.arm_b);
+    }
+    if (other == nullptr) {
+      const bool itself = a.arm == b.arm || (b.link && a.robot == b.robot);
+      if (itself) conflict.with = Conflict::With::self;
+    } else if (other->motion == own.motion) {
+      conflict.with = Conflict::With::self;
+    } else if (other->motion != nullptr) {
+      conflict.with = Conflict::With::motion;
+      conflict.other_job = other->motion->job;
+    } else {
+      conflict.with = Conflict::With::rest;
+    }
+    verdict_.conflicts.push_back(std::move(conflict));
+  }
+
+  MotionStore store_;
+  CollisionChecker checker_;
+  Freedom freedom_;
+  Verdict verdict_{Verdict::Kind::free, 0, {}, std::nullopt, 0};
+  std::vector<Mover> parts_;
+};
+
+Arbiter::Arbiter(PlanningScenePtr scene) : impl_(std::make_unique<Impl>(std::move(scene))) {}
+Arbiter::~Arbiter() = default;
+Arbiter::Arbiter(Arbiter&&) noexcept = default;
+Arbiter& Arbiter::operator=(Arbiter&&) noexcept = default;
+
+void Arbiter::look_at(PlanningScenePtr scene) { impl_->look_at(std::move(scene)); }
+const PlanningScenePtr& Arbiter::scene() const { return impl_->scene(); }
+Verdict Arbiter::judge(const Question& question) { return impl_->judge(question); }
+
+}  // namespace armloom

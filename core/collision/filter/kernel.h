@@ -1,0 +1,123 @@
+#pragma once
+
+// The conservative filter: capsules of eight configurations at once. Plain data and function
+// pointers only, because this header is included by files that are compiled for other instruction
+// sets: nothing here may be emitted twice (no standard library, no Eigen).
+//
+// Every array is "structure of arrays": the last index is the lane, one configuration each. Poses
+// are computed in double and rounded once to float, so that the rounding margin is a few float
+// roundings of a coordinate, whatever the length of the chain. The same operations in the same
+// order run on every instruction set: results are equal bit for bit.
+
+namespace armloom::filter {
+
+inline constexpr int kLanes = 8;
+
+// A movable joint and the frame that it moves, turned so that its axis is the frame's z:
+// X_parent * C * motion(multiplier * q[joint] + offset).
+struct Frame {
+  int parent;  // smaller than the own index; -1: the world
+  int joint;   // row of q
+  bool prismatic;
+  double multiplier;
+  double offset;
+  double C[12];  // columns x, y, z, then the origin; m
+};
+
+// A capsule fixed in a frame (-1: in the world). Its ancestors are the frames from the root to its
+// own, as indices in Linkage::ancestors.
+struct Capsule {
+  int frame;
+  double center[3];  // in the frame, m
+  double half[3];    // from the centre to one end of the axis
+  float radius_up;   // rounded up
+  int ancestors_begin;
+  int depth;         // number of ancestors
+  int suffix_begin;  // first of its depth + 1 rows in the array of motion bounds
+};
+
+struct Linkage {
+  const Frame* frames;
+  int frame_count;
+  const Capsule* capsules;
+  int capsule_count;
+  const int* ancestors;
+};
+
+// q: [joint][kLanes], rad or m. Outputs: frames [frame][12][kLanes] as Frame::C; axes
+// [frame][6][kLanes]: origin and z axis; capsules [capsule][6][kLanes]: centre and half axis.
+struct Placed {
+  double* frames;
+  float* axes;
+  float* capsules;
+};
+
+// Capsules whose motion bounds are known, as one side of a comparison.
+struct Side {
+  const float* capsules;   // as Placed::capsules
+  const float* inflation;  // [row][kLanes], m
+};
+
+// Two capsules to compare, with what does not change. Rows of the sides' inflation arrays say how
+// far each may move.
+struct Pair {
+  int a, b;
+  int row_a, row_b;
+  float limit_up;        // distance to be kept
+  float radii_up;        // both radii and the rounding margin
+  float ends_up;         // both half lengths
+  float aa, bb;          // squared half lengths
+  float inv_aa, inv_bb;  // zero for a point
+};
+
+// A capsule against a solid box that stands still.
+struct BoxPair {
+  int a;
+  int row_a;
+  float R[9];  // rows: the box's axes in the world
+  float center[3];
+  float half_up[3];
+  float limit_up;
+  float radius_up;  // of the capsule, with the rounding margin
+};
+
+// A pair that is not proven to keep its limit in some lanes. distance: a lower bound at the
+// configuration itself; inflation: what motion may take from it.
+struct Hit {
+  int pair;
+  unsigned lanes;  // bit by lane
+  float distance[kLanes];
+  float inflation[kLanes];
+};
+
+struct Kernel {
+  const char* name;
+  void (*place)(const Linkage& linkage, const double* q, const Placed& out);
+  // span: [frame][kLanes], how far the joint of the frame may be from the configuration (rad, m),
+  // rounded up. suffix: [row][kLanes], see Capsule::suffix_begin: row m of a capsule bounds how far
+  // any point of it moves against anything that shares its first m ancestors: the sum over the
+  // other ancestors of span times the lever about that joint at this configuration. (Changing the
+  // joints one after another from base to tip, each turns what is behind it in the shape that it
+  // has here: hence the levers at hand bound motions of any size.)
+  void (*inflate)(const Linkage& linkage, const float* axes, const float* capsules,
+                  const float* span, float* suffix);
+  // Writes the pairs that are undecided in one of `lanes`; returns their number. `hits` has room
+  // for all pairs.
+  int (*near_pairs)(const Side& a, const Side& b, const Pair* pairs, int count, unsigned lanes,
+                    Hit* hits);
+  int (*near_boxes)(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits);
+};
+
+extern const Kernel kScalarKernel;    // one lane after the other: the reference
+extern const Kernel kBaselineKernel;  // SSE2: every x86-64
+extern const Kernel kAvx2Kernel;
+
+// Rounding margin of near_pairs and near_boxes (m), to be added to radii_up and radius_up: where no
+// coordinate is larger than `extent_m`. With u = 2^-24: a centre or an end of an axis is rounded
+// once, to within sqrt(3) u extent; with differences, products with a unit vector (itself 4 u off)
+// and sums of at most 2 sqrt(3) extent, 16 roundings in all.
+constexpr float rounding_margin(double extent_m) {
+  return static_cast<float>(16.0 * 5.97e-8 * 1.7321 * extent_m);
+}
+
+}  // namespace armloom::filter

@@ -1,0 +1,53 @@
+// Four doubles or eight floats at once; compiled for AVX2, run only where the processor has it.
+#include <immintrin.h>
+
+#include "core/collision/filter/kernel_lanes.h"
+
+namespace armloom::filter {
+namespace {
+
+struct D {
+  static constexpr int kLanes = 4;
+  __m256d v;
+  static D load(const double* p) { return {_mm256_loadu_pd(p)}; }
+  static D all(double x) { return {_mm256_set1_pd(x)}; }
+  // To the nearest integer, ties to even: adding 1.5 * 2^52 leaves no digit for a fraction.
+  static D round(D a) {
+    const __m256d shift = _mm256_set1_pd(6755399441055744.0);
+    return {_mm256_sub_pd(_mm256_add_pd(a.v, shift), shift)};
+  }
+  static D select(D odd, D a, D b) {
+    const __m256d one = _mm256_cmp_pd(odd.v, _mm256_set1_pd(1.0), _CMP_EQ_OQ);
+    return {_mm256_or_pd(_mm256_and_pd(one, a.v), _mm256_andnot_pd(one, b.v))};
+  }
+  void store(double* p) const { _mm256_storeu_pd(p, v); }
+  void store_float(float* p) const { _mm_storeu_ps(p, _mm256_cvtpd_ps(v)); }
+};
+inline D operator+(D a, D b) { return {_mm256_add_pd(a.v, b.v)}; }
+inline D operator-(D a, D b) { return {_mm256_sub_pd(a.v, b.v)}; }
+inline D operator*(D a, D b) { return {_mm256_mul_pd(a.v, b.v)}; }
+
+struct F {
+  static constexpr int kLanes = 8;
+  __m256 v;
+  static F load(const float* p) { return {_mm256_loadu_ps(p)}; }
+  static F all(float x) { return {_mm256_set1_ps(x)}; }
+  static F max(F a, F b) { return {_mm256_max_ps(a.v, b.v)}; }
+  static F min(F a, F b) { return {_mm256_min_ps(a.v, b.v)}; }
+  static F abs(F a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0F), a.v)}; }
+  static F sqrt(F a) { return {_mm256_sqrt_ps(a.v)}; }
+  static unsigned not_at_least(F a, F b) {
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_NGE_UQ)));
+  }
+  void store(float* p) const { _mm256_storeu_ps(p, v); }
+};
+inline F operator+(F a, F b) { return {_mm256_add_ps(a.v, b.v)}; }
+inline F operator-(F a, F b) { return {_mm256_sub_ps(a.v, b.v)}; }
+inline F operator*(F a, F b) { return {_mm256_mul_ps(a.v, b.v)}; }
+inline F operator/(F a, F b) { return {_mm256_div_ps(a.v, b.v)}; }
+
+}  // namespace
+
+const Kernel kAvx2Kernel = {"avx2", place<D>, inflate<F>, near_pairs<F>, near_boxes<F>};
+
+}  // namespace armloom::filter

@@ -1,0 +1,257 @@
+#pragma once
+
+// The one source of the kernels. Included once by each file of an instruction set, with D (doubles)
+// and F (floats) being its vector types; everything is in an unnamed namespace, so that no code of
+// one set can be linked into another.
+//   D, F: kLanes, load(p), all(x), +, -, *, max(a, b);  F also: sqrt, abs, /, not_at_least(a, b)
+//   (bits by lane of !(a >= b)), store(p);  D also: round, select(odd, a, b), store, store_float.
+
+#include "core/collision/filter/kernel.h"
+
+namespace armloom::filter {
+namespace {
+
+// fdlibm's polynomials on [-pi/4, pi/4] after removing k * pi/2 in two parts; good to 1e-16 for
+// |x| < 1e6.
+template <class D>
+inline void sin_cos(D x, D& sin_x, D& cos_x) {
+  const D k = D::round(x * D::all(6.36619772367581382433e-01));
+  const D r = (x - k * D::all(1.57079632673412561417e+00)) - k * D::all(6.07710050650619224932e-11);
+  const D z = r * r;
+  D s = D::all(1.58969099521155010221e-10);
+  s = s * z + D::all(-2.50507602534068634195e-08);
+  s = s * z + D::all(2.75573137070700676789e-06);
+  s = s * z + D::all(-1.98412698298579493134e-04);
+  s = s * z + D::all(8.33333333332248946124e-03);
+  s = s * z + D::all(-1.66666666666666324348e-01);
+  s = r + r * z * s;
+  D c = D::all(-1.13596475577881948265e-11);
+  c = c * z + D::all(2.08757232129817482790e-09);
+  c = c * z + D::all(-2.75573143513906633035e-07);
+  c = c * z + D::all(2.48015872894767294178e-05);
+  c = c * z + D::all(-1.38888888888741095749e-03);
+  c = c * z + D::all(4.16666666666666019037e-02);
+  c = D::all(1.0) - (D::all(0.5) * z - z * z * c);
+  // Quarter turns m = k mod 4: odd ones swap; the sine changes sign for 2, 3, the cosine for 1, 2.
+  const D half = D::round(k * D::all(0.5) - D::all(0.25));      // floor(k / 2)
+  const D turns = D::round(half * D::all(0.5) - D::all(0.25));  // floor(k / 4)
+  const D odd = k - D::all(2.0) * half;                         // 0 or 1
+  const D back = half - D::all(2.0) * turns;                    // 1 for m = 2, 3
+  const D sign_s = D::all(1.0) - D::all(2.0) * back;
+  const D sign_c = sign_s * (D::all(1.0) - D::all(2.0) * odd);
+  sin_x = D::select(odd, c, s) * sign_s;
+  cos_x = D::select(odd, s, c) * sign_c;
+}
+
+template <class D>
+inline void place_frame(const Frame& frame, const double* parent, const double* q, int l,
+                        double* out) {
+  D c[12];
+  if (parent == nullptr) {
+    for (int i = 0; i < 12; ++i) c[i] = D::all(frame.C[i]);
+  } else {
+    D p[12];
+    for (int i = 0; i < 12; ++i) p[i] = D::load(parent + i * kLanes + l);
+    for (int column = 0; column < 4; ++column) {
+      const D x = D::all(frame.C[3 * column]);
+      const D y = D::all(frame.C[3 * column + 1]);
+      const D z = D::all(frame.C[3 * column + 2]);
+      for (int i = 0; i < 3; ++i) c[3 * column + i] = p[i] * x + p[3 + i] * y + p[6 + i] * z;
+    }
+    for (int i = 0; i < 3; ++i) c[9 + i] = c[9 + i] + p[9 + i];
+  }
+  const D value =
+      D::load(q + frame.joint * kLanes + l) * D::all(frame.multiplier) + D::all(frame.offset);
+  if (frame.prismatic) {
+    for (int i = 0; i < 3; ++i) c[9 + i] = c[9 + i] + c[6 + i] * value;
+  } else {
+    D s, k;
+    sin_cos(value, s, k);
+    for (int i = 0; i < 3; ++i) {
+      const D x = c[i];
+      c[i] = x * k + c[3 + i] * s;
+      c[3 + i] = c[3 + i] * k - x * s;
+    }
+  }
+  for (int i = 0; i < 12; ++i) c[i].store(out + i * kLanes + l);
+}
+
+template <class D>
+void place(const Linkage& linkage, const double* q, const Placed& out) {
+  for (int f = 0; f < linkage.frame_count; ++f) {
+    const Frame& frame = linkage.frames[f];
+    double* X = out.frames + f * 12 * kLanes;
+    const double* parent = frame.parent < 0 ? nullptr : out.frames + frame.parent * 12 * kLanes;
+    float* axis = out.axes + f * 6 * kLanes;
+    for (int l = 0; l < kLanes; l += D::kLanes) {
+      place_frame<D>(frame, parent, q, l, X);
+      for (int i = 0; i < 3; ++i) {
+        D::load(X + (9 + i) * kLanes + l).store_float(axis + i * kLanes + l);
+        D::load(X + (6 + i) * kLanes + l).store_float(axis + (3 + i) * kLanes + l);
+      }
+    }
+  }
+  for (int c = 0; c < linkage.capsule_count; ++c) {
+    const Capsule& capsule = linkage.capsules[c];
+    float* to = out.capsules + c * 6 * kLanes;
+    for (int l = 0; l < kLanes; l += D::kLanes) {
+      for (int i = 0; i < 3; ++i) {
+        D center = D::all(capsule.center[i]);
+        D half = D::all(capsule.half[i]);
+        if (capsule.frame >= 0) {
+          const double* X = out.frames + capsule.frame * 12 * kLanes + l;
+          const D x = D::load(X + i * kLanes);
+          const D y = D::load(X + (3 + i) * kLanes);
+          const D z = D::load(X + (6 + i) * kLanes);
+          center = x * D::all(capsule.center[0]) + y * D::all(capsule.center[1]) +
+                   z * D::all(capsule.center[2]) + D::load(X + (9 + i) * kLanes);
+          half = x * D::all(capsule.half[0]) + y * D::all(capsule.half[1]) +
+                 z * D::all(capsule.half[2]);
+        }
+        center.store_float(to + i * kLanes + l);
+        half.store_float(to + (3 + i) * kLanes + l);
+      }
+    }
+  }
+}
+
+template <class F>
+struct Vec {
+  F x, y, z;
+  static Vec load(const float* p) {
+    return {F::load(p), F::load(p + kLanes), F::load(p + 2 * kLanes)};
+  }
+};
+template <class F>
+inline F dot(const Vec<F>& a, const Vec<F>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class F>
+inline Vec<F> cross(const Vec<F>& a, const Vec<F>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class F>
+inline Vec<F> minus(const Vec<F>& a, const Vec<F>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+// Float roundings of a lever are below one part in 1e5 and a micrometre.
+template <class F>
+void inflate(const Linkage& linkage, const float* axes, const float* capsules, const float* span,
+             float* suffix) {
+  for (int c = 0; c < linkage.capsule_count; ++c) {
+    const Capsule& capsule = linkage.capsules[c];
+    const int* ancestors = linkage.ancestors + capsule.ancestors_begin;
+    float* rows = suffix + capsule.suffix_begin * kLanes;
+    const F extra = F::all(capsule.radius_up + 2e-6F);
+    for (int l = 0; l < kLanes; l += F::kLanes) {
+      const Vec<F> center = Vec<F>::load(capsules + c * 6 * kLanes + l);
+      const Vec<F> half = Vec<F>::load(capsules + (c * 6 + 3) * kLanes + l);
+      F sum = F::all(0.0F);
+      sum.store(rows + capsule.depth * kLanes + l);
+      for (int k = capsule.depth - 1; k >= 0; --k) {
+        const int f = ancestors[k];
+        F lever = F::all(1.0F);
+        if (!linkage.frames[f].prismatic) {
+          const Vec<F> origin = Vec<F>::load(axes + f * 6 * kLanes + l);
+          const Vec<F> axis = Vec<F>::load(axes + (f * 6 + 3) * kLanes + l);
+          const Vec<F> u = cross(minus(center, origin), axis);
+          const Vec<F> v = cross(half, axis);
+          const F uv = F::abs(dot(u, v));
+          lever = F::sqrt(dot(u, u) + dot(v, v) + uv + uv) + extra;
+        }
+        sum = sum + lever * F::load(span + f * kLanes + l) * F::all(1.00001F);
+        sum.store(rows + k * kLanes + l);
+      }
+    }
+  }
+}
+
+// A lower bound of the distance of the axes: the gap between two planes that hold them apart,
+// across the direction of (nearly) nearest points. Errors of these points lower it, never raise it.
+template <class F>
+inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pair& pair) {
+  const F one = F::all(1.0F);
+  const F ab = dot(ha, hb);
+  const F aw = dot(ha, w);
+  const F bw = dot(hb, w);
+  const auto clamp = [&one](F x) { return F::max(F::all(-1.0F), F::min(one, x)); };
+  const F aa = F::all(pair.aa);
+  const F bb = F::all(pair.bb);
+  const F denominator = F::max(aa * bb - ab * ab, F::all(1e-12F));
+  F s = clamp((ab * bw - aw * bb) / denominator);
+  const F t = clamp((ab * s + bw) * F::all(pair.inv_bb));
+  s = clamp((ab * t - aw) * F::all(pair.inv_aa));
+  const Vec<F> v = {w.x + s * ha.x - t * hb.x, w.y + s * ha.y - t * hb.y,
+                    w.z + s * ha.z - t * hb.z};
+  const F length = F::sqrt(dot(v, v));
+  const F gap = dot(v, w) - F::abs(dot(v, ha)) - F::abs(dot(v, hb));
+  return gap / F::max(length, F::all(1e-20F));
+}
+
+template <class F>
+int near_pairs(const Side& a, const Side& b, const Pair* pairs, int count, unsigned lanes,
+               Hit* hits) {
+  int found = 0;
+  for (int p = 0; p < count; ++p) {
+    const Pair& pair = pairs[p];
+    const float* at_a = a.capsules + pair.a * 6 * kLanes;
+    const float* at_b = b.capsules + pair.b * 6 * kLanes;
+    Hit& hit = hits[found];
+    unsigned near = 0;
+    for (int l = 0; l < kLanes; l += F::kLanes) {
+      const Vec<F> w = minus(Vec<F>::load(at_a + l), Vec<F>::load(at_b + l));
+      const F inflation = F::load(a.inflation + pair.row_a * kLanes + l) +
+                          F::load(b.inflation + pair.row_b * kLanes + l);
+      const F keep = F::all(pair.limit_up + pair.radii_up) + inflation;
+      const F reach = keep + F::all(pair.ends_up);
+      if (F::not_at_least(dot(w, w), reach * reach) == 0) continue;
+      const Vec<F> ha = Vec<F>::load(at_a + 3 * kLanes + l);
+      const Vec<F> hb = Vec<F>::load(at_b + 3 * kLanes + l);
+      const F gap = axis_gap(w, ha, hb, pair);
+      near |= F::not_at_least(gap, keep) << l;
+      (gap - F::all(pair.radii_up)).store(hit.distance + l);
+      inflation.store(hit.inflation + l);
+    }
+    hit.pair = p;
+    hit.lanes = near & lanes;
+    found += hit.lanes != 0 ? 1 : 0;
+  }
+  return found;
+}
+
+// The gap across the box's faces: a lower bound, the distance itself before a face.
+template <class F>
+int near_boxes(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits) {
+  int found = 0;
+  for (int p = 0; p < count; ++p) {
+    const BoxPair& pair = pairs[p];
+    const float* at = a.capsules + pair.a * 6 * kLanes;
+    Hit& hit = hits[found];
+    unsigned near = 0;
+    for (int l = 0; l < kLanes; l += F::kLanes) {
+      Vec<F> w = Vec<F>::load(at + l);
+      w = {w.x - F::all(pair.center[0]), w.y - F::all(pair.center[1]),
+           w.z - F::all(pair.center[2])};
+      const Vec<F> half = Vec<F>::load(at + 3 * kLanes + l);
+      F gap = F::all(-1e9F);
+      for (int i = 0; i < 3; ++i) {
+        const Vec<F> axis = {F::all(pair.R[3 * i]), F::all(pair.R[3 * i + 1]),
+                             F::all(pair.R[3 * i + 2])};
+        gap = F::max(gap, F::abs(dot(axis, w)) - F::abs(dot(axis, half)) - F::all(pair.half_up[i]));
+      }
+      const F inflation = F::load(a.inflation + pair.row_a * kLanes + l);
+      const F distance = gap - F::all(pair.radius_up);
+      near |= F::not_at_least(distance, F::all(pair.limit_up) + inflation) << l;
+      distance.store(hit.distance + l);
+      inflation.store(hit.inflation + l);
+    }
+    hit.pair = p;
+    hit.lanes = near & lanes;
+    found += hit.lanes != 0 ? 1 : 0;
+  }
+  return found;
+}
+
+}  // namespace
+}  // namespace armloom::filter

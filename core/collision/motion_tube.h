@@ -1,0 +1,100 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/collision/pair_set.h"
+#include "core/trajectory/trajectory.h"
+
+namespace armloom {
+
+// An arm's linkage with the pairs of its own links.
+struct ArmGeometry {
+  explicit ArmGeometry(const PlanningScene::Bodies& bodies, ArmId arm)
+      : linkage(bodies, arm), self(self_pairs(bodies, linkage)) {}
+  Linkage linkage;
+  PairSet self;
+};
+
+// One arm's motion as a binary tree of intervals of its trajectory time. A node holds the arm at
+// the middle of its interval, and for each capsule how far any point of it may be from there during
+// the interval, `tracking_error` of each joint (rad, m) included. Nodes are made when asked for and
+// kept: the motion's comparisons with all others share them. Not thread-safe.
+class MotionTube {
+ public:
+  // Joints of the arm that are not in the trajectory stand where `rest` (whole cell) has them;
+  // without a trajectory all do, and there is one node for all times.
+  MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPtr trajectory,
+             const Configuration& rest, double tracking_error);
+
+  [[nodiscard]] const Linkage& linkage() const { return geometry_->linkage; }
+  [[nodiscard]] const ArmGeometry& geometry() const { return *geometry_; }
+  [[nodiscard]] const TrajectoryPtr& trajectory() const { return trajectory_; }
+  [[nodiscard]] Duration duration() const { return nodes_.front().to; }
+
+  // The whole motion. Children are two halves, side by side: first_child(n) and the one after it.
+  [[nodiscard]] static int root() { return 0; }
+  [[nodiscard]] int first_child(int node);
+  [[nodiscard]] Duration from(int node) const { return at(node).from; }
+  [[nodiscard]] Duration to(int node) const { return at(node).to; }
+  [[nodiscard]] Duration middle(int node) const { return at(node).from + width(node) / 2; }
+  [[nodiscard]] Duration width(int node) const { return at(node).to - at(node).from; }
+
+  // Computes nodes that are not yet (eight at once). Before it the functions below are undefined.
+  void place(std::span<const int> nodes);
+
+  // [capsule][8]: centre, half axis, motion bound (m), zero.
+  [[nodiscard]] const float* capsules(int node) const {
+    return capsules_.data() + at(node).slot * capsule_stride_;
+  }
+  // [frame][12], as filter::Frame::C.
+  [[nodiscard]] const double* frames(int node) const {
+    return frames_.data() + at(node).slot * frame_stride_;
+  }
+  // Pairs of the arm's own links (ArmGeometry::self) that are undecided over the interval; the
+  // motion bound is that against each other.
+  struct SelfHit {
+    int pair;
+    float distance;
+    float inflation;
+  };
+  [[nodiscard]] std::span<const SelfHit> self_hits(int node) const;
+
+  // The configuration at a trajectory time, rows as Linkage::joints.
+  void configuration(Duration time, double* q);
+
+ private:
+  struct Node {
+    Duration from;
+    Duration to;
+    int children = -1;
+    bool placed = false;
+    std::size_t slot = 0;
+    std::size_t self_begin = 0;
+    std::size_t self_end = 0;
+  };
+  [[nodiscard]] const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
+  void place_batch(std::span<const int> nodes);
+  void fill_lane(const Node& node, int lane);
+  void keep(std::span<const int> nodes);
+
+  std::shared_ptr<const ArmGeometry> geometry_;
+  TrajectoryPtr trajectory_;
+  std::vector<int> column_;   // by row: index in the trajectory's joints, or -1
+  std::vector<double> rest_;  // by row
+  double tracking_error_;
+  std::vector<Node> nodes_;
+  std::size_t slots_ = 0;
+  std::size_t capsule_stride_;
+  std::size_t frame_stride_;
+  std::vector<float> capsules_;
+  std::vector<double> frames_;
+  std::vector<SelfHit> self_hits_;
+
+  struct Scratch;  // of one batch
+  std::shared_ptr<Scratch> scratch_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,195 @@
+#include "core/collision/pair_set.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/model/kinematics.h"
+
+namespace armloom {
+namespace {
+
+constexpr double kTouching_m = 1e-9;  // a clearance of zero still forbids contact
+
+double extent_of(const Eigen::Vector3d& p, const Eigen::Vector3d& half, double radius_m) {
+  return p.norm() + half.norm() + radius_m;
+}
+
+int index_of(const std::vector<LinkagePart>& parts, std::size_t part) {
+  const auto found = std::ranges::find(parts, part, &LinkagePart::part);
+  return found == parts.end() ? -1 : static_cast<int>(found - parts.begin());
+}
+
+double limit_of(const PlanningScene::Bodies& bodies, const PairGroup& group) {
+  const Cell& cell = *bodies.cell;
+  const bool self = group.kind == PairGroup::Kind::self;
+  return std::max(self ? cell.self_clearance_m : cell.clearance_m, kTouching_m);
+}
+
+// All pairs of capsules of the two parts.
+void add_capsules(PairSet& set, const NarrowPair& narrow, const LinkagePart& a,
+                  const std::vector<filter::Capsule>& capsules_a, const LinkagePart& b,
+                  const std::vector<filter::Capsule>& capsules_b, double margin_m) {
+  for (int i = a.capsules_begin; i < a.capsules_end; ++i) {
+    for (int j = b.capsules_begin; j < b.capsules_end; ++j) {
+      set.pairs.push_back(kernel_pair(i, capsules_a[static_cast<std::size_t>(i)], j,
+                                      capsules_b[static_cast<std::size_t>(j)], narrow.limit_m,
+                                      margin_m));
+      set.narrow.push_back(narrow);
+    }
+  }
+}
+
+void add_boxes(PairSet& set, const NarrowPair& narrow, const LinkagePart& a,
+               const std::vector<filter::Capsule>& capsules_a, const Body& box,
+               const Eigen::Isometry3d& X_WS, double margin_m) {
+  for (int i = a.capsules_begin; i < a.capsules_end; ++i) {
+    filter::BoxPair pair{};
+    pair.a = pair.row_a = i;
+    for (int k = 0; k < 3; ++k) {
+      for (int c = 0; c < 3; ++c) pair.R[3 * k + c] = static_cast<float>(X_WS.linear()(c, k));
+      pair.center[k] = static_cast<float>(X_WS.translation()[k]);
+      pair.half_up[k] = round_up(box.half_size_m[k]);
+    }
+    pair.limit_up = round_up(narrow.limit_m);
+    pair.radius_up =
+        round_up(static_cast<double>(capsules_a[static_cast<std::size_t>(i)].radius_up) + margin_m);
+    set.boxes.push_back(pair);
+    set.narrow_boxes.push_back(narrow);
+  }
+}
+
+// Calls visit(pair id, part pair, group) for each pair of the groups of this arm that `wanted`
+// names.
+template <class Visit>
+void for_pairs(const PlanningScene::Bodies& bodies, ArmId a, std::optional<ArmId> b,
+               const Visit& visit) {
+  for (const PairGroup& group : bodies.groups) {
+    const bool wanted =
+        b ? group.kind == PairGroup::Kind::arms && group.arm == a && group.other == b
+          : group.kind != PairGroup::Kind::arms && group.arm == a;
+    if (!wanted) continue;
+    for (std::size_t i = group.pairs_begin; i < group.pairs_end; ++i) {
+      visit(PairId{static_cast<std::uint32_t>(i)}, bodies.pairs[i], group);
+    }
+  }
+}
+
+}  // namespace
+
+StillParts::StillParts(const PlanningScene::Bodies& bodies) : placed(bodies.bodies.size()) {
+  LinkPoses X_WL;
+  forward_kinematics(*bodies.cell, bodies.cell->home(), X_WL);
+  for (std::size_t i = 0; i < bodies.parts.size(); ++i) {
+    const Part& part = bodies.parts[i];
+    if (part.arm) continue;
+    LinkagePart still{
+        .part = i,
+        .frame = -1,
+        .X_FP = part.link ? X_WL[part.link->index()] : bodies.objects[i - bodies.links_end].X_WO,
+        .capsules_begin = static_cast<int>(capsules.size()),
+        .capsules_end = 0};
+    for (const LinkCapsule& capsule : part.capsules) {
+      capsules.push_back(kernel_capsule(still.X_FP, capsule.p_PA, capsule.p_PB, capsule.radius_m));
+      const Eigen::Vector3d center(capsules.back().center);
+      const Eigen::Vector3d half(capsules.back().half);
+      extent_m = std::max(extent_m, extent_of(center, half, capsule.radius_m));
+      for (const Eigen::Vector3d& v : {center, half}) {
+        for (int k = 0; k < 3; ++k) {
+          lanes.insert(lanes.end(), filter::kLanes, static_cast<float>(v[k]));
+        }
+      }
+    }
+    still.capsules_end = static_cast<int>(capsules.size());
+    for (std::size_t b = part.bodies_begin; b < part.bodies_end; ++b) {
+      place(bodies.bodies[b], still.X_FP, placed[b]);
+    }
+    parts.push_back(still);
+  }
+  at_rest.assign(capsules.size() * filter::kLanes, 0.0F);
+}
+
+PairSet cross_pairs(const PlanningScene::Bodies& bodies, const Linkage& a, const Linkage& b) {
+  const bool turned = b.arm() < a.arm();  // groups name the smaller id first
+  const double margin_m =
+      static_cast<double>(filter::rounding_margin(std::max(a.extent_m(), b.extent_m())));
+  PairSet set;
+  for_pairs(bodies, turned ? b.arm() : a.arm(), turned ? a.arm() : b.arm(),
+            [&](PairId id, const PartPair& pair, const PairGroup& group) {
+              const int i = index_of(a.parts(), turned ? pair.b : pair.a);
+              const int j = index_of(b.parts(), turned ? pair.a : pair.b);
+              const NarrowPair narrow{id, i, j, limit_of(bodies, group)};
+              add_capsules(set, narrow, a.parts()[static_cast<std::size_t>(i)], a.capsules(),
+                           b.parts()[static_cast<std::size_t>(j)], b.capsules(), margin_m);
+            });
+  return set;
+}
+
+PairSet self_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm) {
+  const auto margin_m = static_cast<double>(filter::rounding_margin(arm.extent_m()));
+  PairSet set;
+  for_pairs(bodies, arm.arm(), std::nullopt,
+            [&](PairId id, const PartPair& pair, const PairGroup& group) {
+              const int i = index_of(arm.parts(), pair.a);
+              const int j = index_of(arm.parts(), pair.b);
+              if (j < 0) return;  // stands still
+              const NarrowPair narrow{id, i, j, limit_of(bodies, group)};
+              add_capsules(set, narrow, arm.parts()[static_cast<std::size_t>(i)], arm.capsules(),
+                           arm.parts()[static_cast<std::size_t>(j)], arm.capsules(), margin_m);
+            });
+  for (filter::Pair& pair : set.pairs) {
+    const int common = arm.common_ancestors(pair.a, pair.b);
+    pair.row_a = arm.capsules()[static_cast<std::size_t>(pair.a)].suffix_begin + common;
+    pair.row_b = arm.capsules()[static_cast<std::size_t>(pair.b)].suffix_begin + common;
+  }
+  return set;
+}
+
+PairSet still_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm,
+                    const StillParts& still) {
+  PairSet set;
+  for_pairs(bodies, arm.arm(), std::nullopt,
+            [&](PairId id, const PartPair& pair, const PairGroup& group) {
+              const int i = index_of(arm.parts(), pair.a);
+              const int j = index_of(still.parts, pair.b);
+              if (j < 0) return;  // the arm's own
+              const LinkagePart& a = arm.parts()[static_cast<std::size_t>(i)];
+              const LinkagePart& b = still.parts[static_cast<std::size_t>(j)];
+              const NarrowPair narrow{id, i, j, limit_of(bodies, group)};
+              const Part& part = bodies.parts[pair.b];
+              double extent_m = arm.extent_m();
+              for (int c = b.capsules_begin; c < b.capsules_end; ++c) {
+                const filter::Capsule& capsule = still.capsules[static_cast<std::size_t>(c)];
+                extent_m = std::max(extent_m, extent_of(Eigen::Vector3d(capsule.center),
+                                                        Eigen::Vector3d(capsule.half), 0.0));
+              }
+              const auto margin_m = static_cast<double>(filter::rounding_margin(extent_m));
+              if (part.lone_box) {
+                add_boxes(set, narrow, a, arm.capsules(), bodies.bodies[part.bodies_begin],
+                          still.placed[part.bodies_begin].X_WS, margin_m);
+              } else {
+                add_capsules(set, narrow, a, arm.capsules(), b, still.capsules, margin_m);
+              }
+            });
+  return set;
+}
+
+double part_distance(const PlanningScene::Bodies& bodies, std::size_t part_a,
+                     const Eigen::Isometry3d& X_WA, std::size_t part_b,
+                     const Eigen::Isometry3d& X_WB, double limit_m) {
+  const Part& a = bodies.parts[part_a];
+  const Part& b = bodies.parts[part_b];
+  double smallest = limit_m;
+  PlacedBody at_a;
+  PlacedBody at_b;
+  for (std::size_t i = a.bodies_begin; i < a.bodies_end; ++i) {
+    place(bodies.bodies[i], X_WA, at_a);
+    for (std::size_t j = b.bodies_begin; j < b.bodies_end; ++j) {
+      place(bodies.bodies[j], X_WB, at_b);
+      smallest = distance_below(bodies.bodies[i], at_a, bodies.bodies[j], at_b, smallest);
+    }
+  }
+  return smallest;
+}
+
+}  // namespace armloom

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/collision/collision_checker.h"
+#include "core/collision/linkage.h"
+#include "core/collision/scene_bodies.h"
+
+namespace armloom {
+
+// Everything that stands still in the world, as the kernels want it: static links and objects.
+struct StillParts {
+  explicit StillParts(const PlanningScene::Bodies& bodies);
+
+  std::vector<LinkagePart> parts;  // by place in `parts`; frame -1
+  std::vector<filter::Capsule> capsules;
+  std::vector<float> lanes;        // [capsule][6][kLanes], the same in all lanes
+  std::vector<float> at_rest;      // [capsule][kLanes]: zeros
+  std::vector<PlacedBody> placed;  // by body of the scene; those of still parts are filled
+  double extent_m = 0.0;
+};
+
+// What stands behind a pair of capsules: two parts that must not come closer than limit_m.
+struct NarrowPair {
+  PairId pair;  // in PlanningScene::Bodies::pairs
+  int part_a;   // in the linkage of the first side
+  int part_b;   // in the linkage of the second side, or in StillParts
+  double limit_m;
+};
+
+// The pairs of one comparison, for the filter and for what comes behind it. Entry i of `pairs`
+// belongs to narrow[i], entry i of `boxes` to narrow_boxes[i].
+struct PairSet {
+  std::vector<filter::Pair> pairs;
+  std::vector<NarrowPair> narrow;
+  std::vector<filter::BoxPair> boxes;
+  std::vector<NarrowPair> narrow_boxes;
+
+  [[nodiscard]] bool empty() const { return pairs.empty() && boxes.empty(); }
+};
+
+// Limits: the cell's clearance_m between arms, objects and other robots' links; self_clearance_m
+// between the links of one robot's arm. Rows of the sides' inflation arrays: one for each capsule
+// (cross_pairs, still_pairs), or those of the linkage's motion bounds (self_pairs), where what both
+// capsules share does not count.
+[[nodiscard]] PairSet cross_pairs(const PlanningScene::Bodies& bodies, const Linkage& a,
+                                  const Linkage& b);
+[[nodiscard]] PairSet self_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm);
+[[nodiscard]] PairSet still_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm,
+                                  const StillParts& still);
+
+// The distance of two parts, exact where it is below `limit_m`, else at least limit_m.
+[[nodiscard]] double part_distance(const PlanningScene::Bodies& bodies, std::size_t part_a,
+                                   const Eigen::Isometry3d& X_WA, std::size_t part_b,
+                                   const Eigen::Isometry3d& X_WB, double limit_m);
+
+}  // namespace armloom
