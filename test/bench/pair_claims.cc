@@ -36,7 +36,7 @@ bool is_crossing_pair(Referees& referees, const Motions& pair) {
 bool are_clear_neighbours(Referees& referees, const Motions& motions, std::size_t i) {
   Motions two{motions.cell, {motions.trajectories[i], motions.trajectories[i + 1]}, motions.rest};
   return closest_in_band(referees.exact, two, 200ms, 0ms, 0.06, 0.05) > 0.05 &&
-         closest_in_band(referees.exact, two, 50ms, 500ms, 0.06, 0.05) > 0.05;
+         closest_in_band(referees.exact, two, 100ms, 500ms, 0.06, 0.05) > 0.05;
 }
 
 bool is_clear_hall(Referees& referees, const Motions& motions) {

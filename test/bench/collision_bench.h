@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "test/bench/motions.h"
+#include "test/bench/states.h"
+#include "test/bench/workloads.h"
+
+namespace armloom::bench {
+
+// One class of combined states of one cell.
+struct States {
+  CellPtr cell;
+  std::vector<Configuration> all;
+};
+
+// Everything that is timed; lives for the whole run.
+struct Workloads {
+  std::map<std::string, States> states;    // apart, near, touching, eight_arms
+  std::map<std::string, Motions> motions;  // clear, crossing
+  std::map<std::size_t, Hall> halls;       // by the number of other arms
+};
+
+// Makes them all and throws std::runtime_error where one is not what it claims; two seconds.
+[[nodiscard]] Workloads make_workloads();
+
+// Each adds its benchmarks, named "<way>/<workload>", of the same workloads; these must outlive the
+// run. An iteration is one state (in turn) or one admission.
+void register_moveit_way(const Workloads& workloads);
+
+}  // namespace armloom::bench
