@@ -13,7 +13,7 @@ namespace armloom::bench {
 // against it, and if nothing was found the manager against itself; each pair of boxes that overlap
 // goes to a callback which skips what the allowed-collision matrix allows and else collides the two
 // meshes. It ends at the first contact.
-// Kept as the same, once for all states: a mesh of 252 triangles for each link
+// Kept as the same, once for all states: a mesh of some 250 triangles for each link
 // (circumscribed_mesh) as fcl::BVHModel<fcl::OBBRSS>, and the world's manager with the cell's
 // objects. Cheaper than MoveIt in that the matrix is looked up by index and not by two names, and
 // in that a state brings no vectors of attached bodies.
