@@ -12,7 +12,18 @@
 namespace armloom {
 namespace {
 
-Body plain_body(const PlacedShape& placed) {
+Body hull_body(const Eigen::Isometry3d& X_PM, const ConvexHull& hull_M) {
+  Body body;
+  body.kind = BodyKind::hull;
+  body.hull = std::make_shared<const HullShape>(fit_hull(hull_M));
+  body.X_PS = X_PM * body.hull->X_MS;
+  body.half_length_m = body.hull->half_length_m;
+  body.radius_m = body.hull->radius_m;
+  body.half_size_m = body.hull->half_size_m;
+  return body;
+}
+
+Body primitive_body(const PlacedShape& placed) {
   Body body;
   body.X_PS = placed.X_LS;
   if (const auto* box = std::get_if<Box>(&placed.shape)) {
@@ -23,19 +34,24 @@ Body plain_body(const PlacedShape& placed) {
     body.kind = BodyKind::cylinder;
     body.half_length_m = 0.5 * cylinder->length_m;
     body.radius_m = cylinder->radius_m;
-  } else if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) {
-    body.kind = BodyKind::round;
-    body.radius_m = sphere->radius_m;
   } else {
-    body.kind = BodyKind::hull;
-    body.hull =
-        std::make_shared<const HullShape>(fit_hull(std::get<Mesh>(placed.shape).data->hull));
-    body.X_PS = placed.X_LS * body.hull->X_MS;
-    body.half_length_m = body.hull->half_length_m;
-    body.radius_m = body.hull->radius_m;
-    body.half_size_m = body.hull->half_size_m;
+    body.kind = BodyKind::round;
+    body.radius_m = std::get<Sphere>(placed.shape).radius_m;
   }
   return body;
+}
+
+// Before cylinders are merged with their caps.
+void add_plain_bodies(const PlacedShape& placed, std::vector<Body>& bodies) {
+  const auto* mesh = std::get_if<Mesh>(&placed.shape);
+  if (mesh == nullptr) {
+    bodies.push_back(primitive_body(placed));
+    return;
+  }
+  if (mesh->data->pieces.empty()) bodies.push_back(hull_body(placed.X_LS, mesh->data->hull));
+  for (const ConvexHull& piece_M : mesh->data->pieces) {
+    bodies.push_back(hull_body(placed.X_LS, piece_M));
+  }
 }
 
 bool is_sphere(const Body& body) {
@@ -101,7 +117,7 @@ double bound_of_hull(const Body& a, const PlacedBody& at_a, const Body& b, const
 
 std::vector<Body> make_bodies(const std::vector<PlacedShape>& shapes) {
   std::vector<Body> bodies;
-  for (const PlacedShape& shape : shapes) bodies.push_back(plain_body(shape));
+  for (const PlacedShape& shape : shapes) add_plain_bodies(shape, bodies);
   const std::vector<Body> plain = bodies;
   std::vector<bool> dropped(bodies.size(), false);
   for (Body& body : bodies) {

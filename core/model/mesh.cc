@@ -18,6 +18,7 @@
 #include <set>
 #include <system_error>
 
+#include "core/model/convex_pieces.h"
 #include "core/model/dae_essence.h"
 #include "core/model/findings.h"
 #include "core/model/mesh_bounds.h"
@@ -267,6 +268,7 @@ Checked<MeshPtr> load(const std::string& path, const Eigen::Vector3d& scale) {
   if (!hull)
     return refuse(ProblemKind::invalid, "mesh-hull", "it has no convex hull: " + hull.error());
   mesh->hull = *std::move(hull);
+  mesh->pieces = convex_pieces(*mesh);
   return std::make_shared<const MeshData>(*std::move(mesh));
 }
 

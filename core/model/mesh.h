@@ -25,6 +25,7 @@ struct MeshData {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;  // indices into vertices; at least one
   ConvexHull hull;                  // contains all vertices (convex_hull.h)
+  std::vector<ConvexHull> pieces;   // contain the solid together (convex_pieces.h); none: the hull
 };
 using MeshPtr = std::shared_ptr<const MeshData>;
 
