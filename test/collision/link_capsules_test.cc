@@ -6,6 +6,7 @@
 
 #include "core/collision/link_capsules.h"
 #include "core/collision/scene_bodies.h"
+#include "core/model/convex_pieces.h"
 #include "test/collision/reference_distance.h"
 #include "test/collision/small_cell.h"
 #include "test/model/small_meshes.h"
@@ -176,6 +177,48 @@ TEST(LinkCapsules, ContainsSaysNoAsSoonAsACornerStandsOut) {
   const Body ball = make_bodies({{Sphere{0.1}}}).front();
   EXPECT_TRUE(contains(LinkCapsule{-half, half, 0.1}, ball));
   EXPECT_FALSE(contains(LinkCapsule{-half, half, std::nextafter(0.1, 0.0)}, ball));
+}
+
+Mesh cut(const small::Surface& surface) {
+  MeshData data = *small::mesh_of(surface).data;
+  data.pieces = convex_pieces(data);
+  return {"by hand", Eigen::Vector3d::Ones(), std::make_shared<const MeshData>(std::move(data))};
+}
+
+double distance_between(const std::vector<Body>& a, const Body& b, const Eigen::Isometry3d& X_WB) {
+  PlacedBody at_b;
+  place(b, X_WB, at_b);
+  double nearest = 1e9;
+  for (const Body& body : a) {
+    PlacedBody at_a;
+    place(body, Eigen::Isometry3d::Identity(), at_a);
+    nearest = std::min(nearest, distance_below(body, at_a, b, at_b, 10.0));
+  }
+  return nearest;
+}
+
+TEST(MeshPieces, OfAULeaveARodInItsGapFreeThatTheHullTouches) {
+  const Body rod = make_bodies({{Cylinder{0.02, 0.8}}}).front();
+  const auto whole = make_bodies({{small::mesh_of(small::channel(0.3))}});
+  const auto pieces = make_bodies({{cut(small::channel(0.3))}});
+  ASSERT_EQ(whole.size(), 1U);
+  ASSERT_GE(pieces.size(), 3U);
+  const Eigen::Isometry3d in_gap = small::at_xyz(0.03, 0.1, 0.55);
+  EXPECT_LE(distance_between(whole, rod, in_gap), 0.0);
+  EXPECT_NEAR(distance_between(pieces, rod, in_gap), 0.10, 1e-4);
+  EXPECT_LE(distance_between(pieces, rod, small::at_xyz(0.14, 0.1, 0.55)), 0.0);
+  EXPECT_LE(distance_between(pieces, rod, small::at_xyz(0.03, 0.1, 0.39)), 0.0);  // the floor
+}
+
+TEST(MeshPieces, OfAnLGetACapsuleEach) {
+  const small::Surface bars =
+      small::joined(small::box_surface({0, 0, 0}, {1.0, 0.1, 0.1}),
+                    small::box_surface({0, 0.1, 0}, {0.1, 1.0, 0.1}));
+  const LinkCapsules whole = fit_capsules(make_bodies({{small::mesh_of(bars)}}));
+  const LinkCapsules pieces = fit_capsules(make_bodies({{cut(bars)}}));
+  EXPECT_EQ(whole.capsules.size(), 1U);
+  ASSERT_EQ(pieces.capsules.size(), 2U);
+  EXPECT_LT(volume(pieces), 0.2 * volume(whole));
 }
 
 TEST(LinkCapsules, AreTheSameEachTime) {
