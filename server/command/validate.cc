@@ -7,6 +7,7 @@
 
 #include "core/audit/audit.h"
 #include "core/executive/executive.h"
+#include "core/executive/shape_report.h"
 #include "core/model/cell_checks.h"
 #include "server/codec/problem_codec.h"
 #include "server/command/command.h"
@@ -132,6 +133,19 @@ void print_cell(const Cell& cell, const CellDescription& description) {
   print_settings(cell);
 }
 
+void print_shapes(const std::vector<LinkShapeReport>& report) {
+  std::cout << std::left << std::setw(34) << "link" << std::right << std::setw(14)
+            << "convex shapes" << std::setw(10) << "capsules" << std::setw(24)
+            << "capsules stand off" << '\n';
+  for (const LinkShapeReport& link : report) {
+    std::ostringstream millimetres;
+    millimetres << std::fixed << std::setprecision(1) << 1000.0 * link.excess_m << " mm";
+    std::cout << std::left << std::setw(34) << link.link << std::right << std::setw(14)
+              << link.convex_shapes << std::setw(10) << link.capsules << std::setw(24)
+              << millimetres.str() << '\n';
+  }
+}
+
 }  // namespace
 
 int validate_cell(const std::string& cell_file) {
@@ -143,6 +157,11 @@ int validate_cell(const std::string& cell_file) {
     std::cerr << "armloom: warning: " << problem_sentence(cell_file, doubt) << '\n';
   }
 
+  const auto shapes = report_shapes(loaded->cell);
+  if (!shapes) {
+    complain(cell_file, shapes.error());
+    return kExitBadInput;
+  }
   NoJudges judges;
   NoObserver observer;
   if (const auto executive = Executive::create(loaded->cell, {}, judges, observer); !executive) {
@@ -155,6 +174,7 @@ int validate_cell(const std::string& cell_file) {
     complain(cell_file, report.error());
     return kExitBadInput;
   }
+  print_shapes(*shapes);
   if (const auto& smallest = report->smallest_clearance) {
     std::cout << "home clearance " << smallest->distance_m << " m: " << smallest->body_a << " and "
               << smallest->body_b << '\n';

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/base/problem.h"
+#include "core/model/cell.h"
+
+namespace armloom {
+
+// What the collision checks make of one link.
+struct LinkShapeReport {
+  std::string link;
+  std::size_t convex_shapes = 0;  // exact; a mesh counts as many as it has pieces
+  std::size_t capsules = 0;       // of the cheap filter, around them
+  double excess_m = 0.0;          // how far the capsules stand off the shapes, measured
+};
+
+// Of every link that has a shape, in the cell's order. Problems: as PlanningScene::build.
+[[nodiscard]] Result<std::vector<LinkShapeReport>> report_shapes(CellPtr cell);
+
+}  // namespace armloom
