@@ -17,10 +17,10 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr int kOffsets = 7;         // cuts tried along an axis, before the best is refined
-constexpr int kRefinements = 5;     // each halves the distance to the next cut tried
-constexpr double kBeside = 1e-5;    // of the extent: a cut passes a face at this distance
-constexpr int kEstimateFrom = 80;   // directions whose farthest points stand for a side
+constexpr int kOffsets = 7;        // cuts tried along an axis, before the best is refined
+constexpr int kRefinements = 5;    // each halves the distance to the next cut tried
+constexpr double kBeside = 1e-5;   // of the extent: a cut passes a face at this distance
+constexpr int kEstimateFrom = 80;  // directions whose farthest points stand for a side
 constexpr int kEscapeDirections = 40;
 
 // Convex polygons, corner after corner; the i-th ends before ends[i].

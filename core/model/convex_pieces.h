@@ -16,7 +16,8 @@ inline constexpr std::size_t kMaxTrianglesCut = 20'000;
 
 // Convex polytopes whose union contains the mesh: its surface S and every point that S encloses.
 // At least one; just {mesh.hull} when no single cut across an axis of the mesh's frame helps, when
-// the surface encloses nearly as much by its orientation, the mesh is not closed (an edge that borders an odd number of triangles) or is too large.
+// the surface encloses nearly as much by its orientation, the mesh is not closed (an edge that
+// borders an odd number of triangles) or is too large.
 //
 // Why the union holds: the cuts part space into boxes, some sides at infinity. Let K be what lies
 // of the mesh in one of them. An extreme point of K's hull lies in K. If on S, in a triangle, then

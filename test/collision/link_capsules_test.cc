@@ -1,10 +1,11 @@
+#include "core/collision/link_capsules.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 #include <vector>
 
-#include "core/collision/link_capsules.h"
 #include "core/collision/scene_bodies.h"
 #include "core/model/convex_pieces.h"
 #include "test/collision/reference_distance.h"
@@ -211,9 +212,8 @@ TEST(MeshPieces, OfAULeaveARodInItsGapFreeThatTheHullTouches) {
 }
 
 TEST(MeshPieces, OfAnLGetACapsuleEach) {
-  const small::Surface bars =
-      small::joined(small::box_surface({0, 0, 0}, {1.0, 0.1, 0.1}),
-                    small::box_surface({0, 0.1, 0}, {0.1, 1.0, 0.1}));
+  const small::Surface bars = small::joined(small::box_surface({0, 0, 0}, {1.0, 0.1, 0.1}),
+                                            small::box_surface({0, 0.1, 0}, {0.1, 1.0, 0.1}));
   const LinkCapsules whole = fit_capsules(make_bodies({{small::mesh_of(bars)}}));
   const LinkCapsules pieces = fit_capsules(make_bodies({{cut(bars)}}));
   EXPECT_EQ(whole.capsules.size(), 1U);
@@ -243,9 +243,9 @@ TEST(LinkCapsules, OfThePandasStandOffAFewCentimetres) {
     const Part& part = bodies.parts[i];
     ASSERT_FALSE(part.capsules.empty()) << part.name;
     for (std::size_t b = part.bodies_begin; b < part.bodies_end; ++b) {
-      EXPECT_TRUE(std::any_of(part.capsules.begin(), part.capsules.end(),
-                              [&](const auto& c) { return contains(c, bodies.bodies[b]); }))
-          << part.name;
+      EXPECT_TRUE(std::any_of(part.capsules.begin(), part.capsules.end(), [&](const auto& c) {
+        return contains(c, bodies.bodies[b]);
+      })) << part.name;
     }
     RecordProperty(part.name, std::to_string(part.capsules.size()) + " capsules, " +
                                   std::to_string(part.capsule_excess_m) + " m");
