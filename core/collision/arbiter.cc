@@ -82,7 +82,51 @@ class Arbiter::Impl {
     return std::move(verdict_);
   }
 
+  Diagram draw(const TrajectoryPtr& a, const TrajectoryPtr& b, const Configuration& rest,
+               double tracking_error, Duration resolution, std::uint64_t budget) {
+    store_.begin_question();
+    Diagram diagram{a->duration(), b->duration(), {}, 0};
+    for (const ArmId arm_a : a->arms()) {
+      for (const ArmId arm_b : b->arms()) {
+        if (arm_a == arm_b) continue;
+        diagram.layers.push_back({arm_a, arm_b, {}});
+        const auto& own = store_.motion(a, arm_a, rest, tracking_error);
+        const auto& other = store_.motion(b, arm_b, rest, tracking_error);
+        draw(own, other, resolution, budget, diagram);
+      }
+    }
+    return diagram;
+  }
+
  private:
+  void draw(const MotionStore::Entry& own, const MotionStore::Entry& other, Duration resolution,
+            std::uint64_t budget, Diagram& diagram) {
+    std::vector<DiagramCell>& cells = diagram.layers.back().cells;
+    if (store_.out_of_reach(own.arm, other.arm)) {
+      cells.push_back({Duration{}, diagram.duration_a, Duration{}, diagram.duration_b,
+                       DiagramCell::State::free});
+      return;
+    }
+    const bool turned = other.arm < own.arm;
+    CoordinationDiagram& pair = *(turned ? store_.pair(other, own) : store_.pair(own, other)).cells;
+    constexpr double kAll = Region::kUnbounded;
+    const double duration_a = to_seconds(turned ? diagram.duration_b : diagram.duration_a);
+    const double duration_b = to_seconds(turned ? diagram.duration_a : diagram.duration_b);
+    diagram.evaluations +=
+        pair.refine({0.0, 0.0, kAll, kAll, kAll, kAll, duration_a, duration_b}, resolution, budget);
+    for (const CoordinationDiagram::CellView& cell : pair.cells()) {
+      using From = CoordinationDiagram::CellState;
+      const auto state = cell.state == From::free       ? DiagramCell::State::free
+                         : cell.state == From::conflict ? DiagramCell::State::conflict
+                                                        : DiagramCell::State::undecided;
+      if (turned) {
+        cells.push_back({cell.from_b, cell.to_b, cell.from_a, cell.to_a, state});
+      } else {
+        cells.push_back({cell.from_a, cell.to_a, cell.from_b, cell.to_b, state});
+      }
+    }
+  }
+
   static bool is_candidate(const Question& question, const Motion* motion) {
     return !question.candidates.empty() && motion >= question.candidates.data() &&
            motion < question.candidates.data() + question.candidates.size();
@@ -239,5 +283,9 @@ Arbiter& Arbiter::operator=(Arbiter&&) noexcept = default;
 void Arbiter::look_at(PlanningScenePtr scene) { impl_->look_at(std::move(scene)); }
 const PlanningScenePtr& Arbiter::scene() const { return impl_->scene(); }
 Verdict Arbiter::judge(const Question& question) { return impl_->judge(question); }
+Diagram Arbiter::draw(const TrajectoryPtr& a, const TrajectoryPtr& b, const Configuration& rest,
+                      double tracking_error, Duration resolution, std::uint64_t budget) {
+  return impl_->draw(a, b, rest, tracking_error, resolution, budget);
+}
 
 }  // namespace armloom

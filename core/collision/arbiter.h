@@ -5,6 +5,7 @@
 
 #include "core/collision/collision_checker.h"
 #include "core/collision/coordination_diagram.h"
+#include "core/coordination/diagram.h"
 #include "core/coordination/motion.h"
 #include "core/coordination/verdict.h"
 
@@ -43,6 +44,12 @@ class Arbiter {
 
   // Preconditions as judge() has them.
   [[nodiscard]] Verdict judge(const Question& question);
+
+  // The whole coordination diagram of two motions of different arms, at `resolution` and at the
+  // cost of about `budget` cells for each layer; other joints stand as in `rest`.
+  [[nodiscard]] Diagram draw(const TrajectoryPtr& a, const TrajectoryPtr& b,
+                             const Configuration& rest, double tracking_error, Duration resolution,
+                             std::uint64_t budget);
 
   // A pair of motions needs no more cells than this, for each 10 s of the longer one; else its
   // question is undecided.

@@ -225,6 +225,42 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const Region& region, std::
   return answer;
 }
 
+std::uint64_t CoordinationDiagram::refine(const Region& region, Duration resolution,
+                                          std::uint64_t budget) {
+  std::vector<Open> open{{0, {0.0, 0.0}}};
+  std::vector<Open> unknown;
+  std::uint64_t looked_at = 0;
+  while (!open.empty()) {
+    unknown.clear();
+    for (std::size_t i = 0; i < open.size(); ++i) {  // grows
+      const int index = open[i].cell;
+      if (!meets(region, at(index))) continue;
+      Cell& cell = at(index);
+      const bool wide = a_->width(cell.a) > resolution || (b_ && b_->width(cell.b) > resolution);
+      if (cell.state == CellState::unknown && !too_wide(cell)) unknown.push_back(open[i]);
+      if (cell.state == CellState::unknown && too_wide(cell)) {
+        cell.split_a = a_->width(cell.a) > kWide;
+        cell.split_b = b_ && b_->width(cell.b) > kWide;
+        split(index, 1);
+      } else if (cell.state == CellState::mixed && wide) {
+        split(index, 1);
+      }
+      const Cell now = at(index);
+      if (now.state != CellState::inner) continue;
+      const int count = (now.split_a ? 2 : 1) * (now.split_b ? 2 : 1);
+      for (int c = 0; c < count; ++c) open.push_back({now.children + c, {0.0, 0.0}});
+    }
+    for (std::size_t done = 0; done < unknown.size(); done += kLanes) {
+      if (looked_at >= budget) return looked_at;
+      const std::size_t count = std::min<std::size_t>(kLanes, unknown.size() - done);
+      evaluate(unknown.data() + done, count);
+      looked_at += count;
+    }
+    open = unknown;
+  }
+  return looked_at;
+}
+
 // A cell with a conflict at its middle: is that, or what the plan passes in the cell, one of the
 // question's region?
 void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {

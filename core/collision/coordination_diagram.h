@@ -60,6 +60,10 @@ class CoordinationDiagram {
   // Looks at no more than about `budget` cells.
   [[nodiscard]] Answer ask(const Region& region, std::uint64_t budget);
 
+  // Refines all that the region holds until each cell is free, in conflict, or no wider than
+  // `resolution`, at the cost of about `budget` cells at most; returns how many.
+  std::uint64_t refine(const Region& region, Duration resolution, std::uint64_t budget);
+
   // Every pair that is closer than its limit where A and B are at these times, exactly.
   struct Close {
     PairId pair;

@@ -5,8 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/collision/collision_checker.h"
-#include "core/collision/judge.h"
+#include "core/collision/arbiter.h"
 #include "core/executive/executive_impl.h"
 
 namespace armloom {
@@ -126,14 +125,14 @@ std::optional<JobId> capacity(const Question& question, const Policy& policy) {
 }
 
 CheckView judged(const Question& question, const Plan& plan, const Cell& cell, const Policy& policy,
-                 CollisionChecker& checker) {
+                 Arbiter& arbiter) {
   CheckView view{.kind = Verdict::Kind::conflict, .scene_version = 1};
   if (const auto taken_by = capacity(question, policy)) {
     const Wait wait{.kind = Wait::Kind::capacity, .job = *taken_by};
     view.conflicts.push_back(view_of(wait, cell, plan));
     return view;
   }
-  const Verdict verdict = judge(question, checker);
+  const Verdict verdict = arbiter.judge(question);
   view.kind = verdict.kind;
   view.clearance_bound_m = verdict.clearance_bound_m;
   view.evaluations = verdict.evaluations;
@@ -159,7 +158,7 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
   std::vector<std::size_t> order(jobs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return plan.jobs()[i].starts; });
-  CollisionChecker checker(*scene);
+  Arbiter arbiter(*scene);
   std::vector<CheckedJob> checked(jobs.size());
   std::vector<std::size_t> begun;
   for (std::size_t index : order) {
@@ -167,7 +166,7 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
     checked[index].key = job.key;
     CheckView& view = checked[index].verdict;
     view =
-        judged(question_for(plan, index, begun, *cell, **policy), plan, *cell, **policy, checker);
+        judged(question_for(plan, index, begun, *cell, **policy), plan, *cell, **policy, arbiter);
     if (view.kind == Verdict::Kind::free) {
       view.earliest_start_s = to_seconds(job.starts - job.asked);
     }

@@ -9,6 +9,8 @@
 #include <thread>
 #include <utility>
 
+#include "core/collision/arbiter.h"
+
 namespace armloom {
 namespace {
 
@@ -88,11 +90,12 @@ class RealTimeLoop::Impl final : public JudgePool {
   };
 
   void judge_questions(std::stop_token stop) {
-    std::optional<CollisionChecker> checker;  // of the scene asked about last
+    std::optional<Arbiter> arbiter;
     while (!stop.stop_requested()) {
       for (Asked& asked : questions_.take(stop)) {
-        if (!checker || &checker->scene() != asked.scene.get()) checker.emplace(asked.scene);
-        post([verdict = judge(asked.question, *checker), done = std::move(asked.done)](Executive&) {
+        if (!arbiter) arbiter.emplace(asked.scene);
+        arbiter->look_at(asked.scene);
+        post([verdict = arbiter->judge(asked.question), done = std::move(asked.done)](Executive&) {
           done(verdict);
         });
       }

@@ -6,14 +6,17 @@
 #include <optional>
 #include <utility>
 
+#include "core/collision/arbiter.h"
+
 namespace armloom {
 
 // Computes at once, answers kSimulatedJudgement later.
 class Simulation::Judge final : public JudgePool {
  public:
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
-    if (!checker_ || &checker_->scene() != scene.get()) checker_.emplace(std::move(scene));
-    pending_.push_back({now_ + kSimulatedJudgement, judge(question, *checker_), std::move(done)});
+    if (!arbiter_) arbiter_.emplace(scene);
+    arbiter_->look_at(std::move(scene));
+    pending_.push_back({now_ + kSimulatedJudgement, arbiter_->judge(question), std::move(done)});
   }
 
   void deliver(TimePoint now) {
@@ -31,7 +34,7 @@ class Simulation::Judge final : public JudgePool {
     Verdict verdict;
     std::function<void(Verdict)> done;
   };
-  std::optional<CollisionChecker> checker_;  // of the scene asked about last
+  std::optional<Arbiter> arbiter_;
   TimePoint now_{};
   std::deque<Answer> pending_;
 };

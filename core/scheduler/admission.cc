@@ -261,7 +261,7 @@ void Scheduler::ask(std::vector<JobId> jobs, bool recheck) {
                     .candidates = {},
                     .others = {},
                     .rest = rest_,
-                    .method = policy_->method()};
+                    .method = recheck ? policy_->recheck_method() : policy_->method()};
   for (JobId id : jobs) {
     const Record& record = records_.at(id);
     const Duration progress =
@@ -269,7 +269,7 @@ void Scheduler::ask(std::vector<JobId> jobs, bool recheck) {
     question.candidates.push_back(Motion{id, record.job.trajectory, progress});
   }
   add_others(question, jobs);
-  open_ = OpenQuestion{version_, start_at, std::move(jobs), recheck};
+  open_ = OpenQuestion{version_, now_, start_at, std::move(jobs), recheck};
   effects_.push_back(Judge{std::move(question)});
 }
 
@@ -284,13 +284,15 @@ void Scheduler::on(const Judged& input) {
     return;  // stale: settle() asks again
   }
   const bool free = input.verdict.kind == Verdict::Kind::free;
+  const Duration needed = now_ - question.asked_at;
   if (now_ > question.start_at && !question.recheck && free) {
     // The instant that was judged has passed. Ask for a later one.
-    allowance_ = std::min(2 * allowance_, kAllowanceMax);
+    allowance_ = std::min(std::max(3 * needed / 2, 2 * allowance_), kAllowanceMax);
     if (question.jobs.size() > 1) held_together_tried_ = 0;
     return;
   }
-  allowance_ = std::max(kAllowanceMin, allowance_ - allowance_ / 64);
+  const Duration enough = std::max(allowance_ / 2, 2 * needed);
+  allowance_ = std::max(kAllowanceMin, std::min(allowance_, enough));
   if (free && question.recheck) {
     records_.at(question.jobs.front()).checked_at = version_;
   } else if (free) {

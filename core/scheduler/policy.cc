@@ -12,7 +12,9 @@ struct Entry {
 
 constexpr Entry kPolicies[] = {
     {"sequential", make_sequential},
+    {"reservation", make_reservation},
     {"timed_discrete", make_timed_discrete},
+    {"certified", make_certified},
 };
 
 }  // namespace

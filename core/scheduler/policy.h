@@ -28,6 +28,8 @@ class Policy {
 
   // How candidates are compared with everything else.
   [[nodiscard]] virtual CheckMethod method() const = 0;
+  // The same for a motion that is under way and was admitted by method().
+  [[nodiscard]] virtual CheckMethod recheck_method() const { return method(); }
 };
 
 // The policies by name, with the cell's settings. Problem (invalid, "unknown-policy"): the name is

@@ -241,9 +241,9 @@ void Scheduler::on(const SceneChanged&) { disturbed_at_ = ++version_; }
 
 void Scheduler::on(const Interrupt&) {
   const std::vector<JobId> ids(active_.begin(), active_.end());
+  for (JobId id : ids) records_.at(id).job.after.clear();  // none fails for another's sake
   for (JobId id : ids) {
     Record& record = records_.at(id);
-    if (is_terminal(record.job.state)) continue;  // failed with the one that it came after
     const bool moved = record.job.started_at.has_value();
     end(record, JobState::interrupted, Reason::server_restart,
         moved ? "the server ended while it was under way" : "the server ended before it began");

@@ -17,8 +17,9 @@
 
 namespace armloom {
 
-// How far ahead of the present a judgement's instant lies. It starts at the minimum, doubles when
-// an answer comes after its instant, and shrinks slowly while answers are in time.
+// How far ahead of the present a judgement's instant lies. It starts at the minimum, grows to one
+// and a half times what an answer needed that came after its instant (at least twofold), and is
+// halved by each answer in time, to no less than twice what that one needed.
 inline constexpr Duration kAllowanceMin = std::chrono::milliseconds(3);
 inline constexpr Duration kAllowanceMax = std::chrono::seconds(1);
 
@@ -84,6 +85,7 @@ class Scheduler {
   };
   struct OpenQuestion {
     Version version;
+    TimePoint asked_at;
     TimePoint start_at;
     std::vector<JobId> jobs;
     bool recheck;  // of a motion that is already under way

@@ -106,7 +106,7 @@ TEST(TwoPandas, AuditConfirmsWhatIsJudged) {
     };
     const Question question{
         1,    at(0s), {{JobId{1}, move(left, 2s), 0s}}, {{JobId{2}, move(right, 3s), 500ms}},
-        from, {20ms}};
+        from, TimedDiscrete{20ms}};
     const Verdict verdict = judge(question, pandas.checker);
     std::vector<RecordedState> states;
     Eigen::VectorXd positions;

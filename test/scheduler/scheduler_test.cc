@@ -257,7 +257,7 @@ TEST(Policies, AreKnownByName) {
   const auto unknown = make_policy("clever", *cell);
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().front().detail,
-            "unknown policy \"clever\"; known are sequential, timed_discrete");
+            "unknown policy \"clever\"; known are sequential, reservation, timed_discrete, certified");
 }
 
 }  // namespace

@@ -7,6 +7,12 @@
 namespace armloom {
 
 [[nodiscard]] std::unique_ptr<const Policy> make_sequential(const Cell& cell);
+[[nodiscard]] std::unique_ptr<const Policy> make_reservation(const Cell& cell);
 [[nodiscard]] std::unique_ptr<const Policy> make_timed_discrete(const Cell& cell);
+[[nodiscard]] std::unique_ptr<const Policy> make_certified(const Cell& cell);
+
+// The certified question of the cell's settings, for a start and for a motion under way.
+[[nodiscard]] CheckMethod certified(const CheckingSettings& checking);
+[[nodiscard]] CheckMethod certified_under_way(const CheckingSettings& checking);
 
 }  // namespace armloom

@@ -7,7 +7,7 @@ namespace {
 
 class Sequential final : public Policy {
  public:
-  explicit Sequential(Duration time_step) : time_step_(time_step) {}
+  explicit Sequential(const CheckingSettings& checking) : checking_(checking) {}
 
   std::string_view name() const override { return "sequential"; }
 
@@ -16,16 +16,17 @@ class Sequential final : public Policy {
     return occupying.front()->id;
   }
 
-  CheckMethod method() const override { return TimedDiscrete{time_step_}; }
+  CheckMethod method() const override { return certified(checking_); }
+  CheckMethod recheck_method() const override { return certified_under_way(checking_); }
 
  private:
-  Duration time_step_;
+  CheckingSettings checking_;
 };
 
 }  // namespace
 
 std::unique_ptr<const Policy> make_sequential(const Cell& cell) {
-  return std::make_unique<Sequential>(cell.checking.time_step);
+  return std::make_unique<Sequential>(cell.checking);
 }
 
 }  // namespace armloom

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/time.h"
+
+namespace armloom {
+
+// A rectangle of a coordination diagram: trajectory times of A and of B.
+struct DiagramCell {
+  enum class State : std::uint8_t {
+    free,       // certified: the arms keep their clearance in every state of the cell
+    conflict,   // they do not, in every state of the cell
+    undecided,  // both kinds, or neither is proven
+  };
+  Duration from_a, to_a, from_b, to_b;
+  State state;
+};
+
+// What one arm's motion and another's do to each other, wherever each is on its own way.
+struct DiagramLayer {
+  ArmId arm_a;
+  ArmId arm_b;
+  std::vector<DiagramCell> cells;  // cover the rectangle of both motions
+};
+
+// Of two motions: a layer for each arm of A and each arm of B.
+struct Diagram {
+  Duration duration_a;
+  Duration duration_b;
+  std::vector<DiagramLayer> layers;
+  std::uint64_t evaluations = 0;
+};
+
+}  // namespace armloom

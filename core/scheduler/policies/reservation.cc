@@ -1,0 +1,31 @@
+// A motion reserves everything that it sweeps for as long as it runs: a job starts when no place of
+// its way is too close to any place of what remains of the others' ways (Meehan et al.). Times do
+// not count, so that any motion may be late.
+#include "core/scheduler/policies/policies.h"
+
+namespace armloom {
+namespace {
+
+class ReservationPolicy final : public Policy {
+ public:
+  explicit ReservationPolicy(double tracking_error) : tracking_error_(tracking_error) {}
+
+  std::string_view name() const override { return "reservation"; }
+
+  std::optional<JobId> capacity_taken_by(const std::vector<const Job*>&) const override {
+    return std::nullopt;
+  }
+
+  CheckMethod method() const override { return Swept{tracking_error_}; }
+
+ private:
+  double tracking_error_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Policy> make_reservation(const Cell& cell) {
+  return std::make_unique<ReservationPolicy>(cell.checking.tracking_error_rad);
+}
+
+}  // namespace armloom
