@@ -50,21 +50,31 @@ void FaultyArm::release() {
   inner_->release();
   under_way_ = false;
   giving_up_ = false;
+  phase_ = Phase::idle;
 }
 
 const ArmFeedback& FaultyArm::tick(TimePoint now) {
   const Duration period = now - std::exchange(now_, now);
   const bool sound = faults_.empty() && !giving_up_ && allowed_ == granted_;
-  if (sound) return inner_->tick(now);
+  if (sound) {
+    const ArmFeedback& feedback = inner_->tick(now);
+    phase_ = feedback.phase;
+    feedback_.commanded_progress = feedback.commanded_progress;
+    return feedback;
+  }
   if (under_way_) {
-    if (active(ArmFault::Kind::fault)) give_up();
+    const bool moves = phase_ == Phase::moving || phase_ == Phase::braking;
+    if (moves && active(ArmFault::Kind::fault)) give_up();
     withhold(period);
   }
   feedback_ = inner_->tick(now);
-  if (giving_up_ && feedback_.phase == Phase::stopped) {
+  // A path that was commanded to its end cannot be braked on any more: the arm gives up at its
+  // goal.
+  if (giving_up_ && (feedback_.phase == Phase::stopped || feedback_.phase == Phase::finished)) {
     feedback_.phase = Phase::fault;
     feedback_.detail = "the simulated controller gave up";
   }
+  phase_ = feedback_.phase;
   return feedback_;
 }
 

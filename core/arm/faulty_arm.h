@@ -15,7 +15,8 @@ struct ArmFault {
     stall,       // stays where it is on its path, then goes on
     slow,        // follows its path at `value` (0..1) of its speed
     late_start,  // begins each motion `value` seconds late
-    fault,       // the controller gives up: brakes, and reports a fault; once
+    fault,  // the controller gives up: brakes, and reports a fault; once. It strikes the motion
+            // that moves then; an arm that does not move keeps it for its next motion
   };
   Kind kind;
   TimePoint from;
@@ -56,6 +57,7 @@ class FaultyArm final : public ArmController {
   Duration allowed_{};             // handed on
   std::optional<double> creep_s_;  // while slow: authority that grows with the clock
   bool giving_up_ = false;
+  ArmFeedback::Phase phase_ = ArmFeedback::Phase::idle;  // as told last
   ArmFeedback feedback_;
 };
 

@@ -76,7 +76,7 @@ struct FaultRequest {
   std::string arm;
   ArmFault::Kind kind = ArmFault::Kind::stall;
   std::optional<TimePoint> at;      // absent: now
-  std::optional<Duration> lasting;  // absent: until removed
+  std::optional<Duration> lasting;  // absent: until removed; a fault strikes once
   double value = 0.0;
 };
 

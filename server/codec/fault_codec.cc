@@ -28,9 +28,9 @@ std::string_view name_of(Kind kind) {
   return std::ranges::find(kKinds, kind, [](const auto& entry) { return entry.second; })->first;
 }
 
-void read_kind(const JsonNode& node, Kind& kind) {
+bool read_kind(const JsonNode& node, Kind& kind) {
   std::string name;
-  if (!node.read(name)) return;
+  if (!node.read(name)) return false;
   const auto it = std::ranges::find(kKinds, name, [](const auto& entry) { return entry.first; });
   if (it != kKinds.end()) {
     kind = it->second;
@@ -41,6 +41,7 @@ void read_kind(const JsonNode& node, Kind& kind) {
     node.invalid("unknown-fault",
                  "no fault is called \"" + name + "\"; known are stall, slow, late_start, fault");
   }
+  return it != kKinds.end();
 }
 
 void read_value(const JsonNode& node, FaultRequest& fault) {
@@ -48,14 +49,25 @@ void read_value(const JsonNode& node, FaultRequest& fault) {
     const double highest = fault.kind == Kind::slow ? 1.0 : kTimeMax_s;
     node.required("value", [&](const JsonNode& n) { n.read_within(fault.value, 0.0, highest); });
   } else {
-    node.optional("value", [&](const JsonNode& n) { n.read(fault.value); });
+    node.optional("value", [&](const JsonNode& n) {
+      n.invalid("no-value", "a " + std::string(name_of(fault.kind)) + " has no value");
+    });
   }
+}
+
+void read_duration(const JsonNode& node, FaultRequest& fault) {
+  if (fault.kind == Kind::fault) {
+    return node.invalid("no-duration", "a fault strikes once and has no duration");
+  }
+  double seconds = 0.0;
+  if (node.read_within(seconds, 0.0, kTimeMax_s)) fault.lasting = from_seconds(seconds);
 }
 
 void read_fault(const JsonNode& node, bool in_file, FaultRequest& fault) {
   if (!node.object({"arm", "kind", "at_s", "for_s", "value"})) return;
   node.required("arm", [&](const JsonNode& n) { n.read(fault.arm); });
-  node.required("kind", [&](const JsonNode& n) { read_kind(n, fault.kind); });
+  bool known = false;
+  node.required("kind", [&](const JsonNode& n) { known = read_kind(n, fault.kind); });
   const auto read_at = [&](const JsonNode& n) {
     double seconds = 0.0;
     if (n.read_within(seconds, 0.0, kTimeMax_s)) fault.at = at(from_seconds(seconds));
@@ -65,10 +77,8 @@ void read_fault(const JsonNode& node, bool in_file, FaultRequest& fault) {
   } else {
     node.optional("at_s", read_at);
   }
-  node.optional("for_s", [&](const JsonNode& n) {
-    double seconds = 0.0;
-    if (n.read_within(seconds, 0.0, kTimeMax_s)) fault.lasting = from_seconds(seconds);
-  });
+  if (!known) return;  // what else it may have is its kind's
+  node.optional("for_s", [&](const JsonNode& n) { read_duration(n, fault); });
   read_value(node, fault);
 }
 

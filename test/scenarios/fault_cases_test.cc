@@ -68,6 +68,26 @@ TEST(T6, AFaultFailsItsJobAndStopsOnlyThoseItEndangers) {
   EXPECT_EQ(cell.job("endangered").state, JobState::succeeded);
 }
 
+// Around the end of one job and the start of the next there is no millisecond in which a fault is
+// lost: it ends the motion that moves, or else the next one.
+TEST(T6, AFaultStrikesWheneverItComes) {
+  for (Duration from = 1990ms; from < 2200ms; from += 1ms) {
+    CellDescription description = crossing_description();
+    description.robots[0].controller.lag = 20ms;
+    Crossing cell(description);
+    cell.submit(slide("x", -1, 0, 2, "first"));
+    cell.submit(slide("x", 0, -1, 2, "second"));
+    inject(cell, {.arm = "x", .kind = ArmFault::Kind::fault, .at = at(from)});
+    cell.run_until(at(5s));
+    const JobView first = cell.job("first"), second = cell.job("second");
+    const JobView& struck = first.state == JobState::failed ? first : second;
+    ASSERT_EQ(struck.state, JobState::failed) << to_seconds(from);
+    EXPECT_EQ(struck.reason, Reason::arm_fault);
+    EXPECT_GE(*struck.ended_at, at(from));
+    EXPECT_LE(*struck.scheduled_at, *struck.ended_at) << to_seconds(from);
+  }
+}
+
 TEST(T6, AnOverrunEndsItsJobAndLeavesTheOthersAlone) {
   CellDescription description = crossing_and_far();
   description.execution.duration_margin = 500ms;
