@@ -36,6 +36,10 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(0.001, 1000.0));
   serve_command->add_option("--web", serving.web, "folder of the dashboard's files");
   serve_command->add_option("--policy", serving.policy, "instead of the cell's");
+  serve_command
+      ->add_option("--allow-host", serving.allowed_hosts,
+                   "a name by which the server may be commanded, as behind a proxy")
+      ->type_name("NAME");
 
   std::string validated_file;
   CLI::App* validate_command =

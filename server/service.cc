@@ -56,7 +56,10 @@ class Service::Impl {
     site.feed_path = "/api/v1/ws";
     site.events_path = "/api/v1/events";
     site.stream = stream_;
+    const bool everywhere = options_.address == "0.0.0.0" || options_.address == "::";
+    site.hosts = HostRule{options_.allowed_hosts, everywhere};
     site.keep_alive = options_.keep_alive;
+    site.send_time = options_.send_time;
     site.wind_down = [this](std::function<void()> done) {
       loop_->post([done = std::move(done)](Executive& executive) {
         executive.wind_down("the server ends", done);

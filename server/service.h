@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/problem.h"
 #include "core/model/cell.h"
@@ -19,12 +20,14 @@ struct ServiceOptions {
   std::uint16_t port = 8080;                     // zero: any free one
   double speed = 1.0;                            // cell seconds per wall second
   std::string policy;                            // empty: the cell's
+  std::vector<std::string> allowed_hosts;        // names that commands may come to (HostRule)
   std::filesystem::path web;                     // the dashboard's files
   std::optional<std::filesystem::path> data;     // where a recording is written; one in
                                                  // it is kept (Recording::unused_folder)
   bool record_states = false;                    // states.csv as well
   std::size_t connections_max = 4096;            // one more is refused with 503
   std::chrono::milliseconds keep_alive{15'000};  // of /events, when there are none
+  std::chrono::milliseconds send_time{30'000};   // for one event of /events
 };
 
 // The server: executive in real time, HTTP, WebSocket, dashboard. One thread for all connections

@@ -33,15 +33,19 @@ void Api::add_routes(Router& router) {
                respond(meshes_.answer(a.front()));
              });
   // A GET is answered by the connection itself, for as long as it lasts: this is for HEAD and 405.
-  router.add("GET", api + "/events", [](const Request&, const Arguments&, Respond respond) {
-    respond(Response{200, "text/event-stream", "", {{"Cache-Control", "no-store"}}});
-  });
+  router.add("GET", api + "/events",
+             [](const Request&, const Arguments&, Respond respond) {
+               respond(Response{200, "text/event-stream", "", {{"Cache-Control", "no-store"}}});
+             },
+             {"stream", "since", "poses"});
   // The same: handshakes do not come here.
-  router.add("GET", api + "/ws", [](const Request&, const Arguments&, Respond respond) {
-    Response refused = http_problem(426, "upgrade-required", "this is a WebSocket");
-    refused.headers.emplace_back("Upgrade", "websocket");
-    respond(std::move(refused));
-  });
+  router.add("GET", api + "/ws",
+             [](const Request&, const Arguments&, Respond respond) {
+               Response refused = http_problem(426, "upgrade-required", "this is a WebSocket");
+               refused.headers.emplace_back("Upgrade", "websocket");
+               respond(std::move(refused));
+             },
+             {"stream", "since"});
   router.add("GET", "/healthz", [](const Request&, const Arguments&, Respond respond) {
     respond(json_response(200, R"({"status":"ok"})"));
   });

@@ -54,8 +54,6 @@ Result<JobFilter> read_job_filter(const Target& target, const Cell& cell) {
       } else {
         refuse(name, value, "this is no cursor that the server gave: \"" + value + "\"");
       }
-    } else {
-      refuse(name, value, "unknown parameter \"" + name + "\"; known: state, arm, limit, cursor");
     }
   }
   if (!problems.empty()) return failure(std::move(problems));

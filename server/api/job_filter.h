@@ -23,7 +23,7 @@ struct JobFilter {
   std::optional<std::uint64_t> before;  // the cursor: only jobs submitted before this one
 };
 
-// Problems (invalid): unknown parameter, state, arm; limit or cursor that is no number in range.
+// Problems (invalid): unknown state, arm; limit or cursor that is no number in range.
 [[nodiscard]] Result<JobFilter> read_job_filter(const Target& target, const Cell& cell);
 
 struct JobPage {

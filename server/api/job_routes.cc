@@ -81,9 +81,11 @@ void get_queue(const ApiParts& parts, Respond respond) {
 void add_job_routes(Router& router, const ApiParts& parts) {
   using Arguments = Router::Arguments;
   const std::string jobs = kApi + std::string("/jobs");
-  router.add("GET", jobs, [&parts](const Request& request, const Arguments&, Respond respond) {
-    list_jobs(parts, request, std::move(respond));
-  });
+  router.add("GET", jobs,
+             [&parts](const Request& request, const Arguments&, Respond respond) {
+               list_jobs(parts, request, std::move(respond));
+             },
+             {"state", "arm", "limit", "cursor"});
   router.add("GET", jobs + "/{}", [&parts](const Request&, const Arguments& a, Respond respond) {
     get_job(parts, a.front(), std::move(respond));
   });

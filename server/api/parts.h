@@ -38,7 +38,7 @@ void ask(const ApiParts& parts, Ask ask, Then then) {
   });
 }
 
-// Problem (unsupported): the body is not said to be JSON.
+// Problem (unsupported): the body is not said to be JSON in UTF-8, or is encoded.
 [[nodiscard]] Result<void> check_content_type(const Request& request);
 
 // The body as read(text) -> Result<...> makes it out.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "core/base/problem.h"
 #include "core/model/cell.h"
@@ -22,8 +23,9 @@ struct ServeOptions {
   std::string data;  // empty: nothing is recorded
   bool record = false;
   double speed = 1.0;
-  std::string web;     // empty: looked for beside the binary
-  std::string policy;  // empty: the cell's
+  std::string web;                         // empty: looked for beside the binary
+  std::vector<std::string> allowed_hosts;  // besides IP addresses and localhost
+  std::string policy;                      // empty: the cell's
 };
 int serve(const ServeOptions& options);
 

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "server/command/command.h"
+#include "server/http/framing.h"
 #include "server/service.h"
 
 namespace armloom {
@@ -53,6 +54,22 @@ std::string dashboard_address(const std::string& address, std::uint16_t port) {
   return "http://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port) + "/";
 }
 
+// What cannot be followed, so that it is said before anything listens.
+Problems faults_of(const ServeOptions& options) {
+  Problems problems;
+  std::error_code ec;
+  if (!options.web.empty() && !fs::is_directory(options.web, ec)) {
+    problems.push_back(Problem{ProblemKind::not_found, "no-folder", "--web",
+                               "there is no folder " + options.web, options.web});
+  }
+  for (const std::string& name : options.allowed_hosts) {
+    if (valid_authority(name) && name.find(':') == name.npos) continue;
+    problems.push_back(Problem{ProblemKind::invalid, "bad-name", "--allow-host",
+                               "expected a host's name without a port", name});
+  }
+  return problems;
+}
+
 }  // namespace
 
 int serve(const ServeOptions& options) {
@@ -65,6 +82,11 @@ int serve(const ServeOptions& options) {
                           "expected ADDRESS:PORT, as in 127.0.0.1:8080", options.listen}});
     return kExitBadInput;
   }
+  if (const Problems problems = faults_of(options); !problems.empty()) {
+    complain("", problems);
+    return kExitBadInput;
+  }
+  service_options.allowed_hosts = options.allowed_hosts;
   service_options.speed = options.speed;
   service_options.policy = options.policy;
   service_options.web = web_folder(options.web);

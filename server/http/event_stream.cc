@@ -11,7 +11,6 @@ namespace {
 
 namespace beast = boost::beast;
 
-constexpr std::chrono::seconds kSendTime{30};  // for one event
 constexpr int kSendBuffer = 128 * 1024;
 
 constexpr std::string_view kHead =
@@ -30,17 +29,18 @@ struct Link {
 };
 using LinkPtr = std::shared_ptr<Link>;
 
-// A client has nothing to say here; that it has gone is what is waited for.
+// A client has nothing to say here; that it has gone is what is waited for, without the stream's
+// timeout, which is one for each write and would cut the reading off with it.
 asio::awaitable<void> read_until_closed(LinkPtr link) {
   std::array<char, 1024> sink;
   ErrorCode ec;
-  while (!ec) co_await link->stream.async_read_some(asio::buffer(sink), into(ec));
+  while (!ec) co_await link->stream.socket().async_read_some(asio::buffer(sink), into(ec));
   link->closed = true;
   link->news.cancel();
 }
 
-asio::awaitable<void> write(LinkPtr link, std::string_view text, ErrorCode& ec) {
-  link->stream.expires_after(kSendTime);
+asio::awaitable<void> write(LinkPtr link, const Site& site, std::string_view text, ErrorCode& ec) {
+  link->stream.expires_after(site.send_time);
   co_await asio::async_write(link->stream, asio::buffer(text), into(ec));
 }
 
@@ -56,19 +56,19 @@ std::string event_text(const Feed::Message& message, const std::string& stream) 
 
 asio::awaitable<void> write_feed(LinkPtr link, bool poses, const Site& site) {
   ErrorCode ec;
-  co_await write(link, kHead, ec);
+  co_await write(link, site, kHead, ec);
   // Counted from the last byte sent: news that this reader does not get wakes it, too.
   auto keep_alive_at = std::chrono::steady_clock::now() + site.keep_alive;
   while (!ec && !link->closed) {
     if (link->feed) {
       if (const auto farewell = link->feed->farewell()) {
-        co_await write(link, ": " + farewell->text + "\n\n", ec);
+        co_await write(link, site, ": " + farewell->text + "\n\n", ec);
         break;
       }
       if (const auto message = link->feed->next()) {
         if (!message->seq && !poses) continue;
         const std::string text = event_text(*message, site.stream);
-        co_await write(link, text, ec);
+        co_await write(link, site, text, ec);
         keep_alive_at = std::chrono::steady_clock::now() + site.keep_alive;
         continue;
       }
@@ -77,7 +77,7 @@ asio::awaitable<void> write_feed(LinkPtr link, bool poses, const Site& site) {
     ErrorCode woken;
     co_await link->news.async_wait(into(woken));
     if (woken) continue;
-    co_await write(link, ": keep-alive\n\n", ec);
+    co_await write(link, site, ": keep-alive\n\n", ec);
     keep_alive_at = std::chrono::steady_clock::now() + site.keep_alive;
   }
   link->stream.close();

@@ -1,5 +1,7 @@
 #include "server/http/framing.h"
 
+#include <arpa/inet.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -40,29 +42,60 @@ bool valid_authority(std::string_view text) {
   });
 }
 
-std::optional<std::string> framing_fault(const FramingFields& fields) {
-  if (fields.hosts.empty() && fields.http_1_1) return "the Host field is missing";
-  if (fields.hosts.size() > 1) return "the Host field occurs more than once";
+std::optional<FramingFault> framing_fault(const FramingFields& fields) {
+  const auto fault = [](std::string detail, std::optional<std::string_view> value = {}) {
+    return FramingFault{value ? detail + ": \"" + std::string(*value) + "\"" : std::move(detail),
+                        value ? std::optional<std::string>(*value) : std::nullopt};
+  };
+  if (fields.hosts.empty() && fields.http_1_1) return fault("the Host field is missing");
+  if (fields.hosts.size() > 1) {
+    return fault("the Host field occurs more than once, the second time", fields.hosts[1]);
+  }
   if (!fields.hosts.empty() && !valid_authority(fields.hosts.front())) {
-    return "Host is not a name with an optional port: \"" + std::string(fields.hosts.front()) +
-           "\"";
+    return fault("Host is not a name with an optional port", fields.hosts.front());
   }
-  if (fields.content_lengths.size() > 1) return "the Content-Length field occurs more than once";
-  if (!fields.content_lengths.empty()) {
-    const std::string_view length = fields.content_lengths.front();
-    if (length.empty() || !std::all_of(length.begin(), length.end(), is_digit)) {
-      return "Content-Length is not a number: \"" + std::string(length) + "\"";
-    }
+  const auto& lengths = fields.content_lengths;
+  if (lengths.size() > 1) {
+    return fault("the Content-Length field occurs more than once, the second time", lengths[1]);
   }
-  if (fields.transfer_encodings.empty()) return std::nullopt;
-  if (!fields.http_1_1) return "HTTP/1.0 has no Transfer-Encoding";
-  if (!fields.content_lengths.empty()) return "both Transfer-Encoding and Content-Length are given";
-  if (fields.transfer_encodings.size() > 1 ||
-      !equals_ignoring_case(fields.transfer_encodings.front(), "chunked")) {
-    return "the only Transfer-Encoding served is \"chunked\", found \"" +
-           std::string(fields.transfer_encodings.front()) + "\"";
+  if (!lengths.empty() &&
+      (lengths[0].empty() || !std::all_of(lengths[0].begin(), lengths[0].end(), is_digit))) {
+    return fault("Content-Length is not a number", lengths[0]);
+  }
+  const auto& encodings = fields.transfer_encodings;
+  if (encodings.empty()) return std::nullopt;
+  if (!fields.http_1_1) return fault("HTTP/1.0 has no Transfer-Encoding, found", encodings[0]);
+  if (!lengths.empty()) {
+    return fault("both Transfer-Encoding and Content-Length are given, the latter", lengths[0]);
+  }
+  if (encodings.size() > 1) {
+    return fault("the Transfer-Encoding field occurs more than once, the second time",
+                 encodings[1]);
+  }
+  if (!equals_ignoring_case(encodings[0], "chunked")) {
+    return fault("the only Transfer-Encoding served is \"chunked\", found", encodings[0]);
   }
   return std::nullopt;
+}
+
+std::string host_of(std::string_view authority) {
+  const std::size_t bracket = authority.find(']');
+  const std::size_t colon = authority.find(':', bracket == authority.npos ? 0 : bracket);
+  std::string host(authority.substr(0, colon));
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  if (host.size() > 1 && host.ends_with('.')) host.pop_back();
+  for (char& c : host) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return host;
+}
+
+bool may_command(const std::string& host, const HostRule& rule) {
+  in6_addr address{};
+  if (inet_pton(AF_INET, host.c_str(), &address) == 1) return true;
+  if (inet_pton(AF_INET6, host.c_str(), &address) == 1) return true;
+  if (host == "localhost" || host.ends_with(".localhost")) return true;
+  if (rule.any_plain && host.find('.') == host.npos) return true;
+  return std::any_of(rule.names.begin(), rule.names.end(),
+                     [&](const std::string& name) { return host_of(name) == host; });
 }
 
 bool same_origin(std::string_view origin, std::string_view host) {

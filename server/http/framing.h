@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "server/http/message.h"
+
 namespace armloom {
 
 // The fields of a request's header that decide where its body ends and whom it is for.
@@ -15,10 +17,15 @@ struct FramingFields {
   std::vector<std::string_view> content_lengths;
 };
 
+struct FramingFault {
+  std::string detail;
+  std::optional<std::string> value;  // of the field
+};
+
 // Why the request must be refused with 400 and its connection closed (RFC 9112, 3.2 and 6.3): the
 // parser lets a Transfer-Encoding other than "chunked" pass and would read the body as a second
 // request, and does not look at Host at all. Empty: sound.
-[[nodiscard]] std::optional<std::string> framing_fault(const FramingFields& fields);
+[[nodiscard]] std::optional<FramingFault> framing_fault(const FramingFields& fields);
 
 // Host, or the authority of an Origin: a name, IPv4 or [IPv6], with an optional port.
 [[nodiscard]] bool valid_authority(std::string_view text);
@@ -26,5 +33,11 @@ struct FramingFields {
 // Whether a browser's Origin ("http://host:port") is the site itself. Pages of other sites must not
 // stop arms or post jobs through the visitor's browser.
 [[nodiscard]] bool same_origin(std::string_view origin, std::string_view host);
+
+// The host of an authority, in small letters, without port, brackets and a last dot.
+[[nodiscard]] std::string host_of(std::string_view authority);
+
+// Whether the server may be commanded by this name.
+[[nodiscard]] bool may_command(const std::string& host, const HostRule& rule);
 
 }  // namespace armloom

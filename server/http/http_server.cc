@@ -8,7 +8,7 @@
 namespace armloom {
 namespace {
 
-constexpr std::chrono::milliseconds kFarewell{500};
+constexpr std::chrono::seconds kFarewell{1};            // for readers to read to the end
 constexpr std::size_t kRefusingMax = 32;                // at once; beyond, closed without a word
 constexpr auto kWindDownMax = std::chrono::seconds(5);  // for arms to come to rest
 

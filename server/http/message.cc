@@ -1,5 +1,7 @@
 #include "server/http/message.h"
 
+#include <algorithm>
+
 #include "server/codec/json_writer.h"
 #include "server/codec/problem_codec.h"
 
@@ -37,6 +39,10 @@ tl::unexpected<Problems> bad_target(std::string detail, std::string_view found) 
                          std::string(found.substr(0, 200))});
 }
 
+Problem bad_parameter(const std::string& name, const std::string& value, std::string detail) {
+  return Problem{ProblemKind::malformed, "bad-parameter", "?" + name, std::move(detail), value};
+}
+
 }  // namespace
 
 Result<Target> parse_target(std::string_view text) {
@@ -68,9 +74,42 @@ Result<Target> parse_target(std::string_view text) {
     const auto value =
         equals == pair.npos ? std::string() : percent_decoded(pair.substr(equals + 1), true);
     if (!name || !value) return bad_target("a percent escape in the query is broken", pair);
-    if (!name->empty()) target.query[*name] = *value;
+    if (name->empty()) continue;
+    if (!target.query.emplace(*name, *value).second) {
+      return failure(bad_parameter(*name, *value, "the parameter \"" + *name + "\" occurs twice"));
+    }
   }
   return target;
+}
+
+std::optional<Problem> unknown_parameter(const Target& target,
+                                         const std::vector<std::string>& known) {
+  for (const auto& [name, value] : target.query) {
+    if (std::ranges::find(known, name) != known.end()) continue;
+    std::string names;
+    for (const std::string& one : known) names += (names.empty() ? "" : ", ") + one;
+    return bad_parameter(name, value,
+                         "unknown parameter \"" + name +
+                             (known.empty() ? "\"; there are none here" : "\"; known: " + names));
+  }
+  return std::nullopt;
+}
+
+std::optional<Problem> feed_query_fault(const Target& target, bool with_poses) {
+  std::vector<std::string> known{"stream", "since"};
+  if (with_poses) known.emplace_back("poses");
+  if (auto unknown = unknown_parameter(target, known)) return unknown;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto since = target.parameter("since");
+  if (since && (since->empty() || !std::ranges::all_of(*since, is_digit))) {
+    return bad_parameter("since", *since,
+                         "since is the number of an event, found \"" + *since + "\"");
+  }
+  const auto poses = target.parameter("poses");
+  if (poses && *poses != "0" && *poses != "1") {
+    return bad_parameter("poses", *poses, "poses is 0 or 1, found \"" + *poses + "\"");
+  }
+  return std::nullopt;
 }
 
 std::string url_segment(std::string_view text) {
@@ -99,14 +138,17 @@ Response problem_response(const Problems& problems) {
                   {{"Cache-Control", "no-store"}}};
 }
 
-Response http_problem(int status, std::string_view slug, std::string_view detail) {
+Response http_problem(int status, std::string_view slug, std::string_view detail,
+                      const std::optional<std::string>& value) {
   std::string title(slug);
   for (char& c : title) {
     if (c == '-') c = ' ';
   }
   JsonWriter out;
   out.begin_object().field("type", "urn:armloom:problem:" + std::string(slug));
-  out.field("title", title).field("status", status).field("detail", detail).end_object();
+  out.field("title", title).field("status", status).field("detail", detail);
+  if (value) out.field("value", *value);
+  out.end_object();
   return Response{status, "application/problem+json", out.take(), {{"Cache-Control", "no-store"}}};
 }
 

@@ -25,9 +25,17 @@ struct Target {
     return it == query.end() ? std::nullopt : std::optional(it->second);
   }
 };
-// Problem (malformed): no absolute path, or a broken or forbidden escape. Of a parameter that
-// occurs twice the last one counts.
+// Problem (malformed): no absolute path, a broken or forbidden escape, a parameter that occurs
+// twice.
 [[nodiscard]] Result<Target> parse_target(std::string_view text);
+
+// The first parameter of the query that is not `known`, as a problem (malformed) that names it.
+[[nodiscard]] std::optional<Problem> unknown_parameter(const Target& target,
+                                                       const std::vector<std::string>& known);
+
+// What cannot be right in the query of a reader of the event stream: an unknown parameter, a
+// `since` that is no number, `poses` other than 0 or 1 (which only the events_path has).
+[[nodiscard]] std::optional<Problem> feed_query_fault(const Target& target, bool with_poses);
 
 // `text` as one segment of a path: everything but unreserved characters percent-encoded.
 [[nodiscard]] std::string url_segment(std::string_view text);
@@ -37,6 +45,7 @@ struct Request {
   std::string method;  // "GET"; a HEAD comes as GET, its answer loses the body later
   Target target;
   std::optional<std::string> content_type;
+  std::optional<std::string> content_encoding;
   std::string body;
 };
 
@@ -48,8 +57,10 @@ struct Response {
 };
 [[nodiscard]] Response json_response(int status, std::string body);
 [[nodiscard]] Response problem_response(const Problems& problems);
-// A problem of HTTP itself (405, 426, 431, ...), which has no ProblemKind.
-[[nodiscard]] Response http_problem(int status, std::string_view slug, std::string_view detail);
+// A problem of HTTP itself (405, 426, 431, ...), which has no ProblemKind; with what was found, if
+// that is one thing.
+[[nodiscard]] Response http_problem(int status, std::string_view slug, std::string_view detail,
+                                    const std::optional<std::string>& value = {});
 
 // To be called exactly once, on the server's thread.
 using Respond = std::function<void(Response)>;
@@ -78,6 +89,13 @@ class Feed {
 };
 using FeedPtr = std::shared_ptr<Feed>;
 
+// By which names the server may be commanded: a page whose name an attacker lets point here is of
+// the same origin to a browser, and only its Host tells. IP addresses and localhost always may.
+struct HostRule {
+  std::vector<std::string> names;  // further ones
+  bool any_plain = false;          // and every name without a dot: no site on the internet has one
+};
+
 // What the listener serves. All functions are called on the server's thread; the first two answer
 // through their callback, at once or later. Request and target are only valid during the call.
 struct Site {
@@ -90,7 +108,9 @@ struct Site {
   std::string feed_path;      // WebSocket upgrades are accepted here and nowhere else
   std::string events_path;    // the same feed as Server-Sent Events
   std::string stream;         // stands in the ids of those events
+  HostRule hosts;             // by which names commands may come
   std::chrono::milliseconds keep_alive{15'000};  // no event for so long: a comment line is sent
+  std::chrono::milliseconds send_time{30'000};   // that one such event may take; then it is cut
 };
 
 }  // namespace armloom

@@ -33,8 +33,10 @@ std::optional<Router::Arguments> match(const std::vector<std::string>& pattern,
 
 }  // namespace
 
-void Router::add(std::string method, std::string_view pattern, Answer answer) {
-  routes_.push_back(Route{std::move(method), segments_of(pattern), std::move(answer)});
+void Router::add(std::string method, std::string_view pattern, Answer answer,
+                 std::vector<std::string> parameters) {
+  routes_.push_back(
+      Route{std::move(method), segments_of(pattern), std::move(answer), std::move(parameters)});
 }
 
 std::vector<std::string> Router::routes() const {
@@ -53,12 +55,18 @@ void Router::dispatch(const Request& request, Respond respond) const {
   for (const Route& route : routes_) {
     const auto arguments = match(route.segments, path);
     if (!arguments) continue;
-    if (route.method == request.method) return route.answer(request, *arguments, respond);
+    if (route.method == request.method) {
+      if (auto unknown = unknown_parameter(request.target, route.parameters)) {
+        return respond(problem_response({std::move(*unknown)}));
+      }
+      return route.answer(request, *arguments, respond);
+    }
     allow += (allow.empty() ? "" : ", ") + route.method + (route.method == "GET" ? ", HEAD" : "");
   }
   if (!allow.empty()) {
-    Response refused = http_problem(405, "method-not-allowed",
-                                    request.method + " is not served here; allowed: " + allow);
+    Response refused =
+        http_problem(405, "method-not-allowed",
+                     request.method + " is not served here; allowed: " + allow, request.method);
     refused.headers.emplace_back("Allow", allow);
     return respond(std::move(refused));
   }

@@ -49,22 +49,44 @@ FramingFields framing_of(const RequestMessage& message) {
 // What must be refused before the body is read; the connection ends with it.
 std::optional<Response> header_refusal(const RequestMessage& message) {
   if (const auto fault = framing_fault(framing_of(message))) {
-    return http_problem(400, "bad-request", *fault);
+    return http_problem(400, "bad-request", fault->detail, fault->value);
   }
   const auto expect = message.find(http::field::expect);
   if (expect != message.end() && !beast::iequals(expect->value(), "100-continue")) {
-    return http_problem(417, "expectation-failed", "the only Expect served is 100-continue");
+    return http_problem(417, "expectation-failed", "the only Expect served is 100-continue",
+                        std::string(expect->value()));
   }
   return std::nullopt;
 }
 
 // A browser names the page that asks: other sites may read, but not change anything, nor listen.
-std::optional<Response> origin_refusal(const RequestMessage& message, bool upgrade) {
+// Nor may a page whose own name was made to point here; to a browser it is of the same origin.
+std::optional<Response> origin_refusal(const RequestMessage& message, const Site& site,
+                                       bool upgrade) {
   const bool safe = message.method() == http::verb::get || message.method() == http::verb::head;
+  if (safe && !upgrade) return std::nullopt;
+  const auto authority = message.find(http::field::host);
+  const std::string host = authority == message.end() ? "" : host_of(view(authority->value()));
+  if (authority != message.end() && !may_command(host, site.hosts)) {
+    return http_problem(403, "foreign-host",
+                        "commands may come to an IP address, to localhost and to the names given "
+                        "with --allow-host, not to \"" +
+                            host + "\"",
+                        host);
+  }
   const auto origin = message.find(http::field::origin);
-  if (origin == message.end() || (safe && !upgrade)) return std::nullopt;
+  if (origin == message.end()) return std::nullopt;
   if (same_origin(view(origin->value()), view(message[http::field::host]))) return std::nullopt;
-  return http_problem(403, "foreign-origin", "pages of another site may not command this server");
+  return http_problem(403, "foreign-origin", "pages of another site may not command this server",
+                      std::string(origin->value()));
+}
+
+// A query that no reader of the event stream can mean.
+std::optional<Response> feed_refusal(const Target& target, const Site& site) {
+  if (target.path != site.feed_path && target.path != site.events_path) return std::nullopt;
+  auto fault = feed_query_fault(target, target.path == site.events_path);
+  if (!fault) return std::nullopt;
+  return problem_response({std::move(*fault)});
 }
 
 Response response_to_error(ErrorCode ec) {
@@ -138,9 +160,10 @@ asio::awaitable<Response> answer(const Site& site, const Request& request) {
 }
 
 asio::awaitable<Response> respond_to(const Site& site, RequestMessage& message) {
-  if (auto refused = origin_refusal(message, false)) co_return std::move(*refused);
   auto target = parse_target(view(message.target()));
   if (!target) co_return problem_response(target.error());
+  if (auto refused = origin_refusal(message, site, false)) co_return std::move(*refused);
+  if (auto refused = feed_refusal(*target, site)) co_return std::move(*refused);
   Request request;
   request.method =
       message.method() == http::verb::head ? "GET" : std::string(message.method_string());
@@ -148,6 +171,8 @@ asio::awaitable<Response> respond_to(const Site& site, RequestMessage& message) 
   if (const auto type = message.find(http::field::content_type); type != message.end()) {
     request.content_type = std::string(type->value());
   }
+  const auto encoding = message.find(http::field::content_encoding);
+  if (encoding != message.end()) request.content_encoding = std::string(encoding->value());
   request.body = std::move(message.body());
   if (request.target.path == site.feed_path && request.method == "GET") {
     Response refused = http_problem(426, "upgrade-required", "this is a WebSocket");
@@ -202,7 +227,7 @@ bool wants_events(const RequestMessage& message, const Site& site) {
 asio::awaitable<bool> serve_events(Connection& connection, const RequestMessage& message,
                                    const Site& site) {
   auto target = parse_target(view(message.target()));
-  if (!target) co_return false;
+  if (!target || feed_refusal(*target, site)) co_return false;
   const auto last_event = message.find("Last-Event-ID");
   if (last_event != message.end()) resume_after(view(last_event->value()), *target);
   co_await serve_event_stream(std::move(connection.stream), std::move(*target), site);
@@ -219,8 +244,9 @@ asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
   co_await read_header(connection, parser, ec);
   if (!ec) refusal = header_refusal(parser.get());
   if (!ec && !refusal && wants_feed(parser.get(), site)) {
-    refusal = origin_refusal(parser.get(), true);
+    refusal = origin_refusal(parser.get(), site, true);
     auto target = parse_target(view(parser.get().target()));
+    if (!refusal && target) refusal = feed_refusal(*target, site);
     if (!refusal && target) {
       co_await serve_websocket(std::move(connection.stream), parser.release(), std::move(*target),
                                site);

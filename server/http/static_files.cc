@@ -60,7 +60,8 @@ fs::path file_inside(const fs::path& folder, const fs::path& relative) {
 
 Response StaticFiles::answer(const Request& request) const {
   if (request.method != "GET") {
-    Response refused = http_problem(405, "method-not-allowed", "files can only be read");
+    Response refused =
+        http_problem(405, "method-not-allowed", "files can only be read", request.method);
     refused.headers.emplace_back("Allow", "GET, HEAD");
     return refused;
   }

@@ -22,7 +22,10 @@ class Hub::Reader final : public Feed {
   }
 
   std::optional<Farewell> farewell() const override {
-    if (hub_.ended_) return Farewell{Farewell::Why::server_ends, "the server ends"};
+    const bool has_read_all = !first_ && behind() == 0;
+    if (hub_.ended_ && has_read_all) {
+      return Farewell{Farewell::Why::server_ends, "the server ends"};
+    }
     if (first_ || behind() <= hub_.ring_.size()) return std::nullopt;
     return Farewell{Farewell::Why::too_slow, "too slow: " + std::to_string(behind()) +
                                                  " events behind, " +

@@ -69,7 +69,7 @@ TEST_F(EventFeed, ResumesWhereAReaderWas) {
 
 TEST_F(EventFeed, GivesASnapshotWithAGapToAReaderOfAnotherRun) {
   start(1.0);
-  for (const char* query : {"?stream=00000000-0000-4000-8000-000000000000&since=0", "?since=x",
+  for (const char* query : {"?stream=00000000-0000-4000-8000-000000000000&since=0", "?since=0",
                             "?stream=&since=99999"}) {
     test::Listener listener(port(), query);
     const json first = listener.next_event();
@@ -140,6 +140,18 @@ TEST_F(EventFeed, SendsACommentWhenThereWasNoEventForAWhile) {
   EXPECT_GT(took, std::chrono::milliseconds(350));
   run_one_job();
   EXPECT_EQ(next_sent(wire).data["type"], "job");
+}
+
+// The time that one event may take to be sent is no bound on the stream.
+TEST_F(EventFeed, StaysOpenForLongerThanAnEventMayTake) {
+  options_.keep_alive = std::chrono::milliseconds(50);
+  options_.send_time = std::chrono::milliseconds(100);
+  start(1.0);
+  test::Wire wire(port());
+  wire.send("GET /api/v1/events HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  (void)wire.take_until("\r\n\r\n");
+  EXPECT_EQ(next_sent(wire).data["type"], "snapshot");
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(wire.take_until("\n\n"), ": keep-alive\n\n");
 }
 
 TEST_F(EventFeed, ShowsPosesAsServerSentEventsIfAskedFor) {

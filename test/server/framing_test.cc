@@ -56,6 +56,8 @@ TEST_F(Framing, RefusesWhatStockBeastLetsThroughAndCloses) {
     EXPECT_EQ(count(answer, "HTTP/1.1 "), 1) << bytes << "\n" << answer;
     EXPECT_TRUE(answer.starts_with("HTTP/1.1 400 ")) << bytes << "\n" << answer;
   }
+  EXPECT_NE(answers_to(post + "Host: user@x\r\n\r\n").find(R"("value":"user@x")"),
+            std::string::npos);
   EXPECT_EQ(get("/api/v1/queue").json()["stopped"], false);
 }
 
@@ -63,7 +65,7 @@ TEST_F(Framing, ServesRequestsOneAfterTheOtherOnOneConnection) {
   start(1.0);
   const std::string answer = answers_to(
       "GET /healthz HTTP/1.1\r\nHost: [::1]:8080\r\n\r\n"
-      "POST /api/v1/resume HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: "
+      "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: "
       "Chunked\r\n\r\n5\r\nhello\r\n0\r\n\r\n"
       "HEAD /healthz HTTP/1.1\r\nHost: x\r\n\r\n"
       "GET /healthz HTTP/1.0\r\n\r\n");
@@ -93,7 +95,7 @@ TEST_F(Framing, AsksForABodyThatWaitsToBeAskedFor) {
   start(1.0);
   test::Wire wire(port());
   wire.send(
-      "POST /api/v1/resume HTTP/1.1\r\nHost: x\r\nExpect: 100-continue\r\nContent-Length: "
+      "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: "
       "2\r\n\r\n");
   EXPECT_EQ(wire.take_until("\r\n\r\n"), "HTTP/1.1 100 Continue\r\n\r\n");
   wire.send("{}");
@@ -110,6 +112,31 @@ TEST_F(Framing, PagesOfOtherSitesMayNotStopArms) {
   EXPECT_EQ(get("/api/v1/queue").json()["stopped"], false);
   EXPECT_TRUE(
       answers_to(post + "Origin: http://localhost:80\r\n\r\n").starts_with("HTTP/1.1 202 "));
+}
+
+TEST_F(Framing, PagesWhoseNameWasMadeToPointHereMayNotCommand) {
+  options_.allowed_hosts = {"cell.example"};
+  start(1.0);
+  const auto resume = [&](const std::string& method, const std::string& host) {
+    return answers_to(method + " HTTP/1.1\r\nHost: " + host + "\r\nOrigin: http://" + host +
+                      "\r\nConnection: close\r\nContent-Length: 0\r\n\r\n");
+  };
+  const std::string command = "POST /api/v1/resume";
+  const std::string refused = resume(command, "evil.example:80");
+  EXPECT_TRUE(refused.starts_with("HTTP/1.1 403 ")) << refused;
+  EXPECT_NE(refused.find(R"("value":"evil.example")"), std::string::npos) << refused;
+  EXPECT_TRUE(resume(command, "robots").starts_with("HTTP/1.1 403 "));
+  for (const char* host : {"localhost:80", "127.0.0.1", "[::1]:8080", "Cell.example:443"}) {
+    EXPECT_TRUE(resume(command, host).starts_with("HTTP/1.1 202 ")) << host;
+  }
+  EXPECT_TRUE(resume("GET /api/v1/queue", "evil.example").starts_with("HTTP/1.1 200 "));
+}
+
+TEST(HostRule, LetsPlainNamesPassWhereTheServerListensEverywhere) {
+  const HostRule everywhere{.names = {}, .any_plain = true};
+  EXPECT_TRUE(may_command("robots", everywhere));
+  EXPECT_FALSE(may_command("evil.example", everywhere));
+  EXPECT_FALSE(may_command("127.0.0.1.evil.example", everywhere));
 }
 
 TEST(Authority, IsANameWithAnOptionalPort) {
@@ -129,7 +156,8 @@ TEST(TargetOfRequest, IsDecodedOnceAndKeepsItsSlashes) {
   EXPECT_EQ(target->parameter("arm"), "left");
   EXPECT_EQ(target->parameter("x"), "1 2");
   EXPECT_FALSE(target->parameter("y"));
-  for (const char* bad : {"", "*", "http://x/", "/%2f", "/%5c", "/%00", "/%4", "/%zz", "/?a=%1"}) {
+  for (const char* bad :
+       {"", "*", "http://x/", "/%2f", "/%5c", "/%00", "/%4", "/%zz", "/?a=%1", "/?a=1&a=1"}) {
     EXPECT_FALSE(parse_target(bad)) << bad;
   }
 }

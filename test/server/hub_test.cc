@@ -91,6 +91,19 @@ TEST(Hub, SendsEveryReaderAwayAtItsEnd) {
   EXPECT_EQ(feed->farewell()->why, Farewell::Why::server_ends);
 }
 
+TEST(Hub, LetsAReaderReadToTheEndBeforeItsFarewell) {
+  Hub hub;
+  const FeedPtr feed = hub.resume(0, text("snapshot"));
+  publish(hub, 1, 2);
+  hub.end();
+  for (int message = 0; message < 3; ++message) {
+    EXPECT_FALSE(feed->farewell());
+    EXPECT_TRUE(feed->next());
+  }
+  ASSERT_TRUE(feed->farewell());
+  EXPECT_EQ(feed->farewell()->why, Farewell::Why::server_ends);
+}
+
 TEST(Hub, RefusesAHoleInTheLog) {
   Hub hub;
   publish(hub, 1, 1);

@@ -57,12 +57,50 @@ TEST_F(Routes, HeadHasTheHeadersOfGetAndNoBody) {
 
 TEST_F(Routes, RefuseAFilterThatMeansNothing) {
   start(1.0);
-  for (const char* query : {"?state=lost", "?arm=middle", "?limit=0", "?limit=1001", "?limit=x",
-                            "?cursor=-1", "?sort=up"}) {
+  for (const char* query :
+       {"?state=lost", "?arm=middle", "?limit=0", "?limit=1001", "?limit=x", "?cursor=-1"}) {
     const auto answer = get(std::string("/api/v1/jobs") + query);
     EXPECT_EQ(answer.status, 422) << query;
     EXPECT_EQ(answer.json()["pointer"].get<std::string>().front(), '?');
   }
+}
+
+TEST_F(Routes, RefuseUnknownAndRepeatedParametersByName) {
+  start(1.0);
+  const std::pair<const char*, const char*> cases[] = {
+      {"/jobs?sort=up", "?sort"},      {"/jobs?limit=1&limit=2", "?limit"},
+      {"/arms?foo=1", "?foo"},         {"/events?foo=1", "?foo"},
+      {"/events?since=abc", "?since"}, {"/events?poses=2", "?poses"},
+      {"/ws?poses=1", "?poses"},       {"/ws?since=", "?since"}};
+  for (const auto& [target, pointer] : cases) {
+    const auto answer = get(std::string("/api/v1") + target);
+    EXPECT_EQ(answer.status, 400) << target;
+    EXPECT_EQ(answer.json()["pointer"], pointer) << answer.body;
+  }
+  EXPECT_EQ(get("/api/v1/events?since=abc").json()["value"], "abc");
+}
+
+TEST_F(Routes, RefuseBodiesThatAreEncodedOrNotInUtf8) {
+  start(1.0);
+  for (const char* type : {"application/json; charset=latin1", "text/plain",
+                           "application/json; charset=utf-16; charset=utf-8"}) {
+    const auto answer = post("/api/v1/jobs", "{}", type);
+    EXPECT_EQ(answer.status, 415) << type;
+    EXPECT_EQ(answer.json()["value"], type);
+  }
+  for (const char* type : {"application/json;charset=UTF-8", "Application/JSON; charset=\"utf-8\"",
+                           "application/json\r\nContent-Encoding: identity"}) {
+    EXPECT_EQ(post("/api/v1/jobs", "{}", type).status, 422) << type;
+  }
+  const auto packed = post("/api/v1/jobs", "{}", "application/json\r\nContent-Encoding: gzip");
+  EXPECT_EQ(packed.status, 415);
+  EXPECT_EQ(packed.json()["value"], "gzip");
+  EXPECT_EQ(packed.json()["pointer"], "Content-Encoding");
+}
+
+TEST_F(Routes, SayWhatWasFoundWhereAMethodIsNotServed) {
+  start(1.0);
+  EXPECT_EQ(test::request(port(), "PATCH", "/api/v1/jobs", "{}").json()["value"], "PATCH");
 }
 
 TEST_F(Routes, ServeTheDashboardAndNothingElse) {
