@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "core/executive/executive_impl.h"
@@ -13,6 +14,17 @@ auto named(const std::string& name) {
   return [&name](const CollisionObject& object) { return object.name == name; };
 }
 
+// Conflicts and allowed pairs name links and objects alike: a name means one body.
+std::optional<Problem> taken_in_cell(const std::string& name, const Cell& cell) {
+  const auto has_name = [&name](const auto& part) { return part.name == name; };
+  const char* whose = std::ranges::any_of(cell.links, has_name)    ? "link"
+                      : std::ranges::any_of(cell.robots, has_name) ? "robot"
+                                                                   : nullptr;
+  if (whose == nullptr) return std::nullopt;
+  return Problem{ProblemKind::conflict, "name-taken", "/name",
+                 "a " + std::string(whose) + " is named \"" + name + "\" already", name};
+}
+
 Problem no_object(const std::string& name) {
   return Problem{ProblemKind::not_found, "unknown-object", "",
                  "no object is named \"" + name + "\"", name};
@@ -21,6 +33,7 @@ Problem no_object(const std::string& name) {
 }  // namespace
 
 Result<void> Executive::Impl::add_object(CollisionObject object) {
+  if (auto taken = taken_in_cell(object.name, *cell_)) return failure(std::move(*taken));
   std::vector<CollisionObject> objects = scene_->objects();
   if (std::ranges::any_of(objects, named(object.name))) {
     return failure(Problem{ProblemKind::conflict, "name-taken", "/name",

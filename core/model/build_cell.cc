@@ -1,6 +1,7 @@
 #include "core/model/build_cell.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <set>
 #include <system_error>
@@ -16,10 +17,54 @@
 namespace armloom {
 namespace {
 
+// How many bytes the character takes that begins at `at`; zero: it is none of UTF-8 (RFC 3629).
+std::size_t utf8_length(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const unsigned first = byte(at);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xC2 && first < 0xE0   ? 2
+                             : first >= 0xE0 && first < 0xF0 ? 3
+                             : first >= 0xF0 && first < 0xF5 ? 4
+                                                             : 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(at + i) & 0xC0U) != 0x80) return 0;
+  }
+  const unsigned second = byte(at + 1);
+  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+  const bool beyond = (first == 0xED && second >= 0xA0) || (first == 0xF4 && second >= 0x90);
+  return overlong || beyond ? 0 : length;
+}
+
+// The text goes out again as JSON, which must be UTF-8. A file that names another encoding would
+// be read wrongly by the XML library as well.
+std::optional<Problem> utf8_fault(const std::string& text, const std::string& path) {
+  std::size_t line = 1;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text, at);
+    if (length == 0) {
+      char byte[8];
+      std::snprintf(byte, sizeof byte, "0x%02x", static_cast<unsigned char>(text[at]));
+      const std::string place = path + ":" + std::to_string(line);
+      return Problem{ProblemKind::malformed, "not-utf-8", place,
+                     place + ": the byte " + byte + " is not UTF-8", std::string(byte)};
+    }
+    if (text[at] == '\n') ++line;
+    at += length;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> load(const std::string& path, const std::string& pointer,
                                 const std::string& whose, Findings& findings) {
   auto text = read_text_file(path, pointer, whose);
-  if (text) return *std::move(text);
+  if (text) {
+    auto fault = utf8_fault(*text, path);
+    if (!fault) return *std::move(text);
+    findings.add(*std::move(fault));
+    return std::nullopt;
+  }
   for (Problem& problem : text.error()) findings.add(std::move(problem));
   return std::nullopt;
 }
@@ -159,11 +204,16 @@ void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links,
 
 void check_objects_are_no_links(const CellDescription& description,
                                 const std::set<std::string>& links, Findings& findings) {
+  std::set<std::string> robots;
+  for (const RobotDescription& robot : description.robots) robots.insert(robot.name);
   for (std::size_t o = 0; o < description.objects.size(); ++o) {
     const std::string& name = description.objects[o].name;
-    if (!links.contains(name)) continue;
-    findings.in_cell("duplicate-name", "/objects/" + std::to_string(o) + "/name",
-                     "the name " + name + " of an object is a link's name too", name);
+    const bool link = links.contains(name);
+    if (!link && !robots.contains(name)) continue;
+    findings.in_cell(
+        "duplicate-name", "/objects/" + std::to_string(o) + "/name",
+        "the name " + name + " of an object is a " + (link ? "link" : "robot") + "'s name too",
+        name);
   }
 }
 
@@ -213,6 +263,26 @@ void require_an_arm(const CellDescription& description, Findings& findings) {
 }
 
 }  // namespace
+
+Problems doubts_about_meshes(const Cell& cell) {
+  Problems doubts;
+  std::set<std::string> told;  // robots of one kind share their meshes
+  const auto look_at = [&](const Shape& shape, const std::string& place, const std::string& whose) {
+    const auto* mesh = std::get_if<Mesh>(&shape);
+    if (mesh == nullptr || mesh->data == nullptr || !is_flat(*mesh->data)) return;
+    if (!told.insert(mesh->path).second) return;
+    doubts.push_back({ProblemKind::invalid, "flat-mesh", place,
+                      whose + ": mesh " + mesh->path + " is flat: it has no inside", mesh->path});
+  };
+  for (const Link& link : cell.links) {
+    for (const PlacedShape& placed : link.shapes) look_at(placed.shape, "", "link " + link.name);
+  }
+  for (std::size_t o = 0; o < cell.objects.size(); ++o) {
+    look_at(cell.objects[o].shape, "/objects/" + std::to_string(o) + "/mesh",
+            "object " + cell.objects[o].name);
+  }
+  return doubts;
+}
 
 Result<CellPtr> build_cell(const CellDescription& description) {
   Findings findings;

@@ -13,4 +13,7 @@ namespace armloom {
 // core/collision.
 [[nodiscard]] Result<CellPtr> build_cell(const CellDescription& description);
 
+// What is allowed but rarely meant: meshes that are flat (mesh.h), each file once.
+[[nodiscard]] Problems doubts_about_meshes(const Cell& cell);
+
 }  // namespace armloom

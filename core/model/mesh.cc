@@ -4,6 +4,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
@@ -232,6 +233,38 @@ Checked<void> check_vertices(const MeshData& mesh) {
   return {};
 }
 
+// A point is no body: nothing of it could be touched.
+Checked<void> check_extent(const MeshData& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
+  if (box.diagonal().norm() > 0.0) return {};
+  const Eigen::Vector3d& p = mesh.vertices.front();
+  const std::string point = text_of(p.x()) + " " + text_of(p.y()) + " " + text_of(p.z());
+  return refuse(ProblemKind::invalid, "mesh-without-extent",
+                "every corner of its " + std::to_string(mesh.triangles.size()) +
+                    " triangles is the one point " + point,
+                point);
+}
+
+// ".5" is a number, but assimp's OBJ reader counts only words that begin with a digit or sign: a
+// zero in front of the point. It also passes over lines that begin with a blank.
+std::string as_assimp_reads_obj(const std::string& obj) {
+  std::string text;
+  text.reserve(obj.size() + obj.size() / 8);
+  bool line_begins = true;
+  bool vertex_line = false;
+  for (const char c : obj) {
+    const bool blank = c == ' ' || c == '\t';
+    if (line_begins && blank) continue;
+    if (line_begins) vertex_line = c == 'v';
+    line_begins = c == '\n';
+    const bool word_begins = !text.empty() && (text.back() == ' ' || text.back() == '\t');
+    if (vertex_line && c == '.' && word_begins) text += '0';
+    text += c;
+  }
+  return text;
+}
+
 // The bytes as assimp may read them: a DAE is cut down, and none has too many triangles.
 Checked<std::string> checked_bytes(const std::string& path, MeshFormat format) {
   auto bytes = read_bytes(path);
@@ -245,6 +278,7 @@ Checked<std::string> checked_bytes(const std::string& path, MeshFormat format) {
   } else {
     most =
         format == MeshFormat::stl ? most_triangles_of_stl(*bytes) : most_triangles_of_obj(*bytes);
+    if (format == MeshFormat::obj) bytes = as_assimp_reads_obj(*bytes);
   }
   if (most <= kMaxMeshTriangles) return bytes;
   return refuse(ProblemKind::too_large, "mesh-too-large",
@@ -264,6 +298,7 @@ Checked<MeshPtr> load(const std::string& path, const Eigen::Vector3d& scale) {
   auto mesh = import(*bytes, *format, scale);
   if (!mesh) return tl::unexpected(mesh.error());
   if (const auto sound = check_vertices(*mesh); !sound) return tl::unexpected(sound.error());
+  if (const auto extent = check_extent(*mesh); !extent) return tl::unexpected(extent.error());
   auto hull = convex_hull(mesh->vertices);
   if (!hull)
     return refuse(ProblemKind::invalid, "mesh-hull", "it has no convex hull: " + hull.error());
@@ -273,6 +308,24 @@ Checked<MeshPtr> load(const std::string& path, const Eigen::Vector3d& scale) {
 }
 
 }  // namespace
+
+bool is_flat(const MeshData& mesh) {
+  const Eigen::Vector3d& first = mesh.vertices.front();
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : mesh.vertices) {
+    if ((p - first).norm() > along.norm()) along = p - first;
+  }
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : mesh.vertices) {
+    const Eigen::Vector3d across = along.cross(p - first);
+    if (across.norm() > normal.norm()) normal = across;
+  }
+  if (normal.norm() <= kFlat_m * along.norm()) return true;  // a line
+  normal.normalize();
+  return std::ranges::all_of(mesh.vertices, [&](const Eigen::Vector3d& p) {
+    return std::abs(normal.dot(p - first)) <= kFlat_m;
+  });
+}
 
 bool is_mesh_name(const std::string& path) { return format_of(path).has_value(); }
 

@@ -36,8 +36,8 @@ inline constexpr double kMaxMeshReach_m = 1000.0;  // of any coordinate
 // Reads an STL (text or binary), OBJ or DAE file. Opens this file and no other, whatever it names
 // (materials, textures). A Problem, with pointer and the sentence's beginning ("robot left") as
 // given, when the file is missing, not regular, unreadable, empty, of another kind, over one of the
-// bounds above (told before much memory is used), without a triangle, or holds a number that is not
-// finite. Precondition: scale is finite and holds no 0.
+// bounds above (told before much memory is used), without a triangle, one single point, or holds a
+// number that is not finite. Precondition: scale is finite and holds no 0.
 [[nodiscard]] Result<MeshPtr> load_mesh(const std::string& path, const Eigen::Vector3d& scale,
                                         const std::string& pointer, const std::string& whose);
 
@@ -50,6 +50,10 @@ class MeshShelf {
  private:
   std::map<std::tuple<std::string, double, double, double>, MeshPtr> meshes_;
 };
+
+// Whether all vertices lie within kFlat_m of a plane: sound, but a body with no inside is rarely
+// meant.
+[[nodiscard]] bool is_flat(const MeshData& mesh);
 
 // Whether load_mesh reads files with such a name: .stl, .obj, .dae, in any case.
 [[nodiscard]] bool is_mesh_name(const std::string& path);

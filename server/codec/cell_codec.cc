@@ -284,11 +284,16 @@ Result<CollisionObject> read_object_text(std::string_view text,
     read_object(node, "", object);
   }
   node.optional("name", [&](const JsonNode& n) {
-    const bool plain = std::ranges::none_of(object.name, [](char c) {
-      return static_cast<unsigned char>(c) < 0x20 || c == '/' || c == '\\';
-    });
+    const bool plain = std::ranges::none_of(object.name,
+                                            [](char c) {
+                                              return static_cast<unsigned char>(c) < 0x20 ||
+                                                     c == 0x7f || c == '/' || c == '\\';
+                                            }) &&
+                       object.name != "." && object.name != "..";
     if (object.name.size() > kObjectNameMax || !plain) {
-      n.invalid("bad-name", "a name is at most 128 bytes without slashes and control characters");
+      n.invalid(
+          "bad-name",
+          "a name is at most 128 bytes without slashes and control characters, and not . or ..");
     } else if (name && n.raw().is_string() && n.raw() != *name) {
       n.invalid("name-differs", "the name differs from \"" + *name + "\" in the address");
     }

@@ -59,6 +59,12 @@ void print_report(const AuditReport& report) {
 int audit_recording(const AuditOptions& options) {
   const auto loaded = load_cell(options.cell_file);
   if (!loaded) return kExitBadInput;
+  std::error_code ec;
+  if (!std::filesystem::is_directory(options.recording, ec)) {
+    complain("", {Problem{ProblemKind::not_found, "no-folder", "--recording",
+                          "there is no folder " + options.recording, options.recording}});
+    return kExitBadInput;
+  }
   std::vector<std::string> doubts;
   const auto states =
       read_states(std::filesystem::path(options.recording) / "states.csv", *loaded->cell, &doubts);

@@ -1,8 +1,8 @@
 #include "server/recording/recording.h"
 
 #include <ctime>
-#include <iterator>
 #include <system_error>
+#include <vector>
 
 #include "server/codec/cell_codec.h"
 #include "server/codec/json_writer.h"
@@ -68,16 +68,29 @@ bool Recording::good() const {
 }
 
 Result<std::string> read_text_file(const fs::path& file) {
+  const auto refuse = [](ProblemKind kind, const char* slug, std::string detail) {
+    return failure(Problem{kind, slug, "", std::move(detail), {}});
+  };
   std::error_code ec;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file, ec)) {
-    return failure(Problem{ProblemKind::not_found,
-                           "cannot-read",
-                           "",
-                           "the file does not exist or cannot be read",
-                           {}});
+  const auto status = fs::status(file, ec);
+  const bool may_end = fs::is_regular_file(status) || fs::is_fifo(status);
+  if (fs::exists(status) && !may_end) {
+    return refuse(ProblemKind::invalid, "cannot-read", "it is neither a file nor a pipe");
   }
-  return std::string(std::istreambuf_iterator<char>(in), {});
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    return refuse(ProblemKind::not_found, "cannot-read",
+                  "the file does not exist or cannot be read");
+  }
+  std::string text;
+  std::vector<char> piece(1U << 20U);
+  while (in && text.size() <= kTextFileMax) {
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+  }
+  if (text.size() <= kTextFileMax) return text;
+  return refuse(ProblemKind::too_large, "file-too-large",
+                "it is longer than " + std::to_string(kTextFileMax) + " bytes");
 }
 
 }  // namespace armloom

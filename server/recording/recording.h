@@ -53,7 +53,10 @@ class Recording {
   bool jobs_open_ = false;  // an array that has to be closed
 };
 
-// A whole file as text. Problem (not_found): cannot be read.
+inline constexpr std::size_t kTextFileMax = std::size_t{256} << 20U;
+
+// A whole file, or what a pipe holds, as text. Problem: it cannot be read, is a folder or device
+// (which may never end), or is longer than kTextFileMax.
 [[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& file);
 
 }  // namespace armloom

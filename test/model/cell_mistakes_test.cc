@@ -117,6 +117,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "the name table of an object is taken"),
         MISTAKE(cell.objects[0].name = "t_post", "/objects/0/name",
                 "the name t_post of an object is a link's name too"),
+        MISTAKE(cell.objects[0].name = cell.robots[0].name, "/objects/0/name",
+                "of an object is a robot's name too"),
         MISTAKE(cell.robots[0].arms.clear(), "/robots/0/arms", "no robot of the cell has an arm"),
         MISTAKE(cell.robots.clear(), "/robots", "the cell has no robot"),
         MISTAKE(cell.allowed_collisions.emplace_back("t_post", "chair"), "/allowed_collisions/0/1",

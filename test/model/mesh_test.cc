@@ -107,6 +107,20 @@ TEST_F(MeshFile, FacesWithManyCornersBecomeTriangles) {
   EXPECT_EQ(mesh->triangles.size(), 3U);
 }
 
+TEST_F(MeshFile, MayLeaveOutTheZeroBeforeAPoint) {
+  const MeshPtr mesh = load("a.obj", "v .1 0 -.2\nv\t.3 1. 0\n v 0 .5 .25\nf 1 2 3\n");
+  expect_bounds(*mesh, {0.0, 0.0, -0.2}, {0.3, 1.0, 0.25});
+}
+
+TEST_F(MeshFile, OfOnePointIsRefusedAndAFlatOneIsKnown) {
+  const Problem point = refusal("a.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
+  EXPECT_EQ(point.slug, "mesh-without-extent");
+  EXPECT_THAT(point.detail, HasSubstr("1 triangles is the one point 1 2 3"));
+  EXPECT_TRUE(is_flat(*load("b.obj", "v 0 0 0\nv 1 0 1\nv 0 1 1\nf 1 2 3\n")));
+  EXPECT_TRUE(is_flat(*load("c.obj", "v 0 0 0\nv 1 0 1\nv 2 0 2\nf 1 2 3\n")));
+  EXPECT_FALSE(is_flat(*load("d.stl", small::stl_bytes(box_))));
+}
+
 TEST_F(MeshFile, SaysWhyItCannotBeRead) {
   const auto says = [&](const Problem& problem, const char* slug, const std::string& why) {
     EXPECT_EQ(problem.slug, slug);

@@ -13,6 +13,19 @@ CellDescription cell_with_urdf(const ScratchFolder& folder, const std::string& t
   return cell;
 }
 
+TEST(UrdfText, ThatIsNotUtf8IsRefusedWithItsLine) {
+  for (const char* bad : {"\xff", "\xc3(", "\xed\xa0\x80", "\xc0\xaf", "\xe2\x82"}) {
+    const ScratchFolder folder;
+    const auto cell = build_cell(cell_with_urdf(
+        folder,
+        "<robot name='r'>\n<!-- \xc3\xbc \xe2\x82\xac -->\n<link name='" + std::string(bad)));
+    ASSERT_FALSE(cell.has_value());
+    EXPECT_EQ(cell.error()[0].slug, "not-utf-8");
+    EXPECT_THAT(cell.error()[0].pointer, testing::EndsWith("twin.urdf:3"));
+    EXPECT_THAT(cell.error()[0].detail, HasSubstr("0x"));
+  }
+}
+
 std::string robot_of(const std::string& body) { return "<robot name='r'>" + body + "</robot>"; }
 
 // One mistake, made by replacing a piece of two_arms.urdf: where it must be found and what is said.

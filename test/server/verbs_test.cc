@@ -184,6 +184,13 @@ TEST_F(Verbs, ObjectsThatCannotBeAreRefusedWithPlaceAndValue) {
                  "object");
   expect_refused(post(objects, R"({"sphere": [1]})"), 422, "/name", nullptr);
   expect_refused(post(objects, R"({"name": "a/b", "sphere": [1]})"), 422, "/name", "a/b");
+  expect_refused(post(objects, R"({"name": "..", "sphere": [1]})"), 422, "/name", "..");
+  expect_refused(post(objects, R"({"name": "a\u007f", "sphere": [1]})"), 422, "/name", "a\x7f");
+  expect_refused(
+      post(objects, R"({"name": "left_panda_link4", "sphere": [0.1], "xyz": [3, 0, 1]})"), 409,
+      "/name", "left_panda_link4");
+  expect_refused(put(objects + "/left", R"({"sphere": [0.1], "xyz": [3, 0, 1]})"), 409, "/name",
+                 "left");
   expect_refused(post(objects, R"({"name": "f", "sphere": [1], "xyz": [0, 0, 1e300]})"), 422,
                  "/xyz", "array of 3");
   expect_refused(post(objects, R"({"name": "f", "sphere": [1], "colour": "red"})"), 422, "/colour",
@@ -323,6 +330,10 @@ TEST_F(Verbs, FaultsThatCannotBeAreRefusedWithPlaceAndValue) {
                  1.5);
   expect_refused(post(faults, R"({"arm": "left", "kind": "stall", "for_s": -1})"), 422, "/for_s",
                  -1);
+  expect_refused(post(faults, R"({"arm": "left", "kind": "stall", "value": 0.5})"), 422, "/value",
+                 0.5);
+  expect_refused(post(faults, R"({"arm": "left", "kind": "fault", "value": 1})"), 422, "/value", 1);
+  expect_refused(post(faults, R"({"arm": "left", "kind": "fault", "for_s": 1})"), 422, "/for_s", 1);
   expect_refused(post(faults, R"({"arm": "left", "kind": "stall", "when": 1})"), 422, "/when", 1);
   expect_refused(remove(faults + "/1"), 404, "request target", "1");
   expect_refused(remove(faults + "/x"), 404, "request target", "x");
