@@ -8,6 +8,7 @@
 #include "core/audit/audit.h"
 #include "core/executive/executive.h"
 #include "core/executive/shape_report.h"
+#include "core/model/build_cell.h"
 #include "core/model/cell_checks.h"
 #include "server/codec/problem_codec.h"
 #include "server/command/command.h"
@@ -153,8 +154,11 @@ int validate_cell(const std::string& cell_file) {
   if (!loaded) return kExitBadInput;
   const Cell& cell = *loaded->cell;
   print_cell(cell, loaded->description);
-  for (const Problem& doubt : doubts_about_limits(loaded->description, cell)) {
-    std::cerr << "armloom: warning: " << problem_sentence(cell_file, doubt) << '\n';
+  for (const Problems& doubts :
+       {doubts_about_limits(loaded->description, cell), doubts_about_meshes(cell)}) {
+    for (const Problem& doubt : doubts) {
+      std::cerr << "armloom: warning: " << problem_sentence(cell_file, doubt) << '\n';
+    }
   }
 
   const auto shapes = report_shapes(loaded->cell);
