@@ -133,7 +133,7 @@ test('What only reads', async () => {
   await call(200, 'GET', `${v1}/queue`);
   await call(200, 'GET', `${v1}/scene`);
   await call(200, 'GET', `${v1}/jobs`, {query: '?state=running&arm=left&limit=7'});
-  for (const query of ['?limit=0', '?state=tired', '?arm=none', '?cursor=x', '?page=2']) {
+  for (const query of ['?limit=0', '?state=tired', '?arm=none', '?cursor=x']) {
     await call(422, 'GET', `${v1}/jobs`, {query});
   }
   await call(404, 'GET', `${v1}/jobs/{id}`, {args: {id: 'nothing'}});
@@ -242,6 +242,11 @@ test('Speed and faults', async () => {
                       {arm: 'left', kind: 'slow', value: 2}]) {
     await call(422, 'POST', `${v1}/sim/faults`, {body});
   }
+  for (const body of [{arm: 'left', kind: 'slow'}, {arm: 'left', kind: 'stall', value: 1}, {arm: 'left', kind: 'fault', value: 1},
+                      {arm: 'left', kind: 'fault', for_s: 1}]) {
+    await call(422, 'POST', `${v1}/sim/faults`, {body});
+    assert.ok(!contract.fitsBody(`${v1}/sim/faults`, 'POST', body), JSON.stringify(body));
+  }
   await call(201, 'POST', `${v1}/sim/faults`, {body: {arm: 'right', kind: 'stall', at_s: 0, for_s: 0.1}});
   await call(200, 'PUT', `${v1}/sim/speed`, {body: example(`${v1}/sim/speed`, 'PUT', 'double')});
 });
@@ -257,6 +262,8 @@ test('Requests that no operation takes', async () => {
     await call(413, method, template, {args, headers: {'Content-Length': 9 << 20}, bodyless: true});
     const socket = template === `${v1}/ws`;
     if (403 in listed) await call(403, method, template, {args, headers: {Origin: 'http://elsewhere.example', ...(socket ? handshake() : {})}});
+    if (403 in listed) await call(403, method, template, {args, headers: {Host: 'elsewhere.example', ...(socket ? handshake() : {})}});
+    if (template !== '/') await call(400, method, template, {args, query: '?bogus=1'});
     if (426 in listed) await call(426, method, template);
     if (operation.requestBody) {
       await call(415, method, template, {args, raw: '{}', headers: {'Content-Type': 'text/plain'}});
@@ -287,6 +294,7 @@ test('Each path answers the methods that are listed, HEAD with GET, and no other
 });
 
 test('A server whose dashboard is not built says so', async () => {
+  fs.mkdirSync(path.join(folder, 'nothing'));
   const bare = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--web', path.join(folder, 'nothing')]);
   try {
     const answer = await ask(bare.port, 'GET', '/');
