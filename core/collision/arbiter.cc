@@ -247,12 +247,13 @@ class Arbiter::Impl {
     Conflict conflict{Conflict::With::scene,
                       own.motion->job,
                       std::nullopt,
-                      {a.name, b.name, a.arm, b.arm, !b.link, found.distance_m},
+                      proximity_of(a, b, found.distance_m),
                       turned ? found.time_b : found.time_a,
                       turned ? found.time_a : found.time_b};
     if (turned) {
       std::swap(conflict.proximity.body_a, conflict.proximity.body_b);
       std::swap(conflict.proximity.arm_a, conflict.proximity.arm_b);
+      std::swap(conflict.proximity.held_a, conflict.proximity.held_b);
     }
     if (other == nullptr) {
       const bool itself = a.arm == b.arm || (b.link && a.robot == b.robot);

@@ -40,8 +40,8 @@ struct CollisionChecker::Scratch {
         parts(bodies.parts.size()),
         placed(bodies.bodies.size()),
         arm_box(bodies.parts_of_arm.size()) {
-    for (std::size_t i = bodies.links_end; i < bodies.parts.size(); ++i) {
-      place_part(i, bodies.objects[i - bodies.links_end].X_WO);
+    for (std::size_t i = bodies.held_end; i < bodies.parts.size(); ++i) {
+      place_part(i, bodies.parts[i].X_CP);
     }
   }
 
@@ -54,8 +54,7 @@ struct CollisionChecker::Scratch {
   void place_bodies(std::size_t index) {
     if (parts[index].bodies_placed) return;
     const Part& part = bodies.parts[index];
-    const Eigen::Isometry3d& X_WP =
-        part.link ? X_WL[part.link->index()] : bodies.objects[index - bodies.links_end].X_WO;
+    const Eigen::Isometry3d X_WP = part.pose(X_WL);
     for (std::size_t i = part.bodies_begin; i < part.bodies_end; ++i) {
       place(bodies.bodies[i], X_WP, placed[i]);
     }
@@ -66,6 +65,9 @@ struct CollisionChecker::Scratch {
     forward_kinematics(*bodies.cell, q, X_WL);
     for (std::size_t i = 0; i < bodies.links_end; ++i) {
       place_part(i, X_WL[bodies.parts[i].link->index()]);
+    }
+    for (std::size_t i = bodies.links_end; i < bodies.held_end; ++i) {
+      place_part(i, bodies.parts[i].pose(X_WL));
     }
     for (std::size_t arm = 0; arm < arm_box.size(); ++arm) {
       Eigen::AlignedBox3d& box = arm_box[arm];
@@ -218,7 +220,7 @@ Proximity CollisionChecker::describe(const NearPair& near) const {
   const PartPair& pair = scratch_->bodies.pairs[near.pair.index()];
   const Part& a = scratch_->bodies.parts[pair.a];
   const Part& b = scratch_->bodies.parts[pair.b];
-  return {a.name, b.name, a.arm, b.arm, !b.link, near.clearance_m};
+  return proximity_of(a, b, near.clearance_m);
 }
 
 bool CollisionChecker::is_self(PairId pair) const {

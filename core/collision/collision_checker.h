@@ -24,6 +24,7 @@ struct NearPair {
 // Asks one scene about single configurations of the whole cell. Holds the scratch: one per worker
 // thread, not thread-safe. FCL that throws counts as contact (clearance 0). Distances are never
 // larger than the true ones, nor smaller by more than 2e-7 m but in rare cases (exact_distance.h).
+// What an arm holds is one of its links in all that follows.
 // Configurations have one entry per joint of the cell (throws std::invalid_argument otherwise), arm
 // masks one per arm.
 // A `clearance_m` asked for is what arms keep from each other and from the scene; an arm's own

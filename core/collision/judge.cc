@@ -159,6 +159,7 @@ class Judgement {
       std::swap(own, other);
       std::swap(proximity.body_a, proximity.body_b);
       std::swap(proximity.arm_a, proximity.arm_b);
+      std::swap(proximity.held_a, proximity.held_b);
     }
     Conflict conflict{Conflict::With::scene, own->motion->job, std::nullopt,
                       std::move(proximity),  own->progress,    Duration::zero()};

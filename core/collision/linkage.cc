@@ -37,7 +37,7 @@ Linkage::Linkage(const PlanningScene::Bodies& bodies, ArmId arm) : arm_(arm) {
   std::vector<int> seen(cell.links.size(), 0);
   std::vector<Carried> carried(cell.links.size());
   for (const std::size_t part : bodies.parts_of_arm[arm.index()]) {
-    add_part(bodies, part, carry(cell, *bodies.parts[part].link, seen, carried));
+    add_part(bodies, part, carry(cell, *bodies.parts[part].carrier, seen, carried));
   }
   for (filter::Capsule& capsule : capsules_) {
     const auto frame = static_cast<std::size_t>(capsule.frame);
@@ -101,14 +101,18 @@ void Linkage::add_part(const PlanningScene::Bodies& bodies, std::size_t index,
   const Part& part = bodies.parts[index];
   LinkagePart added{.part = index,
                     .frame = carried.frame,
-                    .X_FP = carried.X_FL,
+                    .X_FP = part.held() ? carried.X_FL * part.X_CP : carried.X_FL,
                     .capsules_begin = static_cast<int>(capsules_.size()),
                     .capsules_end = 0};
   for (const LinkCapsule& capsule : part.capsules) {
     filter::Capsule c = kernel_capsule(added.X_FP, capsule.p_PA, capsule.p_PB, capsule.radius_m);
     c.frame = carried.frame;
     capsules_.push_back(c);
-    const double far = std::max(capsule.p_PA.norm(), capsule.p_PB.norm()) + capsule.radius_m;
+    const auto from_link = [&part](const Eigen::Vector3d& p_P) {
+      return part.held() ? (part.X_CP * p_P).norm() : p_P.norm();
+    };
+    const double far =
+        std::max(from_link(capsule.p_PA), from_link(capsule.p_PB)) + capsule.radius_m;
     extent_m_ = std::max(extent_m_, carried.reach_m + far);
     reach_m_ = std::max(reach_m_, carried.from_root_m + far);
   }

@@ -17,6 +17,10 @@ MotionStore::MotionStore(PlanningScenePtr scene) : scene_(scene), links_(std::mo
 }
 
 void MotionStore::look_at(PlanningScenePtr scene) {
+  if (!scene->holds_as(*scene_)) {
+    *this = MotionStore(std::move(scene));
+    return;
+  }
   scene_ = std::move(scene);
   with_still_.clear();
   for (auto& pairs : still_) pairs.reset();

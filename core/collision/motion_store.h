@@ -14,12 +14,14 @@
 namespace armloom {
 
 // Keeps the tubes of motions and rests, and the diagrams between them, while they are asked about.
-// What links do to each other outlives a change of the scene's objects. Not thread-safe.
+// What links and held objects do to each other outlives a change of the scene's objects. Not
+// thread-safe.
 class MotionStore {
  public:
   explicit MotionStore(PlanningScenePtr scene);
 
-  // Objects have changed; the cell is the same.
+  // Objects have changed, or what arms hold; the cell is the same. Everything is forgotten if the
+  // scene does not hold as the one before does (PlanningScene::holds_as).
   void look_at(PlanningScenePtr scene);
   [[nodiscard]] const PlanningScenePtr& scene() const { return scene_; }
 

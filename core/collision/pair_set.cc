@@ -86,7 +86,7 @@ StillParts::StillParts(const PlanningScene::Bodies& bodies) : placed(bodies.bodi
     LinkagePart still{
         .part = i,
         .frame = -1,
-        .X_FP = part.link ? X_WL[part.link->index()] : bodies.objects[i - bodies.links_end].X_WO,
+        .X_FP = part.pose(X_WL),
         .capsules_begin = static_cast<int>(capsules.size()),
         .capsules_end = 0};
     for (const LinkCapsule& capsule : part.capsules) {

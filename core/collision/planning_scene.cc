@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -29,16 +30,22 @@ void find_link_problems(const Cell& cell, Problems& problems) {
   }
 }
 
-void find_object_problems(const std::vector<CollisionObject>& objects, Problems& problems) {
+void find_object_problems(const std::vector<CollisionObject>& objects,
+                          const std::vector<Attachment>& held, Problems& problems) {
   std::set<std::string> names;
+  const auto is_held = [&](const std::string& name) {
+    return std::ranges::any_of(held, [&](const Attachment& h) { return h.object.name == name; });
+  };
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const std::string pointer = "/objects/" + std::to_string(i);
     auto problem = mesh_problem(objects[i].shape, pointer + "/mesh");
     if (problem) problems.push_back(*std::move(problem));
     const std::string& name = objects[i].name;
-    if (names.insert(name).second) continue;
+    const bool taken = is_held(name);
+    if (names.insert(name).second && !taken) continue;
     problems.push_back({ProblemKind::conflict, "name-taken", pointer + "/name",
-                        "two objects are named " + name, name});
+                        (taken ? "a held object is named " : "two objects are named ") + name,
+                        name});
   }
 }
 
@@ -52,6 +59,42 @@ void find_unknown_allowed(const Cell& cell, Problems& problems) {
         {ProblemKind::invalid, "unknown-name", "/allowed_collisions",
          "no object is named " + object + " (allowed to touch " + cell.link(link).name + ")",
          object});
+  }
+}
+
+std::optional<Problem> carrier_problem(const Cell& cell, LinkId id, const std::string& pointer) {
+  if (id.index() >= cell.links.size()) {
+    return Problem{ProblemKind::invalid, "unknown-link", pointer,
+                   "the cell has no link " + std::to_string(id.index()),
+                   std::to_string(id.index())};
+  }
+  const Link& link = cell.link(id);
+  if (link.arm) return std::nullopt;
+  return Problem{ProblemKind::invalid, "link-not-of-arm", pointer,
+                 "no arm moves the link " + link.name + ": it cannot hold an object", link.name};
+}
+
+void find_attachment_problems(const Cell& cell, const std::vector<CollisionObject>& objects,
+                              const std::vector<Attachment>& attachments, Problems& problems) {
+  std::map<std::string, std::string> taken;  // name, by what
+  for (const Link& link : cell.links) taken.emplace(link.name, "a link");
+  for (const CollisionObject& object : objects) taken.emplace(object.name, "an object");
+  for (std::size_t i = 0; i < attachments.size(); ++i) {
+    const Attachment& held = attachments[i];
+    const std::string pointer = "/attachments/" + std::to_string(i);
+    const auto add = [&](std::optional<Problem> problem) {
+      if (problem) problems.push_back(*std::move(problem));
+    };
+    add(mesh_problem(held.object.shape, pointer + "/object/mesh"));
+    add(carrier_problem(cell, held.link, pointer + "/link"));
+    for (std::size_t k = 0; k < held.touch.size(); ++k) {
+      if (held.touch[k].index() < cell.links.size()) continue;
+      add(carrier_problem(cell, held.touch[k], pointer + "/touch/" + std::to_string(k)));
+    }
+    const auto [known, fresh] = taken.emplace(held.object.name, "another held object");
+    if (fresh) continue;
+    problems.push_back({ProblemKind::conflict, "name-taken", pointer + "/object/name",
+                        known->second + " is named " + held.object.name, held.object.name});
   }
 }
 
@@ -92,9 +135,23 @@ void add_part(PlanningScene::Bodies& scene, Part part, const std::vector<PlacedS
   scene.parts.push_back(std::move(part));
 }
 
-bool allowed(const Cell& cell, const Part& a, const Part& b) {
-  if (!b.link) return cell.allowed_link_objects.contains({*a.link, b.name});
-  return cell.allowed_link_pairs.contains(std::minmax(*a.link, *b.link));
+// What is held, against anything.
+bool held_allowed(const PlanningScene::Bodies& scene, std::size_t held, const Part& other) {
+  if (!other.carrier) return false;
+  const Attachment& attachment = (*scene.attachments)[held - scene.links_end];
+  if (hand_of(*scene.cell, attachment.link)[other.carrier->index()]) return true;
+  if (!other.link) return false;
+  return std::ranges::find(attachment.touch, *other.link) != attachment.touch.end() ||
+         scene.cell->allowed_link_objects.contains({*other.link, attachment.object.name});
+}
+
+bool allowed(const PlanningScene::Bodies& scene, std::size_t index_a, std::size_t index_b) {
+  const Part& a = scene.parts[index_a];
+  const Part& b = scene.parts[index_b];
+  if (a.held()) return held_allowed(scene, index_a, b);
+  if (b.held()) return held_allowed(scene, index_b, a);
+  if (!b.link) return scene.cell->allowed_link_objects.contains({*a.link, b.name});
+  return scene.cell->allowed_link_pairs.contains(std::minmax(*a.link, *b.link));
 }
 
 // Adds the pairs of the arm's parts with all parts that `wanted` names, as one group.
@@ -104,7 +161,7 @@ void add_group(PlanningScene::Bodies& scene, PairGroup group, const Wanted& want
   for (const std::size_t a : scene.parts_of_arm[group.arm.index()]) {
     for (std::size_t b = 0; b < scene.parts.size(); ++b) {
       if (b == a || !wanted(a, scene.parts[b], b)) continue;
-      if (allowed(*scene.cell, scene.parts[a], scene.parts[b])) continue;
+      if (allowed(scene, a, b)) continue;
       scene.pairs.push_back({a, b});
     }
   }
@@ -138,6 +195,44 @@ void add_pairs(PlanningScene::Bodies& scene) {
   }
 }
 
+// Parts from `end` on are taken away.
+void cut(PlanningScene::Bodies& scene, std::size_t end) {
+  if (end == scene.parts.size()) return;
+  scene.bodies.resize(scene.parts[end].bodies_begin);
+  scene.parts.resize(end);
+  for (auto& parts : scene.parts_of_arm) {
+    std::erase_if(parts, [end](std::size_t part) { return part >= end; });
+  }
+}
+
+void add_held(PlanningScene::Bodies& scene) {
+  for (const Attachment& attachment : *scene.attachments) {
+    const Link& link = scene.cell->link(attachment.link);
+    Part part;
+    part.name = attachment.object.name;
+    part.carrier = attachment.link;
+    part.arm = link.arm;
+    part.robot = link.robot;
+    part.X_CP = attachment.X_LO;
+    add_part(scene, std::move(part),
+             {{attachment.object.shape, Eigen::Isometry3d::Identity()}});
+  }
+  scene.held_end = scene.parts.size();
+}
+
+// Precondition: the parts end with what is held.
+void add_objects(PlanningScene::Bodies& scene) {
+  for (const CollisionObject& object : scene.objects) {
+    Part part;
+    part.name = object.name;
+    part.X_CP = object.X_WO;
+    add_part(scene, std::move(part), {{object.shape, Eigen::Isometry3d::Identity()}});
+  }
+  scene.pairs.clear();
+  scene.groups.clear();
+  add_pairs(scene);
+}
+
 }  // namespace
 
 PlanningScene::PlanningScene() : bodies_(std::make_unique<Bodies>()) {}
@@ -146,52 +241,65 @@ const Cell& PlanningScene::cell() const { return *bodies_->cell; }
 const PlanningScene::Bodies& PlanningScene::bodies() const { return *bodies_; }
 
 const std::vector<CollisionObject>& PlanningScene::objects() const { return bodies_->objects; }
+const std::vector<Attachment>& PlanningScene::attachments() const { return *bodies_->attachments; }
+
+bool PlanningScene::holds_as(const PlanningScene& other) const {
+  return bodies_->attachments == other.bodies_->attachments ||
+         (attachments().empty() && other.attachments().empty());
+}
 
 Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
   Problems problems;
   find_link_problems(*cell, problems);
-  find_object_problems(cell->objects, problems);
+  find_object_problems(cell->objects, {}, problems);
   find_unknown_allowed(*cell, problems);
   if (!problems.empty()) return failure(std::move(problems));
 
   PlanningScene links;  // without objects yet
   Bodies& bodies = *links.bodies_;
   bodies.cell = cell;
+  bodies.attachments = std::make_shared<const std::vector<Attachment>>();
   bodies.parts_of_arm.resize(cell->arms.size());
   for (std::size_t i = 0; i < cell->links.size(); ++i) {
     const Link& link = cell->links[i];
     Part part;
     part.name = link.name;
-    part.link = LinkId{static_cast<std::uint32_t>(i)};
+    part.link = part.carrier = LinkId{static_cast<std::uint32_t>(i)};
     part.arm = link.arm;
     part.robot = link.robot;
     add_part(bodies, std::move(part), link.shapes);
   }
-  bodies.links_end = bodies.parts.size();
+  bodies.links_end = bodies.held_end = bodies.parts.size();
   return links.with_objects(cell->objects);
 }
 
 Result<PlanningScenePtr> PlanningScene::with_objects(std::vector<CollisionObject> objects) const {
   Problems problems;
-  find_object_problems(objects, problems);
+  find_object_problems(objects, attachments(), problems);
   if (!problems.empty()) return failure(std::move(problems));
 
   const std::shared_ptr<PlanningScene> scene(new PlanningScene);
   Bodies& bodies = *scene->bodies_;
   bodies = *bodies_;
-  if (bodies.links_end < bodies.parts.size()) {
-    bodies.bodies.resize(bodies.parts[bodies.links_end].bodies_begin);
-    bodies.parts.resize(bodies.links_end);
-  }
-  bodies.pairs.clear();
-  bodies.groups.clear();
-  for (const CollisionObject& object : objects) {
-    Part part;
-    part.name = object.name;
-    add_part(bodies, std::move(part), {{object.shape, Eigen::Isometry3d::Identity()}});
-  }
+  cut(bodies, bodies.held_end);
   bodies.objects = std::move(objects);
-  add_pairs(bodies);
+  add_objects(bodies);
+  return PlanningScenePtr(scene);
+}
+
+Result<PlanningScenePtr> PlanningScene::with_attachments(
+    std::vector<Attachment> attachments) const {
+  Problems problems;
+  find_attachment_problems(cell(), objects(), attachments, problems);
+  if (!problems.empty()) return failure(std::move(problems));
+
+  const std::shared_ptr<PlanningScene> scene(new PlanningScene);
+  Bodies& bodies = *scene->bodies_;
+  bodies = *bodies_;
+  cut(bodies, bodies.links_end);
+  bodies.attachments = std::make_shared<const std::vector<Attachment>>(std::move(attachments));
+  add_held(bodies);
+  add_objects(bodies);
   return PlanningScenePtr(scene);
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,16 +11,22 @@
 #include "core/collision/body.h"
 #include "core/collision/capsule_fit.h"
 #include "core/collision/planning_scene.h"
+#include "core/coordination/verdict.h"
+#include "core/model/attachment.h"
 #include "core/model/cell.h"
+#include "core/model/kinematics.h"
 
 namespace armloom {
 
-// A link with shapes, or an object: what is placed as one, with its bodies.
+// A link with shapes, or an object, held or not: what is placed as one, with its bodies.
 struct Part {
   std::string name;
-  std::optional<LinkId> link;    // none: an object
-  std::optional<ArmId> arm;      // that moves it; none: it stands still
-  std::optional<RobotId> robot;  // none: an object
+  std::optional<LinkId> link;     // none: an object
+  std::optional<LinkId> carrier;  // what it moves with: the link itself, or that which holds it
+  std::optional<ArmId> arm;       // that moves it; none: it stands still
+  std::optional<RobotId> robot;   // none: an object that stands still
+  // In the carrier, or in the world if it has none; of a link the identity.
+  Eigen::Isometry3d X_CP = Eigen::Isometry3d::Identity();
   std::size_t bodies_begin = 0;  // range in Bodies::bodies
   std::size_t bodies_end = 0;
   Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // centre and radius of its bounding sphere
@@ -27,7 +34,19 @@ struct Part {
   bool lone_box = false;              // its only body is a box: a sphere says little about a table
   std::vector<LinkCapsule> capsules;  // one or two, in P; each body lies in one (link_capsules.h)
   double capsule_excess_m = 0.0;      // how far they stand off the bodies
+
+  [[nodiscard]] bool held() const { return carrier && !link; }
+  // `X_WL`: of all links.
+  [[nodiscard]] Eigen::Isometry3d pose(const LinkPoses& X_WL) const {
+    if (!carrier) return X_CP;
+    return link ? X_WL[carrier->index()] : X_WL[carrier->index()] * X_CP;
+  }
 };
+
+// The evidence of two parts that are `clearance_m` apart.
+[[nodiscard]] inline Proximity proximity_of(const Part& a, const Part& b, double clearance_m) {
+  return {a.name, b.name, a.arm, b.arm, !b.carrier, clearance_m, a.held(), b.held()};
+}
 
 // Two parts that must not touch. The first belongs to the group's first arm.
 struct PartPair {
@@ -38,7 +57,7 @@ struct PartPair {
 // All pairs of one counterpart: judged or skipped together.
 struct PairGroup {
   enum class Kind {
-    arms,   // links of two arms
+    arms,   // links of two arms, with what they hold
     still,  // an arm against objects and the static links of other robots
     self,   // an arm against itself and the static links of its own robot
   };
@@ -50,12 +69,14 @@ struct PairGroup {
 };
 
 // Pairs are in the order of their groups: arms by (arm, other), then still, then self by arm; in a
-// group by link, then object.
+// group by link, then held object, then object.
 struct PlanningScene::Bodies {
   CellPtr cell;
   std::vector<CollisionObject> objects;
-  std::vector<Part> parts;    // links in the order of their ids, then objects
+  std::shared_ptr<const std::vector<Attachment>> attachments;  // shared while objects change
+  std::vector<Part> parts;    // links in the order of their ids, then held objects, then objects
   std::size_t links_end = 0;  // parts before it are links
+  std::size_t held_end = 0;   // parts from links_end to it are held
   std::vector<Body> bodies;
   std::vector<PartPair> pairs;
   std::vector<PairGroup> groups;
