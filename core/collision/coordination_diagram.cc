@@ -164,6 +164,9 @@ void CoordinationDiagram::collect(int index, Search& search) {
     case CellState::unknown:
       search.open.push_back(open);
       break;
+    case CellState::conflict:  // none of whose states is known to be the region's: still not free
+      if (search.conflict_at_s <= times->to) break;
+      [[fallthrough]];
     case CellState::finest:
       if (times->from < search.undecided_at_s) {
         search.undecided_at_s = times->from;

@@ -20,19 +20,22 @@ struct Axis {
   }
 };
 
+// Instants closer than this are one: progress is in whole nanoseconds, and seconds are rounded.
+constexpr double kInstant_s = 1e-9;
+
+// A range may end before it begins by no more than that rounding.
 std::optional<TimeRange> both(const Region& r, double a1, double a2, double b1, double b2) {
   const auto a = Axis{r.progress_a, r.lag_a, r.lead_a, r.duration_a}.times(a1, a2);
   const auto b = Axis{r.progress_b, r.lag_b, r.lead_b, r.duration_b}.times(b1, b2);
   if (!a || !b) return std::nullopt;
   const TimeRange range{std::max(a->from, b->from), std::min(a->to, b->to)};
-  return range.from <= range.to ? std::optional(range) : std::nullopt;
+  return range.from <= range.to + 2.0 * kInstant_s ? std::optional(range) : std::nullopt;
 }
 
 }  // namespace
 
 std::optional<TimeRange> meets(const Region& region, double a1, double a2, double b1, double b2) {
   // A single instant at a corner belongs to the next cell too.
-  constexpr double kInstant_s = 1e-9;
   const auto range = both(region, a1, a2, b1, b2);
   return range && range->to - range->from > kInstant_s ? range : std::nullopt;
 }
