@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
     for (const auto& [name, states] : workloads.states) compare_with_exact(name, states);
     for (const auto& [name, motions] : workloads.motions) tell_distance(name, motions);
     register_moveit_way(workloads);
+    register_engine(workloads);
     benchmark::RunSpecifiedBenchmarks();
   } catch (const std::exception& failed) {
     std::fprintf(stderr, "collision_bench: %s\n", failed.what());

@@ -30,5 +30,6 @@ struct Workloads {
 // Each adds its benchmarks, named "<way>/<workload>", of the same workloads; these must outlive the
 // run. An iteration is one state (in turn) or one admission.
 void register_moveit_way(const Workloads& workloads);
+void register_engine(const Workloads& workloads);
 
 }  // namespace armloom::bench

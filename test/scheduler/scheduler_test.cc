@@ -56,9 +56,25 @@ TEST(Admission, AsksAgainWhenTheInstantHasPassed) {
   bench.answer_free(at(10ms));
   EXPECT_EQ(bench.state(job), JobState::queued);
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->start_at, at(10ms + 2 * kAllowanceMin));
+  EXPECT_EQ(bench.question->start_at, at(10ms + 15ms));  // half as much again as it took
   bench.answer_free(at(12ms));
   EXPECT_EQ(bench.state(job), JobState::scheduled);
+}
+
+TEST(Admission, ForgetsOneLongJudgementWithAFewShortOnes) {
+  Bench bench(8);
+  (void)bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(400ms));  // too late by far: asked again for an instant 600 ms ahead
+  EXPECT_EQ(bench.question->start_at, at(1000ms));
+  bench.answer_free(at(402ms));
+  Duration ahead{};
+  for (std::size_t arm = 1; arm < 8; ++arm) {
+    const Duration now = 402ms + arm * 10ms;
+    (void)bench.submit(move({static_cast<std::uint32_t>(arm)}, 0, 1, 2s), at(now));
+    ahead = bench.question->start_at - at(now);
+    bench.answer_free(at(now + 1ms));
+  }
+  EXPECT_LE(ahead, 6ms);
 }
 
 TEST(Admission, IgnoresAVerdictOnOlderReservations) {
@@ -256,8 +272,9 @@ TEST(Policies, AreKnownByName) {
   }
   const auto unknown = make_policy("clever", *cell);
   ASSERT_FALSE(unknown);
-  EXPECT_EQ(unknown.error().front().detail,
-            "unknown policy \"clever\"; known are sequential, reservation, timed_discrete, certified");
+  EXPECT_EQ(
+      unknown.error().front().detail,
+      "unknown policy \"clever\"; known are sequential, reservation, timed_discrete, certified");
 }
 
 }  // namespace

@@ -1,0 +1,148 @@
+// The engine on the workloads of the baseline. Names: "engine/<question>/<workload>".
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/collision/arbiter.h"
+#include "core/collision/state_check.h"
+#include "test/bench/collision_bench.h"
+
+namespace armloom::bench {
+namespace {
+
+PlanningScenePtr scene_of(const CellPtr& cell) { return PlanningScene::build(cell).value(); }
+
+// One iteration: one state; eight are decided at once.
+template <class Ask>
+void per_state(benchmark::State& run, const States& states, const Ask& ask) {
+  std::vector<const Configuration*> eight(filter::kLanes);
+  std::size_t next = 0;
+  std::size_t too_close = 0;
+  std::size_t asked = 0;
+  while (run.KeepRunningBatch(filter::kLanes)) {
+    for (const Configuration*& q : eight) {
+      q = &states.all[next];
+      next = next + 1 == states.all.size() ? 0 : next + 1;
+    }
+    too_close += static_cast<std::size_t>(__builtin_popcount(ask(eight)));
+    asked += eight.size();
+  }
+  run.counters["not_clear_percent"] =
+      100.0 * static_cast<double>(too_close) / static_cast<double>(asked);
+}
+
+// Motions of one question: the tubes and diagrams of earlier ones are not kept, so that each
+// iteration finds nothing known ("cold"); or those of the motions that run are, because they were
+// judged when they were admitted, and only the candidate is new ("running").
+void per_admission(benchmark::State& run, const Motions& motions, std::size_t candidate,
+                   const CheckMethod& method, bool running, bool must_be_free) {
+  const PlanningScenePtr scene = scene_of(motions.cell);
+  const Question question = admission(motions, candidate, method);
+  Verdict verdict{Verdict::Kind::undecided, 0, {}, std::nullopt, 0};
+  for (auto _ : run) {
+    run.PauseTiming();
+    Arbiter arbiter(scene);
+    if (running && motions.trajectories.size() > 1) {
+      Question before = admission(motions, candidate == 0 ? 1 : 0, method);
+      std::erase_if(before.others, [&](const Motion& other) {
+        return other.trajectory == motions.trajectories[candidate];
+      });
+      benchmark::DoNotOptimize(arbiter.judge(before));
+    }
+    run.ResumeTiming();
+    verdict = arbiter.judge(question);
+    run.PauseTiming();
+    arbiter = Arbiter(scene);  // what it holds is let go outside of the measurement
+    run.ResumeTiming();
+  }
+  run.counters["evaluations"] = static_cast<double>(verdict.evaluations);
+  if (must_be_free && verdict.kind != Verdict::Kind::free) run.SkipWithError("not free");
+}
+
+// Only the two motions against each other.
+void cross_arm(benchmark::State& run, const Motions& motions, bool must_be_free) {
+  const PlanningScenePtr scene = scene_of(motions.cell);
+  const Region region{.duration_a = to_seconds(motions.trajectories[0]->duration()),
+                      .duration_b = to_seconds(motions.trajectories[1]->duration())};
+  const auto left = std::make_shared<const ArmGeometry>(scene->bodies(), ArmId{0});
+  const auto right = std::make_shared<const ArmGeometry>(scene->bodies(), ArmId{1});
+  const PairSet pairs = cross_pairs(scene->bodies(), left->linkage, right->linkage);
+  CoordinationDiagram::Answer answer;
+  for (auto _ : run) {
+    CoordinationDiagram diagram(
+        {&scene->bodies(), &pairs},
+        std::make_shared<MotionTube>(left, motions.trajectories[0], motions.rest, 0.0),
+        std::make_shared<MotionTube>(right, motions.trajectories[1], motions.rest, 0.0));
+    answer = diagram.ask(region, Arbiter::kBudget);
+    benchmark::DoNotOptimize(answer);
+  }
+  run.counters["evaluations"] = static_cast<double>(answer.evaluations);
+  if (must_be_free && !answer.free) run.SkipWithError("not free");
+}
+
+void register_states(const Workloads& workloads) {
+  for (const auto& [name, workload] : workloads.states) {
+    const States& states = workload;
+    const PlanningScenePtr scene = scene_of(states.cell);
+    const auto decided = [&](const std::string& question, const StateCheck::Limits& limits) {
+      benchmark::RegisterBenchmark(
+          ("engine/" + question + "/" + name).c_str(), [&states, scene, limits](auto& run) {
+            StateCheck check(scene, limits);
+            per_state(run, states, [&](const auto& eight) { return check.too_close(eight); });
+          });
+    };
+    decided("decided_contact", {0.0, 0.0});
+    decided("decided_clearance", {scene->cell().clearance_m, scene->cell().self_clearance_m});
+    for (const filter::Kernel* kernel : filter::kernels()) {
+      benchmark::RegisterBenchmark(
+          ("engine/filter_" + std::string(kernel->name) + "/" + name).c_str(),
+          [&states, scene, kernel](auto& run) {
+            StateCheck check(scene, {0.0, 0.0}, *kernel);
+            per_state(run, states,
+                      [&](const auto& eight) { return check.open_by_capsules(eight); });
+          });
+    }
+  }
+}
+
+void register_admissions(const Workloads& workloads) {
+  using namespace std::chrono_literals;
+  const double tracking = 0.001;
+  for (const auto& [name, workload] : workloads.motions) {
+    const Motions& motions = workload;
+    benchmark::RegisterBenchmark(("engine/cross_arm/" + name).c_str(),
+                                 [&motions](auto& run) { cross_arm(run, motions, true); });
+    const auto complete = [&](const std::string& question, const CheckMethod& method,
+                              bool running) {
+      benchmark::RegisterBenchmark(("engine/" + question + "/" + name).c_str(),
+                                   [&motions, method, running](auto& run) {
+                                     const bool swept = std::holds_alternative<Swept>(method);
+                                     per_admission(run, motions, 0, method, running, !swept);
+                                   });
+    };
+    complete("admission_line_cold", Certified{0ms, false, tracking}, false);
+    complete("admission_stopping_cold", Certified{0ms, true, tracking}, false);
+    complete("admission_band_cold", Certified{100ms, true, tracking}, false);
+    complete("admission_band_running", Certified{100ms, true, tracking}, true);
+    complete("admission_swept_cold", Swept{tracking}, false);
+  }
+  for (const auto& [others, workload] : workloads.halls) {
+    const Hall& hall = workload;
+    benchmark::RegisterBenchmark(
+        ("engine/admission_band_running/hall_" + std::to_string(others)).c_str(),
+        [&hall](auto& run) {
+          per_admission(run, hall.motions, hall.candidate, Certified{100ms, true, 0.001}, true,
+                        false);
+        });
+  }
+}
+
+}  // namespace
+
+void register_engine(const Workloads& workloads) {
+  register_states(workloads);
+  register_admissions(workloads);
+}
+
+}  // namespace armloom::bench
