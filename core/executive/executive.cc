@@ -187,6 +187,10 @@ Result<std::vector<Result<JobView>>> Executive::submit_batch(std::vector<JobRequ
 void Executive::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
   impl_->check(std::move(request), std::move(done));
 }
+void Executive::diagram(const std::string& key_a, const std::string& key_b,
+                        std::function<void(Result<DiagramView>)> done) {
+  impl_->diagram(key_a, key_b, std::move(done));
+}
 Result<JobView> Executive::cancel(const std::string& key) { return impl_->cancel(key); }
 void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause) {
   impl_->tell(

@@ -10,6 +10,7 @@
 #include "core/arm/faulty_arm.h"
 #include "core/base/problem.h"
 #include "core/collision/judge.h"
+#include "core/coordination/diagram.h"
 #include "core/executive/events.h"
 #include "core/model/cell.h"
 #include "core/trajectory/validate.h"
@@ -26,13 +27,27 @@ struct JobRequest {
   std::vector<std::string> after;           // keys of jobs that have to succeed first
 };
 
+// "What do these two motions do to each other, wherever each is on its way?" As Arbiter::draw().
+struct Drawing {
+  TrajectoryPtr a;
+  TrajectoryPtr b;
+  Configuration rest;  // where the joints stand that are in neither
+  double tracking_error;
+  Duration resolution;
+  std::uint64_t budget;  // cells, for each pair of arms
+};
+
 // Where judgements are computed. Called on the strand; `done` must be called exactly once, on the
-// strand again, with the verdict.
+// strand again, with the answer.
 class JudgePool {
  public:
   virtual ~JudgePool() = default;
   virtual void ask(Question question, PlanningScenePtr scene,
                    std::function<void(Verdict)> done) = 0;
+  // For people who look: changes no verdict and delays none. False: too many are being drawn, and
+  // `done` is not called.
+  [[nodiscard]] virtual bool draw(Drawing drawing, PlanningScenePtr scene,
+                                  std::function<void(Diagram)> done) = 0;
 };
 
 // Where everything that happens is told. Called on the strand; must not block.
@@ -71,6 +86,28 @@ struct CheckView {
   std::uint64_t scene_version = 0;
 };
 
+// The coordination diagram of two jobs: a layer for each arm of A and each other arm of B, whose
+// cells cover the rectangle of both durations. Times of cells and sides are trajectory time.
+struct DiagramView {
+  struct Side {
+    std::string job;  // key
+    JobState state = JobState::queued;
+    Duration duration{};
+    Duration progress{};  // at `time`
+  };
+  struct Layer {
+    std::string arm_a;
+    std::string arm_b;
+    std::vector<DiagramCell> cells;
+  };
+  TimePoint time;  // when it was asked for
+  Side a;
+  Side b;
+  std::vector<Layer> layers;
+  std::uint64_t evaluations = 0;
+  std::uint64_t scene_version = 0;
+};
+
 // A fault of a simulated arm, as a client asks for it.
 struct FaultRequest {
   std::string arm;
@@ -105,6 +142,11 @@ class Executive {
   // Judges the job as if it were to start now, beside everything that holds a reservation, and
   // changes nothing. `done` is called on the strand, at once or when the verdict is there.
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
+  // What the motions of two jobs do to each other, ended jobs included while they are known. `done`
+  // is called on the strand, at once or when it is drawn. Problems: not_found; invalid: no two
+  // different arms are in it; unavailable: too many are being drawn. Pointers: "?with" for B.
+  void diagram(const std::string& key_a, const std::string& key_b,
+               std::function<void(Result<DiagramView>)> done);
   // Problems: not_found; conflict when it has ended.
   [[nodiscard]] Result<JobView> cancel(const std::string& key);
 

@@ -32,6 +32,10 @@ class Executive::Impl final : public JobNames {
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
   Result<JobView> cancel(const std::string& key);
 
+  // drawing.cc
+  void diagram(const std::string& key_a, const std::string& key_b,
+               std::function<void(Result<DiagramView>)> done);
+
   // surroundings.cc
   Result<void> change_objects(std::vector<CollisionObject> objects);
   Result<void> add_object(CollisionObject object);
@@ -91,6 +95,8 @@ class Executive::Impl final : public JobNames {
   Result<Prepared> prepare(JobRequest request, Ahead& ahead) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   JobView accept(Prepared prepared);
+  Result<const Job*> known(const std::string& key, const std::string& pointer) const;
+  DiagramView::Side side_of(const Job& job) const;
   std::string free_key(JobId id) const;
 
   void carry_out(const Effect& effect);

@@ -20,6 +20,9 @@ using Wall = std::chrono::steady_clock;
 // slip instead of running a burst of cycles.
 constexpr Wall::duration kCatchUpMax = std::chrono::milliseconds(50);
 
+// So many diagrams may be asked for and not drawn yet.
+constexpr int kDrawingsMax = 16;
+
 // A closed-off inbox: posted by any thread, taken whole by the one that owns it.
 template <class Item>
 class Inbox {
@@ -56,26 +59,31 @@ class RealTimeLoop::Impl final : public JudgePool {
   explicit Impl(double speed) : speed_(speed) {}
 
   ~Impl() override {
-    // The judge first: it posts into the loop's inbox.
-    if (judge_.joinable()) {
-      judge_.request_stop();
-      judge_.join();
-    }
-    if (loop_.joinable()) {
-      loop_.request_stop();
-      loop_.join();
+    // The workers first: they post into the loop's inbox.
+    for (std::jthread* thread : {&judge_, &artist_, &loop_}) {
+      if (!thread->joinable()) continue;
+      thread->request_stop();
+      thread->join();
     }
   }
 
   void run(std::unique_ptr<Executive> executive) {
     executive_ = std::move(executive);
     judge_ = std::jthread([this](std::stop_token stop) { judge_questions(stop); });
+    artist_ = std::jthread([this](std::stop_token stop) { draw_diagrams(stop); });
     loop_ = std::jthread([this](std::stop_token stop) { cycle(stop); });
   }
 
   // The scheduler has at most one question open; what else comes in are clients' checks.
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
     questions_.post({std::move(question), std::move(scene), std::move(done)});
+  }
+
+  bool draw(Drawing drawing, PlanningScenePtr scene, std::function<void(Diagram)> done) override {
+    if (open_drawings_ >= kDrawingsMax) return false;
+    ++open_drawings_;
+    drawings_.post({std::move(drawing), std::move(scene), std::move(done)});
+    return true;
   }
 
   void post(std::function<void(Executive&)> command) { commands_.post(std::move(command)); }
@@ -89,6 +97,12 @@ class RealTimeLoop::Impl final : public JudgePool {
     std::function<void(Verdict)> done;
   };
 
+  struct ToDraw {
+    Drawing drawing;
+    PlanningScenePtr scene;
+    std::function<void(Diagram)> done;
+  };
+
   void judge_questions(std::stop_token stop) {
     std::optional<Arbiter> arbiter;
     while (!stop.stop_requested()) {
@@ -97,6 +111,26 @@ class RealTimeLoop::Impl final : public JudgePool {
         arbiter->look_at(asked.scene);
         post([verdict = arbiter->judge(asked.question), done = std::move(asked.done)](Executive&) {
           done(verdict);
+        });
+      }
+    }
+  }
+
+  // On a thread of its own, with its own arbiter: whoever looks keeps no job waiting.
+  void draw_diagrams(std::stop_token stop) {
+    std::optional<Arbiter> arbiter;
+    while (!stop.stop_requested()) {
+      for (ToDraw& asked : drawings_.take(stop)) {
+        if (stop.stop_requested()) return;
+        if (!arbiter) arbiter.emplace(asked.scene);
+        arbiter->look_at(asked.scene);
+        const Drawing& drawing = asked.drawing;
+        post([this,
+              diagram = arbiter->draw(drawing.a, drawing.b, drawing.rest, drawing.tracking_error,
+                                      drawing.resolution, drawing.budget),
+              done = std::move(asked.done)](Executive&) {
+          --open_drawings_;
+          done(diagram);
         });
       }
     }
@@ -120,9 +154,12 @@ class RealTimeLoop::Impl final : public JudgePool {
 
   std::atomic<double> speed_;
   Inbox<Asked> questions_;
+  Inbox<ToDraw> drawings_;
+  int open_drawings_ = 0;  // the loop thread's
   Inbox<std::function<void(Executive&)>> commands_;
   std::unique_ptr<Executive> executive_;  // the loop thread's
   std::jthread judge_;
+  std::jthread artist_;
   std::jthread loop_;
 };
 

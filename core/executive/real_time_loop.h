@@ -9,7 +9,7 @@
 namespace armloom {
 
 // Runs an Executive in (scaled) real time on a thread of its own, with a worker thread for
-// judgements. All public calls are thread-safe.
+// judgements and one for diagrams. All public calls are thread-safe.
 class RealTimeLoop {
  public:
   // The observer is called on the loop's thread and outlives the loop. speed > 0: cell seconds per

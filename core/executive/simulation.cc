@@ -16,7 +16,17 @@ class Simulation::Judge final : public JudgePool {
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
     if (!arbiter_) arbiter_.emplace(scene);
     arbiter_->look_at(std::move(scene));
-    pending_.push_back({now_ + kSimulatedJudgement, arbiter_->judge(question), std::move(done)});
+    answer([verdict = arbiter_->judge(question), done = std::move(done)] { done(verdict); });
+  }
+
+  // By an arbiter of its own: what has been drawn must not change the evaluations of a verdict.
+  bool draw(Drawing drawing, PlanningScenePtr scene, std::function<void(Diagram)> done) override {
+    if (!artist_) artist_.emplace(scene);
+    artist_->look_at(std::move(scene));
+    answer([diagram = artist_->draw(drawing.a, drawing.b, drawing.rest, drawing.tracking_error,
+                                    drawing.resolution, drawing.budget),
+            done = std::move(done)] { done(diagram); });
+    return true;
   }
 
   void deliver(TimePoint now) {
@@ -24,17 +34,21 @@ class Simulation::Judge final : public JudgePool {
     while (!pending_.empty() && pending_.front().due <= now) {
       Answer answer = std::move(pending_.front());
       pending_.pop_front();
-      answer.done(std::move(answer.verdict));
+      answer.deliver();
     }
   }
 
  private:
   struct Answer {
     TimePoint due;
-    Verdict verdict;
-    std::function<void(Verdict)> done;
+    std::function<void()> deliver;
   };
+  void answer(std::function<void()> deliver) {
+    pending_.push_back({now_ + kSimulatedJudgement, std::move(deliver)});
+  }
+
   std::optional<Arbiter> arbiter_;
+  std::optional<Arbiter> artist_;
   TimePoint now_{};
   std::deque<Answer> pending_;
 };

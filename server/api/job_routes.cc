@@ -45,6 +45,30 @@ void cancel_job(const ApiParts& parts, const std::string& key, Respond respond) 
       });
 }
 
+// The other job's id.
+Result<std::string> read_with(const Target& target) {
+  const auto with = target.parameter("with");
+  if (with && !with->empty()) return *with;
+  return failure(Problem{ProblemKind::malformed, "missing-parameter", "?with",
+                         "name the other job: ?with=<id>"});
+}
+
+void get_diagram(const ApiParts& parts, const Request& request, const std::string& key,
+                 Respond respond) {
+  const auto with = read_with(request.target);
+  if (!with) return respond(problem_response(with.error()));
+  parts.loop.post([&parts, key, with = *with, respond = std::move(respond)](Executive& executive) {
+    executive.diagram(key, with, [&parts, respond](Result<DiagramView> result) {
+      parts.post([respond, result = std::move(result)] {
+        if (!result) return respond(problem_response(result.error()));
+        JsonWriter out;
+        write(out, *result);
+        respond(json_response(200, out.take()));
+      });
+    });
+  });
+}
+
 void write_jobs(JsonWriter& out, const std::vector<JobView>& jobs,
                 const std::vector<std::string>& keys, const WallClock& clock) {
   out.begin_array();
@@ -89,6 +113,11 @@ void add_job_routes(Router& router, const ApiParts& parts) {
   router.add("GET", jobs + "/{}", [&parts](const Request&, const Arguments& a, Respond respond) {
     get_job(parts, a.front(), std::move(respond));
   });
+  router.add("GET", jobs + "/{}/diagram",
+             [&parts](const Request& request, const Arguments& a, Respond respond) {
+               get_diagram(parts, request, a.front(), std::move(respond));
+             },
+             {"with"});
   router.add("DELETE", jobs + "/{}", [&parts](const Request&, const Arguments& a, Respond respond) {
     cancel_job(parts, a.front(), std::move(respond));
   });

@@ -85,6 +85,20 @@ void begin_envelope(JsonWriter& out, const std::string& stream, std::uint64_t se
   out.key("data");
 }
 
+void write(JsonWriter& out, const DiagramView::Side& side) {
+  out.begin_object().field("id", side.job).field("state", to_string(side.state));
+  out.field("duration_s", side.duration).field("progress_s", side.progress).end_object();
+}
+
+void write(JsonWriter& out, const DiagramCell& cell) {
+  const char* state = cell.state == DiagramCell::State::free       ? "free"
+                      : cell.state == DiagramCell::State::conflict ? "conflict"
+                                                                   : "undecided";
+  out.begin_object().field("state", state);
+  out.key("a_s").begin_array().value(cell.from_a).value(cell.to_a).end_array();
+  out.key("b_s").begin_array().value(cell.from_b).value(cell.to_b).end_array().end_object();
+}
+
 std::string uuid(std::uint64_t high, std::uint64_t low, unsigned version) {
   high = (high & ~0xF000ULL) | (static_cast<std::uint64_t>(version) << 12U);
   low = (low & 0x3FFF'FFFF'FFFF'FFFFULL) | 0x8000'0000'0000'0000ULL;  // RFC 9562 variant
@@ -141,6 +155,22 @@ void write(JsonWriter& out, const CheckView& verdict) {
   out.begin_object();
   write_fields(out, verdict);
   out.end_object();
+}
+
+void write(JsonWriter& out, const DiagramView& diagram) {
+  out.begin_object().field("t_s", diagram.time).key("a");
+  write(out, diagram.a);
+  out.key("b");
+  write(out, diagram.b);
+  out.key("layers").begin_array();
+  for (const DiagramView::Layer& layer : diagram.layers) {
+    out.begin_object().key("arms").begin_array().value(layer.arm_a).value(layer.arm_b).end_array();
+    out.key("cells").begin_array();
+    for (const DiagramCell& cell : layer.cells) write(out, cell);
+    out.end_array().end_object();
+  }
+  out.end_array().field("evaluations", diagram.evaluations);
+  out.field("scene_version", diagram.scene_version).end_object();
 }
 
 std::string event_json(const Event& event, const std::string& stream, const WallClock* clock) {

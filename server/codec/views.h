@@ -21,6 +21,9 @@ void write(JsonWriter& out, const CheckView& verdict);
 // Its fields alone, so that others can stand beside them.
 void write_fields(JsonWriter& out, const CheckView& verdict);
 
+// The coordination diagram of two jobs, as a whole object.
+void write(JsonWriter& out, const DiagramView& diagram);
+
 // One envelope {"stream", "seq", "type", "t_s", "at", "data"}.
 [[nodiscard]] std::string event_json(const Event& event, const std::string& stream,
                                      const WallClock* clock);

@@ -20,6 +20,7 @@ namespace {
 class NoJudges final : public JudgePool {
  public:
   void ask(Question, PlanningScenePtr, std::function<void(Verdict)>) override {}
+  bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
 };
 class NoObserver final : public Observer {
  public:

@@ -152,6 +152,12 @@ test('Jobs, good and bad', async () => {
   await call(202, 'POST', `${v1}/jobs`, {body: meet});
   await until('the reason why it waits', async () =>
     (await call(200, 'GET', `${v1}/queue`)).backlog.find((job) => job.waits_on.length > 0));
+  const diagram = (status, query) => call(status, 'GET', `${v1}/jobs/{id}/diagram`, {args: {id: 'meet'}, query});
+  const drawn = await diagram(200, '?with=reach');
+  assert.deepEqual([drawn.a.id, drawn.b.id, drawn.layers[0].arms], ['meet', 'reach', ['right', 'left']]);
+  await diagram(400, '');
+  await diagram(404, '?with=nothing');
+  await diagram(422, '?with=meet');
   await call(202, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'meet'}});
   await call(409, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'meet'}});
   await call(404, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'nothing'}});

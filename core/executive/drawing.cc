@@ -1,0 +1,115 @@
+// The coordination diagram of two jobs, for people who want to see why one waits.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/executive/executive_impl.h"
+
+namespace armloom {
+namespace {
+
+// A picture of two motions of some seconds to the hundredth of its width; takes a fraction of a
+// second on a thread that nobody waits for. Longer ones get coarser cells.
+constexpr Duration kResolution = std::chrono::milliseconds(20);
+constexpr std::uint64_t kCells = 32'000;
+
+// Whether both together are one rectangle of one state.
+bool joins(const DiagramCell& x, const DiagramCell& y) {
+  const bool same_a = x.from_a == y.from_a && x.to_a == y.to_a;
+  const bool same_b = x.from_b == y.from_b && x.to_b == y.to_b;
+  return x.state == y.state && ((same_a && (x.to_b == y.from_b || y.to_b == x.from_b)) ||
+                                (same_b && (x.to_a == y.from_a || y.to_a == x.from_a)));
+}
+
+// Place on the curve that visits a rectangle quarter by quarter (Morton 1966): cells that a tree of
+// quarters has split apart come one after the other.
+std::uint64_t place_of(const DiagramCell& cell, const Diagram& diagram) {
+  const auto share = [](Duration from, Duration whole) {
+    return static_cast<std::uint64_t>(std::llround(to_seconds(from) / to_seconds(whole) * 65536.0));
+  };
+  const std::uint64_t a = share(cell.from_a, diagram.duration_a);
+  const std::uint64_t b = share(cell.from_b, diagram.duration_b);
+  std::uint64_t place = 0;
+  for (unsigned bit = 0; bit < 17; ++bit) {
+    place |= (((a >> bit) & 1U) << (2 * bit + 1)) | (((b >> bit) & 1U) << (2 * bit));
+  }
+  return place;
+}
+
+// What holds in neighbours holds in their union: a conflict is proven in small cells only, but most
+// of it can be told in large ones.
+std::vector<DiagramCell> joined(std::vector<DiagramCell> cells, const Diagram& diagram) {
+  std::ranges::sort(cells, {}, [&](const DiagramCell& cell) { return place_of(cell, diagram); });
+  std::vector<DiagramCell> result;
+  for (DiagramCell cell : cells) {
+    while (!result.empty() && joins(result.back(), cell)) {
+      const DiagramCell& last = result.back();
+      cell = {std::min(last.from_a, cell.from_a), std::max(last.to_a, cell.to_a),
+              std::min(last.from_b, cell.from_b), std::max(last.to_b, cell.to_b), cell.state};
+      result.pop_back();
+    }
+    result.push_back(cell);
+  }
+  return result;
+}
+
+bool share_no_space(const Trajectory& a, const Trajectory& b) {
+  return a.arms().size() == 1 && a.arms() == b.arms();
+}
+
+}  // namespace
+
+Result<const Job*> Executive::Impl::known(const std::string& key,
+                                          const std::string& pointer) const {
+  const auto it = ids_.find(key);
+  if (it != ids_.end()) return scheduler_.find(it->second);
+  return failure(Problem{ProblemKind::not_found, "no-such-job", pointer,
+                         "there is no job \"" + key + "\"", key});
+}
+
+DiagramView::Side Executive::Impl::side_of(const Job& job) const {
+  return {.job = key(job.id),
+          .state = job.state,
+          .duration = job.trajectory->duration(),
+          .progress = std::clamp(job.progress, Duration{}, job.trajectory->duration())};
+}
+
+void Executive::Impl::diagram(const std::string& key_a, const std::string& key_b,
+                              std::function<void(Result<DiagramView>)> done) {
+  const auto a = known(key_a, "request target");
+  if (!a) return done(failure(a.error()));
+  const auto b = known(key_b, "?with");
+  if (!b) return done(failure(b.error()));
+  const auto refuse = [&](const char* slug, std::string detail) {
+    done(failure(Problem{ProblemKind::invalid, slug, "?with", std::move(detail), key_b}));
+  };
+  if (*a == *b)
+    return refuse("same-job", "a diagram is of two jobs, found \"" + key_b + "\" twice");
+  const TrajectoryPtr motion_a = (*a)->trajectory;
+  const TrajectoryPtr motion_b = (*b)->trajectory;
+  if (share_no_space(*motion_a, *motion_b)) {
+    return refuse("same-arm", "both jobs move arm " + names_of(motion_b->arms()) +
+                                  ": one comes after the other");
+  }
+  DiagramView view{
+      .time = now_, .a = side_of(**a), .b = side_of(**b), .scene_version = scene_version_};
+  Drawing drawing{.a = motion_a,
+                  .b = motion_b,
+                  .rest = scheduler_.hypothetical(motion_a, now_).rest,
+                  .tracking_error = cell_->checking.tracking_error_rad,
+                  .resolution = kResolution,
+                  .budget = kCells};
+  const auto drawn = [this, view = std::move(view), done](const Diagram& diagram) mutable {
+    view.evaluations = diagram.evaluations;
+    for (const DiagramLayer& layer : diagram.layers) {
+      view.layers.push_back({cell_->arm(layer.arm_a).name, cell_->arm(layer.arm_b).name,
+                             joined(layer.cells, diagram)});
+    }
+    done(std::move(view));
+  };
+  if (judges_.draw(std::move(drawing), scene_, drawn)) return;
+  done(failure(Problem{ProblemKind::unavailable, "too-many-diagrams", "",
+                       "too many diagrams are being drawn; ask again in a moment"}));
+}
+
+}  // namespace armloom
