@@ -1,6 +1,9 @@
 // The HTTP calls that the page makes. Every answer is a value: what was asked for, or a Problem.
 
-import { parse_cell, parse_job, parse_problem, type Cell, type Job, type Problem } from './messages';
+import {
+  parse_cell, parse_diagram, parse_job, parse_problem,
+  type Cell, type Diagram, type Job, type Parsed, type Problem,
+} from './messages';
 
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
 export type Fetch = (url: string, init?: RequestInit) => Promise<Response>;
@@ -9,17 +12,16 @@ export class Api {
   constructor(private readonly base_: string, private readonly fetch_: Fetch) {}
 
   async cell(): Promise<Answer<Cell>> {
-    const answer = await this.ask('GET', '/cell');
-    if (!answer.ok) return answer;
-    const cell = parse_cell(answer.value);
-    return cell.ok ? { ok: true, value: cell.value } : { ok: false, problem: own_problem('The cell cannot be read', cell.fault) };
+    return checked('cell', await this.ask('GET', '/cell'), parse_cell);
   }
 
   async job(id: string): Promise<Answer<Job>> {
-    const answer = await this.ask('GET', `/jobs/${encodeURIComponent(id)}`);
-    if (!answer.ok) return answer;
-    const job = parse_job(answer.value);
-    return job.ok ? { ok: true, value: job.value } : { ok: false, problem: own_problem('The job cannot be read', job.fault) };
+    return checked('job', await this.ask('GET', `/jobs/${encodeURIComponent(id)}`), parse_job);
+  }
+
+  async diagram(a: string, b: string): Promise<Answer<Diagram>> {
+    const path = `/jobs/${encodeURIComponent(a)}/diagram?with=${encodeURIComponent(b)}`;
+    return checked('diagram', await this.ask('GET', path), parse_diagram);
   }
 
   /** Posts the text as it stands: the server is the judge of it, JSON errors included. */
@@ -54,6 +56,14 @@ export class Api {
       return { ok: false, problem: own_problem('The server does not answer', String(error)) };
     }
   }
+}
+
+function checked<T>(what: string, answer: Answer<unknown>, parse: (value: unknown) => Parsed<T>): Answer<T> {
+  if (!answer.ok) return answer;
+  const parsed = parse(answer.value);
+  return parsed.ok
+    ? { ok: true, value: parsed.value }
+    : { ok: false, problem: own_problem(`The ${what} cannot be read`, parsed.fault) };
 }
 
 function read_problem(text: string, response: Response): Problem {

@@ -15,6 +15,9 @@ const kJobStates: readonly JobState[] = [
   'queued', 'backlogged', 'scheduled', 'running', 'holding',
   'succeeded', 'canceled', 'expired', 'failed', 'interrupted',
 ];
+export type CellState = 'free' | 'conflict' | 'undecided';
+
+const kCellStates: readonly CellState[] = ['free', 'conflict', 'undecided'];
 const kWaitKinds: readonly WaitKind[] = ['job', 'arm', 'object', 'order', 'capacity', 'stop'];
 
 export interface Arm {
@@ -125,6 +128,23 @@ export interface Clearance {
   links: [string, string] | null;
 }
 
+/** A rectangle of trajectory times of A and of B, each [from, to]. */
+export interface DiagramCell { state: CellState; a_s: [number, number]; b_s: [number, number] }
+
+export interface DiagramSide { id: string; duration_s: number; progress_s: number }
+
+/** What one arm of A and one arm of B do to each other, wherever each is on its way. */
+export interface DiagramLayer { arms: [string, string]; cells: DiagramCell[] }
+
+/** The coordination diagram of two jobs. */
+export interface Diagram {
+  a: DiagramSide;
+  b: DiagramSide;
+  layers: DiagramLayer[];
+  evaluations: number;
+  scene_version: number;
+}
+
 /** RFC 9457, with the place of the fault and the value found. */
 export interface Problem {
   title: string;
@@ -214,6 +234,10 @@ export function parse_cell(value: unknown): Parsed<Cell> {
 
 export function parse_job(value: unknown): Parsed<Job> {
   return attempt(() => read_job(at(value, '')));
+}
+
+export function parse_diagram(value: unknown): Parsed<Diagram> {
+  return attempt(() => read_diagram(at(value, '')));
 }
 
 export function parse_problem(value: unknown): Parsed<Problem> {
@@ -412,6 +436,24 @@ function read_joint(f: Field): CellJoint {
   };
 }
 
+function read_diagram(f: Field): Diagram {
+  const side = (e: Field): DiagramSide => ({
+    id: e.get('id').text(), duration_s: e.get('duration_s').number(), progress_s: e.get('progress_s').number(),
+  });
+  return {
+    a: side(f.get('a')),
+    b: side(f.get('b')),
+    layers: f.get('layers').list((layer) => ({
+      arms: layer.get('arms').text_pair_or_null() ?? layer.get('arms').fail('two strings'),
+      cells: layer.get('cells').list((cell) => ({
+        state: cell.get('state').one_of(kCellStates), a_s: cell.get('a_s').pair(), b_s: cell.get('b_s').pair(),
+      })),
+    })),
+    evaluations: f.get('evaluations').number(),
+    scene_version: f.get('scene_version').number(),
+  };
+}
+
 function read_problem(f: Field): Problem {
   const place = (e: Field) => ({
     pointer: e.get('pointer').or_null((p) => p.text()),
@@ -464,6 +506,11 @@ class Field {
     const [x, y, z, ...rest] = this.list((f) => f.number());
     if (x === undefined || y === undefined || z === undefined || rest.length) this.fail('three numbers');
     return [x, y, z];
+  }
+  pair(): [number, number] {
+    const [from, to, ...rest] = this.list((f) => f.number());
+    if (from === undefined || to === undefined || rest.length) this.fail('two numbers');
+    return [from, to];
   }
   /** An empty text says as little as none. */
   text_or_null(): string | null {

@@ -41,3 +41,15 @@ export function snapshot(seq: number, over: object = {}, envelope_over: object =
 export function frame(t_s: number, q: Record<string, number>): string {
   return JSON.stringify({ type: 'state', t_s, q, clearance: [{ arms: ['left', 'right'], m: 0.2, links: ['a', 'b'] }] });
 }
+
+type Ranges = [state: string, a0: number, a1: number, b0: number, b1: number];
+
+/** A diagram of `left` (4 s) and `right` (3 s) with these cells. */
+export function diagram_json(cells: Ranges[], over: object = {}): Record<string, unknown> {
+  return {
+    t_s: 7, a: { id: 'left', state: 'running', duration_s: 4, progress_s: 1 },
+    b: { id: 'right', state: 'backlogged', duration_s: 3, progress_s: 0 },
+    layers: [{ arms: ['left', 'right'], cells: cells.map(([state, a0, a1, b0, b1]) => ({ state, a_s: [a0, a1], b_s: [b0, b1] })) }],
+    evaluations: 12, scene_version: 1, ...over,
+  };
+}

@@ -6,8 +6,13 @@ import type { Timers } from '../connection';
 import { follow_job } from '../follow_job';
 import type { Store } from '../store';
 
-/** What stands in the drawer beside the cell: the form for a new job, a job's details, or nothing. */
-export type Drawer = { show: 'nothing' } | { show: 'new' } | { show: 'job'; id: string };
+/**
+ * What stands in the drawer beside the cell: the form for a new job, a job's details, the
+ * coordination diagram of two jobs (a across, b up), or nothing.
+ */
+export type Drawer =
+  | { show: 'nothing' } | { show: 'new' } | { show: 'job'; id: string }
+  | { show: 'diagram'; a: string; b: string };
 
 export class Actions {
   readonly drawer: Signal<Drawer> = signal_of<Drawer>({ show: 'nothing' });

@@ -4,8 +4,10 @@ import { useEffect, useState } from 'preact/hooks';
 import { example_job, pretty } from '../example';
 import type { Problem } from '../messages';
 import type { Store } from '../store';
-import { clock, found_in_words, reason_in_words, result_in_words, why_mute } from '../wording';
+import { clock, reason_in_words, result_in_words, short_id, why_mute } from '../wording';
 import type { Actions } from './actions';
+import { DiagramPanel, partner_of } from './diagram';
+import { Refused } from './refused';
 import { use_signal } from './signal';
 import { use_store } from './use_store';
 
@@ -22,9 +24,11 @@ export function DrawerPanel({ store, actions }: Props) {
   }, [actions]);
   if (drawer.show === 'nothing') return null;
   return (
-    <aside class="drawer">
+    <aside class={`drawer${drawer.show === 'diagram' ? ' wide' : ''}`}>
       <button class="close" aria-label="Close" onClick={() => actions.drawer.set({ show: 'nothing' })}>×</button>
-      {drawer.show === 'new' ? <NewJob store={store} actions={actions} /> : <JobDetail id={drawer.id} store={store} actions={actions} />}
+      {drawer.show === 'new' && <NewJob store={store} actions={actions} />}
+      {drawer.show === 'job' && <JobDetail id={drawer.id} store={store} actions={actions} />}
+      {drawer.show === 'diagram' && <DiagramPanel a={drawer.a} b={drawer.b} store={store} actions={actions} />}
     </aside>
   );
 }
@@ -89,22 +93,6 @@ function NewJob({ store, actions }: Props) {
   );
 }
 
-function Refused({ problem }: { problem: Problem }) {
-  const faults = problem.errors.length ? problem.errors : [problem];
-  return (
-    <div class="refused" role="alert" data-test="problem">
-      <b>{problem.title}{problem.status ? ` (${problem.status})` : ''}</b>
-      {faults.map((fault, i) => (
-        <div key={i} class="fault">
-          {fault.detail && <div>{fault.detail}</div>}
-          {fault.pointer && <div class="mono small dim">{fault.pointer}</div>}
-          {found_in_words(fault.value) !== '' && <div class="mono small">{found_in_words(fault.value)}</div>}
-        </div>
-      ))}
-    </div>
-  );
-}
-
 function JobDetail({ id, store, actions }: Props & { id: string }) {
   use_store(store);
   const job = store.job(id);
@@ -113,6 +101,7 @@ function JobDetail({ id, store, actions }: Props & { id: string }) {
   if (!job) return <><h2>{id}</h2><p class="hint">This job is no longer known to the page.</p></>;
   const times: [string, number | null][] = [['submitted', job.submitted_s], ['started', job.started_s], ['ended', job.ended_s]];
   const words = job.result ? result_in_words(job) : reason_in_words(job);
+  const partner = partner_of(job, store);
   return (
     <>
       <h2 class="ellipsis">{job.name ?? job.id}</h2>
@@ -122,6 +111,13 @@ function JobDetail({ id, store, actions }: Props & { id: string }) {
         {times.map(([name, t_s]) => <div key={name}><dt>{name}</dt><dd class="mono">{t_s === null ? '–' : clock(t_s)}</dd></div>)}
         <div><dt>duration</dt><dd class="mono">{job.duration_s === null ? '–' : `${job.duration_s.toFixed(2)} s`}</dd></div>
       </dl>
+      {partner && (
+        <div class="line">
+          <button class="small" data-test="show-diagram" onClick={() => actions.drawer.set({ show: 'diagram', a: partner.id, b: job.id })}>
+            Diagram beside {short_id(partner.id)}
+          </button>
+        </div>
+      )}
       <pre class="mono" data-test="raw">{pretty(job.raw)}</pre>
     </>
   );

@@ -42,8 +42,9 @@ function List({ title, list, none, store, actions }: Props & { title: string; li
 
 function Row({ job, store, actions }: Props & { job: Job }) {
   const drawer = use_signal(actions.drawer);
-  const selected = drawer.show === 'job' && drawer.id === job.id;
-  const open = () => actions.drawer.set(selected ? { show: 'nothing' } : { show: 'job', id: job.id });
+  const selected = (drawer.show === 'job' && drawer.id === job.id) || (drawer.show === 'diagram' && drawer.b === job.id);
+  const open = () => actions.drawer.set(drawer.show === 'job' && selected ? { show: 'nothing' } : { show: 'job', id: job.id });
+  const blocker = job.waits_on.find((wait) => wait.kind === 'job' && wait.id !== null)?.id ?? null;
   const all_arms = [...store.arms.keys()];
   const ended = store.is_terminal(job);
   const mute = why_mute(store.link);
@@ -60,9 +61,15 @@ function Row({ job, store, actions }: Props & { job: Job }) {
           <span class="grow" />
           <Figure job={job} store={store} />
         </span>
-        <Words job={job} />
+        {blocker === null && <Words job={job} />}
         {(job.state === 'running' || job.state === 'holding') && <Bar share={store.progress(job)} />}
       </button>
+      {blocker !== null && (
+        <button class="why" data-test="why" title={`Show where ${job.id} and ${blocker} conflict`}
+          onClick={() => actions.drawer.set({ show: 'diagram', a: blocker, b: job.id })}>
+          <Words job={job} />
+        </button>
+      )}
       {!ended && (
         <button class="cancel" disabled={job.stopping || mute !== null} title={mute ?? `Cancel ${job.id}`} aria-label={`Cancel ${job.id}`}
           onClick={() => void actions.cancel(job.id)}>

@@ -1,0 +1,157 @@
+// The coordination diagram of two jobs: which pairs of progress are free, which are in conflict, where
+// both are now, and where they would go from here.
+
+import { useEffect, useRef, useState } from 'preact/hooks';
+import {
+  evidence_in_words, evidence_of, first_met, plan_from, plan_in_words, shares, type Point,
+} from '../diagram';
+import type { Diagram, Job, Problem } from '../messages';
+import { arm_colour, kCellColours } from '../palette';
+import type { Store } from '../store';
+import { short_id } from '../wording';
+import type { Actions } from './actions';
+import { DiagramPicture, type Scene } from './diagram_picture';
+import { Refused } from './refused';
+import { use_store } from './use_store';
+
+const kShownFinished = 12;
+const kTrail = 2000;
+
+interface Props { a: string; b: string; store: Store; actions: Actions }
+
+type Fetched = { kind: 'none' } | { kind: 'diagram'; diagram: Diagram } | { kind: 'refused'; problem: Problem };
+
+/** The job to draw this one beside: what it waits for, else the first that has not ended on other arms. */
+export function partner_of(job: Job, store: Store): Job | null {
+  const blocker = job.waits_on.find((wait) => wait.kind === 'job' && wait.id !== null);
+  const known = blocker?.id ? store.job(blocker.id) : null;
+  if (known) return known;
+  const others = [...store.jobs('running'), ...store.jobs('scheduled'), ...store.jobs('backlog'), ...store.jobs('queued'), ...store.jobs('finished')];
+  return others.find((other) => other.id !== job.id && !other.arms.some((arm) => job.arms.includes(arm))) ?? null;
+}
+
+export function DiagramPanel({ a, b, store, actions }: Props) {
+  use_store(store, 'live');
+  const [fetched, set_fetched] = useState<Fetched>({ kind: 'none' });
+  const [layer, set_layer] = useState(0);
+  const connected = store.link.status === 'open';
+  // Another scene makes another diagram.
+  useEffect(() => {
+    if (!connected) return;
+    let closed = false;
+    void actions.api.diagram(a, b).then((answer) => {
+      if (closed) return;
+      set_fetched(answer.ok ? { kind: 'diagram', diagram: answer.value } : { kind: 'refused', problem: answer.problem });
+    });
+    return () => { closed = true; };
+  }, [actions, a, b, store.objects, connected]);
+  useEffect(() => set_layer(0), [a, b]);
+  const jobs = { a: store.job(a), b: store.job(b) };
+  const goes_on = { a: jobs.a !== null && !store.is_terminal(jobs.a), b: jobs.b !== null && !store.is_terminal(jobs.b) };
+  useEffect(() => (goes_on.a ? actions.follow_job(a) : undefined), [actions, a, goes_on.a]);
+  useEffect(() => (goes_on.b ? actions.follow_job(b) : undefined), [actions, b, goes_on.b]);
+  const diagram = fetched.kind === 'diagram' && fetched.diagram.a.id === a && fetched.diagram.b.id === b ? fetched.diagram : null;
+  return (
+    <>
+      <h2>Diagram</h2>
+      <div class="pair">
+        <Pick what="Across" id={a} store={store} on_pick={(id) => actions.drawer.set({ show: 'diagram', a: id, b })} />
+        <Pick what="Up" id={b} store={store} on_pick={(id) => actions.drawer.set({ show: 'diagram', a, b: id })} />
+      </div>
+      {fetched.kind === 'refused' && <Refused problem={fetched.problem} />}
+      {diagram && diagram.layers.length > 1 && (
+        <div class="line">
+          {diagram.layers.map(({ arms }, i) => (
+            <button key={i} class="small" aria-pressed={i === layer} onClick={() => set_layer(i)}>{arms.join(' – ')}</button>
+          ))}
+        </div>
+      )}
+      {diagram && <Drawn key={`${a} ${b} ${layer}`} diagram={diagram} layer={layer} jobs={jobs} store={store} />}
+      {fetched.kind !== 'refused' && !diagram && <p class="hint">{connected ? 'Drawing…' : 'Not connected.'}</p>}
+    </>
+  );
+}
+
+function Pick({ what, id, store, on_pick }: { what: string; id: string; store: Store; on_pick(id: string): void }) {
+  const jobs = store.all_jobs().filter((job) => !store.is_terminal(job)).concat(store.jobs('finished').slice(0, kShownFinished));
+  const chosen = store.job(id);
+  if (!jobs.some((job) => job.id === id)) { if (chosen) jobs.push(chosen); }
+  const names = [...store.arms.keys()];
+  return (
+    <label class="pick" style={{ '--arm': arm_colour(names, chosen?.arms[0] ?? '') }}>
+      <span class="small dim">{what}</span>
+      <span class="swatch" />
+      <select value={id} aria-label={`Job ${what.toLowerCase()}`} onChange={(event) => on_pick(event.currentTarget.value)}>
+        {!chosen && <option value={id}>{id}</option>}
+        {jobs.map((job) => <option key={job.id} value={job.id}>{`${short_id(job.id)} (${job.arms.join(' + ')}, ${job.state})`}</option>)}
+      </select>
+    </label>
+  );
+}
+
+interface DrawnProps { diagram: Diagram; layer: number; jobs: { a: Job | null; b: Job | null }; store: Store }
+
+function Drawn({ diagram, layer: index, jobs, store }: DrawnProps) {
+  const layer = diagram.layers[index] ?? diagram.layers[0];
+  const host = useRef<HTMLDivElement>(null);
+  const scene = useRef<() => Scene | null>(() => null);
+  const trail = useRef<Point[]>([]);
+  // Where they are by the last answer and event, carried on with the clock.
+  const progress_s = (side: Diagram['a']) => {
+    const job = store.job(side.id);
+    return job ? store.progress(job) * side.duration_s : side.progress_s;
+  };
+  const now_point = () => ({ a_s: progress_s(diagram.a), b_s: progress_s(diagram.b) });
+  const is_open = [jobs.a, jobs.b].every((job) => job !== null && (!store.is_terminal(job) || job.state === 'succeeded'))
+    && [jobs.a, jobs.b].some((job) => job !== null && !store.is_terminal(job));
+  const now = now_point();
+  const way = is_open ? plan_from(now, diagram) : [];
+  const met = layer && is_open ? first_met(way, layer) : null;
+  const evidence = evidence_of(jobs.a, jobs.b);
+  const names = [...store.arms.keys()];
+  scene.current = () => {
+    if (!layer) return null;
+    const at = now_point();
+    const last = trail.current.at(-1);
+    if (!last || last.a_s !== at.a_s || last.b_s !== at.b_s) trail.current = [...trail.current.slice(1 - kTrail), at];
+    return {
+      diagram, layer, now: at, way: is_open ? plan_from(at, diagram) : [], trail: trail.current, met, evidence,
+      colours: { a: arm_colour(names, layer.arms[0]), b: arm_colour(names, layer.arms[1]) },
+    };
+  };
+  useEffect(() => {
+    if (!host.current) return;
+    const picture = new DiagramPicture(host.current, () => scene.current());
+    const off = [store.on_frame(() => picture.draw()), store.on_change(() => picture.draw())];
+    return () => {
+      for (const f of off) f();
+      picture.close();
+    };
+  }, [store, diagram, index]);
+  if (!layer) return null;
+  const share = shares(layer);
+  const waiting = [jobs.a, jobs.b].find((job) => job !== null && job.started_s === null && !store.is_terminal(job)) ?? null;
+  return (
+    <>
+      <div ref={host} class="diagram" data-test="diagram" role="img"
+        aria-label={`Where ${diagram.a.id} (across) and ${diagram.b.id} (up) are in conflict`} />
+      <div class="line keys">
+        {(['free', 'conflict', 'undecided'] as const).map((state) => (
+          <span key={state} class="key"><i style={{ background: kCellColours[state] }} /> {state} <b class="mono">{percent(share[state])}</b></span>
+        ))}
+        <span class="grow" />
+        <span class="key"><i class="plan" /> plan from now</span>
+      </div>
+      {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
+      {is_open && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null)}</p>}
+      <p class="hint">
+        Each cell holds for every instant in it, at any pace: {layer.cells.length} cells between
+        the {layer.arms[0]} and the {layer.arms[1]} arm, {diagram.evaluations} states looked at.
+      </p>
+    </>
+  );
+}
+
+function percent(share: number): string {
+  return share > 0 && share < 0.005 ? '< 1 %' : `${(100 * share).toFixed(0)} %`;
+}
