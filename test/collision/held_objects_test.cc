@@ -1,0 +1,274 @@
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "core/collision/arbiter.h"
+#include "core/collision/motion_store.h"
+#include "core/collision/scene_bodies.h"
+#include "test/collision/small_cell.h"
+#include "test/model/test_cells.h"
+
+// T8: a held object would collide, the bare arms would not.
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+using With = Conflict::With;
+
+const ArmId kA{0};
+const ArmId kB{1};
+const JobId kJob{1};
+constexpr double kPi = small::kHalfTurn;
+const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
+
+LinkId link(const Cell& cell, const std::string& name) {
+  const auto id = cell.find_link(name);
+  EXPECT_TRUE(id.has_value()) << name;
+  return id.value_or(LinkId{0});
+}
+
+// A rod that goes on along x where a link of `length_m` ends.
+Attachment rod_at(const Cell& cell, const std::string& name, const std::string& holder,
+                  double link_m, double rod_m) {
+  Attachment held{{name, Cylinder{0.015, rod_m}}, link(cell, holder)};
+  held.X_LO = small::at_xyz(link_m + rod_m / 2, 0, 0);
+  held.X_LO.linear() = Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  return held;
+}
+
+// Two arms, bases `apart_m` from each other along x, each one link of 0.4 m that turns about z: at
+// zero a's points to b, at pi b's to a.
+Cell two_arms(double apart_m) {
+  Cell cell;
+  cell.clearance_m = 0.02;
+  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, 0.4, 0.03);
+  small::add_robot(cell, "b", small::at_xyz(apart_m, 0, 0), {kZ}, 0.4, 0.03);
+  return cell;
+}
+
+PlanningScenePtr holding(const PlanningScenePtr& scene, std::vector<Attachment> attachments) {
+  auto held = scene->with_attachments(std::move(attachments));
+  EXPECT_TRUE(held.has_value()) << held.error().front().detail;
+  return held.value_or(scene);
+}
+
+const std::vector<CheckMethod>& methods() {
+  static const std::vector<CheckMethod> all{TimedDiscrete{20ms}, Certified{100ms, true, 0.001},
+                                            Swept{0.001}};
+  return all;
+}
+
+Question question_of(const Configuration& rest, TrajectoryPtr candidate) {
+  return {1, at(0s), {{kJob, std::move(candidate), 0s}}, {}, rest, TimedDiscrete{20ms}};
+}
+
+// One arbiter sees the arms bare, holding, and bare again: only the second is a conflict, and it
+// names this counterpart.
+void expect_only_held_conflicts(const PlanningScenePtr& bare, const PlanningScenePtr& held,
+                                Question question, const Proximity& expected, With with) {
+  for (const CheckMethod& method : methods()) {
+    question.method = method;
+    SCOPED_TRACE(method.index());
+    Arbiter arbiter(bare);
+    EXPECT_EQ(arbiter.judge(question).kind, Verdict::Kind::free);
+    arbiter.look_at(held);
+    const Verdict verdict = arbiter.judge(question);
+    EXPECT_EQ(verdict.kind, Verdict::Kind::conflict);
+    ASSERT_FALSE(verdict.conflicts.empty());
+    const Conflict& found = verdict.conflicts.front();
+    EXPECT_EQ(found.with, with);
+    EXPECT_EQ(found.proximity.body_a, expected.body_a);
+    EXPECT_EQ(found.proximity.body_b, expected.body_b);
+    EXPECT_EQ(found.proximity.arm_a, expected.arm_a);
+    EXPECT_EQ(found.proximity.arm_b, expected.arm_b);
+    EXPECT_EQ(found.proximity.object_b, expected.object_b);
+    EXPECT_EQ(found.proximity.held_a, expected.held_a);
+    EXPECT_EQ(found.proximity.held_b, expected.held_b);
+    EXPECT_LT(found.proximity.clearance_m, bare->cell().clearance_m);
+    arbiter.look_at(bare);
+    EXPECT_EQ(arbiter.judge(question).kind, Verdict::Kind::free);
+  }
+}
+
+TEST(HeldObject, StrikesAnArmThatTheBareArmPasses) {
+  const CellPtr cell = small::shared(two_arms(1.2));
+  const PlanningScenePtr bare = *PlanningScene::build(cell);
+  const PlanningScenePtr held = holding(bare, {rod_at(*cell, "rod", "a_link1", 0.4, 0.5)});
+  Configuration rest(2);
+  rest << 0.0, kPi;  // b points to a
+  const auto past = small::sweep(*cell, {kA}, {-kPi / 2}, {kPi / 2}, 4s);
+  expect_only_held_conflicts(bare, held, question_of(rest, past),
+                             {"rod", "b_link1", kA, kB, false, 0.0, true, false}, With::rest);
+}
+
+TEST(HeldObject, IsStruckByTheArmThatMovesWhileItsOwnRests) {
+  const CellPtr cell = small::shared(two_arms(1.2));
+  const PlanningScenePtr bare = *PlanningScene::build(cell);
+  const PlanningScenePtr held = holding(bare, {rod_at(*cell, "rod", "a_link1", 0.4, 0.5)});
+  const Configuration rest = Configuration::Zero(2);  // a points to b
+  const auto past = small::sweep(*cell, {kB}, {kPi / 2}, {3 * kPi / 2}, 4s);
+  expect_only_held_conflicts(bare, held, question_of(rest, past),
+                             {"b_link1", "rod", kB, kA, false, 0.0, false, true}, With::rest);
+}
+
+TEST(HeldObject, StrikesWhatAnotherArmHolds) {
+  const CellPtr cell = small::shared(two_arms(1.5));
+  const PlanningScenePtr bare = *PlanningScene::build(cell);
+  const Attachment of_a = rod_at(*cell, "rod of a", "a_link1", 0.4, 0.4);
+  const Attachment of_b = rod_at(*cell, "rod of b", "b_link1", 0.4, 0.4);
+  Configuration rest(2);
+  rest << 0.0, kPi;
+  const Question question = question_of(rest, small::sweep(*cell, {kA}, {-kPi / 2}, {kPi / 2}, 4s));
+  const PlanningScenePtr one = holding(bare, {of_a});
+  expect_only_held_conflicts(one, holding(one, {of_a, of_b}), question,
+                             {"rod of a", "rod of b", kA, kB, false, 0.0, true, true}, With::rest);
+}
+
+TEST(HeldObject, StrikesTheScene) {
+  Cell made = two_arms(3.0);
+  made.objects.push_back({"post", Box{{0.1, 0.1, 0.5}}, small::at_xyz(0.0, 0.75, 0.0)});
+  const CellPtr cell = small::shared(std::move(made));
+  const PlanningScenePtr bare = *PlanningScene::build(cell);
+  const PlanningScenePtr held = holding(bare, {rod_at(*cell, "rod", "a_link1", 0.4, 0.5)});
+  const auto past = small::sweep(*cell, {kA}, {0.0}, {kPi}, 4s);
+  expect_only_held_conflicts(bare, held, question_of(Configuration::Zero(2), past),
+                             {"rod", "post", kA, {}, true, 0.0, true, false}, With::scene);
+}
+
+// Three links of 0.3 m fold up: the tip passes above the first link, the rod that it holds does
+// not.
+struct Folding {
+  CellPtr cell = [] {
+    Cell made;
+    made.clearance_m = 0.02;
+    small::add_robot(made, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.03);
+    return small::shared(std::move(made));
+  }();
+  PlanningScenePtr bare = *PlanningScene::build(cell);
+  Question question =
+      question_of(Configuration::Zero(3),
+                  small::sweep(*cell, {kA}, {0.0, kPi / 2, 0.0}, {0.0, kPi / 2, 0.75 * kPi}, 4s));
+};
+
+TEST(HeldObject, StrikesItsOwnArm) {
+  const Folding folding;
+  expect_only_held_conflicts(
+      folding.bare, holding(folding.bare, {rod_at(*folding.cell, "rod", "a_link3", 0.3, 0.5)}),
+      folding.question, {"a_link1", "rod", kA, kA, false, 0.0, false, true}, With::self);
+}
+
+TEST(HeldObject, MayTouchWhatItsTouchNames) {
+  const Folding folding;
+  Attachment rod = rod_at(*folding.cell, "rod", "a_link3", 0.3, 0.5);
+  rod.touch = {link(*folding.cell, "a_link1")};
+  Arbiter arbiter(holding(folding.bare, {rod}));
+  for (const CheckMethod& method : methods()) {
+    Question question = folding.question;
+    question.method = method;
+    EXPECT_EQ(arbiter.judge(question).kind, Verdict::Kind::free) << method.index();
+  }
+}
+
+TEST(HeldObject, MayTouchTheHandThatHoldsItAndNoLinkBesides) {
+  const CellPtr cell = build_or_fail(two_pandas_description());
+  const PlanningScenePtr bare = *PlanningScene::build(cell);
+  // The tool centre has no shape of its own.
+  const PlanningScenePtr scene =
+      holding(bare, {{{"rod", Cylinder{0.015, 0.5}}, link(*cell, "left_panda_hand_tcp")},
+                     {{"cup", Sphere{0.04}}, link(*cell, "left_panda_leftfinger")}});
+  std::set<std::string> with_rod;
+  const auto& bodies = scene->bodies();
+  for (const PartPair& pair : bodies.pairs) {
+    const std::string& a = bodies.parts[pair.a].name;
+    const std::string& b = bodies.parts[pair.b].name;
+    if (a != "rod" && b != "rod") continue;
+    EXPECT_TRUE(with_rod.insert(a == "rod" ? b : a).second) << a << " " << b;
+  }
+  std::set<std::string> expected;
+  for (const Part& part : bodies.parts) expected.insert(part.name);
+  for (const char* own : {"rod", "cup", "left_panda_link7", "left_panda_hand",
+                          "left_panda_leftfinger", "left_panda_rightfinger"}) {
+    EXPECT_EQ(expected.erase(own), 1U) << own;
+  }
+  EXPECT_EQ(with_rod, expected);
+}
+
+TEST(HeldObject, IsRefusedWhereItCannotBeHeld) {
+  Cell made = two_arms(1.2);
+  made.objects.push_back({"post", Sphere{0.1}, small::at_xyz(0, 0, 2)});
+  const CellPtr cell = small::shared(std::move(made));
+  const PlanningScenePtr scene = *PlanningScene::build(cell);
+  const auto problem = [&](const std::string& name, LinkId holder, std::vector<LinkId> touch = {}) {
+    const Attachment ball{{"ball", Sphere{0.05}}, link(*cell, "a_link1")};
+    Attachment tried{{name, Sphere{0.05}}, holder};
+    tried.touch = std::move(touch);
+    const auto made_scene = scene->with_attachments({ball, tried});
+    return made_scene ? "" : made_scene.error().front().slug + " " + made_scene.error()[0].pointer;
+  };
+  const LinkId good = link(*cell, "b_link1");
+  EXPECT_EQ(problem("rod", good), "");
+  EXPECT_EQ(problem("rod", LinkId{99}), "unknown-link /attachments/1/link");
+  EXPECT_EQ(problem("rod", link(*cell, "b_base")), "link-not-of-arm /attachments/1/link");
+  EXPECT_EQ(problem("rod", good, {LinkId{99}}), "unknown-link /attachments/1/touch/0");
+  EXPECT_EQ(problem("rod", good, {link(*cell, "b_base")}), "");
+  for (const char* taken : {"post", "a_link1", "ball"}) {
+    EXPECT_EQ(problem(taken, good), "name-taken /attachments/1/object/name");
+  }
+  const auto objects = holding(scene, {{{"ball", Sphere{0.05}}, good}})
+                           ->with_objects({{"cube", Sphere{0.05}}, {"ball", Sphere{0.05}}});
+  ASSERT_FALSE(objects.has_value());
+  EXPECT_EQ(objects.error().front().pointer, "/objects/1/name");
+}
+
+TEST(HeldObject, StaysWhenObjectsChangeAndLeavesThemAlone) {
+  const CellPtr cell = small::shared(two_arms(1.2));
+  const PlanningScenePtr scene =
+      holding(*PlanningScene::build(cell), {rod_at(*cell, "rod", "a_link1", 0.4, 0.5)});
+  const PlanningScenePtr with_post =
+      *scene->with_objects({{"post", Sphere{0.1}, small::at_xyz(0.8, 0, 0)}});
+  ASSERT_EQ(with_post->attachments().size(), 1U);
+  EXPECT_TRUE(with_post->holds_as(*scene));
+  CollisionChecker checker(with_post);
+  Configuration q(2);
+  q << 0.0, kPi / 2;
+  const auto near = checker.all_closer_than(q, 0.02);
+  ASSERT_EQ(near.size(), 1U);
+  EXPECT_EQ(near[0].body_a, "rod");
+  EXPECT_EQ(near[0].body_b, "post");
+  EXPECT_TRUE(near[0].held_a);
+  EXPECT_TRUE(near[0].object_b);
+
+  const PlanningScenePtr empty_handed = holding(with_post, {});
+  EXPECT_FALSE(empty_handed->holds_as(*with_post));
+  EXPECT_EQ(empty_handed->objects().size(), 1U);
+  EXPECT_TRUE(CollisionChecker(empty_handed).all_closer_than(q, 0.02).empty());
+}
+
+TEST(MotionStore, ForgetsWhatArmsDoToEachOtherWhenTheyHoldOtherThingsAndOnlyThen) {
+  const CellPtr cell = small::shared(two_arms(1.2));
+  const PlanningScenePtr bare = *PlanningScene::build(cell);
+  const Attachment rod = rod_at(*cell, "rod", "a_link1", 0.4, 0.5);
+  const Configuration rest = Configuration::Zero(2);
+  const auto trajectory = small::sweep(*cell, {kA}, {-1.0}, {1.0}, 4s);
+  MotionStore store(bare);
+  const auto diagram = [&] {
+    store.begin_question();
+    const auto& a = store.motion(trajectory, kA, rest, 0.0);
+    return store.pair(a, store.motion(nullptr, kB, rest, 0.0));
+  };
+  const std::size_t pairs_bare = diagram().pairs->pairs.size();
+  store.look_at(holding(bare, {rod}));
+  const MotionStore::Diagram held = diagram();
+  EXPECT_GT(held.pairs->pairs.size(), pairs_bare);
+  (void)held.cells->ask({.duration_a = 4.0}, 100);
+  store.look_at(*store.scene()->with_objects({{"post", Sphere{0.1}, small::at_xyz(0, 0, 3)}}));
+  EXPECT_EQ(diagram().cells, held.cells);
+  EXPECT_EQ(diagram().cells->ask({.duration_a = 4.0}, 100).evaluations, 0U);
+  store.look_at(holding(store.scene(), {}));
+  EXPECT_EQ(diagram().pairs->pairs.size(), pairs_bare);
+  EXPECT_GT(diagram().cells->ask({.duration_a = 4.0}, 100).evaluations, 0U);
+}
+
+}  // namespace
+}  // namespace armloom
