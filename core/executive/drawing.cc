@@ -8,10 +8,10 @@
 namespace armloom {
 namespace {
 
-// A picture of two motions of some seconds to the hundredth of its width; takes a fraction of a
-// second on a thread that nobody waits for. Longer ones get coarser cells.
-constexpr Duration kResolution = std::chrono::milliseconds(20);
-constexpr std::uint64_t kCells = 32'000;
+// As fine as a picture of some seconds can show; where that takes more cells (longer motions, much
+// conflict), coarser ones. A fraction of a second, on a thread that nobody waits for.
+constexpr Duration kResolution = std::chrono::milliseconds(5);
+constexpr std::uint64_t kCells = 64'000;
 
 // Whether both together are one rectangle of one state.
 bool joins(const DiagramCell& x, const DiagramCell& y) {

@@ -314,7 +314,8 @@ test('A server whose dashboard is not built says so', async () => {
 // With a time step longer than both motions only their ends are compared, and both are admitted.
 test('What the monitor stops is told', async () => {
   const cell = JSON.parse(fs.readFileSync(path.join(folder, 'cell.json'), 'utf8'));
-  Object.assign(cell, {clearance_m: 0.1, checking: {...cell.checking, time_step_s: 10},
+  Object.assign(cell, {clearance_m: 0.1, scheduling: {...cell.scheduling, policy: 'timed_discrete'},
+                       checking: {...cell.checking, time_step_s: 10},
                        monitor: {...cell.monitor, stop_clearance_m: 0.1}});
   fs.writeFileSync(path.join(folder, 'blind.json'), JSON.stringify(cell));
   const blind = await startServer(binary, ['--cell', path.join(folder, 'blind.json'), '--speed', '5']);
