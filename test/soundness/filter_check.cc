@@ -1,0 +1,200 @@
+#include "test/soundness/filter_check.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/collision/filter/kernels.h"
+#include "core/collision/pair_set.h"
+#include "core/model/build_cell.h"
+#include "core/model/kinematics.h"
+#include "server/codec/cell_codec.h"
+#include "test/soundness/kernel_calls.h"
+#include "test/soundness/pairs.h"
+
+namespace armloom::soundness {
+namespace {
+
+constexpr std::size_t kLanes = filter::kLanes;
+constexpr float kFar_m = 1e3F;  // a limit that leaves every pair open, so that all are told
+
+// One arm in eight configurations.
+struct PlacedArm {
+  explicit PlacedArm(const Linkage& arm)
+      : linkage(arm),
+        q(arm.joints().size() * kLanes),
+        frames(arm.frames().size() * 12 * kLanes),
+        axes(arm.frames().size() * 6 * kLanes),
+        capsules(arm.capsules().size() * 6 * kLanes),
+        still(static_cast<std::size_t>(arm.suffix_rows()) * kLanes, 0.0F) {}
+
+  void put(const Configuration& state, std::size_t lane) {
+    for (std::size_t row = 0; row < linkage.joints().size(); ++row) {
+      q[row * kLanes + lane] = state[static_cast<Eigen::Index>(linkage.joints()[row].index())];
+    }
+  }
+  void place() {
+    filter::best_kernel().place(linkage.view(), q.data(),
+                                {frames.data(), axes.data(), capsules.data()});
+  }
+  [[nodiscard]] filter::Side side() const { return {capsules.data(), still.data()}; }
+
+  const Linkage& linkage;
+  std::vector<double> q, frames;
+  std::vector<float> axes, capsules, still;
+};
+
+class Checker {
+ public:
+  Checker(const PlanningScene& scene, FilterReport& report)
+      : bodies_(scene.bodies()), report_(report), still_(bodies_), poses_(kLanes) {
+    for (std::uint32_t a = 0; a < bodies_.cell->arms.size(); ++a) {
+      linkages_.emplace_back(bodies_, ArmId{a});
+    }
+    for (const Linkage& linkage : linkages_) arms_.emplace_back(linkage);
+    for (std::size_t a = 0; a < arms_.size(); ++a) {
+      for (std::size_t b = a + 1; b < arms_.size(); ++b) {
+        add({cross_pairs(bodies_, linkages_[a], linkages_[b]), a, b, false});
+      }
+      add({self_pairs(bodies_, linkages_[a]), a, a, false});
+      add({still_pairs(bodies_, linkages_[a], still_), a, a, true});
+    }
+  }
+
+  void check(const std::vector<Configuration>& states) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      for (PlacedArm& arm : arms_) arm.put(states[lane], lane);
+      forward_kinematics(*bodies_.cell, states[lane], poses_[lane]);
+    }
+    for (PlacedArm& arm : arms_) arm.place();
+    for (const Set& set : sets_) compare(set);
+    report_.states += kLanes;
+  }
+
+ private:
+  struct Set {
+    PairSet pairs;
+    std::size_t a, b;
+    bool still;
+  };
+
+  void add(Set set) {
+    for (filter::Pair& pair : set.pairs.pairs) {
+      const auto radius = [&](std::size_t arm, int capsule) {
+        return linkages_[arm].capsules()[static_cast<std::size_t>(capsule)].radius_up;
+      };
+      const float b = set.still ? still_.capsules[static_cast<std::size_t>(pair.b)].radius_up
+                                : radius(set.b, pair.b);
+      const double margin = static_cast<double>(pair.radii_up) - radius(set.a, pair.a) - b;
+      report_.margin_m = std::max(report_.margin_m, margin);
+      pair.limit_up = kFar_m;
+      pair.row_a = pair.row_b = 0;  // all rows are zero
+    }
+    for (filter::BoxPair& pair : set.pairs.boxes) {
+      pair.limit_up = kFar_m;
+      pair.row_a = 0;
+    }
+    sets_.push_back(std::move(set));
+  }
+
+  void compare(const Set& set) {
+    const filter::Kernel& kernel = filter::best_kernel();
+    const filter::Side a = arms_[set.a].side();
+    const filter::Side b = set.still ? filter::Side{still_.lanes.data(), still_.at_rest.data()}
+                                     : arms_[set.b].side();
+    hits_.resize(std::max(set.pairs.pairs.size(), set.pairs.boxes.size()) + 1);
+    const int pairs = near_pairs(kernel, a, b, set.pairs.pairs, 0xFF, hits_.data());
+    if (static_cast<std::size_t>(pairs) != set.pairs.pairs.size()) {
+      throw std::logic_error("the filter leaves out pairs that it was to tell");
+    }
+    least_.clear();
+    collect(set.pairs.narrow, pairs);
+    const int boxes = kernel.near_boxes(a, set.pairs.boxes.data(),
+                                        static_cast<int>(set.pairs.boxes.size()), 0xFF,
+                                        hits_.data());
+    collect(set.pairs.narrow_boxes, boxes);
+    for (const auto& [pair, distances] : least_) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) hold(pair, distances[lane], lane);
+    }
+  }
+
+  void collect(const std::vector<NarrowPair>& narrow, int count) {
+    for (int h = 0; h < count; ++h) {
+      const filter::Hit& hit = hits_[static_cast<std::size_t>(h)];
+      auto& least = least_.try_emplace(narrow[static_cast<std::size_t>(hit.pair)].pair,
+                                       std::vector<double>(kLanes, 1e9)).first->second;
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        least[lane] = std::min(least[lane], static_cast<double>(hit.distance[lane]));
+      }
+    }
+  }
+
+  void hold(PairId id, double filter_m, std::size_t lane) {
+    ++report_.part_pairs;
+    if (filter_m <= 0.0) return;
+    const PartPair& pair = bodies_.pairs[id.index()];
+    const auto pose = [&](std::size_t part) {
+      const auto& link = bodies_.parts[part].link;
+      return link ? poses_[lane][link->index()]
+                  : bodies_.objects[part - bodies_.links_end].X_WO;
+    };
+    const double exact_m =
+        part_distance(bodies_, pair.a, pose(pair.a), pair.b, pose(pair.b), filter_m);
+    if (exact_m >= filter_m) return;
+    ++report_.too_far;
+    report_.worst_m = std::max(report_.worst_m, filter_m - exact_m);
+    if (report_.failures.size() >= 5) return;
+    std::ostringstream text;
+    text << bodies_.parts[pair.a].name << ", " << bodies_.parts[pair.b].name << ": filter "
+         << filter_m << ", exact " << exact_m;
+    report_.failures.push_back(text.str());
+  }
+
+  const PlanningScene::Bodies& bodies_;
+  FilterReport& report_;
+  StillParts still_;
+  std::vector<LinkPoses> poses_;  // by lane
+  std::vector<Linkage> linkages_;
+  std::vector<PlacedArm> arms_;
+  std::vector<Set> sets_;
+  std::vector<filter::Hit> hits_;
+  std::map<PairId, std::vector<double>> least_;  // by lane
+};
+
+}  // namespace
+
+FilterReport check_filter(const CellPtr& cell, std::size_t states, std::uint64_t seed) {
+  FilterReport report;
+  const PlanningScenePtr scene = PlanningScene::build(cell).value();
+  Checker checker(*scene, report);
+  std::mt19937_64 random(seed);
+  std::vector<Configuration> batch(kLanes, cell->home());
+  while (report.states < states) {
+    for (Configuration& q : batch) {
+      for (std::size_t j = 0; j < cell->joints.size(); ++j) {
+        const Joint& joint = cell->joints[j];
+        const bool turns = joint.kind == JointKind::continuous;
+        q[static_cast<Eigen::Index>(j)] =
+            uniform(random, turns ? -10.0 : joint.lower, turns ? 10.0 : joint.upper);
+      }
+    }
+    checker.check(batch);
+  }
+  return report;
+}
+
+CellPtr cell_of_file(const std::string& name) {
+  const std::string folder = ARMLOOM_SOURCE_DIR "/config";
+  std::ifstream file(folder + "/" + name);
+  std::ostringstream text;
+  text << file.rdbuf();
+  const auto description = read_cell_text(text.str(), folder);
+  if (!description) return nullptr;
+  const auto cell = build_cell(*description);
+  return cell ? *cell : nullptr;
+}
+
+}  // namespace armloom::soundness

@@ -1,0 +1,260 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "core/collision/filter/kernels.h"
+#include "core/collision/linkage.h"
+#include "test/soundness/filter_check.h"
+#include "test/soundness/kernel_calls.h"
+#include "test/soundness/pairs.h"
+
+namespace armloom::soundness {
+namespace {
+
+constexpr int kLanes = filter::kLanes;
+
+void expect_never_too_far(const CellPtr& cell, std::size_t states) {
+  const FilterReport report = check_filter(cell, states, 31);
+  EXPECT_GE(report.states, states);
+  EXPECT_GE(report.part_pairs, 50 * states);
+  EXPECT_EQ(report.too_far, 0U) << "by up to " << report.worst_m << " m";
+  for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
+}
+
+TEST(Filter, OfTwoPandasIsNeverAboveTheExactDistance) {
+  expect_never_too_far(cell_of_file("two_pandas.json"), 10'000);
+}
+
+TEST(Filter, OfAPandaAndAUr5eIsNeverAboveTheExactDistance) {
+  expect_never_too_far(cell_of_file("panda_and_ur5e.json"), 2'000);
+}
+
+TEST(Filter, OfADualArmRobotIsNeverAboveTheExactDistance) {
+  expect_never_too_far(cell_of_file("dual_panda.json"), 2'000);
+}
+
+TEST(Filter, OfTwoFanucsIsNeverAboveTheExactDistance) {
+  const CellPtr cell = cell_of_file("two_fanucs.json");
+  if (!cell) GTEST_SKIP() << "its meshes are not here";
+  expect_never_too_far(cell, 2'000);
+}
+
+TEST(Filter, TakesARoundingMarginOfAtMostTenMicrometres) {
+  const FilterReport report = check_filter(cell_of_file("two_pandas.json"), 8, 1);
+  EXPECT_GT(report.margin_m, 1e-7);
+  EXPECT_LE(report.margin_m, 1e-5);
+}
+
+// A random tree of turning, sliding and mimic joints with capsules, as the kernels take it.
+struct RandomLinkage {
+  explicit RandomLinkage(std::mt19937_64& random) {
+    const int frame_count = 1 + static_cast<int>(random() % 9);
+    joints = 1 + static_cast<int>(random() % 6);
+    std::vector<std::vector<int>> chains;
+    for (int f = 0; f < frame_count; ++f) {
+      const int parent = f == 0 ? -1 : static_cast<int>(random() % static_cast<unsigned>(f + 1)) - 1;
+      filter::Frame frame{.parent = parent,
+                          .joint = static_cast<int>(random() % static_cast<unsigned>(joints)),
+                          .prismatic = random() % 4 == 0,
+                          .multiplier = random() % 3 == 0 ? uniform(random, -2.0, 2.0) : 1.0,
+                          .offset = random() % 3 == 0 ? uniform(random, -3.0, 3.0) : 0.0,
+                          .C = {}};
+      const Eigen::Vector3d axis(uniform(random, -1, 1), uniform(random, -1, 1), 0.3);
+      Eigen::Map<Eigen::Matrix<double, 3, 4>> C(frame.C);
+      C.leftCols<3>() =
+          Eigen::AngleAxisd(uniform(random, -3, 3), axis.normalized()).toRotationMatrix();
+      for (int i = 0; i < 3; ++i) C(i, 3) = uniform(random, -0.5, 0.5);
+      frames.push_back(frame);
+      chains.push_back(parent < 0 ? std::vector<int>{} : chains[static_cast<std::size_t>(parent)]);
+      chains.back().push_back(f);
+    }
+    for (int c = 0; c < 12; ++c) {
+      filter::Capsule capsule{};
+      capsule.frame = static_cast<int>(random() % static_cast<unsigned>(frame_count));
+      for (double& x : capsule.center) x = uniform(random, -0.2, 0.2);
+      const bool ball = random() % 5 == 0;
+      for (double& x : capsule.half) x = ball ? 0.0 : uniform(random, -0.2, 0.2);
+      capsule.radius_up = static_cast<float>(uniform(random, 0.0, 0.1));
+      const auto& chain = chains[static_cast<std::size_t>(capsule.frame)];
+      capsule.ancestors_begin = static_cast<int>(ancestors.size());
+      capsule.depth = static_cast<int>(chain.size());
+      capsule.suffix_begin = rows;
+      rows += capsule.depth + 1;
+      ancestors.insert(ancestors.end(), chain.begin(), chain.end());
+      capsules.push_back(capsule);
+    }
+  }
+  [[nodiscard]] filter::Linkage view() const {
+    return {frames.data(), static_cast<int>(frames.size()), capsules.data(),
+            static_cast<int>(capsules.size()), ancestors.data()};
+  }
+
+  int joints = 0;
+  int rows = 0;
+  std::vector<filter::Frame> frames;
+  std::vector<filter::Capsule> capsules;
+  std::vector<int> ancestors;
+};
+
+// All that one kernel makes of one arm held against itself.
+struct Results {
+  Results(const filter::Kernel& kernel, const RandomLinkage& arm, const std::vector<double>& q,
+          const std::vector<float>& span, const std::vector<filter::Pair>& pairs,
+          const std::vector<filter::BoxPair>& boxes, unsigned lanes)
+      : frames(arm.frames.size() * 12 * kLanes),
+        axes(arm.frames.size() * 6 * kLanes),
+        capsules(arm.capsules.size() * 6 * kLanes),
+        suffix(static_cast<std::size_t>(arm.rows) * kLanes),
+        hits(pairs.size() + 1),
+        box_hits(boxes.size() + 1) {
+    kernel.place(arm.view(), q.data(), {frames.data(), axes.data(), capsules.data()});
+    kernel.inflate(arm.view(), axes.data(), capsules.data(), span.data(), suffix.data());
+    const filter::Side side{capsules.data(), suffix.data()};
+    hits.resize(static_cast<std::size_t>(near_pairs(kernel, side, side, pairs, lanes, hits.data())));
+    box_hits.resize(static_cast<std::size_t>(kernel.near_boxes(
+        side, boxes.data(), static_cast<int>(boxes.size()), lanes, box_hits.data())));
+  }
+  std::vector<double> frames;
+  std::vector<float> axes, capsules, suffix;
+  std::vector<filter::Hit> hits, box_hits;
+};
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+bool same_hits(const std::vector<filter::Hit>& a, const std::vector<filter::Hit>& b) {
+  return std::ranges::equal(a, b, [](const filter::Hit& x, const filter::Hit& y) {
+    if (x.pair != y.pair || x.lanes != y.lanes) return false;
+    for (int l = 0; l < kLanes; ++l) {
+      if ((x.lanes >> l & 1U) == 0) continue;
+      if (std::memcmp(&x.distance[l], &y.distance[l], sizeof(float)) != 0) return false;
+      if (std::memcmp(&x.inflation[l], &y.inflation[l], sizeof(float)) != 0) return false;
+    }
+    return true;
+  });
+}
+
+std::vector<filter::Pair> all_pairs(const RandomLinkage& arm, std::mt19937_64& random) {
+  std::vector<filter::Pair> pairs;
+  for (int a = 0; a < static_cast<int>(arm.capsules.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(arm.capsules.size()); ++b) {
+      const filter::Capsule& at_a = arm.capsules[static_cast<std::size_t>(a)];
+      const filter::Capsule& at_b = arm.capsules[static_cast<std::size_t>(b)];
+      filter::Pair pair =
+          kernel_pair(a, at_a, b, at_b, uniform(random, 0.0, 0.4), 1e-6);
+      pair.row_a = at_a.suffix_begin;
+      pair.row_b = at_b.suffix_begin;
+      pairs.push_back(pair);
+    }
+  }
+  return pairs;
+}
+
+std::vector<filter::BoxPair> boxes_for(const RandomLinkage& arm, std::mt19937_64& random) {
+  std::vector<filter::BoxPair> boxes;
+  for (int a = 0; a < static_cast<int>(arm.capsules.size()); ++a) {
+    filter::BoxPair box{};
+    box.a = a;
+    box.row_a = arm.capsules[static_cast<std::size_t>(a)].suffix_begin;
+    box.R[0] = box.R[4] = box.R[8] = 1.0F;
+    for (float& x : box.center) x = static_cast<float>(uniform(random, -1.0, 1.0));
+    for (float& x : box.half_up) x = static_cast<float>(uniform(random, 0.0, 0.5));
+    box.limit_up = 0.1F;
+    box.radius_up = arm.capsules[static_cast<std::size_t>(a)].radius_up;
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
+  const std::vector<const filter::Kernel*> kernels = filter::kernels();
+  ASSERT_GE(kernels.size(), 2U);
+  ASSERT_EQ(kernels.front(), &filter::kScalarKernel);
+  std::mt19937_64 random(41);
+  std::size_t hits = 0, left_out = 0;
+  for (int round = 0; round < 1'250; ++round) {  // of eight configurations
+    const RandomLinkage arm(random);
+    std::vector<double> q(static_cast<std::size_t>(arm.joints * kLanes));
+    for (double& x : q) x = random() % 8 == 0 ? 0.0 : uniform(random, -7.0, 7.0);
+    std::vector<float> span(arm.frames.size() * kLanes);
+    for (float& x : span) x = static_cast<float>(uniform(random, 0.0, 0.05));
+    const auto pairs = all_pairs(arm, random);
+    const auto boxes = boxes_for(arm, random);
+    const auto lanes = static_cast<unsigned>(random() % 256);
+    const Results reference(filter::kScalarKernel, arm, q, span, pairs, boxes, lanes);
+    hits += reference.hits.size();
+    left_out += pairs.size() - reference.hits.size();
+    for (const filter::Kernel* kernel : kernels) {
+      const Results results(*kernel, arm, q, span, pairs, boxes, lanes);
+      ASSERT_TRUE(same_bits(reference.frames, results.frames)) << kernel->name;
+      ASSERT_TRUE(same_bits(reference.axes, results.axes)) << kernel->name;
+      ASSERT_TRUE(same_bits(reference.capsules, results.capsules)) << kernel->name;
+      ASSERT_TRUE(same_hits(reference.hits, results.hits)) << kernel->name;
+      ASSERT_TRUE(same_hits(reference.box_hits, results.box_hits)) << kernel->name;
+      for (const filter::Capsule& c : arm.capsules) {
+        for (int row = c.suffix_begin; row <= c.suffix_begin + c.depth; ++row) {
+          const auto at = static_cast<std::size_t>(row * kLanes);
+          ASSERT_EQ(std::memcmp(&reference.suffix[at], &results.suffix[at], kLanes * sizeof(float)),
+                    0)
+              << kernel->name;
+        }
+      }
+    }
+  }
+  EXPECT_GE(hits, 10'000U);
+  EXPECT_GE(left_out, 10'000U);
+}
+
+// What each joint may do at most, at once, never moves a point of a capsule farther than its bound.
+TEST(Kernels, BoundEveryMotionThatStaysWithinTheSpans) {
+  std::mt19937_64 random(43);
+  const filter::Kernel& kernel = filter::best_kernel();
+  double tightest = 0.0;
+  for (int round = 0; round < 400; ++round) {
+    const RandomLinkage arm(random);
+    std::vector<double> q(static_cast<std::size_t>(arm.joints * kLanes));
+    for (double& x : q) x = uniform(random, -3.0, 3.0);
+    std::vector<double> moved = q;
+    std::vector<double> most(static_cast<std::size_t>(arm.joints));
+    for (double& m : most) m = random() % 3 == 0 ? 0.0 : uniform(random, 0.0, 0.5);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      const double m = most[i / kLanes];
+      moved[i] += random() % 2 == 0 ? uniform(random, -m, m) : (random() % 2 == 0 ? m : -m);
+    }
+    std::vector<float> span(arm.frames.size() * kLanes);
+    for (std::size_t f = 0; f < arm.frames.size(); ++f) {
+      const filter::Frame& frame = arm.frames[f];
+      const double m = most[static_cast<std::size_t>(frame.joint)] * std::abs(frame.multiplier);
+      std::fill_n(span.begin() + static_cast<std::ptrdiff_t>(f * kLanes), kLanes, round_up(m));
+    }
+    const Results at(kernel, arm, q, span, {}, {}, 0xFF);
+    const Results after(kernel, arm, moved, span, {}, {}, 0xFF);
+    for (std::size_t c = 0; c < arm.capsules.size(); ++c) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const auto end = [&](const Results& r, int i, float sign) {
+          const std::size_t k = (c * 6 + static_cast<std::size_t>(i)) * kLanes + lane;
+          return static_cast<double>(r.capsules[k] + sign * r.capsules[k + 3 * kLanes]);
+        };
+        const auto row = static_cast<std::size_t>(arm.capsules[c].suffix_begin);
+        const double bound = static_cast<double>(at.suffix[row * kLanes + lane]);
+        for (const float sign : {-1.0F, 1.0F}) {
+          double square = 0.0;
+          for (int i = 0; i < 3; ++i) {
+            const double d = end(after, i, sign) - end(at, i, sign);
+            square += d * d;
+          }
+          ASSERT_LE(std::sqrt(square), bound + 2e-6);
+          if (bound > 0.05) tightest = std::max(tightest, std::sqrt(square) / bound);
+        }
+      }
+    }
+  }
+  EXPECT_GE(tightest, 0.7);  // half of it would be too little
+}
+
+}  // namespace
+}  // namespace armloom::soundness

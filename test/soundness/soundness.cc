@@ -1,0 +1,180 @@
+#include "test/soundness/soundness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+#include "test/bench/cells.h"
+
+namespace armloom::soundness {
+namespace {
+
+constexpr Certified kExactly{Duration{}, false, 0.0};
+
+std::string milli(double value) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << value * 1e3;
+  return text.str();
+}
+
+PlanningScenePtr scene_without_clearance(const Cell& like) {
+  Cell cell = like;
+  cell.clearance_m = 0.0;
+  cell.self_clearance_m = 0.0;
+  return PlanningScene::build(std::make_shared<const Cell>(std::move(cell))).value();
+}
+
+void measure_certified(const MovingPair& pair, const Truth& truth, const Verdict& verdict,
+                       double clearance_m, Report& report) {
+  const Conflict* conflict = between_motions(verdict);
+  const auto fails = [&](const std::string& what) {
+    std::ostringstream text;
+    text << "pair " << report.pairs << ": " << what << "; truly " << truth.smallest_m * 1e3
+         << " mm at " << truth.smallest_at_s << " s";
+    report.failures.push_back(text.str());
+  };
+  const bool below = truth.smallest_m < clearance_m;
+  report.colliding += truth.smallest_m <= 0.0 ? 1 : 0;
+  report.below += below ? 1 : 0;
+  report.close += !below && truth.smallest_m < kHorizon_m ? 1 : 0;
+  report.undecided += conflict != nullptr && verdict.kind == Verdict::Kind::undecided ? 1 : 0;
+  if (below && conflict == nullptr) {
+    ++report.missed;
+    report.missed_collisions += truth.smallest_m <= 0.0 ? 1 : 0;
+    fails("called free");
+  }
+  if (truth.smallest_m > clearance_m + kAboveMargin_m) {
+    ++report.above;
+    report.false_alarms += conflict != nullptr ? 1 : 0;
+  }
+  if (below && conflict != nullptr && verdict.kind == Verdict::Kind::conflict) {
+    const double late_s = conflict_at_s(pair, *conflict) - *truth.first_below_s;
+    if (late_s > 0.02 || late_s < -0.001) {
+      fails("first conflict " + milli(late_s) + " ms late after " +
+            std::to_string(verdict.evaluations) + " evaluations");
+    }
+    report.first_conflict_error_max_s = std::max(report.first_conflict_error_max_s, late_s);
+    report.first_conflict_early_max_s = std::max(report.first_conflict_early_max_s, -late_s);
+  }
+  report.evaluations_max = std::max(report.evaluations_max, verdict.evaluations);
+  report.evaluations_total += verdict.evaluations;
+  ++report.pairs;
+}
+
+double contact_time_s(const MovingPair& pair, bench::ExactScene& exact) {
+  Configuration q = exact.cell().home();
+  double time_s = 0.0;
+  for (double t_s = 0.0; t_s < pair.span_s(); t_s += kSample_s) {
+    pair.state_at(t_s, 0.0, 0.0, q);
+    if (exact.between_arms(q, 1e-6) <= 0.0) time_s += kSample_s;
+  }
+  return time_s;
+}
+
+void note_missed(DiscreteRow::Missed& missed, double distance_m, double contact_s) {
+  ++missed.pairs;
+  missed.deepest_m = std::min(missed.deepest_m, distance_m);
+  missed.longest_s = std::max(missed.longest_s, contact_s);
+}
+
+}  // namespace
+
+const Conflict* between_motions(const Verdict& verdict) {
+  const auto found =
+      std::ranges::find(verdict.conflicts, Conflict::With::motion, &Conflict::with);
+  return found == verdict.conflicts.end() ? nullptr : &*found;
+}
+
+double conflict_at_s(const MovingPair& pair, const Conflict& conflict) {
+  const auto moves = [](const Motion& motion, Duration time) {
+    return time > std::max(motion.progress, Duration{}) && time < motion.trajectory->duration();
+  };
+  if (moves(pair.candidate, conflict.own_time)) {
+    return to_seconds(conflict.own_time - pair.candidate.progress);
+  }
+  if (moves(pair.other, conflict.other_time)) {
+    return to_seconds(conflict.other_time - pair.other.progress);
+  }
+  return 0.0;
+}
+
+Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>& steps_s) {
+  bench::ExactScene exact(bench::two_pandas());
+  const Cell& cell = exact.cell();
+  const Pool pool(exact, std::clamp<std::size_t>(count / 5, 40, 400), seed);
+  TruthSampler sampler(exact);
+  Arbiter arbiter(exact.scene);
+  const PlanningScenePtr without = scene_without_clearance(cell);
+  Arbiter arbiter_without(without);
+  bench::ExactScene exact_without(
+      CellPtr(without, &without->cell()));  // the scene owns the cell
+  Report report;
+  for (const double step_s : steps_s) report.discrete.push_back({step_s, {}, {}});
+  for (const MovingPair& pair : random_pairs(exact, pool, count, seed + 1)) {
+    const Truth truth = sampler.of(pair);
+    report.truth_samples += truth.looked_at;
+    // What the candidate does to itself and to what stands still is asked, and kept, before.
+    Question alone = pair.question(cell, kExactly);
+    alone.others.clear();
+    static_cast<void>(arbiter.judge(alone));
+    measure_certified(pair, truth, arbiter.judge(pair.question(cell, kExactly)), cell.clearance_m,
+                      report);
+    if (truth.smallest_m > 0.0) continue;
+    if (between_motions(arbiter_without.judge(pair.question(cell, kExactly))) == nullptr) {
+      ++report.missed_collisions;
+      report.failures.push_back("pair " + std::to_string(report.pairs - 1) +
+                                ": without a clearance called free");
+    }
+    double contact_s = -1.0;
+    for (DiscreteRow& row : report.discrete) {
+      const TimedDiscrete method{from_seconds(row.step_s)};
+      const auto free = [&](Arbiter& by) {
+        return between_motions(by.judge(pair.question(cell, method))) == nullptr;
+      };
+      if (!free(arbiter_without)) continue;  // a clearance does not make it miss more
+      if (contact_s < 0.0) contact_s = contact_time_s(pair, exact_without);
+      note_missed(row.without, truth.smallest_m, contact_s);
+      if (free(arbiter)) note_missed(row.with_clearance, truth.smallest_m, contact_s);
+    }
+  }
+  return report;
+}
+
+void print_markdown(const Report& r, std::ostream& out) {
+  const auto share = [](std::size_t part, std::size_t of) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(2)
+         << (of == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(of)) << " %";
+    return text.str();
+  };
+  out << "| pairs of timed motions | " << r.pairs << " |\n|---|---|\n"
+      << "| truly collide | " << r.colliding << " (" << share(r.colliding, r.pairs) << ") |\n"
+      << "| closer than the clearance of 20 mm | " << r.below << " |\n"
+      << "| from there to 100 mm | " << r.close << " |\n"
+      << "| exact samples of 0.5 ms that could not be skipped, a pair | "
+      << r.truth_samples / std::max<std::size_t>(r.pairs, 1) << " |\n"
+      << "| **certified: collisions missed** | " << r.missed_collisions << " |\n"
+      << "| certified: pairs below the clearance called free | " << r.missed << " |\n"
+      << "| certified: false alarms among " << r.above << " pairs above clearance + 2 mm | "
+      << r.false_alarms << " (" << share(r.false_alarms, r.above) << ") |\n"
+      << "| certified: undecided | " << r.undecided << " |\n"
+      << "| certified: first conflict later / earlier than the truth's, at most | "
+      << milli(r.first_conflict_error_max_s) << " / " << milli(r.first_conflict_early_max_s)
+      << " ms |\n"
+      << "| certified: evaluations of the two motions, mean / most | "
+      << r.evaluations_total / std::max<std::size_t>(r.pairs, 1) << " / " << r.evaluations_max
+      << " |\n\n";
+  out << "| of the " << r.colliding
+      << " pairs that collide, called free | at clearance 0 | deepest | longest contact | at 20 mm "
+         "| deepest |\n|---|---|---|---|---|---|\n";
+  for (const DiscreteRow& row : r.discrete) {
+    out << "| every " << row.step_s << " s | " << row.without.pairs << " | "
+        << milli(-row.without.deepest_m) << " mm | " << milli(row.without.longest_s) << " ms | "
+        << row.with_clearance.pairs << " | " << milli(-row.with_clearance.deepest_m) << " mm |\n";
+  }
+  out << "| certified | " << r.missed_collisions << " | | | " << r.missed_collisions << " | |\n";
+}
+
+}  // namespace armloom::soundness

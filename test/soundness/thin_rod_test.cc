@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include "core/collision/arbiter.h"
+#include "test/collision/small_cell.h"
+
+// T4: two thin rods, each turned about its own base, sweep through one crossing fast, between the
+// samples of the discrete check.
+namespace armloom::soundness {
+namespace {
+
+using namespace std::chrono_literals;
+
+CellPtr two_rods() {
+  Cell cell;
+  cell.clearance_m = 0.001;
+  cell.self_clearance_m = 0.0;
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {up}, 0.5, 0.003);
+  small::add_robot(cell, "right", small::at_xyz(0.9, 0, 0), {up}, 0.5, 0.003);
+  return small::shared(std::move(cell));
+}
+
+// The left rod swings past +x from below to above; the right one stands, pointing at the left.
+// The middle of the way is passed `offset` after a multiple of every step of the discrete check.
+Question crossing(const Cell& cell, Duration offset, const CheckMethod& method) {
+  const double half = small::kHalfTurn;
+  const Motion left{JobId{1},
+                    small::sweep(cell, {ArmId{0}}, {-1.2}, {1.2}, 400ms + 2 * offset), {}};
+  const Motion right{JobId{2}, small::sweep(cell, {ArmId{1}}, {half}, {half}, 1s), {}};
+  return {1, TimePoint{}, {left}, {right}, cell.home(), method};
+}
+
+TEST(ThinRod, CrossedBetweenTwoSamplesIsFoundByTheCertifiedCheckOnly) {
+  const CellPtr cell = two_rods();
+  Arbiter arbiter(PlanningScene::build(cell).value());
+  const Duration offset = 22ms;
+  for (const Duration step : {100ms, 50ms}) {
+    EXPECT_EQ(arbiter.judge(crossing(*cell, offset, TimedDiscrete{step})).kind,
+              Verdict::Kind::free);
+  }
+  const Verdict verdict = arbiter.judge(crossing(*cell, offset, Certified{0ms, false, 0.0}));
+  ASSERT_EQ(verdict.kind, Verdict::Kind::conflict);
+  ASSERT_EQ(verdict.conflicts.size(), 1U);
+  EXPECT_EQ(verdict.conflicts[0].with, Conflict::With::motion);
+  EXPECT_LT(verdict.conflicts[0].proximity.clearance_m, cell->clearance_m);
+  EXPECT_NEAR(to_seconds(verdict.conflicts[0].own_time), 0.222, 0.02);
+}
+
+TEST(ThinRod, IsAlsoFoundWhenTheOtherOneHasComeToRestLongBefore) {
+  const CellPtr cell = two_rods();
+  Arbiter arbiter(PlanningScene::build(cell).value());
+  Question question = crossing(*cell, 22ms, Certified{0ms, false, 0.0});
+  question.candidates[0].progress = -20s;
+  question.others[0].progress = 990ms;
+  EXPECT_EQ(arbiter.judge(question).kind, Verdict::Kind::conflict);
+}
+
+}  // namespace
+}  // namespace armloom::soundness
