@@ -25,9 +25,15 @@ struct Frames {
 
 }  // namespace
 
+// One side of a batch of cells that lie apart.
+struct CoordinationDiagram::Gathered {
+  std::vector<float> capsules;   // [capsule][6][kLanes]
+  std::vector<float> inflation;  // [capsule][kLanes]
+  std::vector<float> ball;       // [4][kLanes]
+};
+
 struct CoordinationDiagram::Scratch {
-  std::vector<float> capsules_a, capsules_b;    // [capsule][6][kLanes]
-  std::vector<float> inflation_a, inflation_b;  // [capsule][kLanes]
+  Gathered a, b;
   std::vector<filter::Hit> hits, box_hits;
   std::vector<Undecided> undecided;  // of one cell
   Frames point;
@@ -59,24 +65,23 @@ struct CoordinationDiagram::Search {
 
 CoordinationDiagram::CoordinationDiagram(Setting setting, std::shared_ptr<MotionTube> a,
                                          std::shared_ptr<MotionTube> b)
-    : setting_(setting),
-      a_(std::move(a)),
-      b_(std::move(b)),
-      cells_{{MotionTube::root(), MotionTube::root()}},
-      scratch_(std::make_shared<Scratch>()) {
+    : setting_(setting), a_(std::move(a)), b_(std::move(b)), scratch_(std::make_shared<Scratch>()) {
+  cells_.reserve(128);
+  cells_.push_back({MotionTube::root(), MotionTube::root()});
   Scratch& s = *scratch_;
-  const auto size = [](const MotionTube& tube) {
-    return tube.linkage().capsules().size() * static_cast<std::size_t>(kLanes);
+  const auto make_room = [](const MotionTube& tube, Gathered& gathered) {
+    const std::size_t size = tube.linkage().capsules().size() * static_cast<std::size_t>(kLanes);
+    gathered.capsules.resize(size * 6);
+    gathered.inflation.resize(size);
+    gathered.ball.resize(4 * static_cast<std::size_t>(kLanes));
   };
-  s.capsules_a.resize(size(*a_) * 6);
-  s.inflation_a.resize(size(*a_));
+  make_room(*a_, s.a);
   s.point.a.resize(a_->linkage().frames().size() * 12);
   s.point.q.resize(a_->linkage().joints().size());
   s.hits.resize(setting_.pairs->pairs.size() + 1);
   s.box_hits.resize(setting_.pairs->boxes.size() + 1);
   if (!b_) return;
-  s.capsules_b.resize(size(*b_) * 6);
-  s.inflation_b.resize(size(*b_));
+  make_room(*b_, s.b);
   s.point.b.resize(b_->linkage().frames().size() * 12);
   s.point.q.resize(std::max(s.point.q.size(), b_->linkage().joints().size()));
 }
@@ -302,7 +307,8 @@ std::vector<CoordinationDiagram::Close> CoordinationDiagram::too_close_at(Durati
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (i > 0 && pairs[i].pair == pairs[i - 1].pair) continue;  // another capsule of the same
       const Frames& point = scratch_->point;
-      const double distance_m = exact(pairs[i], point.a.data(), point.b.data(), pairs[i].limit_m);
+      const double distance_m =
+          exact(pairs[i], point.a.data(), point.b.data(), 1, pairs[i].limit_m);
       if (distance_m < pairs[i].limit_m) close.push_back({pairs[i].pair, distance_m});
     }
   };
@@ -331,32 +337,35 @@ std::optional<CoordinationDiagram::Finding> CoordinationDiagram::on_the_line(con
   finding.at_s = *at_s;
   place_point(finding.time_a, finding.time_b);
   const Frames& point = scratch_->point;
-  finding.distance_m = exact(pair, point.a.data(), point.b.data(), pair.limit_m);
+  finding.distance_m = exact(pair, point.a.data(), point.b.data(), 1, pair.limit_m);
   return finding.distance_m < pair.limit_m ? std::optional(finding) : std::nullopt;
 }
 
 // ---- One batch of cells ----
 
-void CoordinationDiagram::gather(const Open* open, std::size_t count) {
-  Scratch& s = *scratch_;
-  const auto fill = [&](const MotionTube& tube, auto node_of, std::vector<float>& capsules,
-                        std::vector<float>& inflation) {
-    const std::size_t size = tube.linkage().capsules().size();
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const float* from = tube.capsules(node_of(at(open[lane].cell)));
-      float* to = capsules.data() + lane;
-      float* bound = inflation.data() + lane;
-      for (std::size_t c = 0; c < size; ++c, from += 8, bound += kLanes) {
-        for (int i = 0; i < 6; ++i, to += kLanes) *to = from[i];
-        *bound = from[6];
-      }
-    }
+// The nodes of the cells as one side: the block itself where they are one.
+filter::Side CoordinationDiagram::gather(const MotionTube& tube, int Cell::*node, const Open* open,
+                                         std::size_t count, Gathered& to) {
+  const MotionTube::Place first = tube.place_of(at(open[0].cell).*node);
+  bool together = first.lane == 0;
+  for (std::size_t lane = 1; together && lane < count; ++lane) {
+    const MotionTube::Place place = tube.place_of(at(open[lane].cell).*node);
+    together = place.block == first.block && place.lane == lane;
+  }
+  if (together) {
+    return {first.block->capsules.data(), first.block->inflation.data(), first.block->ball.data()};
+  }
+  const std::size_t capsules = tube.linkage().capsules().size();
+  const auto copy = [](const float* from, float* to_lane, std::size_t rows) {
+    for (std::size_t i = 0; i < rows; ++i) to_lane[i * kLanes] = from[i * kLanes];
   };
-  fill(
-      *a_, [](const Cell& cell) { return cell.a; }, s.capsules_a, s.inflation_a);
-  if (b_)
-    fill(
-        *b_, [](const Cell& cell) { return cell.b; }, s.capsules_b, s.inflation_b);
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    const MotionTube::Place place = tube.place_of(at(open[lane].cell).*node);
+    copy(place.block->capsules.data() + place.lane, to.capsules.data() + lane, capsules * 6);
+    copy(place.block->inflation.data() + place.lane, to.inflation.data() + lane, capsules);
+    copy(place.block->ball.data() + place.lane, to.ball.data() + lane, 4);
+  }
+  return {to.capsules.data(), to.inflation.data(), to.ball.data()};
 }
 
 void CoordinationDiagram::evaluate(const Open* open, std::size_t count) {
@@ -373,15 +382,15 @@ void CoordinationDiagram::evaluate(const Open* open, std::size_t count) {
   const bool self = !b_ && still_ == nullptr;
   int pairs = 0;
   int boxes = 0;
+  filter::Side a{};
   if (!self) {
-    gather(open, count);
+    a = gather(*a_, &Cell::a, open, count, s.a);
     const filter::Kernel& kernel = filter::best_kernel();
     const unsigned lanes = (1U << count) - 1U;
-    const filter::Side a{s.capsules_a.data(), s.inflation_a.data()};
-    const filter::Side b = b_ ? filter::Side{s.capsules_b.data(), s.inflation_b.data()}
-                              : filter::Side{still_->lanes.data(), still_->at_rest.data()};
-    pairs = kernel.near_pairs(a, b, set.pairs.data(), static_cast<int>(set.pairs.size()), lanes,
-                              s.hits.data());
+    const filter::Side b = b_ ? gather(*b_, &Cell::b, open, count, s.b)
+                              : filter::Side{still_->lanes.data(), still_->at_rest.data(), nullptr};
+    pairs = kernel.near_pairs(a, b, set.pairs.data(), static_cast<int>(set.pairs.size()),
+                              set.grouped(), lanes, s.hits.data());
     boxes = kernel.near_boxes(a, set.boxes.data(), static_cast<int>(set.boxes.size()), lanes,
                               s.box_hits.data());
   }
@@ -396,7 +405,7 @@ void CoordinationDiagram::evaluate(const Open* open, std::size_t count) {
     const NarrowPair& pair = narrow(hit.pair, box);
     const int row_a = box ? set.boxes[entry].row_a : set.pairs[entry].row_a;
     const auto moves_a =
-        static_cast<double>(s.inflation_a[static_cast<std::size_t>(row_a * kLanes) + lane]);
+        static_cast<double>(a.inflation[static_cast<std::size_t>(row_a * kLanes) + lane]);
     s.undecided.push_back({hit.pair, box, static_cast<double>(hit.distance[lane]), moves_a,
                            static_cast<double>(hit.inflation[lane]) - moves_a, pair.limit_m,
                            excess(pair)});
@@ -418,14 +427,14 @@ void CoordinationDiagram::evaluate(const Open* open, std::size_t count) {
 }
 
 double CoordinationDiagram::exact(const NarrowPair& pair, const double* frames_a,
-                                  const double* frames_b, double limit_m) const {
+                                  const double* frames_b, int stride, double limit_m) const {
   const LinkagePart& a = a_->linkage().parts()[static_cast<std::size_t>(pair.part_a)];
   const bool self = !b_ && still_ == nullptr;
   const auto b = static_cast<std::size_t>(pair.part_b);
   const LinkagePart& part_b =
       b_ ? b_->linkage().parts()[b] : (self ? a_->linkage().parts()[b] : still_->parts[b]);
-  return part_distance(*setting_.bodies, a.part, part_pose(a, frames_a), part_b.part,
-                       part_pose(part_b, self ? frames_a : frames_b), limit_m);
+  return part_distance(*setting_.bodies, a.part, part_pose(a, frames_a, stride), part_b.part,
+                       part_pose(part_b, self ? frames_a : frames_b, stride), limit_m);
 }
 
 const NarrowPair& CoordinationDiagram::narrow(int entry, bool box) const {
@@ -438,7 +447,8 @@ const NarrowPair& CoordinationDiagram::narrow(int entry, bool box) const {
 bool CoordinationDiagram::clears(Cell& cell, Undecided& u) {
   const NarrowPair& pair = narrow(u.narrow, u.box);
   const double enough_m = u.limit_m + u.moves_m();
-  u.distance_m = exact(pair, a_->frames(cell.a), b_ ? b_->frames(cell.b) : nullptr, enough_m);
+  u.distance_m = exact(pair, a_->place_of(cell.a).frames(),
+                       b_ ? b_->place_of(cell.b).frames() : nullptr, filter::kLanes, enough_m);
   u.slack_m = 0.0;
   if (u.distance_m >= enough_m) return true;
   note(cell, {pair.pair, u.narrow, u.box, u.distance_m});

@@ -118,14 +118,16 @@ class CoordinationDiagram {
   [[nodiscard]] bool can_split(const Cell& cell) const;
   [[nodiscard]] bool too_wide(const Cell& cell) const;
   void evaluate(const Open* open, std::size_t count);
-  void gather(const Open* open, std::size_t count);
+  struct Gathered;
+  [[nodiscard]] filter::Side gather(const MotionTube& tube, int Cell::*node, const Open* open,
+                                    std::size_t count, Gathered& to);
   void decide(int cell);
   void note(Cell& cell, const Found& found);
   void choose_split(Cell& cell, const Undecided& worst);
   bool clears(Cell& cell, Undecided& undecided);
   [[nodiscard]] const NarrowPair& narrow(int entry, bool box) const;
   [[nodiscard]] double exact(const NarrowPair& pair, const double* frames_a, const double* frames_b,
-                             double limit_m) const;
+                             int stride, double limit_m) const;
   void consider_conflict(const Open& open, Search& search);
   void place_point(Duration time_a, Duration time_b);
   [[nodiscard]] std::optional<Finding> on_the_line(const Open& open, const Region& region);

@@ -177,6 +177,7 @@ filter::Capsule kernel_capsule(const Eigen::Isometry3d& X_FP, const Eigen::Vecto
   Eigen::Map<Eigen::Vector3d>(capsule.center) = X_FP * Eigen::Vector3d(0.5 * (p_PA + p_PB));
   Eigen::Map<Eigen::Vector3d>(capsule.half) = X_FP.linear() * (0.5 * (p_PB - p_PA));
   capsule.radius_up = round_up(radius_m);
+  capsule.ball_up = round_up(radius_m + 0.5 * (p_PB - p_PA).norm() + 1e-6);
   return capsule;
 }
 

@@ -20,9 +20,9 @@ struct LinkagePart {
   int capsules_end;
 };
 
-// One arm, with what it holds, as the filter's kernels want it: only what moves is a frame, fixed links are folded into
-// the frame that carries them, every frame's joint turns about its z. Works for any tree of
-// revolute, continuous, prismatic and mimic joints. Immutable.
+// One arm, with what it holds, as the filter's kernels want it: only what moves is a frame, fixed
+// links are folded into the frame that carries them, every frame's joint turns about its z. Works
+// for any tree of revolute, continuous, prismatic and mimic joints. Immutable.
 class Linkage {
  public:
   Linkage(const PlanningScene::Bodies& bodies, ArmId arm);

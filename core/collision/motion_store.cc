@@ -10,6 +10,7 @@ MotionStore::MotionStore(PlanningScenePtr scene) : scene_(scene), links_(std::mo
   const std::size_t arms = scene_->cell().arms.size();
   for (std::uint32_t a = 0; a < arms; ++a) {
     arms_.push_back(std::make_shared<const ArmGeometry>(scene_->bodies(), ArmId{a}));
+    scratch_.push_back(MotionTube::make_scratch(*arms_.back()));
   }
   still_parts_ = std::make_unique<StillParts>(scene_->bodies());
   still_.resize(arms);
@@ -72,7 +73,8 @@ MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId a
             trajectory,
             {},
             tracking_error,
-            std::make_shared<MotionTube>(geometry, trajectory, rest, tracking_error),
+            std::make_shared<MotionTube>(geometry, trajectory, rest, tracking_error,
+                                         scratch_[arm.index()]),
             trajectory ? stopping_reach_s(scene_->cell(), *trajectory) : 0.0,
             question_});
   for (const JointId joint : geometry->linkage.joints()) {

@@ -65,6 +65,7 @@ class MotionStore {
   PlanningScenePtr scene_;
   PlanningScenePtr links_;  // the scene that cross and self pairs were read from
   std::vector<std::shared_ptr<const ArmGeometry>> arms_;
+  std::vector<std::shared_ptr<MotionTube::Scratch>> scratch_;  // by arm
   std::map<std::pair<ArmId, ArmId>, PairSet> cross_;
   std::unique_ptr<StillParts> still_parts_;
   std::vector<std::unique_ptr<PairSet>> still_;                  // by arm, made when asked for

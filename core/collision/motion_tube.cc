@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/collision/filter/kernels.h"
 
@@ -20,23 +21,37 @@ struct MotionTube::Scratch {
   std::vector<double> q;
   std::vector<float> joint_span;  // [row][kLanes]
   std::vector<float> span;        // [frame][kLanes]
-  std::vector<double> frames;
   std::vector<float> axes;
-  std::vector<float> capsules;
   std::vector<float> suffix;
+  std::vector<int> capsule_rows;  // in Block::inflation
   std::vector<filter::Hit> hits;
   Eigen::VectorXd position, lower, upper;
 };
 
+std::shared_ptr<MotionTube::Scratch> MotionTube::make_scratch(const ArmGeometry& geometry) {
+  const Linkage& arm = geometry.linkage;
+  auto s = std::make_shared<Scratch>();
+  s->q.resize(lane_size(arm.joints().size()));
+  s->joint_span.resize(lane_size(arm.joints().size()));
+  s->span.resize(lane_size(arm.frames().size()));
+  s->axes.resize(lane_size(arm.frames().size() * 6));
+  s->suffix.resize(lane_size(static_cast<std::size_t>(arm.suffix_rows())));
+  s->capsule_rows.resize(arm.capsules().size());
+  std::iota(s->capsule_rows.begin(), s->capsule_rows.end(), 0);
+  s->hits.resize(geometry.self.pairs.size() + 1);
+  return s;
+}
+
 MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPtr trajectory,
-                       const Configuration& rest, double tracking_error)
+                       const Configuration& rest, double tracking_error,
+                       std::shared_ptr<Scratch> scratch)
     : geometry_(std::move(geometry)),
       trajectory_(std::move(trajectory)),
       tracking_error_(tracking_error),
-      capsule_stride_(geometry_->linkage.capsules().size() * 8),
-      frame_stride_(geometry_->linkage.frames().size() * 12),
-      scratch_(std::make_shared<Scratch>()) {
+      scratch_(scratch ? std::move(scratch) : make_scratch(*geometry_)) {
   const Linkage& arm = geometry_->linkage;
+  rest_.reserve(arm.joints().size());
+  column_.reserve(arm.joints().size());
   for (const JointId joint : arm.joints()) {
     rest_.push_back(rest[static_cast<Eigen::Index>(joint.index())]);
     column_.push_back(-1);
@@ -45,16 +60,8 @@ MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPt
     const auto found = std::find(moved.begin(), moved.end(), joint);
     if (found != moved.end()) column_.back() = static_cast<int>(found - moved.begin());
   }
+  nodes_.reserve(trajectory_ ? 64 : 1);
   nodes_.push_back({Duration{}, trajectory_ ? trajectory_->duration() : Duration{}});
-  Scratch& s = *scratch_;
-  s.q.resize(lane_size(arm.joints().size()));
-  s.joint_span.resize(lane_size(arm.joints().size()));
-  s.span.resize(lane_size(arm.frames().size()));
-  s.frames.resize(lane_size(arm.frames().size() * 12));
-  s.axes.resize(lane_size(arm.frames().size() * 6));
-  s.capsules.resize(lane_size(arm.capsules().size() * 6));
-  s.suffix.resize(lane_size(static_cast<std::size_t>(arm.suffix_rows())));
-  s.hits.resize(geometry_->self.pairs.size() + 1);
 }
 
 int MotionTube::first_child(int index) {
@@ -138,16 +145,30 @@ void MotionTube::place_batch(std::span<const int> nodes) {
           scale * s.joint_span[lane_size(static_cast<std::size_t>(frame.joint)) + l] * 1.000001F;
     }
   }
-  kernel.place(arm.view(), s.q.data(), {s.frames.data(), s.axes.data(), s.capsules.data()});
-  kernel.inflate(arm.view(), s.axes.data(), s.capsules.data(), s.span.data(), s.suffix.data());
-  keep(nodes);
-  const filter::Side side{s.capsules.data(), s.suffix.data()};
+  const std::size_t capsules = arm.capsules().size();
+  blocks_.push_back(std::make_unique<Block>());
+  Block& block = *blocks_.back();
+  block.capsules.resize(lane_size(capsules * 6));
+  block.inflation.resize(lane_size(capsules));
+  block.ball.resize(lane_size(4));
+  block.frames.resize(lane_size(arm.frames().size() * 12));
+  kernel.place(arm.view(), s.q.data(), {block.frames.data(), s.axes.data(), block.capsules.data()});
+  kernel.inflate(arm.view(), s.axes.data(), block.capsules.data(), s.span.data(), s.suffix.data());
+  for (std::size_t c = 0; c < capsules; ++c) {
+    const auto row = static_cast<std::size_t>(arm.capsules()[c].suffix_begin);
+    std::copy_n(s.suffix.data() + lane_size(row), kLanes, block.inflation.data() + lane_size(c));
+  }
+  kernel.enclose(arm.view(), block.capsules.data(), block.inflation.data(), s.capsule_rows.data(),
+                 block.ball.data());
+  const filter::Side side{block.capsules.data(), s.suffix.data(), nullptr};
   const unsigned lanes = (1U << nodes.size()) - 1U;
   const int found =
       kernel.near_pairs(side, side, geometry_->self.pairs.data(),
-                        static_cast<int>(geometry_->self.pairs.size()), lanes, s.hits.data());
+                        static_cast<int>(geometry_->self.pairs.size()), {}, lanes, s.hits.data());
   for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
     Node& node = nodes_[static_cast<std::size_t>(nodes[lane])];
+    node.block = blocks_.size() - 1;
+    node.lane = lane;
     node.self_begin = self_hits_.size();
     for (int h = 0; h < found; ++h) {
       const filter::Hit& hit = s.hits[static_cast<std::size_t>(h)];
@@ -155,29 +176,6 @@ void MotionTube::place_batch(std::span<const int> nodes) {
       self_hits_.push_back({hit.pair, hit.distance[lane], hit.inflation[lane]});
     }
     node.self_end = self_hits_.size();
-  }
-}
-
-// From lanes to nodes.
-void MotionTube::keep(std::span<const int> nodes) {
-  const Linkage& arm = geometry_->linkage;
-  const Scratch& s = *scratch_;
-  capsules_.resize((slots_ + nodes.size()) * capsule_stride_);
-  frames_.resize((slots_ + nodes.size()) * frame_stride_);
-  for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
-    nodes_[static_cast<std::size_t>(nodes[lane])].slot = slots_;
-    float* capsule = capsules_.data() + slots_ * capsule_stride_;
-    for (std::size_t c = 0; c < arm.capsules().size(); ++c, capsule += 8) {
-      const float* from = s.capsules.data() + lane_size(c * 6) + lane;
-      for (std::size_t i = 0; i < 6; ++i) capsule[i] = from[lane_size(i)];
-      const auto row = static_cast<std::size_t>(arm.capsules()[c].suffix_begin);
-      capsule[6] = s.suffix[lane_size(row) + lane];
-      capsule[7] = 0.0F;
-    }
-    double* frame = frames_.data() + slots_ * frame_stride_;
-    const double* from = s.frames.data() + lane;
-    for (std::size_t i = 0; i < frame_stride_; ++i) frame[i] = from[lane_size(i)];
-    ++slots_;
   }
 }
 

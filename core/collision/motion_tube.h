@@ -26,8 +26,12 @@ class MotionTube {
  public:
   // Joints of the arm that are not in the trajectory stand where `rest` (whole cell) has them;
   // without a trajectory all do, and there is one node for all times.
+  // Tubes of one arm in one thread may share their scratch.
+  struct Scratch;
+  [[nodiscard]] static std::shared_ptr<Scratch> make_scratch(const ArmGeometry& geometry);
   MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPtr trajectory,
-             const Configuration& rest, double tracking_error);
+             const Configuration& rest, double tracking_error,
+             std::shared_ptr<Scratch> scratch = nullptr);
 
   [[nodiscard]] const Linkage& linkage() const { return geometry_->linkage; }
   [[nodiscard]] const ArmGeometry& geometry() const { return *geometry_; }
@@ -45,13 +49,20 @@ class MotionTube {
   // Computes nodes that are not yet (eight at once). Before it the functions below are undefined.
   void place(std::span<const int> nodes);
 
-  // [capsule][8]: centre, half axis, motion bound (m), zero.
-  [[nodiscard]] const float* capsules(int node) const {
-    return capsules_.data() + at(node).slot * capsule_stride_;
-  }
-  // [frame][12], as filter::Frame::C.
-  [[nodiscard]] const double* frames(int node) const {
-    return frames_.data() + at(node).slot * frame_stride_;
+  // Eight nodes side by side, as the kernels have placed them.
+  struct Block {
+    std::vector<float> capsules;   // [capsule][6][kLanes]
+    std::vector<float> inflation;  // [capsule][kLanes]: motion bounds, m
+    std::vector<float> ball;       // [4][kLanes], filter::Side::ball
+    std::vector<double> frames;    // [frame][12][kLanes]
+  };
+  struct Place {
+    const Block* block;
+    std::size_t lane;
+    [[nodiscard]] const double* frames() const { return block->frames.data() + lane; }
+  };
+  [[nodiscard]] Place place_of(int node) const {
+    return {blocks_[at(node).block].get(), at(node).lane};
   }
   // Pairs of the arm's own links (ArmGeometry::self) that are undecided over the interval; the
   // motion bound is that against each other.
@@ -71,14 +82,14 @@ class MotionTube {
     Duration to;
     int children = -1;
     bool placed = false;
-    std::size_t slot = 0;
+    std::size_t block = 0;
+    std::size_t lane = 0;
     std::size_t self_begin = 0;
     std::size_t self_end = 0;
   };
   [[nodiscard]] const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
   void place_batch(std::span<const int> nodes);
   void fill_lane(const Node& node, int lane);
-  void keep(std::span<const int> nodes);
 
   std::shared_ptr<const ArmGeometry> geometry_;
   TrajectoryPtr trajectory_;
@@ -86,14 +97,9 @@ class MotionTube {
   std::vector<double> rest_;  // by row
   double tracking_error_;
   std::vector<Node> nodes_;
-  std::size_t slots_ = 0;
-  std::size_t capsule_stride_;
-  std::size_t frame_stride_;
-  std::vector<float> capsules_;
-  std::vector<double> frames_;
+  std::vector<std::unique_ptr<Block>> blocks_;
   std::vector<SelfHit> self_hits_;
 
-  struct Scratch;  // of one batch
   std::shared_ptr<Scratch> scratch_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/model/kinematics.h"
 
@@ -75,6 +76,34 @@ void for_pairs(const PlanningScene::Bodies& bodies, ArmId a, std::optional<ArmId
   }
 }
 
+// Brings the pairs of one capsule of the side that `of_second` names together, as groups.
+void group(PairSet& set, const std::vector<filter::Capsule>& capsules, bool of_second,
+           double margin_m) {
+  const auto capsule_of = [of_second](const filter::Pair& pair) {
+    return of_second ? pair.b : pair.a;
+  };
+  std::vector<std::size_t> order(set.pairs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return capsule_of(set.pairs[i]); });
+  const PairSet unsorted = set;
+  set.groups.clear();
+  set.groups_of_second = of_second;
+  for (std::size_t at = 0; at < order.size(); ++at) {
+    const filter::Pair& pair = set.pairs[at] = unsorted.pairs[order[at]];
+    set.narrow[at] = unsorted.narrow[order[at]];
+    const int capsule = capsule_of(pair);
+    const int begin = static_cast<int>(at);
+    if (set.groups.empty() || set.groups.back().capsule != capsule) {
+      const filter::Capsule& own = capsules[static_cast<std::size_t>(capsule)];
+      const double size_m = static_cast<double>(own.ball_up) + margin_m + 1e-6;
+      set.groups.push_back(
+          {capsule, of_second ? pair.row_b : pair.row_a, begin, begin, 0.0F, round_up(size_m)});
+    }
+    set.groups.back().end = begin + 1;
+  }
+  set.limits_changed();
+}
+
 }  // namespace
 
 StillParts::StillParts(const PlanningScene::Bodies& bodies) : placed(bodies.bodies.size()) {
@@ -83,12 +112,11 @@ StillParts::StillParts(const PlanningScene::Bodies& bodies) : placed(bodies.bodi
   for (std::size_t i = 0; i < bodies.parts.size(); ++i) {
     const Part& part = bodies.parts[i];
     if (part.arm) continue;
-    LinkagePart still{
-        .part = i,
-        .frame = -1,
-        .X_FP = part.pose(X_WL),
-        .capsules_begin = static_cast<int>(capsules.size()),
-        .capsules_end = 0};
+    LinkagePart still{.part = i,
+                      .frame = -1,
+                      .X_FP = part.pose(X_WL),
+                      .capsules_begin = static_cast<int>(capsules.size()),
+                      .capsules_end = 0};
     for (const LinkCapsule& capsule : part.capsules) {
       capsules.push_back(kernel_capsule(still.X_FP, capsule.p_PA, capsule.p_PB, capsule.radius_m));
       const Eigen::Vector3d center(capsules.back().center);
@@ -122,7 +150,17 @@ PairSet cross_pairs(const PlanningScene::Bodies& bodies, const Linkage& a, const
               add_capsules(set, narrow, a.parts()[static_cast<std::size_t>(i)], a.capsules(),
                            b.parts()[static_cast<std::size_t>(j)], b.capsules(), margin_m);
             });
+  group(set, a.capsules(), false, margin_m);
   return set;
+}
+
+void PairSet::limits_changed() {
+  for (filter::Group& group : groups) {
+    group.limit_up = 0.0F;
+    for (int p = group.begin; p < group.end; ++p) {
+      group.limit_up = std::max(group.limit_up, pairs[static_cast<std::size_t>(p)].limit_up);
+    }
+  }
 }
 
 PairSet self_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm) {
@@ -148,6 +186,7 @@ PairSet self_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm) {
 PairSet still_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm,
                     const StillParts& still) {
   PairSet set;
+  double margin_max_m = 0.0;
   for_pairs(bodies, arm.arm(), std::nullopt,
             [&](PairId id, const PartPair& pair, const PairGroup& group) {
               const int i = index_of(arm.parts(), pair.a);
@@ -164,6 +203,7 @@ PairSet still_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm,
                                                         Eigen::Vector3d(capsule.half), 0.0));
               }
               const auto margin_m = static_cast<double>(filter::rounding_margin(extent_m));
+              margin_max_m = std::max(margin_max_m, margin_m);
               if (part.lone_box) {
                 add_boxes(set, narrow, a, arm.capsules(), bodies.bodies[part.bodies_begin],
                           still.placed[part.bodies_begin].X_WS, margin_m);
@@ -171,6 +211,7 @@ PairSet still_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm,
                 add_capsules(set, narrow, a, arm.capsules(), b, still.capsules, margin_m);
               }
             });
+  group(set, still.capsules, true, margin_max_m);
   return set;
 }
 

@@ -36,8 +36,15 @@ struct PairSet {
   std::vector<NarrowPair> narrow;
   std::vector<filter::BoxPair> boxes;
   std::vector<NarrowPair> narrow_boxes;
+  std::vector<filter::Group> groups;  // of pairs: by the first side's capsules, or ...
+  bool groups_of_second = false;      // ... by the second side's
 
   [[nodiscard]] bool empty() const { return pairs.empty() && boxes.empty(); }
+  [[nodiscard]] filter::Groups grouped() const {
+    return {groups.data(), static_cast<int>(groups.size()), groups_of_second};
+  }
+  // To be called when pairs have got other limits.
+  void limits_changed();
 };
 
 // Limits: the cell's clearance_m between arms, objects and other robots' links; self_clearance_m

@@ -20,9 +20,11 @@ struct PlacedArm {
         frames(linkage.frames().size() * 12 * kLanes),
         axes(linkage.frames().size() * 6 * kLanes),
         capsules(linkage.capsules().size() * 6 * kLanes),
-        at_rest(static_cast<std::size_t>(linkage.suffix_rows()) * kLanes, 0.0F) {}
+        at_rest(static_cast<std::size_t>(linkage.suffix_rows()) * kLanes, 0.0F),
+        rows(linkage.capsules().size(), 0),
+        ball(4 * kLanes) {}
 
-  [[nodiscard]] filter::Side side() const { return {capsules.data(), at_rest.data()}; }
+  [[nodiscard]] filter::Side side() const { return {capsules.data(), at_rest.data(), ball.data()}; }
 
   Linkage linkage;
   std::vector<double> q;
@@ -30,6 +32,8 @@ struct PlacedArm {
   std::vector<float> axes;
   std::vector<float> capsules;
   std::vector<float> at_rest;  // no motion: zeros
+  std::vector<int> rows;       // the same for all capsules
+  std::vector<float> ball;
 };
 
 // The pairs of two arms, of an arm and itself (b == a), or of an arm and what stands still.
@@ -57,6 +61,7 @@ void set_limits(const PlanningScene::Bodies& bodies, const StateCheck::Limits& l
   };
   set_all(set.pairs, set.narrow);
   set_all(set.boxes, set.narrow_boxes);
+  set.limits_changed();
 }
 
 }  // namespace
@@ -105,16 +110,20 @@ struct StateCheck::Scratch {
       }
       kernel.place(arm.linkage.view(), arm.q.data(),
                    {arm.frames.data(), arm.axes.data(), arm.capsules.data()});
+      kernel.enclose(arm.linkage.view(), arm.capsules.data(), arm.at_rest.data(), arm.rows.data(),
+                     arm.ball.data());
     }
   }
 
   [[nodiscard]] filter::Side other_side(const Comparison& c) const {
-    return c.still ? filter::Side{still.lanes.data(), still.at_rest.data()} : arms[c.b].side();
+    return c.still ? filter::Side{still.lanes.data(), still.at_rest.data(), nullptr}
+                   : arms[c.b].side();
   }
 
   int near_pairs(const Comparison& c, unsigned lanes) {
     return kernel.near_pairs(arms[c.a].side(), other_side(c), c.pairs.pairs.data(),
-                             static_cast<int>(c.pairs.pairs.size()), lanes, hits.data());
+                             static_cast<int>(c.pairs.pairs.size()), c.pairs.grouped(), lanes,
+                             hits.data());
   }
 
   [[nodiscard]] bool closer_than_limit(const Comparison& c, const NarrowPair& pair,

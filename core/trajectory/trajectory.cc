@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -136,9 +137,16 @@ void Trajectory::sample_positions(Duration progress, Eigen::VectorXd& position) 
 
 void Trajectory::enclose_positions(Duration from, Duration to, Eigen::VectorXd& lower,
                                    Eigen::VectorXd& upper) const {
-  sample_positions(from, lower);
-  upper = lower;
-  if (to <= Duration::zero() || from >= duration_) return;
+  const bool rests = to <= Duration::zero() || from >= duration_ || from == to;
+  if (rests || from < Duration::zero()) {
+    sample_positions(from, lower);
+    upper = lower;
+    if (rests) return;
+  } else {
+    const auto joints = static_cast<Eigen::Index>(joints_.size());
+    lower.setConstant(joints, std::numeric_limits<double>::infinity());
+    upper.setConstant(joints, -std::numeric_limits<double>::infinity());
+  }
   const Eigen::Index size = lower.size();
   const auto widen = [&](Eigen::Index j, double low, double high) {
     lower[j] = std::min(lower[j], low);

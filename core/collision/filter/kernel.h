@@ -31,6 +31,7 @@ struct Capsule {
   double center[3];  // in the frame, m
   double half[3];    // from the centre to one end of the axis
   float radius_up;   // rounded up
+  float ball_up;     // radius and half length, rounded up
   int ancestors_begin;
   int depth;         // number of ancestors
   int suffix_begin;  // first of its depth + 1 rows in the array of motion bounds
@@ -56,6 +57,8 @@ struct Placed {
 struct Side {
   const float* capsules;   // as Placed::capsules
   const float* inflation;  // [row][kLanes], m
+  const float* ball;       // [4][kLanes]: centre and radius of a ball around all of them as far as
+                           // they may move (Kernel::enclose); not read where pairs have no groups
 };
 
 // Two capsules to compare, with what does not change. Rows of the sides' inflation arrays say how
@@ -68,6 +71,21 @@ struct Pair {
   float ends_up;         // both half lengths
   float aa, bb;          // squared half lengths
   float inv_aa, inv_bb;  // zero for a point
+};
+
+// Consecutive pairs of one capsule of one side, held against the other side's ball first.
+struct Group {
+  int capsule;
+  int row;
+  int begin;  // pairs
+  int end;
+  float limit_up;  // the largest of its pairs
+  float size_up;   // the capsule's radius and half length, and the margin
+};
+struct Groups {
+  const Group* all;
+  int count;  // none: every pair is looked at
+  bool of_b;  // the capsules are the second side's, the ball the first one's
 };
 
 // A capsule against a solid box that stands still.
@@ -101,10 +119,13 @@ struct Kernel {
   // has here: hence the levers at hand bound motions of any size.)
   void (*inflate)(const Linkage& linkage, const float* axes, const float* capsules,
                   const float* span, float* suffix);
+  // The ball of a side; `inflation` has a row for each capsule of `rows`.
+  void (*enclose)(const Linkage& linkage, const float* capsules, const float* inflation,
+                  const int* rows, float* ball);
   // Writes the pairs that are undecided in one of `lanes`; returns their number. `hits` has room
   // for all pairs.
-  int (*near_pairs)(const Side& a, const Side& b, const Pair* pairs, int count, unsigned lanes,
-                    Hit* hits);
+  int (*near_pairs)(const Side& a, const Side& b, const Pair* pairs, int count,
+                    const Groups& groups, unsigned lanes, Hit* hits);
   int (*near_boxes)(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits);
 };
 

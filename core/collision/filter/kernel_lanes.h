@@ -189,33 +189,89 @@ inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pai
   return gap / F::max(length, F::all(1e-20F));
 }
 
+// About the middle of the box around the capsules' centres.
 template <class F>
-int near_pairs(const Side& a, const Side& b, const Pair* pairs, int count, unsigned lanes,
-               Hit* hits) {
-  int found = 0;
-  for (int p = 0; p < count; ++p) {
-    const Pair& pair = pairs[p];
-    const float* at_a = a.capsules + pair.a * 6 * kLanes;
-    const float* at_b = b.capsules + pair.b * 6 * kLanes;
-    Hit& hit = hits[found];
-    unsigned near = 0;
-    for (int l = 0; l < kLanes; l += F::kLanes) {
-      const Vec<F> w = minus(Vec<F>::load(at_a + l), Vec<F>::load(at_b + l));
-      const F inflation = F::load(a.inflation + pair.row_a * kLanes + l) +
-                          F::load(b.inflation + pair.row_b * kLanes + l);
-      const F keep = F::all(pair.limit_up + pair.radii_up) + inflation;
-      const F reach = keep + F::all(pair.ends_up);
-      if (F::not_at_least(dot(w, w), reach * reach) == 0) continue;
-      const Vec<F> ha = Vec<F>::load(at_a + 3 * kLanes + l);
-      const Vec<F> hb = Vec<F>::load(at_b + 3 * kLanes + l);
-      const F gap = axis_gap(w, ha, hb, pair);
-      near |= F::not_at_least(gap, keep) << l;
-      (gap - F::all(pair.radii_up)).store(hit.distance + l);
-      inflation.store(hit.inflation + l);
+void enclose(const Linkage& linkage, const float* capsules, const float* inflation, const int* rows,
+             float* ball) {
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    Vec<F> low = Vec<F>::load(capsules + l);
+    Vec<F> high = low;
+    for (int c = 1; c < linkage.capsule_count; ++c) {
+      const Vec<F> p = Vec<F>::load(capsules + c * 6 * kLanes + l);
+      low = {F::min(low.x, p.x), F::min(low.y, p.y), F::min(low.z, p.z)};
+      high = {F::max(high.x, p.x), F::max(high.y, p.y), F::max(high.z, p.z)};
     }
-    hit.pair = p;
-    hit.lanes = near & lanes;
-    found += hit.lanes != 0 ? 1 : 0;
+    const F half = F::all(0.5F);
+    const Vec<F> center = {(low.x + high.x) * half, (low.y + high.y) * half,
+                           (low.z + high.z) * half};
+    F radius = F::all(0.0F);
+    for (int c = 0; c < linkage.capsule_count; ++c) {
+      const Vec<F> w = minus(Vec<F>::load(capsules + c * 6 * kLanes + l), center);
+      const F far = F::sqrt(dot(w, w)) * F::all(1.00001F) +
+                    F::load(inflation + rows[c] * kLanes + l) + F::all(linkage.capsules[c].ball_up);
+      radius = F::max(radius, far);
+    }
+    center.x.store(ball + l);
+    center.y.store(ball + kLanes + l);
+    center.z.store(ball + 2 * kLanes + l);
+    radius.store(ball + 3 * kLanes + l);
+  }
+}
+
+// Whether the pair is undecided in some of the lanes; then its hit is filled.
+template <class F>
+inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& hit) {
+  const float* at_a = a.capsules + pair.a * 6 * kLanes;
+  const float* at_b = b.capsules + pair.b * 6 * kLanes;
+  unsigned near = 0;
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    const Vec<F> w = minus(Vec<F>::load(at_a + l), Vec<F>::load(at_b + l));
+    const F inflation = F::load(a.inflation + pair.row_a * kLanes + l) +
+                        F::load(b.inflation + pair.row_b * kLanes + l);
+    const F keep = F::all(pair.limit_up + pair.radii_up) + inflation;
+    const F reach = keep + F::all(pair.ends_up);
+    if (F::not_at_least(dot(w, w), reach * reach) == 0) continue;
+    const Vec<F> ha = Vec<F>::load(at_a + 3 * kLanes + l);
+    const Vec<F> hb = Vec<F>::load(at_b + 3 * kLanes + l);
+    const F gap = axis_gap(w, ha, hb, pair);
+    near |= F::not_at_least(gap, keep) << l;
+    (gap - F::all(pair.radii_up)).store(hit.distance + l);
+    inflation.store(hit.inflation + l);
+  }
+  return near;
+}
+
+// Whether the group's capsule, one of `own`, may come near the other side's ball in some lane.
+template <class F>
+inline bool near_ball(const Side& own, const Side& other, const Group& group) {
+  const float* at = own.capsules + group.capsule * 6 * kLanes;
+  unsigned near = 0;
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    const Vec<F> w = minus(Vec<F>::load(at + l), Vec<F>::load(other.ball + l));
+    const F reach = F::load(own.inflation + group.row * kLanes + l) +
+                    F::load(other.ball + 3 * kLanes + l) + F::all(group.limit_up + group.size_up);
+    near |= F::not_at_least(dot(w, w), reach * reach);
+  }
+  return near != 0;
+}
+
+template <class F>
+int near_pairs(const Side& a, const Side& b, const Pair* pairs, int count, const Groups& groups,
+               unsigned lanes, Hit* hits) {
+  int found = 0;
+  const auto look = [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      Hit& hit = hits[found];
+      hit.pair = p;
+      hit.lanes = near_pair<F>(a, b, pairs[p], hit) & lanes;
+      found += hit.lanes != 0 ? 1 : 0;
+    }
+  };
+  if (groups.count == 0) look(0, count);
+  for (int g = 0; g < groups.count; ++g) {
+    const Group& group = groups.all[g];
+    const bool near = groups.of_b ? near_ball<F>(b, a, group) : near_ball<F>(a, b, group);
+    if (near) look(group.begin, group.end);
   }
   return found;
 }
