@@ -16,7 +16,7 @@ import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { difference } from './pictures.mjs';
+import { difference, pixels_like } from './pictures.mjs';
 
 const kRoot = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 const { chromium } = createRequire(join(kRoot, 'web/package.json'))('playwright-core');
@@ -32,6 +32,12 @@ const kPatience_ms = 20_000;
 // A robot of the cell covers several thousand pixels of the view; labels and text far fewer.
 const kLeastRobot_px = 3000;
 const kLeastObject_px = 1500;
+// The diagram's colours of cells in conflict and of free ones (web/src/palette.ts).
+const kConflict = [0xe0, 0x45, 0x4e];
+const kFree = [0xc3, 0xcf, 0xdb];
+const kLeastArea_px = 2000;
+// Joints of a Panda that reaches into the middle; not for both arms at once.
+const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
 let server;
 let server_output = '';
@@ -122,6 +128,44 @@ test('details of a running job show how far it is', { timeout: 60_000 }, async (
   await page.getByRole('button', { name: 'Close', exact: true }).click();
 });
 
+// Both want the middle: one goes there, the other waits for it, and a click on the reason shows why.
+test('the diagram of two jobs that cross is red where they conflict', { timeout: 90_000 }, async () => {
+  const reach = async (id, arm, seconds) => {
+    const { names, q } = await arm_now(arm);
+    const rest = q.map(() => 0);
+    const point = (positions, sec) => ({ positions, velocities: rest, accelerations: rest, time_from_start: { sec, nanosec: 0 } });
+    const points = [point(q, 0), point(kMiddle, seconds), point(q, 2 * seconds)];
+    await page.evaluate(async (body) => {
+      const answer = await fetch('/api/v1/jobs', { method: 'POST', headers: { 'content-type': 'application/json' }, body });
+      if (answer.status !== 202) throw new Error(await answer.text());
+    }, JSON.stringify({ id, trajectory: { joint_names: names, points } }));
+  };
+  await reach('cross-left', 'left', 10);
+  await page.locator('[data-test=list-running] [data-test="job-cross-left"]').waitFor();
+  await reach('cross-right', 'right', 10);
+  await page.locator('[data-test=list-backlog] [data-test="job-cross-right"] [data-test=why]').click();
+  const diagram = page.locator('[data-test=diagram]');
+  await diagram.waitFor();
+  assert.match(await page.locator('[data-test=evidence]').innerText(), /(right_panda|left_panda).* s into cross-left and .* s into cross-right/);
+  assert.match(await page.locator('[data-test=plan]').innerText(), /If cross-right started now, they meet a conflict in/);
+  const first = await diagram.screenshot();
+  const red = await pixels_like(browser, first, kConflict, 12);
+  const light = await pixels_like(browser, first, kFree, 12);
+  assert.ok(red > kLeastArea_px, `${red} pixels are red`);
+  assert.ok(light > kLeastArea_px, `${light} pixels are light`);
+  await page.screenshot(path_for('diagram'));
+  await page.evaluate(() => window.armloom.drawn());
+  const moved = await difference(browser, first, await diagram.screenshot());
+  assert.ok(moved.count > 20, `${moved.count} pixels changed while the left arm moved`);
+
+  // The rest is free once the first has come home: the second starts by itself.
+  await page.locator('[data-test=list-running] [data-test="job-cross-right"]').waitFor({ timeout: 40_000 });
+  await page.screenshot(path_for('diagram-later'));
+  await page.evaluate(() => fetch('/api/v1/jobs/cross-right', { method: 'DELETE' }));
+  await page.locator('[data-test=list-finished] [data-test="job-cross-right"]').waitFor();
+  await page.getByRole('button', { name: 'Close', exact: true }).click();
+});
+
 test('an object of the scene appears, moves and vanishes', { timeout: 60_000 }, async () => {
   const crate = { box: [0.3, 0.3, 0.4], rpy: [0, 0, 0] };
   const empty = await picture('scene-empty');
@@ -191,13 +235,15 @@ async function ask(method, path, body, count) {
   }, [body, count]);
 }
 
-function left_arm() {
-  return page.evaluate(() => {
+function arm_now(arm) {
+  return page.evaluate((arm) => {
     const all = window.armloom.q();
-    const names = Object.keys(all).filter((name) => /^left_panda_joint\d$/.test(name)).sort();
+    const names = Object.keys(all).filter((name) => name.startsWith(`${arm}_panda_joint`)).sort();
     return { names, q: names.map((name) => all[name]) };
-  });
+  }, arm);
 }
+
+const left_arm = () => arm_now('left');
 
 /** Turns the first joint by `angle` in `seconds`, at rest at both ends. */
 function swing_job(id, names, q, angle, seconds) {

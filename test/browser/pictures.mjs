@@ -3,6 +3,29 @@
 // Anti-aliasing and shadows' soft rims stay below this; a robot before the background far above.
 const kLeastDifference = 40;
 
+/** How many pixels of a PNG have this colour, each channel within `off`. */
+export async function pixels_like(browser, png, rgb, off) {
+  const page = await browser.newPage();
+  try {
+    return await page.evaluate(count_like, [png.toString('base64'), rgb, off]);
+  } finally {
+    await page.close();
+  }
+}
+
+async function count_like([base64, rgb, off]) {
+  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+  const g = new OffscreenCanvas(image.width, image.height).getContext('2d');
+  g.drawImage(image, 0, 0);
+  const { data } = g.getImageData(0, 0, image.width, image.height);
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    if (rgb.every((value, k) => Math.abs(data[i + k] - value) <= off)) count += 1;
+  }
+  return count;
+}
+
 /** How many pixels differ clearly, and where their middle is, as shares of width and height. */
 export async function difference(browser, a, b) {
   const page = await browser.newPage();

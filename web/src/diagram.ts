@@ -19,8 +19,16 @@ export function plan_from(now: Point, diagram: Diagram): Point[] {
 
 export interface Meeting extends Point { state: CellState; in_s: number }
 
-/** The first cell on the way that is not free, and when it is entered, counted from the way's start. */
+/**
+ * What stands in the way: the first conflict, or, where there is none, the first cell that is not
+ * decided; and when it is entered, counted from the way's start. (Around each conflict lies a seam
+ * of undecided cells, which says nothing more.)
+ */
 export function first_met(way: readonly Point[], layer: DiagramLayer): Meeting | null {
+  return first_of('conflict', way, layer) ?? first_of('undecided', way, layer);
+}
+
+function first_of(state: CellState, way: readonly Point[], layer: DiagramLayer): Meeting | null {
   let passed_s = 0;
   for (let i = 1; i < way.length; i += 1) {
     const from = way[i - 1];
@@ -29,11 +37,11 @@ export function first_met(way: readonly Point[], layer: DiagramLayer): Meeting |
     const length_s = Math.max(to.a_s - from.a_s, to.b_s - from.b_s);
     let met: Meeting | null = null;
     for (const cell of layer.cells) {
-      if (cell.state === 'free') continue;
+      if (cell.state !== state) continue;
       const enters = entry(from, to, cell.a_s, cell.b_s);
       if (enters === null || (met && passed_s + enters * length_s >= met.in_s)) continue;
       met = {
-        state: cell.state, in_s: passed_s + enters * length_s,
+        state, in_s: passed_s + enters * length_s,
         a_s: from.a_s + enters * (to.a_s - from.a_s), b_s: from.b_s + enters * (to.b_s - from.b_s),
       };
     }

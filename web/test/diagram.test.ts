@@ -62,12 +62,15 @@ describe('the plan', () => {
     expect(plan_from({ a_s: 1, b_s: 0.5 }, diagram())).toEqual([{ a_s: 1, b_s: 0.5 }, { a_s: 3.5, b_s: 3 }, { a_s: 4, b_s: 3 }]);
     expect(plan_from({ a_s: 4, b_s: 0 }, diagram())).toEqual([{ a_s: 4, b_s: 0 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }]);
   });
-  it('meets the first cell that is not free, and says when', () => {
+  it('meets the first conflict, and says when', () => {
     expect(met_from(0, 0)).toEqual({ state: 'conflict', in_s: 2, a_s: 2, b_s: 2 });
-    expect(met_from(1.75, 0.5)).toEqual({ state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 });
+    expect(met_from(1.75, 0.5)).toEqual({ state: 'conflict', in_s: 0.5, a_s: 2.25, b_s: 1 });
+  });
+  it('meets what is not decided where there is no conflict', () => {
+    expect(met_from(1.75, 0.5, kCells.slice(0, 3))).toEqual({ state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 });
   });
   it('meets what lies on the rest of one after the end of the other', () => {
-    expect(met_from(4, 0)).toMatchObject({ state: 'undecided', in_s: 0.5, b_s: 0.5 });
+    expect(met_from(4, 0)).toMatchObject({ state: 'conflict', in_s: 1, a_s: 4, b_s: 1 });
   });
   it('meets nothing when it passes by, or only touches a corner', () => {
     expect(met_from(0, 0, [['free', 0, 4, 0, 3]])).toBeNull();
@@ -80,7 +83,7 @@ describe('the plan', () => {
   });
   it('is put into words', () => {
     expect(plan_in_words(met_from(0, 0), 'right')).toBe('If right started now, they meet a conflict in 2.00 s.');
-    expect(plan_in_words(met_from(1.75, 0.5), null)).toBe('If both go on from here, they meet what is not proven free in 0.25 s.');
+    expect(plan_in_words(met_from(1.75, 0.5, kCells.slice(0, 3)), null)).toBe('If both go on from here, they meet what is not proven free in 0.25 s.');
     expect(plan_in_words(null, null)).toMatch(/through free cells only/);
   });
 });
