@@ -101,9 +101,14 @@ export function evidence_in_words(evidence: Evidence, diagram: Diagram): string 
   return `${how}, ${when.map(([id, at_s]) => `${at_s.toFixed(2)} s into ${short_id(id)}`).join(' and ')}.`;
 }
 
-/** What the plan from now meets, one sentence; `waiting` is the job that has not begun, if one has not. */
-export function plan_in_words(met: Meeting | null, waiting: string | null): string {
-  const begin = waiting === null ? 'If both go on from here' : `If ${short_id(waiting)} started now`;
+/**
+ * What the plan from now meets, one sentence; `waiting` is the job that has not begun, `resting` the
+ * one that has come to its end, if there is such a one.
+ */
+export function plan_in_words(met: Meeting | null, waiting: string | null, resting: string | null = null): string {
+  const begin = waiting !== null ? `If ${short_id(waiting)} started now`
+    : resting === null ? 'If both go on from here' : `While ${short_id(resting)} rests at its end`;
+  if (!met && waiting === null && resting !== null) return `${begin}, the way of the other one is free.`;
   if (!met) return `${begin}, both reach their ends through free cells only.`;
   const what = met.state === 'conflict' ? 'a conflict' : 'what is not proven free';
   return met.in_s < 0.005 ? `${begin}, they are at ${what} at once.` : `${begin}, they meet ${what} in ${met.in_s.toFixed(2)} s.`;

@@ -84,6 +84,7 @@ describe('the plan', () => {
   it('is put into words', () => {
     expect(plan_in_words(met_from(0, 0), 'right')).toBe('If right started now, they meet a conflict in 2.00 s.');
     expect(plan_in_words(met_from(1.75, 0.5, kCells.slice(0, 3)), null)).toBe('If both go on from here, they meet what is not proven free in 0.25 s.');
+    expect(plan_in_words(null, null, 'left')).toBe('While left rests at its end, the way of the other one is free.');
     expect(plan_in_words(null, null)).toMatch(/through free cells only/);
   });
 });

@@ -114,8 +114,9 @@ function Drawn({ diagram, layer: index, jobs, store }: DrawnProps) {
     const at = now_point();
     const last = trail.current.at(-1);
     if (!last || last.a_s !== at.a_s || last.b_s !== at.b_s) trail.current = [...trail.current.slice(1 - kTrail), at];
+    const ahead = is_open ? plan_from(at, diagram) : [];
     return {
-      diagram, layer, now: at, way: is_open ? plan_from(at, diagram) : [], trail: trail.current, met, evidence,
+      diagram, layer, now: at, way: ahead, trail: trail.current, met: first_met(ahead, layer), evidence,
       colours: { a: arm_colour(names, layer.arms[0]), b: arm_colour(names, layer.arms[1]) },
     };
   };
@@ -131,6 +132,7 @@ function Drawn({ diagram, layer: index, jobs, store }: DrawnProps) {
   if (!layer) return null;
   const share = shares(layer);
   const waiting = [jobs.a, jobs.b].find((job) => job !== null && job.started_s === null && !store.is_terminal(job)) ?? null;
+  const resting = [jobs.a, jobs.b].find((job) => job?.state === 'succeeded') ?? null;
   return (
     <>
       <div ref={host} class="diagram" data-test="diagram" role="img"
@@ -143,7 +145,7 @@ function Drawn({ diagram, layer: index, jobs, store }: DrawnProps) {
         <span class="key"><i class="plan" /> plan from now</span>
       </div>
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
-      {is_open && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null)}</p>}
+      {is_open && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null, resting?.id ?? null)}</p>}
       <p class="hint">
         Each cell holds for every instant in it, at any pace: {layer.cells.length} cells between
         the {layer.arms[0]} and the {layer.arms[1]} arm, {diagram.evaluations} states looked at.

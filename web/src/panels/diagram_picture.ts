@@ -154,6 +154,10 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   g.lineJoin = 'round';
   g.lineCap = 'round';
   g.setLineDash([]);
+  const [x, y] = [sheet.x(now.a_s), sheet.y(now.b_s)];
+  // Down and across to both axes: each one's time.
+  guide(g, [x, y], [x, sheet.y(0)], colours.a);
+  guide(g, [x, y], [sheet.x(0), y], colours.b);
   polyline(g, sheet, trail, kInk, 2.5);
   if (way.length > 0) {
     g.setLineDash([2, 5]);
@@ -163,10 +167,6 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   }
   if (evidence) mark(g, sheet, evidence);
   if (met) cross(g, sheet.x(met.a_s), sheet.y(met.b_s));
-  const [x, y] = [sheet.x(now.a_s), sheet.y(now.b_s)];
-  // Down and across to both axes: each one's time.
-  guide(g, [x, y], [x, sheet.y(0)], colours.a);
-  guide(g, [x, y], [sheet.x(0), y], colours.b);
   g.beginPath();
   g.arc(x, y, 5.5, 0, 2 * Math.PI);
   g.fillStyle = '#ffffff';
