@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -62,6 +63,9 @@ class Checker {
       add({self_pairs(bodies_, linkages_[a]), a, a, false});
       add({still_pairs(bodies_, linkages_[a], still_), a, a, true});
     }
+    for (std::uint32_t i = 0; i < bodies_.pairs.size(); ++i) {
+      report_.left_out += compared_.contains(PairId{i}) ? 0 : 1;
+    }
   }
 
   void check(const std::vector<Configuration>& states) {
@@ -82,6 +86,8 @@ class Checker {
   };
 
   void add(Set set) {
+    for (const NarrowPair& pair : set.pairs.narrow) compared_.insert(pair.pair);
+    for (const NarrowPair& pair : set.pairs.narrow_boxes) compared_.insert(pair.pair);
     for (filter::Pair& pair : set.pairs.pairs) {
       const auto radius = [&](std::size_t arm, int capsule) {
         return linkages_[arm].capsules()[static_cast<std::size_t>(capsule)].radius_up;
@@ -161,6 +167,7 @@ class Checker {
   std::vector<PlacedArm> arms_;
   std::vector<Set> sets_;
   std::vector<filter::Hit> hits_;
+  std::set<PairId> compared_;
   std::map<PairId, std::vector<double>> least_;  // by lane
 };
 

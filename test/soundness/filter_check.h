@@ -14,6 +14,7 @@ namespace armloom::soundness {
 struct FilterReport {
   std::size_t states = 0;
   std::size_t part_pairs = 0;         // compared
+  std::size_t left_out = 0;           // pairs of the scene that no comparison has: must be none
   std::size_t too_far = 0;            // the filter's distance above the exact one: must be none
   double worst_m = 0.0;               // by how much at most
   double margin_m = 0.0;              // the largest rounding margin of any pair

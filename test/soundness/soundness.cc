@@ -171,8 +171,8 @@ void print_markdown(const Report& r, std::ostream& out) {
          "| deepest |\n|---|---|---|---|---|---|\n";
   for (const DiscreteRow& row : r.discrete) {
     out << "| every " << row.step_s << " s | " << row.without.pairs << " | "
-        << milli(-row.without.deepest_m) << " mm | " << milli(row.without.longest_s) << " ms | "
-        << row.with_clearance.pairs << " | " << milli(-row.with_clearance.deepest_m) << " mm |\n";
+        << milli(0.0 - row.without.deepest_m) << " mm | " << milli(row.without.longest_s) << " ms | "
+        << row.with_clearance.pairs << " | " << milli(0.0 - row.with_clearance.deepest_m) << " mm |\n";
   }
   out << "| certified | " << r.missed_collisions << " | | | " << r.missed_collisions << " | |\n";
 }
