@@ -68,7 +68,7 @@ class Arbiter::Impl {
       throw std::invalid_argument("Arbiter: rest must have one entry per joint of the cell");
     }
     freedom_ = freedom_of(question.method, cell);
-    verdict_ = {Verdict::Kind::free, question.version, {}, cell.clearance_m, 0};
+    verdict_ = {Verdict::Kind::free, question.version, {}, cell.clearance_m, 0, {}};
     store_.begin_question();
     gather(question);
     const auto candidates = std::partition_point(parts_.begin(), parts_.end(), [&](const Mover& p) {
@@ -78,7 +78,10 @@ class Arbiter::Impl {
       ask_alone(*own);
       for (auto other = own + 1; other != parts_.end(); ++other) ask_pair(*own, *other);
     }
-    if (verdict_.kind != Verdict::Kind::free) verdict_.clearance_bound_m.reset();
+    if (verdict_.kind != Verdict::Kind::free) {
+      verdict_.clearance_bound_m.reset();
+      if (question.find_earliest) find_earliest(candidates - parts_.begin());
+    }
     return std::move(verdict_);
   }
 
@@ -182,6 +185,58 @@ class Arbiter::Impl {
             .duration_b = to_seconds(b.entry->tube->duration())};
   }
 
+  // The smallest shift of all candidates that is free, if what is in the way moves out of it.
+  void find_earliest(std::ptrdiff_t candidates) {
+    const bool waits_for_motions = std::ranges::all_of(
+        verdict_.conflicts,
+        [](const Conflict& conflict) { return conflict.with == Conflict::With::motion; });
+    const auto own_end = parts_.begin() + candidates;
+    const bool not_begun = std::all_of(parts_.begin(), own_end, [](const Mover& mover) {
+      return mover.motion->progress <= Duration{};
+    });
+    if (!waits_for_motions || !not_begun) return;
+    double shift_s = 0.0;
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (auto own = parts_.begin(); own != own_end; ++own) {
+        for (auto other = own_end; other != parts_.end(); ++other) {
+          const auto next = next_free_shift(*own, *other, shift_s);
+          if (!next) return;
+          moved = moved || *next > shift_s;
+          shift_s = *next;
+        }
+      }
+    }
+    verdict_.earliest_start = from_seconds(shift_s);
+  }
+
+  // The first shift from `shift_s` on, in steps, at which this pair is free. A conflict at (ta, tb)
+  // is in the region of every shift up to
+  //   tb - progress_b + lag_b - (ta - lead_a):
+  // so much later the other one has left tb for good when the candidate may come to ta. Where the
+  // other one rests, it never leaves.
+  std::optional<double> next_free_shift(const Mover& own, const Mover& other, double shift_s) {
+    if (store_.out_of_reach(own.arm, other.arm)) return shift_s;
+    const bool turned = other.arm < own.arm;
+    const MotionStore::Diagram diagram =
+        turned ? store_.pair(*other.entry, *own.entry) : store_.pair(*own.entry, *other.entry);
+    if (diagram.pairs->empty()) return shift_s;
+    const double end_s = other.motion == nullptr ? 0.0 : to_seconds(other.motion->remaining());
+    for (;;) {
+      Region region = turned ? region_of(other, own) : region_of(own, other);
+      (turned ? region.progress_b : region.progress_a) -= shift_s;
+      const CoordinationDiagram::Answer answer = diagram.cells->ask(region, kBudget);
+      verdict_.evaluations += answer.evaluations;
+      if (answer.free) return shift_s;
+      if (shift_s > end_s + kShift_s) return std::nullopt;  // it has come to rest in the way
+      const double own_s = to_seconds(turned ? answer.conflict->time_b : answer.conflict->time_a);
+      const double other_s = to_seconds(turned ? answer.conflict->time_a : answer.conflict->time_b);
+      const double clear_s = other_s - progress_of(other) + std::min(lag_of(other), end_s) -
+                             std::max(0.0, own_s - lead_of(own)) + progress_of(own);
+      shift_s = std::max(shift_s + kShift_s, std::min(clear_s, end_s + 2.0 * kShift_s));
+    }
+  }
+
   void ask_alone(const Mover& own) {
     const Region region{.progress_a = std::max(progress_of(own), 0.0),
                         .duration_a = to_seconds(own.entry->tube->duration())};
@@ -272,7 +327,7 @@ class Arbiter::Impl {
   MotionStore store_;
   CollisionChecker checker_;
   Freedom freedom_;
-  Verdict verdict_{Verdict::Kind::free, 0, {}, std::nullopt, 0};
+  Verdict verdict_{Verdict::Kind::free, 0, {}, {}, 0, {}};
   std::vector<Mover> parts_;
 };
 

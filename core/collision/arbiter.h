@@ -26,6 +26,10 @@ namespace armloom {
 // cells that could not be decided. `clearance_bound_m` of a free verdict: what is proven to be kept
 // between different arms and the scene.
 //
+// find_earliest: motions of candidates that have not begun are shifted to later starts until
+// nothing is in their way any more; each conflict that is found says how far at least (see
+// next_free_shift), so that no safe start is passed over by more than kShift_s.
+//
 // Pairs that are too close at the question's beginning may part: they are held to
 // kPartingShare of the distance that they have there, and are no conflict while they keep that.
 //
@@ -55,6 +59,7 @@ class Arbiter {
   // question is undecided.
   inline static constexpr std::uint64_t kBudget = 1000;
   inline static constexpr double kPartingShare = 0.8;
+  inline static constexpr double kShift_s = 0.02;
 
  private:
   class Impl;

@@ -37,8 +37,8 @@ struct Body {
 
 // The bodies of a link or object. A cylinder with a sphere of its radius centred at both ends
 // (within kMergeTolerance_m) becomes one capsule that contains all three; the spheres are dropped,
-// also when two cylinders share one. A mesh becomes its convex pieces, or its hull when it has none.
-// Everything else stays as it is. Precondition: meshes hold their data.
+// also when two cylinders share one. A mesh becomes its convex pieces, or its hull when it has
+// none. Everything else stays as it is. Precondition: meshes hold their data.
 inline constexpr double kMergeTolerance_m = 1e-6;
 [[nodiscard]] std::vector<Body> make_bodies(const std::vector<PlacedShape>& shapes);
 

@@ -56,6 +56,7 @@ struct CoordinationDiagram::Undecided {
 // One question on its way.
 struct CoordinationDiagram::Search {
   const Region& region;
+  std::uint64_t budget;
   std::vector<Open> open;
   Answer answer;
   double conflict_at_s = Region::kUnbounded;   // of the earliest that is proven
@@ -192,7 +193,7 @@ void CoordinationDiagram::collect(int index, Search& search) {
 // ---- The question ----
 
 CoordinationDiagram::Answer CoordinationDiagram::ask(const Region& region, std::uint64_t budget) {
-  Search search{.region = region, .open = {}, .answer = {}};
+  Search search{.region = region, .budget = budget, .open = {}, .answer = {}};
   Answer& answer = search.answer;
   std::vector<Open> now;
   collect(0, search);
@@ -209,7 +210,9 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const Region& region, std::
         }
         break;
       }
-      const std::size_t count = std::min<std::size_t>(kLanes, now.size() - done);
+      const std::size_t left =
+          std::min<std::size_t>(now.size() - done, budget - answer.evaluations);
+      const std::size_t count = std::min<std::size_t>(kLanes, left);
       evaluate(now.data() + done, count);
       answer.evaluations += count;
       done += count;
@@ -281,7 +284,7 @@ void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
   std::optional<Finding> finding;
   if (const auto at_s = first_at(search.region, to_seconds(time_a), to_seconds(time_b))) {
     finding = Finding{found.pair, found.distance_m, time_a, time_b, *at_s};
-  } else {
+  } else if (search.answer.evaluations < search.budget) {
     ++search.answer.evaluations;
     finding = on_the_line(open, search.region);
   }

@@ -57,7 +57,7 @@ class CoordinationDiagram {
     bool proven = false;
     std::uint64_t evaluations = 0;  // cells and states that were looked at for this question
   };
-  // Looks at no more than about `budget` cells.
+  // Looks at no more than `budget` cells and states.
   [[nodiscard]] Answer ask(const Region& region, std::uint64_t budget);
 
   // Refines all that the region holds until each cell is free, in conflict, or no wider than

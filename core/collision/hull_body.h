@@ -7,9 +7,9 @@
 
 namespace armloom {
 
-// The convex hull of a mesh, or of a piece of one, in a frame S of its own, with what bounds it there: S stands in the
-// middle of a box that holds the hull tightly (the better of the mesh's own axes and the principal
-// axes of the hull's corners), its z along the longest side.
+// The convex hull of a mesh, or of a piece of one, in a frame S of its own, with what bounds it
+// there: S stands in the middle of a box that holds the hull tightly (the better of the mesh's own
+// axes and the principal axes of the hull's corners), its z along the longest side.
 struct HullShape {
   ConvexHull hull;              // corners in S
   Eigen::Isometry3d X_MS;       // S in the mesh's frame

@@ -15,6 +15,12 @@ Eigen::Matrix3d z_to(const Eigen::Vector3d& axis) {
   return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
 }
 
+// Right angles leave numbers like 6e-17 and 1 - 1e-16.
+double without_dust(double x) {
+  const double whole = std::round(x);
+  return std::abs(x - whole) < 1e-14 ? whole : x;
+}
+
 // How far a prismatic joint can push what it carries.
 double travel(const Cell& cell, const Link& link) {
   if (link.motion != JointKind::prismatic) return 0.0;
@@ -64,12 +70,15 @@ Linkage::Carried Linkage::carry(const Cell& cell, LinkId id, std::vector<int>& s
     filter::Frame frame{.parent = parent.frame,
                         .joint = static_cast<int>(row - joints_.begin()),
                         .prismatic = link.motion == JointKind::prismatic,
+                        .about_x = false,
                         .multiplier = link.multiplier,
                         .offset = link.offset,
                         .C = {}};
     Eigen::Map<Eigen::Matrix<double, 3, 4>> C(frame.C);
     C.leftCols<3>() = X_FJ.linear() * R;
     C.col(3) = X_FJ.translation();
+    C = C.unaryExpr([](double x) { return without_dust(x); });
+    frame.about_x = C.col(0) == Eigen::Vector3d::UnitX();
     if (parent.frame < 0) {
       if (frames_.empty()) root_ = X_FJ.translation();
       here.from_root_m = (X_FJ.translation() - root_).norm() + travel(cell, link);
@@ -174,8 +183,12 @@ filter::Capsule kernel_capsule(const Eigen::Isometry3d& X_FP, const Eigen::Vecto
                                const Eigen::Vector3d& p_PB, double radius_m) {
   filter::Capsule capsule{};
   capsule.frame = -1;
-  Eigen::Map<Eigen::Vector3d>(capsule.center) = X_FP * Eigen::Vector3d(0.5 * (p_PA + p_PB));
-  Eigen::Map<Eigen::Vector3d>(capsule.half) = X_FP.linear() * (0.5 * (p_PB - p_PA));
+  const Eigen::Vector3d center = X_FP * Eigen::Vector3d(0.5 * (p_PA + p_PB));
+  const Eigen::Vector3d half = X_FP.linear() * (0.5 * (p_PB - p_PA));
+  for (int i = 0; i < 3; ++i) {
+    capsule.center[i] = without_dust(center[i]);
+    capsule.half[i] = without_dust(half[i]);
+  }
   capsule.radius_up = round_up(radius_m);
   capsule.ball_up = round_up(radius_m + 0.5 * (p_PB - p_PA).norm() + 1e-6);
   return capsule;
@@ -195,6 +208,7 @@ filter::Pair kernel_pair(int a, const filter::Capsule& at_a, int b, const filter
           .limit_up = round_up(limit_m),
           .radii_up = round_up(static_cast<double>(at_a.radius_up) + at_b.radius_up + margin_m),
           .ends_up = round_up(half_a + half_b + 1e-6),
+          .end_b_up = round_up(half_b + 1e-5),
           .aa = static_cast<float>(half_a * half_a),
           .bb = static_cast<float>(half_b * half_b),
           .inv_aa = inverse(half_a),

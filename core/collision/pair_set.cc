@@ -104,6 +104,17 @@ void group(PairSet& set, const std::vector<filter::Capsule>& capsules, bool of_s
   set.limits_changed();
 }
 
+// The second side's capsules, unless they are too many for the kernel.
+void add_others(PairSet& set, const std::vector<filter::Capsule>& capsules, double margin_m) {
+  if (capsules.size() > 64) return;
+  for (std::size_t c = 0; c < capsules.size(); ++c) {
+    const auto capsule = static_cast<int>(c);
+    const double size_m = static_cast<double>(capsules[c].ball_up) + margin_m + 1e-6;
+    set.others.push_back({capsule, capsule, 0, 0, 0.0F, round_up(size_m)});
+  }
+  set.limits_changed();
+}
+
 }  // namespace
 
 StillParts::StillParts(const PlanningScene::Bodies& bodies) : placed(bodies.bodies.size()) {
@@ -151,6 +162,7 @@ PairSet cross_pairs(const PlanningScene::Bodies& bodies, const Linkage& a, const
                            b.parts()[static_cast<std::size_t>(j)], b.capsules(), margin_m);
             });
   group(set, a.capsules(), false, margin_m);
+  add_others(set, b.capsules(), margin_m);
   return set;
 }
 
@@ -161,6 +173,14 @@ void PairSet::limits_changed() {
       group.limit_up = std::max(group.limit_up, pairs[static_cast<std::size_t>(p)].limit_up);
     }
   }
+  limit_up = 0.0F;
+  for (const filter::Pair& pair : pairs) limit_up = std::max(limit_up, pair.limit_up);
+  for (filter::Group& other : others) other.limit_up = limit_up;
+}
+
+filter::Groups PairSet::grouped() const {
+  return {groups.data(), static_cast<int>(groups.size()), groups_of_second,
+          others.data(), static_cast<int>(others.size()), limit_up};
 }
 
 PairSet self_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm) {

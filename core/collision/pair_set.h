@@ -38,11 +38,11 @@ struct PairSet {
   std::vector<NarrowPair> narrow_boxes;
   std::vector<filter::Group> groups;  // of pairs: by the first side's capsules, or ...
   bool groups_of_second = false;      // ... by the second side's
+  std::vector<filter::Group> others;  // filter::Groups::others
+  float limit_up = 0.0F;              // the largest of pairs
 
   [[nodiscard]] bool empty() const { return pairs.empty() && boxes.empty(); }
-  [[nodiscard]] filter::Groups grouped() const {
-    return {groups.data(), static_cast<int>(groups.size()), groups_of_second};
-  }
+  [[nodiscard]] filter::Groups grouped() const;
   // To be called when pairs have got other limits.
   void limits_changed();
 };

@@ -214,8 +214,7 @@ void add_held(PlanningScene::Bodies& scene) {
     part.arm = link.arm;
     part.robot = link.robot;
     part.X_CP = attachment.X_LO;
-    add_part(scene, std::move(part),
-             {{attachment.object.shape, Eigen::Isometry3d::Identity()}});
+    add_part(scene, std::move(part), {{attachment.object.shape, Eigen::Isometry3d::Identity()}});
   }
   scene.held_end = scene.parts.size();
 }

@@ -12,9 +12,10 @@
 namespace armloom {
 
 // Everything that a collision query needs and that does not move: the shapes of all links and
-// objects, held ones too, as FCL geometry (each cylinder with two end spheres of its radius merged into the exact
-// capsule, each mesh its convex hull), and the pairs that must be looked at (the allowed-collision
-// matrix, applied). Immutable and shared by all threads; a changed scene is a new one.
+// objects, held ones too, as FCL geometry (each cylinder with two end spheres of its radius merged
+// into the exact capsule, each mesh its convex hull), and the pairs that must be looked at (the
+// allowed-collision matrix, applied). Immutable and shared by all threads; a changed scene is a new
+// one.
 class PlanningScene {
  public:
   // Problems: a mesh whose data is missing (Mesh::data), an object name used twice or unknown in
@@ -22,9 +23,9 @@ class PlanningScene {
   [[nodiscard]] static Result<std::shared_ptr<const PlanningScene>> build(CellPtr cell);
   ~PlanningScene();
 
-  // The same cell with other objects; the links' shapes are shared, what arms hold stays. Pairs that
-  // may touch by an object's name still may. Problems: as build, or a name that a held object has,
-  // with pointers "/objects/<index>/...".
+  // The same cell with other objects; the links' shapes are shared, what arms hold stays. Pairs
+  // that may touch by an object's name still may. Problems: as build, or a name that a held object
+  // has, with pointers "/objects/<index>/...".
   [[nodiscard]] Result<std::shared_ptr<const PlanningScene>> with_objects(
       std::vector<CollisionObject> objects) const;
   [[nodiscard]] const std::vector<CollisionObject>& objects() const;

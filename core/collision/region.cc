@@ -14,7 +14,8 @@ struct Axis {
     const double now = std::clamp(progress, 0.0, duration);
     if (x2 < now) return std::nullopt;
     TimeRange range{0.0, Region::kUnbounded};
-    if (x1 > std::min(duration, now + lead)) range.from = x1 - lead - progress;
+    const double starts = std::max(0.0, -progress);  // before it, nothing lies ahead
+    if (x1 > now) range.from = std::max(starts, x1 - lead - progress);
     if (x2 < duration - lag) range.to = x2 + lag - progress;
     return range;
   }

@@ -20,19 +20,15 @@ struct PlacedArm {
         frames(linkage.frames().size() * 12 * kLanes),
         axes(linkage.frames().size() * 6 * kLanes),
         capsules(linkage.capsules().size() * 6 * kLanes),
-        at_rest(static_cast<std::size_t>(linkage.suffix_rows()) * kLanes, 0.0F),
-        rows(linkage.capsules().size(), 0),
         ball(4 * kLanes) {}
 
-  [[nodiscard]] filter::Side side() const { return {capsules.data(), at_rest.data(), ball.data()}; }
+  [[nodiscard]] filter::Side side() const { return {capsules.data(), nullptr, ball.data()}; }
 
   Linkage linkage;
   std::vector<double> q;
   std::vector<double> frames;
   std::vector<float> axes;
   std::vector<float> capsules;
-  std::vector<float> at_rest;  // no motion: zeros
-  std::vector<int> rows;       // the same for all capsules
   std::vector<float> ball;
 };
 
@@ -110,14 +106,12 @@ struct StateCheck::Scratch {
       }
       kernel.place(arm.linkage.view(), arm.q.data(),
                    {arm.frames.data(), arm.axes.data(), arm.capsules.data()});
-      kernel.enclose(arm.linkage.view(), arm.capsules.data(), arm.at_rest.data(), arm.rows.data(),
-                     arm.ball.data());
+      kernel.enclose(arm.linkage.view(), arm.capsules.data(), nullptr, nullptr, arm.ball.data());
     }
   }
 
   [[nodiscard]] filter::Side other_side(const Comparison& c) const {
-    return c.still ? filter::Side{still.lanes.data(), still.at_rest.data(), nullptr}
-                   : arms[c.b].side();
+    return c.still ? filter::Side{still.lanes.data(), nullptr, nullptr} : arms[c.b].side();
   }
 
   int near_pairs(const Comparison& c, unsigned lanes) {

@@ -47,6 +47,7 @@ struct Question {
   std::vector<Motion> others;      // every motion that holds a reservation
   Configuration rest;              // where every joint that is in none of these motions stands
   CheckMethod method;
+  bool find_earliest = false;  // not free: how much later would it be? (not for TimedDiscrete)
 };
 
 }  // namespace armloom

@@ -48,6 +48,10 @@ struct Verdict {
   std::vector<Conflict> conflicts;  // the first one found with each counterpart; empty when free
   std::optional<double> clearance_bound_m;  // what is proven to be kept; absent: nothing is proven
   std::uint64_t evaluations = 0;            // combined states looked at
+  // Not free, and asked for: the candidates could start this much after the question's instant, and
+  // no earlier (to within Arbiter::kShift_s), if they wait where they are. Absent: never, as things
+  // stand.
+  std::optional<Duration> earliest_start = {};
 };
 
 }  // namespace armloom

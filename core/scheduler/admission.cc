@@ -180,6 +180,15 @@ std::vector<JobId> Scheduler::held_together() const {
   return held.size() >= 2 ? held : std::vector<JobId>{};
 }
 
+std::optional<JobId> Scheduler::next_to_move_forward() const {
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    const bool ahead = record.job.state == JobState::scheduled && !record.dispatched;
+    if (ahead && record.forward_tried < freed_at_) return id;
+  }
+  return std::nullopt;
+}
+
 std::optional<JobId> Scheduler::next_candidate() const {
   const Job* best = nullptr;
   const auto goes_before = [](const Job& a, const Job& b) {
@@ -205,12 +214,14 @@ void Scheduler::ask_next() {
       std::ranges::any_of(active_, [this](JobId id) { return records_.at(id).job.stopping; });
   if (braking) return;
   if (auto recheck = next_recheck(); !recheck.empty()) {
-    ask(std::move(recheck), true);
+    ask(std::move(recheck), Purpose::recheck);
   } else if (auto held = held_together(); !held.empty()) {
     held_together_tried_ = version_;
-    ask(std::move(held), false);
+    ask(std::move(held), Purpose::start);
+  } else if (const auto ahead = next_to_move_forward()) {
+    ask({*ahead}, Purpose::forward);
   } else if (const auto candidate = next_candidate()) {
-    ask({*candidate}, false);
+    ask({*candidate}, Purpose::start);
   }
 }
 
@@ -220,7 +231,8 @@ Question Scheduler::hypothetical(TrajectoryPtr trajectory, TimePoint start_at) c
                     .candidates = {Motion{JobId{0}, std::move(trajectory), Duration{}}},
                     .others = {},
                     .rest = rest_,
-                    .method = policy_->method()};
+                    .method = policy_->method(),
+                    .find_earliest = true};
   add_others(question, {});
   return question;
 }
@@ -254,22 +266,24 @@ void Scheduler::add_others(Question& question, const std::vector<JobId>& candida
   }
 }
 
-void Scheduler::ask(std::vector<JobId> jobs, bool recheck) {
+void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
+  const bool recheck = purpose == Purpose::recheck;
   const TimePoint start_at = now_ + allowance_;
   Question question{.version = version_,
                     .start_at = start_at,
                     .candidates = {},
                     .others = {},
                     .rest = rest_,
-                    .method = recheck ? policy_->recheck_method() : policy_->method()};
+                    .method = recheck ? policy_->recheck_method() : policy_->method(),
+                    .find_earliest = !recheck && policy_->schedules_ahead()};
   for (JobId id : jobs) {
     const Record& record = records_.at(id);
-    const Duration progress =
-        holds_reservation(record) ? progress_at(record, start_at) : record.job.progress;
+    const bool under_way = holds_reservation(record) && purpose != Purpose::forward;
+    const Duration progress = under_way ? progress_at(record, start_at) : record.job.progress;
     question.candidates.push_back(Motion{id, record.job.trajectory, progress});
   }
   add_others(question, jobs);
-  open_ = OpenQuestion{version_, now_, start_at, std::move(jobs), recheck};
+  open_ = OpenQuestion{version_, now_, start_at, std::move(jobs), purpose};
   effects_.push_back(Judge{std::move(question)});
 }
 
@@ -285,7 +299,8 @@ void Scheduler::on(const Judged& input) {
   }
   const bool free = input.verdict.kind == Verdict::Kind::free;
   const Duration needed = now_ - question.asked_at;
-  if (now_ > question.start_at && !question.recheck && free) {
+  const bool recheck = question.purpose == Purpose::recheck;
+  if (now_ > question.start_at && !recheck && free) {
     // The instant that was judged has passed. Ask for a later one.
     allowance_ = std::min(std::max(3 * needed / 2, 2 * allowance_), kAllowanceMax);
     if (question.jobs.size() > 1) held_together_tried_ = 0;
@@ -293,13 +308,17 @@ void Scheduler::on(const Judged& input) {
   }
   const Duration enough = std::max(allowance_ / 2, 2 * needed);
   allowance_ = std::max(kAllowanceMin, std::min(allowance_, enough));
-  if (free && question.recheck) {
-    records_.at(question.jobs.front()).checked_at = version_;
+  Record& first = records_.at(question.jobs.front());
+  if (free && recheck) {
+    first.checked_at = version_;
+  } else if (question.purpose == Purpose::forward ||
+             (!free && !recheck && input.verdict.earliest_start)) {
+    admit_ahead(first, input.verdict, question);
   } else if (free) {
     ++version_;
     for (JobId id : question.jobs) admit(records_.at(id), question.start_at);
   } else if (question.jobs.size() == 1) {
-    refuse(records_.at(question.jobs.front()), input.verdict, question.recheck);
+    refuse(first, input.verdict, recheck);
   }  // else: held jobs that cannot go on together are judged one by one
 }
 
@@ -316,7 +335,32 @@ void Scheduler::admit(Record& record, TimePoint start_at) {
   record.overrun_at = start_at + from_seconds(remaining_s * cell_->execution.duration_scaling) +
                       cell_->execution.duration_margin;
   changed(record);
-  effects_.push_back(Dispatch{job.id, start_at, job.progress});
+  record.dispatched = false;
+  if (start_at <= now_ + std::max(kDispatchAhead, allowance_)) dispatch(record);
+}
+
+void Scheduler::dispatch(Record& record) {
+  record.dispatched = true;
+  record.job.waits_on.clear();
+  effects_.push_back(Dispatch{record.job.id, *record.job.scheduled_at, record.job.progress});
+}
+
+// A later start than now that is free, or one for a scheduled job that is earlier than its own.
+void Scheduler::admit_ahead(Record& record, const Verdict& verdict, const OpenQuestion& question) {
+  Job& job = record.job;
+  const bool forward = question.purpose == Purpose::forward;
+  if (forward) record.forward_tried = version_;
+  const bool free = verdict.kind == Verdict::Kind::free;
+  if (!free && !verdict.earliest_start) return;  // forward: it keeps its start
+  const TimePoint start_at = question.start_at + (free ? Duration{} : *verdict.earliest_start);
+  if (forward && start_at > *job.scheduled_at - kForwardMin) return;
+  if (start_at < now_) return;  // asked again
+  std::vector<Wait> waits;
+  for (const Conflict& conflict : verdict.conflicts) waits.push_back(wait_for(conflict));
+  ++version_;
+  admit(record, start_at);
+  record.forward_tried = version_;
+  if (!record.dispatched) set_waits(record, std::move(waits));
 }
 
 void Scheduler::refuse(Record& record, const Verdict& verdict, bool recheck) {

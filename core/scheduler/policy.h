@@ -28,6 +28,8 @@ class Policy {
 
   // How candidates are compared with everything else.
   [[nodiscard]] virtual CheckMethod method() const = 0;
+  // Whether a job that cannot start now is given the earliest start that is free.
+  [[nodiscard]] virtual bool schedules_ahead() const { return false; }
   // The same for a motion that is under way and was admitted by method().
   [[nodiscard]] virtual CheckMethod recheck_method() const { return method(); }
 };

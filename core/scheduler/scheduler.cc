@@ -54,6 +54,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 
 void Scheduler::settle() {
   expire_and_overrun();
+  dispatch_due();
   fail_impossible_starts();
   explain_waits();
   ask_next();
@@ -85,7 +86,8 @@ std::optional<JobId> Scheduler::occupant(ArmId arm) const {
   const auto& queue = order_[arm.index()];
   if (queue.empty()) return std::nullopt;
   const Record& head = records_.at(queue.front());
-  const bool in_motion = holds_reservation(head) || head.job.state == JobState::holding;
+  const bool ahead = head.job.state == JobState::scheduled && !head.dispatched;
+  const bool in_motion = (holds_reservation(head) && !ahead) || head.job.state == JobState::holding;
   return in_motion ? std::optional(queue.front()) : std::nullopt;
 }
 
@@ -176,6 +178,8 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
   job.late = false;
   record.overrun_at.reset();
   if (report.kind == MotionReport::Kind::finished) {
+    const Duration planned = job.trajectory->duration() - record.plan_progress;
+    if (now_ - record.plan_at < planned - kForwardMin) freed_at_ = version_;
     end(record, JobState::succeeded, Reason::completed, "");
     effects_.push_back(Release{job.id});
     return;
@@ -195,6 +199,7 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
     // Stopped before it moved: it waits in the queue again, as if it had not been admitted.
     job.state = JobState::queued;
     job.scheduled_at.reset();
+    record.dispatched = false;
     effects_.push_back(Release{job.id});
     changed(record);
   } else {
@@ -203,7 +208,26 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
   }
 }
 
+// A scheduled job whose arms know nothing of it yet: it waits again, or ends.
+void Scheduler::withdraw(Record& record, AfterStop then) {
+  disturbed_at_ = ++version_;  // others may have counted on its departure
+  if (then != AfterStop::hold) {
+    end(record, JobState::canceled, Reason::canceled_by_client, "canceled before it moved");
+    return;
+  }
+  Job& job = record.job;
+  job.state = job.backlogged_at ? JobState::backlogged : JobState::queued;
+  job.scheduled_at.reset();
+  record.overrun_at.reset();
+  record.judged_at = 0;
+  changed(record);
+}
+
 void Scheduler::brake(Record& record, AfterStop then) {
+  if (record.job.state == JobState::scheduled && !record.dispatched) {
+    withdraw(record, then);
+    return;
+  }
   // A cancel or a failure outlives a later stop; a stop never turns one into a mere hold.
   const bool first = !record.job.stopping;
   if (first || record.after_stop == AfterStop::hold) record.after_stop = then;
@@ -222,8 +246,8 @@ void Scheduler::brake(Record& record, AfterStop then) {
 void Scheduler::on(const Stop& input) {
   for (ArmId arm : input.arms) {
     if (!stopped_[arm.index()]) stopped_[arm.index()] = input.cause;
-    if (const auto job = occupant(arm)) {
-      Record& record = records_.at(*job);
+    if (!order_[arm.index()].empty()) {
+      Record& record = records_.at(order_[arm.index()].front());
       if (holds_reservation(record) && !record.job.stopping) {
         brake(record, AfterStop::hold);
         set_waits(record, {Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = input.cause}});
@@ -264,6 +288,7 @@ void Scheduler::end(Record& record, JobState state, Reason reason, std::string d
   for (ArmId arm : job.trajectory->arms()) std::erase(order_[arm.index()], job.id);
   active_.erase(job.id);
   ++version_;
+  if (state != JobState::succeeded) freed_at_ = version_;
   changed(record);
   forget_predecessor(job.id, state == JobState::succeeded);
 }
@@ -297,6 +322,24 @@ void Scheduler::expire_and_overrun() {
   }
 }
 
+// Starts whose time has come. Where something has changed that they have not been judged again for,
+// they wait for that.
+void Scheduler::dispatch_due() {
+  const bool braking =
+      std::ranges::any_of(active_, [this](JobId id) { return records_.at(id).job.stopping; });
+  const std::vector<JobId> ids(active_.begin(), active_.end());
+  for (JobId id : ids) {
+    Record& record = records_.at(id);
+    const bool ahead = record.job.state == JobState::scheduled && !record.dispatched;
+    if (!ahead || now_ < *record.job.scheduled_at - kDispatchAhead) continue;
+    if (braking || record.checked_at < disturbed_at_ || !at_head(record)) {
+      withdraw(record, AfterStop::hold);
+    } else {
+      dispatch(record);
+    }
+  }
+}
+
 void Scheduler::ask_for_wake() {
   std::optional<TimePoint> next;
   const auto consider = [&next](TimePoint when) { next = next ? std::min(*next, when) : when; };
@@ -306,6 +349,9 @@ void Scheduler::ask_for_wake() {
       consider(*record.job.backlogged_at + record.job.backlog_timeout);
     }
     if (record.overrun_at && !record.job.stopping) consider(*record.overrun_at);
+    if (record.job.state == JobState::scheduled && !record.dispatched) {
+      consider(*record.job.scheduled_at - kDispatchAhead);
+    }
   }
   if (next && next != wake_at_) effects_.push_back(WakeAt{*next});
   wake_at_ = next;

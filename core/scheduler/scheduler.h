@@ -23,6 +23,11 @@ namespace armloom {
 inline constexpr Duration kAllowanceMin = std::chrono::milliseconds(3);
 inline constexpr Duration kAllowanceMax = std::chrono::seconds(1);
 
+// A motion is handed to its arms this long before it starts; until then its start can be moved.
+inline constexpr Duration kDispatchAhead = std::chrono::milliseconds(20);
+// A start is moved forward by no less than this.
+inline constexpr Duration kForwardMin = std::chrono::milliseconds(50);
+
 // A late arm that keeps up with the clock for this long is late no more.
 inline constexpr Duration kOnTimeAgain = std::chrono::milliseconds(200);
 
@@ -37,6 +42,10 @@ inline constexpr Duration kOnTimeAgain = std::chrono::milliseconds(200);
 // at its goal. Every other arm occupies the place where it rests; a held job at rest is such a
 // rest. Whatever changes reservations or rests gives them a new version: a verdict on an older one
 // is void and asked again, and every waiting job is tried again on the new one.
+//
+// A policy that schedules ahead gives a job that cannot start now the earliest start that is free.
+// Such a job holds its reservation from then on; its motion is dispatched just before. When what it
+// waits for ends otherwise than planned, its start moves forward.
 //
 // An arm that comes to rest off its plan (canceled, stopped, faulted), that loses more than
 // checking.delay against its plan, or a scene that changes may endanger motions that were admitted
@@ -80,15 +89,22 @@ class Scheduler {
     Version checked_at = 0;    // in motion: the version on which it was last found free
     Duration from_progress{};  // where the present dispatch begins
     std::optional<TimePoint> overrun_at;
-    Duration plan_progress{};  // progress at plan_at: from there it should advance with the clock
+    bool dispatched = false;    // the arms have the motion; else it is scheduled at most
+    Version forward_tried = 0;  // scheduled: the version on which an earlier start was sought
+    Duration plan_progress{};   // progress at plan_at: from there it should advance with the clock
     TimePoint plan_at{};
+  };
+  enum class Purpose {
+    start,    // of a job that waits
+    recheck,  // of a motion that is under way or scheduled
+    forward,  // an earlier start of a scheduled job
   };
   struct OpenQuestion {
     Version version;
     TimePoint asked_at;
     TimePoint start_at;
     std::vector<JobId> jobs;
-    bool recheck;  // of a motion that is already under way
+    Purpose purpose;
   };
 
   // scheduler.cc: what happens to jobs
@@ -105,10 +121,12 @@ class Scheduler {
   void plan_from_here(Record& record);
   void forget_predecessor(JobId ended, bool succeeded);
   void brake(Record& record, AfterStop then);
+  void withdraw(Record& record, AfterStop then);
   void come_to_rest(Record& record, const MotionReport& report);
   void end(Record& record, JobState state, Reason reason, std::string detail);
   void settle();  // deadlines, waits, the next question, the next wake
   void expire_and_overrun();
+  void dispatch_due();
   void ask_for_wake();
   void changed(const Record& record) { changed_.insert(record.job.id); }
 
@@ -125,7 +143,10 @@ class Scheduler {
   [[nodiscard]] std::vector<JobId> next_recheck() const;
   [[nodiscard]] std::vector<JobId> held_together() const;
   [[nodiscard]] std::optional<JobId> next_candidate() const;
-  void ask(std::vector<JobId> jobs, bool recheck);
+  [[nodiscard]] std::optional<JobId> next_to_move_forward() const;
+  void ask(std::vector<JobId> jobs, Purpose purpose);
+  void dispatch(Record& record);
+  void admit_ahead(Record& record, const Verdict& verdict, const OpenQuestion& question);
   void add_others(Question& question, const std::vector<JobId>& candidates) const;
   void admit(Record& record, TimePoint start_at);
   void refuse(Record& record, const Verdict& verdict, bool recheck);
@@ -145,6 +166,7 @@ class Scheduler {
   std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
   Version version_ = 1;
   Version disturbed_at_ = 0;         // the last time an arm came to rest off its plan
+  Version freed_at_ = 0;             // the last time a motion ended otherwise than planned
   Version held_together_tried_ = 0;  // the version on which all held jobs were judged as one
   Duration allowance_;               // how far ahead of now a question's instant lies
   std::optional<OpenQuestion> open_;

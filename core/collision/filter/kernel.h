@@ -19,6 +19,7 @@ struct Frame {
   int parent;  // smaller than the own index; -1: the world
   int joint;   // row of q
   bool prismatic;
+  bool about_x;  // C turns about x only, as right-angled joints do
   double multiplier;
   double offset;
   double C[12];  // columns x, y, z, then the origin; m
@@ -56,7 +57,7 @@ struct Placed {
 // Capsules whose motion bounds are known, as one side of a comparison.
 struct Side {
   const float* capsules;   // as Placed::capsules
-  const float* inflation;  // [row][kLanes], m
+  const float* inflation;  // [row][kLanes], m; null on both sides: nothing moves
   const float* ball;       // [4][kLanes]: centre and radius of a ball around all of them as far as
                            // they may move (Kernel::enclose); not read where pairs have no groups
 };
@@ -69,6 +70,7 @@ struct Pair {
   float limit_up;        // distance to be kept
   float radii_up;        // both radii and the rounding margin
   float ends_up;         // both half lengths
+  float end_b_up;        // b's half length, and what an inexact foot point may add
   float aa, bb;          // squared half lengths
   float inv_aa, inv_bb;  // zero for a point
 };
@@ -86,6 +88,11 @@ struct Groups {
   const Group* all;
   int count;  // none: every pair is looked at
   bool of_b;  // the capsules are the second side's, the ball the first one's
+  // The second side's capsules, held against the first side's ball; begin, end are not read. None:
+  // all of them are looked at. At most 64.
+  const Group* others;
+  int other_count;
+  float limit_up;  // the largest of all pairs
 };
 
 // A capsule against a solid box that stands still.
@@ -119,7 +126,7 @@ struct Kernel {
   // has here: hence the levers at hand bound motions of any size.)
   void (*inflate)(const Linkage& linkage, const float* axes, const float* capsules,
                   const float* span, float* suffix);
-  // The ball of a side; `inflation` has a row for each capsule of `rows`.
+  // The ball of a side; rows[c] is the row of capsule c in `inflation`. Null: nothing moves.
   void (*enclose)(const Linkage& linkage, const float* capsules, const float* inflation,
                   const int* rows, float* ball);
   // Writes the pairs that are undecided in one of `lanes`; returns their number. `hits` has room

@@ -43,6 +43,15 @@ inline void sin_cos(D x, D& sin_x, D& cos_x) {
   cos_x = D::select(odd, s, c) * sign_c;
 }
 
+// R v for a constant v.
+template <class D>
+inline void turn(const D* R, const double* v, D* out) {
+  const D x = D::all(v[0]);
+  const D y = D::all(v[1]);
+  const D z = D::all(v[2]);
+  for (int i = 0; i < 3; ++i) out[i] = R[i] * x + R[3 + i] * y + R[6 + i] * z;
+}
+
 template <class D>
 inline void place_frame(const Frame& frame, const double* parent, const double* q, int l,
                         double* out) {
@@ -52,12 +61,18 @@ inline void place_frame(const Frame& frame, const double* parent, const double* 
   } else {
     D p[12];
     for (int i = 0; i < 12; ++i) p[i] = D::load(parent + i * kLanes + l);
-    for (int column = 0; column < 4; ++column) {
-      const D x = D::all(frame.C[3 * column]);
-      const D y = D::all(frame.C[3 * column + 1]);
-      const D z = D::all(frame.C[3 * column + 2]);
-      for (int i = 0; i < 3; ++i) c[3 * column + i] = p[i] * x + p[3 + i] * y + p[6 + i] * z;
+    if (frame.about_x) {
+      const D cosine = D::all(frame.C[4]);
+      const D sine = D::all(frame.C[5]);
+      for (int i = 0; i < 3; ++i) {
+        c[i] = p[i];
+        c[3 + i] = p[3 + i] * cosine + p[6 + i] * sine;
+        c[6 + i] = p[6 + i] * cosine - p[3 + i] * sine;
+      }
+    } else {
+      for (int column = 0; column < 3; ++column) turn(p, frame.C + 3 * column, c + 3 * column);
     }
+    turn(p, frame.C + 9, c + 9);
     for (int i = 0; i < 3; ++i) c[9 + i] = c[9 + i] + p[9 + i];
   }
   const D value =
@@ -95,21 +110,20 @@ void place(const Linkage& linkage, const double* q, const Placed& out) {
     const Capsule& capsule = linkage.capsules[c];
     float* to = out.capsules + c * 6 * kLanes;
     for (int l = 0; l < kLanes; l += D::kLanes) {
+      D center[3] = {D::all(capsule.center[0]), D::all(capsule.center[1]),
+                     D::all(capsule.center[2])};
+      D half[3] = {D::all(capsule.half[0]), D::all(capsule.half[1]), D::all(capsule.half[2])};
+      if (capsule.frame >= 0) {
+        const double* X = out.frames + capsule.frame * 12 * kLanes + l;
+        D R[9];
+        for (int i = 0; i < 9; ++i) R[i] = D::load(X + i * kLanes);
+        turn(R, capsule.center, center);
+        turn(R, capsule.half, half);
+        for (int i = 0; i < 3; ++i) center[i] = center[i] + D::load(X + (9 + i) * kLanes);
+      }
       for (int i = 0; i < 3; ++i) {
-        D center = D::all(capsule.center[i]);
-        D half = D::all(capsule.half[i]);
-        if (capsule.frame >= 0) {
-          const double* X = out.frames + capsule.frame * 12 * kLanes + l;
-          const D x = D::load(X + i * kLanes);
-          const D y = D::load(X + (3 + i) * kLanes);
-          const D z = D::load(X + (6 + i) * kLanes);
-          center = x * D::all(capsule.center[0]) + y * D::all(capsule.center[1]) +
-                   z * D::all(capsule.center[2]) + D::load(X + (9 + i) * kLanes);
-          half = x * D::all(capsule.half[0]) + y * D::all(capsule.half[1]) +
-                 z * D::all(capsule.half[2]);
-        }
-        center.store_float(to + i * kLanes + l);
-        half.store_float(to + (3 + i) * kLanes + l);
+        center[i].store_float(to + i * kLanes + l);
+        half[i].store_float(to + (3 + i) * kLanes + l);
       }
     }
   }
@@ -207,8 +221,8 @@ void enclose(const Linkage& linkage, const float* capsules, const float* inflati
     F radius = F::all(0.0F);
     for (int c = 0; c < linkage.capsule_count; ++c) {
       const Vec<F> w = minus(Vec<F>::load(capsules + c * 6 * kLanes + l), center);
-      const F far = F::sqrt(dot(w, w)) * F::all(1.00001F) +
-                    F::load(inflation + rows[c] * kLanes + l) + F::all(linkage.capsules[c].ball_up);
+      F far = F::sqrt(dot(w, w)) * F::all(1.00001F) + F::all(linkage.capsules[c].ball_up);
+      if (inflation != nullptr) far = far + F::load(inflation + rows[c] * kLanes + l);
       radius = F::max(radius, far);
     }
     center.x.store(ball + l);
@@ -219,19 +233,29 @@ void enclose(const Linkage& linkage, const float* capsules, const float* inflati
 }
 
 // Whether the pair is undecided in some of the lanes; then its hit is filled.
-template <class F>
+template <class F, bool kMoving>
 inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& hit) {
   const float* at_a = a.capsules + pair.a * 6 * kLanes;
   const float* at_b = b.capsules + pair.b * 6 * kLanes;
   unsigned near = 0;
   for (int l = 0; l < kLanes; l += F::kLanes) {
     const Vec<F> w = minus(Vec<F>::load(at_a + l), Vec<F>::load(at_b + l));
-    const F inflation = F::load(a.inflation + pair.row_a * kLanes + l) +
-                        F::load(b.inflation + pair.row_b * kLanes + l);
-    const F keep = F::all(pair.limit_up + pair.radii_up) + inflation;
+    F inflation = F::all(0.0F);
+    F keep = F::all(pair.limit_up + pair.radii_up);
+    if constexpr (kMoving) {
+      inflation = F::load(a.inflation + pair.row_a * kLanes + l) +
+                  F::load(b.inflation + pair.row_b * kLanes + l);
+      keep = keep + inflation;
+    }
     const F reach = keep + F::all(pair.ends_up);
     if (F::not_at_least(dot(w, w), reach * reach) == 0) continue;
     const Vec<F> ha = Vec<F>::load(at_a + 3 * kLanes + l);
+    // The ball of b against the axis of a.
+    const F one = F::all(1.0F);
+    const F t = F::max(F::all(-1.0F), F::min(one, dot(ha, w) * F::all(-pair.inv_aa)));
+    const Vec<F> v = {w.x + t * ha.x, w.y + t * ha.y, w.z + t * ha.z};
+    const F ball = keep + F::all(pair.end_b_up);
+    if (F::not_at_least(dot(v, v), ball * ball) == 0) continue;
     const Vec<F> hb = Vec<F>::load(at_b + 3 * kLanes + l);
     const F gap = axis_gap(w, ha, hb, pair);
     near |= F::not_at_least(gap, keep) << l;
@@ -242,38 +266,73 @@ inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& h
 }
 
 // Whether the group's capsule, one of `own`, may come near the other side's ball in some lane.
-template <class F>
+template <class F, bool kMoving>
 inline bool near_ball(const Side& own, const Side& other, const Group& group) {
   const float* at = own.capsules + group.capsule * 6 * kLanes;
   unsigned near = 0;
   for (int l = 0; l < kLanes; l += F::kLanes) {
     const Vec<F> w = minus(Vec<F>::load(at + l), Vec<F>::load(other.ball + l));
-    const F reach = F::load(own.inflation + group.row * kLanes + l) +
-                    F::load(other.ball + 3 * kLanes + l) + F::all(group.limit_up + group.size_up);
+    F reach = F::load(other.ball + 3 * kLanes + l) + F::all(group.limit_up + group.size_up);
+    if constexpr (kMoving) reach = reach + F::load(own.inflation + group.row * kLanes + l);
     near |= F::not_at_least(dot(w, w), reach * reach);
   }
   return near != 0;
 }
 
+// Whether the balls of both sides may come near each other in some lane.
 template <class F>
-int near_pairs(const Side& a, const Side& b, const Pair* pairs, int count, const Groups& groups,
-               unsigned lanes, Hit* hits) {
+inline bool near_balls(const Side& a, const Side& b, float limit_up) {
+  unsigned near = 0;
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    const Vec<F> w = minus(Vec<F>::load(a.ball + l), Vec<F>::load(b.ball + l));
+    const F reach =
+        (F::load(a.ball + 3 * kLanes + l) + F::load(b.ball + 3 * kLanes + l) + F::all(limit_up)) *
+        F::all(1.00001F);
+    near |= F::not_at_least(dot(w, w), reach * reach);
+  }
+  return near != 0;
+}
+
+template <class F, bool kMoving>
+int near_pairs_of(const Side& a, const Side& b, const Pair* pairs, int count, const Groups& groups,
+                  unsigned lanes, Hit* hits) {
   int found = 0;
+  unsigned long long of_b = ~0ULL;  // capsules of b that are looked at, where they are counted out
   const auto look = [&](int begin, int end) {
     for (int p = begin; p < end; ++p) {
+      if (groups.other_count > 0 && (of_b >> pairs[p].b & 1U) == 0) continue;
       Hit& hit = hits[found];
       hit.pair = p;
-      hit.lanes = near_pair<F>(a, b, pairs[p], hit) & lanes;
+      hit.lanes = near_pair<F, kMoving>(a, b, pairs[p], hit) & lanes;
       found += hit.lanes != 0 ? 1 : 0;
     }
   };
   if (groups.count == 0) look(0, count);
+  if (groups.other_count > 0) {
+    if (!near_balls<F>(a, b, groups.limit_up)) return 0;
+    of_b = 0;
+    for (int o = 0; o < groups.other_count; ++o) {
+      const Group& other = groups.others[o];
+      if (near_ball<F, kMoving>(b, a, other)) of_b |= 1ULL << other.capsule;
+    }
+    if (of_b == 0) return 0;
+  }
   for (int g = 0; g < groups.count; ++g) {
     const Group& group = groups.all[g];
-    const bool near = groups.of_b ? near_ball<F>(b, a, group) : near_ball<F>(a, b, group);
+    const bool near =
+        groups.of_b ? near_ball<F, kMoving>(b, a, group) : near_ball<F, kMoving>(a, b, group);
     if (near) look(group.begin, group.end);
   }
   return found;
+}
+
+template <class F>
+int near_pairs(const Side& a, const Side& b, const Pair* pairs, int count, const Groups& groups,
+               unsigned lanes, Hit* hits) {
+  if (a.inflation == nullptr && b.inflation == nullptr) {
+    return near_pairs_of<F, false>(a, b, pairs, count, groups, lanes, hits);
+  }
+  return near_pairs_of<F, true>(a, b, pairs, count, groups, lanes, hits);
 }
 
 // The gap across the box's faces: a lower bound, the distance itself before a face.
@@ -296,7 +355,8 @@ int near_boxes(const Side& a, const BoxPair* pairs, int count, unsigned lanes, H
                              F::all(pair.R[3 * i + 2])};
         gap = F::max(gap, F::abs(dot(axis, w)) - F::abs(dot(axis, half)) - F::all(pair.half_up[i]));
       }
-      const F inflation = F::load(a.inflation + pair.row_a * kLanes + l);
+      const F inflation =
+          a.inflation == nullptr ? F::all(0.0F) : F::load(a.inflation + pair.row_a * kLanes + l);
       const F distance = gap - F::all(pair.radius_up);
       near |= F::not_at_least(distance, F::all(pair.limit_up) + inflation) << l;
       distance.store(hit.distance + l);
