@@ -92,9 +92,13 @@ void Executive::Impl::tick(TimePoint now) {
     step(Wake{});
   }
   for (const MotionReport& report : motions_.tick(now_)) step(report);
+  std::size_t in_motion = 0;
   for (ArmId arm : all_arms()) {
-    if (motions_.moving(arm)) figures_.busy[arm.index()] += kControlPeriod;
+    if (!motions_.moving(arm)) continue;
+    figures_.busy[arm.index()] += kControlPeriod;
+    ++in_motion;
   }
+  if (in_motion >= 2) figures_.together += kControlPeriod;
   if (now_ >= monitor_due_) {
     monitor_due_ = now_ + monitor_period_;
     watch();

@@ -72,6 +72,7 @@ struct ExecutiveOptions {
 struct RunFigures {
   TimePoint last_end{};
   std::vector<Duration> busy;  // per arm: time in motion
+  Duration together{};         // time in which at least two arms were in motion
   double min_clearance_m;      // smallest between arms that the monitor saw; +inf: never near
   std::uint64_t monitor_stops = 0;
 };

@@ -1,6 +1,7 @@
 #include "core/executive/simulation.h"
 
 #include <algorithm>
+#include <chrono>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -16,7 +17,12 @@ class Simulation::Judge final : public JudgePool {
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
     if (!arbiter_) arbiter_.emplace(scene);
     arbiter_->look_at(std::move(scene));
-    answer([verdict = arbiter_->judge(question), done = std::move(done)] { done(verdict); });
+    const auto begun = std::chrono::steady_clock::now();
+    Verdict verdict = arbiter_->judge(question);
+    judging_.wall += std::chrono::steady_clock::now() - begun;
+    judging_.evaluations += verdict.evaluations;
+    ++judging_.judgements;
+    answer([verdict = std::move(verdict), done = std::move(done)] { done(verdict); });
   }
 
   // By an arbiter of its own: what has been drawn must not change the evaluations of a verdict.
@@ -38,6 +44,8 @@ class Simulation::Judge final : public JudgePool {
     }
   }
 
+  [[nodiscard]] const Judging& judging() const { return judging_; }
+
  private:
   struct Answer {
     TimePoint due;
@@ -51,6 +59,7 @@ class Simulation::Judge final : public JudgePool {
   std::optional<Arbiter> artist_;
   TimePoint now_{};
   std::deque<Answer> pending_;
+  Judging judging_;
 };
 
 Simulation::Simulation(std::unique_ptr<Judge> judge) : judge_(std::move(judge)) {}
@@ -64,6 +73,8 @@ Result<std::unique_ptr<Simulation>> Simulation::create(CellPtr cell, ExecutiveOp
   simulation->executive_ = std::move(*executive);
   return simulation;
 }
+
+const Judging& Simulation::judging() const { return judge_->judging(); }
 
 void Simulation::tick() {
   executive_->tick(next_);
@@ -103,6 +114,7 @@ Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
   }
   result.ended_at = executive.now();
   result.figures = executive.figures();
+  result.judging = (*simulation)->judging();
   result.jobs = executive.snapshot().jobs;
   return result;
 }

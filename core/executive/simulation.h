@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -11,6 +12,14 @@ namespace armloom {
 
 // A judgement takes this much simulated time, whatever it took the machine.
 inline constexpr Duration kSimulatedJudgement = std::chrono::milliseconds(2);
+
+// What deciding took: how often a question was judged, the combined states looked at for it, and
+// the time of the machine. `wall` alone differs from run to run.
+struct Judging {
+  std::uint64_t judgements = 0;
+  std::uint64_t evaluations = 0;
+  Duration wall{};
+};
 
 // The same executive as in real time, on simulated time: the caller turns the clock. Deterministic
 // for a seed. Single-threaded.
@@ -24,6 +33,7 @@ class Simulation {
 
   [[nodiscard]] Executive& executive() { return *executive_; }
   [[nodiscard]] TimePoint now() const { return executive_->now(); }
+  [[nodiscard]] const Judging& judging() const;
 
   // One control cycle; the first one is at time zero.
   void tick();
@@ -46,6 +56,7 @@ struct TimedJob {
 
 struct SimulationResult {
   RunFigures figures;
+  Judging judging;
   std::vector<JobView> jobs;  // every job that was accepted, as it ended, in order of submission
   struct Refused {
     std::size_t index;  // into the jobs given
