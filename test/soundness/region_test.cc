@@ -54,7 +54,8 @@ TEST(Region, MeetsEveryCellThatHoldsOneOfItsStates) {
       const double now = std::max(progress, 0.0);
       const double plan = std::clamp(progress + t, 0.0, duration);
       const double low = std::max(now, plan - std::min(behind, 100.0));
-      const double high = std::min(duration, plan + std::min(ahead, 100.0));
+      const bool started = progress + t >= 0.0;  // before it, nothing lies ahead
+      const double high = started ? std::min(duration, plan + std::min(ahead, 100.0)) : now;
       return uniform(random, low, high);
     };
     const double a = state(r.progress_a, r.lag_a, r.lead_a, r.duration_a);
@@ -69,6 +70,26 @@ TEST(Region, MeetsEveryCellThatHoldsOneOfItsStates) {
     const auto first = first_at(r, a, b);
     ASSERT_TRUE(first) << i;
     ASSERT_LE(*first, t + 1e-8) << i;
+  }
+}
+
+// Where times do not count, whatever is left of both motions counts, though one has yet to wait.
+TEST(Region, ThatIsSweptHoldsTheWholeRectangleOfWhatRemains) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 100'000; ++i) {
+    const double all = Region::kUnbounded;
+    const Region r{.progress_a = uniform(random, -3.0, 9.0),
+                   .progress_b = uniform(random, -3.0, 9.0),
+                   .lag_a = all,
+                   .lag_b = all,
+                   .lead_a = all,
+                   .lead_b = all,
+                   .duration_a = uniform(random, 9.0, 12.0),
+                   .duration_b = uniform(random, 9.0, 12.0)};
+    const double a = uniform(random, std::max(0.0, r.progress_a), r.duration_a);
+    const double b = uniform(random, std::max(0.0, r.progress_b), r.duration_b);
+    ASSERT_TRUE(meets(r, a, a + 1e-6, b, b + 1e-6)) << i;
+    ASSERT_TRUE(first_at(r, a, b)) << i;
   }
 }
 
