@@ -100,7 +100,8 @@ Question question_for(const Plan& plan, std::size_t index, const std::vector<std
                     .candidates = {Motion{id_of(index), job.trajectory, Duration{}}},
                     .others = {},
                     .rest = cell.home(),
-                    .method = policy.method()};
+                    .method = policy.method(),
+                    .find_earliest = true};
   for (std::size_t other : begun) {
     const Planned& earlier = plan.jobs()[other];
     if (earlier.ends() <= job.starts) {
@@ -136,6 +137,7 @@ CheckView judged(const Question& question, const Plan& plan, const Cell& cell, c
   view.kind = verdict.kind;
   view.clearance_bound_m = verdict.clearance_bound_m;
   view.evaluations = verdict.evaluations;
+  if (verdict.earliest_start) view.earliest_start_s = to_seconds(*verdict.earliest_start);
   for (const Conflict& conflict : verdict.conflicts) {
     view.conflicts.push_back(view_of(wait_for(conflict), cell, plan));
   }
@@ -169,6 +171,8 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
         judged(question_for(plan, index, begun, *cell, **policy), plan, *cell, **policy, arbiter);
     if (view.kind == Verdict::Kind::free) {
       view.earliest_start_s = to_seconds(job.starts - job.asked);
+    } else if (view.earliest_start_s) {  // counted from where it was judged
+      *view.earliest_start_s += to_seconds(job.starts - job.asked);
     }
     begun.push_back(index);
   }

@@ -37,6 +37,14 @@ std::vector<std::unique_ptr<ArmController>> controllers(
 
 }  // namespace
 
+// An arm's own links are held to the same share as in CollisionChecker::all_closer_than.
+StateCheck Executive::Impl::monitored(const PlanningScenePtr& scene) {
+  const Cell& cell = scene->cell();
+  const double stop_m = cell.monitor.stop_clearance_m;
+  const double share = cell.clearance_m > 0.0 ? cell.self_clearance_m / cell.clearance_m : 1.0;
+  return StateCheck(scene, StateCheck::Limits{stop_m, stop_m * share});
+}
+
 Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
                       std::unique_ptr<const Policy> policy,
                       std::vector<std::unique_ptr<FaultyArm>> arms, JudgePool& judges,
@@ -51,6 +59,7 @@ Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr s
       motions_(cell, controllers(std::move(arms)), cell->home()),
       monitor_(cell->monitor),
       checker_(scene_),
+      near_(monitored(scene_)),
       monitor_period_(from_seconds(1.0 / cell->monitor.rate_hz)),
       told_arms_(cell->arms.size(), ArmState::idle),
       told_arm_jobs_(cell->arms.size()),
@@ -123,7 +132,11 @@ void Executive::Impl::watch() {
     }
     std::vector<bool> moving;
     for (ArmId arm : all_arms()) moving.push_back(motions_.moving(arm));
-    const auto too_close = checker_.all_closer_than(q, cell_->monitor.stop_clearance_m);
+    const Configuration* state[] = {&q};
+    std::vector<Proximity> too_close;
+    if (near_.too_close(state) != 0) {
+      too_close = checker_.all_closer_than(q, cell_->monitor.stop_clearance_m);
+    }
     for (MonitorFinding& finding : monitor_.observe(too_close, moving, now_)) {
       MonitorEvent event{.finding = finding};
       for (const auto& arm : {finding.proximity.arm_a, finding.proximity.arm_b}) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/collision/collision_checker.h"
+#include "core/collision/state_check.h"
 #include "core/executive/executive.h"
 #include "core/executive/motions.h"
 #include "core/executive/views.h"
@@ -101,6 +102,7 @@ class Executive::Impl final : public JobNames {
 
   void carry_out(const Effect& effect);
   void watch();
+  static StateCheck monitored(const PlanningScenePtr& scene);
   void tell_job(JobId job);
   void tell_arms();
   void tell_queue();
@@ -115,6 +117,8 @@ class Executive::Impl final : public JobNames {
   Motions motions_;
   Monitor monitor_;
   CollisionChecker checker_;
+  StateCheck
+      near_;  // the monitor's limits: only states that it does not clear are looked at closely
   Duration monitor_period_;
   TimePoint monitor_due_{};
   Configuration watched_;  // the configuration that the monitor looked at last

@@ -172,6 +172,9 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
               [this, view, done = std::move(done)](const Verdict& verdict) mutable {
                 view.kind = verdict.kind;
                 if (verdict.kind == Verdict::Kind::free) view.earliest_start_s = 0.0;
+                if (verdict.earliest_start) {
+                  view.earliest_start_s = to_seconds(*verdict.earliest_start);
+                }
                 view.clearance_bound_m = verdict.clearance_bound_m;
                 view.evaluations = verdict.evaluations;
                 for (const Conflict& conflict : verdict.conflicts) {

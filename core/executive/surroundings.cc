@@ -73,6 +73,7 @@ Result<void> Executive::Impl::change_objects(std::vector<CollisionObject> object
   }
   scene_ = std::move(*scene);
   checker_ = std::move(checker);
+  near_ = monitored(scene_);
   watched_.resize(0);  // the monitor looks again, though no arm has moved
   ++scene_version_;
   tell(SceneView{scene_version_, scene_->objects()});

@@ -82,6 +82,10 @@ std::optional<Wait> Scheduler::stop_of(const Record& record) const {
 
 std::optional<Wait> Scheduler::capacity_of(const Record& record,
                                            const std::vector<const Job*>& occupying) const {
+  if (policy_->in_rounds() && !round_.contains(record.job.id)) {
+    if (round_.empty()) return std::nullopt;
+    return Wait{.kind = Wait::Kind::capacity, .job = *round_.begin()};
+  }
   std::optional<JobId> taken_by;
   if (record.job.state == JobState::holding) {
     std::vector<const Job*> others = occupying;
@@ -105,6 +109,22 @@ void Scheduler::set_waits(Record& record, std::vector<Wait> waits) {
       std::ranges::equal(old, waits, [](const Wait& a, const Wait& b) { return a.same_cause(b); });
   old = std::move(waits);
   if (!same) changed(record);
+}
+
+// A round is over when all of its jobs have ended. Where those that are left wait for arms that
+// only a next job would move away, these jobs join.
+void Scheduler::form_round() {
+  if (!policy_->in_rounds()) return;
+  std::erase_if(round_, [this](JobId id) { return !active_.contains(id); });
+  const bool stuck = std::ranges::all_of(round_, [this](JobId id) {
+    const Record& record = records_.at(id);
+    return waiting(record) && record.judged_at == version_;
+  });
+  if (!stuck) return;
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    if (waiting(record) && at_head(record) && !stop_of(record)) round_.insert(id);
+  }
 }
 
 void Scheduler::explain_waits() {

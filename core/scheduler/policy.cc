@@ -11,9 +11,9 @@ struct Entry {
 };
 
 constexpr Entry kPolicies[] = {
-    {"sequential", make_sequential},         {"reservation", make_reservation},
-    {"timed_discrete", make_timed_discrete}, {"certified", make_certified},
-    {"earliest_start", make_earliest_start},
+    {"sequential", make_sequential},   {"lockstep", make_lockstep},
+    {"reservation", make_reservation}, {"timed_discrete", make_timed_discrete},
+    {"certified", make_certified},     {"earliest_start", make_earliest_start},
 };
 
 }  // namespace

@@ -30,6 +30,8 @@ class Policy {
   [[nodiscard]] virtual CheckMethod method() const = 0;
   // Whether a job that cannot start now is given the earliest start that is free.
   [[nodiscard]] virtual bool schedules_ahead() const { return false; }
+  // Whether jobs go in rounds: one of each arm, and the next when all of these have ended.
+  [[nodiscard]] virtual bool in_rounds() const { return false; }
   // The same for a motion that is under way and was admitted by method().
   [[nodiscard]] virtual CheckMethod recheck_method() const { return method(); }
 };

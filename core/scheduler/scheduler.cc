@@ -56,6 +56,7 @@ void Scheduler::settle() {
   expire_and_overrun();
   dispatch_due();
   fail_impossible_starts();
+  form_round();
   explain_waits();
   ask_next();
   ask_for_wake();

@@ -131,6 +131,7 @@ class Scheduler {
   void changed(const Record& record) { changed_.insert(record.job.id); }
 
   // admission.cc: who may be judged, what is asked, what the answer means
+  void form_round();
   void explain_waits();
   void ask_next();
   [[nodiscard]] bool may_be_judged(const Record& record,
@@ -169,6 +170,7 @@ class Scheduler {
   Version freed_at_ = 0;             // the last time a motion ended otherwise than planned
   Version held_together_tried_ = 0;  // the version on which all held jobs were judged as one
   Duration allowance_;               // how far ahead of now a question's instant lies
+  std::set<JobId> round_;            // policies with rounds: the jobs of the present one
   std::optional<OpenQuestion> open_;
   std::optional<TimePoint> wake_at_;
 
