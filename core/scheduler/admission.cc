@@ -64,7 +64,7 @@ std::vector<const Job*> Scheduler::occupying() const {
 // Where a motion will be at `when` if it goes on as planned; negative: still to start.
 Duration Scheduler::progress_at(const Record& record, TimePoint when) {
   const Job& job = record.job;
-  const Duration progress = job.state == JobState::scheduled
+  const Duration progress = job.state == JobState::scheduled && !job.late
                                 ? record.from_progress + (when - *job.scheduled_at)
                                 : job.progress + (when - job.progress_seen_at);
   return std::min(progress, job.trajectory->duration());
@@ -111,8 +111,9 @@ void Scheduler::set_waits(Record& record, std::vector<Wait> waits) {
   if (!same) changed(record);
 }
 
-// A round is over when all of its jobs have ended. Where those that are left wait for arms that
-// only a next job would move away, these jobs join.
+// A round is over when all of its jobs have ended; until the first of them moves, arms that have no
+// job in it may join. Where those that are left wait for arms that only a next job would move away,
+// these jobs join too.
 void Scheduler::form_round() {
   if (!policy_->in_rounds()) return;
   std::erase_if(round_, [this](JobId id) { return !active_.contains(id); });
@@ -120,7 +121,11 @@ void Scheduler::form_round() {
     const Record& record = records_.at(id);
     return waiting(record) && record.judged_at == version_;
   });
-  if (!stuck) return;
+  if (round_.empty()) round_begun_ = false;
+  for (JobId id : round_) {
+    if (records_.at(id).job.started_at) round_begun_ = true;
+  }
+  if (round_begun_ && !stuck) return;
   for (JobId id : active_) {
     const Record& record = records_.at(id);
     if (waiting(record) && at_head(record) && !stop_of(record)) round_.insert(id);
@@ -295,7 +300,7 @@ void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
                     .others = {},
                     .rest = rest_,
                     .method = recheck ? policy_->recheck_method() : policy_->method(),
-                    .find_earliest = !recheck && policy_->schedules_ahead()};
+                    .find_earliest = !recheck && jobs.size() == 1 && policy_->schedules_ahead()};
   for (JobId id : jobs) {
     const Record& record = records_.at(id);
     const bool under_way = holds_reservation(record) && purpose != Purpose::forward;
@@ -320,7 +325,9 @@ void Scheduler::on(const Judged& input) {
   const bool free = input.verdict.kind == Verdict::Kind::free;
   const Duration needed = now_ - question.asked_at;
   const bool recheck = question.purpose == Purpose::recheck;
-  if (now_ > question.start_at && !recheck && free) {
+  const auto& later = input.verdict.earliest_start;
+  const bool starts = !recheck && (free || later);
+  if (starts && now_ > question.start_at + (free ? Duration{} : *later)) {
     // The instant that was judged has passed. Ask for a later one.
     allowance_ = std::min(std::max(3 * needed / 2, 2 * allowance_), kAllowanceMax);
     if (question.jobs.size() > 1) held_together_tried_ = 0;
@@ -331,8 +338,7 @@ void Scheduler::on(const Judged& input) {
   Record& first = records_.at(question.jobs.front());
   if (free && recheck) {
     first.checked_at = version_;
-  } else if (question.purpose == Purpose::forward ||
-             (!free && !recheck && input.verdict.earliest_start)) {
+  } else if (question.purpose == Purpose::forward || (!free && !recheck && later)) {
     admit_ahead(first, input.verdict, question);
   } else if (free) {
     ++version_;
@@ -361,6 +367,8 @@ void Scheduler::admit(Record& record, TimePoint start_at) {
 
 void Scheduler::dispatch(Record& record) {
   record.dispatched = true;
+  record.plan_at = *record.job.scheduled_at;
+  record.plan_progress = record.from_progress;
   record.job.waits_on.clear();
   effects_.push_back(Dispatch{record.job.id, *record.job.scheduled_at, record.job.progress});
 }
@@ -374,11 +382,11 @@ void Scheduler::admit_ahead(Record& record, const Verdict& verdict, const OpenQu
   if (!free && !verdict.earliest_start) return;  // forward: it keeps its start
   const TimePoint start_at = question.start_at + (free ? Duration{} : *verdict.earliest_start);
   if (forward && start_at > *job.scheduled_at - kForwardMin) return;
-  if (start_at < now_) return;  // asked again
   std::vector<Wait> waits;
   for (const Conflict& conflict : verdict.conflicts) waits.push_back(wait_for(conflict));
   ++version_;
   admit(record, start_at);
+  if (forward) freed_at_ = version_;  // others may move forward behind it
   record.forward_tried = version_;
   if (!record.dispatched) set_waits(record, std::move(waits));
 }

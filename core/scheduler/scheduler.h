@@ -118,6 +118,9 @@ class Scheduler {
   void on(const Interrupt& input);
   void on(const Wake& input);
   void progress(Record& record);
+  [[nodiscard]] bool loses_time(const Record& record) const;
+  [[nodiscard]] static bool has_not_begun(const Record& record);  // though its arms have the motion
+  void falls_behind(Record& record);
   void plan_from_here(Record& record);
   void forget_predecessor(JobId ended, bool succeeded);
   void brake(Record& record, AfterStop then);
@@ -171,6 +174,7 @@ class Scheduler {
   Version held_together_tried_ = 0;  // the version on which all held jobs were judged as one
   Duration allowance_;               // how far ahead of now a question's instant lies
   std::set<JobId> round_;            // policies with rounds: the jobs of the present one
+  bool round_begun_ = false;
   std::optional<OpenQuestion> open_;
   std::optional<TimePoint> wake_at_;
 
