@@ -64,6 +64,17 @@ int run(int argc, char** argv) {
   simulate_command->add_option("--out", simulating.out, "folder for the recording");
   simulate_command->add_option("--faults", simulating.faults_file, "faults file (JSON)");
 
+  CompareOptions comparing;
+  CLI::App* compare_command =
+      app.add_subcommand("compare", "run the same jobs under several policies: a table");
+  add_cell(*compare_command, comparing.cell_file);
+  compare_command->add_option("--jobs", comparing.jobs_file, "jobs file (JSON)")->required();
+  compare_command->add_option("--policies", comparing.policies, "names, a comma between (all)");
+  compare_command->add_option("--seed", comparing.seed, "of the arms' noise")
+      ->check(not_a_seed)
+      ->capture_default_str();
+  compare_command->add_option("--out", comparing.out, "folder for compare.csv and compare.svg");
+
   AuditOptions auditing;
   CLI::App* audit_command = app.add_subcommand("audit", "re-check a recording for contacts");
   add_cell(*audit_command, auditing.cell_file);
@@ -82,6 +93,7 @@ int run(int argc, char** argv) {
   if (validate_command->parsed()) return validate_cell(validated_file);
   if (check_command->parsed()) return check_jobs_file(checking);
   if (simulate_command->parsed()) return simulate_jobs(simulating);
+  if (compare_command->parsed()) return compare_policies(comparing);
   return audit_recording(auditing);
 }
 

@@ -49,6 +49,17 @@ struct SimulateOptions {
 };
 int simulate_jobs(const SimulateOptions& options);
 
+// The same jobs under several policies: one Markdown table on stdout. Exit 0: every job ended under
+// every policy, whatever its end.
+struct CompareOptions {
+  std::string cell_file;
+  std::string jobs_file;
+  std::string policies;  // comma between names; empty: all of policy_names()
+  std::uint64_t seed = 1;
+  std::string out;  // empty: no files; else the folder of compare.csv and compare.svg
+};
+int compare_policies(const CompareOptions& options);
+
 struct AuditOptions {
   std::string cell_file;
   std::string recording;

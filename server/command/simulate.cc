@@ -1,16 +1,13 @@
-#include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <map>
 #include <set>
 
 #include "core/executive/simulation.h"
 #include "server/codec/fault_codec.h"
-#include "server/codec/job_codec.h"
 #include "server/codec/json_writer.h"
-#include "server/codec/problem_codec.h"
 #include "server/codec/views.h"
 #include "server/command/command.h"
+#include "server/command/headless.h"
 #include "server/recording/recording.h"
 
 namespace armloom {
@@ -41,85 +38,14 @@ class Watcher final : public Observer {
   std::set<std::string> backlogged_;
 };
 
-// Problems that no order of events can cure, found before anything runs.
-Problems faults_of(const std::vector<TimedJob>& jobs, const Cell& cell) {
-  Problems faults;
-  std::set<std::string> keys;
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    const std::string place = "/" + std::to_string(i) + "/job";
-    const std::string& key = jobs[i].job.key;
-    if (!key.empty() && !keys.insert(key).second) {
-      faults.push_back(Problem{ProblemKind::conflict, "id-in-use", place + "/id",
-                               "the id is used by an earlier job of the file", key});
-    }
-    if (const auto trajectory = validate(jobs[i].job.trajectory, cell); !trajectory) {
-      for (Problem problem : trajectory.error()) {
-        problem.pointer = place + "/trajectory" + problem.pointer;
-        faults.push_back(std::move(problem));
-      }
-    }
-  }
-  return faults;
-}
-
-// After this much cell time something is wrong: every job has waited as long as it may and run as
-// long as it may, one after the other.
-TimePoint time_limit(const std::vector<TimedJob>& jobs, const std::vector<FaultRequest>& faults,
-                     const Cell& cell) {
-  double limit_s = 60.0;
-  double last_s = 0.0;
-  for (const FaultRequest& fault : faults) {
-    limit_s += to_seconds(fault.lasting.value_or(Duration{}));
-  }
-  for (const TimedJob& timed : jobs) {
-    const auto& points = timed.job.trajectory.points;
-    const double duration_s = points.empty() ? 0.0 : points.back().time_from_start_s;
-    limit_s += to_seconds(timed.job.backlog_timeout.value_or(cell.scheduling.backlog_timeout)) +
-               duration_s * cell.execution.duration_scaling +
-               to_seconds(cell.execution.duration_margin);
-    last_s = std::max(last_s, to_seconds(timed.at));
-  }
-  return at(from_seconds(last_s + limit_s));
-}
-
-struct Summary {
-  std::string policy;
-  Duration makespan{};
-  std::map<std::string, std::size_t> jobs;
-  std::size_t backlogged = 0;
-  Duration wait_mean{};
-  Duration wait_max{};
-};
-
-Summary summarise(const SimulationResult& result, TimePoint first_submit) {
-  Summary summary;
-  for (const JobState state : {JobState::succeeded, JobState::canceled, JobState::expired,
-                               JobState::failed, JobState::interrupted}) {
-    summary.jobs[to_string(state)] = 0;
-  }
-  summary.jobs["refused"] = result.refused.size();
-  std::int64_t started = 0;
-  Duration wait_sum{};
-  for (const JobView& job : result.jobs) {
-    ++summary.jobs[to_string(job.state)];
-    if (!job.started_at) continue;
-    const Duration wait = *job.started_at - job.submitted_at;
-    ++started;
-    wait_sum += wait;
-    summary.wait_max = std::max(summary.wait_max, wait);
-  }
-  if (started > 0) summary.wait_mean = wait_sum / started;
-  if (started > 0) summary.makespan = result.figures.last_end - first_submit;
-  return summary;
-}
-
-std::string summary_json(const Summary& summary, const SimulationResult& result, const Cell& cell,
-                         double wall_s) {
+std::string summary_json(const std::string& policy, std::size_t backlogged,
+                         const RunSummary& summary, const SimulationResult& result,
+                         const Cell& cell, double wall_s) {
   JsonWriter out;
-  out.begin_object().field("policy", summary.policy).field("makespan_s", summary.makespan);
+  out.begin_object().field("policy", policy).field("makespan_s", summary.makespan);
   out.key("jobs").begin_object();
   for (const auto& [state, count] : summary.jobs) out.field(state, count);
-  out.end_object().field("backlogged", summary.backlogged).key("arm_busy_ratio").begin_object();
+  out.end_object().field("backlogged", backlogged).key("arm_busy_ratio").begin_object();
   for (std::size_t arm = 0; arm < cell.arms.size(); ++arm) {
     const double busy_s = to_seconds(result.figures.busy[arm]);
     const double whole_s = to_seconds(summary.makespan);
@@ -133,15 +59,6 @@ std::string summary_json(const Summary& summary, const SimulationResult& result,
   return out.take();
 }
 
-void complain_of_refusals(const SimulationResult& result, const std::string& jobs_file) {
-  for (const auto& refused : result.refused) {
-    for (Problem problem : refused.problems) {
-      problem.pointer = "/" + std::to_string(refused.index) + "/job" + problem.pointer;
-      complain(jobs_file, {problem});
-    }
-  }
-}
-
 }  // namespace
 
 int simulate_jobs(const SimulateOptions& options) {
@@ -152,13 +69,8 @@ int simulate_jobs(const SimulateOptions& options) {
     complain(file, problems);
     return kExitBadInput;
   };
-  const auto text = read_text_file(options.jobs_file);
-  if (!text) return refuse(options.jobs_file, text.error());
-  auto jobs = read_jobs_text(*text);
-  if (!jobs) return refuse(options.jobs_file, jobs.error());
-  if (const Problems faults = faults_of(*jobs, cell); !faults.empty()) {
-    return refuse(options.jobs_file, faults);
-  }
+  auto jobs = load_jobs(options.jobs_file, cell);
+  if (!jobs) return kExitBadInput;
   std::vector<FaultRequest> faults;
   if (!options.faults_file.empty()) {
     const auto faults_text = read_text_file(options.faults_file);
@@ -175,18 +87,18 @@ int simulate_jobs(const SimulateOptions& options) {
                     said_of_option(std::move(created.error()), "cannot-write", "--out"));
     }
     recording = std::move(*created);
-    recording->jobs_file(*text);
+    recording->jobs_file(jobs->text);
   }
 
-  TimePoint first_submit = TimePoint::max();
-  for (const TimedJob& timed : *jobs) first_submit = std::min(first_submit, timed.at);
-  const TimePoint limit = time_limit(*jobs, faults, cell);
+  const TimePoint first_submit = jobs->first_submit();
+  const TimePoint limit = time_limit(jobs->jobs, faults, cell);
   ExecutiveOptions executive_options;
   executive_options.policy = options.policy;
   executive_options.seed = options.seed;
   Watcher watcher(recording.get(), stream_of_seed(options.seed));
   const auto wall_start = std::chrono::steady_clock::now();
-  auto result = simulate(loaded->cell, executive_options, std::move(*jobs), limit, watcher, faults);
+  auto result =
+      simulate(loaded->cell, executive_options, std::move(jobs->jobs), limit, watcher, faults);
   if (!result) {
     Problems problems = std::move(result.error());
     if (!options.policy.empty()) {
@@ -201,10 +113,10 @@ int simulate_jobs(const SimulateOptions& options) {
     return refuse("", {Problem{ProblemKind::unavailable, "cannot-write", "--out",
                                "the recording could not be written whole", options.out}});
   }
-  Summary summary = summarise(*result, first_submit);
-  summary.policy = options.policy.empty() ? cell.scheduling.policy : options.policy;
-  summary.backlogged = watcher.backlogged();
-  std::cout << summary_json(summary, *result, cell, wall.count()) << std::endl;
+  const std::string& policy = options.policy.empty() ? cell.scheduling.policy : options.policy;
+  std::cout << summary_json(policy, watcher.backlogged(), summarise(*result, first_submit), *result,
+                            cell, wall.count())
+            << std::endl;
   return result->all_ended && result->refused.empty() ? kExitDone : kExitFound;
 }
 

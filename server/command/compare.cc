@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+
+#include "core/scheduler/policy.h"
+#include "server/command/command.h"
+#include "server/command/compare_report.h"
+#include "server/command/headless.h"
+
+namespace armloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Nobody final : public Observer {
+ public:
+  void on_event(const Event&) override {}
+  void on_tick(TimePoint, const Configuration&) override {}
+  void on_state(const StateFrame&) override {}
+};
+
+// "a,b": both names. Problems: an unknown one, or one that is there twice.
+Result<std::vector<std::string>> read_policies(const std::string& text, const Cell& cell) {
+  if (text.empty()) return policy_names();
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    std::string name = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (auto policy = make_policy(name, cell); !policy) {
+      return failure(said_of_option(std::move(policy.error()), "unknown-policy", "--policies"));
+    }
+    if (std::ranges::find(names, name) != names.end()) {
+      return failure(Problem{ProblemKind::invalid, "twice", "--policies",
+                             "policy \"" + name + "\" is named twice", name});
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+// What an arm has to move when all jobs of the file, or all that succeeded, have run; per arm.
+std::vector<Duration> work_of_file(const JobsFile& file, const Cell& cell) {
+  std::vector<Duration> work(cell.arms.size());
+  for (const TrajectoryPtr& trajectory : file.trajectories) {
+    for (const ArmId arm : trajectory->arms()) work[arm.index()] += trajectory->duration();
+  }
+  return work;
+}
+std::vector<Duration> work_done(const SimulationResult& result, const Cell& cell) {
+  std::vector<Duration> work(cell.arms.size());
+  for (const JobView& job : result.jobs) {
+    if (job.state != JobState::succeeded) continue;
+    for (const std::string& arm : job.arms) work[cell.find_arm(arm)->index()] += job.duration;
+  }
+  return work;
+}
+
+// Each job that did not succeed, on stderr: the table only counts them.
+void complain_of_ends(const SimulationResult& result, const std::string& policy) {
+  for (const JobView& job : result.jobs) {
+    if (job.state == JobState::succeeded) continue;
+    std::cerr << "armloom: " << policy << ": job " << job.key << " "
+              << (is_terminal(job.state) ? "" : "did not end, it is ") << to_string(job.state)
+              << (job.detail.empty() ? "" : ": " + job.detail) << '\n';
+  }
+}
+
+Result<ComparedRun> run(const std::string& policy, const CellPtr& cell, const JobsFile& file,
+                        const CompareOptions& options) {
+  ExecutiveOptions executive_options;
+  executive_options.policy = policy;
+  executive_options.seed = options.seed;
+  Nobody nobody;
+  const auto begun = std::chrono::steady_clock::now();
+  auto result =
+      simulate(cell, executive_options, file.jobs, time_limit(file.jobs, {}, *cell), nobody);
+  const Duration wall = std::chrono::steady_clock::now() - begun;
+  if (!result) return failure(std::move(result.error()));
+
+  complain_of_refusals(*result, options.jobs_file, policy);
+  complain_of_ends(*result, policy);
+  return ComparedRun{.policy = policy,
+                     .summary = summarise(*result, file.first_submit()),
+                     .figures = result->figures,
+                     .judging = result->judging,
+                     .all_ended = result->all_ended,
+                     .least = std::ranges::max(work_done(*result, *cell)),
+                     .wall = wall};
+}
+
+// The files of --out: opened before anything runs, written when everything has.
+struct Files {
+  std::ofstream csv;
+  std::ofstream svg;
+};
+Result<Files> open_files(const std::string& folder) {
+  std::error_code ec;
+  fs::create_directories(folder, ec);
+  Files files{std::ofstream(fs::path(folder) / "compare.csv", std::ios::binary),
+              std::ofstream(fs::path(folder) / "compare.svg", std::ios::binary)};
+  if (files.csv && files.svg) return files;
+  return failure(Problem{ProblemKind::unavailable, "cannot-write", "--out",
+                         "the folder " + folder + " cannot be written", folder});
+}
+
+}  // namespace
+
+int compare_policies(const CompareOptions& options) {
+  const auto loaded = load_cell(options.cell_file);
+  if (!loaded) return kExitBadInput;
+  const Cell& cell = *loaded->cell;
+  const auto refuse = [](const std::string& file, const Problems& problems) {
+    complain(file, problems);
+    return kExitBadInput;
+  };
+  const auto policies = read_policies(options.policies, cell);
+  if (!policies) return refuse("", policies.error());
+  const auto jobs = load_jobs(options.jobs_file, cell);
+  if (!jobs) return kExitBadInput;
+  std::optional<Files> files;
+  if (!options.out.empty()) {
+    auto opened = open_files(options.out);
+    if (!opened) return refuse("", opened.error());
+    files = std::move(*opened);
+  }
+
+  Comparison comparison{.cell = cell.name, .jobs = jobs->jobs.size(), .seed = options.seed};
+  for (const Arm& arm : cell.arms) comparison.arms.push_back(arm.name);
+  const std::vector<Duration> work = work_of_file(*jobs, cell);
+  const auto most = std::ranges::max_element(work);
+  if (*most > Duration{}) {
+    comparison.busiest = cell.arms[static_cast<std::size_t>(most - work.begin())].name;
+    comparison.busiest_work = *most;
+  }
+  bool all_ended = true;
+  for (const std::string& policy : *policies) {
+    auto compared = run(policy, loaded->cell, *jobs, options);
+    if (!compared) return refuse(options.cell_file, compared.error());
+    all_ended = all_ended && compared->all_ended && compared->summary.jobs.at("refused") == 0;
+    comparison.runs.push_back(std::move(*compared));
+  }
+
+  std::cout << comparison_markdown(comparison) << std::flush;
+  if (files) {
+    files->csv << comparison_csv(comparison) << std::flush;
+    files->svg << comparison_svg(comparison) << std::flush;
+    if (!files->csv || !files->svg) {
+      return refuse("", {Problem{ProblemKind::unavailable, "cannot-write", "--out",
+                                 "the files could not be written whole", options.out}});
+    }
+  }
+  return all_ended ? kExitDone : kExitFound;
+}
+
+}  // namespace armloom

@@ -1,0 +1,114 @@
+#include "server/command/headless.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/trajectory/validate.h"
+#include "server/codec/job_codec.h"
+#include "server/command/command.h"
+#include "server/recording/recording.h"
+
+namespace armloom {
+namespace {
+
+Problems read_trajectories(JobsFile& file, const Cell& cell) {
+  Problems faults;
+  std::set<std::string> keys;
+  for (std::size_t i = 0; i < file.jobs.size(); ++i) {
+    const std::string place = "/" + std::to_string(i) + "/job";
+    const std::string& key = file.jobs[i].job.key;
+    if (!key.empty() && !keys.insert(key).second) {
+      faults.push_back(Problem{ProblemKind::conflict, "id-in-use", place + "/id",
+                               "the id is used by an earlier job of the file", key});
+    }
+    if (auto trajectory = validate(file.jobs[i].job.trajectory, cell)) {
+      file.trajectories.push_back(std::move(*trajectory));
+    } else {
+      for (Problem problem : trajectory.error()) {
+        problem.pointer = place + "/trajectory" + problem.pointer;
+        faults.push_back(std::move(problem));
+      }
+    }
+  }
+  return faults;
+}
+
+}  // namespace
+
+TimePoint JobsFile::first_submit() const {
+  TimePoint first = TimePoint::max();
+  for (const TimedJob& timed : jobs) first = std::min(first, timed.at);
+  return first;
+}
+
+std::optional<JobsFile> load_jobs(const std::string& file, const Cell& cell) {
+  auto text = read_text_file(file);
+  if (!text) {
+    complain(file, text.error());
+    return std::nullopt;
+  }
+  auto jobs = read_jobs_text(*text);
+  if (!jobs) {
+    complain(file, jobs.error());
+    return std::nullopt;
+  }
+  JobsFile loaded{std::move(*text), std::move(*jobs), {}};
+  if (const Problems faults = read_trajectories(loaded, cell); !faults.empty()) {
+    complain(file, faults);
+    return std::nullopt;
+  }
+  return loaded;
+}
+
+TimePoint time_limit(const std::vector<TimedJob>& jobs, const std::vector<FaultRequest>& faults,
+                     const Cell& cell) {
+  double limit_s = 60.0;
+  double last_s = 0.0;
+  for (const FaultRequest& fault : faults) {
+    limit_s += to_seconds(fault.lasting.value_or(Duration{}));
+  }
+  for (const TimedJob& timed : jobs) {
+    const auto& points = timed.job.trajectory.points;
+    const double duration_s = points.empty() ? 0.0 : points.back().time_from_start_s;
+    limit_s += to_seconds(timed.job.backlog_timeout.value_or(cell.scheduling.backlog_timeout)) +
+               duration_s * cell.execution.duration_scaling +
+               to_seconds(cell.execution.duration_margin);
+    last_s = std::max(last_s, to_seconds(timed.at));
+  }
+  return at(from_seconds(last_s + limit_s));
+}
+
+void complain_of_refusals(const SimulationResult& result, const std::string& jobs_file,
+                          const std::string& under) {
+  for (const auto& refused : result.refused) {
+    for (Problem problem : refused.problems) {
+      problem.pointer = "/" + std::to_string(refused.index) + "/job" + problem.pointer;
+      if (!under.empty()) problem.detail += " (under " + under + ")";
+      complain(jobs_file, {problem});
+    }
+  }
+}
+
+RunSummary summarise(const SimulationResult& result, TimePoint first_submit) {
+  RunSummary summary;
+  for (const JobState state : {JobState::succeeded, JobState::canceled, JobState::expired,
+                               JobState::failed, JobState::interrupted}) {
+    summary.jobs[to_string(state)] = 0;
+  }
+  summary.jobs["refused"] = result.refused.size();
+  std::int64_t started = 0;
+  Duration wait_sum{};
+  for (const JobView& job : result.jobs) {
+    ++summary.jobs[to_string(job.state)];
+    if (!job.started_at) continue;
+    const Duration wait = *job.started_at - job.submitted_at;
+    ++started;
+    wait_sum += wait;
+    summary.wait_max = std::max(summary.wait_max, wait);
+  }
+  if (started > 0) summary.wait_mean = wait_sum / started;
+  if (started > 0) summary.makespan = result.figures.last_end - first_submit;
+  return summary;
+}
+
+}  // namespace armloom
