@@ -145,21 +145,32 @@ void Scheduler::progress(Record& record) {
   if (job.state == JobState::scheduled) {
     job.state = JobState::running;
     if (!job.started_at) job.started_at = now_;
-    plan_from_here(record);
     changed(record);
   }
   if (job.stopping) return;
-  const Duration lost = (now_ - record.plan_at) - (job.progress - record.plan_progress);
-  if (lost > cell_->checking.delay) {
-    // Motions beside it were admitted on a plan that it does not keep.
-    plan_from_here(record);
-    job.late = true;
-    disturbed_at_ = ++version_;
+  if (loses_time(record)) {
+    falls_behind(record);
   } else if (job.late && now_ - record.plan_at >= kOnTimeAgain) {
     plan_from_here(record);
     job.late = false;
     ++version_;
   }
+}
+
+bool Scheduler::loses_time(const Record& record) const {
+  const Duration gained = record.job.progress - record.plan_progress;
+  return now_ - record.plan_at > gained + cell_->checking.delay;
+}
+
+bool Scheduler::has_not_begun(const Record& record) {
+  return record.job.state == JobState::scheduled && record.dispatched && !record.job.stopping;
+}
+
+// Motions beside it were admitted on a plan that it does not keep.
+void Scheduler::falls_behind(Record& record) {
+  plan_from_here(record);
+  record.job.late = true;
+  disturbed_at_ = ++version_;
 }
 
 void Scheduler::plan_from_here(Record& record) {
@@ -185,7 +196,7 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
     effects_.push_back(Release{job.id});
     return;
   }
-  disturbed_at_ = version_;
+  disturbed_at_ = freed_at_ = version_;
   if (report.kind == MotionReport::Kind::faulted) {
     for (ArmId arm : job.trajectory->arms()) stopped_[arm.index()] = "fault: " + report.detail;
     end(record, JobState::failed, Reason::arm_fault, report.detail);
@@ -213,11 +224,16 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
 void Scheduler::withdraw(Record& record, AfterStop then) {
   disturbed_at_ = ++version_;  // others may have counted on its departure
   if (then != AfterStop::hold) {
-    end(record, JobState::canceled, Reason::canceled_by_client, "canceled before it moved");
+    const bool held = record.job.started_at.has_value();
+    end(record, JobState::canceled, Reason::canceled_by_client,
+        held ? "canceled while holding" : "canceled before it moved");
+    if (held) effects_.push_back(Release{record.job.id});
     return;
   }
   Job& job = record.job;
-  job.state = job.backlogged_at ? JobState::backlogged : JobState::queued;
+  job.state = job.started_at      ? JobState::holding
+              : job.backlogged_at ? JobState::backlogged
+                                  : JobState::queued;
   job.scheduled_at.reset();
   record.overrun_at.reset();
   record.judged_at = 0;
@@ -245,12 +261,14 @@ void Scheduler::brake(Record& record, AfterStop then) {
 }
 
 void Scheduler::on(const Stop& input) {
+  ++version_;  // an answer that is under way shall start nothing on these arms
   for (ArmId arm : input.arms) {
     if (!stopped_[arm.index()]) stopped_[arm.index()] = input.cause;
     if (!order_[arm.index()].empty()) {
       Record& record = records_.at(order_[arm.index()].front());
       if (holds_reservation(record) && !record.job.stopping) {
         brake(record, AfterStop::hold);
+        freed_at_ = version_;
         set_waits(record, {Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = input.cause}});
       }
     }
@@ -319,6 +337,9 @@ void Scheduler::expire_and_overrun() {
       record.fail_reason = Reason::overrun;
       record.fail_detail = "still moving after duration_scaling and duration_margin";
       brake(record, AfterStop::fail);
+    } else if (has_not_begun(record) && loses_time(record)) {
+      job.progress_seen_at = now_;  // nothing is heard of an arm that does not move
+      falls_behind(record);
     }
   }
 }
@@ -353,6 +374,7 @@ void Scheduler::ask_for_wake() {
     if (record.job.state == JobState::scheduled && !record.dispatched) {
       consider(*record.job.scheduled_at - kDispatchAhead);
     }
+    if (has_not_begun(record)) consider(record.plan_at + cell_->checking.delay + Duration(1));
   }
   if (next && next != wake_at_) effects_.push_back(WakeAt{*next});
   wake_at_ = next;

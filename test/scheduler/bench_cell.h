@@ -106,6 +106,17 @@ class Bench {
          now);
   }
 
+  // In conflict with this motion, but for a start `shift` after the question's instant.
+  void answer_later(TimePoint now, JobId other, Duration shift) {
+    ASSERT_TRUE(question) << "nothing was asked";
+    ASSERT_TRUE(question->find_earliest);
+    Verdict verdict{Verdict::Kind::conflict, question->version, {}, {}, 1, shift};
+    verdict.conflicts.push_back({Conflict::With::motion, question->candidates.front().job, other,
+                                 Proximity{.body_a = "own", .body_b = "other"}, 100ms, 200ms});
+    question.reset();
+    step(Judged{std::move(verdict)}, now);
+  }
+
   void progressed(JobId job, Duration progress, TimePoint now) {
     step(MotionReport{job, MotionReport::Kind::progressed, progress}, now);
   }
