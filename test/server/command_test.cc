@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "server/recording/recording.h"
+#include "test/server/command_fixture.h"
 #include "test/server/panda_jobs.h"
 #include "test/server/wire.h"
 
@@ -18,66 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test::kCell;
+using test::kSource;
+using test::Outcome;
 
-const fs::path kSource(ARMLOOM_SOURCE_DIR);
-const std::string kCell = (kSource / "config/two_pandas.json").string();
-
-struct Outcome {
-  int exit_code;
-  std::string out;
-  std::string err;
-  [[nodiscard]] json last_line() const {
-    const std::size_t end = out.find_last_not_of('\n');
-    const std::size_t begin = out.rfind('\n', end);
-    return json::parse(out.substr(begin == out.npos ? 0 : begin + 1));
-  }
-};
-
-class Command : public ::testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) / "armloom-command" /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  fs::path file(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  Outcome run(const std::string& arguments) const {
-    const std::string command = std::string(ARMLOOM_BINARY) + " " + arguments + " >" +
-                                (folder_ / "out").string() + " 2>" + (folder_ / "err").string();
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(folder_ / "out").value(),
-            read_text_file(folder_ / "err").value()};
-  }
-  // The two-Panda cell with one place changed, its paths made absolute.
-  fs::path changed_cell(const std::string& pointer, const json& value) const {
-    json cell = json::parse(read_text_file(kCell).value(), nullptr, true, true);
-    for (json& robot : cell["robots"]) {
-      robot["urdf"] = (kSource / "models/panda.urdf").string();
-      robot["srdf"] = (kSource / "models/panda.srdf").string();
-    }
-    cell[json::json_pointer(pointer)] = value;
-    return file("cell.json", cell.dump());
-  }
-  fs::path conflicting_jobs() const {
-    json jobs = json::array();
-    int number = 0;
-    for (const char* arm : {"left", "right"}) {
-      for (const auto& [from, to] :
-           {std::pair{test::kHome, test::kMiddle}, {test::kMiddle, test::kHome}}) {
-        json job = test::move(arm, from, to);
-        job["id"] = "j" + std::to_string(number++);
-        jobs.push_back({{"at", 0.0}, {"job", job}});
-      }
-    }
-    return file("jobs.json", jobs.dump());
-  }
-
-  fs::path folder_;
-};
+class Command : public test::CommandFixture {};
 
 TEST_F(Command, ValidatePrintsWhatACellHolds) {
   const Outcome outcome = run("validate --cell " + kCell);
