@@ -189,7 +189,7 @@ struct Picture {
   static constexpr double kBars_w = 420.0;  // of the longest
   static constexpr double kTop_y = 62.0;
   static constexpr double kRow_h = 28.0;
-  static constexpr double kWidth = 640.0;
+  static constexpr double kWidth = 780.0;  // leaves room for ends behind the longest bar
 
   std::string text;
 
