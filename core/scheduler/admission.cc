@@ -294,6 +294,10 @@ void Scheduler::add_others(Question& question, const std::vector<JobId>& candida
 void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
   const bool recheck = purpose == Purpose::recheck;
   const TimePoint start_at = now_ + allowance_;
+  for (JobId id : active_) {  // late arms of which nothing is heard stand where they are
+    Record& record = records_.at(id);
+    if (has_not_begun(record) && record.job.late) record.job.progress_seen_at = now_;
+  }
   Question question{.version = version_,
                     .start_at = start_at,
                     .candidates = {},

@@ -13,12 +13,13 @@
 namespace armloom {
 namespace {
 
-constexpr int kSequences = 2000;
+constexpr std::uint64_t kSequences = 2000;  // of each policy its share
 constexpr int kCommands = 25;
 
 class RandomCommands {
  public:
-  explicit RandomCommands(std::uint64_t seed) : random_(seed), cell_(description()) {}
+  explicit RandomCommands(std::uint64_t seed, const std::string& policy)
+      : random_(seed), cell_(description(), policy) {}
 
   void run() {
     for (int i = 0; i < kCommands; ++i) {
@@ -212,12 +213,22 @@ class RandomCommands {
   std::size_t read_ = 0;
 };
 
-TEST(RandomCommands, EveryJobReachesExactlyOneEnd) {
-  for (std::uint64_t seed = 1; seed <= kSequences; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    RandomCommands(seed).run();
+void run_sequences(std::uint64_t first, std::uint64_t last, const std::string& policy) {
+  for (std::uint64_t seed = first; seed <= last; ++seed) {
+    SCOPED_TRACE(policy + ", seed " + std::to_string(seed));
+    RandomCommands(seed, policy).run();
     if (::testing::Test::HasFailure()) return;
   }
+}
+
+TEST(RandomCommands, EveryJobReachesExactlyOneEnd) {
+  run_sequences(1, kSequences * 3 / 10, "timed_discrete");
+}
+TEST(RandomCommands, EveryJobReachesExactlyOneEndUnderCertified) {
+  run_sequences(kSequences * 3 / 10 + 1, kSequences * 13 / 20, "certified");
+}
+TEST(RandomCommands, EveryJobReachesExactlyOneEndUnderEarliestStart) {
+  run_sequences(kSequences * 13 / 20 + 1, kSequences, "earliest_start");
 }
 
 }  // namespace
