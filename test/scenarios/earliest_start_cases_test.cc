@@ -1,0 +1,120 @@
+// Jobs under earliest_start, and late arms (T5, T9), through the whole executive on simulated time.
+#include <gtest/gtest.h>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+double seconds(const std::optional<TimePoint>& time) { return to_seconds(*time); }
+
+CellDescription patient_crossing() {
+  CellDescription description = crossing_description();
+  description.execution.duration_margin = 60s;  // late arms are not failed for it
+  return description;
+}
+
+TEST(EarliestStart, CrossingJobsEndSoonerThanWhenOneWaitsForTheOthersEnd) {
+  struct Run {
+    double end_s, start_s, closest_m;
+  };
+  const auto run = [](const char* policy) {
+    Crossing cell(crossing_description(), policy);
+    cell.submit(slide("x", -1, 1, 4, "first"));
+    cell.submit(slide("y", -1, 1, 4, "second"));
+    cell.run_to_the_end();
+    EXPECT_EQ(cell.job("first").state, JobState::succeeded);
+    EXPECT_EQ(cell.job("second").state, JobState::succeeded);
+    return Run{to_seconds(cell.simulation->executive().figures().last_end),
+               seconds(cell.job("second").started_at), cell.log.closest_m};
+  };
+  const Run certified = run("certified"), earliest = run("earliest_start");
+  EXPECT_GE(certified.start_s, 4.0);
+  EXPECT_LT(earliest.end_s, certified.end_s - 2.5);
+  EXPECT_GE(certified.closest_m, 0.02);
+  EXPECT_GE(earliest.closest_m, 0.02) << "the cell's clearance";
+}
+
+TEST(EarliestStart, IsShownBeforeItComesAndKept) {
+  Crossing cell(crossing_description(), "earliest_start");
+  cell.submit(slide("x", -1, 1, 4, "first"));
+  cell.submit(slide("y", -1, 1, 4, "second"));
+  cell.run_until(at(100ms));
+  const JobView told = cell.job("second");
+  EXPECT_EQ(told.state, JobState::scheduled);
+  ASSERT_TRUE(told.scheduled_at);
+  ASSERT_EQ(told.waits_on.size(), 1u);
+  EXPECT_EQ(told.waits_on.front().job, "first");
+  cell.run_to_the_end();
+  EXPECT_NEAR(seconds(cell.job("second").started_at), seconds(told.scheduled_at), 0.02);
+}
+
+TEST(EarliestStart, OfWhatWaitsForACanceledJobMovesForward) {
+  Crossing cell(crossing_description(), "earliest_start");
+  cell.submit(slide("x", -1, 1, 10, "first"));
+  cell.submit(slide("y", -1, 1, 10, "second"));
+  cell.run_until(at(300ms));
+  const JobView before = cell.job("second");
+  ASSERT_EQ(before.state, JobState::scheduled);
+  ASSERT_GT(seconds(before.scheduled_at), 0.8);
+  ASSERT_TRUE(cell.simulation->executive().cancel("first"));
+  cell.run_until(at(700ms));
+  EXPECT_EQ(cell.job("second").state, JobState::running);
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("second").state, JobState::succeeded);
+  EXPECT_GE(cell.log.closest_m, 0.02);
+}
+
+class Policies : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Late, Policies, ::testing::Values("certified", "earliest_start"));
+
+TEST_P(Policies, T5ALateStartAndASlowArmTouchNobodyAndEveryJobSucceeds) {
+  // The other job comes so that both would meet if clocks were believed.
+  for (Duration when = 0ms; when <= 5s; when += 250ms) {
+    for (const FaultRequest& fault :
+         {FaultRequest{.arm = "x", .kind = ArmFault::Kind::late_start, .value = 2.0},
+          FaultRequest{.arm = "x", .kind = ArmFault::Kind::slow, .value = 0.3}}) {
+      SCOPED_TRACE(std::to_string(to_seconds(when)) + " s, " +
+                   (fault.kind == ArmFault::Kind::slow ? "slow" : "late"));
+      Crossing cell(patient_crossing(), GetParam());
+      ASSERT_TRUE(cell.simulation->executive().inject(fault));
+      cell.submit(slide("x", -1, 1, 4, "off its plan"));
+      cell.run_until(at(when));
+      cell.submit(slide("y", -1, 1, 4, "other"));
+      cell.run_to_the_end();
+      EXPECT_EQ(cell.job("off its plan").state, JobState::succeeded);
+      EXPECT_EQ(cell.job("other").state, JobState::succeeded);
+      EXPECT_GT(cell.log.closest_m, 0.0);
+      EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
+    }
+  }
+}
+
+// x passes the crossing back and forth without end, and goes first where both are new.
+TEST(T9, AnEndlessStreamOfShortJobsDoesNotStarveAnother) {
+  for (const int priority : {0, 10}) {
+    Crossing cell(crossing_description(), "earliest_start");
+    int count = 0;
+    const auto next = [&] {
+      JobRequest job = slide("x", count % 2 == 0 ? -1 : 1, count % 2 == 0 ? 1 : -1, 2);
+      job.priority = priority;
+      cell.submit(std::move(job));
+      ++count;
+    };
+    for (int i = 0; i < 3; ++i) next();
+    cell.run_until(at(200ms));
+    cell.submit(slide("y", -1, 1, 2, "waits"));
+    while (cell.simulation->now() < at(20s)) {
+      cell.simulation->tick();
+      if (cell.simulation->executive().snapshot().queue.queued.size() < 2) next();
+    }
+    EXPECT_EQ(cell.job("waits").state, JobState::succeeded) << "priority " << priority;
+    ASSERT_TRUE(cell.job("waits").started_at);
+    EXPECT_LT(seconds(cell.job("waits").started_at), 4.5) << "after two others at most";
+    EXPECT_GE(cell.log.closest_m, 0.02);
+    EXPECT_GT(count, 8) << "the stream went on";
+  }
+}
+
+}  // namespace
+}  // namespace armloom
