@@ -210,8 +210,8 @@ class Arbiter::Impl {
     verdict_.earliest_start = from_seconds(shift_s);
   }
 
-  // The first shift from `shift_s` on, in steps, at which this pair is free. A conflict at (ta, tb)
-  // is in the region of every shift up to
+  // The first shift from `shift_s` on, in growing steps, at which this pair is free. A conflict at
+  // (ta, tb) is in the region of every shift up to
   //   tb - progress_b + lag_b - (ta - lead_a):
   // so much later the other one has left tb for good when the candidate may come to ta. Where the
   // other one rests, it never leaves.
@@ -222,19 +222,32 @@ class Arbiter::Impl {
         turned ? store_.pair(*other.entry, *own.entry) : store_.pair(*own.entry, *other.entry);
     if (diagram.pairs->empty()) return shift_s;
     const double end_s = other.motion == nullptr ? 0.0 : to_seconds(other.motion->remaining());
-    for (;;) {
+    const auto ask_at = [&](double shift) {
       Region region = turned ? region_of(other, own) : region_of(own, other);
-      (turned ? region.progress_b : region.progress_a) -= shift_s;
-      const CoordinationDiagram::Answer answer = diagram.cells->ask(region, kBudget);
+      (turned ? region.progress_b : region.progress_a) -= shift;
+      CoordinationDiagram::Answer answer = diagram.cells->ask(region, kBudget);
       verdict_.evaluations += answer.evaluations;
-      if (answer.free) return shift_s;
+      return answer;
+    };
+    std::optional<double> blocked_s;  // the last shift that is known not to be free
+    for (double step_s = kShift_s;; step_s = std::min(2.0 * step_s, kWindow_s)) {
+      const CoordinationDiagram::Answer answer = ask_at(shift_s);
+      if (answer.free) break;
       if (shift_s > end_s + kShift_s) return std::nullopt;  // it has come to rest in the way
-      const double own_s = to_seconds(turned ? answer.conflict->time_b : answer.conflict->time_a);
-      const double other_s = to_seconds(turned ? answer.conflict->time_a : answer.conflict->time_b);
+      const CoordinationDiagram::Finding& found = *answer.conflict;
+      const double own_s = to_seconds(turned ? found.time_b : found.time_a);
+      const double other_s = to_seconds(turned ? found.time_a : found.time_b);
       const double clear_s = other_s - progress_of(other) + std::min(lag_of(other), end_s) -
                              std::max(0.0, own_s - lead_of(own)) + progress_of(own);
-      shift_s = std::max(shift_s + kShift_s, std::min(clear_s, end_s + 2.0 * kShift_s));
+      blocked_s = std::max(shift_s, std::min(clear_s, end_s + kShift_s));
+      shift_s = *blocked_s + step_s;
     }
+    if (!blocked_s) return shift_s;
+    while (shift_s - *blocked_s > kShift_s) {
+      const double middle_s = 0.5 * (shift_s + *blocked_s);
+      (ask_at(middle_s).free ? shift_s : *blocked_s) = middle_s;
+    }
+    return shift_s;
   }
 
   void ask_alone(const Mover& own) {

@@ -28,7 +28,8 @@ namespace armloom {
 //
 // find_earliest: motions of candidates that have not begun are shifted to later starts until
 // nothing is in their way any more; each conflict that is found says how far at least (see
-// next_free_shift), so that no safe start is passed over by more than kShift_s.
+// next_free_shift). The start is within kShift_s of one that is not free; a gap shorter than
+// kWindow_s may be passed over.
 //
 // Pairs that are too close at the question's beginning may part: they are held to
 // kPartingShare of the distance that they have there, and are no conflict while they keep that.
@@ -60,6 +61,7 @@ class Arbiter {
   inline static constexpr std::uint64_t kBudget = 1000;
   inline static constexpr double kPartingShare = 0.8;
   inline static constexpr double kShift_s = 0.02;
+  inline static constexpr double kWindow_s = 0.16;
 
  private:
   class Impl;
