@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/collision/joined_cells.h"
 #include "core/collision/judge.h"
 #include "core/collision/motion_store.h"
 #include "core/collision/stopping_reach.h"
@@ -128,6 +129,7 @@ class Arbiter::Impl {
         cells.push_back({cell.from_a, cell.to_a, cell.from_b, cell.to_b, state});
       }
     }
+    cells = joined(std::move(cells), diagram);
   }
 
   static bool is_candidate(const Question& question, const Motion* motion) {

@@ -51,7 +51,8 @@ class Arbiter {
   [[nodiscard]] Verdict judge(const Question& question);
 
   // The whole coordination diagram of two motions of different arms, at `resolution` and at the
-  // cost of about `budget` cells for each layer; other joints stand as in `rest`.
+  // cost of about `budget` cells for each layer, neighbours of one state joined; other joints stand
+  // as in `rest`.
   [[nodiscard]] Diagram draw(const TrajectoryPtr& a, const TrajectoryPtr& b,
                              const Configuration& rest, double tracking_error, Duration resolution,
                              std::uint64_t budget);

@@ -225,12 +225,10 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const Region& region, std::
   answer.free = !undecided && !answer.proven;
   if (undecided && !answer.proven) {
     const Cell& cell = at(search.undecided);
-    Finding finding{PairId{0}, 0.0, a_->middle(cell.a), b_ ? b_->middle(cell.b) : Duration{},
-                    search.undecided_at_s};
-    if (cell.finding >= 0) {
-      finding.pair = found_[static_cast<std::size_t>(cell.finding)].pair;
-      finding.distance_m = found_[static_cast<std::size_t>(cell.finding)].distance_m;
-    }
+    const Duration time_a = a_->middle(cell.a);
+    const Duration time_b = b_ ? b_->middle(cell.b) : Duration{};
+    const Close closest = closest_at(time_a, time_b);
+    const Finding finding{closest.pair, closest.distance_m, time_a, time_b, search.undecided_at_s};
     answer.conflict = finding;
   }
   return answer;
@@ -318,6 +316,20 @@ std::vector<CoordinationDiagram::Close> CoordinationDiagram::too_close_at(Durati
   look(setting_.pairs->narrow);
   look(setting_.pairs->narrow_boxes);
   return close;
+}
+
+CoordinationDiagram::Close CoordinationDiagram::closest_at(Duration time_a, Duration time_b) {
+  place_point(time_a, time_b);
+  Close closest{PairId{0}, Region::kUnbounded};
+  for (const std::vector<NarrowPair>* pairs :
+       {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
+    for (const NarrowPair& pair : *pairs) {
+      const Frames& point = scratch_->point;
+      const double distance_m = exact(pair, point.a.data(), point.b.data(), 1, closest.distance_m);
+      if (distance_m < closest.distance_m) closest = {pair.pair, distance_m};
+    }
+  }
+  return closest;
 }
 
 // The state that the plan itself passes in the middle of its time in the cell.

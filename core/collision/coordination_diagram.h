@@ -71,6 +71,9 @@ class CoordinationDiagram {
   };
   [[nodiscard]] std::vector<Close> too_close_at(Duration time_a, Duration time_b);
 
+  // The closest pair there, exactly.
+  [[nodiscard]] Close closest_at(Duration time_a, Duration time_b);
+
   enum class CellState : std::uint8_t { unknown, free, mixed, conflict, finest, inner };
   struct CellView {
     Duration from_a, to_a, from_b, to_b;
