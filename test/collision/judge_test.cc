@@ -144,7 +144,7 @@ TEST(Judge, NamesEachCounterpartOfTheFirstInstantThatHasOne) {
   cell.objects.push_back({"ball", Sphere{0.02}, small::at_xyz(0.1, -0.03, 0)});
   Judged judged(cell);
   judged.question.method = TimedDiscrete{30s};  // the goal is the only instant after the start
-  judged.question.rest[2] = kPi;      // c points at b, which will point at it
+  judged.question.rest[2] = kPi;                // c points at b, which will point at it
   judged.question.candidates = {judged.motion(5, kA, kUp, 0, 2s)};
   judged.question.others = {judged.motion(3, kB, kUp, kPi, 2s)};
   const Verdict verdict = judged();

@@ -104,9 +104,12 @@ TEST(TwoPandas, AuditConfirmsWhatIsJudged) {
       return small::sweep(*pandas.cell, {arm}, of_arm(*pandas.cell, from, arm),
                           of_arm(*pandas.cell, to, arm), duration);
     };
-    const Question question{
-        1,    at(0s), {{JobId{1}, move(left, 2s), 0s}}, {{JobId{2}, move(right, 3s), 500ms}},
-        from, TimedDiscrete{20ms}};
+    const Question question{1,
+                            at(0s),
+                            {{JobId{1}, move(left, 2s), 0s}},
+                            {{JobId{2}, move(right, 3s), 500ms}},
+                            from,
+                            TimedDiscrete{20ms}};
     const Verdict verdict = judge(question, pandas.checker);
     std::vector<RecordedState> states;
     Eigen::VectorXd positions;

@@ -247,7 +247,8 @@ TEST(EarliestStart, MovesForwardBehindAnotherThatMovesForward) {
 }
 
 TEST(EarliestStart, AForwardQuestionNeverPutsAStartOff) {
-  for (const Duration shift : {Duration(2s), Duration(615ms), Duration(570ms)}) {  // 0.6 s on it starts anyway
+  for (const Duration shift :
+       {Duration(2s), Duration(615ms), Duration(570ms)}) {  // 0.6 s on it starts anyway
     Ahead bench;
     bench.on_plan(at(200ms));
     bench.finished(bench.runs, at(400ms));

@@ -272,9 +272,9 @@ TEST(Policies, AreKnownByName) {
   }
   const auto unknown = make_policy("clever", *cell);
   ASSERT_FALSE(unknown);
-  EXPECT_EQ(
-      unknown.error().front().detail,
-      "unknown policy \"clever\"; known are sequential, lockstep, reservation, timed_discrete, certified, earliest_start");
+  EXPECT_EQ(unknown.error().front().detail,
+            "unknown policy \"clever\"; known are sequential, lockstep, reservation, "
+            "timed_discrete, certified, earliest_start");
 }
 
 }  // namespace

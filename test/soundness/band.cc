@@ -62,9 +62,12 @@ class Attacker {
 
 double extreme_or_any(std::mt19937_64& random, double low, double high) {
   switch (random() % 4) {
-    case 0: return low;
-    case 1: return high;
-    default: return uniform(random, low, high);
+    case 0:
+      return low;
+    case 1:
+      return high;
+    default:
+      return uniform(random, low, high);
   }
 }
 

@@ -51,8 +51,7 @@ Outcome attack_free_pairs(const CheckMethod& method, bool candidate_may_stand,
   for (MovingPair pair : s.pairs) {
     pair.candidate.may_stand = candidate_may_stand;
     pair.other.may_stand = other_may_stand;
-    const bool free =
-        between_motions(s.arbiter.judge(pair.question(cell, method))) == nullptr;
+    const bool free = between_motions(s.arbiter.judge(pair.question(cell, method))) == nullptr;
     if (!free) {
       const auto later = hardly_free(s.arbiter, s.exact, pair, method);
       if (!later) continue;

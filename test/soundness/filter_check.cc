@@ -109,8 +109,8 @@ class Checker {
   void compare(const Set& set) {
     const filter::Kernel& kernel = filter::best_kernel();
     const filter::Side a = arms_[set.a].side();
-    const filter::Side b = set.still ? filter::Side{still_.lanes.data(), still_.at_rest.data()}
-                                     : arms_[set.b].side();
+    const filter::Side b =
+        set.still ? filter::Side{still_.lanes.data(), still_.at_rest.data()} : arms_[set.b].side();
     hits_.resize(std::max(set.pairs.pairs.size(), set.pairs.boxes.size()) + 1);
     const int pairs = near_pairs(kernel, a, b, set.pairs.pairs, 0xFF, hits_.data());
     if (static_cast<std::size_t>(pairs) != set.pairs.pairs.size()) {
@@ -118,9 +118,8 @@ class Checker {
     }
     least_.clear();
     collect(set.pairs.narrow, pairs);
-    const int boxes = kernel.near_boxes(a, set.pairs.boxes.data(),
-                                        static_cast<int>(set.pairs.boxes.size()), 0xFF,
-                                        hits_.data());
+    const int boxes = kernel.near_boxes(
+        a, set.pairs.boxes.data(), static_cast<int>(set.pairs.boxes.size()), 0xFF, hits_.data());
     collect(set.pairs.narrow_boxes, boxes);
     for (const auto& [pair, distances] : least_) {
       for (std::size_t lane = 0; lane < kLanes; ++lane) hold(pair, distances[lane], lane);
@@ -130,8 +129,10 @@ class Checker {
   void collect(const std::vector<NarrowPair>& narrow, int count) {
     for (int h = 0; h < count; ++h) {
       const filter::Hit& hit = hits_[static_cast<std::size_t>(h)];
-      auto& least = least_.try_emplace(narrow[static_cast<std::size_t>(hit.pair)].pair,
-                                       std::vector<double>(kLanes, 1e9)).first->second;
+      auto& least = least_
+                        .try_emplace(narrow[static_cast<std::size_t>(hit.pair)].pair,
+                                     std::vector<double>(kLanes, 1e9))
+                        .first->second;
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         least[lane] = std::min(least[lane], static_cast<double>(hit.distance[lane]));
       }
@@ -144,8 +145,7 @@ class Checker {
     const PartPair& pair = bodies_.pairs[id.index()];
     const auto pose = [&](std::size_t part) {
       const auto& link = bodies_.parts[part].link;
-      return link ? poses_[lane][link->index()]
-                  : bodies_.objects[part - bodies_.links_end].X_WO;
+      return link ? poses_[lane][link->index()] : bodies_.objects[part - bodies_.links_end].X_WO;
     };
     const double exact_m =
         part_distance(bodies_, pair.a, pose(pair.a), pair.b, pose(pair.b), filter_m);

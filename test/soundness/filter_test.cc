@@ -55,7 +55,8 @@ struct RandomLinkage {
     joints = 1 + static_cast<int>(random() % 6);
     std::vector<std::vector<int>> chains;
     for (int f = 0; f < frame_count; ++f) {
-      const int parent = f == 0 ? -1 : static_cast<int>(random() % static_cast<unsigned>(f + 1)) - 1;
+      const int parent =
+          f == 0 ? -1 : static_cast<int>(random() % static_cast<unsigned>(f + 1)) - 1;
       filter::Frame frame{.parent = parent,
                           .joint = static_cast<int>(random() % static_cast<unsigned>(joints)),
                           .prismatic = random() % 4 == 0,
@@ -113,7 +114,8 @@ struct Results {
     kernel.place(arm.view(), q.data(), {frames.data(), axes.data(), capsules.data()});
     kernel.inflate(arm.view(), axes.data(), capsules.data(), span.data(), suffix.data());
     const filter::Side side{capsules.data(), suffix.data()};
-    hits.resize(static_cast<std::size_t>(near_pairs(kernel, side, side, pairs, lanes, hits.data())));
+    hits.resize(
+        static_cast<std::size_t>(near_pairs(kernel, side, side, pairs, lanes, hits.data())));
     box_hits.resize(static_cast<std::size_t>(kernel.near_boxes(
         side, boxes.data(), static_cast<int>(boxes.size()), lanes, box_hits.data())));
   }
@@ -145,8 +147,7 @@ std::vector<filter::Pair> all_pairs(const RandomLinkage& arm, std::mt19937_64& r
     for (int b = a + 1; b < static_cast<int>(arm.capsules.size()); ++b) {
       const filter::Capsule& at_a = arm.capsules[static_cast<std::size_t>(a)];
       const filter::Capsule& at_b = arm.capsules[static_cast<std::size_t>(b)];
-      filter::Pair pair =
-          kernel_pair(a, at_a, b, at_b, uniform(random, 0.0, 0.4), 1e-6);
+      filter::Pair pair = kernel_pair(a, at_a, b, at_b, uniform(random, 0.0, 0.4), 1e-6);
       pair.row_a = at_a.suffix_begin;
       pair.row_b = at_b.suffix_begin;
       pairs.push_back(pair);

@@ -57,8 +57,8 @@ Wave random_wave(const Joint& joint, double duration_s, double turn_rad, std::mt
   for (double& c : wave.c) c *= scale;
   const double least = center - half - scale * low;
   const double most = center + half - scale * high;
-  wave.middle = turn_rad == 0.0 ? uniform(random, least, most)
-                                : std::clamp(center + turn_rad, least, most);
+  wave.middle =
+      turn_rad == 0.0 ? uniform(random, least, most) : std::clamp(center + turn_rad, least, most);
   return wave;
 }
 

@@ -1,7 +1,8 @@
+#include "core/collision/region.h"
+
 #include <gtest/gtest.h>
 
 #include "core/base/time.h"
-#include "core/collision/region.h"
 #include "test/soundness/pairs.h"
 
 namespace armloom::soundness {

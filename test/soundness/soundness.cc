@@ -82,8 +82,7 @@ void note_missed(DiscreteRow::Missed& missed, double distance_m, double contact_
 }  // namespace
 
 const Conflict* between_motions(const Verdict& verdict) {
-  const auto found =
-      std::ranges::find(verdict.conflicts, Conflict::With::motion, &Conflict::with);
+  const auto found = std::ranges::find(verdict.conflicts, Conflict::With::motion, &Conflict::with);
   return found == verdict.conflicts.end() ? nullptr : &*found;
 }
 
@@ -108,8 +107,7 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
   Arbiter arbiter(exact.scene);
   const PlanningScenePtr without = scene_without_clearance(cell);
   Arbiter arbiter_without(without);
-  bench::ExactScene exact_without(
-      CellPtr(without, &without->cell()));  // the scene owns the cell
+  bench::ExactScene exact_without(CellPtr(without, &without->cell()));  // the scene owns the cell
   Report report;
   for (const double step_s : steps_s) report.discrete.push_back({step_s, {}, {}});
   for (const MovingPair& pair : random_pairs(exact, pool, count, seed + 1)) {
@@ -171,8 +169,9 @@ void print_markdown(const Report& r, std::ostream& out) {
          "| deepest |\n|---|---|---|---|---|---|\n";
   for (const DiscreteRow& row : r.discrete) {
     out << "| every " << row.step_s << " s | " << row.without.pairs << " | "
-        << milli(0.0 - row.without.deepest_m) << " mm | " << milli(row.without.longest_s) << " ms | "
-        << row.with_clearance.pairs << " | " << milli(0.0 - row.with_clearance.deepest_m) << " mm |\n";
+        << milli(0.0 - row.without.deepest_m) << " mm | " << milli(row.without.longest_s)
+        << " ms | " << row.with_clearance.pairs << " | "
+        << milli(0.0 - row.with_clearance.deepest_m) << " mm |\n";
   }
   out << "| certified | " << r.missed_collisions << " | | | " << r.missed_collisions << " | |\n";
 }

@@ -38,7 +38,7 @@ struct Report {
   std::size_t missed = 0;     // of `below`, called free: must be none
   std::size_t missed_collisions = 0;
   std::size_t undecided = 0;
-  std::size_t false_alarms = 0;  // of `above`, called conflict or undecided
+  std::size_t false_alarms = 0;             // of `above`, called conflict or undecided
   double first_conflict_error_max_s = 0.0;  // later than the truth, and
   double first_conflict_early_max_s = 0.0;  // earlier
   std::uint64_t evaluations_max = 0;

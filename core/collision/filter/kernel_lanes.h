@@ -207,6 +207,10 @@ inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pai
 template <class F>
 void enclose(const Linkage& linkage, const float* capsules, const float* inflation, const int* rows,
              float* ball) {
+  if (linkage.capsule_count == 0) {  // an arm without shapes: nothing is compared with it
+    for (int i = 0; i < 4 * kLanes; ++i) ball[i] = 0.0F;
+    return;
+  }
   for (int l = 0; l < kLanes; l += F::kLanes) {
     Vec<F> low = Vec<F>::load(capsules + l);
     Vec<F> high = low;
