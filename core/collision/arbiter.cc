@@ -176,6 +176,11 @@ class Arbiter::Impl {
     return part.motion == nullptr ? 0.0 : to_seconds(part.motion->progress);
   }
 
+  [[nodiscard]] static double proven_of(const Mover& mover) {
+    const bool extrapolated = mover.motion != nullptr && mover.motion->proven;
+    return extrapolated ? to_seconds(*mover.motion->proven) : Region::kUnbounded;
+  }
+
   [[nodiscard]] Region region_of(const Mover& a, const Mover& b) const {
     return {.progress_a = progress_of(a),
             .progress_b = progress_of(b),
@@ -184,7 +189,9 @@ class Arbiter::Impl {
             .lead_a = lead_of(a),
             .lead_b = lead_of(b),
             .duration_a = to_seconds(a.entry->tube->duration()),
-            .duration_b = to_seconds(b.entry->tube->duration())};
+            .duration_b = to_seconds(b.entry->tube->duration()),
+            .proven_a = proven_of(a),
+            .proven_b = proven_of(b)};
   }
 
   // The smallest shift of all candidates that is free, if what is in the way moves out of it.

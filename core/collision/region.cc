@@ -7,12 +7,12 @@ namespace {
 
 // One motion's share of a region.
 struct Axis {
-  double progress, lag, lead, duration;
+  double progress, lag, lead, duration, proven;
 
-  // When [x1, x2] meets [max(progress, p(t) - lag), p(t) + lead], p(t) being where it is.
+  // When [x1, x2] meets [max(proven, p(t) - lag), p(t) + lead], p(t) being where it is planned.
   [[nodiscard]] std::optional<TimeRange> times(double x1, double x2) const {
     const double now = std::clamp(progress, 0.0, duration);
-    if (x2 < now) return std::nullopt;
+    if (x2 < std::min(now, std::max(proven, 0.0))) return std::nullopt;
     TimeRange range{0.0, Region::kUnbounded};
     const double starts = std::max(0.0, -progress);  // before it, nothing lies ahead
     if (x1 > now) range.from = std::max(starts, x1 - lead - progress);
@@ -26,8 +26,8 @@ constexpr double kInstant_s = 1e-9;
 
 // A range may end before it begins by no more than that rounding.
 std::optional<TimeRange> both(const Region& r, double a1, double a2, double b1, double b2) {
-  const auto a = Axis{r.progress_a, r.lag_a, r.lead_a, r.duration_a}.times(a1, a2);
-  const auto b = Axis{r.progress_b, r.lag_b, r.lead_b, r.duration_b}.times(b1, b2);
+  const auto a = Axis{r.progress_a, r.lag_a, r.lead_a, r.duration_a, r.proven_a}.times(a1, a2);
+  const auto b = Axis{r.progress_b, r.lag_b, r.lead_b, r.duration_b, r.proven_b}.times(b1, b2);
   if (!a || !b) return std::nullopt;
   const TimeRange range{std::max(a->from, b->from), std::min(a->to, b->to)};
   return range.from <= range.to + 2.0 * kInstant_s ? std::optional(range) : std::nullopt;

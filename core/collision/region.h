@@ -23,6 +23,10 @@ struct Region {
   double lead_b = 0.0;
   double duration_a = 0.0;
   double duration_b = 0.0;
+  // What measurement has proven, where `progress` is extrapolated from it: the lag reaches back to
+  // there. Unbounded: progress itself.
+  double proven_a = kUnbounded;
+  double proven_b = kUnbounded;
 };
 
 // Times at which the region covers a part of a cell.

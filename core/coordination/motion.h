@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct Motion {
   TrajectoryPtr trajectory;
   Duration progress;
   bool may_stand = false;  // loses time: also to be judged as standing where it is, for ever
+  // What measurement has proven, where `progress` is extrapolated from it to the question's
+  // instant.
+  std::optional<Duration> proven = {};
 
   [[nodiscard]] Duration remaining() const { return trajectory->duration() - progress; }
 };

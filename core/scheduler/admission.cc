@@ -15,6 +15,9 @@ std::string format(const char* text, const std::string& name, double a, double b
   return buffer;
 }
 
+// What a job waits for that is treated as a conflict without being proven one.
+constexpr const char* kUndecided = "undecided within the budget of evaluations";
+
 }  // namespace
 
 Wait wait_for(const Conflict& conflict) {
@@ -286,8 +289,12 @@ void Scheduler::add_others(Question& question, const std::vector<JobId>& candida
     if (!holds_reservation(record) || std::ranges::find(candidates, id) != candidates.end()) {
       continue;
     }
-    question.others.push_back(
-        Motion{id, record.job.trajectory, progress_at(record, question.start_at), record.job.late});
+    const bool begun = record.job.state != JobState::scheduled;
+    question.others.push_back(Motion{.job = id,
+                                     .trajectory = record.job.trajectory,
+                                     .progress = progress_at(record, question.start_at),
+                                     .may_stand = record.job.late,
+                                     .proven = begun ? record.job.progress : record.from_progress});
   }
 }
 
@@ -407,6 +414,7 @@ void Scheduler::refuse(Record& record, const Verdict& verdict, bool recheck) {
       return;
     }
     waits.push_back(wait_for(conflict));
+    if (verdict.kind == Verdict::Kind::undecided) waits.back().detail = kUndecided;
   }
   if (recheck) {
     record.checked_at = version_;

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "core/scheduler/policy.h"
+#include "core/executive/known_policies.h"
 #include "server/command/command.h"
 #include "server/command/compare_report.h"
 #include "server/command/headless.h"
@@ -22,14 +22,14 @@ class Nobody final : public Observer {
 
 // "a,b": both names. Problems: an unknown one, or one that is there twice.
 Result<std::vector<std::string>> read_policies(const std::string& text, const Cell& cell) {
-  if (text.empty()) return policy_names();
+  if (text.empty()) return known_policies();
   std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     std::string name = text.substr(begin, end - begin);
     begin = end + 1;
-    if (auto policy = make_policy(name, cell); !policy) {
-      return failure(said_of_option(std::move(policy.error()), "unknown-policy", "--policies"));
+    if (auto problems = policy_problems(name, cell)) {
+      return failure(said_of_option(*std::move(problems), "unknown-policy", "--policies"));
     }
     if (std::ranges::find(names, name) != names.end()) {
       return failure(Problem{ProblemKind::invalid, "twice", "--policies",

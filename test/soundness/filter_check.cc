@@ -15,11 +15,14 @@
 #include "server/codec/cell_codec.h"
 #include "test/soundness/kernel_calls.h"
 #include "test/soundness/pairs.h"
+#include "test/soundness/plain_fcl.h"
 
 namespace armloom::soundness {
 namespace {
 
 constexpr std::size_t kLanes = filter::kLanes;
+constexpr double kNear_m = 0.05;         // pairs this close are held against plain FCL too
+constexpr double kFclRounding_m = 1e-6;  // of FCL's own distances
 constexpr float kFar_m = 1e3F;  // a limit that leaves every pair open, so that all are told
 
 // One arm in eight configurations.
@@ -51,7 +54,7 @@ struct PlacedArm {
 class Checker {
  public:
   Checker(const PlanningScene& scene, FilterReport& report)
-      : bodies_(scene.bodies()), report_(report), still_(bodies_), poses_(kLanes) {
+      : bodies_(scene.bodies()), report_(report), plain_(bodies_), still_(bodies_), poses_(kLanes) {
     for (std::uint32_t a = 0; a < bodies_.cell->arms.size(); ++a) {
       linkages_.emplace_back(bodies_, ArmId{a});
     }
@@ -147,20 +150,32 @@ class Checker {
       const auto& link = bodies_.parts[part].link;
       return link ? poses_[lane][link->index()] : bodies_.objects[part - bodies_.links_end].X_WO;
     };
+    const double near_m = filter_m + kNear_m;
     const double exact_m =
-        part_distance(bodies_, pair.a, pose(pair.a), pair.b, pose(pair.b), filter_m);
-    if (exact_m >= filter_m) return;
+        part_distance(bodies_, pair.a, pose(pair.a), pair.b, pose(pair.b), near_m);
+    if (exact_m < filter_m) fail(pair, "filter", filter_m, "exact", exact_m);
+    if (filter_m > kNear_m) return;
+    ++report_.by_fcl;
+    const double fcl_m = plain_.distance(pair.a, pose(pair.a), pair.b, pose(pair.b));
+    if (filter_m > fcl_m + kFclRounding_m) fail(pair, "filter", filter_m, "FCL", fcl_m);
+    const bool known = exact_m > 0.0 && exact_m < near_m;
+    if (known && exact_m > fcl_m + kFclRounding_m) fail(pair, "exact", exact_m, "FCL", fcl_m);
+  }
+
+  void fail(const PartPair& pair, const char* what, double value_m, const char* against,
+            double other_m) {
     ++report_.too_far;
-    report_.worst_m = std::max(report_.worst_m, filter_m - exact_m);
+    report_.worst_m = std::max(report_.worst_m, value_m - other_m);
     if (report_.failures.size() >= 5) return;
     std::ostringstream text;
-    text << bodies_.parts[pair.a].name << ", " << bodies_.parts[pair.b].name << ": filter "
-         << filter_m << ", exact " << exact_m;
+    text << bodies_.parts[pair.a].name << ", " << bodies_.parts[pair.b].name << ": " << what << " "
+         << value_m << ", " << against << " " << other_m;
     report_.failures.push_back(text.str());
   }
 
   const PlanningScene::Bodies& bodies_;
   FilterReport& report_;
+  PlainFcl plain_;
   StillParts still_;
   std::vector<LinkPoses> poses_;  // by lane
   std::vector<Linkage> linkages_;

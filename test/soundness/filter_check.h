@@ -14,6 +14,7 @@ namespace armloom::soundness {
 struct FilterReport {
   std::size_t states = 0;
   std::size_t part_pairs = 0;         // compared
+  std::size_t by_fcl = 0;             // of these, held against plain FCL too
   std::size_t left_out = 0;           // pairs of the scene that no comparison has: must be none
   std::size_t too_far = 0;            // the filter's distance above the exact one: must be none
   double worst_m = 0.0;               // by how much at most
@@ -22,7 +23,8 @@ struct FilterReport {
 };
 // The smallest distance of the filter over the capsules of each two parts (arm and arm, arm and
 // itself, arm and what stands still) is held against part_distance() at poses from
-// forward_kinematics(), which shares nothing with the filter's own.
+// forward_kinematics(), which shares nothing with the filter's own; for near pairs both are held
+// against plain FCL as well (plain_fcl.h).
 [[nodiscard]] FilterReport check_filter(const CellPtr& cell, std::size_t states,
                                         std::uint64_t seed);
 

@@ -94,5 +94,19 @@ TEST(Region, ThatIsSweptHoldsTheWholeRectangleOfWhatRemains) {
   }
 }
 
+// The plan is extrapolated from a measurement: an arm that stalls just then is behind the plan, and
+// may be as far back as was measured, but within its lag.
+TEST(Region, ReachesBackToWhatIsProven) {
+  Region region{.progress_a = 1.0, .lag_a = 0.1, .duration_a = 10.0};
+  const auto holds = [&](double a) { return first_at(region, a, 0.0).has_value(); };
+  EXPECT_FALSE(holds(0.95));
+  region.proven_a = 0.93;
+  EXPECT_TRUE(holds(0.95));
+  EXPECT_FALSE(holds(0.92));
+  region.proven_a = 0.5;
+  EXPECT_TRUE(holds(0.91));
+  EXPECT_FALSE(holds(0.89));
+}
+
 }  // namespace
 }  // namespace armloom::soundness

@@ -1,0 +1,77 @@
+#include "test/soundness/plain_fcl.h"
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/narrowphase/distance.h>
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+
+namespace armloom::soundness {
+namespace {
+
+using Shape = std::shared_ptr<fcl::CollisionGeometryd>;
+
+Shape shape_of(const Body& body) {
+  if (body.kind == BodyKind::box) return std::make_shared<fcl::Boxd>(2.0 * body.half_size_m);
+  if (body.kind == BodyKind::cylinder) {
+    return std::make_shared<fcl::Cylinderd>(body.radius_m, 2.0 * body.half_length_m);
+  }
+  if (body.kind == BodyKind::hull) {
+    auto faces = std::make_shared<std::vector<int>>();
+    for (const auto& face : body.hull->hull.faces) {
+      faces->push_back(3);
+      for (const std::uint32_t i : face) faces->push_back(static_cast<int>(i));
+    }
+    return std::make_shared<fcl::Convexd>(
+        std::make_shared<const std::vector<Eigen::Vector3d>>(body.hull->hull.vertices),
+        static_cast<int>(body.hull->hull.faces.size()), std::move(faces));
+  }
+  if (body.half_length_m == 0.0) return std::make_shared<fcl::Sphered>(body.radius_m);
+  return std::make_shared<fcl::Capsuled>(body.radius_m, 2.0 * body.half_length_m);
+}
+
+}  // namespace
+
+struct PlainFcl::Shapes {
+  std::vector<Shape> of_body;
+};
+
+PlainFcl::PlainFcl(const PlanningScene::Bodies& bodies)
+    : bodies_(bodies), shapes_(std::make_unique<Shapes>()) {
+  for (const Body& body : bodies.bodies) {
+    shapes_->of_body.push_back(shape_of(body));
+    shapes_->of_body.back()->computeLocalAABB();
+  }
+}
+
+PlainFcl::~PlainFcl() = default;
+
+double PlainFcl::distance(std::size_t part_a, const Eigen::Isometry3d& X_WA, std::size_t part_b,
+                          const Eigen::Isometry3d& X_WB) const {
+  const Part& a = bodies_.parts[part_a];
+  const Part& b = bodies_.parts[part_b];
+  double smallest = std::numeric_limits<double>::infinity();
+  fcl::DistanceRequestd request;
+  request.distance_tolerance = 1e-12;
+  for (std::size_t i = a.bodies_begin; i < a.bodies_end; ++i) {
+    for (std::size_t j = b.bodies_begin; j < b.bodies_end; ++j) {
+      fcl::DistanceResultd result;
+      try {
+        const double distance = fcl::distance<double>(
+            shapes_->of_body[i].get(), X_WA * bodies_.bodies[i].X_PS, shapes_->of_body[j].get(),
+            X_WB * bodies_.bodies[j].X_PS, request, result);
+        smallest = std::min(smallest, distance);
+      } catch (const std::exception&) {
+        smallest = std::min(smallest, 0.0);
+      }
+    }
+  }
+  return smallest;
+}
+
+}  // namespace armloom::soundness
