@@ -1,7 +1,6 @@
 #include "core/collision/arbiter.h"
 
 #include <algorithm>
-#include <map>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -10,7 +9,6 @@
 #include "core/collision/joined_cells.h"
 #include "core/collision/judge.h"
 #include "core/collision/motion_store.h"
-#include "core/collision/stopping_reach.h"
 
 namespace armloom {
 namespace {

@@ -1,10 +1,8 @@
 #include "core/collision/coordination_diagram.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
-#include "core/collision/filter/kernels.h"
+#include "core/collision/coordination_diagram_impl.h"
 
 namespace armloom {
 namespace {
@@ -14,44 +12,7 @@ constexpr int kLanes = filter::kLanes;
 // Wider stretches of a motion are hardly ever free in one: they are halved unseen.
 constexpr Duration kWide = std::chrono::milliseconds(700);
 
-// A side is halved together with the other if it moves at least this share as much.
-constexpr double kBothShare = 0.5;
-
-struct Frames {
-  std::vector<double> a;
-  std::vector<double> b;
-  std::vector<double> q;
-};
-
 }  // namespace
-
-// One side of a batch of cells that lie apart.
-struct CoordinationDiagram::Gathered {
-  std::vector<float> capsules;   // [capsule][6][kLanes]
-  std::vector<float> inflation;  // [capsule][kLanes]
-  std::vector<float> ball;       // [4][kLanes]
-};
-
-struct CoordinationDiagram::Scratch {
-  Gathered a, b;
-  std::vector<filter::Hit> hits, box_hits;
-  std::vector<Undecided> undecided;  // of one cell
-  Frames point;
-  std::vector<int> nodes;
-};
-
-// A pair that the filter leaves open in a cell.
-struct CoordinationDiagram::Undecided {
-  int narrow;  // in PairSet::narrow, or narrow_boxes
-  bool box;
-  double distance_m;  // lower bound at the middle
-  double moves_a_m;   // during the cell
-  double moves_b_m;
-  double limit_m;
-  double slack_m;  // by how much the exact distance may be above the bound
-
-  [[nodiscard]] double moves_m() const { return moves_a_m + moves_b_m; }
-};
 
 // One question on its way.
 struct CoordinationDiagram::Search {
@@ -110,8 +71,16 @@ std::optional<TimeRange> CoordinationDiagram::meets(const Region& region, const 
   return armloom::meets(region, to_seconds(a_->from(cell.a)), to_seconds(a_->to(cell.a)), b1, b2);
 }
 
-bool CoordinationDiagram::too_wide(const Cell& cell) const {
-  return a_->width(cell.a) > kWide || (b_ && b_->width(cell.b) > kWide);
+// An unknown cell that is hardly free in one is split before it is looked at.
+void CoordinationDiagram::split_if_wide(int index) {
+  Cell& cell = at(index);
+  if (cell.state != CellState::unknown) return;
+  const bool wide_a = a_->width(cell.a) > kWide;
+  const bool wide_b = b_ && b_->width(cell.b) > kWide;
+  if (!wide_a && !wide_b) return;
+  cell.split_a = wide_a;
+  cell.split_b = wide_b;
+  split(index, 1);
 }
 
 bool CoordinationDiagram::can_split(const Cell& cell) const {
@@ -155,12 +124,7 @@ void CoordinationDiagram::collect(int index, Search& search) {
   if (!times || times->from > search.conflict_at_s - kFirst_s) return;
   if (at(index).state == CellState::free) return;
   const Open open{index, *times};
-  if (at(index).state == CellState::unknown && too_wide(at(index))) {
-    Cell& cell = at(index);
-    cell.split_a = a_->width(cell.a) > kWide;
-    cell.split_b = b_ && b_->width(cell.b) > kWide;
-    split(index, 1);
-  }
+  split_if_wide(index);
   if (at(index).state == CellState::mixed || at(index).state == CellState::conflict) {
     consider_conflict(open, search);
     if (times->from > search.conflict_at_s - kFirst_s) return;
@@ -181,8 +145,7 @@ void CoordinationDiagram::collect(int index, Search& search) {
       break;
     case CellState::inner: {
       const Cell cell = at(index);
-      const int count = (cell.split_a ? 2 : 1) * (cell.split_b ? 2 : 1);
-      for (int i = 0; i < count; ++i) collect(cell.children + i, search);
+      for (int i = 0; i < cell.child_count(); ++i) collect(cell.children + i, search);
       break;
     }
     default:
@@ -244,20 +207,14 @@ std::uint64_t CoordinationDiagram::refine(const Region& region, Duration resolut
     for (std::size_t i = 0; i < open.size(); ++i) {  // grows
       const int index = open[i].cell;
       if (!meets(region, at(index))) continue;
-      Cell& cell = at(index);
-      const bool wide = a_->width(cell.a) > resolution || (b_ && b_->width(cell.b) > resolution);
-      if (cell.state == CellState::unknown && !too_wide(cell)) unknown.push_back(open[i]);
-      if (cell.state == CellState::unknown && too_wide(cell)) {
-        cell.split_a = a_->width(cell.a) > kWide;
-        cell.split_b = b_ && b_->width(cell.b) > kWide;
-        split(index, 1);
-      } else if (cell.state == CellState::mixed && wide) {
-        split(index, 1);
-      }
+      split_if_wide(index);
+      const Cell cell = at(index);
+      if (cell.state == CellState::unknown) unknown.push_back(open[i]);
+      const bool coarse = a_->width(cell.a) > resolution || (b_ && b_->width(cell.b) > resolution);
+      if (cell.state == CellState::mixed && coarse) split(index, 1);
       const Cell now = at(index);
       if (now.state != CellState::inner) continue;
-      const int count = (now.split_a ? 2 : 1) * (now.split_b ? 2 : 1);
-      for (int c = 0; c < count; ++c) open.push_back({now.children + c, {0.0, 0.0}});
+      for (int c = 0; c < now.child_count(); ++c) open.push_back({now.children + c, {0.0, 0.0}});
     }
     for (std::size_t done = 0; done < unknown.size(); done += kLanes) {
       if (looked_at >= budget) return looked_at;
@@ -292,7 +249,7 @@ void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
 }
 
 void CoordinationDiagram::place_point(Duration time_a, Duration time_b) {
-  Frames& point = scratch_->point;
+  Scratch::Point& point = scratch_->point;
   a_->configuration(time_a, point.q.data());
   place_frames(a_->linkage(), point.q.data(), point.a.data());
   if (!b_) return;
@@ -307,7 +264,7 @@ std::vector<CoordinationDiagram::Close> CoordinationDiagram::too_close_at(Durati
   const auto look = [&](const std::vector<NarrowPair>& pairs) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (i > 0 && pairs[i].pair == pairs[i - 1].pair) continue;  // another capsule of the same
-      const Frames& point = scratch_->point;
+      const Scratch::Point& point = scratch_->point;
       const double distance_m =
           exact(pairs[i], point.a.data(), point.b.data(), 1, pairs[i].limit_m);
       if (distance_m < pairs[i].limit_m) close.push_back({pairs[i].pair, distance_m});
@@ -324,7 +281,7 @@ CoordinationDiagram::Close CoordinationDiagram::closest_at(Duration time_a, Dura
   for (const std::vector<NarrowPair>* pairs :
        {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
     for (const NarrowPair& pair : *pairs) {
-      const Frames& point = scratch_->point;
+      const Scratch::Point& point = scratch_->point;
       const double distance_m = exact(pair, point.a.data(), point.b.data(), 1, closest.distance_m);
       if (distance_m < closest.distance_m) closest = {pair.pair, distance_m};
     }
@@ -351,178 +308,9 @@ std::optional<CoordinationDiagram::Finding> CoordinationDiagram::on_the_line(con
   if (!at_s) return std::nullopt;
   finding.at_s = *at_s;
   place_point(finding.time_a, finding.time_b);
-  const Frames& point = scratch_->point;
+  const Scratch::Point& point = scratch_->point;
   finding.distance_m = exact(pair, point.a.data(), point.b.data(), 1, pair.limit_m);
   return finding.distance_m < pair.limit_m ? std::optional(finding) : std::nullopt;
-}
-
-// ---- One batch of cells ----
-
-// The nodes of the cells as one side: the block itself where they are one.
-filter::Side CoordinationDiagram::gather(const MotionTube& tube, int Cell::*node, const Open* open,
-                                         std::size_t count, Gathered& to) {
-  const MotionTube::Place first = tube.place_of(at(open[0].cell).*node);
-  bool together = first.lane == 0;
-  for (std::size_t lane = 1; together && lane < count; ++lane) {
-    const MotionTube::Place place = tube.place_of(at(open[lane].cell).*node);
-    together = place.block == first.block && place.lane == lane;
-  }
-  if (together) {
-    return {first.block->capsules.data(), first.block->inflation.data(), first.block->ball.data()};
-  }
-  const std::size_t capsules = tube.linkage().capsules().size();
-  const auto copy = [](const float* from, float* to_lane, std::size_t rows) {
-    for (std::size_t i = 0; i < rows; ++i) to_lane[i * kLanes] = from[i * kLanes];
-  };
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    const MotionTube::Place place = tube.place_of(at(open[lane].cell).*node);
-    copy(place.block->capsules.data() + place.lane, to.capsules.data() + lane, capsules * 6);
-    copy(place.block->inflation.data() + place.lane, to.inflation.data() + lane, capsules);
-    copy(place.block->ball.data() + place.lane, to.ball.data() + lane, 4);
-  }
-  return {to.capsules.data(), to.inflation.data(), to.ball.data()};
-}
-
-void CoordinationDiagram::evaluate(const Open* open, std::size_t count) {
-  Scratch& s = *scratch_;
-  s.nodes.clear();
-  for (std::size_t i = 0; i < count; ++i) s.nodes.push_back(at(open[i].cell).a);
-  a_->place(s.nodes);
-  if (b_) {
-    s.nodes.clear();
-    for (std::size_t i = 0; i < count; ++i) s.nodes.push_back(at(open[i].cell).b);
-    b_->place(s.nodes);
-  }
-  const PairSet& set = *setting_.pairs;
-  const bool self = !b_ && still_ == nullptr;
-  int pairs = 0;
-  int boxes = 0;
-  filter::Side a{};
-  if (!self) {
-    a = gather(*a_, &Cell::a, open, count, s.a);
-    const filter::Kernel& kernel = filter::best_kernel();
-    const unsigned lanes = (1U << count) - 1U;
-    const filter::Side b = b_ ? gather(*b_, &Cell::b, open, count, s.b)
-                              : filter::Side{still_->lanes.data(), still_->at_rest.data(), nullptr};
-    pairs = kernel.near_pairs(a, b, set.pairs.data(), static_cast<int>(set.pairs.size()),
-                              set.grouped(), lanes, s.hits.data());
-    boxes = kernel.near_boxes(a, set.boxes.data(), static_cast<int>(set.boxes.size()), lanes,
-                              s.box_hits.data());
-  }
-  const auto excess = [&](const NarrowPair& entry) {
-    const PartPair& pair = setting_.bodies->pairs[entry.pair.index()];
-    return setting_.bodies->parts[pair.a].capsule_excess_m +
-           setting_.bodies->parts[pair.b].capsule_excess_m;
-  };
-  const auto add = [&](const filter::Hit& hit, std::size_t lane, bool box) {
-    if ((hit.lanes >> lane & 1U) == 0) return;
-    const auto entry = static_cast<std::size_t>(hit.pair);
-    const NarrowPair& pair = narrow(hit.pair, box);
-    const int row_a = box ? set.boxes[entry].row_a : set.pairs[entry].row_a;
-    const auto moves_a =
-        static_cast<double>(a.inflation[static_cast<std::size_t>(row_a * kLanes) + lane]);
-    s.undecided.push_back({hit.pair, box, static_cast<double>(hit.distance[lane]), moves_a,
-                           static_cast<double>(hit.inflation[lane]) - moves_a, pair.limit_m,
-                           excess(pair)});
-  };
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    s.undecided.clear();
-    for (int h = 0; h < pairs; ++h) add(s.hits[static_cast<std::size_t>(h)], lane, false);
-    for (int h = 0; h < boxes; ++h) add(s.box_hits[static_cast<std::size_t>(h)], lane, true);
-    if (self) {
-      for (const MotionTube::SelfHit& hit : a_->self_hits(at(open[lane].cell).a)) {
-        const NarrowPair& pair = narrow(hit.pair, false);
-        s.undecided.push_back({hit.pair, false, static_cast<double>(hit.distance),
-                               static_cast<double>(hit.inflation), 0.0, pair.limit_m,
-                               excess(pair)});
-      }
-    }
-    decide(open[lane].cell);
-  }
-}
-
-double CoordinationDiagram::exact(const NarrowPair& pair, const double* frames_a,
-                                  const double* frames_b, int stride, double limit_m) const {
-  const LinkagePart& a = a_->linkage().parts()[static_cast<std::size_t>(pair.part_a)];
-  const bool self = !b_ && still_ == nullptr;
-  const auto b = static_cast<std::size_t>(pair.part_b);
-  const LinkagePart& part_b =
-      b_ ? b_->linkage().parts()[b] : (self ? a_->linkage().parts()[b] : still_->parts[b]);
-  return part_distance(*setting_.bodies, a.part, part_pose(a, frames_a, stride), part_b.part,
-                       part_pose(part_b, self ? frames_a : frames_b, stride), limit_m);
-}
-
-const NarrowPair& CoordinationDiagram::narrow(int entry, bool box) const {
-  const PairSet& set = *setting_.pairs;
-  return box ? set.narrow_boxes[static_cast<std::size_t>(entry)]
-             : set.narrow[static_cast<std::size_t>(entry)];
-}
-
-// Whether the pair keeps its limit all over the cell; notes it if not.
-bool CoordinationDiagram::clears(Cell& cell, Undecided& u) {
-  const NarrowPair& pair = narrow(u.narrow, u.box);
-  const double enough_m = u.limit_m + u.moves_m();
-  u.distance_m = exact(pair, a_->place_of(cell.a).frames(),
-                       b_ ? b_->place_of(cell.b).frames() : nullptr, filter::kLanes, enough_m);
-  u.slack_m = 0.0;
-  if (u.distance_m >= enough_m) return true;
-  note(cell, {pair.pair, u.narrow, u.box, u.distance_m});
-  return false;
-}
-
-// From what the filter has left open to the cell's state.
-void CoordinationDiagram::decide(int index) {
-  std::vector<Undecided>& undecided = scratch_->undecided;
-  Cell& cell = at(index);
-  cell.state = CellState::free;
-  if (undecided.empty()) return;
-
-  // The largest distance that a pair may have, as far as the capsules tell.
-  const auto room = [](const Undecided& u) { return u.distance_m + u.slack_m - u.limit_m; };
-  const auto closest = std::ranges::min_element(undecided, {}, room);
-  const auto worst = std::ranges::min_element(
-      undecided, {}, [&](const Undecided& u) { return room(u) - u.moves_m(); });
-  if (room(*closest) < 0.0) {  // a conflict, most likely
-    const bool clear = clears(cell, *closest);
-    if (!clear && closest->distance_m + closest->moves_m() < closest->limit_m) {
-      cell.state = CellState::conflict;
-      return;
-    }
-    choose_split(cell, clear ? *worst : *closest);
-    return;
-  }
-  if (room(*worst) < worst->moves_m()) {  // no distance would do: exact ones need not be asked
-    choose_split(cell, *worst);
-    return;
-  }
-  for (Undecided& u : undecided) {
-    if (clears(cell, u)) continue;
-    choose_split(cell, u);
-    return;
-  }
-}
-
-// Keeps the closest pair of a cell's middle.
-void CoordinationDiagram::note(Cell& cell, const Found& found) {
-  if (cell.finding < 0) {
-    cell.finding = static_cast<int>(found_.size());
-    found_.push_back(found);
-  } else if (found.distance_m < found_[static_cast<std::size_t>(cell.finding)].distance_m) {
-    found_[static_cast<std::size_t>(cell.finding)] = found;
-  }
-}
-
-void CoordinationDiagram::choose_split(Cell& cell, const Undecided& worst) {
-  cell.split_a = worst.moves_a_m >= kBothShare * worst.moves_b_m;
-  cell.split_b = b_ && worst.moves_b_m >= kBothShare * worst.moves_a_m;
-  if (!(cell.split_a && a_->width(cell.a) > kFinest) &&
-      !(cell.split_b && b_->width(cell.b) > kFinest)) {
-    cell.split_a = cell.split_b = true;  // what is left
-  }
-  const double room_m = worst.distance_m + worst.slack_m - worst.limit_m;
-  const double shrink = room_m > 0.0 ? worst.moves_m() / room_m : 2.0;
-  cell.levels = shrink > 6.0 ? 2 : 1;
-  cell.state = can_split(cell) ? CellState::mixed : CellState::finest;
 }
 
 std::vector<CoordinationDiagram::CellView> CoordinationDiagram::cells() const {

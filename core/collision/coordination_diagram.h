@@ -100,6 +100,8 @@ class CoordinationDiagram {
     bool split_b = false;
     std::uint8_t levels = 1;  // of a mixed cell: how many halvings at once
     int finding = -1;         // at its middle
+
+    [[nodiscard]] int child_count() const { return (split_a ? 2 : 1) * (split_b ? 2 : 1); }
   };
   struct Found {  // at the middle of a cell
     PairId pair;
@@ -119,7 +121,7 @@ class CoordinationDiagram {
   void collect(int cell, Search& search);
   void split(int cell, int levels);
   [[nodiscard]] bool can_split(const Cell& cell) const;
-  [[nodiscard]] bool too_wide(const Cell& cell) const;
+  void split_if_wide(int cell);
   void evaluate(const Open* open, std::size_t count);
   struct Gathered;
   [[nodiscard]] filter::Side gather(const MotionTube& tube, int Cell::*node, const Open* open,

@@ -1,0 +1,184 @@
+// One batch of cells: from the filter over the exact distance to a state.
+#include <algorithm>
+
+#include "core/collision/coordination_diagram_impl.h"
+#include "core/collision/filter/kernels.h"
+
+namespace armloom {
+namespace {
+
+constexpr int kLanes = filter::kLanes;
+
+// A side is halved together with the other if it moves at least this share as much.
+constexpr double kBothShare = 0.5;
+
+}  // namespace
+
+// The nodes of the cells as one side: the block itself where they are one.
+filter::Side CoordinationDiagram::gather(const MotionTube& tube, int Cell::*node, const Open* open,
+                                         std::size_t count, Gathered& to) {
+  const MotionTube::Place first = tube.place_of(at(open[0].cell).*node);
+  bool together = first.lane == 0;
+  for (std::size_t lane = 1; together && lane < count; ++lane) {
+    const MotionTube::Place place = tube.place_of(at(open[lane].cell).*node);
+    together = place.block == first.block && place.lane == lane;
+  }
+  if (together) {
+    return {first.block->capsules.data(), first.block->inflation.data(), first.block->ball.data()};
+  }
+  const std::size_t capsules = tube.linkage().capsules().size();
+  const auto copy = [](const float* from, float* to_lane, std::size_t rows) {
+    for (std::size_t i = 0; i < rows; ++i) to_lane[i * kLanes] = from[i * kLanes];
+  };
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    const MotionTube::Place place = tube.place_of(at(open[lane].cell).*node);
+    copy(place.block->capsules.data() + place.lane, to.capsules.data() + lane, capsules * 6);
+    copy(place.block->inflation.data() + place.lane, to.inflation.data() + lane, capsules);
+    copy(place.block->ball.data() + place.lane, to.ball.data() + lane, 4);
+  }
+  return {to.capsules.data(), to.inflation.data(), to.ball.data()};
+}
+
+void CoordinationDiagram::evaluate(const Open* open, std::size_t count) {
+  Scratch& s = *scratch_;
+  s.nodes.clear();
+  for (std::size_t i = 0; i < count; ++i) s.nodes.push_back(at(open[i].cell).a);
+  a_->place(s.nodes);
+  if (b_) {
+    s.nodes.clear();
+    for (std::size_t i = 0; i < count; ++i) s.nodes.push_back(at(open[i].cell).b);
+    b_->place(s.nodes);
+  }
+  const PairSet& set = *setting_.pairs;
+  const bool self = !b_ && still_ == nullptr;
+  int pairs = 0;
+  int boxes = 0;
+  filter::Side a{};
+  if (!self) {
+    a = gather(*a_, &Cell::a, open, count, s.a);
+    const filter::Kernel& kernel = filter::best_kernel();
+    const unsigned lanes = (1U << count) - 1U;
+    const filter::Side b = b_ ? gather(*b_, &Cell::b, open, count, s.b)
+                              : filter::Side{still_->lanes.data(), still_->at_rest.data(), nullptr};
+    pairs = kernel.near_pairs(a, b, set.pairs.data(), static_cast<int>(set.pairs.size()),
+                              set.grouped(), lanes, s.hits.data());
+    boxes = kernel.near_boxes(a, set.boxes.data(), static_cast<int>(set.boxes.size()), lanes,
+                              s.box_hits.data());
+  }
+  const auto excess = [&](const NarrowPair& entry) {
+    const PartPair& pair = setting_.bodies->pairs[entry.pair.index()];
+    return setting_.bodies->parts[pair.a].capsule_excess_m +
+           setting_.bodies->parts[pair.b].capsule_excess_m;
+  };
+  const auto add = [&](const filter::Hit& hit, std::size_t lane, bool box) {
+    if ((hit.lanes >> lane & 1U) == 0) return;
+    const auto entry = static_cast<std::size_t>(hit.pair);
+    const NarrowPair& pair = narrow(hit.pair, box);
+    const int row_a = box ? set.boxes[entry].row_a : set.pairs[entry].row_a;
+    const auto moves_a =
+        static_cast<double>(a.inflation[static_cast<std::size_t>(row_a * kLanes) + lane]);
+    s.undecided.push_back({hit.pair, box, static_cast<double>(hit.distance[lane]), moves_a,
+                           static_cast<double>(hit.inflation[lane]) - moves_a, pair.limit_m,
+                           excess(pair)});
+  };
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    s.undecided.clear();
+    for (int h = 0; h < pairs; ++h) add(s.hits[static_cast<std::size_t>(h)], lane, false);
+    for (int h = 0; h < boxes; ++h) add(s.box_hits[static_cast<std::size_t>(h)], lane, true);
+    if (self) {
+      for (const MotionTube::SelfHit& hit : a_->self_hits(at(open[lane].cell).a)) {
+        const NarrowPair& pair = narrow(hit.pair, false);
+        s.undecided.push_back({hit.pair, false, static_cast<double>(hit.distance),
+                               static_cast<double>(hit.inflation), 0.0, pair.limit_m,
+                               excess(pair)});
+      }
+    }
+    decide(open[lane].cell);
+  }
+}
+
+double CoordinationDiagram::exact(const NarrowPair& pair, const double* frames_a,
+                                  const double* frames_b, int stride, double limit_m) const {
+  const LinkagePart& a = a_->linkage().parts()[static_cast<std::size_t>(pair.part_a)];
+  const bool self = !b_ && still_ == nullptr;
+  const auto b = static_cast<std::size_t>(pair.part_b);
+  const LinkagePart& part_b =
+      b_ ? b_->linkage().parts()[b] : (self ? a_->linkage().parts()[b] : still_->parts[b]);
+  return part_distance(*setting_.bodies, a.part, part_pose(a, frames_a, stride), part_b.part,
+                       part_pose(part_b, self ? frames_a : frames_b, stride), limit_m);
+}
+
+const NarrowPair& CoordinationDiagram::narrow(int entry, bool box) const {
+  const PairSet& set = *setting_.pairs;
+  return box ? set.narrow_boxes[static_cast<std::size_t>(entry)]
+             : set.narrow[static_cast<std::size_t>(entry)];
+}
+
+// Whether the pair keeps its limit all over the cell; notes it if not.
+bool CoordinationDiagram::clears(Cell& cell, Undecided& u) {
+  const NarrowPair& pair = narrow(u.narrow, u.box);
+  const double enough_m = u.limit_m + u.moves_m();
+  u.distance_m = exact(pair, a_->place_of(cell.a).frames(),
+                       b_ ? b_->place_of(cell.b).frames() : nullptr, filter::kLanes, enough_m);
+  u.slack_m = 0.0;
+  if (u.distance_m >= enough_m) return true;
+  note(cell, {pair.pair, u.narrow, u.box, u.distance_m});
+  return false;
+}
+
+// From what the filter has left open to the cell's state.
+void CoordinationDiagram::decide(int index) {
+  std::vector<Undecided>& undecided = scratch_->undecided;
+  Cell& cell = at(index);
+  cell.state = CellState::free;
+  if (undecided.empty()) return;
+
+  // The largest distance that a pair may have, as far as the capsules tell.
+  const auto room = [](const Undecided& u) { return u.distance_m + u.slack_m - u.limit_m; };
+  const auto closest = std::ranges::min_element(undecided, {}, room);
+  const auto worst = std::ranges::min_element(
+      undecided, {}, [&](const Undecided& u) { return room(u) - u.moves_m(); });
+  if (room(*closest) < 0.0) {  // a conflict, most likely
+    const bool clear = clears(cell, *closest);
+    if (!clear && closest->distance_m + closest->moves_m() < closest->limit_m) {
+      cell.state = CellState::conflict;
+      return;
+    }
+    choose_split(cell, clear ? *worst : *closest);
+    return;
+  }
+  if (room(*worst) < worst->moves_m()) {  // no distance would do: exact ones need not be asked
+    choose_split(cell, *worst);
+    return;
+  }
+  for (Undecided& u : undecided) {
+    if (clears(cell, u)) continue;
+    choose_split(cell, u);
+    return;
+  }
+}
+
+// Keeps the closest pair of a cell's middle.
+void CoordinationDiagram::note(Cell& cell, const Found& found) {
+  if (cell.finding < 0) {
+    cell.finding = static_cast<int>(found_.size());
+    found_.push_back(found);
+  } else if (found.distance_m < found_[static_cast<std::size_t>(cell.finding)].distance_m) {
+    found_[static_cast<std::size_t>(cell.finding)] = found;
+  }
+}
+
+void CoordinationDiagram::choose_split(Cell& cell, const Undecided& worst) {
+  cell.split_a = worst.moves_a_m >= kBothShare * worst.moves_b_m;
+  cell.split_b = b_ && worst.moves_b_m >= kBothShare * worst.moves_a_m;
+  if (!(cell.split_a && a_->width(cell.a) > kFinest) &&
+      !(cell.split_b && b_->width(cell.b) > kFinest)) {
+    cell.split_a = cell.split_b = true;  // what is left
+  }
+  const double room_m = worst.distance_m + worst.slack_m - worst.limit_m;
+  const double shrink = room_m > 0.0 ? worst.moves_m() / room_m : 2.0;
+  cell.levels = shrink > 6.0 ? 2 : 1;
+  cell.state = can_split(cell) ? CellState::mixed : CellState::finest;
+}
+
+}  // namespace armloom
