@@ -23,6 +23,7 @@ struct Motion {
   // What measurement has proven, where `progress` is extrapolated from it to the question's
   // instant.
   std::optional<Duration> proven = {};
+  bool to_come = false;  // Coordinated: its arm makes another motion before it
 
   [[nodiscard]] Duration remaining() const { return trajectory->duration() - progress; }
 };
@@ -40,7 +41,12 @@ struct Certified {  // for every instant, with proof
 struct Swept {  // whatever the times: all of what remains of one against all of the other
   double tracking_error;
 };
-using CheckMethod = std::variant<TimedDiscrete, Certified, Swept>;
+struct Coordinated {  // no times at all: in which states of each pair it is not certified that both
+                      // may be (Verdict::regions). Of one arm, several motions may be named, in the
+                      // order in which it will make them; each begins where the one before ends
+  double tracking_error;
+};
+using CheckMethod = std::variant<TimedDiscrete, Certified, Swept, Coordinated>;
 
 // "May these candidates start together at the question's instant, beside everything else?"
 // Plain data: complete, self-contained, safe to hand to another thread.

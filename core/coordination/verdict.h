@@ -8,21 +8,10 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
+#include "core/coordination/conflict_region.h"
+#include "core/coordination/proximity.h"
 
 namespace armloom {
-
-// Two bodies that come too close, and how close. Names are links (with prefix) or objects. What an
-// arm holds belongs to the arm.
-struct Proximity {
-  std::string body_a;          // a link, or held
-  std::string body_b;          // a link, held, or an object of the scene
-  std::optional<ArmId> arm_a;  // empty: a static link
-  std::optional<ArmId> arm_b;  // empty: a static link or an object
-  bool object_b = false;       // body_b is an object of the scene
-  double clearance_m = 0.0;    // distance; zero or less in contact
-  bool held_a = false;         // body_a is an object that arm_a holds
-  bool held_b = false;         // body_b is an object that arm_b holds
-};
 
 // The evidence of a conflict: what a candidate would come too close to, where and when.
 struct Conflict {
@@ -52,6 +41,9 @@ struct Verdict {
   // no earlier (to within Arbiter::kShift_s), if they wait where they are. Absent: never, as things
   // stand.
   std::optional<Duration> earliest_start = {};
+  // Coordinated, and no conflict: every pair of a candidate and another motion or an arm at rest
+  // that is not free everywhere.
+  std::vector<PairRegions> regions = {};
 };
 
 }  // namespace armloom
