@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/collision/stopping_reach.h"
+#include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
 

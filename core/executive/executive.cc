@@ -83,6 +83,8 @@ void Executive::Impl::carry_out(const Effect& effect) {
                 [this](Verdict verdict) { step(Judged{std::move(verdict)}); });
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
     motions_.dispatch(*dispatch, scheduler_.find(dispatch->job)->trajectory);
+  } else if (const auto* grant = std::get_if<Grant>(&effect)) {
+    motions_.grant(*grant);
   } else if (const auto* brake = std::get_if<Brake>(&effect)) {
     motions_.brake(brake->job);
   } else if (const auto* release = std::get_if<Release>(&effect)) {
@@ -103,7 +105,7 @@ void Executive::Impl::tick(TimePoint now) {
   for (const MotionReport& report : motions_.tick(now_)) step(report);
   std::size_t in_motion = 0;
   for (ArmId arm : all_arms()) {
-    if (!motions_.moving(arm)) continue;
+    if (!motions_.advances(arm)) continue;
     figures_.busy[arm.index()] += kControlPeriod;
     ++in_motion;
   }

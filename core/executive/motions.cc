@@ -20,22 +20,29 @@ Motions::Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> contr
     : cell_(std::move(cell)),
       controllers_(std::move(controllers)),
       feedback_(controllers_.size()),
+      advances_(controllers_.size(), false),
       measured_(std::move(measured)) {}
 
 void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory) {
   Motion& motion = motions_[dispatch.job];
   motion.trajectory = trajectory;
+  motion.authority = dispatch.authority;
   motion.resting = motion.braking = false;
   for (ArmId arm : trajectory->arms()) {
     // An arm that stands ahead of its siblings lets them catch up.
     const auto stands_at = motion.stands_at.find(arm);
     const Duration from =
         stands_at == motion.stands_at.end() ? dispatch.from_progress : stands_at->second;
-    // The paper's policies grant the whole trajectory at once.
-    controllers_[arm.index()]->start(trajectory,
-                                     dispatch.start_at + (from - dispatch.from_progress), from,
-                                     trajectory->duration());
+    controllers_[arm.index()]->start(
+        trajectory, dispatch.start_at + (from - dispatch.from_progress), from, dispatch.authority);
   }
+}
+
+void Motions::grant(const Grant& grant) {
+  Motion& motion = motions_.at(grant.job);
+  motion.authority = grant.authority;
+  if (motion.trajectory->arms().size() > 1) return;  // keep_together() hands it on
+  for (ArmId arm : motion.trajectory->arms()) controllers_[arm.index()]->grant(grant.authority);
 }
 
 void Motions::brake(JobId job) {
@@ -52,8 +59,10 @@ void Motions::release(JobId job) {
 }
 
 const std::vector<MotionReport>& Motions::tick(TimePoint now) {
-  for (std::size_t a = 0; a < controllers_.size(); ++a) {
+  for (std::uint32_t a = 0; a < controllers_.size(); ++a) {
+    const Duration before = feedback_[a].measured_progress;
     feedback_[a] = controllers_[a]->tick(now);
+    advances_[a] = feedback_[a].measured_progress != before && moving(ArmId{a});
     const auto& joints = controllers_[a]->joints();
     for (std::size_t j = 0; j < joints.size(); ++j) {
       measured_[static_cast<Eigen::Index>(joints[j].index())] =
@@ -75,7 +84,7 @@ void Motions::keep_together(const Motion& motion) {
   }
   for (ArmId arm : motion.trajectory->arms()) {
     const bool ahead = feedback_[arm.index()].commanded_progress - last > kAhead;
-    controllers_[arm.index()]->grant(ahead ? last : motion.trajectory->duration());
+    controllers_[arm.index()]->grant(ahead ? std::min(last, motion.authority) : motion.authority);
   }
 }
 

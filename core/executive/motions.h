@@ -20,6 +20,7 @@ class Motions {
           Configuration measured);
 
   void dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory);
+  void grant(const Grant& grant);
   void brake(JobId job);
   void release(JobId job);
 
@@ -30,6 +31,8 @@ class Motions {
   [[nodiscard]] const Configuration& measured() const { return measured_; }
   [[nodiscard]] const ArmFeedback& feedback(ArmId arm) const { return feedback_[arm.index()]; }
   [[nodiscard]] bool moving(ArmId arm) const;
+  // It got ahead on its path in the last tick: a pause on the way is none.
+  [[nodiscard]] bool advances(ArmId arm) const { return advances_[arm.index()]; }
   // Largest distance of a measured joint from where its path is at the measured progress, rad or
   // m; zero without a motion.
   [[nodiscard]] double deviation(ArmId arm) const;
@@ -39,7 +42,8 @@ class Motions {
   struct Motion {
     TrajectoryPtr trajectory;
     std::map<ArmId, Duration>
-        stands_at{};       // measured, where an arm rests on the path after a brake
+        stands_at{};  // measured, where an arm rests on the path after a brake
+    Duration authority{};
     bool resting = false;  // its end has been reported
     bool braking = false;
   };
@@ -50,6 +54,7 @@ class Motions {
   CellPtr cell_;
   std::vector<std::unique_ptr<ArmController>> controllers_;  // ArmId
   std::vector<ArmFeedback> feedback_;                        // ArmId
+  std::vector<bool> advances_;                               // ArmId
   Configuration measured_;
   std::map<JobId, Motion> motions_;
   std::vector<MotionReport> reports_;

@@ -91,6 +91,9 @@ ArmState Executive::Impl::state_of(ArmId arm) const {
   using Phase = ArmFeedback::Phase;
   const Phase phase = motions_.feedback(arm).phase;
   if (phase == Phase::fault) return ArmState::fault;
+  if (const auto job = scheduler_.occupant(arm); job && scheduler_.find(*job)->pausing) {
+    return ArmState::holding;
+  }
   if (motions_.moving(arm)) return ArmState::moving;
   if (phase == Phase::stopped && scheduler_.occupant(arm)) return ArmState::holding;
   return scheduler_.stopped(arm) ? ArmState::stopped : ArmState::idle;

@@ -19,7 +19,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   JobView view{.id = job.id,
                .key = names.key(job.id),
                .name = names.name(job.id),
-               .state = job.state,
+               .state = job.pausing ? JobState::holding : job.state,
                .priority = job.priority,
                .submitted_at = job.submitted_at,
                .scheduled_at = job.scheduled_at,

@@ -199,6 +199,7 @@ std::vector<JobId> Scheduler::next_recheck() const {
 // After a stop of several arms their motions are tried first as they were: all at once.
 std::vector<JobId> Scheduler::held_together() const {
   std::vector<JobId> held;
+  if (graph_) return held;  // their order stands
   if (held_together_tried_ == version_) return held;
   const std::vector<const Job*> occupied_by = occupying();
   for (const Job* job : occupied_by) {
@@ -209,6 +210,7 @@ std::vector<JobId> Scheduler::held_together() const {
 }
 
 std::optional<JobId> Scheduler::next_to_move_forward() const {
+  if (graph_) return std::nullopt;
   for (JobId id : active_) {
     const Record& record = records_.at(id);
     const bool ahead = record.job.state == JobState::scheduled && !record.dispatched;
@@ -240,7 +242,7 @@ void Scheduler::ask_next() {
   if (open_) return;
   const bool braking =
       std::ranges::any_of(active_, [this](JobId id) { return records_.at(id).job.stopping; });
-  if (braking) return;
+  if (braking && !graph_) return;
   if (auto recheck = next_recheck(); !recheck.empty()) {
     ask(std::move(recheck), Purpose::recheck);
   } else if (auto held = held_together(); !held.empty()) {
@@ -284,6 +286,7 @@ std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory) const {
 
 // Every motion that holds a reservation and is none of the candidates.
 void Scheduler::add_others(Question& question, const std::vector<JobId>& candidates) const {
+  if (graph_) return add_coordinated(question, candidates);
   for (JobId id : active_) {
     const Record& record = records_.at(id);
     if (!holds_reservation(record) || std::ranges::find(candidates, id) != candidates.end()) {
@@ -314,6 +317,10 @@ void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
                     .find_earliest = !recheck && jobs.size() == 1 && policy_->schedules_ahead()};
   for (JobId id : jobs) {
     const Record& record = records_.at(id);
+    if (graph_) {
+      question.candidates.push_back(motion_now(record));
+      continue;
+    }
     const bool under_way = holds_reservation(record) && purpose != Purpose::forward;
     const Duration progress = under_way ? progress_at(record, start_at) : record.job.progress;
     question.candidates.push_back(Motion{id, record.job.trajectory, progress});
@@ -333,6 +340,7 @@ void Scheduler::on(const Judged& input) {
     if (question.jobs.size() > 1) held_together_tried_ = 0;
     return;  // stale: settle() asks again
   }
+  if (graph_) return answer_coordinated(input.verdict, question);
   const bool free = input.verdict.kind == Verdict::Kind::free;
   const Duration needed = now_ - question.asked_at;
   const bool recheck = question.purpose == Purpose::recheck;
@@ -381,7 +389,8 @@ void Scheduler::dispatch(Record& record) {
   record.plan_at = *record.job.scheduled_at;
   record.plan_progress = record.from_progress;
   record.job.waits_on.clear();
-  effects_.push_back(Dispatch{record.job.id, *record.job.scheduled_at, record.job.progress});
+  effects_.push_back(Dispatch{record.job.id, *record.job.scheduled_at, record.job.progress,
+                              record.job.trajectory->duration()});
 }
 
 // A later start than now that is free, or one for a scheduled job that is earlier than its own.

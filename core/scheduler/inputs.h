@@ -76,6 +76,13 @@ struct Dispatch {
   JobId job;
   TimePoint start_at;
   Duration from_progress;
+  Duration authority;  // trajectory time that it may not pass until more is granted
+};
+// The job's arms may go on to here, and rest there unless more is granted in time. Never less than
+// before.
+struct Grant {
+  JobId job;
+  Duration authority;
 };
 // Bring this job's arms to rest on their path. A job that has not moved yet stays where it is; the
 // controller answers with MotionReport::stopped in either case.
@@ -95,6 +102,6 @@ struct WakeAt {
   TimePoint when;
 };
 
-using Effect = std::variant<Judge, Dispatch, Brake, Release, JobChanged, WakeAt>;
+using Effect = std::variant<Judge, Dispatch, Grant, Brake, Release, JobChanged, WakeAt>;
 
 }  // namespace armloom

@@ -75,6 +75,7 @@ struct Job {
   std::optional<TimePoint> ended_at;
   Duration progress{};           // trajectory time, last measured
   TimePoint progress_seen_at{};  // when it was measured
+  bool pausing = false;          // running, at rest on its way until others have passed
   bool late = false;             // loses time against its plan: may stand where it is for long
   std::vector<Wait> waits_on;
   std::optional<Reason> reason;  // terminal

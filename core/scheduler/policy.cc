@@ -14,6 +14,7 @@ constexpr Entry kPolicies[] = {
     {"sequential", make_sequential},   {"lockstep", make_lockstep},
     {"reservation", make_reservation}, {"timed_discrete", make_timed_discrete},
     {"certified", make_certified},     {"earliest_start", make_earliest_start},
+    {"coordinated", make_coordinated},
 };
 
 }  // namespace

@@ -32,7 +32,10 @@ class Policy {
   [[nodiscard]] virtual bool schedules_ahead() const { return false; }
   // Whether jobs go in rounds: one of each arm, and the next when all of these have ended.
   [[nodiscard]] virtual bool in_rounds() const { return false; }
-  // The same for a motion that is under way and was admitted by method().
+  // Whether motions go beside each other by the order in which they pass, held by authority over
+  // their progress (precedence_graph.h), instead of by times. method() is Coordinated then.
+  [[nodiscard]] virtual bool coordinates() const { return false; }
+  // How a motion is compared that is under way and was admitted by method().
   [[nodiscard]] virtual CheckMethod recheck_method() const { return method(); }
 };
 

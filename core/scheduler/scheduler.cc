@@ -23,6 +23,7 @@ Scheduler::Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configu
       order_(cell_->arms.size()),
       stopped_(cell_->arms.size()),
       allowance_(kAllowanceMin) {
+  if (policy_ && policy_->coordinates()) graph_.emplace(cell_->arms.size());
   if (!policy_) throw std::invalid_argument("Scheduler: no policy");
   if (rest_.size() != static_cast<Eigen::Index>(cell_->joints.size())) {
     throw std::invalid_argument("Scheduler: rest has another size than the cell has joints");
@@ -131,8 +132,12 @@ void Scheduler::on(const MotionReport& input) {
   const auto it = records_.find(input.job);
   if (it == records_.end() || is_terminal(it->second.job.state)) return;
   Record& record = it->second;
-  record.job.progress = input.progress;
+  const Duration before = std::exchange(record.job.progress, input.progress);
   record.job.progress_seen_at = now_;
+  if (graph_) {
+    graph_->progress(record.job.id, input.progress);
+    see_pauses(record, before);
+  }
   if (input.kind == MotionReport::Kind::progressed) {
     progress(record);
   } else {
@@ -148,7 +153,9 @@ void Scheduler::progress(Record& record) {
     changed(record);
   }
   if (job.stopping) return;
-  if (loses_time(record)) {
+  if (graph_) {
+    extend_authority(job.id);
+  } else if (loses_time(record)) {
     falls_behind(record);
   } else if (job.late && now_ - record.plan_at >= kOnTimeAgain) {
     plan_from_here(record);
@@ -188,6 +195,7 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
   ++version_;
   job.stopping = false;
   job.late = false;
+  job.pausing = false;
   record.overrun_at.reset();
   if (report.kind == MotionReport::Kind::finished) {
     const Duration planned = job.trajectory->duration() - record.plan_progress;
@@ -196,7 +204,7 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
     effects_.push_back(Release{job.id});
     return;
   }
-  disturbed_at_ = freed_at_ = version_;
+  if (!graph_) disturbed_at_ = freed_at_ = version_;
   if (report.kind == MotionReport::Kind::faulted) {
     for (ArmId arm : job.trajectory->arms()) stopped_[arm.index()] = "fault: " + report.detail;
     end(record, JobState::failed, Reason::arm_fault, report.detail);
@@ -209,6 +217,7 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
     effects_.push_back(Release{job.id});
   } else if (!job.started_at) {
     // Stopped before it moved: it waits in the queue again, as if it had not been admitted.
+    leave_graph(record);
     job.state = JobState::queued;
     job.scheduled_at.reset();
     record.dispatched = false;
@@ -222,7 +231,8 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
 
 // A scheduled job whose arms know nothing of it yet: it waits again, or ends.
 void Scheduler::withdraw(Record& record, AfterStop then) {
-  disturbed_at_ = ++version_;  // others may have counted on its departure
+  ++version_;  // others may have counted on its departure
+  if (!graph_) disturbed_at_ = version_;
   if (then != AfterStop::hold) {
     const bool held = record.job.started_at.has_value();
     end(record, JobState::canceled, Reason::canceled_by_client,
@@ -230,6 +240,7 @@ void Scheduler::withdraw(Record& record, AfterStop then) {
     if (held) effects_.push_back(Release{record.job.id});
     return;
   }
+  leave_graph(record);
   Job& job = record.job;
   job.state = job.started_at      ? JobState::holding
               : job.backlogged_at ? JobState::backlogged
@@ -266,6 +277,8 @@ void Scheduler::on(const Stop& input) {
     if (!stopped_[arm.index()]) stopped_[arm.index()] = input.cause;
     if (!order_[arm.index()].empty()) {
       Record& record = records_.at(order_[arm.index()].front());
+      const bool undispatched = record.job.state == JobState::scheduled && !record.dispatched;
+      if (graph_ && undispatched) continue;  // keeps its place between the others
       if (holds_reservation(record) && !record.job.stopping) {
         brake(record, AfterStop::hold);
         freed_at_ = version_;
@@ -297,6 +310,8 @@ void Scheduler::on(const Wake&) {}
 
 void Scheduler::end(Record& record, JobState state, Reason reason, std::string detail) {
   Job& job = record.job;
+  if (state != JobState::succeeded) leave_graph(record);
+  if (graph_ && state == JobState::succeeded) graph_->finish(job.id);
   job.state = state;
   job.stopping = false;
   job.ended_at = now_;
@@ -337,7 +352,7 @@ void Scheduler::expire_and_overrun() {
       record.fail_reason = Reason::overrun;
       record.fail_detail = "still moving after duration_scaling and duration_margin";
       brake(record, AfterStop::fail);
-    } else if (has_not_begun(record) && loses_time(record)) {
+    } else if (!graph_ && has_not_begun(record) && loses_time(record)) {
       job.progress_seen_at = now_;  // nothing is heard of an arm that does not move
       falls_behind(record);
     }
@@ -347,6 +362,7 @@ void Scheduler::expire_and_overrun() {
 // Starts whose time has come. Where something has changed that they have not been judged again for,
 // they wait for that.
 void Scheduler::dispatch_due() {
+  if (graph_) return dispatch_ready();
   const bool braking =
       std::ranges::any_of(active_, [this](JobId id) { return records_.at(id).job.stopping; });
   const std::vector<JobId> ids(active_.begin(), active_.end());
@@ -371,10 +387,11 @@ void Scheduler::ask_for_wake() {
       consider(*record.job.backlogged_at + record.job.backlog_timeout);
     }
     if (record.overrun_at && !record.job.stopping) consider(*record.overrun_at);
-    if (record.job.state == JobState::scheduled && !record.dispatched) {
+    if (!graph_ && record.job.state == JobState::scheduled && !record.dispatched) {
       consider(*record.job.scheduled_at - kDispatchAhead);
     }
-    if (has_not_begun(record)) consider(record.plan_at + cell_->checking.delay + Duration(1));
+    if (!graph_ && has_not_begun(record))
+      consider(record.plan_at + cell_->checking.delay + Duration(1));
   }
   if (next && next != wake_at_) effects_.push_back(WakeAt{*next});
   wake_at_ = next;

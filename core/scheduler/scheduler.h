@@ -14,6 +14,7 @@
 #include "core/scheduler/inputs.h"
 #include "core/scheduler/job.h"
 #include "core/scheduler/policy.h"
+#include "core/scheduler/precedence_graph.h"
 
 namespace armloom {
 
@@ -93,6 +94,7 @@ class Scheduler {
     Version forward_tried = 0;  // scheduled: the version on which an earlier start was sought
     Duration plan_progress{};   // progress at plan_at: from there it should advance with the clock
     TimePoint plan_at{};
+    Duration horizon{};  // coordinated: how far ahead of its progress its authority may reach
   };
   enum class Purpose {
     start,    // of a job that waits
@@ -131,6 +133,7 @@ class Scheduler {
   void expire_and_overrun();
   void dispatch_due();
   void ask_for_wake();
+  void leave_graph(const Record& record);
   void changed(const Record& record) { changed_.insert(record.job.id); }
 
   // admission.cc: who may be judged, what is asked, what the answer means
@@ -161,6 +164,21 @@ class Scheduler {
   [[nodiscard]] static bool waiting(const Record& record);
   void set_waits(Record& record, std::vector<Wait> waits);
 
+  // coordinating.cc: policies that coordinate
+  [[nodiscard]] Motion motion_now(const Record& record) const;
+  void add_coordinated(Question& question, const std::vector<JobId>& candidates) const;
+  void answer_coordinated(const Verdict& verdict, const OpenQuestion& question);
+  [[nodiscard]] CoordinatedMotion coordinated(const Record& record) const;
+  void admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders);
+  [[nodiscard]] std::vector<JobId> with_next_jobs(const std::vector<JobId>& group,
+                                                  const std::vector<ArmId>& in_the_way) const;
+  void dispatch_ready();
+  void dispatch_if_ready(Record& record);
+  void expect_end(Record& record);
+  void extend_authority(JobId moved);
+  void extend_own_authority(Record& record);
+  void see_pauses(Record& record, Duration progress_before);
+
   CellPtr cell_;
   std::unique_ptr<const Policy> policy_;
   Configuration rest_;
@@ -176,6 +194,7 @@ class Scheduler {
   std::set<JobId> round_;            // policies with rounds: the jobs of the present one
   bool round_begun_ = false;
   std::optional<OpenQuestion> open_;
+  std::optional<PrecedenceGraph> graph_;  // policies that coordinate
   std::optional<TimePoint> wake_at_;
 
   TimePoint now_{};              // of the present step

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/collision/stopping_reach.h"
+#include "core/trajectory/stopping_reach.h"
 #include "test/soundness/soundness.h"
 
 namespace armloom::soundness {

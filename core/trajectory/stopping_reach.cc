@@ -1,4 +1,4 @@
-#include "core/collision/stopping_reach.h"
+#include "core/trajectory/stopping_reach.h"
 
 #include <algorithm>
 #include <vector>

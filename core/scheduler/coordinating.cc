@@ -1,0 +1,258 @@
+// Policies that coordinate: passing orders instead of times, held by authority over progress.
+#include <algorithm>
+#include <utility>
+
+#include "core/scheduler/scheduler.h"
+#include "core/trajectory/stopping_reach.h"
+
+namespace armloom {
+namespace {
+
+// What an arm may be granted beyond its stopping distance: so long it goes on at full speed without
+// a word from here, and so far others cannot be let pass before it.
+constexpr Duration kHorizon = std::chrono::milliseconds(250);
+// Authority is extended by no less than this, but for the last bit.
+constexpr Duration kGrantStep = std::chrono::milliseconds(80);
+// Nearer than this to its limit, a motion has come to it.
+constexpr Duration kAtLimit = std::chrono::milliseconds(2);
+
+Wait wait_for(const HeldBack& held) {
+  return Wait{.kind = held.by ? Wait::Kind::job : Wait::Kind::arm,
+              .job = held.by,
+              .arm = held.arm ? held.arm : held.proximity.arm_b,
+              .proximity = held.proximity,
+              .own_time = held.own_time,
+              .other_time = held.other_time};
+}
+
+Wait wait_for(const Obstacle& obstacle) {
+  return wait_for(HeldBack{obstacle.other, obstacle.arm, obstacle.proximity, obstacle.own_time,
+                           obstacle.other_time});
+}
+
+}  // namespace
+
+Motion Scheduler::motion_now(const Record& record) const {
+  const auto& arms = record.job.trajectory->arms();
+  const bool to_come = std::ranges::any_of(
+      arms, [&](ArmId arm) { return order_[arm.index()].front() != record.job.id; });
+  return Motion{.job = record.job.id,
+                .trajectory = record.job.trajectory,
+                .progress = record.job.progress,
+                .to_come = to_come};
+}
+
+CoordinatedMotion Scheduler::coordinated(const Record& record) const {
+  return {.job = record.job.id,
+          .arms = record.job.trajectory->arms(),
+          .duration = record.job.trajectory->duration(),
+          .progress = record.job.progress,
+          .authority = record.job.progress,
+          .priority = record.job.priority};
+}
+
+void Scheduler::add_coordinated(Question& question, const std::vector<JobId>& candidates) const {
+  for (const CoordinatedMotion& motion : graph_->motions()) {
+    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;
+    question.others.push_back(motion_now(records_.at(motion.job)));
+  }
+}
+
+// ---- The answer ----
+
+void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& question) {
+  Record& first = records_.at(question.jobs.front());
+  const bool recheck = question.purpose == Purpose::recheck;
+  if (verdict.kind != Verdict::Kind::free) {
+    if (question.jobs.size() == 1) {
+      refuse(first, verdict, recheck);
+    } else {
+      first.judged_at = version_;  // one that was to help it cannot go; what it waits for is told
+    }
+    return;
+  }
+  if (recheck) {
+    first.checked_at = version_;
+    return;
+  }
+  if (graph_->holds(first.job.id)) {  // was stopped on its way; its orders stand
+    first.job.state = JobState::scheduled;
+    first.job.scheduled_at = now_;
+    first.dispatched = false;
+    first.checked_at = ++version_;
+    changed(first);
+    return;
+  }
+  std::vector<CoordinatedMotion> candidates;
+  std::vector<Duration> work_behind(cell_->arms.size());
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    const bool candidate = std::ranges::find(question.jobs, id) != question.jobs.end();
+    if (candidate || graph_->holds(id)) continue;
+    for (ArmId arm : record.job.trajectory->arms()) {
+      work_behind[arm.index()] += record.job.trajectory->duration();
+    }
+  }
+  for (JobId id : question.jobs) candidates.push_back(coordinated(records_.at(id)));
+  graph_->set_work_behind(std::move(work_behind));
+  const PassingOrders orders = graph_->try_to_admit(candidates, verdict.regions);
+  if (orders.obstacles.empty()) {
+    graph_->admit(candidates, orders);
+    admit_coordinated(question.jobs, orders);
+    return;
+  }
+  std::vector<Wait> waits;
+  for (const Obstacle& obstacle : orders.obstacles) {
+    if (obstacle.candidate == first.job.id) waits.push_back(wait_for(obstacle));
+  }
+  if (question.jobs.size() == 1 || !waits.empty()) set_waits(first, std::move(waits));
+  const std::vector<JobId> group = with_next_jobs(question.jobs, orders.in_the_way);
+  if (group.size() > question.jobs.size()) {
+    ask(group, Purpose::start);
+    return;
+  }
+  first.judged_at = version_;
+  if (first.job.state == JobState::queued) {
+    first.job.state = JobState::backlogged;
+    if (!first.job.backlogged_at) first.job.backlogged_at = now_;
+    changed(first);
+  }
+}
+
+void Scheduler::admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders) {
+  ++version_;
+  const std::size_t before = graph_->motions().size() - jobs.size();
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    Record& record = records_.at(jobs[i]);
+    Job& job = record.job;
+    job.state = JobState::scheduled;
+    job.scheduled_at = now_ + orders.prediction.begins[before + i];
+    job.waits_on.clear();
+    record.after_stop = AfterStop::hold;
+    record.judged_at = 0;
+    record.checked_at = version_;
+    record.from_progress = job.progress;
+    record.dispatched = false;
+    record.horizon = from_seconds(stopping_reach_s(*cell_, *job.trajectory)) +
+                     cell_->monitor.reaction + kHorizon;
+    changed(record);
+  }
+}
+
+// Of each arm in the way the first job that is not in the group, if that could go too.
+std::vector<JobId> Scheduler::with_next_jobs(const std::vector<JobId>& group,
+                                             const std::vector<ArmId>& in_the_way) const {
+  std::vector<JobId> larger = group;
+  const auto goes = [&](JobId id) {
+    return graph_->holds(id) || std::ranges::find(larger, id) != larger.end();
+  };
+  for (ArmId arm : in_the_way) {
+    const auto& queue = order_[arm.index()];
+    const auto next = std::ranges::find_if_not(queue, goes);
+    if (next == queue.end() || larger.size() >= 2 * order_.size()) continue;
+    const Record& record = records_.at(*next);
+    if (!waiting(record) || !record.job.after.empty() || stop_of(record)) continue;
+    const bool is_next = std::ranges::all_of(record.job.trajectory->arms(), [&](ArmId own) {
+      return *std::ranges::find_if_not(order_[own.index()], goes) == *next;
+    });
+    if (is_next) larger.push_back(*next);
+  }
+  return larger;
+}
+
+// ---- Authority ----
+
+// What is admitted starts when precedence lets it leave its place.
+void Scheduler::dispatch_ready() {
+  const std::vector<JobId> ids(active_.begin(), active_.end());
+  for (JobId id : ids) {
+    Record& record = records_.at(id);
+    if (record.job.state == JobState::scheduled && !record.dispatched) dispatch_if_ready(record);
+  }
+}
+
+void Scheduler::dispatch_if_ready(Record& record) {
+  Job& job = record.job;
+  if (!at_head(record)) return;
+  if (!job.started_at && start_mismatch(*job.trajectory)) return withdraw(record, AfterStop::hold);
+  if (stop_of(record) || record.checked_at < disturbed_at_) return;
+  const Duration limit = graph_->limit(job.id);
+  if (limit <= job.progress && job.progress < job.trajectory->duration()) {
+    if (const auto held = graph_->held_back(job.id)) set_waits(record, {wait_for(*held)});
+    return;
+  }
+  const Duration authority = std::min(limit, job.progress + record.horizon);
+  graph_->granted(job.id, authority);
+  record.dispatched = true;
+  record.plan_at = now_;
+  record.plan_progress = record.from_progress = job.progress;
+  job.scheduled_at = now_;
+  expect_end(record);
+  set_waits(record, {});
+  effects_.push_back(Dispatch{job.id, now_, job.progress, authority});
+}
+
+// A motion has moved: it may have made way for others, and may go on itself.
+void Scheduler::extend_authority(JobId moved) {
+  extend_own_authority(records_.at(moved));
+  std::vector<JobId> behind;
+  for (const Precedence& precedence : graph_->precedences()) {
+    if (precedence.first() == moved) behind.push_back(precedence.second());
+  }
+  for (JobId id : behind) {
+    Record& record = records_.at(id);
+    if (record.job.state == JobState::scheduled && !record.dispatched) {
+      dispatch_if_ready(record);
+    } else {
+      extend_own_authority(record);
+    }
+  }
+}
+
+void Scheduler::extend_own_authority(Record& record) {
+  const bool in_motion =
+      record.dispatched && !record.job.stopping &&
+      (record.job.state == JobState::scheduled || record.job.state == JobState::running);
+  if (!in_motion) return;
+  const JobId job = record.job.id;
+  const Duration limit = graph_->limit(job);
+  const Duration authority = std::min(limit, record.job.progress + record.horizon);
+  const Duration granted = graph_->find(job)->authority;
+  if (authority <= granted || (authority < granted + kGrantStep && authority < limit)) return;
+  graph_->granted(job, authority);
+  effects_.push_back(Grant{job, authority});
+}
+
+// At rest at its limit a running motion pauses; what it loses there is no overrun.
+void Scheduler::see_pauses(Record& record, Duration progress_before) {
+  Job& job = record.job;
+  if (job.state != JobState::running || job.stopping) return;
+  const Duration limit = graph_->limit(job.id);
+  if (limit < job.trajectory->duration() && job.progress + record.horizon >= limit) {
+    expect_end(record);
+  }
+  const bool at_limit = limit < job.trajectory->duration() && job.progress + kAtLimit >= limit;
+  if (job.progress > progress_before) {
+    if (!job.pausing) return;
+    job.pausing = false;
+    set_waits(record, {});
+    changed(record);
+  } else if (at_limit && !job.pausing) {
+    job.pausing = true;
+    if (const auto held = graph_->held_back(job.id)) set_waits(record, {wait_for(*held)});
+    changed(record);
+  }
+}
+
+void Scheduler::expect_end(Record& record) {
+  const double remaining_s = to_seconds(record.job.trajectory->duration() - record.job.progress);
+  record.overrun_at = now_ + from_seconds(remaining_s * cell_->execution.duration_scaling) +
+                      cell_->execution.duration_margin;
+}
+
+// Its motion is admitted no more: it rests where it is.
+void Scheduler::leave_graph(const Record& record) {
+  if (graph_) graph_->abandon(record.job.id, record.job.progress);
+}
+
+}  // namespace armloom

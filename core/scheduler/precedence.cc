@@ -1,0 +1,46 @@
+#include "core/scheduler/precedence.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace armloom {
+namespace {
+
+ConflictRegion turned(ConflictRegion region) {
+  for (ProgressBox& box : region.boxes) {
+    std::swap(box.from_a, box.from_b);
+    std::swap(box.to_a, box.to_b);
+  }
+  std::swap(region.proximity.body_a, region.proximity.body_b);
+  std::swap(region.proximity.arm_a, region.proximity.arm_b);
+  std::swap(region.proximity.held_a, region.proximity.held_b);
+  std::swap(region.time_a, region.time_b);
+  return region;
+}
+
+}  // namespace
+
+Precedence::Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first)
+    : first_(a_first ? a : b),
+      second_(a_first ? b : a),
+      region_(a_first ? region : turned(region)) {
+  std::vector<ProgressBox> boxes = region_.boxes;
+  std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);
+  // From the last box back: what still lies ahead of `first` holds `second` at its nearest edge.
+  for (const ProgressBox& box : boxes) {
+    if (!steps_.empty() && box.from_b >= steps_.back().limit) continue;
+    if (!steps_.empty() && box.to_a == steps_.back().until) {
+      steps_.back().limit = box.from_b;
+    } else {
+      steps_.push_back({box.to_a, box.from_b});
+    }
+  }
+  std::ranges::reverse(steps_);
+}
+
+std::optional<Duration> Precedence::limit(Duration progress_of_first) const {
+  const auto step = std::ranges::upper_bound(steps_, progress_of_first, {}, &Step::until);
+  return step == steps_.end() ? std::nullopt : std::optional(step->limit);
+}
+
+}  // namespace armloom

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/time.h"
+#include "core/coordination/conflict_region.h"
+
+namespace armloom {
+
+// The passing order in one conflict region of two motions: `first` leaves every box before `second`
+// comes to it. Compared by progress (trajectory time), never by clocks, so that it holds however
+// late either of them is (an action dependency between two plans: Hoenig et al. 2019).
+class Precedence {
+ public:
+  // `region` is of motions A and B in this order.
+  Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first);
+
+  [[nodiscard]] JobId first() const { return first_; }
+  [[nodiscard]] JobId second() const { return second_; }
+  // With times of `first` as A's; body_a of the evidence is first's.
+  [[nodiscard]] const ConflictRegion& region() const { return region_; }
+
+  // While the progress of `first` is less than `until`, the authority of `second` is no more than
+  // `limit`. Both grow from step to step; beyond the last there is no limit.
+  struct Step {
+    Duration until;
+    Duration limit;
+  };
+  [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
+  // The authority of `second`; nothing: not limited any more.
+  [[nodiscard]] std::optional<Duration> limit(Duration progress_of_first) const;
+
+ private:
+  JobId first_;
+  JobId second_;
+  ConflictRegion region_;
+  std::vector<Step> steps_;
+};
+
+}  // namespace armloom

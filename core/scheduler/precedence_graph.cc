@@ -1,0 +1,169 @@
+#include "core/scheduler/precedence_graph.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace armloom {
+namespace {
+
+bool share_an_arm(const CoordinatedMotion& a, const CoordinatedMotion& b) {
+  return std::ranges::any_of(
+      a.arms, [&](ArmId arm) { return std::ranges::find(b.arms, arm) != b.arms.end(); });
+}
+
+// Whether an arm that rests at `at` of its motion is in the interval; its closed edges are free,
+// but for the motion's own ends.
+bool rests_in(Duration at, Duration from, Duration to, Duration duration) {
+  const bool after = from < at || from <= Duration{};
+  const bool before = at < to || to >= duration;
+  return after && before && from <= at && at <= to;
+}
+
+}  // namespace
+
+const CoordinatedMotion* PrecedenceGraph::find(JobId job) const {
+  const auto found = std::ranges::find(motions_, job, &CoordinatedMotion::job);
+  return found == motions_.end() ? nullptr : &*found;
+}
+
+CoordinatedMotion* PrecedenceGraph::motion(JobId job) {
+  return const_cast<CoordinatedMotion*>(std::as_const(*this).find(job));
+}
+
+PassingOrders PrecedenceGraph::try_to_admit(const std::vector<CoordinatedMotion>& candidates,
+                                            const std::vector<PairRegions>& regions) const {
+  return find_passing_orders(motions_, precedences_, candidates, regions, work_behind_);
+}
+
+void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
+                            const PassingOrders& orders) {
+  for (const CoordinatedMotion& candidate : candidates) {
+    // Its regions say from now on what its arms are in the way of.
+    std::erase_if(blockades_, [&](const Blockade& blockade) {
+      return std::ranges::find(candidate.arms, blockade.arm) != candidate.arms.end();
+    });
+    motions_.push_back(candidate);
+  }
+  precedences_.insert(precedences_.end(), orders.precedences.begin(), orders.precedences.end());
+}
+
+void PrecedenceGraph::progress(JobId job, Duration progress) {
+  CoordinatedMotion* found = motion(job);
+  if (found == nullptr) return;
+  found->progress = std::max(found->progress, progress);
+  found->authority = std::max(found->authority, found->progress);
+}
+
+bool PrecedenceGraph::waits_for_own_arm(std::size_t index) const {
+  for (std::size_t i = 0; i < index; ++i) {
+    if (share_an_arm(motions_[i], motions_[index])) return true;
+  }
+  return false;
+}
+
+Duration PrecedenceGraph::limit(JobId job) const {
+  const CoordinatedMotion* found = find(job);
+  if (found == nullptr) return Duration{};
+  if (waits_for_own_arm(static_cast<std::size_t>(found - motions_.data()))) return Duration{};
+  Duration limit = found->duration;
+  for (const Precedence& precedence : precedences_) {
+    if (precedence.second() != job) continue;
+    const auto held = precedence.limit(find(precedence.first())->progress);
+    if (held) limit = std::min(limit, *held);
+  }
+  for (const Blockade& blockade : blockades_) {
+    if (blockade.job == job && found->progress < blockade.until) {
+      limit = std::min(limit, blockade.limit);
+    }
+  }
+  return limit;
+}
+
+std::optional<HeldBack> PrecedenceGraph::held_back(JobId job) const {
+  const CoordinatedMotion* found = find(job);
+  if (found == nullptr) return std::nullopt;
+  const Duration at = limit(job);
+  if (at >= found->duration) return std::nullopt;
+  for (const Blockade& blockade : blockades_) {
+    if (blockade.job == job && blockade.limit == at && found->progress < blockade.until) {
+      return blockade.evidence;
+    }
+  }
+  for (const Precedence& precedence : precedences_) {
+    if (precedence.second() != job) continue;
+    if (precedence.limit(find(precedence.first())->progress) != at) continue;
+    const ConflictRegion& region = precedence.region();
+    HeldBack held{precedence.first(), std::nullopt, region.proximity, region.time_b, region.time_a};
+    std::swap(held.proximity.body_a, held.proximity.body_b);
+    std::swap(held.proximity.arm_a, held.proximity.arm_b);
+    std::swap(held.proximity.held_a, held.proximity.held_b);
+    return held;
+  }
+  return std::nullopt;
+}
+
+void PrecedenceGraph::granted(JobId job, Duration authority) {
+  if (CoordinatedMotion* found = motion(job)) {
+    found->authority = std::max(found->authority, authority);
+  }
+}
+
+void PrecedenceGraph::keep_place(JobId job) {
+  if (CoordinatedMotion* found = motion(job)) found->keeps_its_place = true;
+}
+
+void PrecedenceGraph::finish(JobId job) { erase(job); }
+
+void PrecedenceGraph::abandon(JobId job, Duration rests_at) {
+  const CoordinatedMotion* found = find(job);
+  if (found == nullptr) return;
+  block_others(*found, rests_at);
+  // Who was to pass after it has left the goal of the one before it would wait in vain.
+  for (const CoordinatedMotion& before : motions_) {
+    if (&before == found) break;
+    if (share_an_arm(before, *found)) block_others(before, before.duration);
+  }
+  erase(job);
+}
+
+void PrecedenceGraph::block_others(const CoordinatedMotion& rests, Duration at) {
+  for (const Precedence& precedence : precedences_) {
+    const bool first = precedence.first() == rests.job;
+    if (!first && precedence.second() != rests.job) continue;
+    const JobId other = first ? precedence.second() : precedence.first();
+    const ConflictRegion& region = precedence.region();
+    const Duration passed = find(other)->progress;
+    std::optional<Blockade> blockade;
+    for (const ProgressBox& box : region.boxes) {
+      const Duration from = first ? box.from_a : box.from_b, to = first ? box.to_a : box.to_b;
+      const Duration own_from = first ? box.from_b : box.from_a;
+      const Duration own_to = first ? box.to_b : box.to_a;
+      if (own_to <= passed || !rests_in(at, from, to, rests.duration)) continue;
+      if (!blockade) {
+        HeldBack evidence{std::nullopt, rests.arms.front(), region.proximity,
+                          first ? region.time_b : region.time_a,
+                          first ? region.time_a : region.time_b};
+        if (first) {
+          std::swap(evidence.proximity.body_a, evidence.proximity.body_b);
+          std::swap(evidence.proximity.arm_a, evidence.proximity.arm_b);
+          std::swap(evidence.proximity.held_a, evidence.proximity.held_b);
+        }
+        if (evidence.proximity.arm_b) evidence.arm = evidence.proximity.arm_b;
+        blockade = Blockade{*evidence.arm, other, own_from, own_to, evidence};
+      }
+      blockade->limit = std::min(blockade->limit, own_from);
+      blockade->until = std::max(blockade->until, own_to);
+    }
+    if (blockade) blockades_.push_back(std::move(*blockade));
+  }
+}
+
+void PrecedenceGraph::erase(JobId job) {
+  std::erase_if(precedences_, [job](const Precedence& precedence) {
+    return precedence.first() == job || precedence.second() == job;
+  });
+  std::erase_if(blockades_, [job](const Blockade& blockade) { return blockade.job == job; });
+  std::erase_if(motions_, [job](const CoordinatedMotion& motion) { return motion.job == job; });
+}
+
+}  // namespace armloom

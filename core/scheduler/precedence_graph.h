@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/scheduler/passing_orders.h"
+
+namespace armloom {
+
+// What keeps an admitted motion from going on.
+struct HeldBack {
+  std::optional<JobId> by;   // the motion that passes first ...
+  std::optional<ArmId> arm;  // ... or the arm that came to rest in its way
+  Proximity proximity;       // evidence; body_a is the held motion's
+  Duration own_time;
+  Duration other_time;
+};
+
+// The admitted motions of a cell with the passing orders between them, and what follows from both:
+// how far each may go. The invariant: for any two of them, with their progress s and authority
+// alpha, the rectangle [s_A, alpha_A] x [s_B, alpha_B] is certified free; so any may be late, slow
+// or stop, in any combination. The graph is acyclic after every admission, so that all come to
+// their ends. Pure; copied for what-if questions.
+class PrecedenceGraph {
+ public:
+  explicit PrecedenceGraph(std::size_t arms) : work_behind_(arms) {}
+
+  [[nodiscard]] const std::vector<CoordinatedMotion>& motions() const { return motions_; }
+  [[nodiscard]] const std::vector<Precedence>& precedences() const { return precedences_; }
+  [[nodiscard]] const CoordinatedMotion* find(JobId job) const;
+  [[nodiscard]] bool holds(JobId job) const { return find(job) != nullptr; }
+
+  // By ArmId: the work that waits behind; only the choice between orders depends on it.
+  void set_work_behind(std::vector<Duration> work) { work_behind_ = std::move(work); }
+
+  // Whether and how the candidates could go beside what is admitted. Changes nothing.
+  [[nodiscard]] PassingOrders try_to_admit(const std::vector<CoordinatedMotion>& candidates,
+                                           const std::vector<PairRegions>& regions) const;
+  void admit(const std::vector<CoordinatedMotion>& candidates, const PassingOrders& orders);
+
+  // What measurement proves; never goes back.
+  void progress(JobId job, Duration progress);
+  // How far precedence lets the motion go now; its duration, if nothing holds it. Zero while
+  // another motion of one of its arms comes before it.
+  [[nodiscard]] Duration limit(JobId job) const;
+  // What holds it at its limit; nothing: it may go to its end, or waits for its own arm.
+  [[nodiscard]] std::optional<HeldBack> held_back(JobId job) const;
+  // Told to the arm. Precondition: no more than limit().
+  void granted(JobId job, Duration authority);
+  void keep_place(JobId job);
+
+  // The motion has ended: at its goal, or where it rests instead for good. In the latter case
+  // motions that would pass there stay where they may be until its arm moves again.
+  void finish(JobId job);
+  void abandon(JobId job, Duration rests_at);
+
+ private:
+  // An arm that rests in the way of an admitted motion.
+  struct Blockade {
+    ArmId arm;
+    JobId job;
+    Duration limit;
+    Duration until;  // beyond it the motion has passed
+    HeldBack evidence;
+  };
+  [[nodiscard]] CoordinatedMotion* motion(JobId job);
+  [[nodiscard]] bool waits_for_own_arm(std::size_t index) const;
+  void block_others(const CoordinatedMotion& rests, Duration at);
+  void erase(JobId job);
+
+  std::vector<CoordinatedMotion> motions_;  // in order per arm
+  std::vector<Precedence> precedences_;
+  std::vector<Blockade> blockades_;
+  std::vector<Duration> work_behind_;
+};
+
+}  // namespace armloom

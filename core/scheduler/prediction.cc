@@ -1,0 +1,143 @@
+#include "core/scheduler/prediction.h"
+
+#include <algorithm>
+
+namespace armloom {
+namespace {
+
+// A place that a motion may not pass before another one has got somewhere.
+struct Gate {
+  Duration limit;
+  std::size_t other;
+  Duration until;
+};
+
+// How a motion advances: at `progress` at `time`, from there second by second to the next entry.
+struct Stage {
+  Duration progress;
+  Duration time;
+};
+
+struct Runner {
+  std::vector<Gate> gates;  // by limit
+  std::size_t next_gate = 0;
+  std::vector<Stage> stages;
+  bool ended = false;
+  std::size_t waits_for = 0;
+
+  // When it comes to `progress`; nothing: not known yet.
+  [[nodiscard]] std::optional<Duration> comes_to(Duration progress, Duration duration) const {
+    if (stages.empty()) return std::nullopt;
+    if (progress <= stages.front().progress) return Duration{};
+    const bool known = ended || (next_gate < gates.size() && progress <= gates[next_gate].limit);
+    if (!known) return std::nullopt;
+    const auto after = std::ranges::lower_bound(stages, progress, {}, &Stage::progress);
+    const Stage& from = *(after - 1);
+    return from.time + std::min(progress, duration) - from.progress;
+  }
+};
+
+class Race {
+ public:
+  Race(const std::vector<MotionAhead>& motions, const std::vector<Dependency>& dependencies)
+      : motions_(motions), runners_(motions.size()) {
+    for (const Dependency& dependency : dependencies) {
+      for (const Precedence::Step& step : dependency.precedence->steps()) {
+        if (step.until <= motions_[dependency.first].progress) continue;  // passed
+        runners_[dependency.second].gates.push_back({step.limit, dependency.first, step.until});
+      }
+    }
+    for (Runner& runner : runners_) {
+      std::ranges::stable_sort(runner.gates, {}, &Gate::limit);
+    }
+  }
+
+  Prediction run() {
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (std::size_t m = 0; m < runners_.size(); ++m) moved = advance(m) || moved;
+    }
+    Prediction prediction;
+    for (const Runner& runner : runners_) {
+      const Duration last = runner.stages.empty() ? Duration{} : runner.stages.back().time;
+      prediction.begins.push_back(runner.stages.empty() ? Duration{} : begins(runner));
+      prediction.ends.push_back(last);
+    }
+    for (std::size_t m = 0; m < runners_.size(); ++m) {
+      if (!runners_[m].ended) prediction.stuck.push_back(m);
+    }
+    if (!prediction.stuck.empty()) prediction.ring = ring_from(prediction.stuck.front());
+    return prediction;
+  }
+
+ private:
+  static Duration begins(const Runner& runner) {
+    const Stage& first = runner.stages.front();
+    const bool waits = runner.stages.size() > 1 && runner.stages[1].progress == first.progress;
+    return first.progress > Duration{} ? Duration{} : waits ? runner.stages[1].time : first.time;
+  }
+
+  // As far as is known; whether that is any farther.
+  bool advance(std::size_t m) {
+    Runner& runner = runners_[m];
+    const MotionAhead& motion = motions_[m];
+    if (runner.ended) return false;
+    bool moved = false;
+    if (runner.stages.empty()) {
+      Duration start = motion.late;
+      for (const std::size_t before : motion.after) {
+        if (!runners_[before].ended) {
+          runner.waits_for = before;
+          return false;
+        }
+        start = std::max(start, runners_[before].stages.back().time);
+      }
+      runner.stages.push_back({motion.progress, start});
+      moved = true;
+    }
+    for (; runner.next_gate < runner.gates.size(); ++runner.next_gate) {
+      const Gate& gate = runner.gates[runner.next_gate];
+      const auto opens = runners_[gate.other].comes_to(gate.until, motions_[gate.other].duration);
+      if (!opens) {
+        runner.waits_for = gate.other;
+        return moved;
+      }
+      const Stage here = runner.stages.back();
+      const Duration limit = std::max(gate.limit, here.progress);
+      const Duration arrives = here.time + (limit - here.progress);
+      moved = true;
+      if (*opens <= arrives) continue;
+      const Duration loss = limit > Duration{} ? kPauseLoss : Duration{};
+      if (limit > here.progress) runner.stages.push_back({limit, arrives});
+      runner.stages.push_back({limit, *opens + loss});
+    }
+    const Stage here = runner.stages.back();
+    runner.stages.push_back({motion.duration, here.time + (motion.duration - here.progress)});
+    runner.ended = true;
+    return true;
+  }
+
+  // Every one that is stuck waits for one that is stuck.
+  [[nodiscard]] std::vector<std::size_t> ring_from(std::size_t start) const {
+    std::vector<std::size_t> way;
+    std::size_t at = start;
+    while (std::ranges::find(way, at) == way.end()) {
+      way.push_back(at);
+      at = runners_[at].waits_for;
+    }
+    way.erase(way.begin(), std::ranges::find(way, at));
+    return way;
+  }
+
+  const std::vector<MotionAhead>& motions_;
+  std::vector<Runner> runners_;
+};
+
+}  // namespace
+
+Prediction predict(const std::vector<MotionAhead>& motions,
+                   const std::vector<Dependency>& dependencies) {
+  return Race(motions, dependencies).run();
+}
+
+}  // namespace armloom

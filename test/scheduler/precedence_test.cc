@@ -1,0 +1,200 @@
+// Passing orders as plain data: who may go how far, and when everything comes to its end.
+#include <gtest/gtest.h>
+
+#include "core/scheduler/precedence_graph.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr JobId kA{1}, kB{2}, kC{3}, kNext{4};
+
+ConflictRegion region(std::vector<ProgressBox> boxes) {
+  return {std::move(boxes), Proximity{.body_a = "a", .body_b = "b", .clearance_m = 0.01}, 1s, 2s};
+}
+
+CoordinatedMotion motion(JobId job, std::uint32_t arm, Duration duration) {
+  return {.job = job, .arms = {ArmId{arm}}, .duration = duration};
+}
+
+// What the second one may do while the first one is at `progress`.
+TEST(Precedence, HoldsTheSecondAtTheNearestBoxThatTheFirstHasNotLeft) {
+  const Precedence order(kA, kB, region({{1s, 2s, 4s, 6s}, {2s, 3s, 3s, 5s}, {3s, 4s, 5s, 7s}}),
+                         true);
+  EXPECT_EQ(order.limit(0s), 3s);
+  EXPECT_EQ(order.limit(2900ms), 3s);
+  EXPECT_EQ(order.limit(3s), 5s);
+  EXPECT_EQ(order.limit(3999ms), 5s);
+  EXPECT_EQ(order.limit(4s), std::nullopt);
+}
+
+TEST(Precedence, TurnedRoundHasTheOtherOnesTimes) {
+  const Precedence order(kA, kB, region({{1s, 2s, 4s, 6s}}), false);
+  EXPECT_EQ(order.first(), kB);
+  EXPECT_EQ(order.limit(5s), 1s);
+  EXPECT_EQ(order.limit(6s), std::nullopt);
+  EXPECT_EQ(order.region().proximity.body_a, "b");
+  EXPECT_EQ(order.region().time_a, 2s);
+}
+
+TEST(Prediction, AWaitCostsTheTimeUntilTheFirstHasLeftAndAPause) {
+  const Precedence order(kA, kB, region({{1s, 3s, 2s, 4s}}), true);
+  const auto ends = predict({{0s, 5s, {}}, {0s, 5s, {}}}, {{0, 1, &order}}).ends;
+  EXPECT_EQ(ends[0], 5s);
+  EXPECT_EQ(ends[1], 5s + 1s + kPauseLoss);
+}
+
+TEST(Prediction, WhoComesLaterAnywayDoesNotWait) {
+  const Precedence order(kA, kB, region({{1s, 2s, 2s, 4s}}), true);
+  EXPECT_EQ(predict({{0s, 5s, {}}, {0s, 5s, {}}}, {{0, 1, &order}}).ends[1], 5s);
+}
+
+TEST(Prediction, NamesTheRingThatIsStuck) {
+  const Precedence ab(kA, kB, region({{2s, 3s, 1s, 4s}}), true);
+  const Precedence bc(kB, kC, region({{2s, 3s, 1s, 4s}}), true);
+  const Precedence ca(kC, kA, region({{2s, 3s, 1s, 4s}}), true);
+  const std::vector<MotionAhead> motions(3, {0s, 5s, {}});
+  EXPECT_TRUE(predict(motions, {{0, 1, &ab}, {1, 2, &bc}}).stuck.empty());
+  const Prediction stuck = predict(motions, {{0, 1, &ab}, {1, 2, &bc}, {2, 0, &ca}});
+  EXPECT_EQ(stuck.stuck, (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(stuck.ring.size(), 3U);
+}
+
+TEST(Prediction, AMotionBeginsWhenTheOneBeforeItHasEnded) {
+  EXPECT_EQ(predict({{1s, 5s, {}}, {0s, 2s, {0}}}, {}).ends[1], 6s);
+}
+
+struct Graph : ::testing::Test {
+  PrecedenceGraph graph{3};
+  PassingOrders admit(const std::vector<CoordinatedMotion>& candidates,
+                      const std::vector<PairRegions>& regions) {
+    PassingOrders orders = graph.try_to_admit(candidates, regions);
+    if (orders.obstacles.empty()) graph.admit(candidates, orders);
+    return orders;
+  }
+};
+
+TEST_F(Graph, ACandidatePassesFirstWhereThatCostsLess) {
+  admit({motion(kA, 0, 10s)}, {});
+  // B is through before A comes near: to wait for A would cost 7 s.
+  admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
+  EXPECT_EQ(graph.limit(kB), 3s);
+  EXPECT_EQ(graph.limit(kA), 6s);
+  graph.progress(kB, 2s);
+  EXPECT_EQ(graph.limit(kA), 10s);
+}
+
+TEST_F(Graph, NobodyIsPassedWhereItHasAuthority) {
+  admit({motion(kA, 0, 10s)}, {});
+  graph.granted(kA, 7s);
+  admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
+  EXPECT_EQ(graph.limit(kA), 10s);
+  EXPECT_EQ(graph.limit(kB), 1s);
+  EXPECT_EQ(graph.held_back(kB)->by, kA);
+  EXPECT_EQ(graph.held_back(kB)->proximity.body_a, "a");
+}
+
+TEST_F(Graph, AGoalInTheOthersWayIsPassedBeforeItIsReached) {
+  admit({motion(kA, 0, 5s)}, {});
+  const auto orders = admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}});
+  ASSERT_TRUE(orders.obstacles.empty());
+  EXPECT_EQ(graph.limit(kA), 4s);
+  EXPECT_EQ(graph.limit(kB), 5s);
+}
+
+TEST_F(Graph, AnArmAtRestInTheWayIsAnObstacle) {
+  const auto orders = admit({motion(kA, 0, 5s)}, {{kA, ArmId{2}, {region({{2s, 3s, 0s, 0s}})}}});
+  ASSERT_EQ(orders.obstacles.size(), 1U);
+  EXPECT_EQ(orders.obstacles[0].arm, ArmId{2});
+  EXPECT_EQ(orders.in_the_way, std::vector<ArmId>{ArmId{2}});
+}
+
+// A ends where B starts and B ends where A starts.
+const std::vector<PairRegions> kSwap{
+    {kA, kB, {region({{4s, 5s, 0s, 2s}}), region({{0s, 1s, 3s, 5s}})}}};
+
+TEST_F(Graph, ASwapSucceedsWhereThereIsRoomToPass) {
+  const auto orders = admit({motion(kA, 0, 5s), motion(kB, 1, 5s)}, kSwap);
+  ASSERT_TRUE(orders.obstacles.empty());
+  EXPECT_EQ(graph.limit(kA), 4s);
+  EXPECT_EQ(graph.limit(kB), 3s);
+}
+
+TEST_F(Graph, ASwapWithoutRoomIsARing) {
+  const auto orders = admit({motion(kA, 0, 5s), motion(kB, 1, 5s)},
+                            {{kA, kB, {region({{2s, 5s, 0s, 3s}}), region({{0s, 3s, 2s, 5s}})}}});
+  ASSERT_FALSE(orders.obstacles.empty());
+  EXPECT_EQ(orders.prediction.ring.size(), 2U);
+  EXPECT_EQ(orders.obstacles[0].candidate, kA);
+  EXPECT_EQ(orders.obstacles[0].other, kB);
+}
+
+// A's first motion comes to rest in B's way and its next one leaves.
+TEST_F(Graph, WhoLetsTheFirstMotionComeToRestLetsTheNextOneLeave) {
+  admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 5s);
+  EXPECT_FALSE(graph.try_to_admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}})
+                   .obstacles.empty());
+  const auto orders =
+      admit({motion(kB, 1, 5s), motion(kNext, 0, 4s)},
+            {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 1s}})}}});
+  ASSERT_TRUE(orders.obstacles.empty());
+  EXPECT_EQ(graph.limit(kB), 2s);
+  graph.progress(kA, 5s);
+  graph.finish(kA);
+  EXPECT_EQ(graph.limit(kB), 2s) << "the arm still rests there";
+  graph.progress(kNext, 1s);
+  EXPECT_EQ(graph.limit(kB), 5s);
+}
+
+TEST_F(Graph, AnAbandonedMotionBlocksWhatWouldPassItsRestAndNothingElse) {
+  admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 2s);
+  admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 1s, 4s}})}}});
+  admit({motion(kC, 2, 5s)}, {{kC, kA, {region({{2s, 3s, 3s, 4s}})}}});
+  graph.progress(kA, 2s);
+  graph.abandon(kA, 2s);
+  EXPECT_EQ(graph.limit(kB), 2s);
+  EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0});
+  EXPECT_EQ(graph.limit(kC), 5s);
+  admit({motion(kNext, 0, 1s)}, {{kNext, kB, {region({{0s, 500ms, 2s, 3s}})}}});
+  EXPECT_EQ(graph.limit(kB), 2s);
+  graph.progress(kNext, 500ms);
+  EXPECT_EQ(graph.limit(kB), 5s);
+}
+
+TEST_F(Graph, CancellingTheNextMotionKeepsTheGoalBeforeItBlocked) {
+  admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 5s);
+  admit({motion(kB, 1, 5s), motion(kNext, 0, 4s)},
+        {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 1s}})}}});
+  graph.abandon(kNext, 0s);
+  graph.progress(kA, 5s);
+  graph.finish(kA);
+  EXPECT_EQ(graph.limit(kB), 2s);
+  EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0});
+}
+
+TEST_F(Graph, LargerPriorityPassesFirstWhateverItCostsOthers) {
+  admit({motion(kA, 0, 3s)}, {});
+  CoordinatedMotion urgent = motion(kB, 1, 9s);
+  urgent.priority = 1;
+  admit({urgent}, {{kB, kA, {region({{5s, 8s, 1s, 2s}})}}});
+  EXPECT_EQ(graph.limit(kA), 3s) << "it is through long before";
+  CoordinatedMotion more = motion(kC, 2, 3s);
+  more.priority = 2;
+  admit({more}, {{kC, kB, {region({{1s, 2s, 500ms, 9s}})}}});
+  EXPECT_EQ(graph.limit(kB), 500ms);
+}
+
+TEST_F(Graph, WhoKeepsItsPlaceIsNotOvertaken) {
+  admit({motion(kA, 0, 10s)}, {});
+  graph.keep_place(kA);
+  admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
+  EXPECT_EQ(graph.limit(kA), 10s);
+  EXPECT_EQ(graph.limit(kB), 1s);
+}
+
+}  // namespace
+}  // namespace armloom
