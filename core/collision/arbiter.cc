@@ -9,6 +9,8 @@
 #include "core/collision/joined_cells.h"
 #include "core/collision/judge.h"
 #include "core/collision/motion_store.h"
+#include "core/collision/pair_regions.h"
+#include "core/collision/parting.h"
 
 namespace armloom {
 namespace {
@@ -25,6 +27,9 @@ struct Freedom {
 Freedom freedom_of(const CheckMethod& method, const Cell& cell) {
   if (const auto* swept = std::get_if<Swept>(&method)) {
     return {.swept = true, .tracking_error = swept->tracking_error};
+  }
+  if (const auto* coordinated = std::get_if<Coordinated>(&method)) {
+    return {.tracking_error = coordinated->tracking_error};
   }
   const auto& certified = std::get<Certified>(method);
   return {.lag_s = to_seconds(certified.lag),
@@ -69,6 +74,10 @@ class Arbiter::Impl {
     freedom_ = freedom_of(question.method, cell);
     verdict_ = {Verdict::Kind::free, question.version, {}, cell.clearance_m, 0, {}};
     store_.begin_question();
+    if (std::holds_alternative<Coordinated>(question.method)) {
+      coordinate(question);
+      return std::move(verdict_);
+    }
     gather(question);
     const auto candidates = std::partition_point(parts_.begin(), parts_.end(), [&](const Mover& p) {
       return p.motion != nullptr && is_candidate(question, p.motion);
@@ -114,8 +123,8 @@ class Arbiter::Impl {
     constexpr double kAll = Region::kUnbounded;
     const double duration_a = to_seconds(turned ? diagram.duration_b : diagram.duration_a);
     const double duration_b = to_seconds(turned ? diagram.duration_a : diagram.duration_b);
-    diagram.evaluations +=
-        pair.refine({0.0, 0.0, kAll, kAll, kAll, kAll, duration_a, duration_b}, resolution, budget);
+    diagram.evaluations += pair.refine({0.0, 0.0, kAll, kAll, kAll, kAll, duration_a, duration_b},
+                                       {resolution, resolution}, budget);
     for (const CoordinationDiagram::CellView& cell : pair.cells()) {
       using From = CoordinationDiagram::CellState;
       const auto state = cell.state == From::free       ? DiagramCell::State::free
@@ -135,6 +144,26 @@ class Arbiter::Impl {
            motion < question.candidates.data() + question.candidates.size();
   }
 
+  // Each candidate by itself, as its plan has it; only then the regions of the pairs.
+  void coordinate(const Question& question) {
+    for (const Motion& motion : question.candidates) {
+      parts_.clear();
+      for (const ArmId arm : motion.trajectory->arms())
+        parts_.push_back(part_of(question, motion, arm));
+      for (auto own = parts_.begin(); own != parts_.end(); ++own) {
+        ask_alone(*own);
+        for (auto other = own + 1; other != parts_.end(); ++other) ask_in_step(*own, *other);
+      }
+    }
+    if (verdict_.kind != Verdict::Kind::free) {
+      verdict_.clearance_bound_m.reset();
+      return;
+    }
+    PairRegionSearch search(store_, question);
+    verdict_.regions = search.find();
+    verdict_.evaluations += search.evaluations();
+  }
+
   // Arms of candidates, of others, and those at rest, in this order.
   void gather(const Question& question) {
     const Cell& cell = store_.scene()->cell();
@@ -146,9 +175,7 @@ class Arbiter::Impl {
           throw std::invalid_argument("Arbiter: two motions of arm " + cell.arm(arm).name);
         }
         moved[arm.index()] = true;
-        parts_.push_back(
-            {arm, &motion,
-             &store_.motion(motion.trajectory, arm, question.rest, freedom_.tracking_error)});
+        parts_.push_back(part_of(question, motion, arm));
       }
     };
     for (const Motion& motion : question.candidates) add(motion);
@@ -158,6 +185,11 @@ class Arbiter::Impl {
       parts_.push_back({ArmId{a}, nullptr,
                         &store_.motion(nullptr, ArmId{a}, question.rest, freedom_.tracking_error)});
     }
+  }
+
+  [[nodiscard]] Mover part_of(const Question& question, const Motion& motion, ArmId arm) {
+    return {arm, &motion,
+            &store_.motion(motion.trajectory, arm, question.rest, freedom_.tracking_error)};
   }
 
   [[nodiscard]] double lead_of(const Mover& part) const {
@@ -272,6 +304,21 @@ class Arbiter::Impl {
     ask(store_.pair(*a.entry, *b.entry), region_of(a, b), own, &other, turned);
   }
 
+  // Two arms of one synchronous motion.
+  void ask_in_step(const Mover& own, const Mover& other) {
+    if (store_.out_of_reach(own.arm, other.arm)) return;
+    const bool turned = other.arm < own.arm;
+    const Mover& a = turned ? other : own;
+    const Mover& b = turned ? own : other;
+    const double progress = std::max(progress_of(own), 0.0);
+    const double duration = to_seconds(own.entry->tube->duration());
+    const Region line{.progress_a = progress,
+                      .progress_b = progress,
+                      .duration_a = duration,
+                      .duration_b = duration};
+    ask(store_.pair(*a.entry, *b.entry), line, own, &other, turned);
+  }
+
   void ask(const MotionStore::Diagram& diagram, const Region& region, const Mover& own,
            const Mover* other, bool turned) {
     if (diagram.pairs->empty()) return;
@@ -284,28 +331,13 @@ class Arbiter::Impl {
     const auto close =
         diagram.cells->too_close_at(time(region.progress_a), time(region.progress_b));
     if (!close.empty()) {
-      const PairSet parting = held_to_less(*diagram.pairs, close);
+      const PairSet parting = held_to_less(*diagram.pairs, close, kPartingShare);
       CoordinationDiagram alone = store_.with_pairs(diagram, parting);
       answer = alone.ask(region, budget);
       verdict_.evaluations += answer.evaluations;
       if (answer.free) return;
     }
     report(answer, *diagram.bodies, own, other, turned);
-  }
-
-  static PairSet held_to_less(PairSet pairs, const std::vector<CoordinationDiagram::Close>& close) {
-    const auto lower = [&](auto& entries, std::vector<NarrowPair>& narrow) {
-      for (std::size_t i = 0; i < entries.size(); ++i) {
-        const auto found =
-            std::ranges::find(close, narrow[i].pair, &CoordinationDiagram::Close::pair);
-        if (found == close.end()) continue;
-        narrow[i].limit_m = std::max(kPartingShare * found->distance_m, 1e-9);
-        entries[i].limit_up = round_up(narrow[i].limit_m);
-      }
-    };
-    lower(pairs.pairs, pairs.narrow);
-    lower(pairs.boxes, pairs.narrow_boxes);
-    return pairs;
   }
 
   void report(const CoordinationDiagram::Answer& answer, const PlanningScene::Bodies& bodies,
@@ -325,11 +357,7 @@ class Arbiter::Impl {
                       proximity_of(a, b, found.distance_m),
                       turned ? found.time_b : found.time_a,
                       turned ? found.time_a : found.time_b};
-    if (turned) {
-      std::swap(conflict.proximity.body_a, conflict.proximity.body_b);
-      std::swap(conflict.proximity.arm_a, conflict.proximity.arm_b);
-      std::swap(conflict.proximity.held_a, conflict.proximity.held_b);
-    }
+    if (turned) conflict.proximity = turned_around(std::move(conflict.proximity));
     if (other == nullptr) {
       const bool itself = a.arm == b.arm || (b.link && a.robot == b.robot);
       if (itself) conflict.with = Conflict::With::self;

@@ -26,6 +26,11 @@ namespace armloom {
 // cells that could not be decided. `clearance_bound_m` of a free verdict: what is proven to be kept
 // between different arms and the scene.
 //
+// Coordinated: candidates against themselves and what stands still, from their progress on, as
+// above; the arms of one synchronous motion against each other in step. Where that is free the
+// verdict is, and names the regions of the pairs (pair_regions.h) with the same margins.
+// find_earliest is not heeded.
+//
 // find_earliest: motions of candidates that have not begun are shifted to later starts until
 // nothing is in their way any more; each conflict that is found says how far at least (see
 // next_free_shift). The start is within kShift_s of one that is not free; a gap shorter than

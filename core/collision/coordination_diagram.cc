@@ -197,7 +197,21 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const Region& region, std::
   return answer;
 }
 
-std::uint64_t CoordinationDiagram::refine(const Region& region, Duration resolution,
+// Where the side that moves more is fine already, the other one is halved.
+void CoordinationDiagram::split_if_coarse(int index, const Resolution& resolution) {
+  Cell& cell = at(index);
+  if (cell.state != CellState::mixed) return;
+  const Duration width = proven(cell) != nullptr ? resolution.conflict : resolution.border;
+  const bool coarse_a = a_->width(cell.a) > width;
+  const bool coarse_b = b_ && b_->width(cell.b) > width;
+  if (!coarse_a && !coarse_b) return;
+  const bool as_chosen = (cell.split_a && coarse_a) || (cell.split_b && coarse_b);
+  cell.split_a = coarse_a && (cell.split_a || !as_chosen);
+  cell.split_b = coarse_b && (cell.split_b || !as_chosen);
+  split(index, 1);
+}
+
+std::uint64_t CoordinationDiagram::refine(const Region& region, const Resolution& resolution,
                                           std::uint64_t budget) {
   std::vector<Open> open{{0, {0.0, 0.0}}};
   std::vector<Open> unknown;
@@ -208,10 +222,8 @@ std::uint64_t CoordinationDiagram::refine(const Region& region, Duration resolut
       const int index = open[i].cell;
       if (!meets(region, at(index))) continue;
       split_if_wide(index);
-      const Cell cell = at(index);
-      if (cell.state == CellState::unknown) unknown.push_back(open[i]);
-      const bool coarse = a_->width(cell.a) > resolution || (b_ && b_->width(cell.b) > resolution);
-      if (cell.state == CellState::mixed && coarse) split(index, 1);
+      if (at(index).state == CellState::unknown) unknown.push_back(open[i]);
+      split_if_coarse(index, resolution);
       const Cell now = at(index);
       if (now.state != CellState::inner) continue;
       for (int c = 0; c < now.child_count(); ++c) open.push_back({now.children + c, {0.0, 0.0}});
@@ -227,13 +239,38 @@ std::uint64_t CoordinationDiagram::refine(const Region& region, Duration resolut
   return looked_at;
 }
 
+std::vector<CoordinationDiagram::Blocked> CoordinationDiagram::blocked(const Region& region) const {
+  std::vector<Blocked> blocked;
+  for (const Cell& cell : cells_) {
+    if (cell.state == CellState::inner || cell.state == CellState::free) continue;
+    if (!meets(region, cell)) continue;
+    Blocked& leaf = blocked.emplace_back();
+    leaf.from_a = a_->from(cell.a);
+    leaf.to_a = a_->to(cell.a);
+    leaf.from_b = b_ ? b_->from(cell.b) : Duration{};
+    leaf.to_b = b_ ? b_->to(cell.b) : Duration{};
+    if (cell.finding < 0) continue;
+    const Found& found = found_[static_cast<std::size_t>(cell.finding)];
+    const Duration time_b = b_ ? b_->middle(cell.b) : Duration{};
+    leaf.found = {found.pair, found.distance_m, a_->middle(cell.a), time_b, 0.0};
+    leaf.proven = proven(cell) != nullptr;
+  }
+  return blocked;
+}
+
+// The conflict at the cell's middle.
+const CoordinationDiagram::Found* CoordinationDiagram::proven(const Cell& cell) const {
+  if (cell.finding < 0) return nullptr;
+  const Found& found = found_[static_cast<std::size_t>(cell.finding)];
+  return found.distance_m < narrow(found.narrow, found.box).limit_m ? &found : nullptr;
+}
+
 // A cell with a conflict at its middle: is that, or what the plan passes in the cell, one of the
 // question's region?
 void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
   const Cell cell = at(open.cell);
-  if (cell.finding < 0) return;
-  const Found found = found_[static_cast<std::size_t>(cell.finding)];
-  if (found.distance_m >= narrow(found.narrow, found.box).limit_m) return;
+  if (proven(cell) == nullptr) return;
+  const Found found = *proven(cell);
   const Duration time_a = a_->middle(cell.a);
   const Duration time_b = b_ ? b_->middle(cell.b) : Duration{};
   std::optional<Finding> finding;

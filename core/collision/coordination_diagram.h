@@ -60,9 +60,22 @@ class CoordinationDiagram {
   // Looks at no more than `budget` cells and states.
   [[nodiscard]] Answer ask(const Region& region, std::uint64_t budget);
 
-  // Refines all that the region holds until each cell is free, in conflict, or no wider than
-  // `resolution`, at the cost of about `budget` cells at most; returns how many.
-  std::uint64_t refine(const Region& region, Duration resolution, std::uint64_t budget);
+  // How wide a cell may stay that is neither free nor in conflict all over.
+  struct Resolution {
+    Duration border;    // none of its states is proven to be in conflict
+    Duration conflict;  // its middle is
+  };
+  // Refines all that the region holds until each cell is free, in conflict, or as fine as that, the
+  // coarse ones first, at the cost of about `budget` cells at most; returns how many.
+  std::uint64_t refine(const Region& region, const Resolution& resolution, std::uint64_t budget);
+
+  // The leaves that the region meets and that are not known to be free, in a fixed order.
+  struct Blocked {
+    Duration from_a, to_a, from_b, to_b;
+    std::optional<Finding> found;  // at the middle, exactly; at_s is not set
+    bool proven = false;           // that is closer than its limit
+  };
+  [[nodiscard]] std::vector<Blocked> blocked(const Region& region) const;
 
   // Every pair that is closer than its limit where A and B are at these times, exactly.
   struct Close {
@@ -122,6 +135,8 @@ class CoordinationDiagram {
   void split(int cell, int levels);
   [[nodiscard]] bool can_split(const Cell& cell) const;
   void split_if_wide(int cell);
+  void split_if_coarse(int cell, const Resolution& resolution);
+  [[nodiscard]] const Found* proven(const Cell& cell) const;
   void evaluate(const Open* open, std::size_t count);
   struct Gathered;
   [[nodiscard]] filter::Side gather(const MotionTube& tube, int Cell::*node, const Open* open,

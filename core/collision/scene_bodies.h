@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/ids.h"
@@ -46,6 +47,14 @@ struct Part {
 // The evidence of two parts that are `clearance_m` apart.
 [[nodiscard]] inline Proximity proximity_of(const Part& a, const Part& b, double clearance_m) {
   return {a.name, b.name, a.arm, b.arm, !b.carrier, clearance_m, a.held(), b.held()};
+}
+
+// The same evidence as the second body sees it.
+[[nodiscard]] inline Proximity turned_around(Proximity proximity) {
+  std::swap(proximity.body_a, proximity.body_b);
+  std::swap(proximity.arm_a, proximity.arm_b);
+  std::swap(proximity.held_a, proximity.held_b);
+  return proximity;
 }
 
 // Two parts that must not touch. The first belongs to the group's first arm.

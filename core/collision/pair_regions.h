@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/collision/conflict_regions.h"
+#include "core/collision/motion_store.h"
+#include "core/coordination/motion.h"
+#include "core/coordination/verdict.h"
+
+namespace armloom {
+
+// The regions of one Coordinated question: every candidate against every motion of other arms and
+// every arm that no motion moves. Diagrams are those of the store, and are refined no further than
+// kResolution; what is not known when kCells are used up counts as not free.
+//
+// Several motions of one arm: they are not compared with each other. Where the arm is at rest
+// before, between and after them is an end of one of their axes.
+//
+// A pair that is too close where both stand now may part (arbiter.h); there, neither is to come.
+class PairRegionSearch {
+ public:
+  // `store` and `question` outlive it; no question is begun in the store meanwhile.
+  PairRegionSearch(MotionStore& store, const Question& question);
+
+  // By candidate; for each, others, candidates named behind it, arms at rest. Pairs that are free
+  // everywhere are left out.
+  [[nodiscard]] std::vector<PairRegions> find();
+  // Cells looked at.
+  [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
+
+  inline static constexpr CoordinationDiagram::Resolution kResolution{
+      .border = std::chrono::milliseconds(25), .conflict = std::chrono::milliseconds(80)};
+  // Of two arms, for each 10 s of the longer motion.
+  inline static constexpr std::uint64_t kCells = 3000;
+
+ private:
+  struct Side {  // a motion, or an arm at rest
+    std::variant<JobId, ArmId> who;
+    const Motion* motion;  // null: at rest
+    std::vector<MotionStore::Entry*> arms;
+
+    [[nodiscard]] Duration now() const;
+    [[nodiscard]] Duration end() const { return arms.front()->tube->duration(); }
+    [[nodiscard]] bool to_come() const { return motion != nullptr && motion->to_come; }
+  };
+  struct Layer {  // one arm of one against one of the other
+    CoordinationDiagram* cells;
+    const PlanningScene::Bodies* bodies;
+    bool turned;  // its first axis is the second side's
+  };
+  struct Parting {
+    PairSet pairs;
+    std::optional<CoordinationDiagram> cells;
+  };
+
+  [[nodiscard]] Side side_of(const Motion& motion);
+  [[nodiscard]] Side resting(ArmId arm);
+  void compare(const Side& a, const Side& b, std::vector<PairRegions>& found);
+  void add_layer(const Side& a, MotionStore::Entry& arm_a, const Side& b,
+                 MotionStore::Entry& arm_b);
+  [[nodiscard]] ConflictRegion region_of(BlockedRegion blocked);
+
+  MotionStore& store_;
+  const Question& question_;
+  double tracking_error_;
+  std::uint64_t evaluations_ = 0;
+  // Of the two sides at hand:
+  std::vector<Layer> layers_;
+  std::vector<std::unique_ptr<Parting>> partings_;
+  std::vector<BlockedCell> blocked_;
+  std::vector<std::pair<std::size_t, CoordinationDiagram::Blocked>> leaves_;  // layer, by blocked_
+};
+
+}  // namespace armloom
