@@ -116,7 +116,7 @@ Outcome run(std::uint64_t seed, std::size_t arms, const std::string& policy) {
 }
 
 class RandomDelays : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Policies, RandomDelays, ::testing::Values("certified", "earliest_start"));
+INSTANTIATE_TEST_SUITE_P(Policies, RandomDelays, ::testing::Values("certified", "earliest_start", "coordinated"));
 
 TEST_P(RandomDelays, TouchNobodyAndEveryJobSucceeds) {
   double smallest_m = 1e9;

@@ -274,7 +274,7 @@ TEST(Policies, AreKnownByName) {
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().front().detail,
             "unknown policy \"clever\"; known are sequential, lockstep, reservation, "
-            "timed_discrete, certified, earliest_start");
+            "timed_discrete, certified, earliest_start, coordinated");
 }
 
 }  // namespace
