@@ -7,6 +7,7 @@
 
 #include "core/collision/arbiter.h"
 #include "core/executive/executive_impl.h"
+#include "core/scheduler/passing_orders.h"
 
 namespace armloom {
 namespace {
@@ -125,6 +126,25 @@ std::optional<JobId> capacity(const Question& question, const Policy& policy) {
   return policy.capacity_taken_by(pointers);
 }
 
+// Where passing orders decide: beside everything that has begun and whose authority reaches to
+// where it may come next.
+Verdict weighed(const Question& question, const Policy& policy, const Cell& cell, Verdict verdict) {
+  if (!policy.coordinates()) return verdict;
+  const auto coordinated = [](const Motion& motion) {
+    return CoordinatedMotion{.job = motion.job,
+                             .arms = motion.trajectory->arms(),
+                             .duration = motion.trajectory->duration(),
+                             .progress = motion.progress,
+                             .authority = motion.progress};
+  };
+  std::vector<CoordinatedMotion> begun;
+  for (const Motion& motion : question.others) begun.push_back(coordinated(motion));
+  const std::vector<Duration> no_work(cell.arms.size());
+  const PassingOrders orders = find_passing_orders(
+      begun, {}, {coordinated(question.candidates.front())}, verdict.regions, no_work);
+  return as_verdict(orders, std::move(verdict));
+}
+
 CheckView judged(const Question& question, const Plan& plan, const Cell& cell, const Policy& policy,
                  Arbiter& arbiter) {
   CheckView view{.kind = Verdict::Kind::conflict, .scene_version = 1};
@@ -133,7 +153,7 @@ CheckView judged(const Question& question, const Plan& plan, const Cell& cell, c
     view.conflicts.push_back(view_of(wait, cell, plan));
     return view;
   }
-  const Verdict verdict = arbiter.judge(question);
+  const Verdict verdict = weighed(question, policy, cell, arbiter.judge(question));
   view.kind = verdict.kind;
   view.clearance_bound_m = verdict.clearance_bound_m;
   view.evaluations = verdict.evaluations;
@@ -169,7 +189,7 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
     CheckView& view = checked[index].verdict;
     view =
         judged(question_for(plan, index, begun, *cell, **policy), plan, *cell, **policy, arbiter);
-    if (view.kind == Verdict::Kind::free) {
+    if (view.kind == Verdict::Kind::free && !view.earliest_start_s) {
       view.earliest_start_s = to_seconds(job.starts - job.asked);
     } else if (view.earliest_start_s) {  // counted from where it was judged
       *view.earliest_start_s += to_seconds(job.starts - job.asked);

@@ -98,6 +98,11 @@ void Executive::Impl::carry_out(const Effect& effect) {
 
 void Executive::Impl::tick(TimePoint now) {
   now_ = now;
+  if (options_.dies_at && now_ >= *options_.dies_at) {
+    motions_.tick_arms(now_);
+    observer_.on_tick(now_, motions_.measured());
+    return;
+  }
   if (wake_at_ && now_ >= *wake_at_) {
     wake_at_.reset();
     step(Wake{});

@@ -66,6 +66,9 @@ struct ExecutiveOptions {
   std::uint64_t seed = 1;            // of the simulated arms' noise
   std::size_t ended_kept = 1000;     // ended jobs that stay readable
   std::size_t waiting_max = 10'000;  // jobs that may be active at once
+  // For tests: from then on only the arms' controllers go on, as if the executive's thread had
+  // ended.
+  std::optional<TimePoint> dies_at = {};
 };
 
 // The figures of a whole run.

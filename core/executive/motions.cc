@@ -58,7 +58,7 @@ void Motions::release(JobId job) {
   motions_.erase(it);
 }
 
-const std::vector<MotionReport>& Motions::tick(TimePoint now) {
+void Motions::tick_arms(TimePoint now) {
   for (std::uint32_t a = 0; a < controllers_.size(); ++a) {
     const Duration before = feedback_[a].measured_progress;
     feedback_[a] = controllers_[a]->tick(now);
@@ -69,6 +69,10 @@ const std::vector<MotionReport>& Motions::tick(TimePoint now) {
           feedback_[a].measured[static_cast<Eigen::Index>(j)];
     }
   }
+}
+
+const std::vector<MotionReport>& Motions::tick(TimePoint now) {
+  tick_arms(now);
   reports_.clear();
   for (auto& [job, motion] : motions_) {
     report(job, motion);

@@ -26,6 +26,8 @@ class Motions {
 
   // One control cycle of every arm. Returns what there is to tell the scheduler, in order of jobs.
   [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now);
+  // The arms' own part of it: what goes on if nobody asks any more.
+  void tick_arms(TimePoint now);
 
   // As of the last tick; whole cell.
   [[nodiscard]] const Configuration& measured() const { return measured_; }

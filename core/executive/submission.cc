@@ -168,8 +168,10 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
     view.conflicts.push_back(view_of(wait, *cell_, *this));
   }
   if (!view.conflicts.empty()) return done(std::move(view));
-  judges_.ask(scheduler_.hypothetical(std::move(prepared->trajectory), now_), scene_,
-              [this, view, done = std::move(done)](const Verdict& verdict) mutable {
+  Question question = scheduler_.hypothetical(std::move(prepared->trajectory), now_);
+  judges_.ask(question, scene_,
+              [this, view, question, done = std::move(done)](Verdict answer) mutable {
+                const Verdict verdict = scheduler_.meaning(question, std::move(answer));
                 view.kind = verdict.kind;
                 if (verdict.kind == Verdict::Kind::free) view.earliest_start_s = 0.0;
                 if (verdict.earliest_start) {

@@ -60,7 +60,7 @@ struct CheckingSettings {
   double limit_tolerance = 0.05;  // share by which a spline may overshoot a limit
 };
 struct SchedulingSettings {
-  std::string policy = "certified";
+  std::string policy = "earliest_start";
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
   std::string on_idle_blocker = "report";

@@ -58,6 +58,14 @@ void Scheduler::add_coordinated(Question& question, const std::vector<JobId>& ca
   }
 }
 
+Verdict Scheduler::meaning(const Question& hypothetical, Verdict verdict) const {
+  if (!graph_) return verdict;
+  const Motion& motion = hypothetical.candidates.front();
+  const PassingOrders orders = graph_->try_to_admit(
+      {{motion.job, motion.trajectory->arms(), motion.trajectory->duration()}}, verdict.regions);
+  return as_verdict(orders, std::move(verdict));
+}
+
 // ---- The answer ----
 
 void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& question) {
@@ -168,7 +176,12 @@ void Scheduler::dispatch_ready() {
   for (JobId id : ids) {
     Record& record = records_.at(id);
     if (record.job.state == JobState::scheduled && !record.dispatched) dispatch_if_ready(record);
+    if (record.job.pausing) explain_pause(record);
   }
+}
+
+void Scheduler::explain_pause(Record& record) {
+  if (const auto held = graph_->held_back(record.job.id)) set_waits(record, {wait_for(*held)});
 }
 
 void Scheduler::dispatch_if_ready(Record& record) {
@@ -178,7 +191,7 @@ void Scheduler::dispatch_if_ready(Record& record) {
   if (stop_of(record) || record.checked_at < disturbed_at_) return;
   const Duration limit = graph_->limit(job.id);
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {
-    if (const auto held = graph_->held_back(job.id)) set_waits(record, {wait_for(*held)});
+    explain_pause(record);
     return;
   }
   const Duration authority = std::min(limit, job.progress + record.horizon);
@@ -239,7 +252,7 @@ void Scheduler::see_pauses(Record& record, Duration progress_before) {
     changed(record);
   } else if (at_limit && !job.pausing) {
     job.pausing = true;
-    if (const auto held = graph_->held_back(job.id)) set_waits(record, {wait_for(*held)});
+    explain_pause(record);
     changed(record);
   }
 }

@@ -424,4 +424,21 @@ PassingOrders find_passing_orders(const std::vector<CoordinatedMotion>& admitted
   return Search(admitted, precedences, candidates, work_behind).run(regions);
 }
 
+Verdict as_verdict(const PassingOrders& orders, Verdict verdict) {
+  if (verdict.kind != Verdict::Kind::free) return verdict;
+  verdict.regions.clear();
+  if (orders.obstacles.empty()) {
+    verdict.earliest_start = orders.prediction.begins.back();
+    return verdict;
+  }
+  verdict.kind = Verdict::Kind::conflict;
+  verdict.clearance_bound_m.reset();
+  for (const Obstacle& obstacle : orders.obstacles) {
+    verdict.conflicts.push_back({obstacle.arm ? Conflict::With::rest : Conflict::With::motion,
+                                 obstacle.candidate, obstacle.other, obstacle.proximity,
+                                 obstacle.own_time, obstacle.other_time});
+  }
+  return verdict;
+}
+
 }  // namespace armloom

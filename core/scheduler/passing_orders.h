@@ -7,6 +7,7 @@
 #include "core/base/ids.h"
 #include "core/base/time.h"
 #include "core/coordination/conflict_region.h"
+#include "core/coordination/verdict.h"
 #include "core/scheduler/precedence.h"
 #include "core/scheduler/prediction.h"
 
@@ -56,5 +57,9 @@ inline constexpr std::size_t kTriedInFull = 5;
     const std::vector<CoordinatedMotion>& admitted, const std::vector<Precedence>& precedences,
     const std::vector<CoordinatedMotion>& candidates, const std::vector<PairRegions>& regions,
     const std::vector<Duration>& work_behind);  // by ArmId: of jobs that are in neither list
+
+// The same as an answer to clients: in conflict with the obstacles, or free to start when the
+// (single) candidate begins.
+[[nodiscard]] Verdict as_verdict(const PassingOrders& orders, Verdict verdict);
 
 }  // namespace armloom

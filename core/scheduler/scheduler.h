@@ -68,6 +68,8 @@ class Scheduler {
 
   // What would be asked if this motion were to start at `start_at`; changes nothing.
   [[nodiscard]] Question hypothetical(TrajectoryPtr trajectory, TimePoint start_at) const;
+  // What its answer means for the policy: whether and when the motion could start.
+  [[nodiscard]] Verdict meaning(const Question& hypothetical, Verdict verdict) const;
   // What keeps a job with this motion from being judged now: its arms' queues and stops, capacity.
   [[nodiscard]] std::vector<Wait> waits_before(const Trajectory& trajectory) const;
 
@@ -177,6 +179,7 @@ class Scheduler {
   void expect_end(Record& record);
   void extend_authority(JobId moved);
   void extend_own_authority(Record& record);
+  void explain_pause(Record& record);
   void see_pauses(Record& record, Duration progress_before);
 
   CellPtr cell_;

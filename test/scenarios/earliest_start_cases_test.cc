@@ -66,7 +66,8 @@ TEST(EarliestStart, OfWhatWaitsForACanceledJobMovesForward) {
 }
 
 class Policies : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Late, Policies, ::testing::Values("certified", "earliest_start"));
+INSTANTIATE_TEST_SUITE_P(Late, Policies,
+                         ::testing::Values("certified", "earliest_start", "coordinated"));
 
 TEST_P(Policies, T5ALateStartAndASlowArmTouchNobodyAndEveryJobSucceeds) {
   // The other job comes so that both would meet if clocks were believed.

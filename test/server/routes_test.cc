@@ -27,7 +27,7 @@ TEST_F(Routes, SayWhatTheCellIs) {
   EXPECT_EQ(arms[0]["state"], "idle");
   EXPECT_EQ(get("/api/v1/arms/right").json()["name"], "right");
   const json queue = get("/api/v1/queue").json();
-  EXPECT_EQ(queue["policy"], "certified");
+  EXPECT_EQ(queue["policy"], "earliest_start");
   EXPECT_EQ(queue["running"], json::array());
 }
 

@@ -1,0 +1,125 @@
+// Pauses on the way, held by authority: motions pass each other in the order that was agreed, and
+// stay safe whatever happens to the one who leads.
+#include "test/scenarios/crossing.h"
+#include "test/scenarios/star.h"
+
+namespace armloom {
+namespace {
+
+struct Coordinated : ::testing::Test {
+  Crossing cell{crossing_description(), "coordinated"};
+  double position(std::size_t arm) const { return cell.log.last[static_cast<Eigen::Index>(arm)]; }
+};
+
+TEST_F(Coordinated, GoesAsFarAsItMayAndPausesThere) {
+  cell.submit(slide("x", -1, 1, 6, "first"));
+  cell.run_until(at(1200ms));
+  cell.submit(slide("y", -1, 1, 4, "second"));
+  cell.run_until(at(3300ms));
+  const JobView paused = cell.job("second");
+  EXPECT_EQ(paused.state, JobState::holding);
+  ASSERT_EQ(paused.waits_on.size(), 1U);
+  EXPECT_EQ(paused.waits_on[0].job, "first");
+  EXPECT_FALSE(paused.waits_on[0].links.empty());
+  EXPECT_GT(position(1), -0.5) << "it has come near the crossing";
+  EXPECT_LT(position(1), -0.2) << "and stays out of it";
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("first").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("second").state, JobState::succeeded);
+  EXPECT_LT(to_seconds(*cell.job("first").ended_at), 6.1) << "nobody delays it";
+  EXPECT_LT(to_seconds(*cell.job("second").ended_at), 6.3) << "it is near when the way is free";
+  EXPECT_GT(cell.log.closest_m, 0.015);
+}
+
+TEST_F(Coordinated, LetsAShortOnePassBeforeALongOneThatIsStillFar) {
+  cell.submit(slide("x", -1, 1, 12, "long"));
+  cell.run_until(at(500ms));
+  cell.submit(slide("y", -1, 1, 3, "short"));
+  cell.run_to_the_end();
+  EXPECT_LT(to_seconds(*cell.job("short").ended_at), 3.7);
+  EXPECT_LT(to_seconds(*cell.job("long").ended_at), 12.1);
+  EXPECT_GT(cell.log.closest_m, 0.015);
+}
+
+// T5: the leader stalls in the crossing; who follows stays before it for as long as that takes.
+TEST(CoordinatedLate, WaitsForALeaderThatStalls) {
+  CellDescription patient = crossing_description();
+  patient.execution.duration_margin = 60s;
+  Crossing cell(patient, "coordinated");
+  ASSERT_TRUE(cell.simulation->executive().inject(
+      {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1900ms), .lasting = 6s}));
+  cell.submit(slide("x", -1, 1, 4, "stalls"));
+  cell.submit(slide("y", -1, 1, 4, "follows"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("stalls").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("follows").state, JobState::succeeded);
+  EXPECT_GT(to_seconds(*cell.job("follows").ended_at), 8.0);
+  EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
+  EXPECT_GT(cell.log.closest_m, 0.015);
+}
+
+// T7: where the canceled one rests is not passed; a next motion that takes it away frees the way.
+TEST_F(Coordinated, StaysBeforeAnArmThatWasCanceledInTheWayUntilItMovesOn) {
+  cell.submit(slide("x", -1, 1, 4, "canceled"));
+  cell.submit(slide("y", -1, 1, 4, "follows"));
+  cell.run_until(at(1950ms));
+  ASSERT_TRUE(cell.simulation->executive().cancel("canceled"));
+  cell.run_until(at(12s));
+  EXPECT_EQ(cell.job("canceled").state, JobState::canceled);
+  const JobView waits = cell.job("follows");
+  EXPECT_EQ(waits.state, JobState::holding);
+  ASSERT_EQ(waits.waits_on.size(), 1U);
+  EXPECT_EQ(waits.waits_on[0].kind, Wait::Kind::arm);
+  EXPECT_EQ(waits.waits_on[0].arm, "x");
+  cell.submit(slide("x", position(0), -1, 3, "back"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("back").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("follows").state, JobState::succeeded);
+  EXPECT_GT(cell.log.closest_m, 0.015);
+}
+
+TEST_F(Coordinated, KeepsItsOrderOverAStopAndAResume) {
+  cell.submit(slide("x", -1, 1, 4, "first"));
+  cell.submit(slide("y", -1, 1, 4, "second"));
+  cell.run_until(at(1500ms));
+  cell.simulation->executive().stop_all("operator");
+  cell.run_until(at(4s));
+  EXPECT_EQ(cell.job("first").state, JobState::holding);
+  EXPECT_EQ(cell.job("second").state, JobState::holding);
+  cell.simulation->executive().resume_all();
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("first").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("second").state, JobState::succeeded);
+  EXPECT_GT(cell.log.closest_m, 0.015);
+}
+
+// The executive's thread ends in mid-motion: every controller brakes by itself where its authority
+// ends, which is a certified place beside wherever the others come to rest.
+TEST(DeathOfTheExecutive, LeavesEveryArmAtRestWithoutContact) {
+  for (std::size_t arms = 2; arms <= 4; ++arms) {
+    for (Duration dies = 100ms; dies < 7s; dies += 150ms) {
+      SmallestDistance closest(arms);
+      auto cell = build_cell(star(arms));
+      auto created = Simulation::create(
+          *cell, ExecutiveOptions{.policy = "coordinated", .dies_at = at(dies)}, closest);
+      Simulation& simulation = **created;
+      simulation.tick();
+      for (std::size_t i = 0; i < arms; ++i) {
+        const std::string arm(1, static_cast<char>('a' + i));
+        ASSERT_TRUE(
+            simulation.executive().submit(slide(arm, -1, 1, 3.0 + 0.3 * static_cast<double>(i))));
+        ASSERT_TRUE(simulation.executive().submit(slide(arm, 1, -1, 2.5)));
+      }
+      simulation.run_until(at(dies + 2s));
+      const Configuration rests = closest.last;
+      simulation.run_until(at(dies + 3s));
+      EXPECT_EQ(closest.last, rests) << arms << " arms, died at " << to_seconds(dies) << " s";
+      EXPECT_GT(closest.smallest_m, 0.015) << arms << " arms, died at " << to_seconds(dies)
+                                           << " s, contact at " << to_seconds(closest.when) << " s";
+      EXPECT_FALSE(simulation.executive().all_ended() && dies < 3s) << "it had not died";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace armloom
