@@ -92,20 +92,11 @@ void PairRegionSearch::add_layer(const Side& a, MotionStore::Entry& arm_a, const
   if (diagram.pairs->empty()) return;
   const Side& first = turned ? b : a;
   const Side& second = turned ? a : b;
-  constexpr double kAll = Region::kUnbounded;
-  const Region all{.progress_a = to_seconds(first.now()),
-                   .progress_b = to_seconds(second.now()),
-                   .lag_a = kAll,
-                   .lag_b = kAll,
-                   .lead_a = kAll,
-                   .lead_b = kAll,
-                   .duration_a = to_seconds(first.end()),
-                   .duration_b = to_seconds(second.end())};
-  const double longest_s = std::max(all.duration_a, all.duration_b);
+  const double longest_s = to_seconds(std::max(a.end(), b.end()));
   const auto budget = static_cast<std::uint64_t>(kCells * std::max(1.0, longest_s / 10.0));
   const auto look = [&](CoordinationDiagram& cells) {
-    evaluations_ += cells.refine(all, kResolution, budget);
-    return cells.blocked(all);
+    evaluations_ += cells.refine_outline(first.now(), second.now(), kResolution, budget);
+    return cells.blocked(first.now(), second.now());
   };
   CoordinationDiagram* cells = diagram.cells;
   std::vector<CoordinationDiagram::Blocked> leaves = look(*cells);

@@ -33,9 +33,9 @@ class PairRegionSearch {
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
   inline static constexpr CoordinationDiagram::Resolution kResolution{
-      .border = std::chrono::milliseconds(25), .conflict = std::chrono::milliseconds(80)};
+      .coarse = std::chrono::milliseconds(80), .fine = std::chrono::milliseconds(25)};
   // Of two arms, for each 10 s of the longer motion.
-  inline static constexpr std::uint64_t kCells = 3000;
+  inline static constexpr std::uint64_t kCells = 4000;
 
  private:
   struct Side {  // a motion, or an arm at rest
