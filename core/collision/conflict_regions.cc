@@ -48,7 +48,7 @@ struct Span {
 // Columns of both axes with a mark in each field.
 class Grid {
  public:
-  enum : int { kFree = -1, kOutside = -2, kSolid = -3 };  // else: a component
+  enum : int { kFree = -1, kSolid = -2 };  // else: a component
 
   Grid(Axis a, Axis b)
       : a_(std::move(a)),
@@ -69,37 +69,58 @@ class Grid {
     return {from_a, std::max(from_a + 1, a_.place(box.to_a)), from_b,
             std::max(from_b + 1, b_.place(box.to_b))};
   }
-  void fill(const Span& span) {
+  void fill(const Span& span, int mark) {
     for (int i = span.from_a; i < span.to_a; ++i) {
-      std::fill(&at(i, span.from_b), &at(i, span.to_b - 1) + 1, int{kSolid});
-    }
-  }
-
-  // Gives `mark` to all fields of one kind that hang together with this one.
-  void flood(int a, int b, int kind, int mark, bool corners) {
-    if (at(a, b) != kind) return;
-    at(a, b) = mark;
-    open_.assign(1, {a, b});
-    while (!open_.empty()) {
-      const auto [i, j] = open_.back();
-      open_.pop_back();
-      for (int di = -1; di <= 1; ++di) {
-        for (int dj = -1; dj <= 1; ++dj) {
-          if (!corners && di != 0 && dj != 0) continue;
-          const int x = i + di, y = j + dj;
-          if (x < 0 || y < 0 || x >= a_.columns() || y >= b_.columns() || at(x, y) != kind)
-            continue;
-          at(x, y) = mark;
-          open_.emplace_back(x, y);
-        }
-      }
+      std::fill(&at(i, span.from_b), &at(i, span.to_b - 1) + 1, mark);
     }
   }
 
  private:
   Axis a_, b_;
   std::vector<int> marks_;
-  std::vector<std::pair<int, int>> open_;
+};
+
+// The fields of one mark, column of A by column, as runs along B; runs that hang together are one
+// set (union-find; a set's first run is its root).
+class Runs {
+ public:
+  Runs(Grid& grid, int mark, bool corners) {
+    const int reach = corners ? 1 : 0;
+    std::size_t before = 0;  // first run of the column before
+    for (int i = 0; i < grid.a().columns(); ++i) {
+      const std::size_t begin = spans_.size();
+      for (int j = 0; j < grid.b().columns();) {
+        int end = j + 1;
+        const bool wanted = grid.at(i, j) == mark;
+        while (end < grid.b().columns() && (grid.at(i, end) == mark) == wanted) ++end;
+        if (wanted) spans_.push_back({i, i + 1, j, end});
+        j = end;
+      }
+      for (std::size_t r = begin; r < spans_.size(); ++r) parents_.push_back(r);
+      for (std::size_t x = before, y = begin; x < begin && y < spans_.size();) {
+        const bool touch =
+            spans_[x].from_b < spans_[y].to_b + reach && spans_[y].from_b < spans_[x].to_b + reach;
+        if (touch) join(x, y);
+        spans_[x].to_b < spans_[y].to_b ? ++x : ++y;
+      }
+      before = begin;
+    }
+  }
+
+  [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
+  [[nodiscard]] std::size_t root(std::size_t run) {
+    while (parents_[run] != run) run = parents_[run] = parents_[parents_[run]];
+    return run;
+  }
+
+ private:
+  void join(std::size_t x, std::size_t y) {
+    const std::size_t one = root(x);
+    const std::size_t other = root(y);
+    parents_[std::max(one, other)] = std::min(one, other);
+  }
+  std::vector<Span> spans_;
+  std::vector<std::size_t> parents_;
 };
 
 Grid grid_of(const std::vector<BlockedCell>& cells, const std::vector<std::size_t>& ahead,
@@ -121,21 +142,32 @@ Grid grid_of(const std::vector<BlockedCell>& cells, const std::vector<std::size_
 
 // What is free and closed in on all sides becomes solid.
 void fill_holes(Grid& grid, const ProgressBox& remaining) {
-  const int last_a = grid.a().columns() - 1;
-  const int last_b = grid.b().columns() - 1;
-  for (int i = 0; i <= last_a; ++i) {
-    for (int j = 0; j <= last_b; ++j) {
-      const bool rim = i == 0 || j == 0 || i == last_a || j == last_b;
-      const bool reached =
-          grid.a().from(i) <= remaining.from_a && grid.b().from(j) <= remaining.from_b;
-      if (rim || reached) grid.flood(i, j, Grid::kFree, Grid::kOutside, false);
-    }
+  Runs free(grid, Grid::kFree, false);
+  std::vector<bool> outside(free.spans().size(), false);
+  for (std::size_t r = 0; r < outside.size(); ++r) {
+    const Span& s = free.spans()[r];
+    const bool rim = s.from_a == 0 || s.to_a == grid.a().columns() || s.from_b == 0 ||
+                     s.to_b == grid.b().columns();
+    const bool reached =
+        grid.a().from(s.from_a) <= remaining.from_a && grid.b().from(s.from_b) <= remaining.from_b;
+    if (rim || reached) outside[free.root(r)] = true;
   }
-  for (int i = 0; i <= last_a; ++i) {
-    for (int j = 0; j <= last_b; ++j) {
-      if (grid.at(i, j) == Grid::kFree) grid.at(i, j) = Grid::kSolid;
-    }
+  for (std::size_t r = 0; r < outside.size(); ++r) {
+    if (!outside[free.root(r)]) grid.fill(free.spans()[r], Grid::kSolid);
   }
+}
+
+// Marks the solid fields with their components; returns how many there are.
+std::size_t mark_components(Grid& grid) {
+  Runs solid(grid, Grid::kSolid, true);
+  std::vector<int> component(solid.spans().size(), -1);
+  int count = 0;
+  for (std::size_t r = 0; r < component.size(); ++r) {
+    const std::size_t root = solid.root(r);  // not behind r
+    if (root == r) component[r] = count++;
+    grid.fill(solid.spans()[r], component[root]);
+  }
+  return static_cast<std::size_t>(count);
 }
 
 // The rectangles of every component. `along_a`: first joined along A, then along B.
@@ -205,15 +237,13 @@ std::vector<BlockedRegion> blocked_regions(const std::vector<BlockedCell>& cells
   }
   if (ahead.empty()) return {};
   Grid grid = grid_of(cells, ahead, remaining);
-  for (const std::size_t i : ahead) grid.fill(grid.span_of(cells[i].box));
-  fill_holes(grid, remaining);
-  int components = 0;
-  for (int i = 0; i < grid.a().columns(); ++i) {
-    for (int j = 0; j < grid.b().columns(); ++j) {
-      if (grid.at(i, j) == Grid::kSolid) grid.flood(i, j, Grid::kSolid, components++, true);
-    }
+  std::vector<Span> spans;
+  for (const std::size_t i : ahead) {
+    spans.push_back(grid.span_of(cells[i].box));
+    grid.fill(spans.back(), Grid::kSolid);
   }
-  std::vector<BlockedRegion> regions(static_cast<std::size_t>(components), {{}, cells.size()});
+  fill_holes(grid, remaining);
+  std::vector<BlockedRegion> regions(mark_components(grid), {{}, cells.size()});
   const auto along_a = spans_of(grid, regions.size(), true);
   const auto along_b = spans_of(grid, regions.size(), false);
   for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -223,9 +253,10 @@ std::vector<BlockedRegion> blocked_regions(const std::vector<BlockedCell>& cells
     }
     std::ranges::sort(regions[r].boxes, {}, place_of);
   }
-  for (const std::size_t i : ahead) {
-    const Span span = grid.span_of(cells[i].box);
-    BlockedRegion& region = regions[static_cast<std::size_t>(grid.at(span.from_a, span.from_b))];
+  for (std::size_t k = 0; k < ahead.size(); ++k) {
+    const std::size_t i = ahead[k];
+    const int component = grid.at(spans[k].from_a, spans[k].from_b);
+    BlockedRegion& region = regions[static_cast<std::size_t>(component)];
     const bool first = region.evidence == cells.size();
     if (first || tells_more(cells[i], cells[region.evidence])) region.evidence = i;
   }

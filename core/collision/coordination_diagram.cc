@@ -197,21 +197,23 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const Region& region, std::
   return answer;
 }
 
+bool CoordinationDiagram::wider(const Cell& cell, Duration resolution) const {
+  return a_->width(cell.a) > resolution || (b_ && b_->width(cell.b) > resolution);
+}
+
 // Where the side that moves more is fine already, the other one is halved.
-void CoordinationDiagram::split_if_coarse(int index, const Resolution& resolution) {
+void CoordinationDiagram::split_if_coarse(int index, Duration resolution) {
   Cell& cell = at(index);
-  if (cell.state != CellState::mixed) return;
-  const Duration width = proven(cell) != nullptr ? resolution.conflict : resolution.border;
-  const bool coarse_a = a_->width(cell.a) > width;
-  const bool coarse_b = b_ && b_->width(cell.b) > width;
-  if (!coarse_a && !coarse_b) return;
+  if (cell.state != CellState::mixed || !wider(cell, resolution)) return;
+  const bool coarse_a = a_->width(cell.a) > resolution;
+  const bool coarse_b = b_ && b_->width(cell.b) > resolution;
   const bool as_chosen = (cell.split_a && coarse_a) || (cell.split_b && coarse_b);
   cell.split_a = coarse_a && (cell.split_a || !as_chosen);
   cell.split_b = coarse_b && (cell.split_b || !as_chosen);
   split(index, 1);
 }
 
-std::uint64_t CoordinationDiagram::refine(const Region& region, const Resolution& resolution,
+std::uint64_t CoordinationDiagram::refine(const Region& region, Duration resolution,
                                           std::uint64_t budget) {
   std::vector<Open> open{{0, {0.0, 0.0}}};
   std::vector<Open> unknown;
@@ -237,25 +239,6 @@ std::uint64_t CoordinationDiagram::refine(const Region& region, const Resolution
     open = unknown;
   }
   return looked_at;
-}
-
-std::vector<CoordinationDiagram::Blocked> CoordinationDiagram::blocked(const Region& region) const {
-  std::vector<Blocked> blocked;
-  for (const Cell& cell : cells_) {
-    if (cell.state == CellState::inner || cell.state == CellState::free) continue;
-    if (!meets(region, cell)) continue;
-    Blocked& leaf = blocked.emplace_back();
-    leaf.from_a = a_->from(cell.a);
-    leaf.to_a = a_->to(cell.a);
-    leaf.from_b = b_ ? b_->from(cell.b) : Duration{};
-    leaf.to_b = b_ ? b_->to(cell.b) : Duration{};
-    if (cell.finding < 0) continue;
-    const Found& found = found_[static_cast<std::size_t>(cell.finding)];
-    const Duration time_b = b_ ? b_->middle(cell.b) : Duration{};
-    leaf.found = {found.pair, found.distance_m, a_->middle(cell.a), time_b, 0.0};
-    leaf.proven = proven(cell) != nullptr;
-  }
-  return blocked;
 }
 
 // The conflict at the cell's middle.

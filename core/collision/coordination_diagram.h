@@ -60,22 +60,29 @@ class CoordinationDiagram {
   // Looks at no more than `budget` cells and states.
   [[nodiscard]] Answer ask(const Region& region, std::uint64_t budget);
 
-  // How wide a cell may stay that is neither free nor in conflict all over.
-  struct Resolution {
-    Duration border;    // none of its states is proven to be in conflict
-    Duration conflict;  // its middle is
-  };
-  // Refines all that the region holds until each cell is free, in conflict, or as fine as that, the
-  // coarse ones first, at the cost of about `budget` cells at most; returns how many.
-  std::uint64_t refine(const Region& region, const Resolution& resolution, std::uint64_t budget);
+  // Refines all that the region holds until each cell is free, in conflict, or no wider than
+  // `resolution`, at the cost of about `budget` cells at most; returns how many.
+  std::uint64_t refine(const Region& region, Duration resolution, std::uint64_t budget);
 
-  // The leaves that the region meets and that are not known to be free, in a fixed order.
+  // Refines all of the rectangle of what remains of both motions to `coarse`, and from there on to
+  // `fine` only where what is not free borders on what is, until no border is coarse any more;
+  // cells whose middle is proven to be a conflict are left. At the cost of about `budget` cells at
+  // most; returns how many.
+  struct Resolution {
+    Duration coarse;
+    Duration fine;
+  };
+  std::uint64_t refine_outline(Duration now_a, Duration now_b, const Resolution& resolution,
+                               std::uint64_t budget);
+
+  // The leaves that meet the rectangle of what remains and are not known to be free, in a fixed
+  // order.
   struct Blocked {
     Duration from_a, to_a, from_b, to_b;
     std::optional<Finding> found;  // at the middle, exactly; at_s is not set
     bool proven = false;           // that is closer than its limit
   };
-  [[nodiscard]] std::vector<Blocked> blocked(const Region& region) const;
+  [[nodiscard]] std::vector<Blocked> blocked(Duration now_a, Duration now_b) const;
 
   // Every pair that is closer than its limit where A and B are at these times, exactly.
   struct Close {
@@ -135,9 +142,12 @@ class CoordinationDiagram {
   void split(int cell, int levels);
   [[nodiscard]] bool can_split(const Cell& cell) const;
   void split_if_wide(int cell);
-  void split_if_coarse(int cell, const Resolution& resolution);
+  void split_if_coarse(int cell, Duration resolution);
+  [[nodiscard]] bool wider(const Cell& cell, Duration resolution) const;
   [[nodiscard]] const Found* proven(const Cell& cell) const;
   void evaluate(const Open* open, std::size_t count);
+  [[nodiscard]] bool remains(const Cell& cell, Duration now_a, Duration now_b) const;
+  class Raster;
   struct Gathered;
   [[nodiscard]] filter::Side gather(const MotionTube& tube, int Cell::*node, const Open* open,
                                     std::size_t count, Gathered& to);
@@ -158,6 +168,11 @@ class CoordinationDiagram {
   const StillParts* still_ = nullptr;
   std::vector<Cell> cells_;
   std::vector<Found> found_;
+  struct Outlined {
+    Duration now_a, now_b;
+    Resolution resolution;
+  };
+  std::optional<Outlined> outlined_;  // as refine_outline() has completed it
 
   struct Scratch;
   std::shared_ptr<Scratch> scratch_;

@@ -1,6 +1,7 @@
 #include "core/collision/pair_regions.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/collision/arbiter.h"
 #include "core/collision/parting.h"
@@ -8,10 +9,23 @@
 namespace armloom {
 namespace {
 
+bool moves(const Motion& motion, ArmId arm) {
+  const auto& arms = motion.trajectory->arms();
+  return std::ranges::find(arms, arm) != arms.end();
+}
+
 bool share_an_arm(const Motion& a, const Motion& b) {
-  return std::ranges::any_of(a.trajectory->arms(), [&](ArmId arm) {
-    return std::ranges::find(b.trajectory->arms(), arm) != b.trajectory->arms().end();
-  });
+  return std::ranges::any_of(a.trajectory->arms(), [&](ArmId arm) { return moves(b, arm); });
+}
+
+// Where the trajectory's joints are at that time.
+void put(const Trajectory& trajectory, Duration time, Configuration& q) {
+  Eigen::VectorXd position;
+  trajectory.sample_positions(time, position);
+  for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
+    q[static_cast<Eigen::Index>(trajectory.joints()[j].index())] =
+        position[static_cast<Eigen::Index>(j)];
+  }
 }
 
 bool holds(const CoordinationDiagram::Blocked& leaf, Duration a, Duration b) {
@@ -27,7 +41,11 @@ Duration PairRegionSearch::Side::now() const {
 PairRegionSearch::PairRegionSearch(MotionStore& store, const Question& question)
     : store_(store),
       question_(question),
-      tracking_error_(std::get<Coordinated>(question.method).tracking_error) {}
+      tracking_error_(std::get<Coordinated>(question.method).tracking_error) {
+  for (const Motion& motion : question.others) in_order_.push_back(&motion);
+  for (const Motion& motion : question.candidates) in_order_.push_back(&motion);
+  std::ranges::stable_partition(in_order_, [](const Motion* motion) { return !motion->to_come; });
+}
 
 PairRegionSearch::Side PairRegionSearch::side_of(const Motion& motion) {
   Side side{motion.job, &motion, {}};
@@ -37,32 +55,47 @@ PairRegionSearch::Side PairRegionSearch::side_of(const Motion& motion) {
   return side;
 }
 
-PairRegionSearch::Side PairRegionSearch::resting(ArmId arm) {
-  return {arm, nullptr, {&store_.motion(nullptr, arm, question_.rest, tracking_error_)}};
+PairRegionSearch::Side PairRegionSearch::resting(ArmId arm, const Configuration& rest) {
+  return {arm, nullptr, {&store_.motion(nullptr, arm, rest, tracking_error_)}};
+}
+
+std::vector<PairRegionSearch::Side> PairRegionSearch::standing_beside(const Motion& candidate) {
+  std::vector<Side> sides;
+  const auto own = std::ranges::find(in_order_, &candidate);
+  for (std::uint32_t a = 0; a < store_.scene()->cell().arms.size(); ++a) {
+    const ArmId arm{a};
+    if (moves(candidate, arm)) continue;
+    const Motion* before = nullptr;
+    const Motion* behind = nullptr;
+    for (auto motion = in_order_.begin(); motion != in_order_.end(); ++motion) {
+      if (!moves(**motion, arm)) continue;
+      if (motion < own) before = *motion;
+      if (motion > own && behind == nullptr) behind = *motion;
+    }
+    const auto compared = [&](const Motion* motion) {
+      return motion != nullptr && !share_an_arm(candidate, *motion);
+    };
+    if (compared(before) || compared(behind)) continue;
+    Configuration rest = question_.rest;
+    if (before != nullptr) {
+      put(*before->trajectory, before->trajectory->duration(), rest);
+    } else if (behind != nullptr) {
+      put(*behind->trajectory, Duration{}, rest);
+    }
+    sides.push_back(resting(arm, rest));
+  }
+  return sides;
 }
 
 std::vector<PairRegions> PairRegionSearch::find() {
-  std::vector<bool> moved(store_.scene()->cell().arms.size(), false);
-  std::vector<Side> candidates, counterparts;
-  const auto add = [&](const Motion& motion, std::vector<Side>& sides) {
-    for (const ArmId arm : motion.trajectory->arms()) moved[arm.index()] = true;
-    sides.push_back(side_of(motion));
-  };
-  for (const Motion& motion : question_.candidates) add(motion, candidates);
-  for (const Motion& motion : question_.others) add(motion, counterparts);
-  const std::size_t others = counterparts.size();
-  for (std::uint32_t arm = 0; arm < moved.size(); ++arm) {
-    if (!moved[arm]) counterparts.push_back(resting(ArmId{arm}));
-  }
+  std::vector<Side> candidates, others;
+  for (const Motion& motion : question_.candidates) candidates.push_back(side_of(motion));
+  for (const Motion& motion : question_.others) others.push_back(side_of(motion));
   std::vector<PairRegions> found;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    for (std::size_t k = 0; k < others; ++k) compare(candidates[i], counterparts[k], found);
-    for (std::size_t k = i + 1; k < candidates.size(); ++k) {
-      compare(candidates[i], candidates[k], found);
-    }
-    for (std::size_t k = others; k < counterparts.size(); ++k) {
-      compare(candidates[i], counterparts[k], found);
-    }
+  for (auto own = candidates.begin(); own != candidates.end(); ++own) {
+    for (const Side& other : others) compare(*own, other, found);
+    for (auto other = own + 1; other != candidates.end(); ++other) compare(*own, *other, found);
+    for (const Side& rest : standing_beside(*own->motion)) compare(*own, rest, found);
   }
   return found;
 }
@@ -92,20 +125,10 @@ void PairRegionSearch::add_layer(const Side& a, MotionStore::Entry& arm_a, const
   if (diagram.pairs->empty()) return;
   const Side& first = turned ? b : a;
   const Side& second = turned ? a : b;
-  constexpr double kAll = Region::kUnbounded;
-  const Region all{.progress_a = to_seconds(first.now()),
-                   .progress_b = to_seconds(second.now()),
-                   .lag_a = kAll,
-                   .lag_b = kAll,
-                   .lead_a = kAll,
-                   .lead_b = kAll,
-                   .duration_a = to_seconds(first.end()),
-                   .duration_b = to_seconds(second.end())};
-  const double longest_s = std::max(all.duration_a, all.duration_b);
-  const auto budget = static_cast<std::uint64_t>(kCells * std::max(1.0, longest_s / 10.0));
+  const auto budget = static_cast<std::uint64_t>(std::ceil(kCells * to_seconds(a.end() + b.end())));
   const auto look = [&](CoordinationDiagram& cells) {
-    evaluations_ += cells.refine(all, kResolution, budget);
-    return cells.blocked(all);
+    evaluations_ += cells.refine_outline(first.now(), second.now(), kResolution, budget);
+    return cells.blocked(first.now(), second.now());
   };
   CoordinationDiagram* cells = diagram.cells;
   std::vector<CoordinationDiagram::Blocked> leaves = look(*cells);

@@ -17,8 +17,10 @@ namespace armloom {
 // every arm that no motion moves. Diagrams are those of the store, and are refined no further than
 // kResolution; what is not known when kCells are used up counts as not free.
 //
-// Several motions of one arm: they are not compared with each other. Where the arm is at rest
-// before, between and after them is an end of one of their axes.
+// Motions that share an arm follow each other and are not compared: those that are not to come,
+// then others, then candidates, as named. Where an arm stands before, between and after its motions
+// is an end of one of their axes; but for those that share an arm with the candidate: there it
+// counts as an arm at rest.
 //
 // A pair that is too close where both stand now may part (arbiter.h); there, neither is to come.
 class PairRegionSearch {
@@ -33,9 +35,9 @@ class PairRegionSearch {
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
   inline static constexpr CoordinationDiagram::Resolution kResolution{
-      .border = std::chrono::milliseconds(25), .conflict = std::chrono::milliseconds(80)};
-  // Of two arms, for each 10 s of the longer motion.
-  inline static constexpr std::uint64_t kCells = 3000;
+      .coarse = std::chrono::milliseconds(80), .fine = std::chrono::milliseconds(25)};
+  // Of two arms, for each second of both motions together.
+  inline static constexpr double kCells = 500.0;
 
  private:
   struct Side {  // a motion, or an arm at rest
@@ -58,7 +60,8 @@ class PairRegionSearch {
   };
 
   [[nodiscard]] Side side_of(const Motion& motion);
-  [[nodiscard]] Side resting(ArmId arm);
+  [[nodiscard]] Side resting(ArmId arm, const Configuration& rest);
+  [[nodiscard]] std::vector<Side> standing_beside(const Motion& candidate);
   void compare(const Side& a, const Side& b, std::vector<PairRegions>& found);
   void add_layer(const Side& a, MotionStore::Entry& arm_a, const Side& b,
                  MotionStore::Entry& arm_b);
@@ -68,6 +71,7 @@ class PairRegionSearch {
   const Question& question_;
   double tracking_error_;
   std::uint64_t evaluations_ = 0;
+  std::vector<const Motion*> in_order_;  // all motions: of each arm, as they follow each other
   // Of the two sides at hand:
   std::vector<Layer> layers_;
   std::vector<std::unique_ptr<Parting>> partings_;

@@ -1,0 +1,173 @@
+#include "core/collision/conflict_regions.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+using Evidence = BlockedCell::Evidence;
+
+BlockedCell cell(Duration from_a, Duration to_a, Duration from_b, Duration to_b,
+                 Evidence evidence = Evidence::none, double distance_m = 0.0) {
+  return {{from_a, to_a, from_b, to_b}, evidence, distance_m};
+}
+// Both stand at the beginning of 10 s.
+constexpr ProgressBox kAll{0s, 10s, 0s, 10s};
+
+bool holds(const ProgressBox& box, Duration a, Duration b) {
+  return box.from_a <= a && a <= box.to_a && box.from_b <= b && b <= box.to_b;
+}
+bool hold(const std::vector<BlockedRegion>& regions, Duration a, Duration b) {
+  return std::ranges::any_of(regions, [&](const BlockedRegion& region) {
+    return std::ranges::any_of(region.boxes,
+                               [&](const ProgressBox& box) { return holds(box, a, b); });
+  });
+}
+void expect_box(const ProgressBox& box, Duration from_a, Duration to_a, Duration from_b,
+                Duration to_b) {
+  EXPECT_EQ(box.from_a, from_a);
+  EXPECT_EQ(box.to_a, to_a);
+  EXPECT_EQ(box.from_b, from_b);
+  EXPECT_EQ(box.to_b, to_b);
+}
+
+TEST(BlockedRegions, OfNoCellsAreNone) { EXPECT_TRUE(blocked_regions({}, kAll).empty()); }
+
+TEST(BlockedRegions, AreOneWhereCornersTouchAndTwoWhereTheyDoNot) {
+  const BlockedCell first = cell(1s, 2s, 1s, 2s);
+  EXPECT_EQ(blocked_regions({first, cell(2s, 3s, 2s, 3s)}, kAll).size(), 1U);
+  EXPECT_EQ(blocked_regions({first, cell(2s, 3s, 0s, 1s)}, kAll).size(), 1U);
+  EXPECT_EQ(blocked_regions({first, cell(2s + 1ns, 3s, 2s + 1ns, 3s)}, kAll).size(), 1U);
+  EXPECT_EQ(blocked_regions({first, cell(2s + 2ns, 3s, 2s, 3s)}, kAll).size(), 2U);
+  EXPECT_EQ(blocked_regions({first, cell(1s, 2s, 2s + 2ns, 3s)}, kAll).size(), 2U);
+}
+
+TEST(BlockedRegions, JoinsCellsToFewBoxes) {
+  std::vector<BlockedCell> cells;
+  for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < 4; ++j) cells.push_back(cell(i * 1s, (i + 1) * 1s, j * 1s, (j + 1) * 1s));
+  }
+  const auto regions = blocked_regions(cells, kAll);
+  ASSERT_EQ(regions.size(), 1U);
+  ASSERT_EQ(regions[0].boxes.size(), 1U);
+  expect_box(regions[0].boxes[0], 0s, 8s, 0s, 4s);
+}
+
+TEST(BlockedRegions, TakesTheDirectionWithFewerBoxes) {
+  // A comb with teeth along B: its back and three teeth, or, cut across its back, five boxes.
+  std::vector<BlockedCell> comb{cell(0s, 5s, 0s, 1s), cell(0s, 1s, 1s, 3s), cell(2s, 3s, 1s, 4s),
+                                cell(4s, 5s, 1s, 5s)};
+  for (const bool along_a : {false, true}) {
+    if (along_a) {
+      for (auto& [box, evidence, distance_m] : comb) {
+        box = {box.from_b, box.to_b, box.from_a, box.to_a};
+      }
+    }
+    const auto regions = blocked_regions(comb, kAll);
+    ASSERT_EQ(regions.size(), 1U);
+    EXPECT_EQ(regions[0].boxes.size(), 4U);
+  }
+}
+
+TEST(BlockedRegions, FillsWhatTheyCloseInWithWhatLiesInThere) {
+  std::vector<BlockedCell> ring{cell(0s, 5s, 0s, 1s), cell(0s, 5s, 4s, 5s), cell(0s, 1s, 1s, 4s),
+                                cell(4s, 5s, 1s, 4s), cell(2s, 3s, 2s, 3s)};
+  const ProgressBox before{0s, 10s, 0s, 10s};
+  const auto filled = blocked_regions(ring, before);
+  ASSERT_EQ(filled.size(), 1U);
+  ASSERT_EQ(filled[0].boxes.size(), 1U);
+  expect_box(filled[0].boxes[0], 0s, 5s, 0s, 5s);
+
+  ring.erase(ring.begin() + 2);  // open to one side
+  EXPECT_FALSE(hold(blocked_regions(ring, before), 1500ms, 1500ms));
+  EXPECT_EQ(blocked_regions(ring, before).size(), 2U);
+}
+
+TEST(BlockedRegions, DoesNotFillWhereBothStandNow) {
+  const std::vector<BlockedCell> ring{cell(0s, 5s, 0s, 1s), cell(0s, 5s, 4s, 5s),
+                                      cell(0s, 1s, 1s, 4s), cell(4s, 5s, 1s, 4s)};
+  const auto regions = blocked_regions(ring, {2s, 10s, 2s, 10s});
+  EXPECT_FALSE(hold(regions, 2s, 2s));
+  EXPECT_FALSE(hold(regions, 3s, 3s));
+  EXPECT_TRUE(hold(regions, 4s, 3s));
+}
+
+TEST(BlockedRegions, DropsWhatIsBehindBothButNotAnEnd) {
+  const ProgressBox remaining{3s, 10s, 0s, 0s};
+  const std::vector<BlockedCell> cells{cell(1s, 3s, 0s, 0s), cell(5s, 6s, 0s, 0s)};
+  const auto regions = blocked_regions(cells, remaining);
+  ASSERT_EQ(regions.size(), 1U);
+  expect_box(regions[0].boxes[0], 5s, 6s, 0s, 0s);
+  // At its end it stands in the last cell.
+  EXPECT_EQ(blocked_regions({cell(9s, 10s, 0s, 0s)}, {10s, 10s, 0s, 0s}).size(), 1U);
+}
+
+TEST(BlockedRegions, ToldByTheClosestProvenStateElseTheSmallestDistanceElseTheLargestCell) {
+  std::vector<BlockedCell> cells{cell(0s, 1s, 0s, 1s), cell(1s, 3s, 0s, 1s), cell(3s, 4s, 0s, 1s)};
+  EXPECT_EQ(blocked_regions(cells, kAll)[0].evidence, 1U);
+  cells[0].evidence = cells[2].evidence = Evidence::distance;
+  cells[0].distance_m = 0.3;
+  cells[2].distance_m = 0.2;
+  EXPECT_EQ(blocked_regions(cells, kAll)[0].evidence, 2U);
+  cells[0].evidence = Evidence::proven;
+  EXPECT_EQ(blocked_regions(cells, kAll)[0].evidence, 0U);
+}
+
+// Random cells of a quartered square, some overlapping: the boxes hold all of them, and nothing
+// that is open to the outside. The same connections as by brute force.
+TEST(BlockedRegions, HoldAllCellsAndOnlyWhatTheyCloseIn) {
+  std::mt19937_64 random(17);
+  for (int round = 0; round < 300; ++round) {
+    constexpr int kFields = 16;
+    std::vector<BlockedCell> cells;
+    bool blocked[kFields][kFields] = {};
+    const std::size_t count = 1 + random() % 40;
+    while (cells.size() < count) {
+      const int width = 1 << (random() % 3);
+      const int a = static_cast<int>(random() % kFields) / width * width;
+      const int b = static_cast<int>(random() % kFields) / width * width;
+      cells.push_back(cell(a * 1s, (a + width) * 1s, b * 1s, (b + width) * 1s));
+      for (int i = a; i < a + width; ++i) std::fill_n(blocked[i] + b, width, true);
+    }
+    const ProgressBox remaining{0s, kFields * 1s, 0s, kFields * 1s};
+    const auto regions = blocked_regions(cells, remaining);
+    // What is free and reached from the border of the square.
+    bool outside[kFields][kFields] = {};
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (int i = 0; i < kFields; ++i) {
+        for (int j = 0; j < kFields; ++j) {
+          if (blocked[i][j] || outside[i][j]) continue;
+          const bool rim = i == 0 || j == 0 || i == kFields - 1 || j == kFields - 1;
+          if (rim || outside[i - 1][j] || outside[i + 1][j] || outside[i][j - 1] ||
+              outside[i][j + 1]) {
+            outside[i][j] = grows = true;
+          }
+        }
+      }
+    }
+    for (int i = 0; i < kFields; ++i) {
+      for (int j = 0; j < kFields; ++j) {
+        ASSERT_EQ(hold(regions, i * 1s + 500ms, j * 1s + 500ms), !outside[i][j])
+            << round << ": " << i << ", " << j;
+      }
+    }
+    for (std::size_t x = 0; x < regions.size(); ++x) {
+      for (std::size_t y = x + 1; y < regions.size(); ++y) {
+        for (const ProgressBox& one : regions[x].boxes) {
+          for (const ProgressBox& other : regions[y].boxes) {
+            ASSERT_TRUE(one.to_a < other.from_a || other.to_a < one.from_a ||
+                        one.to_b < other.from_b || other.to_b < one.from_b);
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,322 @@
+// What the arbiter says of spheres on rails, whose conflicts are known in closed form.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/collision/arbiter.h"
+#include "core/collision/pair_regions.h"
+#include "test/collision/small_cell.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double kRadius_m = 0.05;
+constexpr double kClearance_m = 0.02;
+constexpr double kTracking_m = 0.001;
+constexpr double kApart_m = 2 * kRadius_m + kClearance_m;  // of two centres
+constexpr double kSpeed_m_s = 0.5;
+
+void add_rail(Cell& cell, const std::string& name, const Eigen::Isometry3d& X_WB,
+              const Eigen::Vector3d& along) {
+  const ArmId arm = small::add_robot(cell, name, X_WB, {along}, 0.0, kRadius_m);
+  Joint& joint = cell.joints.back();
+  joint.kind = JointKind::prismatic;
+  joint.lower = -2.0;
+  joint.upper = 2.0;
+  Link& link = cell.links.back();
+  link.motion = JointKind::prismatic;
+  link.shapes.clear();
+  small::add_shape(link, Sphere{kRadius_m}, small::at_xyz(0, 0, 0));
+  cell.arms[arm.index()].home[0] = 1.5;
+}
+
+const ArmId kX{0};       // along x at y = 0
+const ArmId kY{1};       // along y at x = 0
+const ArmId kSecond{2};  // along x at y = 1
+
+struct Rails {
+  Rails() {
+    Cell made;
+    made.clearance_m = kClearance_m;
+    add_rail(made, "x", small::at_xyz(0, 0, 0), Eigen::Vector3d::UnitX());
+    add_rail(made, "y", small::at_xyz(0, 0, 0), Eigen::Vector3d::UnitY());
+    add_rail(made, "second", small::at_xyz(0, 1, 0), Eigen::Vector3d::UnitX());
+    // A post beside x's rail, far from all others.
+    Link post = small::static_link("post", RobotId{1}, small::at_xyz(-1.8, 0, 0));
+    small::add_shape(post, Sphere{kRadius_m}, small::at_xyz(0, 0, 0));
+    small::add_link(made, post);
+    cell = small::shared(std::move(made));
+    question.rest = cell->home();
+    question.method = Coordinated{kTracking_m};
+    arbiter.emplace(*PlanningScene::build(cell));
+  }
+
+  // At constant speed; all arms the same way.
+  [[nodiscard]] Motion motion(std::uint64_t job, const std::vector<ArmId>& arms, double from,
+                              double to) const {
+    const Duration duration = from_seconds(std::abs(to - from) / kSpeed_m_s);
+    std::vector<JointId> joints;
+    for (const ArmId arm : arms) joints.push_back(cell->arm(arm).joints[0]);
+    Segment segment{Duration{}, duration, {}};
+    segment.coefficients.setZero(static_cast<Eigen::Index>(joints.size()), 6);
+    segment.coefficients.col(0).setConstant(from);
+    segment.coefficients.col(1).setConstant((to - from) / to_seconds(duration));
+    return {JobId{job},
+            std::make_shared<const Trajectory>(joints, arms, std::vector<Segment>{segment}),
+            {}};
+  }
+  [[nodiscard]] Motion to_come(Motion motion) const {
+    motion.to_come = true;
+    return motion;
+  }
+  [[nodiscard]] Verdict judge() { return arbiter->judge(question); }
+
+  CellPtr cell;
+  std::optional<Arbiter> arbiter;
+  Question question{};
+};
+
+bool hold(const std::vector<ConflictRegion>& regions, Duration a, Duration b) {
+  return std::ranges::any_of(regions, [&](const ConflictRegion& region) {
+    return std::ranges::any_of(region.boxes, [&](const ProgressBox& box) {
+      return box.from_a <= a && a <= box.to_a && box.from_b <= b && b <= box.to_b;
+    });
+  });
+}
+
+// The outermost times of a region.
+ProgressBox around(const ConflictRegion& region) {
+  ProgressBox hull = region.boxes.front();
+  for (const ProgressBox& box : region.boxes) {
+    hull = {std::min(hull.from_a, box.from_a), std::max(hull.to_a, box.to_a),
+            std::min(hull.from_b, box.from_b), std::max(hull.to_b, box.to_b)};
+  }
+  return hull;
+}
+
+// How far from the true conflict a state may be that is not certified: a cell of the outline is
+// not free while its middle is nearer than both move in half of it, and its farthest state is as
+// far from there once more; one whose middle is a conflict is coarser, and counted once.
+double slack_m() {
+  const auto moves = [](Duration width) {
+    return 2 * (kSpeed_m_s * to_seconds(width) / 2 + kTracking_m);
+  };
+  return std::max(2 * moves(PairRegionSearch::kResolution.fine),
+                  moves(PairRegionSearch::kResolution.coarse)) +
+         1e-4;
+}
+
+// With x at -1 + v a and y at `start` + v b their centres are this far apart.
+double apart_m(Duration a, Duration b, double start) {
+  return std::hypot(-1.0 + kSpeed_m_s * to_seconds(a), start + kSpeed_m_s * to_seconds(b));
+}
+
+TEST(Coordinated, HoldsTheDiscInWhichTwoCrossTightly) {
+  for (const bool turned : {false, true}) {
+    Rails rails;
+    rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
+    rails.question.others = {rails.motion(2, {kY}, -1.2, 1.2)};
+    if (turned) std::swap(rails.question.candidates, rails.question.others);
+    const Verdict verdict = rails.judge();
+    ASSERT_EQ(verdict.kind, Verdict::Kind::free);
+    EXPECT_EQ(verdict.clearance_bound_m, kClearance_m);
+    EXPECT_TRUE(verdict.conflicts.empty());
+    ASSERT_EQ(verdict.regions.size(), 1U);
+    const PairRegions& pair = verdict.regions[0];
+    EXPECT_EQ(pair.a, JobId{turned ? 2U : 1U});
+    EXPECT_EQ(std::get<JobId>(pair.b), JobId{turned ? 1U : 2U});
+    ASSERT_EQ(pair.regions.size(), 1U);
+    EXPECT_LE(pair.regions[0].boxes.size(), 40U);
+    const Proximity& proximity = pair.regions[0].proximity;
+    EXPECT_EQ(proximity.body_a, turned ? "y_link1" : "x_link1");
+    EXPECT_EQ(proximity.body_b, turned ? "x_link1" : "y_link1");
+    EXPECT_LT(proximity.clearance_m, kClearance_m);
+    Duration at_x = pair.regions[0].time_a;
+    Duration at_y = pair.regions[0].time_b;
+    if (turned) std::swap(at_x, at_y);
+    EXPECT_NEAR(proximity.clearance_m, apart_m(at_x, at_y, -1.2) - 2 * kRadius_m, 1e-5);
+    for (Duration a{}; a <= 4s; a += 7ms) {
+      for (Duration b{}; b <= 4800ms; b += 7ms) {
+        const double distance_m = apart_m(a, b, -1.2);
+        const bool held = turned ? hold(pair.regions, b, a) : hold(pair.regions, a, b);
+        if (distance_m < kApart_m + 2 * kTracking_m - 1e-6) {
+          ASSERT_TRUE(held) << to_seconds(a) << " " << to_seconds(b);
+        } else if (distance_m > kApart_m + slack_m()) {
+          ASSERT_FALSE(held) << to_seconds(a) << " " << to_seconds(b);
+        }
+      }
+    }
+  }
+}
+
+TEST(Coordinated, TouchesTheEndExactlyWhereAMotionEndsInTheWay) {
+  Rails rails;
+  rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
+  rails.question.others = {rails.motion(2, {kY}, -1.1, 0)};
+  Verdict verdict = rails.judge();
+  ASSERT_EQ(verdict.regions.size(), 1U);
+  ASSERT_EQ(verdict.regions[0].regions.size(), 1U);
+  EXPECT_EQ(around(verdict.regions[0].regions[0]).to_b, 2200ms);
+  EXPECT_GT(around(verdict.regions[0].regions[0]).from_b, 0s);
+
+  rails.question.others = {rails.motion(3, {kY}, 0, 1.1)};
+  verdict = rails.judge();
+  ASSERT_EQ(verdict.regions.size(), 1U);
+  EXPECT_EQ(around(verdict.regions[0].regions[0]).from_b, 0s);
+  EXPECT_LT(around(verdict.regions[0].regions[0]).to_b, 2200ms);
+}
+
+TEST(Coordinated, HasNoTimesForAnArmAtRest) {
+  Rails rails;
+  rails.question.rest[1] = 0.0;  // y stands in the middle of x's way
+  rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
+  const Verdict verdict = rails.judge();
+  ASSERT_EQ(verdict.kind, Verdict::Kind::free);
+  ASSERT_EQ(verdict.regions.size(), 1U);
+  EXPECT_EQ(std::get<ArmId>(verdict.regions[0].b), kY);
+  ASSERT_EQ(verdict.regions[0].regions.size(), 1U);
+  const ConflictRegion& region = verdict.regions[0].regions[0];
+  ASSERT_EQ(region.boxes.size(), 1U);
+  EXPECT_EQ(region.boxes[0].from_b, 0s);
+  EXPECT_EQ(region.boxes[0].to_b, 0s);
+  EXPECT_EQ(region.time_b, 0s);
+  const double half_s = (kApart_m + 2 * kTracking_m) / kSpeed_m_s;
+  EXPECT_LE(to_seconds(region.boxes[0].from_a), 2.0 - half_s + 1e-6);
+  EXPECT_GE(to_seconds(region.boxes[0].to_a), 2.0 + half_s - 1e-6);
+  const double slack_s = (kApart_m + slack_m()) / kSpeed_m_s;
+  EXPECT_GE(to_seconds(region.boxes[0].from_a), 2.0 - slack_s);
+  EXPECT_LE(to_seconds(region.boxes[0].to_a), 2.0 + slack_s);
+}
+
+TEST(Coordinated, LooksOnlyAtWhatRemains) {
+  Rails rails;
+  rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
+  rails.question.others = {rails.motion(2, {kY}, -1, 1)};
+  rails.question.others[0].progress = 2500ms;  // past the crossing
+  EXPECT_TRUE(rails.judge().regions.empty());
+  rails.question.others[0].progress = 1000ms;
+  EXPECT_EQ(rails.judge().regions.size(), 1U);
+}
+
+TEST(Coordinated, AskedAgainLooksAtNothingAnew) {
+  Rails rails;
+  rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
+  rails.question.others = {rails.motion(2, {kY}, -1, 1)};
+  const Verdict first = rails.judge();
+  rails.question.others[0].progress = 100ms;
+  const Verdict second = rails.judge();
+  EXPECT_GT(first.evaluations, 100U);
+  EXPECT_EQ(second.evaluations, 0U);
+  ASSERT_EQ(second.regions.size(), 1U);
+  EXPECT_EQ(second.regions[0].regions[0].boxes.size(), first.regions[0].regions[0].boxes.size());
+}
+
+TEST(Coordinated, NeedsFewCellsWhereArmsStayApart) {
+  Rails rails;
+  rails.question.candidates = {rails.motion(1, {kX}, 0.5, 1.5)};
+  rails.question.others = {rails.motion(2, {kY}, -1.5, 0.5)};
+  const Verdict verdict = rails.judge();
+  EXPECT_TRUE(verdict.regions.empty());
+  EXPECT_LE(verdict.evaluations, 80U);
+}
+
+TEST(Coordinated, ComparesWithEveryMotionOfAnArmButNotItsOwn) {
+  Rails rails;
+  rails.question.others = {rails.motion(11, {kY}, -1, 1),
+                           rails.to_come(rails.motion(12, {kY}, 1, -1)),
+                           rails.motion(13, {kX}, 1, -1)};
+  rails.question.candidates = {rails.to_come(rails.motion(1, {kX}, -1, 1)),
+                               rails.to_come(rails.motion(2, {kX}, 1, -1)),
+                               rails.to_come(rails.motion(3, {kY}, -1, 1))};
+  const Verdict verdict = rails.judge();
+  ASSERT_EQ(verdict.kind, Verdict::Kind::free);
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs;
+  for (const PairRegions& pair : verdict.regions) {
+    EXPECT_EQ(pair.regions.size(), 1U);
+    pairs.emplace_back(pair.a.value(), std::get<JobId>(pair.b).value());
+  }
+  const std::vector<std::pair<std::uint64_t, std::uint64_t>> expected{
+      {1, 11}, {1, 12}, {1, 3}, {2, 11}, {2, 12}, {2, 3}, {3, 13}};
+  EXPECT_EQ(pairs, expected);
+}
+
+TEST(Coordinated, JoinsTheArmsOfASynchronousMotion) {
+  Rails rails;
+  // y passes x's rail at 2 s and the second rail at 4 s, both arms are in its way at 2 s.
+  rails.question.candidates = {rails.motion(1, {kX, kSecond}, -1, 1)};
+  rails.question.others = {rails.motion(2, {kY}, -1, 1.7)};
+  Verdict verdict = rails.judge();
+  ASSERT_EQ(verdict.kind, Verdict::Kind::free);
+  ASSERT_EQ(verdict.regions.size(), 1U);
+  ASSERT_EQ(verdict.regions[0].regions.size(), 2U);
+  EXPECT_TRUE(hold(verdict.regions[0].regions, 2s, 2s));
+  EXPECT_TRUE(hold(verdict.regions[0].regions, 2s, 4s));
+  EXPECT_FALSE(hold(verdict.regions[0].regions, 2s, 3s));
+  // The two of them against one arm that stands: one region each.
+  rails.question.others.clear();
+  rails.question.rest[1] = 1.0;
+  verdict = rails.judge();
+  ASSERT_EQ(verdict.regions.size(), 1U);
+  EXPECT_EQ(verdict.regions[0].regions.size(), 1U);
+  EXPECT_EQ(verdict.regions[0].regions[0].proximity.arm_a, kSecond);
+}
+
+TEST(Coordinated, IsAConflictWhereACandidateAloneIsOne) {
+  Rails rails;
+  rails.question.candidates = {rails.motion(1, {kX}, -1.685, 1)};  // begins too near the post
+  rails.question.others = {rails.motion(2, {kY}, -1, 1)};
+  Verdict verdict = rails.judge();
+  EXPECT_EQ(verdict.kind, Verdict::Kind::free) << "it parts";
+  rails.question.candidates = {rails.motion(1, {kX}, 1, -1.8)};
+  verdict = rails.judge();
+  ASSERT_EQ(verdict.kind, Verdict::Kind::conflict);
+  ASSERT_EQ(verdict.conflicts.size(), 1U);
+  EXPECT_EQ(verdict.conflicts[0].with, Conflict::With::scene);
+  EXPECT_TRUE(verdict.regions.empty());
+  EXPECT_FALSE(verdict.clearance_bound_m);
+}
+
+TEST(Coordinated, IsAConflictWhereTheArmsOfASynchronousMotionMeet) {
+  Rails rails;
+  rails.question.candidates = {rails.motion(1, {kX, kY}, -1, 1)};
+  const Verdict verdict = rails.judge();
+  ASSERT_EQ(verdict.kind, Verdict::Kind::conflict);
+  EXPECT_EQ(verdict.conflicts[0].with, Conflict::With::self);
+}
+
+TEST(Coordinated, LetsAPairPartThatStandsTooCloseNow) {
+  Rails rails;
+  rails.question.rest[1] = 0.0;
+  rails.question.candidates = {rails.motion(1, {kX}, 0.115, 1)};  // away from y, 5 mm too close
+  EXPECT_TRUE(rails.judge().regions.empty());
+  rails.question.candidates = {rails.motion(2, {kX}, 0.115, -1)};  // through it
+  EXPECT_EQ(rails.judge().regions.size(), 1U);
+  // One that comes there only later is no such pair.
+  rails.question.candidates = {rails.to_come(rails.motion(3, {kX}, 0.115, 1))};
+  const Verdict verdict = rails.judge();
+  ASSERT_EQ(verdict.regions.size(), 1U);
+  EXPECT_EQ(verdict.regions[0].regions[0].boxes[0].from_a, 0s);
+}
+
+// x and y move together, then x alone comes back to where y was left: y stands there meanwhile.
+TEST(Coordinated, SeesTheOtherArmsOfAMotionThatSharesOne) {
+  Rails rails;
+  rails.question.others = {rails.motion(1, {kX, kY}, 1.5, 0.1)};
+  rails.question.others[0].progress = 2799ms;
+  rails.question.candidates = {rails.to_come(rails.motion(2, {kX}, 0.1, -1))};
+  Verdict verdict = rails.judge();
+  ASSERT_EQ(verdict.regions.size(), 1U);
+  EXPECT_EQ(std::get<ArmId>(verdict.regions[0].b), kY);
+  // Where y goes on by itself, that motion tells it.
+  rails.question.others.push_back(rails.to_come(rails.motion(3, {kY}, 0.1, 1.5)));
+  verdict = rails.judge();
+  ASSERT_EQ(verdict.regions.size(), 1U);
+  EXPECT_EQ(std::get<JobId>(verdict.regions[0].b), JobId{3});
+  EXPECT_EQ(around(verdict.regions[0].regions[0]).from_b, 0s);
+}
+
+}  // namespace
+}  // namespace armloom
