@@ -42,7 +42,8 @@ struct JobView {
   Duration duration{};
   bool stopping = false;
   std::vector<WaitView> waits_on;
-  std::optional<Reason> reason;  // when ended
+  std::vector<std::string> ring;  // keys: the deadlock that it is part of, itself first
+  std::optional<Reason> reason;   // when ended
   std::string detail;
 };
 

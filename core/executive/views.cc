@@ -1,6 +1,16 @@
 #include "core/executive/views.h"
 
 namespace armloom {
+namespace {
+
+// "a -> b -> a: none of them can move before the next one does".
+std::string deadlock_text(const std::vector<std::string>& ring) {
+  std::string text;
+  for (const std::string& key : ring) text += key + " -> ";
+  return text + ring.front() + ": none of them can move before the next one does";
+}
+
+}  // namespace
 
 WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names) {
   WaitView view{.kind = wait.kind, .detail = wait.detail};
@@ -32,6 +42,8 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   view.progress = to_seconds(job.progress) / to_seconds(job.trajectory->duration());
   for (ArmId arm : job.trajectory->arms()) view.arms.push_back(cell.arm(arm).name);
   for (const Wait& wait : job.waits_on) view.waits_on.push_back(view_of(wait, cell, names));
+  for (JobId on_it : job.ring) view.ring.push_back(names.key(on_it));
+  if (job.reason == Reason::deadlock) view.detail = deadlock_text(view.ring);
   return view;
 }
 

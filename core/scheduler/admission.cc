@@ -137,6 +137,7 @@ void Scheduler::form_round() {
 
 void Scheduler::explain_waits() {
   const std::vector<const Job*> occupied_by = occupying();
+  const std::vector<Aged> aged = aged_jobs();
   std::vector<std::optional<JobId>> before(cell_->arms.size());  // per arm: the job ahead
   for (JobId id : active_) {
     Record& record = records_.at(id);
@@ -150,7 +151,15 @@ void Scheduler::explain_waits() {
       wait = Wait{.kind = Wait::Kind::order, .job = record.job.after.front()};
     }
     if (!wait) wait = stop_of(record);
-    if (!wait) wait = capacity_of(record, occupied_by);
+    if (!wait && (wait = capacity_of(record, occupied_by)) && !record.ages_from) {
+      record.ages_from = now_;
+    }
+    if (!wait && record.judged_at != version_) {
+      if (const auto old = held_back_by(record, aged)) {
+        if (records_.at(*old).judged_at != version_) continue;  // it may be about to go
+        wait = Wait{.kind = Wait::Kind::order, .job = *old};
+      }
+    }
     if (wait) {
       set_waits(record, {std::move(*wait)});
     } else if (record.judged_at == 0) {
@@ -221,16 +230,20 @@ std::optional<JobId> Scheduler::next_to_move_forward() const {
 
 std::optional<JobId> Scheduler::next_candidate() const {
   const Job* best = nullptr;
-  const auto goes_before = [](const Job& a, const Job& b) {
+  const std::map<JobId, int> urgency = urgencies();
+  const std::vector<Aged> aged = aged_jobs();
+  const auto goes_before = [&urgency](const Job& a, const Job& b) {
     const bool a_held = a.state == JobState::holding;
     const bool b_held = b.state == JobState::holding;
     if (a_held != b_held) return a_held;
-    return a.priority != b.priority ? a.priority > b.priority : a.id < b.id;
+    if (urgency.empty() || urgency.at(a.id) == urgency.at(b.id)) return a.id < b.id;
+    return urgency.at(a.id) > urgency.at(b.id);
   };
   const std::vector<const Job*> occupied_by = occupying();
   for (JobId id : active_) {
     const Record& record = records_.at(id);
     if (record.judged_at == version_ || !may_be_judged(record, occupied_by)) continue;
+    if (held_back_by(record, aged)) continue;
     if (!best || goes_before(record.job, *best)) best = &record.job;
   }
   return best ? std::optional(best->id) : std::nullopt;
@@ -280,6 +293,9 @@ std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory) const {
   }
   if (const auto taken_by = policy_->capacity_taken_by(occupying())) {
     waits.push_back({.kind = Wait::Kind::capacity, .job = *taken_by});
+  }
+  if (waits.empty()) {
+    for (const Aged& a : aged_jobs()) waits.push_back({.kind = Wait::Kind::order, .job = a.job});
   }
   return waits;
 }
@@ -430,6 +446,8 @@ void Scheduler::refuse(Record& record, const Verdict& verdict, bool recheck) {
     brake(record, AfterStop::hold);
   } else {
     record.judged_at = version_;
+    record.found = waits;
+    if (!record.ages_from) record.ages_from = now_;
     if (job.state == JobState::queued) {
       job.state = JobState::backlogged;
       if (!job.backlogged_at) job.backlogged_at = now_;

@@ -66,6 +66,8 @@ const char* to_string(Reason reason) {
       return "overrun";
     case Reason::server_restart:
       return "server_restart";
+    case Reason::deadlock:
+      return "deadlock";
   }
   return "unknown";
 }

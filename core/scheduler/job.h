@@ -56,6 +56,7 @@ enum class Reason {
   arm_fault,
   overrun,  // took longer than execution.duration_scaling and _margin allow
   server_restart,
+  deadlock,  // it waited in a ring of jobs none of which could ever move, and came last
 };
 [[nodiscard]] const char* to_string(Reason reason);
 
@@ -78,8 +79,11 @@ struct Job {
   bool pausing = false;          // running, at rest on its way until others have passed
   bool late = false;             // loses time against its plan: may stand where it is for long
   std::vector<Wait> waits_on;
+  // The deadlock that it is part of, this job first: each waits for the next one, the last for the
+  // first. Empty: none. Kept by the job that ends for it.
+  std::vector<JobId> ring;
   std::optional<Reason> reason;  // terminal
-  std::string detail;            // terminal: one sentence
+  std::string detail;            // terminal: one sentence; deadlock: empty, the ring says it
 };
 
 }  // namespace armloom

@@ -55,10 +55,12 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 
 void Scheduler::settle() {
   expire_and_overrun();
+  settle_deadlocks();
   dispatch_due();
   fail_impossible_starts();
   form_round();
   explain_waits();
+  name_deadlocks();
   ask_next();
   ask_for_wake();
 }
@@ -317,6 +319,7 @@ void Scheduler::end(Record& record, JobState state, Reason reason, std::string d
   job.ended_at = now_;
   job.reason = reason;
   job.detail = std::move(detail);
+  if (reason != Reason::deadlock) job.ring.clear();
   if (state != JobState::expired) job.waits_on.clear();  // else: what it waited for in vain
   if (state == JobState::succeeded) job.progress = job.trajectory->duration();
   for (ArmId arm : job.trajectory->arms()) std::erase(order_[arm.index()], job.id);
@@ -393,6 +396,7 @@ void Scheduler::ask_for_wake() {
     if (!graph_ && has_not_begun(record))
       consider(record.plan_at + cell_->checking.delay + Duration(1));
   }
+  if (!rings_.empty()) consider(now_ + Duration(1));  // a step of its own
   if (next && next != wake_at_) effects_.push_back(WakeAt{*next});
   wake_at_ = next;
 }

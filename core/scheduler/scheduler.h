@@ -11,6 +11,7 @@
 #include "core/base/problem.h"
 #include "core/base/time.h"
 #include "core/model/cell.h"
+#include "core/scheduler/deadlock.h"
 #include "core/scheduler/inputs.h"
 #include "core/scheduler/job.h"
 #include "core/scheduler/policy.h"
@@ -48,6 +49,15 @@ inline constexpr Duration kOnTimeAgain = std::chrono::milliseconds(200);
 // Such a job holds its reservation from then on; its motion is dispatched just before. When what it
 // waits for ends otherwise than planned, its start moves forward.
 //
+// Whose turn it is: held jobs first, then the larger priority, where a job that others wait for is
+// as urgent as the most urgent of them, then the earlier. A job that has waited for
+// scheduling.aging since it was first in conflict, or first without a place, holds back every other
+// one but those that have to go before it, unless what it waits for is an arm that no job moves, an
+// object or a stop (README: how long a job can wait).
+//
+// Jobs that wait for each other in a ring can never move: each is told its ring in the step that
+// finds it, and in the next one the job that was submitted last fails.
+//
 // An arm that comes to rest off its plan (canceled, stopped, faulted), that loses more than
 // checking.delay against its plan, or a scene that changes may endanger motions that were admitted
 // before: these are judged again, and those in conflict are held until the way is free. An arm that
@@ -70,7 +80,8 @@ class Scheduler {
   [[nodiscard]] Question hypothetical(TrajectoryPtr trajectory, TimePoint start_at) const;
   // What its answer means for the policy: whether and when the motion could start.
   [[nodiscard]] Verdict meaning(const Question& hypothetical, Verdict verdict) const;
-  // What keeps a job with this motion from being judged now: its arms' queues and stops, capacity.
+  // What keeps a job with this motion from being judged now: its arms' queues and stops, capacity,
+  // an aged job.
   [[nodiscard]] std::vector<Wait> waits_before(const Trajectory& trajectory) const;
 
   [[nodiscard]] const Policy& policy() const { return *policy_; }
@@ -88,15 +99,26 @@ class Scheduler {
     AfterStop after_stop = AfterStop::hold;
     Reason fail_reason = Reason::overrun;  // with AfterStop::fail
     std::string fail_detail;
-    Version judged_at = 0;     // the version on which it was last found in conflict
-    Version checked_at = 0;    // in motion: the version on which it was last found free
-    Duration from_progress{};  // where the present dispatch begins
+    Version judged_at = 0;               // the version on which it was last found in conflict
+    std::vector<Wait> found;             // with what
+    std::optional<TimePoint> ages_from;  // first in conflict, or first without a place
+    Version checked_at = 0;              // in motion: the version on which it was last found free
+    Duration from_progress{};            // where the present dispatch begins
     std::optional<TimePoint> overrun_at;
     bool dispatched = false;    // the arms have the motion; else it is scheduled at most
     Version forward_tried = 0;  // scheduled: the version on which an earlier start was sought
     Duration plan_progress{};   // progress at plan_at: from there it should advance with the clock
     TimePoint plan_at{};
     Duration horizon{};  // coordinated: how far ahead of its progress its authority may reach
+  };
+  // A job that has waited for longer than scheduling.aging, and all that have to go before it.
+  struct Aged {
+    JobId job;
+    std::vector<JobId> goes_first;  // ascending
+  };
+  struct NamedRing {
+    Ring ring;
+    Version disturbed_at;
   };
   enum class Purpose {
     start,    // of a job that waits
@@ -159,6 +181,21 @@ class Scheduler {
   void add_others(Question& question, const std::vector<JobId>& candidates) const;
   void admit(Record& record, TimePoint start_at);
   void refuse(Record& record, const Verdict& verdict, bool recheck);
+
+  // turns.cc: whose turn it is among waiting jobs
+  [[nodiscard]] WaitsFor waits_for() const;
+  [[nodiscard]] std::optional<JobId> has_to_move_first(const Record& record,
+                                                       const Wait& wait) const;
+  [[nodiscard]] std::map<JobId, int> urgencies() const;  // empty: all are the same
+  [[nodiscard]] bool is_aged(const Record& record) const;
+  [[nodiscard]] bool waits_beyond_turns(const Record& record) const;
+  [[nodiscard]] std::vector<Aged> aged_jobs() const;  // that hold others back, the oldest first
+  [[nodiscard]] std::optional<JobId> held_back_by(const Record& record,
+                                                  const std::vector<Aged>& aged) const;
+  void name_deadlocks();
+  void settle_deadlocks();
+  void resolve(const Ring& ring);
+
   [[nodiscard]] std::vector<const Job*> occupying() const;  // scheduled, in motion, held
   [[nodiscard]] static Duration progress_at(const Record& record, TimePoint when);
   [[nodiscard]] bool at_head(const Record& record) const;
@@ -196,6 +233,7 @@ class Scheduler {
   Duration allowance_;               // how far ahead of now a question's instant lies
   std::set<JobId> round_;            // policies with rounds: the jobs of the present one
   bool round_begun_ = false;
+  std::vector<NamedRing> rings_;  // in an earlier step; to be resolved in this one
   std::optional<OpenQuestion> open_;
   std::optional<PrecedenceGraph> graph_;  // policies that coordinate
   std::optional<TimePoint> wake_at_;

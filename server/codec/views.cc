@@ -122,7 +122,7 @@ void write(JsonWriter& out, const JobView& job, const WallClock* clock) {
   out.field("progress", job.progress).field("duration_s", job.duration);
   out.field("stopping", job.stopping).key("waits_on").begin_array();
   for (const WaitView& wait : job.waits_on) write_wait(out, wait);
-  out.end_array().key("result");
+  out.end_array().field("ring", job.ring).key("result");
   if (job.reason) {
     out.begin_object().field("reason", to_string(*job.reason)).field("detail", job.detail);
     out.end_object();

@@ -71,6 +71,15 @@ TEST(Views, AJobThatWaitsSaysForWhat) {
                          {"links", {"r7", "l7"}}, {"own_time_s", 1.25}, {"other_time_s", 0.5},
                          {"clearance_m", 0.004}};
   EXPECT_EQ(job["waits_on"], json::array({expected}));
+  EXPECT_EQ(job["ring"], json::array());
+}
+
+TEST(Views, AJobOfADeadlockTellsItsRing) {
+  JobView job = waiting_job();
+  job.ring = {"b", "a"};
+  JsonWriter out;
+  write(out, job, nullptr);
+  EXPECT_EQ(json::parse(out.text())["ring"], json({"b", "a"}));
 }
 
 TEST(Views, AnEndedJobSaysWhy) {

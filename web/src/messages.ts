@@ -63,6 +63,8 @@ export interface Job {
   duration_s: number | null;
   stopping: boolean;
   waits_on: WaitsOn[];
+  /** Ids of the deadlock that it is part of, itself first; else empty. */
+  ring: string[];
   result: JobResult | null;
   /** The job as the server wrote it, for the detail view. */
   raw: unknown;
@@ -347,6 +349,7 @@ function read_job(f: Field): Job {
     duration_s: seconds('duration_s'),
     stopping: f.get('stopping').or_null((e) => e.flag()) ?? false,
     waits_on: f.get('waits_on').list_or_empty(read_waits_on),
+    ring: f.get('ring').list_or_empty((e) => e.text()),
     result: f.get('result').or_null((e) => ({
       reason: e.get('reason').text(),
       detail: e.get('detail').text_or_null(),

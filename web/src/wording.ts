@@ -31,6 +31,7 @@ export function clock(t_s: number): string {
 
 /** Why a job waits, one sentence; empty when it waits on nothing. */
 export function reason_in_words(job: Job): string {
+  if (job.ring.length) return `deadlock: ${[...job.ring, ...job.ring.slice(0, 1)].map(short_id).join(' -> ')}`;
   const [first, ...rest] = job.waits_on;
   if (!first) return job.state === 'backlogged' ? 'waits to be tried again' : '';
   const more = rest.length ? ` (and ${rest.length} more)` : '';

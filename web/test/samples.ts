@@ -14,7 +14,7 @@ export function job_json(id: string, over: object = {}): Record<string, unknown>
   return {
     id, name: null, state: 'queued', arms: ['left'], priority: 0,
     submitted_s: 1, started_s: null, ended_s: null, submitted_at: '2026-01-01T00:00:00Z',
-    progress: 0, duration_s: 4, stopping: false, waits_on: [], result: null, ...over,
+    progress: 0, duration_s: 4, stopping: false, waits_on: [], ring: [], result: null, ...over,
   };
 }
 

@@ -43,6 +43,10 @@ describe('the reason why a job waits', () => {
   it('counts further reasons', () => {
     expect(reason(kBare, {}, {})).toBe('waits for job place-6 of right to end (and 2 more)');
   });
+  it('is the ring where jobs wait for each other', () => {
+    expect(reason_in_words(job({ state: 'backlogged', waits_on: [wait_json()], ring: ['a', 'b', 'c'] }))).toBe(
+      'deadlock: a -> b -> c -> a');
+  });
   it('is empty for a job that waits on nothing', () => {
     expect(reason_in_words(job({ state: 'running' }))).toBe('');
   });

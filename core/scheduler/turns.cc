@@ -1,0 +1,178 @@
+// Whose turn it is among the jobs that wait: aging, priorities without inversion, deadlocks.
+#include <algorithm>
+#include <utility>
+
+#include "core/scheduler/deadlock.h"
+#include "core/scheduler/fairness.h"
+#include "core/scheduler/scheduler.h"
+
+namespace armloom {
+
+// Edges from judgements count on the version that was judged only. What is undecided is no proof,
+// and two that are held may go on together though neither can alone.
+std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wait& wait) const {
+  const bool undecided = !wait.detail.empty();
+  std::optional<JobId> first;
+  if (wait.kind == Wait::Kind::job) first = wait.job;
+  if (wait.kind == Wait::Kind::arm && !order_[wait.arm->index()].empty()) {
+    first = order_[wait.arm->index()].front();
+  }
+  if (undecided || !first || !active_.contains(*first)) return std::nullopt;
+  const Record& other = records_.at(*first);
+  const bool both_held =
+      record.job.state == JobState::holding && other.job.state == JobState::holding;
+  return waiting(other) && !both_held ? first : std::nullopt;
+}
+
+WaitsFor Scheduler::waits_for() const {
+  std::vector<WaitsForEdge> edges;
+  for (const auto& queue : order_) {
+    for (std::size_t i = 1; i < queue.size(); ++i) {
+      if (waiting(records_.at(queue[i - 1]))) edges.push_back({queue[i], queue[i - 1]});
+    }
+  }
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    if (!waiting(record)) continue;
+    for (JobId before : record.job.after) {
+      if (waiting(records_.at(before))) edges.push_back({id, before});
+    }
+    if (record.judged_at != version_) continue;
+    for (const Wait& wait : record.found) {
+      const auto first = has_to_move_first(record, wait);
+      if (!first) continue;
+      if (wait.kind == Wait::Kind::arm) {
+        edges.push_back({id, *wait.arm});
+        edges.push_back({*wait.arm, *first});
+      } else {
+        edges.push_back({id, *first});
+      }
+    }
+  }
+  return WaitsFor(std::move(edges));
+}
+
+// ---- Priorities ----
+
+std::map<JobId, int> Scheduler::urgencies() const {
+  std::vector<Urgency> jobs;
+  bool equal = true;
+  for (JobId id : active_) {
+    const Record& record = records_.at(id);
+    if (!waiting(record)) continue;
+    jobs.push_back({id, record.job.priority});
+    equal = equal && jobs.front().priority == record.job.priority;
+  }
+  if (equal) return {};
+  return effective_priorities(waits_for(), std::move(jobs));
+}
+
+// ---- Aging ----
+
+bool Scheduler::is_aged(const Record& record) const {
+  return waiting(record) && record.job.state != JobState::holding && record.ages_from &&
+         now_ - *record.ages_from >= cell_->scheduling.aging && at_head(record) && !stop_of(record);
+}
+
+// Nothing that other jobs do or leave would let it go: an arm that no job will move, an object, a
+// stop.
+bool Scheduler::waits_beyond_turns(const Record& record) const {
+  if (!at_head(record)) return false;
+  if (stop_of(record)) return true;
+  if (record.judged_at != version_) return false;
+  return std::ranges::any_of(record.found, [&](const Wait& wait) {
+    if (wait.kind != Wait::Kind::arm) return wait.kind == Wait::Kind::object;
+    const auto& queue = order_[wait.arm->index()];
+    const bool moves = !queue.empty() && !waiting(records_.at(queue.front()));
+    return !moves && !has_to_move_first(record, wait);
+  });
+}
+
+std::vector<Scheduler::Aged> Scheduler::aged_jobs() const {
+  std::vector<Aged> aged;
+  if (policy_->in_rounds()) return aged;  // rounds are fair by themselves
+  for (const auto& queue : order_) {
+    if (!queue.empty() && is_aged(records_.at(queue.front()))) aged.push_back({queue.front(), {}});
+  }
+  if (aged.empty()) return aged;
+  std::ranges::sort(
+      aged, {}, [this](const Aged& a) { return std::pair(*records_.at(a.job).ages_from, a.job); });
+  const auto again = std::ranges::unique(aged, {}, &Aged::job);  // a job of several arms
+  aged.erase(again.begin(), again.end());
+  const WaitsFor graph = waits_for();
+  for (Aged& a : aged) {
+    for (const Waiter& before : graph.all_before(a.job)) {
+      if (const auto* job = std::get_if<JobId>(&before)) a.goes_first.push_back(*job);
+    }
+  }
+  std::erase_if(aged, [this](const Aged& a) {
+    return waits_beyond_turns(records_.at(a.job)) ||
+           std::ranges::any_of(a.goes_first,
+                               [this](JobId id) { return waits_beyond_turns(records_.at(id)); });
+  });
+  return aged;
+}
+
+std::optional<JobId> Scheduler::held_back_by(const Record& record,
+                                             const std::vector<Aged>& aged) const {
+  if (record.job.state == JobState::holding) return std::nullopt;
+  for (const Aged& a : aged) {
+    if (a.job == record.job.id) return std::nullopt;  // the others are aged for less long
+    const Job& old = records_.at(a.job).job;
+    const bool outranks = record.job.id < old.id && record.job.priority > old.priority;
+    if (!outranks && !std::ranges::binary_search(a.goes_first, record.job.id)) return a.job;
+  }
+  return std::nullopt;
+}
+
+// ---- Deadlocks ----
+
+// Every job of a ring is told of it now; what becomes of the ring is decided in a later step, so
+// that it is seen by clients whatever that is.
+void Scheduler::name_deadlocks() {
+  // Orders of submission alone make no ring; and only the first job of an arm is judged.
+  const bool in_the_way = std::ranges::any_of(order_, [this](const auto& queue) {
+    if (queue.empty()) return false;
+    const Record& record = records_.at(queue.front());
+    return waiting(record) && record.judged_at == version_ &&
+           std::ranges::any_of(record.found, [&](const Wait& wait) {
+             return has_to_move_first(record, wait).has_value();
+           });
+  });
+  if (!in_the_way) return;
+  for (Ring& ring : find_rings(waits_for())) {
+    for (JobId id : ring) {
+      Record& record = records_.at(id);
+      record.job.ring = beginning_with(id, ring);
+      changed(record);
+    }
+    rings_.push_back({std::move(ring), disturbed_at_});
+  }
+}
+
+// No arm of a ring moves while its jobs wait. So a ring that was found stands until one of these
+// goes, or the scene is another one.
+void Scheduler::settle_deadlocks() {
+  for (const NamedRing& named : std::exchange(rings_, {})) {
+    const bool stands =
+        named.disturbed_at == disturbed_at_ && std::ranges::all_of(named.ring, [this](JobId id) {
+          return active_.contains(id) && waiting(records_.at(id));
+        });
+    if (stands) resolve(named.ring);
+    for (JobId id : named.ring) {
+      if (!active_.contains(id)) continue;
+      records_.at(id).job.ring.clear();
+      changed(records_.at(id));
+    }
+  }
+}
+
+// The last one that came gives way: the others were there before it closed the ring.
+void Scheduler::resolve(const Ring& ring) {
+  Record& last = records_.at(*std::ranges::max_element(ring));
+  const bool held = last.job.state == JobState::holding;
+  end(last, JobState::failed, Reason::deadlock, "");
+  if (held) effects_.push_back(Release{last.job.id});
+}
+
+}  // namespace armloom

@@ -1,0 +1,71 @@
+// T9 under every policy that could starve a job: an endless stream of short and urgent jobs on one
+// arm, each in conflict with a job of another arm that waits.
+#include <gtest/gtest.h>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+// x passes the crossing back and forth, 2 s each way, with the larger priority and always two more
+// jobs behind; y wants to pass it once.
+struct Stream {
+  Stream(const std::string& policy, Duration aging) : cell(description(aging), policy) {
+    for (int i = 0; i < 3; ++i) next();
+    cell.run_until(at(200ms));
+    cell.submit(slide("y", -1, 1, 2, "waits"));
+  }
+  void run_until(TimePoint end) {
+    while (cell.simulation->now() < end) {
+      cell.simulation->tick();
+      if (cell.simulation->executive().snapshot().queue.queued.size() < 2) next();
+    }
+  }
+
+  Crossing cell;
+  int count = 0;
+
+ private:
+  static CellDescription description(Duration aging) {
+    CellDescription cell = crossing_description();
+    cell.scheduling.aging = aging;
+    cell.scheduling.backlog_timeout = 600s;
+    return cell;
+  }
+  void next() {
+    const double from = count % 2 == 0 ? -1 : 1;
+    JobRequest job = slide("x", from, -from, 2);
+    job.priority = 10;
+    cell.submit(std::move(job));
+    ++count;
+  }
+};
+
+class T9 : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Policies, T9,
+                         ::testing::Values("certified", "reservation", "timed_discrete",
+                                           "earliest_start", "sequential", "lockstep"));
+
+// The bound of the README: aging + the longest motion that was under way then.
+TEST_P(T9, AWaitingJobStartsWithinItsBound) {
+  constexpr Duration kAging = 5s;
+  Stream stream(GetParam(), kAging);
+  stream.run_until(at(20s));
+  const JobView waits = stream.cell.job("waits");
+  ASSERT_TRUE(waits.started_at);
+  EXPECT_LT(*waits.started_at, at(200ms) + kAging + 2s + 100ms);
+  EXPECT_EQ(waits.state, JobState::succeeded);
+  EXPECT_GT(stream.cell.log.closest_m, 0.0);
+  EXPECT_GT(stream.count, 8) << "the stream went on";
+}
+
+TEST(T9, WithoutAgingItWouldStarve) {
+  for (const char* policy : {"certified", "reservation"}) {
+    Stream stream(policy, 600s);
+    stream.run_until(at(60s));
+    EXPECT_FALSE(stream.cell.job("waits").started_at) << policy;
+  }
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,137 @@
+// T10: jobs that block each other's goals, two in a swap and three in a ring, beside an arm that
+// has nothing to do with it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+using Keys = std::vector<std::string>;
+
+// Sliders whose rails run from one corner of a polygon to the next, 2 m long: each stands at -1 m,
+// its own corner, and +1 m is the next one's. Two make a line with both arms on it. The arm "free"
+// slides far away.
+CellDescription polygon(int corners) {
+  CellDescription cell{.name = "polygon"};
+  const double turn = 2 * std::numbers::pi / corners;
+  const double apothem = corners == 2 ? 0.0 : 1.0 / std::tan(turn / 2);
+  for (int i = 0; i <= corners; ++i) {
+    const std::string name = i == corners ? "free" : std::string(1, static_cast<char>('a' + i));
+    RobotDescription robot{.name = name,
+                           .urdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.urdf",
+                           .srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.srdf",
+                           .prefix = name + "_"};
+    robot.X_WB.linear() = Eigen::AngleAxisd(turn * i, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    robot.X_WB.translation() = robot.X_WB.linear() * Eigen::Vector3d(0, -apothem, 0);
+    if (i == corners) robot.X_WB.translation() = Eigen::Vector3d(0, 10, 0);
+    ArmDescription arm{.name = name, .group = "axis", .home = {-1.0}, .limits = {}};
+    arm.limits["slide"].acceleration = 20.0;
+    robot.arms.push_back(std::move(arm));
+    cell.robots.push_back(std::move(robot));
+  }
+  cell.checking.time_step = 10ms;
+  return cell;
+}
+
+// When the job was first told to be in a deadlock, and its ring then.
+struct Told {
+  TimePoint when;
+  Keys ring;
+};
+std::optional<Told> deadlock_of(const Crossing& cell, const std::string& key) {
+  for (const Event& event : cell.log.events) {
+    const auto* job = std::get_if<JobView>(&event.body);
+    if (job && job->key == key && !job->ring.empty()) return Told{event.time, job->ring};
+  }
+  return std::nullopt;
+}
+
+class T10 : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Policies, T10,
+                         ::testing::Values("certified", "earliest_start", "reservation",
+                                           "timed_discrete", "sequential", "lockstep"));
+
+TEST_P(T10, ASwapOfTwoGoalsIsNamedAtOnceAndTheLastJobGivesWay) {
+  Crossing cell(polygon(2), GetParam());
+  cell.run_until(at(1s));
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.submit(slide("b", -1, 1, 4, "two"));
+  cell.run_until(at(1100ms));
+  const auto one = deadlock_of(cell, "one"), two = deadlock_of(cell, "two");
+  ASSERT_TRUE(one && two) << "within 0.1 s";
+  EXPECT_EQ(one->ring, (Keys{"one", "two"}));
+  EXPECT_EQ(two->ring, (Keys{"two", "one"}));
+
+  const JobView failed = cell.job("two");
+  EXPECT_EQ(failed.state, JobState::failed);
+  EXPECT_EQ(failed.reason, Reason::deadlock);
+  EXPECT_EQ(failed.detail, "two -> one -> two: none of them can move before the next one does");
+  const JobView stays = cell.job("one");
+  EXPECT_EQ(stays.state, JobState::backlogged);
+  EXPECT_TRUE(stays.ring.empty());
+  ASSERT_EQ(stays.waits_on.size(), 1u);
+  EXPECT_EQ(stays.waits_on.front().kind, Wait::Kind::arm);
+  EXPECT_EQ(stays.waits_on.front().arm, "b");
+
+  cell.run_to_the_end(at(100s));
+  EXPECT_EQ(cell.job("one").state, JobState::expired) << "nothing ever moved arm b away";
+}
+
+TEST_P(T10, ARingOfThreeIsNamedAtOnceAndOpensWhenOneArmMovesAway) {
+  Crossing cell(polygon(3), GetParam());
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.submit(slide("b", -1, 1, 4, "two"));
+  cell.submit(slide("c", -1, 1, 4, "three"));
+  cell.submit(slide("free", -1, 1, 4, "far"));
+  cell.run_until(at(100ms));
+  const auto one = deadlock_of(cell, "one"), three = deadlock_of(cell, "three");
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(one->ring, (Keys{"one", "two", "three"}));
+  EXPECT_EQ(three->ring, (Keys{"three", "one", "two"}));
+  EXPECT_EQ(cell.job("three").reason, Reason::deadlock);
+  EXPECT_EQ(cell.job("one").state, JobState::backlogged);
+  EXPECT_EQ(cell.job("two").state, JobState::backlogged);
+
+  cell.run_until(at(10s));
+  EXPECT_EQ(cell.job("far").state, JobState::succeeded) << "others go on";
+  cell.submit(slide("c", -1, -2, 3, "away"));
+  cell.run_to_the_end();
+  for (const char* key : {"one", "two", "away"}) {
+    EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key;
+  }
+  EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
+}
+
+TEST_P(T10, ARingThatArisesWhileArmsMoveIsNamedWhenTheLastOfThemStands) {
+  Crossing cell(polygon(2), GetParam());
+  cell.submit(slide("a", -1, -0.5, 2, "a1"));
+  cell.submit(slide("a", -0.5, 1, 4, "a2"));
+  cell.submit(slide("b", -1, -0.5, 3, "b1"));
+  cell.submit(slide("b", -0.5, 1, 4, "b2"));
+  cell.run_until(at(1s));
+  EXPECT_FALSE(deadlock_of(cell, "a2"));
+  cell.run_until(at(8s));
+  const auto told = deadlock_of(cell, "b2");
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->ring, (Keys{"b2", "a2"}));
+  const TimePoint stood = std::max(*cell.job("a1").ended_at, *cell.job("b1").ended_at);
+  EXPECT_GE(told->when, stood);
+  EXPECT_LE(told->when, stood + 100ms);
+  EXPECT_EQ(cell.job("b2").reason, Reason::deadlock);
+}
+
+TEST(T10, AnIdleArmInTheWayIsNoDeadlock) {
+  Crossing cell(polygon(2), "certified");
+  cell.submit(slide("a", -1, 1, 4, "waits"));
+  cell.run_until(at(5s));
+  EXPECT_EQ(cell.job("waits").state, JobState::backlogged);
+  EXPECT_EQ(cell.job("waits").waits_on.front().arm, "b");
+  EXPECT_FALSE(deadlock_of(cell, "waits"));
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,209 @@
+// Whose turn it is: how long a job can be overtaken, and priorities without inversion.
+#include <gmock/gmock.h>
+
+#include "test/scheduler/bench_cell.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::IsEmpty;
+
+constexpr Duration kAging = 30s;  // the cell's
+
+// "old" of arm b waits for the motion of arm a since 2 ms; arm a's job runs for 40 s.
+struct Waits : Bench {
+  Waits() : Bench(4, "certified") {
+    runs = submit(move({0}, 0, 1, 40s), at(0ms));
+    answer_free(at(1ms));
+    progressed(runs, 0ms, at(3ms));
+    old = submit(move({1}, 0, 1, 2s), at(4ms), 300s);
+    answer_conflict(at(5ms), Conflict::With::motion, runs, ArmId{0});
+  }
+  void on_plan(TimePoint now) { progressed(runs, now - at(3ms), now); }
+  JobId candidate() const { return question->candidates.front().job; }
+
+  JobId runs{0}, old{0};
+};
+
+TEST(Aging, AJobThatHasWaitedForItHoldsBackLaterOnesOfOtherArmsAndNotBefore) {
+  Waits bench;
+  const JobId before = bench.submit(move({2}, 0, 1, 2s), at(5ms) + kAging - 1ns, 60s, 9);
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.candidate(), before);
+  bench.answer_conflict(at(5ms) + kAging, Conflict::With::motion, bench.runs, ArmId{0});
+  const JobId after = bench.submit(move({3}, 0, 1, 2s), at(5ms) + kAging, 60s, 9);
+  EXPECT_FALSE(bench.question) << "not even with a larger priority";
+  EXPECT_EQ(bench.state(after), JobState::queued);
+  ASSERT_EQ(bench.job(after).waits_on.size(), 1u);
+  EXPECT_EQ(bench.job(after).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(after).waits_on.front().job, bench.old);
+}
+
+TEST(Aging, TheOldJobGoesNextAndTheOthersAfterIt) {
+  Waits bench;
+  const JobId later = bench.submit(move({2}, 0, 1, 2s), at(35s), 60s, 9);
+  bench.finished(bench.runs, at(40s));
+  ASSERT_EQ(bench.candidate(), bench.old);
+  bench.answer_free(at(40001ms));
+  EXPECT_EQ(bench.state(bench.old), JobState::scheduled);
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.candidate(), later);
+  bench.answer_free(at(40002ms));
+  EXPECT_THAT(bench.job(later).waits_on, IsEmpty());
+}
+
+TEST(Aging, WhatHasToMoveFirstForItsSakeIsNotHeldBack) {
+  Waits bench;
+  const JobId other = bench.submit(move({2}, 0, 1, 2s), at(35s), 60s, 9);
+  const JobId in_the_way = bench.submit(move({0}, 1, 0, 2s), at(35s));  // behind the running one
+  bench.finished(bench.runs, at(40s));
+  ASSERT_EQ(bench.candidate(), bench.old);
+  bench.answer_conflict(at(40001ms), Conflict::With::rest, {}, ArmId{0});
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.candidate(), in_the_way) << "though the other has the larger priority";
+  EXPECT_EQ(bench.job(other).waits_on.front().job, bench.old);
+  bench.answer_free(at(40002ms));
+  ASSERT_EQ(bench.candidate(), bench.old);
+  bench.answer_conflict(at(40003ms), Conflict::With::motion, in_the_way, ArmId{0});
+  EXPECT_FALSE(bench.question);
+  bench.finished(in_the_way, at(42s));
+  ASSERT_EQ(bench.candidate(), bench.old);
+}
+
+TEST(Aging, AJobThatNobodysTurnWouldLetGoHoldsNobodyBack) {
+  for (const auto with : {Conflict::With::rest, Conflict::With::scene}) {
+    Bench bench(4, "certified");
+    const JobId old = bench.submit(move({1}, 0, 1, 2s), at(0ms), 300s);
+    bench.answer_conflict(at(1ms), with, {}, ArmId{0});  // an arm without a job, or an object
+    const JobId later = bench.submit(move({2}, 0, 1, 2s), at(40s));
+    ASSERT_TRUE(bench.question);
+    EXPECT_EQ(bench.question->candidates.front().job, later);
+    bench.answer_free(at(40001ms));
+    ASSERT_EQ(bench.question->candidates.front().job, old) << "tried again beside it";
+  }
+}
+
+TEST(Aging, AStoppedArmsJobHoldsNobodyBack) {
+  Waits bench;
+  bench.step(Stop{{ArmId{1}}, "operator"}, at(32s));
+  const JobId later = bench.submit(move({2}, 0, 1, 2s), at(35s));
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.candidate(), later);
+}
+
+TEST(Aging, AnEarlierJobWithALargerPriorityStillGoesFirst) {
+  Bench bench(4, "certified");
+  const JobId runs = bench.submit(move({0}, 0, 1, 40s), at(0ms));
+  bench.answer_free(at(1ms));
+  const JobId behind = bench.submit(move({0}, 1, 0, 2s), at(2ms), 300s, 5);
+  const JobId same = bench.submit(move({2}, 0, 1, 2s), at(2ms), 300s, 0);
+  bench.answer_conflict(at(3ms), Conflict::With::motion, runs, ArmId{0});
+  const JobId old = bench.submit(move({1}, 0, 1, 2s), at(3ms), 300s, 0);
+  bench.answer_conflict(at(4ms), Conflict::With::motion, runs, ArmId{0});
+  bench.finished(runs, at(40s));
+  ASSERT_EQ(bench.question->candidates.front().job, behind) << "earlier, and more urgent";
+  bench.answer_conflict(at(40001ms), Conflict::With::rest, {}, ArmId{3});
+  ASSERT_EQ(bench.question->candidates.front().job, same) << "aged the longest";
+  bench.answer_conflict(at(40002ms), Conflict::With::motion, runs, ArmId{0});
+  EXPECT_FALSE(bench.question) << "the younger one of the aged waits";
+  EXPECT_EQ(bench.job(old).waits_on.front().job, same);
+}
+
+TEST(Aging, AHeldJobIsNeverHeldBack) {
+  Waits bench;
+  const JobId held = bench.submit(move({2}, 0, 1, 20s), at(20s));
+  bench.answer_free(at(20001ms));
+  bench.answer_conflict(at(20002ms), Conflict::With::motion, bench.runs, ArmId{0});
+  bench.progressed(held, 0ms, at(20004ms));
+  bench.on_plan(at(31s));
+  bench.step(Stop{{ArmId{2}}, "operator"}, at(31s));
+  bench.on_plan(at(31100ms));
+  bench.stopped(held, 10s, at(31100ms));
+  ASSERT_EQ(bench.candidate(), bench.runs) << "judged again beside the held one";
+  bench.answer_free(at(31101ms));
+  ASSERT_EQ(bench.candidate(), bench.old);
+  bench.answer_conflict(at(31102ms), Conflict::With::motion, bench.runs, ArmId{0});
+  bench.on_plan(at(32s));
+  ASSERT_EQ(bench.state(held), JobState::holding);
+  bench.step(Resume{{ArmId{2}}}, at(32s));
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.candidate(), held);
+}
+
+TEST(Aging, OfLockstepIsTheRoundItself) {
+  Bench bench(3, "lockstep");
+  const JobId runs = bench.submit(move({0}, 0, 1, 40s), at(0ms));
+  bench.answer_free(at(1ms));
+  const JobId old = bench.submit(move({1}, 0, 1, 2s), at(1ms), 300s);
+  bench.answer_conflict(at(2ms), Conflict::With::motion, runs, ArmId{0});
+  bench.progressed(runs, 0ms, at(3ms));
+  const JobId later = bench.submit(move({2}, 0, 1, 2s), at(35s), 60s, 9);
+  EXPECT_EQ(bench.job(later).waits_on.front().kind, Wait::Kind::capacity);
+  bench.finished(runs, at(40s));
+  EXPECT_EQ(bench.question->candidates.front().job, old);
+}
+
+TEST(Aging, CountsFromTheFirstTimeThatThereIsNoPlace) {
+  Bench bench(2, "sequential");
+  const JobId runs = bench.submit(move({0}, 0, 1, 40s), at(0ms), 60s, 9);
+  bench.answer_free(at(1ms));
+  const JobId old = bench.submit(move({1}, 0, 1, 2s), at(2ms), 60s, 0);
+  const JobId next = bench.submit(move({0}, 1, 0, 40s), at(3ms), 60s, 9);
+  bench.finished(runs, at(40s));
+  EXPECT_EQ(bench.question->candidates.front().job, old);
+  EXPECT_EQ(bench.state(next), JobState::queued);
+}
+
+TEST(Aging, UnderSequentialTheOldJobIsNextWhateverThePriorities) {
+  Bench bench(2, "sequential");
+  const JobId first = bench.submit(move({0}, 0, 1, 40s), at(0ms));
+  bench.answer_conflict(at(1ms), Conflict::With::scene);
+  const JobId runs = bench.submit(move({1}, 0, 1, 40s), at(2ms), 60s, 9);
+  bench.answer_free(at(3ms));
+  const JobId next = bench.submit(move({1}, 1, 0, 40s), at(4ms), 60s, 9);
+  bench.finished(runs, at(40s));
+  ASSERT_EQ(bench.question->candidates.front().job, first);
+  bench.answer_free(at(40001ms));
+  EXPECT_EQ(bench.job(next).waits_on.front().kind, Wait::Kind::capacity);
+}
+
+TEST(Priority, PassesToTheJobOfTheArmInTheWay) {
+  Bench bench(3, "certified");
+  const JobId urgent = bench.submit(move({0}, 0, 1, 2s), at(0ms), 60s, 9);
+  const JobId middle = bench.submit(move({1}, 0, 1, 2s), at(0ms), 60s, 5);
+  const JobId low = bench.submit(move({2}, 0, 1, 2s), at(0ms), 60s, 0);
+  bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{2});
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.question->candidates.front().job, low) << "for the urgent one's sake";
+  bench.answer_free(at(2ms));
+  ASSERT_EQ(bench.question->candidates.front().job, urgent);
+  bench.answer_conflict(at(3ms), Conflict::With::motion, low, ArmId{2});
+  EXPECT_EQ(bench.question->candidates.front().job, middle);
+}
+
+TEST(Priority, PassesThroughTheOrderOfAnArmAndThroughPredecessors) {
+  Bench bench(3, "certified");
+  const JobId opens = bench.submit(move({2}, 0, 1, 2s), at(0ms), 60s, 0);
+  const JobId middle = bench.submit(move({1}, 0, 1, 2s), at(0ms), 60s, 5);
+  const JobId low = bench.submit(move({0}, 0, 1, 2s), at(0ms), 60s, 0);
+  bench.submit(move({0}, 1, 0, 2s), at(0ms), 60s, 9);  // the urgent one
+  ASSERT_EQ(bench.question->candidates.front().job, opens);
+  bench.answer_free(at(1ms));
+  EXPECT_EQ(bench.question->candidates.front().job, low) << "ahead of the urgent one on its arm";
+  bench.answer_free(at(2ms));
+  EXPECT_EQ(bench.question->candidates.front().job, middle);
+
+  Bench after(3, "certified");
+  const JobId first = after.submit(move({2}, 0, 1, 2s), at(0ms));
+  const JobId before = after.submit(move({1}, 0, 1, 2s), at(0ms), 60s, 0);
+  const JobId fair = after.submit(move({0}, 0, 1, 2s), at(0ms), 60s, 5);
+  after.step(Submit{JobId{9}, move({2}, 1, 0, 2s), 9, 60s, {before}}, at(0ms));
+  ASSERT_EQ(after.question->candidates.front().job, first);
+  after.answer_free(at(1ms));
+  EXPECT_EQ(after.question->candidates.front().job, before);
+  after.answer_free(at(2ms));
+  EXPECT_EQ(after.question->candidates.front().job, fair);
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,124 @@
+// Deadlocks in the scheduler: found when they arise, named, and resolved.
+#include <gmock/gmock.h>
+
+#include "test/scheduler/bench_cell.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+// Each of two arms stands where the other one's job would go.
+struct Swap : Bench {
+  Swap() : Bench(3, "certified") {
+    a = submit(move({0}, 0, 1, 2s), at(0ms));
+    b = submit(move({1}, 0, 1, 2s), at(0ms));
+    answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
+    answer_conflict(at(2ms), Conflict::With::rest, {}, ArmId{0});
+  }
+  JobId a{0}, b{0};
+};
+
+TEST(Deadlock, OfTwoIsNamedInTheStepThatFindsItAndNobodyHasFailedYet) {
+  Swap bench;
+  EXPECT_THAT(bench.job(bench.a).ring, ElementsAre(bench.a, bench.b));
+  EXPECT_THAT(bench.job(bench.b).ring, ElementsAre(bench.b, bench.a));
+  EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
+  EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
+  ASSERT_TRUE(bench.wake_at);
+  EXPECT_LE(*bench.wake_at, at(3ms));
+}
+
+TEST(Deadlock, TheJobThatCameLastFailsAndTheOtherWaitsForItsArm) {
+  Swap bench;
+  bench.step(Wake{}, at(3ms));
+  EXPECT_EQ(bench.state(bench.b), JobState::failed);
+  EXPECT_EQ(bench.job(bench.b).reason, Reason::deadlock);
+  EXPECT_THAT(bench.job(bench.b).ring, ElementsAre(bench.b, bench.a)) << "kept, as the reason";
+  EXPECT_EQ(bench.terminal_events[bench.b], 1);
+  EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
+  EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
+  ASSERT_TRUE(bench.question);
+  bench.answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{1});
+  EXPECT_EQ(bench.job(bench.a).waits_on.front().kind, Wait::Kind::arm);
+  EXPECT_THAT(bench.job(bench.a).ring, IsEmpty()) << "an arm without a job closes no ring";
+  bench.step(Wake{}, at(1s));
+  EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
+}
+
+TEST(Deadlock, ACanceledJobOpensTheRing) {
+  Swap bench;
+  bench.step(Cancel{bench.a}, at(3ms));
+  EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
+  EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
+  EXPECT_THAT(bench.job(bench.b).ring, IsEmpty());
+  EXPECT_FALSE(bench.job(bench.b).reason);
+}
+
+TEST(Deadlock, OnAnotherSceneIsJudgedAgainBeforeAnyoneFails) {
+  Swap bench;
+  bench.step(SceneChanged{}, at(3ms));
+  EXPECT_THAT(bench.job(bench.b).ring, IsEmpty());
+  bench.answer_free(at(4ms));
+  EXPECT_EQ(bench.state(bench.a), JobState::scheduled);
+  EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
+}
+
+TEST(Deadlock, OfThreeAmongOthersThatMove) {
+  Bench bench(4, "certified");
+  const JobId moves = bench.submit(move({3}, 0, 1, 20s), at(0ms));
+  bench.answer_free(at(1ms));
+  const JobId a = bench.submit(move({0}, 0, 1, 2s), at(2ms));
+  bench.answer_conflict(at(3ms), Conflict::With::rest, {}, ArmId{1});
+  const JobId b = bench.submit(move({1}, 0, 1, 2s), at(4ms));
+  bench.answer_conflict(at(5ms), Conflict::With::rest, {}, ArmId{2});
+  EXPECT_THAT(bench.job(b).ring, IsEmpty());
+  const JobId c = bench.submit(move({2}, 0, 1, 2s), at(6ms));
+  bench.answer_conflict(at(7ms), Conflict::With::rest, {}, ArmId{0});
+  EXPECT_THAT(bench.job(a).ring, ElementsAre(a, b, c));
+  EXPECT_THAT(bench.job(b).ring, ElementsAre(b, c, a));
+  EXPECT_THAT(bench.job(c).ring, ElementsAre(c, a, b));
+  bench.progressed(moves, 0ms, at(8ms));
+  bench.step(Wake{}, at(9ms));
+  EXPECT_EQ(bench.state(c), JobState::failed);
+  EXPECT_EQ(bench.state(moves), JobState::running);
+}
+
+TEST(Deadlock, ThroughAPredecessor) {
+  // a waits for arm b to go, whose only job comes after a.
+  Bench bench(2, "certified");
+  const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
+  bench.step(Submit{JobId{2}, move({1}, 0, 1, 2s), 0, 60s, {a}}, at(2ms));
+  EXPECT_THAT(bench.job(a).ring, ElementsAre(a, JobId{2}));
+  bench.step(Wake{}, at(3ms));
+  EXPECT_EQ(bench.job(JobId{2}).reason, Reason::deadlock);
+  EXPECT_EQ(bench.state(a), JobState::backlogged);
+}
+
+TEST(Deadlock, IsNoneWhileOneOfTheTwoMovesOrWaitsForWhatMoves) {
+  Bench bench(3, "certified");
+  const JobId runs = bench.submit(move({2}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  const JobId a = bench.submit(move({0}, 0, 1, 2s), at(2ms));
+  bench.answer_conflict(at(3ms), Conflict::With::rest, {}, ArmId{1});
+  const JobId b = bench.submit(move({1}, 0, 1, 2s), at(4ms));
+  bench.answer_conflict(at(5ms), Conflict::With::motion, runs, ArmId{2});
+  EXPECT_THAT(bench.job(a).ring, IsEmpty());
+  EXPECT_THAT(bench.job(b).ring, IsEmpty());
+}
+
+TEST(Deadlock, AStopBreaksTheSearchForIt) {
+  Bench bench(2, "certified");
+  bench.step(Stop{{ArmId{1}}, "operator"}, at(0ms));
+  const JobId a = bench.submit(move({0}, 0, 1, 2s), at(1ms));
+  const JobId b = bench.submit(move({1}, 0, 1, 2s), at(1ms));
+  bench.answer_conflict(at(2ms), Conflict::With::rest, {}, ArmId{1});
+  EXPECT_FALSE(bench.question);
+  EXPECT_THAT(bench.job(a).ring, IsEmpty());
+  EXPECT_EQ(bench.job(b).waits_on.front().kind, Wait::Kind::stop);
+}
+
+}  // namespace
+}  // namespace armloom
