@@ -444,15 +444,21 @@ void Scheduler::refuse(Record& record, const Verdict& verdict, bool recheck) {
   if (recheck) {
     record.checked_at = version_;
     brake(record, AfterStop::hold);
+    set_waits(record, std::move(waits));
   } else {
-    record.judged_at = version_;
-    record.found = waits;
-    if (!record.ages_from) record.ages_from = now_;
-    if (job.state == JobState::queued) {
-      job.state = JobState::backlogged;
-      if (!job.backlogged_at) job.backlogged_at = now_;
-      changed(record);
-    }
+    put_off(record, std::move(waits));
+  }
+}
+
+void Scheduler::put_off(Record& record, std::vector<Wait> waits) {
+  Job& job = record.job;
+  record.judged_at = version_;
+  record.found = waits;
+  if (!record.ages_from) record.ages_from = now_;
+  if (job.state == JobState::queued) {
+    job.state = JobState::backlogged;
+    if (!job.backlogged_at) job.backlogged_at = now_;
+    changed(record);
   }
   set_waits(record, std::move(waits));
 }

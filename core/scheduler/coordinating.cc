@@ -75,7 +75,7 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
     if (question.jobs.size() == 1) {
       refuse(first, verdict, recheck);
     } else {
-      first.judged_at = version_;  // one that was to help it cannot go; what it waits for is told
+      put_off(first, first.found);  // one that was to help it cannot go
     }
     return;
   }
@@ -95,6 +95,8 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   std::vector<Duration> work_behind(cell_->arms.size());
   for (JobId id : active_) {
     const Record& record = records_.at(id);
+    const bool overtaken = record.ages_from && now_ - *record.ages_from >= cell_->scheduling.aging;
+    if (overtaken) graph_->keep_place(id);
     const bool candidate = std::ranges::find(question.jobs, id) != question.jobs.end();
     if (candidate || graph_->holds(id)) continue;
     for (ArmId arm : record.job.trajectory->arms()) {
@@ -113,17 +115,12 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   for (const Obstacle& obstacle : orders.obstacles) {
     if (obstacle.candidate == first.job.id) waits.push_back(wait_for(obstacle));
   }
-  if (question.jobs.size() == 1 || !waits.empty()) set_waits(first, std::move(waits));
+  if (question.jobs.size() == 1 || !waits.empty()) first.found = std::move(waits);
   const std::vector<JobId> group = with_next_jobs(question.jobs, orders.in_the_way);
   if (group.size() > question.jobs.size()) {
     ask(group, Purpose::start);
-    return;
-  }
-  first.judged_at = version_;
-  if (first.job.state == JobState::queued) {
-    first.job.state = JobState::backlogged;
-    if (!first.job.backlogged_at) first.job.backlogged_at = now_;
-    changed(first);
+  } else {
+    put_off(first, first.found);
   }
 }
 
@@ -143,6 +140,7 @@ void Scheduler::admit_coordinated(const std::vector<JobId>& jobs, const PassingO
     record.dispatched = false;
     record.horizon = from_seconds(stopping_reach_s(*cell_, *job.trajectory)) +
                      cell_->monitor.reaction + kHorizon;
+    if (!record.ages_from) record.ages_from = now_;
     changed(record);
   }
 }

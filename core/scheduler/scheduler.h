@@ -181,6 +181,7 @@ class Scheduler {
   void add_others(Question& question, const std::vector<JobId>& candidates) const;
   void admit(Record& record, TimePoint start_at);
   void refuse(Record& record, const Verdict& verdict, bool recheck);
+  void put_off(Record& record, std::vector<Wait> waits);
 
   // turns.cc: whose turn it is among waiting jobs
   [[nodiscard]] WaitsFor waits_for() const;
