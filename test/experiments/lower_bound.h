@@ -24,6 +24,10 @@ struct LowerBound {
   double excluding_s = 0.0;
   std::string busiest;                 // arm
   std::vector<std::string> excluding;  // arms
+  // Not part of the bound, to judge it by: what the jobs of the pair of arms that needs most would
+  // take in their order by arm if both could pause anywhere at no cost, seen at the samples; what
+  // lies above the bound even then is out of reach for every policy.
+  double pausing_s = 0.0;
   [[nodiscard]] double bound_s() const { return own_s > excluding_s ? own_s : excluding_s; }
 };
 
@@ -53,8 +57,12 @@ struct ChosenMoments {
 // The largest sets of rows and columns, by their common number, in which every pair conflicts.
 [[nodiscard]] ChosenMoments largest_exclusion(const ConflictTable& table);
 
-// The same among more than two kinds, greedily: `free[i * n + j]` says that i and j may be at once.
-// Always: no two of those chosen may.
+// Steps of the shortest way from the first row and column to the last, through pairs that do not
+// conflict, each step advancing a row, a column or both. 0: there is none.
+[[nodiscard]] std::size_t shortest_way(const ConflictTable& table);
+
+// The largest exclusion among more than two kinds, greedily: `free[i * n + j]` says that i and j
+// may be at once. Always: no two of those chosen may.
 [[nodiscard]] std::vector<char> exclusion_of_all(const std::vector<char>& free, std::size_t n);
 
 // Chosen samples as time: the steps between samples of one motion that are both chosen. `motion[i]`

@@ -9,6 +9,7 @@ namespace armloom::experiments {
 namespace {
 
 constexpr double kShortestLine_s = 0.2;
+constexpr int kPieces = 10;  // of a line, as planners send them
 constexpr int kIterations = 200;
 constexpr double kLimitMargin_rad = 0.05;
 
@@ -56,6 +57,21 @@ WaypointRequest rest_at(const Eigen::VectorXd& q, double time_s) {
   return {{q.begin(), q.end()}, zeros, zeros, time_s};
 }
 
+// The quintic q0 + (q1 - q0) (10 u^3 - 15 u^4 + 6 u^5), u = t / line_s, at kPieces waypoints.
+void append_line(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, double begin_s,
+                 double line_s, TrajectoryRequest& request) {
+  for (int k = 1; k < kPieces; ++k) {
+    const double u = static_cast<double>(k) / kPieces;
+    const Eigen::VectorXd dq = q1 - q0;
+    const Eigen::VectorXd q = q0 + dq * (u * u * u * (10.0 + u * (-15.0 + 6.0 * u)));
+    const Eigen::VectorXd v = dq * (30.0 * u * u * (1.0 + u * (-2.0 + u)) / line_s);
+    const Eigen::VectorXd a = dq * (60.0 * u * (1.0 + u * (-3.0 + 2.0 * u)) / (line_s * line_s));
+    request.points.push_back(
+        {{q.begin(), q.end()}, {v.begin(), v.end()}, {a.begin(), a.end()}, begin_s + u * line_s});
+  }
+  request.points.push_back(rest_at(q1, begin_s + line_s));
+}
+
 double to_10_ms(double time_s) { return std::ceil(time_s * 100.0 - 1e-6) / 100.0; }
 
 }  // namespace
@@ -89,8 +105,9 @@ TrajectoryRequest way(const Cell& cell, ArmId arm, const Eigen::VectorXd& start,
   double time_s = 0.0;
   const Eigen::VectorXd* from = &start;
   for (const Leg& leg : legs) {
-    time_s += to_10_ms(line_time_s(cell, arm, *from, leg.q) / leg.speed);
-    request.points.push_back(rest_at(leg.q, time_s));
+    const double line_s = to_10_ms(line_time_s(cell, arm, *from, leg.q) / leg.speed);
+    append_line(*from, leg.q, time_s, line_s, request);
+    time_s += line_s;
     if (leg.stand_s > 0.0) {
       time_s += to_10_ms(leg.stand_s);
       request.points.push_back(rest_at(leg.q, time_s));

@@ -25,7 +25,8 @@ struct Leg {
 inline constexpr double kLimitShare = 0.8;
 
 // Lines from `start` through every leg, each the quintic that begins and ends with no velocity and
-// no acceleration (config/joint_moves.py). A line takes a multiple of 10 ms, 0.2 s at least.
+// no acceleration (config/joint_moves.py), sent as ten pieces. A line takes a multiple of 10 ms,
+// 0.2 s at least.
 [[nodiscard]] TrajectoryRequest way(const Cell& cell, ArmId arm, const Eigen::VectorXd& start,
                                     const std::vector<Leg>& legs);
 [[nodiscard]] double line_time_s(const Cell& cell, ArmId arm, const Eigen::VectorXd& from,

@@ -138,35 +138,63 @@ Workload four_pandas(std::uint64_t seed) {
   return workload;
 }
 
-// Home, into the middle, down, home.
-bool short_task(JobMaker& maker, ArmId arm) {
+// A part from the tray to the middle, and down on the next one in the tray.
+bool short_task(JobMaker& maker, ArmId arm, Spot& part) {
   const double speed = maker.draw(0.9, 1.0);
   const auto place = spot_in(maker, arm, kMiddle_W);
-  if (!place) return false;
-  return maker.add(arm, TimePoint{},
-                   {{"short",
-                     {{place->above, speed},
-                      {place->low, speed},
-                      {place->above, speed},
-                      {maker.home(arm), speed}}}});
+  const auto next = spot_in_tray(maker, arm, kTray_B);
+  if (!place || !next) return false;
+  if (!maker.add(arm, TimePoint{},
+                 {{"short",
+                   {{part.above, speed},
+                    {place->above, speed},
+                    {place->low, speed, kGrip_s},
+                    {place->above, speed},
+                    {next->above, speed},
+                    {next->low, speed, kGrip_s}}}})) {
+    return false;
+  }
+  part = *next;
+  return true;
+}
+// Home to the first part.
+bool first_part(JobMaker& maker, ArmId arm, Spot& part) {
+  const auto first = spot_in_tray(maker, arm, kTray_B);
+  if (!first ||
+      !maker.add(arm, TimePoint{}, {{"ready", {{first->above}, {first->low, 1.0, kGrip_s}}}})) {
+    return false;
+  }
+  part = *first;
+  return true;
 }
 
 double duration_s(const JobMaker& maker, ArmId arm, const std::vector<Leg>& legs) {
   return way(maker.cell(), arm, maker.home(arm), legs).points.back().time_from_start_s;
 }
 
-// Along a seam in the own tray, then into the middle once; it stands over the tray for as long as
-// makes the whole of it `wanted_s`.
+// Slows one leg down until the whole way takes `wanted_s`; false: it takes longer already.
+bool fill_time(const JobMaker& maker, ArmId arm, double wanted_s, std::size_t leg,
+               std::vector<Leg>& legs) {
+  const double spare_s = wanted_s - duration_s(maker, arm, legs);
+  if (spare_s < 0.0) return false;
+  std::vector<Leg> before(legs.begin(), legs.begin() + static_cast<std::ptrdiff_t>(leg));
+  std::vector<Leg> with(legs.begin(), legs.begin() + static_cast<std::ptrdiff_t>(leg) + 1);
+  const double line_s = duration_s(maker, arm, with) - duration_s(maker, arm, before);
+  legs[leg].speed =
+      line_time_s(maker.cell(), arm, legs[leg - 1].q, legs[leg].q) / (line_s + spare_s);
+  return true;
+}
+
+// Slowly along a seam in the own tray, then down in the middle once, and home.
 bool long_task(JobMaker& maker, ArmId arm, double wanted_s) {
   const auto from = spot_in_tray(maker, arm, kTray_B);
   const auto to = spot_in_tray(maker, arm, kTray_B);
   const auto place = spot_in(maker, arm, kMiddle_W);
   if (!from || !to || !place) return false;
-  std::vector<Leg> legs = {{from->above},  {from->low},  {to->low, 0.5}, {to->above},
-                           {place->above}, {place->low}, {place->above}, {maker.home(arm)}};
-  const double spare_s = wanted_s - duration_s(maker, arm, legs);
-  if (spare_s < 0.0) return false;
-  legs[2].stand_s = spare_s;
+  std::vector<Leg> legs = {{from->above},  {from->low},      {to->low},
+                           {to->above},    {place->above},   {place->low, 1.0, kGrip_s},
+                           {place->above}, {maker.home(arm)}};
+  if (!fill_time(maker, arm, wanted_s, 2, legs)) return false;
   return maker.add(arm, TimePoint{}, {{"long", legs}});
 }
 
@@ -178,13 +206,15 @@ Workload short_beside_long(std::uint64_t seed) {
   const ArmId quick(seed % 2 == 1 ? 0U : 1U);
   const ArmId slow(seed % 2 == 1 ? 1U : 0U);
   constexpr int kLong = 4;
+  Spot part;
+  until_taken([&] { return first_part(maker, quick, part); });
   for (int task = 0; task < 3 * kLong; ++task) {
-    until_taken([&] { return short_task(maker, quick); });
+    until_taken([&] { return short_task(maker, quick, part); });
   }
   const std::vector<PlannedJob>& shorts = maker.jobs_of(quick);
   for (std::size_t task = 0; task < kLong; ++task) {
     Duration work{};
-    for (std::size_t i = 0; i < 3; ++i) work += shorts[3 * task + i].trajectory->duration();
+    for (std::size_t i = 0; i < 3; ++i) work += shorts[1 + 3 * task + i].trajectory->duration();
     until_taken([&] { return long_task(maker, slow, to_seconds(work)); });
   }
   workload.jobs = maker.take();
@@ -252,7 +282,7 @@ Workload one_fixture(std::uint64_t seed) {
 Workload apart(std::uint64_t seed) {
   Workload workload{config("two_pandas")};
   JobMaker maker(workload.cell, seed);
-  constexpr double kTakt_s = 4.0;
+  constexpr double kTakt_s = 6.0;
   for (int task = 0; task < 7; ++task) {
     for (const ArmId arm : arms_of(*workload.cell)) {
       until_taken([&] {
@@ -261,8 +291,8 @@ Workload apart(std::uint64_t seed) {
         if (!from || !to) return false;
         std::vector<Leg> legs = {
             {from->above}, {from->low}, {from->above}, {to->above}, {maker.home(arm)}};
-        legs[1].stand_s = kTakt_s - duration_s(maker, arm, legs);
-        return legs[1].stand_s >= 0.0 && maker.add(arm, TimePoint{}, {{"tend", legs}});
+        return fill_time(maker, arm, kTakt_s, 3, legs) &&
+               maker.add(arm, TimePoint{}, {{"tend", legs}});
       });
     }
   }
@@ -278,8 +308,8 @@ const std::vector<WorkloadKind>& workload_kinds() {
       {"four_pandas", "Pick and place, four Pandas", true, four_pandas},
       {"short_beside_long", "Short beside long tasks, two Pandas", true, short_beside_long},
       {"random_mix", "A random mix that arrives over time, two Pandas", true, random_mix},
-      {"one_fixture", "One fixture for both arms (does not pay)", false, one_fixture},
-      {"apart", "Arms that never meet, in takt (does not pay)", false, apart},
+      {"one_fixture", "One fixture for both arms: hardly pays", false, one_fixture},
+      {"apart", "Arms that never meet, in takt: does not pay", false, apart},
   };
   return kinds;
 }
