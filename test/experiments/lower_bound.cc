@@ -24,7 +24,7 @@ Moments moments_of(const Cell& cell, ArmId arm, const std::vector<Work>& work, D
   const std::vector<JointId>& joints = cell.arm(arm).joints;
   for (std::size_t m = 0; m < work.size(); ++m) {
     if (work[m].arm != arm) continue;
-    for (Duration time{}; time <= work[m].motion->duration(); time += step) {
+    for (Duration time{}; time + step <= work[m].motion->duration(); time += step) {
       place(*work[m].motion, time, q);
       Eigen::VectorXd own(static_cast<Eigen::Index>(joints.size()));
       for (std::size_t j = 0; j < joints.size(); ++j) {

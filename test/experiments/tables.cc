@@ -71,6 +71,19 @@ std::string policy_row(const std::string& policy, const Rows& rows, double seque
   });
 }
 
+std::string workload_heading(const WorkloadKind& kind, const Rows& any) {
+  const auto bound = [&](const auto& part) {
+    return fixed(mean(any, [&](const RunRow& row) { return part(row.bound); }), 2) + " s";
+  };
+  return "\n## " + kind.title + "\n\n" + std::to_string(any.front()->jobs) + " jobs. Lower bound " +
+         bound([](const LowerBound& b) { return b.bound_s(); }) + ": the busiest arm's own work " +
+         bound([](const LowerBound& b) { return b.own_s; }) + ", work that excludes each other " +
+         bound([](const LowerBound& b) { return b.excluding_s; }) +
+         ". With pauses anywhere at no cost: " +
+         bound([](const LowerBound& b) { return b.pausing_s; }) + ".\n\n![](makespan_" + kind.name +
+         ".svg)\n\n";
+}
+
 }  // namespace
 
 std::string fixed(double number, int decimals) {
@@ -123,13 +136,14 @@ std::string results_csv(const std::vector<RunRow>& rows) {
                     fixed(row.bound.own_s, 3),
                     fixed(row.bound.excluding_s, 3),
                     fixed(row.bound.bound_s(), 3),
+                    fixed(row.bound.pausing_s, 3),
                     fixed(busy(row), 6),
                     fixed(*std::ranges::min_element(row.busy), 6),
                     fixed(row.together, 6),
                     fixed(row.wait_mean_s, 6),
                     fixed(row.wait_max_s, 3),
                     fixed(row.held_mean_s, 6),
-                    std::isfinite(row.clearance_m) ? fixed(row.clearance_m, 6) : " ",
+                    std::isfinite(row.clearance_m) ? fixed(row.clearance_m, 6) : "",
                     std::to_string(row.monitor_stops),
                     std::to_string(row.backlogged),
                     std::to_string(row.judgements),
@@ -148,13 +162,7 @@ std::string results_markdown(const Plan& plan, const std::vector<RunRow>& rows) 
     const std::vector<std::string> policies = policies_of(rows, kind.name);
     if (policies.empty()) continue;
     const Rows any = rows_of(rows, kind.name, policies.back());
-    text += "\n## " + kind.title + "\n\nLower bound " + fixed(mean_bound_s(any), 2) +
-            " s (the busiest arm's own work " +
-            fixed(mean(any, [](const RunRow& row) { return row.bound.own_s; }), 2) +
-            " s, work that excludes each other " +
-            fixed(mean(any, [](const RunRow& row) { return row.bound.excluding_s; }), 2) + " s), " +
-            std::to_string(any.front()->jobs) + " jobs. Plot: [makespan_" + kind.name +
-            ".svg](makespan_" + kind.name + ".svg)\n\n";
+    text += workload_heading(kind, any);
     const std::vector<std::string> heading = {"policy",
                                               "makespan, s",
                                               "of sequential",
