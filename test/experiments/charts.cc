@@ -137,8 +137,7 @@ std::string timeline_svg(const std::string& title, const Cell& cell,
           const double from_s = std::max(span.from_s, job.from_s);
           const double to_s = std::min(span.to_s, job.to_s);
           if (span.arm != arm || to_s <= from_s) continue;
-          picture.box(scale.x(from_s) + gap, y, scale.x(to_s) - scale.x(from_s) - gap, kLane - 4,
-                      colour);
+          picture.box(scale.x(from_s), y, scale.x(to_s) - scale.x(from_s), kLane - 4, colour);
         }
       }
       y += kLane;

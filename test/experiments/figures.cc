@@ -26,8 +26,7 @@ class Spectator final : public Observer {
     std::size_t moving = 0;
     for (std::size_t i = 0; i < since_.size(); ++i) {
       if (!moved(i, measured)) {
-        if (since_[i]) spans_.push_back({i, to_seconds(*since_[i]), to_seconds(now), ""});
-        since_[i].reset();
+        close(i, now);
         continue;
       }
       ++moving;
@@ -35,12 +34,16 @@ class Spectator final : public Observer {
     }
     if (moving >= 2) together_ += kControlPeriod;
     last_ = measured;
+    now_ = now;
   }
   void on_state(const StateFrame&) override {}
 
   [[nodiscard]] std::size_t backlogged() const { return backlogged_.size(); }
   [[nodiscard]] Duration together() const { return together_; }
-  [[nodiscard]] const std::vector<Timeline::Bar>& spans() const { return spans_; }
+  [[nodiscard]] std::vector<Timeline::Bar> take_spans() {
+    for (std::size_t i = 0; i < since_.size(); ++i) close(i, now_);
+    return std::move(spans_);
+  }
 
  private:
   [[nodiscard]] bool moved(std::size_t arm, const Configuration& measured) const {
@@ -51,7 +54,13 @@ class Spectator final : public Observer {
     });
   }
 
+  void close(std::size_t arm, TimePoint now) {
+    if (since_[arm]) spans_.push_back({arm, to_seconds(*since_[arm]), to_seconds(now), ""});
+    since_[arm].reset();
+  }
+
   const Cell& cell_;
+  TimePoint now_{};
   Configuration last_;
   std::vector<std::optional<TimePoint>> since_;  // by arm: moves
   std::vector<Timeline::Bar> spans_;
@@ -117,7 +126,7 @@ Run run_policy(const Workload& workload, const std::string& name, const std::str
   RunRow& row = run.row;
   row.bound = bound;
   note_jobs(*result, planned, run);
-  run.timeline.moving = spectator.spans();
+  run.timeline.moving = spectator.take_spans();
   row.makespan_s = to_seconds(result->figures.last_end);
   for (const Duration busy : result->figures.busy) {
     row.busy.push_back(to_seconds(busy) / row.makespan_s);
