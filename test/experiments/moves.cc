@@ -72,8 +72,6 @@ void append_line(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, double be
   request.points.push_back(rest_at(q1, begin_s + line_s));
 }
 
-double to_10_ms(double time_s) { return std::ceil(time_s * 100.0 - 1e-6) / 100.0; }
-
 }  // namespace
 
 double uniform(std::mt19937_64& random, double from, double to) {
@@ -95,6 +93,8 @@ double line_time_s(const Cell& cell, ArmId arm, const Eigen::VectorXd& from,
   return longest_s;
 }
 
+double whole_10_ms(double time_s) { return std::ceil(time_s * 100.0 - 1e-6) / 100.0; }
+
 TrajectoryRequest way(const Cell& cell, ArmId arm, const Eigen::VectorXd& start,
                       const std::vector<Leg>& legs) {
   TrajectoryRequest request;
@@ -105,11 +105,11 @@ TrajectoryRequest way(const Cell& cell, ArmId arm, const Eigen::VectorXd& start,
   double time_s = 0.0;
   const Eigen::VectorXd* from = &start;
   for (const Leg& leg : legs) {
-    const double line_s = to_10_ms(line_time_s(cell, arm, *from, leg.q) / leg.speed);
+    const double line_s = whole_10_ms(line_time_s(cell, arm, *from, leg.q) / leg.speed);
     append_line(*from, leg.q, time_s, line_s, request);
     time_s += line_s;
     if (leg.stand_s > 0.0) {
-      time_s += to_10_ms(leg.stand_s);
+      time_s += whole_10_ms(leg.stand_s);
       request.points.push_back(rest_at(leg.q, time_s));
     }
     from = &leg.q;

@@ -32,6 +32,9 @@ inline constexpr double kLimitShare = 0.8;
 [[nodiscard]] double line_time_s(const Cell& cell, ArmId arm, const Eigen::VectorXd& from,
                                  const Eigen::VectorXd& to);
 
+// Rounded up to a multiple of 10 ms.
+[[nodiscard]] double whole_10_ms(double time_s);
+
 // Joint positions near `guess` with the arm's link `tool` (with prefix) at p_WT, its z axis down;
 // the turn about that axis stays near the guess's. Damped least squares on numeric derivatives;
 // to 0.1 mm and 1 mrad, 0.05 rad within the joints' limits. nullopt: none found.

@@ -157,7 +157,7 @@ bool short_task(JobMaker& maker, ArmId arm, Spot& part) {
   part = *next;
   return true;
 }
-// Home to the first part.
+// From home down on the first part, or seam.
 bool first_part(JobMaker& maker, ArmId arm, Spot& part) {
   const auto first = spot_in_tray(maker, arm, kTray_B);
   if (!first ||
@@ -168,34 +168,30 @@ bool first_part(JobMaker& maker, ArmId arm, Spot& part) {
   return true;
 }
 
-double duration_s(const JobMaker& maker, ArmId arm, const std::vector<Leg>& legs) {
-  return way(maker.cell(), arm, maker.home(arm), legs).points.back().time_from_start_s;
-}
-
-// Slows one leg down until the whole way takes `wanted_s`; false: it takes longer already.
-bool fill_time(const JobMaker& maker, ArmId arm, double wanted_s, std::size_t leg,
-               std::vector<Leg>& legs) {
-  const double spare_s = wanted_s - duration_s(maker, arm, legs);
+// Slows one leg down until the whole way from `start` takes `wanted_s`; false: it takes longer.
+bool fill_time(const Cell& cell, ArmId arm, const Eigen::VectorXd& start, double wanted_s,
+               std::size_t leg, std::vector<Leg>& legs) {
+  const std::vector<WaypointRequest> points = way(cell, arm, start, legs).points;
+  const double spare_s = wanted_s - points.back().time_from_start_s;
   if (spare_s < 0.0) return false;
-  std::vector<Leg> before(legs.begin(), legs.begin() + static_cast<std::ptrdiff_t>(leg));
-  std::vector<Leg> with(legs.begin(), legs.begin() + static_cast<std::ptrdiff_t>(leg) + 1);
-  const double line_s = duration_s(maker, arm, with) - duration_s(maker, arm, before);
-  legs[leg].speed =
-      line_time_s(maker.cell(), arm, legs[leg - 1].q, legs[leg].q) / (line_s + spare_s);
+  const double fastest_s = line_time_s(cell, arm, leg == 0 ? start : legs[leg - 1].q, legs[leg].q);
+  legs[leg].speed = fastest_s / (whole_10_ms(fastest_s) + spare_s);
   return true;
 }
 
-// Slowly along a seam in the own tray, then down in the middle once, and home.
-bool long_task(JobMaker& maker, ArmId arm, double wanted_s) {
-  const auto from = spot_in_tray(maker, arm, kTray_B);
-  const auto to = spot_in_tray(maker, arm, kTray_B);
+// Slowly along a seam in the own tray, then down in the middle once, and down on the next seam.
+bool long_task(JobMaker& maker, ArmId arm, double wanted_s, Spot& seam) {
+  const auto end = spot_in_tray(maker, arm, kTray_B);
+  const auto next = spot_in_tray(maker, arm, kTray_B);
   const auto place = spot_in(maker, arm, kMiddle_W);
-  if (!from || !to || !place) return false;
-  std::vector<Leg> legs = {{from->above},  {from->low},      {to->low},
-                           {to->above},    {place->above},   {place->low, 1.0, kGrip_s},
-                           {place->above}, {maker.home(arm)}};
-  if (!fill_time(maker, arm, wanted_s, 2, legs)) return false;
-  return maker.add(arm, TimePoint{}, {{"long", legs}});
+  if (!end || !next || !place) return false;
+  std::vector<Leg> legs = {
+      {end->low},     {end->above},  {place->above},           {place->low, 1.0, kGrip_s},
+      {place->above}, {next->above}, {next->low, 1.0, kGrip_s}};
+  if (!fill_time(maker.cell(), arm, seam.low, wanted_s, 0, legs)) return false;
+  if (!maker.add(arm, TimePoint{}, {{"long", legs}})) return false;
+  seam = *next;
+  return true;
 }
 
 // Twelve short tasks beside four that take three times as long, equal work. Odd seeds give the
@@ -211,11 +207,13 @@ Workload short_beside_long(std::uint64_t seed) {
   for (int task = 0; task < 3 * kLong; ++task) {
     until_taken([&] { return short_task(maker, quick, part); });
   }
+  Spot seam;
+  until_taken([&] { return first_part(maker, slow, seam); });
   const std::vector<PlannedJob>& shorts = maker.jobs_of(quick);
   for (std::size_t task = 0; task < kLong; ++task) {
     Duration work{};
     for (std::size_t i = 0; i < 3; ++i) work += shorts[1 + 3 * task + i].trajectory->duration();
-    until_taken([&] { return long_task(maker, slow, to_seconds(work)); });
+    until_taken([&] { return long_task(maker, slow, to_seconds(work), seam); });
   }
   workload.jobs = maker.take();
   return workload;
@@ -291,7 +289,7 @@ Workload apart(std::uint64_t seed) {
         if (!from || !to) return false;
         std::vector<Leg> legs = {
             {from->above}, {from->low}, {from->above}, {to->above}, {maker.home(arm)}};
-        return fill_time(maker, arm, kTakt_s, 3, legs) &&
+        return fill_time(maker.cell(), arm, maker.home(arm), kTakt_s, 3, legs) &&
                maker.add(arm, TimePoint{}, {{"tend", legs}});
       });
     }
