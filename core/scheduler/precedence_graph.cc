@@ -45,6 +45,9 @@ void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
     motions_.push_back(candidate);
   }
   precedences_ = orders.precedences;
+  std::erase_if(precedences_, [this](const Precedence& precedence) {
+    return !precedence.limit(find(precedence.first())->progress);
+  });
 }
 
 void PrecedenceGraph::progress(JobId job, Duration progress) {
