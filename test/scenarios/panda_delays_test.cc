@@ -97,6 +97,14 @@ PandasRun run(const Stock& stock, std::uint64_t seed, const std::string& policy)
     for (const JobRequest* home : back) submit(*home);
   }
   while (!executive.all_ended() && simulation.now() < at(600s)) simulation.tick();
+  if (std::getenv("ARMLOOM_TOLD") != nullptr) {
+    for (const std::string& key : keys) {
+      const JobView job = *executive.job(key);
+      std::cout << seed << " " << job.name << " submitted " << to_seconds(job.submitted_at) << " began "
+                << (job.started_at ? to_seconds(*job.started_at) : -1.0) << " "
+                << told(job) << "\n";
+    }
+  }
   PandasRun outcome;
   outcome.read(executive, keys);
   outcome.audited = *audit(*stock.cell, recorder.states, kAudited);

@@ -40,6 +40,20 @@ inline void delay_at_random(Executive& executive, const std::string& arm, double
   }
 }
 
+// One line: how a job ended and what it waited for last.
+inline std::string told(const JobView& job) {
+  std::string line = job.key + " of " + job.arms.front() + " " + to_string(job.state) + " (" +
+                     (job.reason ? to_string(*job.reason) : "-") + ") " + job.detail;
+  for (const WaitView& wait : job.waits_on) {
+    line += std::string("; waits on ") + to_string(wait.kind) + " " + wait.job + " " + wait.arm;
+    if (wait.own_time_s) line += " at " + std::to_string(*wait.own_time_s);
+    if (wait.other_time_s) line += " / " + std::to_string(*wait.other_time_s);
+    if (!wait.detail.empty()) line += " [" + wait.detail + "]";
+  }
+  for (const std::string& key : job.ring) line += (&key == &job.ring.front() ? "; ring " : " ") + key;
+  return line;
+}
+
 // How a workload went.
 struct DelayedRun {
   std::size_t jobs = 0;
@@ -57,7 +71,7 @@ struct DelayedRun {
       if (job.state == JobState::succeeded) {
         ++succeeded;
       } else if (first_other.empty()) {
-        first_other = key + " " + to_string(job.state) + " " + job.detail;
+        first_other = told(job);
       }
     }
   }
