@@ -84,6 +84,15 @@ class CoordinationDiagram {
   };
   [[nodiscard]] std::vector<Blocked> blocked(Duration now_a, Duration now_b) const;
 
+  // Motions that pass each other closely leave places that are neither free nor in conflict at a
+  // resolution. Halves those whose middle lies in one of the areas, until each is free or no wider
+  // than `finest`, or one is proven to be a conflict: then it is no close pass. At the cost of about
+  // `budget` cells at most; returns how many.
+  struct Area {
+    Duration from_a, to_a, from_b, to_b;
+  };
+  std::uint64_t look_closer(const std::vector<Area>& areas, Duration finest, std::uint64_t budget);
+
   // Every pair that is closer than its limit where A and B are at these times, exactly.
   struct Close {
     PairId pair;

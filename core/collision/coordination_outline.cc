@@ -1,6 +1,7 @@
 // Where the free and the other cells of a diagram meet.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/collision/coordination_diagram_impl.h"
 
@@ -153,6 +154,49 @@ std::vector<CoordinationDiagram::Blocked> CoordinationDiagram::blocked(Duration 
     leaf.proven = proven(cell) != nullptr;
   }
   return blocked;
+}
+
+std::uint64_t CoordinationDiagram::look_closer(const std::vector<Area>& areas, Duration finest,
+                                               std::uint64_t budget) {
+  const auto meant = [&](const Cell& cell) {
+    const Duration a = a_->middle(cell.a);
+    const Duration b = b_ ? b_->middle(cell.b) : Duration{};
+    return std::ranges::any_of(areas, [&](const Area& area) {
+      return area.from_a <= a && a <= area.to_a && area.from_b <= b && b <= area.to_b;
+    });
+  };
+  const auto open = [&](const Cell& cell) {
+    return cell.state == CellState::mixed && wider(cell, finest);
+  };
+  std::vector<int> cells;
+  std::vector<Open> unknown;
+  for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
+    if (at(i).state == CellState::unknown && meant(at(i))) unknown.push_back({i, {0.0, 0.0}});
+    if (open(at(i)) && meant(at(i))) cells.push_back(i);
+  }
+  std::uint64_t looked_at = 0;
+  while (!cells.empty() || !unknown.empty()) {
+    for (const int index : cells) {
+      split_if_coarse(index, finest);
+      const Cell cell = at(index);
+      for (int c = 0; c < cell.child_count(); ++c) {
+        unknown.push_back({cell.children + c, {0.0, 0.0}});
+      }
+    }
+    cells.clear();
+    for (std::size_t done = 0; done < unknown.size(); done += filter::kLanes) {
+      if (looked_at >= budget) return looked_at;
+      const std::size_t count = std::min<std::size_t>(filter::kLanes, unknown.size() - done);
+      evaluate(unknown.data() + done, count);
+      looked_at += count;
+    }
+    for (const Open& leaf : std::exchange(unknown, {})) {
+      const Cell& cell = at(leaf.cell);
+      if (cell.state == CellState::conflict || proven(cell) != nullptr) return looked_at;
+      if (open(cell)) cells.push_back(leaf.cell);
+    }
+  }
+  return looked_at;
 }
 
 }  // namespace armloom

@@ -38,6 +38,10 @@ Duration PairRegionSearch::Side::now() const {
   return motion == nullptr ? Duration{} : std::clamp(motion->progress, Duration{}, end());
 }
 
+std::uint64_t PairRegionSearch::cells_for(const Side& a, const Side& b) {
+  return static_cast<std::uint64_t>(std::ceil(kCells * to_seconds(a.end() + b.end())));
+}
+
 PairRegionSearch::PairRegionSearch(MotionStore& store, const Question& question)
     : store_(store),
       question_(question),
@@ -104,13 +108,11 @@ void PairRegionSearch::compare(const Side& a, const Side& b, std::vector<PairReg
   if (b.motion != nullptr && share_an_arm(*a.motion, *b.motion)) return;
   layers_.clear();
   partings_.clear();
-  blocked_.clear();
-  leaves_.clear();
   for (MotionStore::Entry* arm_a : a.arms) {
     for (MotionStore::Entry* arm_b : b.arms) add_layer(a, *arm_a, b, *arm_b);
   }
-  std::vector<BlockedRegion> regions =
-      blocked_regions(blocked_, {a.now(), a.end(), b.now(), b.end()});
+  std::vector<BlockedRegion> regions = blocked(a, b);
+  if (look_closer(regions, cells_for(a, b))) regions = blocked(a, b);
   if (regions.empty()) return;
   PairRegions& pair = found.emplace_back(PairRegions{a.motion->job, b.who, {}});
   for (BlockedRegion& region : regions) pair.regions.push_back(region_of(std::move(region)));
@@ -125,13 +127,13 @@ void PairRegionSearch::add_layer(const Side& a, MotionStore::Entry& arm_a, const
   if (diagram.pairs->empty()) return;
   const Side& first = turned ? b : a;
   const Side& second = turned ? a : b;
-  const auto budget = static_cast<std::uint64_t>(std::ceil(kCells * to_seconds(a.end() + b.end())));
+  const std::uint64_t budget = cells_for(a, b);
   const auto look = [&](CoordinationDiagram& cells) {
     evaluations_ += cells.refine_outline(first.now(), second.now(), kResolution, budget);
     return cells.blocked(first.now(), second.now());
   };
   CoordinationDiagram* cells = diagram.cells;
-  std::vector<CoordinationDiagram::Blocked> leaves = look(*cells);
+  const std::vector<CoordinationDiagram::Blocked> leaves = look(*cells);
   const bool stand_so = !a.to_come() && !b.to_come();
   if (stand_so && std::ranges::any_of(leaves, [&](const auto& leaf) {
         return holds(leaf, first.now(), second.now());
@@ -142,21 +144,56 @@ void PairRegionSearch::add_layer(const Side& a, MotionStore::Entry& arm_a, const
       parting.pairs = held_to_less(*diagram.pairs, close, Arbiter::kPartingShare);
       parting.cells = store_.with_pairs(diagram, parting.pairs);
       cells = &*parting.cells;
-      leaves = look(*cells);
+      look(*cells);
     }
-  }
-  for (const CoordinationDiagram::Blocked& leaf : leaves) {
-    BlockedCell& blocked = blocked_.emplace_back();
-    blocked.box = turned ? ProgressBox{leaf.from_b, leaf.to_b, leaf.from_a, leaf.to_a}
-                         : ProgressBox{leaf.from_a, leaf.to_a, leaf.from_b, leaf.to_b};
-    if (leaf.found) {
-      blocked.evidence =
-          leaf.proven ? BlockedCell::Evidence::proven : BlockedCell::Evidence::distance;
-      blocked.distance_m = leaf.found->distance_m;
-    }
-    leaves_.emplace_back(layers_.size(), leaf);
   }
   layers_.push_back({cells, diagram.bodies, turned});
+}
+
+// What is not free in any of the layers, in components.
+std::vector<BlockedRegion> PairRegionSearch::blocked(const Side& a, const Side& b) {
+  blocked_.clear();
+  leaves_.clear();
+  for (std::size_t l = 0; l < layers_.size(); ++l) {
+    const Layer& layer = layers_[l];
+    const Side& first = layer.turned ? b : a;
+    const Side& second = layer.turned ? a : b;
+    for (const CoordinationDiagram::Blocked& leaf :
+         layer.cells->blocked(first.now(), second.now())) {
+      BlockedCell& cell = blocked_.emplace_back();
+      cell.box = layer.turned ? ProgressBox{leaf.from_b, leaf.to_b, leaf.from_a, leaf.to_a}
+                              : ProgressBox{leaf.from_a, leaf.to_a, leaf.from_b, leaf.to_b};
+      if (leaf.found) {
+        cell.evidence =
+            leaf.proven ? BlockedCell::Evidence::proven : BlockedCell::Evidence::distance;
+        cell.distance_m = leaf.found->distance_m;
+      }
+      leaves_.emplace_back(l, leaf);
+    }
+  }
+  return blocked_regions(blocked_, {a.now(), a.end(), b.now(), b.end()});
+}
+
+// At regions in which no conflict is proven: motions may pass each other closely there. Whether
+// anything is known now that was not before.
+bool PairRegionSearch::look_closer(const std::vector<BlockedRegion>& regions,
+                                   std::uint64_t budget) {
+  std::uint64_t looked_at = 0;
+  for (const BlockedRegion& region : regions) {
+    if (blocked_[region.evidence].evidence == BlockedCell::Evidence::proven) continue;
+    for (const Layer& layer : layers_) {
+      std::vector<CoordinationDiagram::Area> areas;
+      for (const ProgressBox& box : region.boxes) {
+        areas.push_back(
+            layer.turned ? CoordinationDiagram::Area{box.from_b, box.to_b, box.from_a, box.to_a}
+                         : CoordinationDiagram::Area{box.from_a, box.to_a, box.from_b, box.to_b});
+      }
+      if (looked_at >= budget) break;
+      looked_at += layer.cells->look_closer(areas, kClosest, budget - looked_at);
+    }
+  }
+  evaluations_ += looked_at;
+  return looked_at > 0;
 }
 
 ConflictRegion PairRegionSearch::region_of(BlockedRegion blocked) {

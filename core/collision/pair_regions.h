@@ -15,7 +15,7 @@ namespace armloom {
 
 // The regions of one Coordinated question: every candidate against every motion of other arms and
 // every arm that no motion moves. Diagrams are those of the store, and are refined no further than
-// kResolution; what is not known when kCells are used up counts as not free.
+// kResolution (but see kClosest); what is not known when kCells are used up counts as not free.
 //
 // Motions that share an arm follow each other and are not compared: those that are not to come,
 // then others, then candidates, as named. Where an arm stands before, between and after its motions
@@ -38,6 +38,8 @@ class PairRegionSearch {
       .coarse = std::chrono::milliseconds(80), .fine = std::chrono::milliseconds(25)};
   // Of two arms, for each second of both motions together.
   inline static constexpr double kCells = 500.0;
+  // Where no conflict is proven it may be a close pass: there, down to here, at as many cells more.
+  inline static constexpr Duration kClosest = std::chrono::milliseconds(2);
 
  private:
   struct Side {  // a motion, or an arm at rest
@@ -65,6 +67,9 @@ class PairRegionSearch {
   void compare(const Side& a, const Side& b, std::vector<PairRegions>& found);
   void add_layer(const Side& a, MotionStore::Entry& arm_a, const Side& b,
                  MotionStore::Entry& arm_b);
+  [[nodiscard]] std::vector<BlockedRegion> blocked(const Side& a, const Side& b);
+  bool look_closer(const std::vector<BlockedRegion>& regions, std::uint64_t budget);
+  [[nodiscard]] static std::uint64_t cells_for(const Side& a, const Side& b);
   [[nodiscard]] ConflictRegion region_of(BlockedRegion blocked);
 
   MotionStore& store_;

@@ -117,10 +117,12 @@ std::optional<JobId> Scheduler::held_back_by(const Record& record,
                                              const std::vector<Aged>& aged) const {
   if (record.job.state == JobState::holding) return std::nullopt;
   for (const Aged& a : aged) {
-    if (a.job == record.job.id) return std::nullopt;  // the others are aged for less long
+    // It has this one's turn: those that are aged for less long do not hold it back either.
+    if (a.job == record.job.id) break;
+    if (std::ranges::binary_search(a.goes_first, record.job.id)) break;
     const Job& old = records_.at(a.job).job;
     const bool outranks = record.job.id < old.id && record.job.priority > old.priority;
-    if (!outranks && !std::ranges::binary_search(a.goes_first, record.job.id)) return a.job;
+    if (!outranks) return a.job;
   }
   return std::nullopt;
 }

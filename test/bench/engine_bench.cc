@@ -126,6 +126,7 @@ void register_admissions(const Workloads& workloads) {
     complete("admission_band_cold", Certified{100ms, true, tracking}, false);
     complete("admission_band_running", Certified{100ms, true, tracking}, true);
     complete("admission_swept_cold", Swept{tracking}, false);
+    complete("regions_cold", Coordinated{tracking}, false);
   }
   for (const auto& [others, workload] : workloads.halls) {
     const Hall& hall = workload;

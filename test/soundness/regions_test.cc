@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kPairs = 120;
 constexpr std::size_t kStates = 600;  // of each pair, and as many about its outlines
-constexpr double kTracking_rad = 0.001;
+constexpr double kTracking_rad = 0.003;
 constexpr double kRounding_m = 1e-6;
 constexpr double kHorizon_m = 0.05;
 
@@ -115,17 +115,34 @@ class Attack {
       if (exact_.between_arms(q_, loose_m) >= loose_m) ++tally_.inside_free;
       return;
     }
-    for (const Motion* motion : {&pair.candidate, &pair.other}) {
-      for (const JointId joint : motion->trajectory->joints()) {
-        const double sign = random_() % 2 == 0 ? 1.0 : -1.0;
-        q_[static_cast<Eigen::Index>(joint.index())] += sign * kTracking_rad;
-      }
-    }
     ++tally_.outside;
-    const double distance_m = exact_.between_arms(q_, kHorizon_m);
+    const double distance_m = off_the_paths(pair);
     tally_.closest_m = std::min(tally_.closest_m, distance_m);
     EXPECT_GE(distance_m, clearance_m - kRounding_m)
         << "pair " << tally_.pairs << " at " << to_seconds(a) << " and " << to_seconds(b) << " s";
+  }
+
+  // The smallest distance about q_ that is found with each joint off its path, one way or the
+  // other.
+  double off_the_paths(const MovingPair& pair) {
+    double distance_m = exact_.between_arms(q_, kHorizon_m);
+    if (distance_m >= kHorizon_m) return distance_m;
+    for (const Motion* motion : {&pair.candidate, &pair.other}) {
+      for (const JointId joint : motion->trajectory->joints()) {
+        double& q = q_[static_cast<Eigen::Index>(joint.index())];
+        const double on_path = q;
+        double best = on_path;
+        for (const double off : {-kTracking_rad, kTracking_rad}) {
+          q = on_path + off;
+          const double found_m = exact_.between_arms(q_, kHorizon_m);
+          if (found_m >= distance_m) continue;
+          distance_m = found_m;
+          best = q;
+        }
+        q = best;
+      }
+    }
+    return distance_m;
   }
 
   bench::ExactScene exact_;
@@ -144,7 +161,8 @@ TEST(Regions, LeaveNoStateOutsideThatComesCloserThanTheClearance) {
   EXPECT_GE(tally().with_regions, 30U);
   EXPECT_GE(tally().outside, 80'000U);
   // An attack that never comes close would prove nothing.
-  EXPECT_LE(tally().closest_m, bench::two_pandas()->clearance_m + 0.005);
+  RecordProperty("closest_um", static_cast<int>(1e6 * tally().closest_m));
+  EXPECT_LE(tally().closest_m, bench::two_pandas()->clearance_m + 0.010);
 }
 
 TEST(Regions, HoldLittleThatIsWellClear) {

@@ -1,0 +1,152 @@
+#include "test/experiments/charts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "test/experiments/tables.h"
+
+namespace armloom::experiments {
+namespace {
+
+constexpr double kWidth = 820.0;
+constexpr double kLeft = 130.0;   // names stand before
+constexpr double kRight = 720.0;  // figures stand behind
+
+class Picture {
+ public:
+  void word(double x, double y, const char* anchor, const std::string& text, int size = 13) {
+    body_ += "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" text-anchor=\"" + anchor +
+             "\" font-size=\"" + std::to_string(size) + "\">" + text + "</text>\n";
+  }
+  void box(double x, double y, double w, double h, const std::string& fill, double opacity = 1.0) {
+    body_ += "<rect x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" width=\"" + fixed(w, 1) +
+             "\" height=\"" + fixed(h, 1) + "\" fill=\"" + fill + "\" fill-opacity=\"" +
+             fixed(opacity, 2) + "\"/>\n";
+  }
+  void dot(double x, double y) {
+    body_ += "<circle cx=\"" + fixed(x, 1) + "\" cy=\"" + fixed(y, 1) +
+             "\" r=\"2.2\" fill=\"#1c2a38\" fill-opacity=\"0.65\"/>\n";
+  }
+  void upright(double x, double y0, double y1, const char* style) {
+    body_ += "<line x1=\"" + fixed(x, 1) + "\" y1=\"" + fixed(y0, 1) + "\" x2=\"" + fixed(x, 1) +
+             "\" y2=\"" + fixed(y1, 1) + "\" " + style + "/>\n";
+  }
+  [[nodiscard]] std::string svg(double height) const {
+    const std::string size =
+        "width=\"" + fixed(kWidth, 0) + "\" height=\"" + fixed(height, 0) + "\"";
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
+           "xmlns=\"http://www.w3.org/2000/svg\" " +
+           size + " font-family=\"sans-serif\">\n<rect " + size + " fill=\"#ffffff\"/>\n" + body_ +
+           "</svg>\n";
+  }
+
+ private:
+  std::string body_;
+};
+
+// Seconds along x, with a scale under the picture.
+class Scale {
+ public:
+  explicit Scale(double longest_s) : longest_s_(std::max(longest_s, 1e-3)) {}
+  [[nodiscard]] double x(double time_s) const {
+    return kLeft + (kRight - kLeft) * time_s / longest_s_;
+  }
+  void draw(Picture& picture, double y) const {
+    const double step_s = longest_s_ > 60.0 ? 20.0 : longest_s_ > 25.0 ? 10.0 : 5.0;
+    for (double time_s = 0.0; time_s <= longest_s_; time_s += step_s) {
+      picture.upright(x(time_s), y - 6.0, y, "stroke=\"#888888\"");
+      picture.word(x(time_s), y + 12.0, "middle", fixed(time_s, 0) + " s", 11);
+    }
+  }
+
+ private:
+  double longest_s_;
+};
+
+constexpr const char* kColours[] = {"#4878a8", "#c8703a", "#5a9a5a", "#8a62a8", "#a88a30"};
+
+}  // namespace
+
+std::string makespan_svg(const WorkloadKind& kind, const std::vector<RunRow>& rows) {
+  constexpr double kRow = 30.0;
+  const std::vector<std::string> policies = policies_of(rows, kind.name);
+  double longest_s = 0.0;
+  for (const RunRow& row : rows) {
+    if (row.workload == kind.name) longest_s = std::max(longest_s, row.makespan_s);
+  }
+  const Scale scale(longest_s);
+  Picture picture;
+  picture.word(16, 24, "start", kind.title + ": makespan, mean (bar) and every seed (dots)", 14);
+  double y = 58.0;
+  for (const std::string& policy : policies) {
+    const auto of_policy = rows_of(rows, kind.name, policy);
+    const double mean_s = spread_of(of_policy, &RunRow::makespan_s).mean;
+    picture.word(kLeft - 8, y + 15, "end", policy);
+    picture.box(kLeft, y, scale.x(mean_s) - kLeft, 21, kColours[0], 0.75);
+    for (std::size_t i = 0; i < of_policy.size(); ++i) {
+      const double part = static_cast<double>(i + 1) / static_cast<double>(of_policy.size() + 1);
+      picture.dot(scale.x(of_policy[i]->makespan_s), y + 21.0 * part);
+    }
+    picture.word(kRight + 14, y + 15, "start", fixed(mean_s, 2) + " s");
+    y += kRow;
+  }
+  const double bound_s = mean_bound_s(rows_of(rows, kind.name, policies.back()));
+  picture.upright(scale.x(bound_s), 50, y, "stroke=\"#b04030\" stroke-dasharray=\"4 3\"");
+  picture.word(kLeft, 44, "start", "dashed: lower bound, " + fixed(bound_s, 2) + " s", 12);
+  scale.draw(picture, y + 6.0);
+  return picture.svg(y + 30.0);
+}
+
+std::string timeline_svg(const std::string& title, const Cell& cell,
+                         const std::vector<const Timeline*>& timelines) {
+  constexpr double kLane = 20.0;
+  double longest_s = 0.0;
+  std::map<std::string, std::size_t> colours;
+  for (const Timeline* timeline : timelines) {
+    for (const Timeline::Bar& bar : timeline->jobs) {
+      longest_s = std::max(longest_s, bar.to_s);
+      colours.try_emplace(bar.kind, colours.size());
+    }
+  }
+  const Scale scale(longest_s);
+  Picture picture;
+  picture.word(16, 24, "start", title, 14);
+  double x = kLeft;
+  for (const auto& [kind, colour] : colours) {
+    picture.box(x, 36, 12, 12, kColours[colour % std::size(kColours)]);
+    picture.word(x + 18, 46, "start", kind, 12);
+    x += 90.0;
+  }
+  picture.word(x, 46, "start", "pale: under way, standing", 12);
+  double y = 62.0;
+  for (const Timeline* timeline : timelines) {
+    double end_s = 0.0;
+    picture.word(16, y + 12, "start", timeline->policy);
+    y += 18.0;
+    for (std::size_t arm = 0; arm < cell.arms.size(); ++arm) {
+      picture.word(kLeft - 8, y + 13, "end", cell.arms[arm].name, 12);
+      for (const Timeline::Bar& job : timeline->jobs) {
+        if (job.arm != arm) continue;
+        end_s = std::max(end_s, job.to_s);
+        const char* colour = kColours[colours.at(job.kind) % std::size(kColours)];
+        const double gap = 0.5;  // between one job and the next
+        picture.box(scale.x(job.from_s) + gap, y, scale.x(job.to_s) - scale.x(job.from_s) - gap,
+                    kLane - 4, colour, 0.3);
+        for (const Timeline::Bar& span : timeline->moving) {
+          const double from_s = std::max(span.from_s, job.from_s);
+          const double to_s = std::min(span.to_s, job.to_s);
+          if (span.arm != arm || to_s <= from_s) continue;
+          picture.box(scale.x(from_s), y, scale.x(to_s) - scale.x(from_s), kLane - 4, colour);
+        }
+      }
+      y += kLane;
+    }
+    picture.word(kRight + 14, y - kLane, "start", fixed(end_s, 2) + " s");
+    y += 8.0;
+  }
+  scale.draw(picture, y + 4.0);
+  return picture.svg(y + 28.0);
+}
+
+}  // namespace armloom::experiments

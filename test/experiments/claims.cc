@@ -1,0 +1,112 @@
+#include "test/experiments/claims.h"
+
+#include <algorithm>
+
+#include "test/experiments/tables.h"
+
+namespace armloom::experiments {
+namespace {
+
+constexpr double kOfLockstep = 0.80;
+constexpr double kOfSequential = 0.85;
+constexpr double kShorter = 0.30;
+constexpr double kOrderSlack = 0.02;
+// Slowest last.
+constexpr const char* kOrder[] = {"coordinated", "earliest_start", "certified", "reservation",
+                                  "sequential"};
+
+std::string percent(double ratio) { return fixed(100.0 * ratio, 1) + " %"; }
+
+class Claims {
+ public:
+  Claims(const std::vector<RunRow>& rows, std::string best) : rows_(rows), best_(std::move(best)) {}
+
+  // Absent: has not run.
+  [[nodiscard]] bool ran(const std::string& workload, const std::string& policy) const {
+    return !rows_of(rows_, workload, policy).empty();
+  }
+
+  void gain(const std::string& workload, const std::string& other, double wanted) {
+    if (!ran(workload, other) || !ran(workload, best_)) return;
+    const double share = realised(mean_s(workload, other), mean_s(workload, best_),
+                                  mean_bound_s(rows_of(rows_, workload, best_)));
+    say(share >= wanted, workload + ": " + best_ + " realises " + percent(share) + " of what " +
+                             other + " leaves above the lower bound (wanted " + percent(wanted) +
+                             ")");
+  }
+  void shorter(const std::string& workload) {
+    if (!ran(workload, "lockstep") || !ran(workload, best_)) return;
+    const double gained = 1.0 - mean_s(workload, best_) / mean_s(workload, "lockstep");
+    say(gained >= kShorter, workload + ": " + best_ + " is " + percent(gained) +
+                                " shorter than lockstep (wanted " + percent(kShorter) + ")");
+  }
+  void order(const std::string& workload) {
+    std::string sentence;
+    double faster_s = 0.0;
+    bool holds = true;
+    for (const char* policy : kOrder) {
+      if (!ran(workload, policy)) continue;
+      const double slower_s = mean_s(workload, policy);
+      sentence += (sentence.empty() ? "" : " <= ") + std::string(policy) + " " + fixed(slower_s, 2);
+      holds = holds && faster_s <= slower_s * (1.0 + kOrderSlack);
+      faster_s = slower_s;
+    }
+    say(holds, workload + ": " + sentence + " s, each within " + percent(kOrderSlack));
+  }
+  void both_move(const std::string& workload) {
+    double least = 1.0;
+    const auto rows = rows_of(rows_, workload, best_);
+    if (rows.empty()) return;
+    for (const RunRow* row : rows) least = std::min(least, row->together);
+    say(least > 0.0, workload + ": two arms move at the same time for " +
+                         percent(spread_of(rows, &RunRow::together).mean) + " of the time under " +
+                         best_ + ", at least " + percent(least) + " in every run");
+  }
+  void all_succeed() {
+    std::size_t jobs = 0;
+    std::size_t lost = 0;
+    std::uint64_t stops = 0;
+    for (const RunRow& row : rows_) {
+      jobs += row.jobs;
+      lost += row.not_succeeded;
+      stops += row.monitor_stops;
+    }
+    say(lost == 0 && stops == 0, std::to_string(jobs - lost) + " of " + std::to_string(jobs) +
+                                     " jobs succeeded, " + std::to_string(stops) +
+                                     " monitor stops");
+  }
+
+  std::vector<Claim> said;
+
+ private:
+  [[nodiscard]] double mean_s(const std::string& workload, const std::string& policy) const {
+    return spread_of(rows_of(rows_, workload, policy), &RunRow::makespan_s).mean;
+  }
+  void say(bool holds, std::string sentence) { said.push_back({holds, std::move(sentence)}); }
+
+  const std::vector<RunRow>& rows_;
+  std::string best_;
+};
+
+}  // namespace
+
+double realised(double other_s, double best_s, double bound_s) {
+  return (other_s - best_s) / (other_s - bound_s);
+}
+
+std::vector<Claim> claims(const Plan& plan, const std::vector<RunRow>& rows,
+                          const std::string& best) {
+  Claims all(rows, best);
+  for (const WorkloadKind& kind : plan.workloads) {
+    if (!kind.pays) continue;
+    all.gain(kind.name, "lockstep", kOfLockstep);
+    all.gain(kind.name, "sequential", kOfSequential);
+  }
+  all.shorter("short_beside_long");
+  for (const WorkloadKind& kind : plan.workloads) all.order(kind.name);
+  for (const WorkloadKind& kind : plan.workloads) all.both_move(kind.name);
+  all.all_succeed();
+  return all.said;
+}
+
+}  // namespace armloom::experiments

@@ -1,0 +1,73 @@
+#include "test/experiments/run_all.h"
+
+#include <atomic>
+#include <exception>
+#include <iostream>
+#include <mutex>
+#include <thread>
+
+namespace armloom::experiments {
+namespace {
+
+constexpr Duration kMoment = std::chrono::milliseconds(50);  // of the lower bound
+
+struct SeedRuns {
+  CellPtr cell;
+  std::vector<Run> runs;
+};
+
+SeedRuns run_seed(const WorkloadKind& kind, std::uint64_t seed,
+                  const std::vector<std::string>& policies) {
+  const Workload workload = kind.make(seed);
+  std::vector<Work> work;
+  for (const PlannedJob& job : workload.jobs) work.push_back({job.arm, job.trajectory});
+  const LowerBound bound = lower_bound(workload.cell, work, kMoment);
+  SeedRuns done{workload.cell, {}};
+  if (!workload.one_arm.empty()) {
+    done.runs.push_back(run_policy(workload, kind.name, kOneArm, seed, bound));
+  }
+  for (const std::string& policy : policies) {
+    done.runs.push_back(run_policy(workload, kind.name, policy, seed, bound));
+  }
+  return done;
+}
+
+}  // namespace
+
+Results run_all(const Plan& plan) {
+  const std::size_t count = plan.workloads.size() * plan.seeds;
+  std::vector<SeedRuns> done(count);
+  std::vector<std::exception_ptr> thrown(count);
+  std::atomic<std::size_t> next = 0;
+  std::mutex talking;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      const WorkloadKind& kind = plan.workloads[i / plan.seeds];
+      const std::uint64_t seed = 1 + i % plan.seeds;
+      try {
+        done[i] = run_seed(kind, seed, plan.policies);
+      } catch (...) {
+        thrown[i] = std::current_exception();
+      }
+      const std::lock_guard lock(talking);
+      std::cerr << kind.name << ", seed " << seed << (thrown[i] ? ": failed\n" : "\n");
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (unsigned i = 0; i < plan.threads; ++i) threads.emplace_back(work);
+  }
+  Results results;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (thrown[i]) std::rethrow_exception(thrown[i]);
+    const bool first = i % plan.seeds == 0;
+    if (first) results.timelines.push_back({plan.workloads[i / plan.seeds].name, done[i].cell, {}});
+    for (Run& run : done[i].runs) {
+      results.rows.push_back(std::move(run.row));
+      if (first) results.timelines.back().policies.push_back(std::move(run.timeline));
+    }
+  }
+  return results;
+}
+
+}  // namespace armloom::experiments
