@@ -44,6 +44,7 @@ struct Tally {
   std::size_t waits = 0;         // expired, and what they waited for is named
   std::size_t consequences = 0;  // of an arm whose earlier job ended in one of these ways
   std::size_t silent = 0;
+  std::uint64_t monitor_stops = 0;
   double smallest_m = 1e9;
   double makespan_s = 0.0, solution_s = 0.0;  // sums over what was solved
 };
@@ -117,6 +118,9 @@ void run(Crowd crowd, std::uint64_t seed, Tally& tally) {
   const std::size_t failed_before = tally.jobs - tally.succeeded, silent_before = tally.silent;
   count(*result, tally);
   EXPECT_EQ(tally.silent, silent_before) << name << ": a job ends without naming what blocked it";
+  EXPECT_EQ(result->figures.monitor_stops, 0U) << name << ": closest " << closest.smallest_m
+                                               << " m at " << to_seconds(closest.when) << " s";
+  tally.monitor_stops += result->figures.monitor_stops;
   tally.smallest_m = std::min(tally.smallest_m, closest.smallest_m);
   ++tally.worlds;
   if (tally.jobs - tally.succeeded == failed_before) {
@@ -134,12 +138,16 @@ double share(std::size_t part, std::size_t whole) {
 
 Tally run_all(Crowd crowd, std::uint64_t worlds) {
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= worlds; ++seed) run(crowd, seed, tally);
+  const char* only = std::getenv("ARMLOOM_ONLY");
+  for (std::uint64_t seed = 1; seed <= worlds; ++seed) {
+    if (only == nullptr || std::to_string(seed) == only) run(crowd, seed, tally);
+  }
   std::cout << to_string(crowd) << ": " << tally.solved << " of " << tally.worlds
             << " worlds solved; of " << tally.jobs << " jobs " << tally.succeeded << " ("
             << 100.0 * share(tally.succeeded, tally.jobs) << " %) succeeded, " << tally.deadlocks
             << " in named rings, " << tally.waits << " waits by name, " << tally.consequences
-            << " after these, " << tally.silent << " silent; closest " << tally.smallest_m
+            << " after these, " << tally.silent << " silent; " << tally.monitor_stops
+            << " monitor stops, closest " << tally.smallest_m
             << " m; " << tally.makespan_s << " s where the solutions one by one take "
             << tally.solution_s << " s" << std::endl;
   return tally;
