@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kWeightOfSum = 0.1;  // of the sum over arms, beside the last one's end
 constexpr int kPasses = 3;            // of changing single choices
+constexpr std::size_t kFreeMax = 24;  // choices that are changed at all
 
 // One region of two motions, and who may go first in it.
 struct Decision {
@@ -18,7 +19,7 @@ struct Decision {
   ConflictRegion region;
   bool a_may = true;
   bool b_may = true;
-  bool fixed = false;  // decided before: a goes first
+  bool prefers_a = true;  // of two that are as good
 };
 
 // Decisions that are one: all take the same side, or the other one where `turned`.
@@ -44,14 +45,9 @@ class Search {
     motions_.insert(motions_.end(), candidates.begin(), candidates.end());
     link_arms();
     for (const Precedence& precedence : precedences) {
-      decisions_.push_back({.a = *index_of(precedence.first()),
-                            .b = *index_of(precedence.second()),
-                            .region = precedence.region(),
-                            .b_may = false,
-                            .fixed = true});
-      dependencies_.push_back({decisions_.back().a, decisions_.back().b, &precedence});
+      add_decided(precedence);
     }
-    fixed_ = decisions_.size();
+    decided_ = decisions_.size();
   }
 
   PassingOrders run(const std::vector<PairRegions>& regions) {
@@ -67,8 +63,8 @@ class Search {
     answer_.in_the_way.erase(std::ranges::unique(answer_.in_the_way).begin(),
                              answer_.in_the_way.end());
     if (!answer_.obstacles.empty()) return std::move(answer_);
-    for (std::size_t d = fixed_; d < decisions_.size(); ++d) {
-      answer_.precedences.push_back(precedence_of(d, first_[d]));
+    for (std::size_t d = 0; d < decisions_.size(); ++d) {
+      answer_.precedences.push_back(std::move(ordered_[d][first_[d] ? 0 : 1]));
     }
     return std::move(answer_);
   }
@@ -124,8 +120,21 @@ class Search {
     for (const ConflictRegion& region : pair.regions) add(a, *b, region);
   }
 
+  // It may be turned as long as the first one has no authority in it.
+  void add_decided(const Precedence& precedence) {
+    const std::size_t a = *index_of(precedence.first());
+    const std::size_t b = *index_of(precedence.second());
+    Decision decision{.a = a, .b = b, .region = precedence.region()};
+    for (const ProgressBox& box : decision.region.boxes) {
+      if (is_behind(motions_[b], box.to_b)) continue;
+      if (reaches(a, box.from_a) || blocks_end(b, box.to_b)) decision.b_may = false;
+    }
+    if (motions_[a].keeps_its_place && !motions_[b].keeps_its_place) decision.b_may = false;
+    decisions_.push_back(std::move(decision));
+  }
+
   void add(std::size_t a, std::size_t b, const ConflictRegion& region) {
-    Decision decision{.a = a, .b = b, .region = region};
+    Decision decision{.a = a, .b = b, .region = region, .prefers_a = a < b};
     std::erase_if(decision.region.boxes, [&](const ProgressBox& box) {
       return is_behind(motions_[a], box.to_a) || is_behind(motions_[b], box.to_b);
     });
@@ -166,7 +175,7 @@ class Search {
     ties_.resize(decisions_.size());
     for (std::size_t d = 0; d < decisions_.size(); ++d) {
       for (std::size_t e = 0; e < decisions_.size(); ++e) {
-        if (d == e || (decisions_[d].fixed && decisions_[e].fixed)) continue;
+        if (d == e) continue;
         tie(d, e);
       }
     }
@@ -224,7 +233,7 @@ class Search {
         }
       }
       for (const bool value : {false, true}) {  // the earlier one of the pair first
-        const bool a_first = prefers_a(decisions_[d]) ? !value : value;
+        const bool a_first = decisions_[d].prefers_a ? !value : value;
         if (allowed(choice, a_first)) choice.options.push_back(a_first);
       }
       if (choice.options.empty()) {
@@ -235,8 +244,6 @@ class Search {
       }
     }
   }
-
-  static bool prefers_a(const Decision& decision) { return decision.a < decision.b; }
 
   [[nodiscard]] bool allowed(const Choice& choice, bool a_first) const {
     return std::ranges::all_of(choice.members, [&](const Choice::Member& member) {
@@ -263,8 +270,8 @@ class Search {
   using Cost = std::vector<double>;
 
   Cost evaluate(Prediction& prediction) {
-    std::vector<Dependency> dependencies = dependencies_;
-    for (std::size_t d = fixed_; d < decisions_.size(); ++d) {
+    std::vector<Dependency> dependencies;
+    for (std::size_t d = 0; d < decisions_.size(); ++d) {
       const Decision& decision = decisions_[d];
       const bool a_first = first_[d];
       dependencies.push_back({a_first ? decision.a : decision.b, a_first ? decision.b : decision.a,
@@ -299,19 +306,39 @@ class Search {
       ahead_.push_back({motions_[m].progress, motions_[m].duration, before_[m]});
     }
     ordered_.resize(decisions_.size());
-    for (std::size_t d = fixed_; d < decisions_.size(); ++d) {
+    for (std::size_t d = 0; d < decisions_.size(); ++d) {
       ordered_[d] = {precedence_of(d, true), precedence_of(d, false)};
     }
-    std::vector<Choice*> free;
-    for (Choice& choice : choices_) {
-      if (choice.options.size() > 1) free.push_back(&choice);
-    }
+    const std::vector<Choice*> free = free_choices();
     best_ = evaluate(best_prediction_);
     if (free.size() <= kTriedInFull) {
       try_all(free);
     } else {
       change_single(free);
     }
+  }
+
+  // Those of the candidates' regions, then those of motions that a candidate meets.
+  std::vector<Choice*> free_choices() {
+    std::vector<bool> met(motions_.size(), false);
+    for (std::size_t d = decided_; d < decisions_.size(); ++d) {
+      met[decisions_[d].a] = met[decisions_[d].b] = true;
+    }
+    std::vector<Choice*> free, further;
+    for (Choice& choice : choices_) {
+      if (choice.options.size() < 2) continue;
+      const bool own = std::ranges::any_of(choice.members, [&](const Choice::Member& member) {
+        return member.decision >= decided_;
+      });
+      const bool near = std::ranges::any_of(choice.members, [&](const Choice::Member& member) {
+        return met[decisions_[member.decision].a] || met[decisions_[member.decision].b];
+      });
+      if (own) free.push_back(&choice);
+      if (near && !own) further.push_back(&choice);
+    }
+    free.insert(free.end(), further.begin(), further.end());
+    if (free.size() > kFreeMax) free.resize(kFreeMax);
+    return free;
   }
 
   void try_all(const std::vector<Choice*>& free) {
@@ -379,7 +406,7 @@ class Search {
 
   void report_blocked(const Choice& choice) {
     for (const Choice::Member& member : choice.members) {
-      if (member.decision >= fixed_) return report(member.decision);
+      if (member.decision >= decided_) return report(member.decision);
     }
   }
 
@@ -387,10 +414,10 @@ class Search {
   void report_ring() {
     const auto& ring = best_prediction_.ring;
     const auto in_ring = [&](std::size_t m) { return std::ranges::find(ring, m) != ring.end(); };
-    for (std::size_t d = fixed_; d < decisions_.size(); ++d) {
+    for (std::size_t d = decided_; d < decisions_.size(); ++d) {
       if (in_ring(decisions_[d].a) && in_ring(decisions_[d].b)) report(d);
     }
-    if (answer_.obstacles.empty() && decisions_.size() > fixed_) report(fixed_);
+    if (answer_.obstacles.empty() && decisions_.size() > decided_) report(decided_);
   }
 
   std::vector<CoordinatedMotion> motions_;
@@ -401,13 +428,12 @@ class Search {
   std::vector<std::size_t> followed_;             // by motion: how many of its arms move on
 
   std::vector<Decision> decisions_;  // those of the past first
-  std::size_t fixed_ = 0;
+  std::size_t decided_ = 0;
   std::vector<std::vector<Choice::Member>> ties_;  // by decision
   std::vector<bool> first_;                        // by decision: A goes first
   std::vector<Choice> choices_;
 
   std::vector<MotionAhead> ahead_;
-  std::vector<Dependency> dependencies_;          // of the past
   std::vector<std::vector<Precedence>> ordered_;  // by decision: A first, B first
   Cost best_;
   Prediction best_prediction_;

@@ -37,7 +37,7 @@ struct Obstacle {
 
 // The answer: who passes first in every region, or what stands against it.
 struct PassingOrders {
-  std::vector<Precedence> precedences;  // of every region, if admitted
+  std::vector<Precedence> precedences;  // of every region, if admitted; those of before included
   Prediction prediction;                // of the admitted motions, then the candidates
   std::vector<Obstacle> obstacles;      // empty: admitted
   std::vector<ArmId> in_the_way;  // arms that end or rest in the way: a next motion of theirs might
@@ -47,8 +47,8 @@ struct PassingOrders {
 // Finds the passing orders of the candidates' conflict regions under which everything comes to its
 // end, and of these the ones that cost least: the time at which the last arm has done its work
 // (work that waits behind counted), then the sum over arms; motions of larger priority before
-// others. What is admitted keeps its orders among itself and is never made to go back: a candidate
-// passes first only where the other one has no authority yet.
+// others. Nobody is made to go back: an order is open, or may be turned, as long as the one who
+// would have to wait has no authority in the region.
 //
 // All assignments are tried for up to kTriedInFull free choices; beyond that, single choices are
 // changed while that helps.

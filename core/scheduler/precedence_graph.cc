@@ -44,7 +44,7 @@ void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
     });
     motions_.push_back(candidate);
   }
-  precedences_.insert(precedences_.end(), orders.precedences.begin(), orders.precedences.end());
+  precedences_ = orders.precedences;
 }
 
 void PrecedenceGraph::progress(JobId job, Duration progress) {
