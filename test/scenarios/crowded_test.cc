@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/model/build_cell.h"
+#include "test/scenarios/crowded_oracle.h"
 #include "test/scenarios/crowded_workloads.h"
 #include "test/scenarios/random_faults.h"
 #include "test/scenarios/seeds.h"
@@ -45,6 +46,10 @@ struct Tally {
   std::size_t consequences = 0;  // of an arm whose earlier job ended in one of these ways
   std::size_t silent = 0;
   std::uint64_t monitor_stops = 0;
+  // Worlds that are not solved, by what the oracle says:
+  std::size_t dead_ends = 0;  // a motion was begun after which there is no solution any more
+  std::size_t missed = 0;     // what is left could be done; nothing begins it
+  std::size_t beyond = 0;     // the oracle knows no solution from the beginning on
   double smallest_m = 1e9;
   double makespan_s = 0.0, solution_s = 0.0;  // sums over what was solved
 };
@@ -81,9 +86,40 @@ double solution_s(const CrowdedWorkload& world) {
   return sum;
 }
 
-void tell(const CrowdedWorkload& world, const SimulationResult& result) {
+// Where it went wrong: the job after whose start there is no solution any more.
+std::string went_wrong(const CrowdedWorkload& world, const SimulationResult& result, Tally& tally) {
+  CrowdedOracle oracle(world);
+  std::vector<std::size_t> done(world.homes.size(), 0);
+  if (!oracle.solvable(done)) {
+    ++tally.beyond;
+    return "no solution is known without moves aside";
+  }
+  std::vector<const JobView*> begun;
+  TimePoint first_end = TimePoint::max();  // of a job that did not succeed
+  for (const JobView& job : result.jobs) {
+    if (job.started_at) begun.push_back(&job);
+    if (job.state != JobState::succeeded && job.ended_at) {
+      first_end = std::min(first_end, *job.ended_at);
+    }
+  }
+  std::ranges::sort(begun, {}, [](const JobView* job) { return *job->started_at; });
+  std::string last_bad;
+  for (const JobView* job : begun) {
+    if (*job->started_at >= first_end) break;
+    ++done[static_cast<std::size_t>(job->arms.front()[0] - 'a')];
+    if (oracle.solvable(done)) {
+      last_bad.clear();
+    } else if (last_bad.empty()) {
+      last_bad = job->key;
+    }
+  }
+  ++(last_bad.empty() ? tally.missed : tally.dead_ends);
+  return last_bad.empty() ? "what is left could be done" : "a dead end since " + last_bad;
+}
+
+void tell(const CrowdedWorkload& world, const SimulationResult& result, const std::string& why) {
   std::cout << "--- " << to_string(world.crowd) << " seed " << world.seed << ", "
-            << world.homes.size() << " arms; solution:";
+            << world.homes.size() << " arms: " << why << "; solution:";
   for (const auto& group : world.solution) {
     std::cout << " [";
     for (const DiscMotion& one : group) {
@@ -108,18 +144,17 @@ void run(Crowd crowd, std::uint64_t seed, Tally& tally) {
   auto cell = build_cell(description);
   ASSERT_TRUE(cell) << name;
   Closest closest;
-  const auto result = simulate(*cell, ExecutiveOptions{.policy = "coordinated"}, world.jobs(),
-                               at(600s), closest);
+  const auto result =
+      simulate(*cell, ExecutiveOptions{.policy = "coordinated"}, world.jobs(), at(600s), closest);
   ASSERT_TRUE(result) << name << ": " << result.error().front().detail;
   EXPECT_TRUE(result->refused.empty()) << name;
   EXPECT_TRUE(result->all_ended) << name << ": jobs hang";
-  EXPECT_GT(closest.smallest_m, 0.0)
-      << name << ": contact at " << to_seconds(closest.when) << " s";
+  EXPECT_GT(closest.smallest_m, 0.0) << name << ": contact at " << to_seconds(closest.when) << " s";
   const std::size_t failed_before = tally.jobs - tally.succeeded, silent_before = tally.silent;
   count(*result, tally);
   EXPECT_EQ(tally.silent, silent_before) << name << ": a job ends without naming what blocked it";
-  EXPECT_EQ(result->figures.monitor_stops, 0U) << name << ": closest " << closest.smallest_m
-                                               << " m at " << to_seconds(closest.when) << " s";
+  EXPECT_EQ(result->figures.monitor_stops, 0U)
+      << name << ": closest " << closest.smallest_m << " m at " << to_seconds(closest.when) << " s";
   tally.monitor_stops += result->figures.monitor_stops;
   tally.smallest_m = std::min(tally.smallest_m, closest.smallest_m);
   ++tally.worlds;
@@ -127,8 +162,9 @@ void run(Crowd crowd, std::uint64_t seed, Tally& tally) {
     ++tally.solved;
     tally.makespan_s += to_seconds(result->figures.last_end);
     tally.solution_s += solution_s(world);
-  } else if (std::getenv("ARMLOOM_TOLD") != nullptr) {
-    tell(world, *result);
+  } else {
+    const std::string why = went_wrong(world, *result, tally);
+    if (std::getenv("ARMLOOM_TOLD") != nullptr) tell(world, *result, why);
   }
 }
 
@@ -147,9 +183,10 @@ Tally run_all(Crowd crowd, std::uint64_t worlds) {
             << 100.0 * share(tally.succeeded, tally.jobs) << " %) succeeded, " << tally.deadlocks
             << " in named rings, " << tally.waits << " waits by name, " << tally.consequences
             << " after these, " << tally.silent << " silent; " << tally.monitor_stops
-            << " monitor stops, closest " << tally.smallest_m
-            << " m; " << tally.makespan_s << " s where the solutions one by one take "
-            << tally.solution_s << " s" << std::endl;
+            << " monitor stops, closest " << tally.smallest_m << " m; " << tally.makespan_s
+            << " s where the solutions one by one take " << tally.solution_s
+            << " s; not solved: " << tally.dead_ends << " dead ends, " << tally.missed
+            << " missed, " << tally.beyond << " beyond the oracle" << std::endl;
   return tally;
 }
 

@@ -131,8 +131,8 @@ class Maker {
     const double radius = random_.uniform(count == 4 ? 0.45 : 0.4, 0.6);
     const double turned = random_.uniform(0.0, 2.0 * std::numbers::pi);
     for (std::size_t i = 0; i < count; ++i) {
-      const double angle = turned + 2.0 * std::numbers::pi * static_cast<double>(i) /
-                                        static_cast<double>(count);
+      const double angle =
+          turned + 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
       stands_.push_back(radius * Place(std::cos(angle), std::sin(angle)));
     }
     if (random_.chance(0.3) && !stand_at_random(count + 1)) return false;

@@ -100,8 +100,8 @@ PandasRun run(const Stock& stock, std::uint64_t seed, const std::string& policy)
   if (std::getenv("ARMLOOM_TOLD") != nullptr) {
     for (const std::string& key : keys) {
       const JobView job = *executive.job(key);
-      std::cout << seed << " " << job.name << " submitted " << to_seconds(job.submitted_at) << " began "
-                << (job.started_at ? to_seconds(*job.started_at) : -1.0) << " "
+      std::cout << seed << " " << job.name << " submitted " << to_seconds(job.submitted_at)
+                << " began " << (job.started_at ? to_seconds(*job.started_at) : -1.0) << " "
                 << told(job) << "\n";
     }
   }
@@ -116,13 +116,14 @@ struct Case {
   const char* policy;
 };
 class PandaDelays : public ::testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(
-    Cells, PandaDelays,
-    ::testing::Values(Case{"two_pandas", "earliest_start"}, Case{"two_pandas", "coordinated"},
-                      Case{"four_pandas", "earliest_start"}, Case{"four_pandas", "coordinated"}),
-    [](const auto& one) {
-      return std::string(one.param.cell) + "_" + std::string(one.param.policy);
-    });
+INSTANTIATE_TEST_SUITE_P(Cells, PandaDelays,
+                         ::testing::Values(Case{"two_pandas", "earliest_start"},
+                                           Case{"two_pandas", "coordinated"},
+                                           Case{"four_pandas", "earliest_start"},
+                                           Case{"four_pandas", "coordinated"}),
+                         [](const auto& one) {
+                           return std::string(one.param.cell) + "_" + std::string(one.param.policy);
+                         });
 
 TEST_P(PandaDelays, AuditFindsNoContactAndEveryJobSucceeds) {
   const Stock pandas = stock(GetParam().cell);
@@ -132,8 +133,7 @@ TEST_P(PandaDelays, AuditFindsNoContactAndEveryJobSucceeds) {
     const PandasRun outcome = run(pandas, seed, GetParam().policy);
     const auto& contact = outcome.audited.first_contact;
     EXPECT_FALSE(contact) << "seed " << seed << ": " << contact->body_a << " and "
-                          << contact->body_b << " at " << to_seconds(contact->time)
-                          << " s";
+                          << contact->body_b << " at " << to_seconds(contact->time) << " s";
     EXPECT_TRUE(outcome.all_ended) << "seed " << seed << ": jobs hang";
     EXPECT_EQ(outcome.succeeded, outcome.jobs) << "seed " << seed << ": " << outcome.first_other;
     if (outcome.audited.smallest_clearance) {

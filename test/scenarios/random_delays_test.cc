@@ -34,8 +34,8 @@ SlidersRun run(std::uint64_t seed, std::size_t arms, const std::string& policy) 
   for (std::size_t n = 0; n < 3 * arms; ++n) {
     const std::size_t i = n % arms;
     const double to = (stands[i] < 0 ? 1.0 : -1.0) * random.uniform(0.7, 1.2);
-    const auto view = executive.submit(slide(std::string(1, static_cast<char>('a' + i)), stands[i],
-                                             to, random.uniform(2.4, 5.0)));
+    const auto view = executive.submit(
+        slide(std::string(1, static_cast<char>('a' + i)), stands[i], to, random.uniform(2.4, 5.0)));
     EXPECT_TRUE(view);
     if (!view) continue;
     keys.push_back(view->key);
