@@ -230,7 +230,7 @@ std::vector<BlockedRegion> blocked_regions(const std::vector<BlockedCell>& cells
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const ProgressBox& box = cells[i].box;
     const auto behind = [](Duration to, Duration now, Duration end) {
-      return to <= now && to < end;
+      return to < now && to < end;
     };
     if (behind(box.to_a, remaining.from_a, remaining.to_a)) continue;
     if (!behind(box.to_b, remaining.from_b, remaining.to_b)) ahead.push_back(i);

@@ -153,7 +153,7 @@ class Search {
   }
 
   static bool is_behind(const CoordinatedMotion& motion, Duration to) {
-    return to <= motion.progress && to < motion.duration;
+    return to < motion.progress && to < motion.duration;
   }
   // It has, or may have, entered what begins at `from`.
   [[nodiscard]] bool reaches(std::size_t m, Duration from) const {

@@ -99,4 +99,19 @@ CellPtr line_of_pandas(std::size_t count, double spacing_m) {
   return value_of(build_cell(cell));
 }
 
+CellPtr grid_of_pandas(std::size_t columns, std::size_t rows, double spacing_m) {
+  const CellDescription like = two_pandas_description();
+  CellDescription cell = empty_cell("wide hall", like);
+  for (std::size_t i = 0; i < columns * rows; ++i) {
+    const auto column = static_cast<double>(i % columns), row = static_cast<double>(i / columns);
+    cell.robots.push_back(
+        panda(like.robots[0], i,
+              standing_at(spacing_m * column, spacing_m * row, std::numbers::pi / 2.0)));
+  }
+  const double length_m = spacing_m * static_cast<double>(columns - 1);
+  const double depth_m = spacing_m * static_cast<double>(rows - 1);
+  put_table({length_m + 2.0, depth_m + 2.0}, {length_m / 2.0, depth_m / 2.0}, cell);
+  return value_of(build_cell(cell));
+}
+
 }  // namespace armloom::bench

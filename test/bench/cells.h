@@ -20,4 +20,7 @@ namespace armloom::bench {
 // Arms are in the order of x.
 [[nodiscard]] CellPtr line_of_pandas(std::size_t count, double spacing_m);
 
+// A wide hall: rows of such lines, all arms facing +y; arms are in the order of y, then x.
+[[nodiscard]] CellPtr grid_of_pandas(std::size_t columns, std::size_t rows, double spacing_m);
+
 }  // namespace armloom::bench

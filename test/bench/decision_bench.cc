@@ -1,0 +1,223 @@
+// The time that a decision takes: from a job's arrival to its admission or refusal, geometry
+// included, on one thread, in a hall of 48 Pandas in which 15 motions run, 30 are admitted and
+// still to begin, and 200 jobs wait. The candidates' motions are new each time.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/collision/arbiter.h"
+#include "core/collision/planning_scene.h"
+#include "core/scheduler/scheduler.h"
+#include "core/trajectory/validate.h"
+#include "test/bench/cells.h"
+#include "test/bench/motions.h"
+
+namespace armloom::bench {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kColumns = 8, kRows = 6;
+constexpr double kSpacing_m = 1.2;
+constexpr double kReach = 0.5;
+constexpr double kShare = 0.5;  // of a random motion, about home
+constexpr std::size_t kRunning = 15, kScheduled = 30, kWaiting = 200;
+constexpr std::size_t kFree[] = {18, 28, 29};  // arms in the middle: theirs are the candidates
+constexpr std::size_t kDecisions = 300;
+
+// The waypoints of `motion`, its deviation from its start shrunk to kShare and begun at home;
+// backwards: from its goal to home. None: it leaves its limits.
+std::optional<TrajectoryPtr> from_home(const Cell& cell, ArmId arm, const Trajectory& motion,
+                                       bool backwards) {
+  TrajectoryRequest request;
+  for (const JointId id : motion.joints()) request.joint_names.push_back(cell.joint(id).name);
+  JointState state;
+  for (std::size_t i = 0; i < kWaypoints; ++i) {
+    const double at_s = kMotion_s * static_cast<double>(i) / static_cast<double>(kWaypoints - 1);
+    motion.sample(from_seconds(backwards ? kMotion_s - at_s : at_s), state);
+    WaypointRequest point{{}, {}, {}, at_s};
+    for (Eigen::Index j = 0; j < state.position.size(); ++j) {
+      point.positions.push_back(cell.arm(arm).home[j] +
+                                kShare * (state.position[j] - motion.start()[j]));
+      point.velocities.push_back((backwards ? -kShare : kShare) * state.velocity[j]);
+      point.accelerations.push_back(kShare * state.acceleration[j]);
+    }
+    request.points.push_back(std::move(point));
+  }
+  auto trajectory = validate(request, cell);
+  if (!trajectory) return std::nullopt;
+  return *trajectory;
+}
+
+class Hall {
+ public:
+  explicit Hall(const std::string& policy)
+      : cell_(grid_of_pandas(kColumns, kRows, kSpacing_m)),
+        arbiter_(*PlanningScene::build(cell_)),
+        chooses_(*PlanningScene::build(cell_)),
+        scheduler_(cell_, std::move(*make_policy(policy, *cell_)), cell_->home()) {
+    fill();
+  }
+
+  // A motion of its own for each call, which the arm can make when it is alone.
+  TrajectoryPtr new_motion(ArmId arm) {
+    while (true) {
+      const auto random = random_motion(*cell_, arm, ++seed_, kReach);
+      const auto found = from_home(*cell_, arm, *random, false);
+      if (!found || !alone(*found)) continue;
+      random_[*found] = random;
+      return *found;
+    }
+  }
+
+  // Submit, and whatever is asked and answered until the job is admitted or in the backlog.
+  struct Decision {
+    Duration took;
+    bool admitted;
+    std::size_t questions;
+  };
+  Decision decide(const TrajectoryPtr& motion) {
+    const auto begun = std::chrono::steady_clock::now();
+    const JobId job = submit(motion);
+    std::size_t questions = 0;
+    while (scheduler_.find(job)->state == JobState::queued && answer_one()) ++questions;
+    const Duration took = std::chrono::steady_clock::now() - begun;
+    const bool admitted = scheduler_.find(job)->state == JobState::scheduled;
+    withdraw(job);
+    return {took, admitted, questions};
+  }
+
+ private:
+  [[nodiscard]] bool alone(const TrajectoryPtr& motion) {
+    const Question question{.version = 1,
+                            .start_at = TimePoint{},
+                            .candidates = {{JobId{1}, motion, Duration{}}},
+                            .others = {},
+                            .rest = cell_->home(),
+                            .method = Certified{100ms, true, cell_->checking.tracking_error_rad}};
+    return chooses_.judge(question).kind == Verdict::Kind::free;
+  }
+
+  // Each arm but the free ones has one admitted motion and others behind it.
+  void fill() {
+    std::size_t admitted = 0, waiting = 0;
+    std::vector<TrajectoryPtr> out(cell_->arms.size());
+    for (std::uint32_t i = 0; i < cell_->arms.size(); ++i) {
+      if (std::ranges::find(kFree, i) != std::end(kFree)) continue;
+      while (!out[i]) {
+        const TrajectoryPtr motion = new_motion(ArmId{i});
+        const JobId job = submit(motion);
+        answer_all();
+        if (scheduler_.find(job)->state != JobState::scheduled) {
+          withdraw(job);
+          continue;
+        }
+        out[i] = motion;
+        if (admitted++ < kRunning) run(job);
+      }
+    }
+    for (std::size_t round = 0; waiting < kWaiting; ++round) {
+      for (std::uint32_t i = 0; i < out.size() && waiting < kWaiting; ++i) {
+        if (!out[i]) continue;
+        const bool back = round % 2 == 0;
+        submit(back ? *from_home(*cell_, ArmId{i}, *random_.at(out[i]), true) : out[i]);
+        ++waiting;
+      }
+    }
+    answer_all();
+    count(JobState::running, kRunning);
+    count(JobState::scheduled, kScheduled);
+    count(JobState::queued, kWaiting);
+  }
+  void count(JobState state, std::size_t wanted) const {
+    const auto jobs = scheduler_.active();
+    const auto found =
+        std::ranges::count_if(jobs, [&](JobId id) { return scheduler_.find(id)->state == state; });
+    if (static_cast<std::size_t>(found) == wanted) return;
+    throw std::runtime_error(std::to_string(found) + " jobs are " + to_string(state));
+  }
+
+  JobId submit(const TrajectoryPtr& motion) {
+    const JobId job{++last_};
+    step(Submit{job, motion, 0, 3600s});
+    return job;
+  }
+  void run(JobId job) { step(MotionReport{job, MotionReport::Kind::progressed, 1ms}); }
+  void withdraw(JobId job) {
+    step(Cancel{job});
+    const Job& canceled = *scheduler_.find(job);
+    if (!is_terminal(canceled.state)) {  // its arm had the motion
+      step(
+          MotionReport{job, MotionReport::Kind::stopped, Duration{}, canceled.trajectory->start()});
+    }
+    answer_all();
+    scheduler_.forget(job);
+  }
+
+  void step(const Input& input) {
+    for (Effect& effect : scheduler_.step(input, now_)) {
+      if (auto* judge = std::get_if<Judge>(&effect)) question_ = std::move(judge->question);
+    }
+  }
+  bool answer_one() {
+    if (!question_) return false;
+    const Question question = std::move(*question_);
+    question_.reset();
+    step(Judged{arbiter_.judge(question)});
+    return true;
+  }
+  void answer_all() {
+    while (answer_one()) {
+    }
+  }
+
+  CellPtr cell_;
+  Arbiter arbiter_;
+  Arbiter chooses_;  // knows nothing to the other one's advantage
+  Scheduler scheduler_;
+  std::map<TrajectoryPtr, TrajectoryPtr> random_;  // what a motion was made of
+  std::optional<Question> question_;
+  TimePoint now_{};
+  std::uint64_t last_ = 0;
+  std::uint64_t seed_ = 0;
+};
+
+void decision(benchmark::State& state, const std::string& policy) {
+  Hall hall(policy);
+  std::vector<double> took_ms;
+  double admitted = 0.0, questions = 0.0;
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < kDecisions; ++i) {
+      const ArmId arm{static_cast<std::uint32_t>(kFree[i % std::size(kFree)])};
+      const TrajectoryPtr motion = hall.new_motion(arm);
+      const Hall::Decision decided = hall.decide(motion);
+      took_ms.push_back(1e3 * to_seconds(decided.took));
+      admitted += decided.admitted ? 1.0 : 0.0;
+      questions += static_cast<double>(decided.questions);
+    }
+  }
+  std::ranges::sort(took_ms);
+  const auto count = static_cast<double>(took_ms.size());
+  state.counters["median_ms"] = took_ms[took_ms.size() / 2];
+  state.counters["p99_ms"] = took_ms[took_ms.size() * 99 / 100];
+  state.counters["max_ms"] = took_ms.back();
+  state.counters["admitted"] = admitted / count;
+  state.counters["questions"] = questions / count;
+}
+
+BENCHMARK_CAPTURE(decision, earliest_start, "earliest_start")
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(decision, coordinated, "coordinated")
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace armloom::bench

@@ -1,0 +1,221 @@
+// Crowded worlds that can be solved: under `coordinated` nearly every job succeeds; each other one
+// ends by name, never in silence, and nothing ever touches. 100 worlds; ARMLOOM_SEEDS=1000 runs
+// 1,000. ARMLOOM_TOLD=1 tells every world that is not solved.
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <map>
+
+#include "core/model/build_cell.h"
+#include "test/scenarios/crowded_oracle.h"
+#include "test/scenarios/crowded_workloads.h"
+#include "test/scenarios/random_faults.h"
+#include "test/scenarios/seeds.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t kWorlds = 100;
+// Jobs that an arm without jobs stands in the way of need on_idle_blocker "park".
+constexpr bool kIdleArmsMoveAside = false;
+
+// The smallest distance between any two discs, as measured at every tick.
+struct Closest final : Observer {
+  void on_event(const Event&) override {}
+  void on_state(const StateFrame&) override {}
+  void on_tick(TimePoint now, const Configuration& measured) override {
+    for (Eigen::Index i = 0; i < measured.size(); i += 2) {
+      for (Eigen::Index j = 0; j < i; j += 2) {
+        const double apart_m =
+            (measured.segment<2>(i) - measured.segment<2>(j)).norm() - kDiscDistance_m;
+        if (apart_m < smallest_m) smallest_m = apart_m, when = now;
+      }
+    }
+  }
+  double smallest_m = 1e9;
+  TimePoint when{};
+};
+
+struct Tally {
+  std::size_t worlds = 0, solved = 0;
+  std::size_t jobs = 0, succeeded = 0;
+  std::size_t deadlocks = 0;     // ended for a ring, which is named
+  std::size_t waits = 0;         // expired, and what they waited for is named
+  std::size_t consequences = 0;  // of an arm whose earlier job ended in one of these ways
+  std::size_t silent = 0;
+  std::uint64_t monitor_stops = 0;
+  // Worlds that are not solved, by what the oracle says:
+  std::size_t dead_ends = 0;  // a motion was begun after which there is no solution any more
+  std::size_t missed = 0;     // what is left could be done; nothing begins it
+  std::size_t beyond = 0;     // the oracle knows no solution from the beginning on
+  double smallest_m = 1e9;
+  double makespan_s = 0.0, solution_s = 0.0;  // sums over what was solved
+};
+
+void count(const SimulationResult& result, Tally& tally) {
+  std::map<std::string, bool> failed;  // by arm: an earlier job of it
+  for (const JobView& job : result.jobs) {
+    ++tally.jobs;
+    if (job.state == JobState::succeeded) {
+      ++tally.succeeded;
+      continue;
+    }
+    bool& before = failed[job.arms.front()];
+    if (job.reason == Reason::deadlock && job.ring.size() >= 2) {
+      ++tally.deadlocks;
+    } else if (job.reason == Reason::backlog_timeout && !job.waits_on.empty()) {
+      ++tally.waits;
+    } else if (job.reason == Reason::start_mismatch && before) {
+      ++tally.consequences;
+    } else {
+      ++tally.silent;
+    }
+    before = true;
+  }
+}
+
+double solution_s(const CrowdedWorkload& world) {
+  double sum = 0.0;
+  for (const auto& group : world.solution) {
+    double longest = 0.0;
+    for (const DiscMotion& one : group) longest = std::max(longest, one.duration_s());
+    sum += longest;
+  }
+  return sum;
+}
+
+// Where it went wrong: the job after whose start there is no solution any more.
+std::string went_wrong(const CrowdedWorkload& world, const SimulationResult& result, Tally& tally) {
+  CrowdedOracle oracle(world);
+  std::vector<std::size_t> done(world.homes.size(), 0);
+  if (!oracle.solvable(done)) {
+    ++tally.beyond;
+    return "no solution is known without moves aside";
+  }
+  std::vector<const JobView*> begun;
+  TimePoint first_end = TimePoint::max();  // of a job that did not succeed
+  for (const JobView& job : result.jobs) {
+    if (job.started_at) begun.push_back(&job);
+    if (job.state != JobState::succeeded && job.ended_at) {
+      first_end = std::min(first_end, *job.ended_at);
+    }
+  }
+  std::ranges::sort(begun, {}, [](const JobView* job) { return *job->started_at; });
+  std::string last_bad;
+  for (const JobView* job : begun) {
+    if (*job->started_at >= first_end) break;
+    ++done[static_cast<std::size_t>(job->arms.front()[0] - 'a')];
+    if (oracle.solvable(done)) {
+      last_bad.clear();
+    } else if (last_bad.empty()) {
+      last_bad = job->key;
+    }
+  }
+  ++(last_bad.empty() ? tally.missed : tally.dead_ends);
+  return last_bad.empty() ? "what is left could be done" : "a dead end since " + last_bad;
+}
+
+void tell(const CrowdedWorkload& world, const SimulationResult& result, const std::string& why) {
+  std::cout << "--- " << to_string(world.crowd) << " seed " << world.seed << ", "
+            << world.homes.size() << " arms: " << why << "; solution:";
+  for (const auto& group : world.solution) {
+    std::cout << " [";
+    for (const DiscMotion& one : group) {
+      std::cout << " " << disc_name(one.arm) << (one.of_a_client ? "" : "*");
+      for (const auto& place : one.way) std::cout << " (" << place.x() << "," << place.y() << ")";
+    }
+    std::cout << " ]";
+  }
+  std::cout << "\n";
+  for (const JobView& job : result.jobs) {
+    std::cout << "  " << to_seconds(job.submitted_at) << " -> "
+              << (job.started_at ? to_seconds(*job.started_at) : -1.0) << ".."
+              << (job.ended_at ? to_seconds(*job.ended_at) : -1.0) << " " << told(job) << "\n";
+  }
+}
+
+void run(Crowd crowd, std::uint64_t seed, Tally& tally) {
+  const CrowdedWorkload world = make_crowded(crowd, seed);
+  const std::string name = std::string(to_string(crowd)) + " seed " + std::to_string(seed);
+  CellDescription description = world.cell();
+  if (crowd == Crowd::parked) description.scheduling.on_idle_blocker = "park";
+  auto cell = build_cell(description);
+  ASSERT_TRUE(cell) << name;
+  Closest closest;
+  const auto result =
+      simulate(*cell, ExecutiveOptions{.policy = "coordinated"}, world.jobs(), at(600s), closest);
+  ASSERT_TRUE(result) << name << ": " << result.error().front().detail;
+  EXPECT_TRUE(result->refused.empty()) << name;
+  EXPECT_TRUE(result->all_ended) << name << ": jobs hang";
+  EXPECT_GT(closest.smallest_m, 0.0) << name << ": contact at " << to_seconds(closest.when) << " s";
+  const std::size_t failed_before = tally.jobs - tally.succeeded, silent_before = tally.silent;
+  count(*result, tally);
+  EXPECT_EQ(tally.silent, silent_before) << name << ": a job ends without naming what blocked it";
+  EXPECT_EQ(result->figures.monitor_stops, 0U)
+      << name << ": closest " << closest.smallest_m << " m at " << to_seconds(closest.when) << " s";
+  tally.monitor_stops += result->figures.monitor_stops;
+  tally.smallest_m = std::min(tally.smallest_m, closest.smallest_m);
+  ++tally.worlds;
+  if (tally.jobs - tally.succeeded == failed_before) {
+    ++tally.solved;
+    tally.makespan_s += to_seconds(result->figures.last_end);
+    tally.solution_s += solution_s(world);
+  } else {
+    const std::string why = went_wrong(world, *result, tally);
+    if (std::getenv("ARMLOOM_TOLD") != nullptr) tell(world, *result, why);
+  }
+}
+
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+Tally run_all(Crowd crowd, std::uint64_t worlds) {
+  Tally tally;
+  const char* only = std::getenv("ARMLOOM_ONLY");
+  for (std::uint64_t seed = 1; seed <= worlds; ++seed) {
+    if (only == nullptr || std::to_string(seed) == only) run(crowd, seed, tally);
+  }
+  std::cout << to_string(crowd) << ": " << tally.solved << " of " << tally.worlds
+            << " worlds solved; of " << tally.jobs << " jobs " << tally.succeeded << " ("
+            << 100.0 * share(tally.succeeded, tally.jobs) << " %) succeeded, " << tally.deadlocks
+            << " in named rings, " << tally.waits << " waits by name, " << tally.consequences
+            << " after these, " << tally.silent << " silent; " << tally.monitor_stops
+            << " monitor stops, closest " << tally.smallest_m << " m; " << tally.makespan_s
+            << " s where the solutions one by one take " << tally.solution_s
+            << " s; not solved: " << tally.dead_ends << " dead ends, " << tally.missed
+            << " missed, " << tally.beyond << " beyond the oracle" << std::endl;
+  return tally;
+}
+
+TEST(CrowdedWorkloads, HaveASolutionThatKeepsItsDistance) {
+  for (const Crowd crowd : kCrowds) {
+    for (std::uint64_t seed = 1; seed <= seed_count(kWorlds) / 5; ++seed) {
+      const CrowdedWorkload world = make_crowded(crowd, seed);
+      EXPECT_GE(smallest_kept_m(world), kKeptOneByOne_m) << to_string(crowd) << " seed " << seed;
+      for (const auto& submitted : world.submitted) EXPECT_TRUE(submitted.motion.of_a_client);
+    }
+  }
+}
+
+TEST(CrowdedWorlds, SucceedOrAreNamedAndNeverTouch) {
+  std::size_t jobs = 0, succeeded = 0;
+  for (const Crowd crowd : kCrowds) {
+    if (crowd == Crowd::parked) continue;
+    const Tally tally = run_all(crowd, seed_count(kWorlds) / 4);
+    jobs += tally.jobs;
+    succeeded += tally.succeeded;
+  }
+  EXPECT_GE(share(succeeded, jobs), 0.99) << succeeded << " of " << jobs << " jobs";
+}
+
+TEST(CrowdedWorlds, WithArmsParkedInTheWaySucceedWhereTheseMoveAside) {
+  const Tally tally = run_all(Crowd::parked, seed_count(kWorlds) / 4);
+  if (!kIdleArmsMoveAside) GTEST_SKIP() << "arms without jobs do not move aside yet";
+  EXPECT_GE(share(tally.succeeded, tally.jobs), 0.99);
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,361 @@
+#include "test/scenarios/crowded_workloads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "test/scenarios/random_faults.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+using Place = Eigen::Vector2d;
+using Way = std::vector<Place>;
+
+constexpr int kTries = 2000;
+
+double distance_to_leg(const Place& point, const Place& from, const Place& to) {
+  const Place along = to - from;
+  const double squared = along.squaredNorm();
+  const double share =
+      squared == 0.0 ? 0.0 : std::clamp((point - from).dot(along) / squared, 0.0, 1.0);
+  return (from + share * along - point).norm();
+}
+
+// Builds one workload; gives up with nullopt where chance leads nowhere.
+class Maker {
+ public:
+  Maker(Crowd crowd, std::uint64_t seed) : random_(seed) {
+    made_.crowd = crowd;
+    made_.seed = seed;
+  }
+
+  std::optional<CrowdedWorkload> make() {
+    bool found = false;
+    switch (made_.crowd) {
+      case Crowd::swap:
+        found = exchange(2);
+        break;
+      case Crowd::ring3:
+        found = exchange(3);
+        break;
+      case Crowd::ring4:
+        found = exchange(4);
+        break;
+      case Crowd::queues:
+        found = queues();
+        break;
+      case Crowd::parked:
+        found = parked();
+        break;
+    }
+    if (!found) return std::nullopt;
+    submit();
+    if (smallest_kept_m(made_) < kKeptOneByOne_m) return std::nullopt;
+    return made_;
+  }
+
+ private:
+  [[nodiscard]] Place anywhere() {
+    return {random_.uniform(-half_m_, half_m_), random_.uniform(-half_m_, half_m_)};
+  }
+  [[nodiscard]] bool is_free(const Place& place, std::size_t but) const {
+    for (std::size_t i = 0; i < stands_.size(); ++i) {
+      if (i != but && (stands_[i] - place).norm() < kKeptOneByOne_m) return false;
+    }
+    return true;
+  }
+  [[nodiscard]] bool is_free(const Way& way, std::size_t arm) const {
+    for (std::size_t leg = 1; leg < way.size(); ++leg) {
+      for (std::size_t i = 0; i < stands_.size(); ++i) {
+        if (i != arm && distance_to_leg(stands_[i], way[leg - 1], way[leg]) < kKeptOneByOne_m) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+  bool stand_at_random(std::size_t count) {
+    for (int tries = 0; stands_.size() < count; ++tries) {
+      if (tries == kTries) return false;
+      const Place place = anywhere();
+      if (is_free(place, stands_.size())) stands_.push_back(place);
+    }
+    made_.homes = stands_;
+    return true;
+  }
+  std::optional<Place> somewhere_free(std::size_t arm) {
+    for (int tries = 0; tries < kTries; ++tries) {
+      const Place place = anywhere();
+      if (is_free(place, arm) && (place - stands_[arm]).norm() > 0.3) return place;
+    }
+    return std::nullopt;
+  }
+
+  // Straight if that is free, else over one or two random places.
+  std::optional<Way> way(std::size_t arm, const Place& to) {
+    Way found{stands_[arm], to};
+    for (int tries = 0; tries < kTries; ++tries) {
+      if (is_free(found, arm)) return found;
+      found = {stands_[arm], anywhere()};
+      if (tries > kTries / 4) found.push_back(anywhere());
+      found.push_back(to);
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] DiscMotion motion(std::size_t arm, Way way, double speed_m_s) const {
+    DiscMotion motion{arm, std::move(way), {0.0}};
+    for (std::size_t leg = 1; leg < motion.way.size(); ++leg) {
+      const double length = (motion.way[leg] - motion.way[leg - 1]).norm();
+      motion.times_s.push_back(motion.times_s.back() + std::max(0.4, length / speed_m_s));
+    }
+    return motion;
+  }
+  bool go(std::size_t arm, const Place& to, bool of_a_client = true) {
+    auto found = way(arm, to);
+    if (!found) return false;
+    made_.solution.push_back({motion(arm, std::move(*found), random_.uniform(0.25, 0.7))});
+    made_.solution.back().back().of_a_client = of_a_client;
+    stands_[arm] = to;
+    return true;
+  }
+
+  // Each of `count` goes where the next one stands; once or twice; one of them over a place aside
+  // first, or all together. One more may stand by.
+  bool exchange(std::size_t count) {
+    half_m_ = random_.uniform(0.6, 0.9);
+    const double radius = random_.uniform(count == 4 ? 0.45 : 0.4, 0.6);
+    const double turned = random_.uniform(0.0, 2.0 * std::numbers::pi);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double angle =
+          turned + 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
+      stands_.push_back(radius * Place(std::cos(angle), std::sin(angle)));
+    }
+    if (random_.chance(0.3) && !stand_at_random(count + 1)) return false;
+    made_.homes = stands_;
+    const std::size_t laps = 1 + random_.index(2);
+    for (std::size_t lap = 0; lap < laps; ++lap) {
+      if (!(random_.chance(0.5) ? over_a_place_aside(count) : together(count))) return false;
+    }
+    return true;
+  }
+
+  bool over_a_place_aside(std::size_t count) {
+    const std::vector<Place> goals = turned_by_one(count);
+    const std::size_t first = random_.index(count);
+    const auto aside = somewhere_free(first);
+    if (!aside || !go(first, *aside)) return false;
+    for (std::size_t n = 1; n <= count; ++n) {
+      const std::size_t arm = (first + count - n) % count;  // whose goal has been left
+      if (!go(arm, goals[arm])) return false;
+    }
+    return true;
+  }
+  bool together(std::size_t count) {
+    const std::vector<Place> goals = turned_by_one(count);
+    const double speed_m_s = random_.uniform(0.25, 0.7);
+    std::vector<DiscMotion> group;
+    for (std::size_t arm = 0; arm < count; ++arm) {
+      Way way{stands_[arm], goals[arm]};
+      if (count == 2) {  // to the left of each other
+        const Place along = goals[arm] - stands_[arm];
+        const Place left(-along.y(), along.x());
+        way.insert(way.begin() + 1, stands_[arm] + 0.5 * along + 0.4 * left);
+      }
+      group.push_back(motion(arm, std::move(way), speed_m_s));
+    }
+    made_.solution.push_back(std::move(group));
+    for (std::size_t arm = 0; arm < count; ++arm) stands_[arm] = goals[arm];
+    return true;
+  }
+  [[nodiscard]] std::vector<Place> turned_by_one(std::size_t count) const {
+    std::vector<Place> goals;
+    for (std::size_t arm = 0; arm < count; ++arm) goals.push_back(stands_[(arm + 1) % count]);
+    return goals;
+  }
+
+  bool queues() {
+    const std::size_t arms = 2 + random_.index(3);
+    half_m_ = random_.uniform(0.3, 0.45) + 0.06 * static_cast<double>(arms);
+    if (!stand_at_random(arms)) return false;
+    std::vector<std::size_t> turns;
+    for (std::size_t arm = 0; arm < arms; ++arm) {
+      turns.insert(turns.end(), 2 + random_.index(2), arm);
+    }
+    shuffle(turns);
+    for (const std::size_t arm : turns) {
+      const auto to = somewhere_free(arm);
+      if (!to || !go(arm, *to)) return false;
+    }
+    return true;
+  }
+
+  // The first goes to its place and has no more to do; then the others have to pass there, or to
+  // go there: it goes home again. Where its home is in the way later, there is no such workload.
+  bool parked() {
+    half_m_ = random_.uniform(0.6, 0.8);
+    const std::size_t arms = 2 + random_.index(3);
+    if (!stand_at_random(arms)) return false;
+    const auto there = somewhere_free(0);
+    if (!there || !go(0, *there)) return false;
+    if (!go(0, made_.homes[0], false)) return false;
+    for (std::size_t arm = 1; arm < arms; ++arm) {
+      const bool through = random_.chance(0.5);
+      const Place to = through ? Place(2.0 * *there - stands_[arm]) : *there;
+      if (arm == 1) {
+        if (!is_free(to, arm) || to.cwiseAbs().maxCoeff() > 1.5) return false;
+        if (!go(arm, to)) return false;
+        const Way& way = made_.solution.back().front().way;
+        if (distance_to_leg(*there, way[0], way[1]) > 0.1 && way.back() != *there) return false;
+      } else {
+        const auto elsewhere = somewhere_free(arm);
+        if (!elsewhere || !go(arm, *elsewhere)) return false;
+      }
+    }
+    return true;
+  }
+
+  template <class T>
+  void shuffle(std::vector<T>& list) {
+    for (std::size_t i = list.size(); i > 1; --i) std::swap(list[i - 1], list[random_.index(i)]);
+  }
+
+  void submit() {
+    std::vector<DiscMotion> motions;
+    for (const auto& group : made_.solution) {
+      for (const DiscMotion& one : group) {
+        if (one.of_a_client) motions.push_back(one);
+      }
+    }
+    if (made_.crowd == Crowd::parked) {
+      const double after_s = motions.front().duration_s() + 1.0;
+      for (const DiscMotion& one : motions) {
+        made_.submitted.push_back({made_.submitted.empty() ? 0.0 : after_s, one});
+      }
+    } else if (random_.chance(0.3)) {
+      double at_s = 0.0;
+      for (const DiscMotion& one : motions) {
+        made_.submitted.push_back({at_s, one});
+        at_s += random_.uniform(0.0, 1.5);
+      }
+    } else {
+      std::vector<std::size_t> turns;
+      for (const DiscMotion& one : motions) turns.push_back(one.arm);
+      shuffle(turns);
+      for (const std::size_t arm : turns) {
+        const auto next = std::ranges::find(motions, arm, &DiscMotion::arm);
+        made_.submitted.push_back({0.0, *next});
+        motions.erase(next);
+      }
+    }
+  }
+
+  Random random_;
+  double half_m_ = 0.8;  // of the square in which all places are
+  std::vector<Place> stands_;
+  CrowdedWorkload made_;
+};
+
+}  // namespace
+
+const char* to_string(Crowd crowd) {
+  switch (crowd) {
+    case Crowd::swap:
+      return "swap";
+    case Crowd::ring3:
+      return "ring3";
+    case Crowd::ring4:
+      return "ring4";
+    case Crowd::queues:
+      return "queues";
+    case Crowd::parked:
+      return "parked";
+  }
+  return "";
+}
+
+std::string disc_name(std::size_t arm) { return std::string(1, static_cast<char>('a' + arm)); }
+
+Eigen::Vector2d DiscMotion::at(double time_s) const {
+  if (time_s <= 0.0) return way.front();
+  for (std::size_t leg = 1; leg < way.size(); ++leg) {
+    if (time_s >= times_s[leg]) continue;
+    const double u = (time_s - times_s[leg - 1]) / (times_s[leg] - times_s[leg - 1]);
+    const double share = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+    return way[leg - 1] + share * (way[leg] - way[leg - 1]);
+  }
+  return way.back();
+}
+
+CellDescription CrowdedWorkload::cell() const {
+  CellDescription cell{.name = "crowd"};
+  for (std::size_t i = 0; i < homes.size(); ++i) {
+    RobotDescription robot{.name = disc_name(i),
+                           .urdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/gantry.urdf",
+                           .srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/gantry.srdf",
+                           .prefix = disc_name(i) + "_"};
+    ArmDescription arm{
+        .name = robot.name, .group = "axes", .home = {homes[i].x(), homes[i].y()}, .limits = {}};
+    arm.limits["x"].acceleration = arm.limits["y"].acceleration = 20.0;
+    robot.arms.push_back(std::move(arm));
+    cell.robots.push_back(std::move(robot));
+  }
+  cell.execution.duration_margin = 60s;
+  cell.scheduling.backlog_timeout = 60s;
+  return cell;
+}
+
+std::vector<TimedJob> CrowdedWorkload::jobs() const {
+  std::vector<TimedJob> jobs;
+  std::vector<int> count(homes.size(), 0);
+  for (const Submitted& one : submitted) {
+    const std::string arm = disc_name(one.motion.arm);
+    JobRequest job{
+        .key = arm + std::to_string(++count[one.motion.arm]), .name = "", .trajectory = {}};
+    job.trajectory.joint_names = {arm + "_x", arm + "_y"};
+    for (std::size_t i = 0; i < one.motion.way.size(); ++i) {
+      const Place& place = one.motion.way[i];
+      job.trajectory.points.push_back(
+          {{place.x(), place.y()}, {0.0, 0.0}, {0.0, 0.0}, one.motion.times_s[i]});
+    }
+    jobs.push_back({at(from_seconds(one.at_s)), std::move(job)});
+  }
+  return jobs;
+}
+
+CrowdedWorkload make_crowded(Crowd crowd, std::uint64_t seed) {
+  for (std::uint64_t attempt = 0; attempt < 200; ++attempt) {
+    auto made = Maker(crowd, seed + (attempt << 32U)).make();
+    if (!made) continue;
+    made->seed = seed;
+    return std::move(*made);
+  }
+  throw std::runtime_error("no workload for seed " + std::to_string(seed));
+}
+
+double smallest_kept_m(const CrowdedWorkload& workload) {
+  double smallest = 1e9;
+  std::vector<Place> stands = workload.homes;
+  for (const auto& group : workload.solution) {
+    const double owed = group.size() > 1 ? kKeptTogether_m - kKeptOneByOne_m : 0.0;
+    double lasts_s = 0.0;
+    for (const DiscMotion& one : group) lasts_s = std::max(lasts_s, one.duration_s());
+    for (double t = 0.0; t < lasts_s + 1e-3; t += 1e-3) {
+      for (const DiscMotion& one : group) stands[one.arm] = one.at(t);
+      for (const DiscMotion& one : group) {
+        for (std::size_t i = 0; i < stands.size(); ++i) {
+          if (i == one.arm) continue;
+          smallest = std::min(smallest, (stands[i] - stands[one.arm]).norm() - owed);
+        }
+      }
+    }
+    for (const DiscMotion& one : group) stands[one.arm] = one.way.back();
+  }
+  return smallest;
+}
+
+}  // namespace armloom

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+#include "core/executive/simulation.h"
+
+namespace armloom {
+
+// Numbers that depend on the seed alone.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine_);
+  }
+  // 0 ... count - 1.
+  std::size_t index(std::size_t count) {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(engine_);
+  }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+// The arm starts up to 2 s late, runs at 0.3 to 1 of its speed, and stalls three times within
+// `within_s` for up to 3 s each.
+inline void delay_at_random(Executive& executive, const std::string& arm, double within_s,
+                            Random& random) {
+  const auto inject = [&](FaultRequest fault) { EXPECT_TRUE(executive.inject(fault)); };
+  inject({.arm = arm, .kind = ArmFault::Kind::late_start, .value = random.uniform(0.0, 2.0)});
+  inject({.arm = arm, .kind = ArmFault::Kind::slow, .value = random.uniform(0.3, 1.0)});
+  for (int stall = 0; stall < 3; ++stall) {
+    const Duration from = from_seconds(random.uniform(0.0, within_s));
+    const Duration lasting = from_seconds(random.uniform(0.1, 3.0));
+    inject({.arm = arm, .kind = ArmFault::Kind::stall, .at = at(from), .lasting = lasting});
+  }
+}
+
+// One line: how a job ended and what it waited for last.
+inline std::string told(const JobView& job) {
+  std::string line = job.key + " of " + job.arms.front() + " " + to_string(job.state) + " (" +
+                     (job.reason ? to_string(*job.reason) : "-") + ") " + job.detail;
+  for (const WaitView& wait : job.waits_on) {
+    line += std::string("; waits on ") + to_string(wait.kind) + " " + wait.job + " " + wait.arm;
+    if (wait.own_time_s) line += " at " + std::to_string(*wait.own_time_s);
+    if (wait.other_time_s) line += " / " + std::to_string(*wait.other_time_s);
+    if (!wait.detail.empty()) line += " [" + wait.detail + "]";
+  }
+  for (const std::string& key : job.ring)
+    line += (&key == &job.ring.front() ? "; ring " : " ") + key;
+  return line;
+}
+
+// How a workload went.
+struct DelayedRun {
+  std::size_t jobs = 0;
+  std::size_t succeeded = 0;
+  bool all_ended = false;
+  std::uint64_t monitor_stops = 0;
+  std::string first_other;  // a job that did not succeed
+
+  void read(const Executive& executive, const std::vector<std::string>& keys) {
+    jobs = keys.size();
+    all_ended = executive.all_ended();
+    monitor_stops = executive.figures().monitor_stops;
+    for (const std::string& key : keys) {
+      const JobView job = *executive.job(key);
+      if (job.state == JobState::succeeded) {
+        ++succeeded;
+      } else if (first_other.empty()) {
+        first_other = told(job);
+      }
+    }
+  }
+};
+
+}  // namespace armloom
