@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 constexpr std::uint64_t kWorlds = 100;
 // Jobs that an arm without jobs stands in the way of need on_idle_blocker "park".
-constexpr bool kIdleArmsMoveAside = false;
+constexpr bool kIdleArmsMoveAside = true;
 
 // The smallest distance between any two discs, as measured at every tick.
 struct Closest final : Observer {
