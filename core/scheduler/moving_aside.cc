@@ -50,6 +50,7 @@ void Scheduler::ask_aside(Aside aside) {
 }
 
 void Scheduler::answer_aside(const Verdict& verdict, const Aside& aside) {
+  if (!order_[aside.arm.index()].empty()) return;  // it has got a job meanwhile
   ++records_.at(aside.way_of).asides_tried[aside.arm];
   const bool in_the_way =
       std::ranges::any_of(verdict.conflicts,
