@@ -13,6 +13,8 @@ namespace {
 constexpr Duration kHorizon = std::chrono::milliseconds(250);
 // Authority is extended by no less than this, but for the last bit.
 constexpr Duration kGrantStep = std::chrono::milliseconds(80);
+// So many jobs that wait are tried as one at most, lest a decision take long.
+constexpr std::size_t kTogetherMax = 16;
 // Nearer than this to its limit, a motion has come to it.
 constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
@@ -106,6 +108,7 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   for (JobId id : question.jobs) candidates.push_back(coordinated(records_.at(id)));
   graph_->set_work_behind(std::move(work_behind));
   const PassingOrders orders = graph_->try_to_admit(candidates, verdict.regions);
+  if (look_ahead(question, orders)) return;
   if (orders.obstacles.empty()) {
     graph_->admit(candidates, orders);
     admit_coordinated(question.jobs, orders);
@@ -122,6 +125,46 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   } else {
     put_off(first, first.found);
   }
+}
+
+// What could go now may end where others then wait for ever. Before it goes, everything that waits
+// is tried as one with it: an order for all of them leads to no dead end. Where none is found, it
+// goes alone. Whether another question has been asked.
+bool Scheduler::look_ahead(const OpenQuestion& question, const PassingOrders& orders) {
+  const bool admitted = orders.obstacles.empty();
+  const bool tried = ahead_ && ahead_->version == version_;
+  if (!tried && admitted) {
+    std::vector<JobId> all = with_all_that_wait(question.jobs);
+    if (all.size() == question.jobs.size() || all.size() > kTogetherMax) return false;
+    ahead_ = LookAhead{version_, question.jobs};
+    ask(std::move(all), Purpose::start);
+    return true;
+  }
+  if (tried && !admitted && !ahead_->alone.empty()) {
+    ask(std::exchange(ahead_->alone, {}), Purpose::start);
+    return true;
+  }
+  return false;
+}
+
+// In order of submission; without what comes after other jobs or is stopped, and without what is
+// behind that on its arms.
+std::vector<JobId> Scheduler::with_all_that_wait(const std::vector<JobId>& group) const {
+  std::vector<JobId> all = group;
+  std::vector<bool> closed(order_.size(), false);
+  for (JobId id : active_) {
+    if (graph_->holds(id) || std::ranges::find(group, id) != group.end()) continue;
+    const Record& record = records_.at(id);
+    const auto& arms = record.job.trajectory->arms();
+    const bool goes = waiting(record) && record.job.after.empty() && !stop_of(record) &&
+                      std::ranges::none_of(arms, [&](ArmId arm) { return closed[arm.index()]; });
+    if (goes) {
+      all.push_back(id);
+    } else {
+      for (ArmId arm : arms) closed[arm.index()] = true;
+    }
+  }
+  return all;
 }
 
 void Scheduler::admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders) {

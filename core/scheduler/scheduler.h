@@ -141,6 +141,12 @@ class Scheduler {
     std::optional<Aside> aside = {};
   };
 
+  // coordinated: everything that waits is tried as one; if that fails, these alone.
+  struct LookAhead {
+    Version version;
+    std::vector<JobId> alone;
+  };
+
   // scheduler.cc: what happens to jobs
   void on(const Submit& input);
   void on(const Cancel& input);
@@ -222,6 +228,8 @@ class Scheduler {
   void add_coordinated(Question& question, const std::vector<JobId>& candidates) const;
   void answer_coordinated(const Verdict& verdict, const OpenQuestion& question);
   [[nodiscard]] CoordinatedMotion coordinated(const Record& record) const;
+  [[nodiscard]] bool look_ahead(const OpenQuestion& question, const PassingOrders& orders);
+  [[nodiscard]] std::vector<JobId> with_all_that_wait(const std::vector<JobId>& group) const;
   void admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders);
   [[nodiscard]] std::vector<JobId> with_next_jobs(const std::vector<JobId>& group,
                                                   const std::vector<ArmId>& in_the_way) const;
@@ -250,6 +258,7 @@ class Scheduler {
   bool round_begun_ = false;
   std::vector<NamedRing> rings_;  // in an earlier step; to be resolved in this one
   std::optional<OpenQuestion> open_;
+  std::optional<LookAhead> ahead_;
   std::optional<PrecedenceGraph> graph_;  // policies that coordinate
   std::optional<TimePoint> wake_at_;
 
