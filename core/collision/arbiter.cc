@@ -161,6 +161,7 @@ class Arbiter::Impl {
     }
     PairRegionSearch search(store_, question);
     verdict_.regions = search.find();
+    verdict_.rests_in_the_way = search.rests_in_the_way();
     verdict_.evaluations += search.evaluations();
   }
 

@@ -104,6 +104,42 @@ std::vector<PairRegions> PairRegionSearch::find() {
   return found;
 }
 
+std::vector<RestInTheWay> PairRegionSearch::rests_in_the_way() {
+  struct Rest {
+    ArmId arm;
+    std::optional<JobId> after;
+    Configuration q;
+  };
+  std::vector<Rest> rests;
+  Configuration last = question_.rest;
+  for (const Motion& motion : question_.others) {
+    put(*motion.trajectory, motion.trajectory->duration(), last);
+  }
+  for (std::uint32_t arm = 0; arm < store_.scene()->cell().arms.size(); ++arm) {
+    Configuration q = last;
+    rests.push_back({ArmId{arm}, std::nullopt, q});
+    for (const Motion& motion : question_.later) {
+      if (!moves(motion, ArmId{arm})) continue;
+      put(*motion.trajectory, motion.trajectory->duration(), q);
+      rests.push_back({ArmId{arm}, motion.job, q});
+    }
+  }
+  std::vector<RestInTheWay> in_the_way;
+  std::vector<PairRegions> found;
+  for (Motion motion : question_.later) {
+    motion.progress = Duration{};
+    motion.to_come = true;
+    const Side side = side_of(motion);
+    for (const Rest& rest : rests) {
+      if (moves(motion, rest.arm)) continue;
+      found.clear();
+      compare(side, resting(rest.arm, rest.q), found);
+      if (!found.empty()) in_the_way.push_back({motion.job, rest.arm, rest.after});
+    }
+  }
+  return in_the_way;
+}
+
 void PairRegionSearch::compare(const Side& a, const Side& b, std::vector<PairRegions>& found) {
   if (b.motion != nullptr && share_an_arm(*a.motion, *b.motion)) return;
   layers_.clear();

@@ -31,6 +31,9 @@ class PairRegionSearch {
   // By candidate; for each, others, candidates named behind it, arms at rest. Pairs that are free
   // everywhere are left out.
   [[nodiscard]] std::vector<PairRegions> find();
+  // Of Question::later: against every arm that it does not move, where that stands at the end of
+  // what is named and at the goals of later ones.
+  [[nodiscard]] std::vector<RestInTheWay> rests_in_the_way();
   // Cells looked at.
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 

@@ -57,6 +57,9 @@ struct Question {
   std::vector<Motion> others;      // every motion that holds a reservation
   Configuration rest;              // where every joint that is in none of these motions stands
   CheckMethod method;
+  // Coordinated: motions that wait, candidates among them, in order per arm: which rests will be in
+  // their way? (Verdict::rests_in_the_way)
+  std::vector<Motion> later = {};
   bool find_earliest = false;  // not free: how much later would it be? (not for TimedDiscrete)
 };
 

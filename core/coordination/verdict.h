@@ -29,6 +29,13 @@ struct Conflict {
   Duration other_time;             // trajectory time of the other job; zero where there is none
 };
 
+// An arm at rest in the way of a motion that is still to be admitted.
+struct RestInTheWay {
+  JobId job;                   // whose way
+  ArmId arm;                   // which arm: where it will stand when all that is admitted has ended,
+  std::optional<JobId> after;  // or at the goal of this one of Question::later
+};
+
 // The answer to a Question, with its evidence.
 struct Verdict {
   enum class Kind { free, conflict, undecided };
@@ -44,6 +51,7 @@ struct Verdict {
   // Coordinated, and no conflict: every pair of a candidate and another motion or an arm at rest
   // that is not free everywhere.
   std::vector<PairRegions> regions = {};
+  std::vector<RestInTheWay> rests_in_the_way = {};  // Coordinated: of the motions to come later
 };
 
 }  // namespace armloom

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/scheduler/safe_state.h"
 #include "core/scheduler/scheduler.h"
 #include "core/trajectory/stopping_reach.h"
 
@@ -15,6 +16,8 @@ constexpr Duration kHorizon = std::chrono::milliseconds(250);
 constexpr Duration kGrantStep = std::chrono::milliseconds(80);
 // So many jobs that wait are tried as one at most, lest a decision take long.
 constexpr std::size_t kTogetherMax = 16;
+// So many jobs of an arm are looked ahead to.
+constexpr std::size_t kWorkPerArm = 3;
 // Nearer than this to its limit, a motion has come to it.
 constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
@@ -108,7 +111,7 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   for (JobId id : question.jobs) candidates.push_back(coordinated(records_.at(id)));
   graph_->set_work_behind(std::move(work_behind));
   const PassingOrders orders = graph_->try_to_admit(candidates, verdict.regions);
-  if (look_ahead(question, orders)) return;
+  if (leads_astray(verdict, question, orders)) return;
   if (orders.obstacles.empty()) {
     graph_->admit(candidates, orders);
     admit_coordinated(question.jobs, orders);
@@ -127,24 +130,49 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   }
 }
 
-// What could go now may end where others then wait for ever. Before it goes, everything that waits
-// is tried as one with it: an order for all of them leads to no dead end. Where none is found, it
-// goes alone. Whether another question has been asked.
-bool Scheduler::look_ahead(const OpenQuestion& question, const PassingOrders& orders) {
-  const bool admitted = orders.obstacles.empty();
+// What could go now may come to rest where others then wait for ever. If work that could all be
+// done could not be after it, it waits for what has to go first. If there is no order for all that
+// waits, one by one, they are tried as one; where that fails too, it goes alone. Whether the
+// candidate does not go now.
+bool Scheduler::leads_astray(const Verdict& verdict, const OpenQuestion& question,
+                             const PassingOrders& orders) {
   const bool tried = ahead_ && ahead_->version == version_;
-  if (!tried && admitted) {
-    std::vector<JobId> all = with_all_that_wait(question.jobs);
-    if (all.size() == question.jobs.size() || all.size() > kTogetherMax) return false;
-    ahead_ = LookAhead{version_, question.jobs};
-    ask(std::move(all), Purpose::start);
-    return true;
-  }
-  if (tried && !admitted && !ahead_->alone.empty()) {
+  if (!orders.obstacles.empty()) {
+    if (!tried || ahead_->alone.empty()) return false;
     ask(std::exchange(ahead_->alone, {}), Purpose::start);
     return true;
   }
-  return false;
+  if (tried || question.jobs.size() > 1 || verdict.rests_in_the_way.empty()) return false;
+  std::vector<WaitingWork> waiting;
+  for (JobId id : work_to_come()) {
+    waiting.push_back({id, records_.at(id).job.trajectory->arms()});
+  }
+  if (order_of_work(waiting, verdict.rests_in_the_way, question.jobs)) return false;
+  Record& first = records_.at(question.jobs.front());
+  const auto order = order_of_work(waiting, verdict.rests_in_the_way, {});
+  if (order && order->front() != first.job.id) {
+    put_off(first, {Wait{.kind = Wait::Kind::order, .job = order->front()}});
+    return true;
+  }
+  std::vector<JobId> all = with_all_that_wait(question.jobs);
+  if (all.size() == question.jobs.size() || all.size() > kTogetherMax) return false;
+  ahead_ = LookAhead{version_, question.jobs};
+  ask(std::move(all), Purpose::start);
+  return true;
+}
+
+// The next jobs of each arm, so far as nothing else has to happen before them.
+std::vector<JobId> Scheduler::work_to_come() const {
+  std::vector<JobId> work;
+  std::vector<std::size_t> of_arm(order_.size(), 0);
+  for (JobId id : with_all_that_wait({})) {
+    const auto& arms = records_.at(id).job.trajectory->arms();
+    const bool soon =
+        std::ranges::all_of(arms, [&](ArmId arm) { return of_arm[arm.index()] < kWorkPerArm; });
+    for (ArmId arm : arms) ++of_arm[arm.index()];
+    if (soon) work.push_back(id);
+  }
+  return work;
 }
 
 // In order of submission; without what comes after other jobs or is stopped, and without what is

@@ -228,7 +228,9 @@ class Scheduler {
   void add_coordinated(Question& question, const std::vector<JobId>& candidates) const;
   void answer_coordinated(const Verdict& verdict, const OpenQuestion& question);
   [[nodiscard]] CoordinatedMotion coordinated(const Record& record) const;
-  [[nodiscard]] bool look_ahead(const OpenQuestion& question, const PassingOrders& orders);
+  [[nodiscard]] bool leads_astray(const Verdict& verdict, const OpenQuestion& question,
+                                  const PassingOrders& orders);
+  [[nodiscard]] std::vector<JobId> work_to_come() const;
   [[nodiscard]] std::vector<JobId> with_all_that_wait(const std::vector<JobId>& group) const;
   void admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders);
   [[nodiscard]] std::vector<JobId> with_next_jobs(const std::vector<JobId>& group,
