@@ -75,6 +75,7 @@ void Executive::Impl::step(const Input& input) {
   for (const Effect& effect : effects) carry_out(effect);
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
   tell_queue();
+  for (MoveAside& aside : std::exchange(asides_, {})) make_way(std::move(aside));
 }
 
 void Executive::Impl::carry_out(const Effect& effect) {
@@ -85,6 +86,8 @@ void Executive::Impl::carry_out(const Effect& effect) {
     motions_.dispatch(*dispatch, scheduler_.find(dispatch->job)->trajectory);
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {
     motions_.grant(*grant);
+  } else if (const auto* aside = std::get_if<MoveAside>(&effect)) {
+    asides_.push_back(*aside);
   } else if (const auto* brake = std::get_if<Brake>(&effect)) {
     motions_.brake(brake->job);
   } else if (const auto* release = std::get_if<Release>(&effect)) {

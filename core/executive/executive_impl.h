@@ -96,6 +96,7 @@ class Executive::Impl final : public JobNames {
   Result<Prepared> prepare(JobRequest request, Ahead& ahead) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   JobView accept(Prepared prepared);
+  void make_way(MoveAside aside);
   Result<const Job*> known(const std::string& key, const std::string& pointer) const;
   DiagramView::Side side_of(const Job& job) const;
   std::string free_key(JobId id) const;
@@ -130,6 +131,8 @@ class Executive::Impl final : public JobNames {
   std::deque<JobId> ended_;  // oldest first
   std::uint64_t next_job_ = 1;
   std::uint64_t next_fault_ = 1;
+  std::uint64_t next_aside_ = 1;
+  std::vector<MoveAside> asides_;  // of the present step
   std::uint64_t seq_ = 0;
   std::vector<ArmState> told_arms_;
   std::vector<std::string> told_arm_jobs_;

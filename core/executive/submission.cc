@@ -151,6 +151,21 @@ JobView Executive::Impl::accept(Prepared prepared) {
   return view_of(*scheduler_.find(id), *cell_, *this);
 }
 
+// A job of the server's own, for an arm that rests in a job's way.
+void Executive::Impl::make_way(MoveAside aside) {
+  std::string key;
+  do {
+    key = "aside-" + std::to_string(next_aside_++);
+  } while (ids_.contains(key));
+  const Job& job = *scheduler_.find(aside.way_of);
+  (void)accept({.key = std::move(key),
+                .name = cell_->arm(aside.arm).name + " moves aside for " + this->key(job.id),
+                .trajectory = std::move(aside.trajectory),
+                .priority = job.priority,
+                .backlog_timeout = cell_->scheduling.backlog_timeout,
+                .after = {}});
+}
+
 // "job-17"; where a client has taken that name, "job-17.2", ...
 std::string Executive::Impl::free_key(JobId id) const {
   const std::string base = "job-" + std::to_string(id.value());

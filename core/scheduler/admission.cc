@@ -265,6 +265,8 @@ void Scheduler::ask_next() {
     ask({*ahead}, Purpose::forward);
   } else if (const auto candidate = next_candidate()) {
     ask({*candidate}, Purpose::start);
+  } else if (const auto aside = next_aside()) {
+    ask_aside(*aside);
   }
 }
 
@@ -356,6 +358,7 @@ void Scheduler::on(const Judged& input) {
     if (question.jobs.size() > 1) held_together_tried_ = 0;
     return;  // stale: settle() asks again
   }
+  if (question.aside) return answer_aside(input.verdict, *question.aside);
   if (graph_) return answer_coordinated(input.verdict, question);
   const bool free = input.verdict.kind == Verdict::Kind::free;
   const Duration needed = now_ - question.asked_at;

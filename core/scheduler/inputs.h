@@ -89,6 +89,13 @@ struct Grant {
 struct Brake {
   JobId job;
 };
+// An arm without a job rests in this job's way: come back at once with Submit of a job of one's own
+// that has this motion.
+struct MoveAside {
+  ArmId arm;
+  JobId way_of;
+  TrajectoryPtr trajectory;
+};
 // The job has ended and its arms are at rest: the controllers drop its motion.
 struct Release {
   JobId job;
@@ -102,6 +109,6 @@ struct WakeAt {
   TimePoint when;
 };
 
-using Effect = std::variant<Judge, Dispatch, Grant, Brake, Release, JobChanged, WakeAt>;
+using Effect = std::variant<Judge, Dispatch, Grant, Brake, MoveAside, Release, JobChanged, WakeAt>;
 
 }  // namespace armloom

@@ -13,8 +13,8 @@ bool share_an_arm(const CoordinatedMotion& a, const CoordinatedMotion& b) {
 
 // Whether an arm that rests at `at` of its motion is in the interval; its closed edges are free,
 // but for the motion's own ends.
-bool rests_in(Duration at, Duration from, Duration to, Duration duration) {
-  const bool after = from < at || from <= Duration{};
+bool rests_in(Duration at, Duration from, Duration to, Duration duration, bool seam) {
+  const bool after = from < at || from <= Duration{} || seam;
   const bool before = at < to || to >= duration;
   return after && before && from <= at && at <= to;
 }
@@ -45,6 +45,9 @@ void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
     motions_.push_back(candidate);
   }
   precedences_ = orders.precedences;
+  std::erase_if(precedences_, [this](const Precedence& precedence) {
+    return !precedence.limit(find(precedence.first())->progress);
+  });
 }
 
 void PrecedenceGraph::progress(JobId job, Duration progress) {
@@ -138,7 +141,13 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& rests, Duration at) 
       const Duration from = first ? box.from_a : box.from_b, to = first ? box.to_a : box.to_b;
       const Duration own_from = first ? box.from_b : box.from_a;
       const Duration own_to = first ? box.to_b : box.to_a;
-      if (own_to <= passed || !rests_in(at, from, to, rests.duration)) continue;
+      // Where another box ends that it is in the way of too, the edge is none of the outline.
+      const bool seam = std::ranges::any_of(region.boxes, [&](const ProgressBox& other_box) {
+        return (first ? other_box.to_a : other_box.to_b) == at &&
+               (first ? other_box.from_b : other_box.from_a) <= own_to &&
+               own_from <= (first ? other_box.to_b : other_box.to_a);
+      });
+      if (own_to <= passed || !rests_in(at, from, to, rests.duration, seam)) continue;
       if (!blockade) {
         HeldBack evidence{std::nullopt, rests.arms.front(), region.proximity,
                           first ? region.time_b : region.time_a,

@@ -35,7 +35,7 @@ struct Prediction {
 };
 
 // What a stop on the way and the start after it cost besides the wait.
-inline constexpr Duration kPauseLoss = std::chrono::milliseconds(150);
+inline constexpr Duration kPauseLoss = std::chrono::milliseconds(300);
 
 // The precedences of motions, and their orders per arm, as one graph over progress: it is acyclic
 // exactly when nobody is stuck. Linear in the steps of all precedences, but for sorting them.

@@ -22,6 +22,7 @@ Scheduler::Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configu
       rest_(std::move(rest)),
       order_(cell_->arms.size()),
       stopped_(cell_->arms.size()),
+      came_by_(cell_->arms.size()),
       allowance_(kAllowanceMin) {
   if (policy_ && policy_->coordinates()) graph_.emplace(cell_->arms.size());
   if (!policy_) throw std::invalid_argument("Scheduler: no policy");
@@ -198,6 +199,11 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
   job.stopping = false;
   job.late = false;
   job.pausing = false;
+  for (ArmId arm : job.trajectory->arms()) {
+    const bool at_goal = report.kind == MotionReport::Kind::finished;
+    const bool alone = job.trajectory->arms().size() == 1;
+    came_by_[arm.index()] = at_goal && alone ? job.trajectory : nullptr;
+  }
   record.overrun_at.reset();
   if (report.kind == MotionReport::Kind::finished) {
     const Duration planned = job.trajectory->duration() - record.plan_progress;

@@ -109,6 +109,7 @@ class Scheduler {
     Version forward_tried = 0;  // scheduled: the version on which an earlier start was sought
     Duration plan_progress{};   // progress at plan_at: from there it should advance with the clock
     TimePoint plan_at{};
+    std::map<ArmId, std::size_t> asides_tried;  // ways that an arm could make way for it
     Duration horizon{};  // coordinated: how far ahead of its progress its authority may reach
   };
   // A job that has waited for longer than scheduling.aging, and all that have to go before it.
@@ -124,6 +125,12 @@ class Scheduler {
     start,    // of a job that waits
     recheck,  // of a motion that is under way or scheduled
     forward,  // an earlier start of a scheduled job
+    aside,    // whether the job could go if an arm without one stood elsewhere
+  };
+  struct Aside {
+    JobId way_of;
+    ArmId arm;
+    TrajectoryPtr way;
   };
   struct OpenQuestion {
     Version version;
@@ -131,6 +138,7 @@ class Scheduler {
     TimePoint start_at;
     std::vector<JobId> jobs;
     Purpose purpose;
+    std::optional<Aside> aside = {};
   };
 
   // coordinated: everything that waits is tried as one; if that fails, these alone.
@@ -210,6 +218,11 @@ class Scheduler {
   [[nodiscard]] static bool waiting(const Record& record);
   void set_waits(Record& record, std::vector<Wait> waits);
 
+  // moving_aside.cc
+  [[nodiscard]] std::optional<Aside> next_aside() const;
+  void ask_aside(Aside aside);
+  void answer_aside(const Verdict& verdict, const Aside& aside);
+
   // coordinating.cc: policies that coordinate
   [[nodiscard]] Motion motion_now(const Record& record) const;
   void add_coordinated(Question& question, const std::vector<JobId>& candidates) const;
@@ -235,6 +248,7 @@ class Scheduler {
   std::set<JobId> active_;
   std::vector<std::deque<JobId>> order_;             // per arm: active jobs, first goes first
   std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
+  std::vector<TrajectoryPtr> came_by_;  // per arm: the motion that ended where it rests; or null
   Version version_ = 1;
   Version disturbed_at_ = 0;         // the last time an arm came to rest off its plan
   Version freed_at_ = 0;             // the last time a motion ended otherwise than planned

@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 constexpr std::uint64_t kWorlds = 100;
 // Jobs that an arm without jobs stands in the way of need on_idle_blocker "park".
-constexpr bool kIdleArmsMoveAside = false;
+constexpr bool kIdleArmsMoveAside = true;
 
 // The smallest distance between any two discs, as measured at every tick.
 struct Closest final : Observer {
@@ -140,7 +140,7 @@ void run(Crowd crowd, std::uint64_t seed, Tally& tally) {
   const CrowdedWorkload world = make_crowded(crowd, seed);
   const std::string name = std::string(to_string(crowd)) + " seed " + std::to_string(seed);
   CellDescription description = world.cell();
-  if (crowd == Crowd::parked) description.scheduling.on_idle_blocker = "park";
+  description.scheduling.on_idle_blocker = "park";
   auto cell = build_cell(description);
   ASSERT_TRUE(cell) << name;
   Closest closest;
