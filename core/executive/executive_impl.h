@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -87,16 +88,21 @@ class Executive::Impl final : public JobNames {
     int priority;
     Duration backlog_timeout;
     std::vector<std::string> after;
+    std::vector<TrajectoryPtr> returns;  // of its arms, to where their clients left them
   };
   // Where joints will stand, and which keys are taken, when the jobs before it are accepted.
   struct Ahead {
     Configuration rest;
     std::vector<std::string> keys;
+    std::map<ArmId, TrajectoryPtr> ways_back;  // of arms that were sent aside
   };
   Result<Prepared> prepare(JobRequest request, Ahead& ahead) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   JobView accept(Prepared prepared);
   void make_way(MoveAside aside);
+  [[nodiscard]] Ahead ahead_now() const;
+  std::vector<TrajectoryPtr> returns_for(const Trajectory& motion, Ahead& ahead) const;
+  void accept_own(TrajectoryPtr trajectory, std::string name, int priority);
   Result<const Job*> known(const std::string& key, const std::string& pointer) const;
   DiagramView::Side side_of(const Job& job) const;
   std::string free_key(JobId id) const;
@@ -133,6 +139,7 @@ class Executive::Impl final : public JobNames {
   std::uint64_t next_fault_ = 1;
   std::uint64_t next_aside_ = 1;
   std::vector<MoveAside> asides_;  // of the present step
+  std::map<ArmId, TrajectoryPtr> ways_back_;
   std::uint64_t seq_ = 0;
   std::vector<ArmState> told_arms_;
   std::vector<std::string> told_arm_jobs_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/executive/executive_impl.h"
+#include "core/trajectory/joint_line.h"
 
 namespace armloom {
 namespace {
@@ -22,10 +23,15 @@ Problem key_in_use(const std::string& key) {
 }  // namespace
 
 Result<JobView> Executive::Impl::submit(JobRequest request) {
-  Ahead ahead{scheduler_.predicted_rest(), {}};
+  Ahead ahead = ahead_now();
   auto prepared = prepare(std::move(request), ahead);
   if (!prepared) return failure(std::move(prepared.error()));
+  ways_back_ = std::move(ahead.ways_back);
   return accept(std::move(*prepared));
+}
+
+Executive::Impl::Ahead Executive::Impl::ahead_now() const {
+  return {scheduler_.predicted_rest(), {}, ways_back_};
 }
 
 Result<std::vector<Result<JobView>>> Executive::Impl::submit_batch(std::vector<JobRequest> requests,
@@ -35,7 +41,7 @@ Result<std::vector<Result<JobView>>> Executive::Impl::submit_batch(std::vector<J
     for (JobRequest& request : requests) answers.push_back(submit(std::move(request)));
     return answers;
   }
-  Ahead ahead{scheduler_.predicted_rest(), {}};
+  Ahead ahead = ahead_now();
   std::vector<Prepared> all;
   Problems problems;
   for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -49,6 +55,7 @@ Result<std::vector<Result<JobView>>> Executive::Impl::submit_batch(std::vector<J
     }
   }
   if (!problems.empty()) return failure(std::move(problems));
+  ways_back_ = std::move(ahead.ways_back);
   for (Prepared& prepared : all) answers.push_back(accept(std::move(prepared)));
   return answers;
 }
@@ -66,6 +73,7 @@ Result<Executive::Impl::Prepared> Executive::Impl::prepare(JobRequest request, A
         "the queue is full: " + std::to_string(options_.waiting_max) + " jobs have not ended"});
   }
   Problems problems;
+  std::vector<TrajectoryPtr> returns;
   const bool taken =
       ids_.contains(request.key) || std::ranges::find(ahead.keys, request.key) != ahead.keys.end();
   if (!request.key.empty() && taken) problems.push_back(key_in_use(request.key));
@@ -76,6 +84,7 @@ Result<Executive::Impl::Prepared> Executive::Impl::prepare(JobRequest request, A
       problems.push_back(std::move(p));
     }
   } else {
+    returns = returns_for(**trajectory, ahead);
     find_start_elsewhere(*cell_, **trajectory, ahead.rest, problems);
   }
   if (!problems.empty()) return failure(std::move(problems));
@@ -91,7 +100,34 @@ Result<Executive::Impl::Prepared> Executive::Impl::prepare(JobRequest request, A
                   std::move(*trajectory),
                   request.priority,
                   request.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
-                  std::move(request.after)};
+                  std::move(request.after),
+                  std::move(returns)};
+}
+
+// Clients know arms where they left them: one that was sent aside returns there for a job that
+// begins there.
+std::vector<TrajectoryPtr> Executive::Impl::returns_for(const Trajectory& motion,
+                                                        Ahead& ahead) const {
+  std::vector<TrajectoryPtr> returns;
+  for (ArmId arm : motion.arms()) {
+    const auto back = ahead.ways_back.find(arm);
+    if (back == ahead.ways_back.end()) continue;
+    Configuration returned = ahead.rest;
+    const Trajectory& way = *back->second;
+    for (std::size_t j = 0; j < way.joints().size(); ++j) {
+      returned[static_cast<Eigen::Index>(way.joints()[j].index())] =
+          way.goal()[static_cast<Eigen::Index>(j)];
+    }
+    Problems here, there;
+    find_start_elsewhere(*cell_, motion, ahead.rest, here);
+    find_start_elsewhere(*cell_, motion, returned, there);
+    if (there.size() < here.size()) {
+      ahead.rest = std::move(returned);
+      returns.push_back(back->second);
+    }
+    ahead.ways_back.erase(back);
+  }
+  return returns;
 }
 
 // A job can only come after one that is known before it: so there are no rings.
@@ -134,6 +170,10 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
 }
 
 JobView Executive::Impl::accept(Prepared prepared) {
+  for (TrajectoryPtr& back : prepared.returns) {
+    const std::string arm = cell_->arm(back->arms().front()).name;
+    accept_own(std::move(back), arm + " returns to where it was left", prepared.priority);
+  }
   const JobId id{next_job_++};
   const std::string key = prepared.key.empty() ? free_key(id) : std::move(prepared.key);
   std::vector<JobId> after;
@@ -151,19 +191,35 @@ JobView Executive::Impl::accept(Prepared prepared) {
   return view_of(*scheduler_.find(id), *cell_, *this);
 }
 
-// A job of the server's own, for an arm that rests in a job's way.
+// An arm rests in a job's way: it goes aside, and is remembered to have been here.
 void Executive::Impl::make_way(MoveAside aside) {
-  std::string key;
-  do {
-    key = "aside-" + std::to_string(next_aside_++);
-  } while (ids_.contains(key));
+  const Trajectory& way = *aside.trajectory;
+  TrajectoryPtr back = retraced(way);
+  if (const auto before = ways_back_.find(aside.arm); before != ways_back_.end()) {
+    const Trajectory& old = *before->second;
+    if (old.joints() == way.joints()) {
+      if (auto line = joint_line(*cell_, way.joints(), way.goal(), old.goal())) back = *line;
+    }
+  }
+  ways_back_[aside.arm] = std::move(back);
   const Job& job = *scheduler_.find(aside.way_of);
-  (void)accept({.key = std::move(key),
-                .name = cell_->arm(aside.arm).name + " moves aside for " + this->key(job.id),
-                .trajectory = std::move(aside.trajectory),
-                .priority = job.priority,
+  accept_own(std::move(aside.trajectory),
+             cell_->arm(aside.arm).name + " moves aside for " + key(job.id), job.priority);
+}
+
+// A job of the server's own.
+void Executive::Impl::accept_own(TrajectoryPtr trajectory, std::string name, int priority) {
+  std::string own;
+  do {
+    own = "aside-" + std::to_string(next_aside_++);
+  } while (ids_.contains(own));
+  (void)accept({.key = std::move(own),
+                .name = std::move(name),
+                .trajectory = std::move(trajectory),
+                .priority = priority,
                 .backlog_timeout = cell_->scheduling.backlog_timeout,
-                .after = {}});
+                .after = {},
+                .returns = {}});
 }
 
 // "job-17"; where a client has taken that name, "job-17.2", ...
@@ -175,7 +231,7 @@ std::string Executive::Impl::free_key(JobId id) const {
 }
 
 void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
-  Ahead ahead{scheduler_.predicted_rest(), {}};
+  Ahead ahead = ahead_now();
   auto prepared = prepare(std::move(request), ahead);
   if (!prepared) return done(failure(std::move(prepared.error())));
   CheckView view{.kind = Verdict::Kind::conflict, .scene_version = scene_version_};

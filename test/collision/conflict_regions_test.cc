@@ -98,10 +98,12 @@ TEST(BlockedRegions, DoesNotFillWhereBothStandNow) {
 
 TEST(BlockedRegions, DropsWhatIsBehindBothButNotAnEnd) {
   const ProgressBox remaining{3s, 10s, 0s, 0s};
-  const std::vector<BlockedCell> cells{cell(1s, 3s, 0s, 0s), cell(5s, 6s, 0s, 0s)};
+  const std::vector<BlockedCell> cells{cell(1s, 2s, 0s, 0s), cell(5s, 6s, 0s, 0s)};
   const auto regions = blocked_regions(cells, remaining);
   ASSERT_EQ(regions.size(), 1U);
   expect_box(regions[0].boxes[0], 5s, 6s, 0s, 0s);
+  // Where it stands is not behind it, though the cell ends there.
+  EXPECT_EQ(blocked_regions({cell(1s, 3s, 0s, 0s)}, remaining).size(), 1U);
   // At its end it stands in the last cell.
   EXPECT_EQ(blocked_regions({cell(9s, 10s, 0s, 0s)}, {10s, 10s, 0s, 0s}).size(), 1U);
 }
