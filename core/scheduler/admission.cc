@@ -344,11 +344,10 @@ void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
     question.candidates.push_back(Motion{id, record.job.trajectory, progress});
   }
   add_others(question, jobs);
-  const bool new_job = purpose == Purpose::start && jobs.size() == 1;
-  if (graph_ && new_job && !graph_->holds(jobs.front())) {
-    for (JobId id : work_to_come()) question.later.push_back(motion_now(records_.at(id)));
-  }
-  open_ = OpenQuestion{version_, now_, start_at, std::move(jobs), purpose};
+  std::vector<JobId> later;
+  if (graph_ && purpose == Purpose::start && !graph_->holds(jobs.front())) later = work_to_come();
+  for (JobId id : later) question.later.push_back(motion_now(records_.at(id)));
+  open_ = OpenQuestion{version_, now_, start_at, std::move(jobs), purpose, {}, std::move(later)};
   effects_.push_back(Judge{std::move(question)});
 }
 

@@ -142,9 +142,14 @@ bool Scheduler::leads_astray(const Verdict& verdict, const OpenQuestion& questio
     ask(std::exchange(ahead_->alone, {}), Purpose::start);
     return true;
   }
-  if (tried || question.jobs.size() > 1 || verdict.rests_in_the_way.empty()) return false;
+  if (tried) return false;
+  if (work_to_come() != question.later) {  // others have come meanwhile
+    ask(question.jobs, Purpose::start);
+    return true;
+  }
+  if (verdict.rests_in_the_way.empty()) return false;
   std::vector<WaitingWork> waiting;
-  for (JobId id : work_to_come()) {
+  for (JobId id : question.later) {
     waiting.push_back({id, records_.at(id).job.trajectory->arms()});
   }
   if (order_of_work(waiting, verdict.rests_in_the_way, question.jobs)) return false;

@@ -6,6 +6,12 @@
 #include "core/scheduler/ways_aside.h"
 
 namespace armloom {
+namespace {
+
+// Ways that are tried for one job and one arm, lest they go to and fro for ever.
+constexpr std::size_t kAsidesMax = 8;
+
+}  // namespace
 
 // The first job that waits for an arm which no job will move, and a pose of that arm that has not
 // been tried for it.
@@ -19,10 +25,12 @@ std::optional<Scheduler::Aside> Scheduler::next_aside() const {
       if (wait.kind != Wait::Kind::arm || !wait.arm) continue;
       const ArmId arm = *wait.arm;
       if (!order_[arm.index()].empty() || stopped_[arm.index()]) continue;
-      const auto tried = record.asides_tried.find(arm);
-      const std::size_t next = tried == record.asides_tried.end() ? 0 : tried->second;
-      const auto ways = ways_aside(*cell_, arm, rest_, came_by_[arm.index()]);
-      if (next < ways.size()) return Aside{id, arm, ways[next]};
+      const TrajectoryPtr& came_by = came_by_[arm.index()];
+      const auto found = record.asides_tried.find(arm);
+      const AsidesTried tried = found == record.asides_tried.end() ? AsidesTried{} : found->second;
+      const std::size_t next = tried.from == came_by ? tried.next : 0;
+      const auto ways = ways_aside(*cell_, arm, rest_, came_by);
+      if (next < ways.size() && tried.total < kAsidesMax) return Aside{id, arm, ways[next]};
     }
   }
   return std::nullopt;
@@ -51,7 +59,12 @@ void Scheduler::ask_aside(Aside aside) {
 
 void Scheduler::answer_aside(const Verdict& verdict, const Aside& aside) {
   if (!order_[aside.arm.index()].empty()) return;  // it has got a job meanwhile
-  ++records_.at(aside.way_of).asides_tried[aside.arm];
+  AsidesTried& tried = records_.at(aside.way_of).asides_tried[aside.arm];
+  const TrajectoryPtr& came_by = came_by_[aside.arm.index()];
+  if (tried.from != came_by) tried.next = 0;
+  tried.from = came_by;
+  ++tried.next;
+  ++tried.total;
   const bool in_the_way =
       std::ranges::any_of(verdict.conflicts,
                           [&](const Conflict& conflict) {

@@ -94,6 +94,11 @@ class Scheduler {
 
  private:
   enum class AfterStop { hold, cancel, fail };
+  struct AsidesTried {
+    std::size_t total = 0;
+    std::size_t next = 0;  // of the ways from where the arm came to rest by `from`
+    TrajectoryPtr from;
+  };
   struct Record {
     Job job;
     AfterStop after_stop = AfterStop::hold;
@@ -109,7 +114,7 @@ class Scheduler {
     Version forward_tried = 0;  // scheduled: the version on which an earlier start was sought
     Duration plan_progress{};   // progress at plan_at: from there it should advance with the clock
     TimePoint plan_at{};
-    std::map<ArmId, std::size_t> asides_tried;  // ways that an arm could make way for it
+    std::map<ArmId, AsidesTried> asides_tried;  // of arms that could make way for it
     Duration horizon{};  // coordinated: how far ahead of its progress its authority may reach
   };
   // A job that has waited for longer than scheduling.aging, and all that have to go before it.
@@ -139,6 +144,7 @@ class Scheduler {
     std::vector<JobId> jobs;
     Purpose purpose;
     std::optional<Aside> aside = {};
+    std::vector<JobId> later = {};  // Question::later
   };
 
   // coordinated: everything that waits is tried as one; if that fails, these alone.
