@@ -8,7 +8,7 @@
 namespace armloom {
 namespace {
 
-constexpr double kWeightOfSum = 0.3;  // of the sum over arms, beside the last one's end
+constexpr double kWeightOfSum = 3.0;  // of the sum over arms, beside the last one's end
 constexpr int kPasses = 3;            // of changing single choices
 constexpr std::size_t kFreeMax = 24;  // choices that are changed at all
 
