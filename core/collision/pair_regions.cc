@@ -104,6 +104,19 @@ std::vector<PairRegions> PairRegionSearch::find() {
   return found;
 }
 
+// By ArmId: moved by a candidate, or in reach of an arm that is.
+std::vector<bool> PairRegionSearch::meets_candidates() const {
+  std::vector<bool> meets(store_.scene()->cell().arms.size(), false);
+  for (const Motion& candidate : question_.candidates) {
+    for (const ArmId own : candidate.trajectory->arms()) {
+      for (std::uint32_t arm = 0; arm < meets.size(); ++arm) {
+        meets[arm] = meets[arm] || ArmId{arm} == own || !store_.out_of_reach(own, ArmId{arm});
+      }
+    }
+  }
+  return meets;
+}
+
 std::vector<RestInTheWay> PairRegionSearch::rests_in_the_way() {
   struct Rest {
     ArmId arm;
@@ -115,7 +128,10 @@ std::vector<RestInTheWay> PairRegionSearch::rests_in_the_way() {
   for (const Motion& motion : question_.others) {
     put(*motion.trajectory, motion.trajectory->duration(), last);
   }
-  for (std::uint32_t arm = 0; arm < store_.scene()->cell().arms.size(); ++arm) {
+  if (question_.later.empty()) return {};
+  const std::vector<bool> meets = meets_candidates();
+  for (std::uint32_t arm = 0; arm < meets.size(); ++arm) {
+    if (!meets[arm]) continue;
     Configuration q = last;
     rests.push_back({ArmId{arm}, std::nullopt, q});
     for (const Motion& motion : question_.later) {
@@ -127,6 +143,10 @@ std::vector<RestInTheWay> PairRegionSearch::rests_in_the_way() {
   std::vector<RestInTheWay> in_the_way;
   std::vector<PairRegions> found;
   for (Motion motion : question_.later) {
+    if (std::ranges::none_of(motion.trajectory->arms(),
+                             [&](ArmId arm) { return meets[arm.index()]; })) {
+      continue;
+    }
     motion.progress = Duration{};
     motion.to_come = true;
     const Side side = side_of(motion);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/scheduler/safe_state.h"
 #include "core/scheduler/scheduler.h"
 #include "core/trajectory/stopping_reach.h"
 
@@ -17,7 +16,7 @@ constexpr Duration kGrantStep = std::chrono::milliseconds(80);
 // So many jobs that wait are tried as one at most, lest a decision take long.
 constexpr std::size_t kTogetherMax = 16;
 // So many jobs of an arm are looked ahead to.
-constexpr std::size_t kWorkPerArm = 3;
+constexpr std::size_t kWorkPerArm = 2;
 // Nearer than this to its limit, a motion has come to it.
 constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
@@ -148,10 +147,7 @@ bool Scheduler::leads_astray(const Verdict& verdict, const OpenQuestion& questio
     return true;
   }
   if (verdict.rests_in_the_way.empty()) return false;
-  std::vector<WaitingWork> waiting;
-  for (JobId id : question.later) {
-    waiting.push_back({id, records_.at(id).job.trajectory->arms()});
-  }
+  const std::vector<WaitingWork> waiting = work_among(question.later, verdict.rests_in_the_way);
   if (order_of_work(waiting, verdict.rests_in_the_way, question.jobs)) return false;
   Record& first = records_.at(question.jobs.front());
   const auto order = order_of_work(waiting, verdict.rests_in_the_way, {});
@@ -164,6 +160,24 @@ bool Scheduler::leads_astray(const Verdict& verdict, const OpenQuestion& questio
   ahead_ = LookAhead{version_, question.jobs};
   ask(std::move(all), Purpose::start);
   return true;
+}
+
+// Those of the jobs that rests are about: of arms that are in the way, or whose way it is.
+std::vector<WaitingWork> Scheduler::work_among(const std::vector<JobId>& jobs,
+                                               const std::vector<RestInTheWay>& rests) const {
+  std::vector<bool> concerned(order_.size(), false);
+  for (const RestInTheWay& rest : rests) {
+    concerned[rest.arm.index()] = true;
+    for (ArmId arm : records_.at(rest.job).job.trajectory->arms()) concerned[arm.index()] = true;
+  }
+  std::vector<WaitingWork> work;
+  for (JobId id : jobs) {
+    const auto& arms = records_.at(id).job.trajectory->arms();
+    if (std::ranges::any_of(arms, [&](ArmId arm) { return concerned[arm.index()]; })) {
+      work.push_back({id, arms});
+    }
+  }
+  return work;
 }
 
 // The next jobs of each arm, so far as nothing else has to happen before them.

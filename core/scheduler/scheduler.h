@@ -16,6 +16,7 @@
 #include "core/scheduler/job.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/precedence_graph.h"
+#include "core/scheduler/safe_state.h"
 
 namespace armloom {
 
@@ -237,6 +238,8 @@ class Scheduler {
   [[nodiscard]] bool leads_astray(const Verdict& verdict, const OpenQuestion& question,
                                   const PassingOrders& orders);
   [[nodiscard]] std::vector<JobId> work_to_come() const;
+  [[nodiscard]] std::vector<WaitingWork> work_among(const std::vector<JobId>& jobs,
+                                                    const std::vector<RestInTheWay>& rests) const;
   [[nodiscard]] std::vector<JobId> with_all_that_wait(const std::vector<JobId>& group) const;
   void admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders);
   [[nodiscard]] std::vector<JobId> with_next_jobs(const std::vector<JobId>& group,
