@@ -88,6 +88,15 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
     return;
   }
   if (graph_->holds(first.job.id)) {  // was stopped on its way; its orders stand
+    std::vector<Wait> waits;
+    for (const PairRegions& pair : verdict.regions) {
+      if (const auto* arm = std::get_if<ArmId>(&pair.b)) {
+        const ConflictRegion& region = pair.regions.front();
+        waits.push_back(wait_for(Obstacle{first.job.id, std::nullopt, *arm, region.proximity,
+                                          region.time_a, region.time_b}));
+      }
+    }
+    if (!waits.empty()) return put_off(first, std::move(waits));
     first.job.state = JobState::scheduled;
     first.job.scheduled_at = now_;
     first.dispatched = false;
@@ -279,6 +288,8 @@ void Scheduler::dispatch_if_ready(Record& record) {
   if (stop_of(record) || record.checked_at < disturbed_at_) return;
   const Duration limit = graph_->limit(job.id);
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {
+    const auto held = graph_->held_back(job.id);
+    if (held && held->arm && !job.started_at) return withdraw(record, AfterStop::hold);
     explain_pause(record);
     return;
   }
@@ -351,9 +362,23 @@ void Scheduler::expect_end(Record& record) {
                       cell_->execution.duration_margin;
 }
 
-// Its motion is admitted no more: it rests where it is.
+// Its motion is admitted no more: it rests where it is. Nor are those behind it on its arms, which
+// begin where it would have ended.
 void Scheduler::leave_graph(const Record& record) {
-  if (graph_) graph_->abandon(record.job.id, record.job.progress);
+  if (!graph_ || !graph_->holds(record.job.id)) return;
+  std::set<JobId> behind;
+  for (ArmId arm : record.job.trajectory->arms()) {
+    const auto& queue = order_[arm.index()];
+    const auto own = std::ranges::find(queue, record.job.id);
+    if (own == queue.end()) continue;
+    for (auto next = own + 1; next != queue.end(); ++next) {
+      if (graph_->holds(*next)) behind.insert(*next);
+    }
+  }
+  for (auto job = behind.rbegin(); job != behind.rend(); ++job) {
+    if (graph_->holds(*job)) withdraw(records_.at(*job), AfterStop::hold);
+  }
+  graph_->abandon(record.job.id, record.job.progress);
 }
 
 }  // namespace armloom

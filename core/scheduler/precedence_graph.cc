@@ -115,7 +115,15 @@ void PrecedenceGraph::keep_place(JobId job) {
   if (CoordinatedMotion* found = motion(job)) found->keeps_its_place = true;
 }
 
-void PrecedenceGraph::finish(JobId job) { erase(job); }
+void PrecedenceGraph::finish(JobId job) {
+  const CoordinatedMotion* found = find(job);
+  if (found == nullptr) return;
+  const bool moves_on = std::ranges::any_of(motions_, [&](const CoordinatedMotion& motion) {
+    return &motion > found && share_an_arm(motion, *found);
+  });
+  if (!moves_on) block_others(*found, found->duration);
+  erase(job);
+}
 
 void PrecedenceGraph::abandon(JobId job, Duration rests_at) {
   const CoordinatedMotion* found = find(job);

@@ -250,6 +250,7 @@ class Scheduler {
   void extend_authority(JobId moved);
   void extend_own_authority(Record& record);
   void explain_pause(Record& record);
+  [[nodiscard]] static bool pauses_for_an_arm(const Record& record);
   void see_pauses(Record& record, Duration progress_before);
 
   CellPtr cell_;

@@ -21,7 +21,15 @@ std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wa
   const Record& other = records_.at(*first);
   const bool both_held =
       record.job.state == JobState::holding && other.job.state == JobState::holding;
-  return waiting(other) && !both_held ? first : std::nullopt;
+  const bool stands = waiting(other) || pauses_for_an_arm(other);
+  return stands && !both_held ? first : std::nullopt;
+}
+
+// On its way, before an arm at rest.
+bool Scheduler::pauses_for_an_arm(const Record& record) {
+  return record.job.pausing && std::ranges::any_of(record.job.waits_on, [](const Wait& wait) {
+           return wait.kind == Wait::Kind::arm;
+         });
 }
 
 WaitsFor Scheduler::waits_for() const {
@@ -33,12 +41,13 @@ WaitsFor Scheduler::waits_for() const {
   }
   for (JobId id : active_) {
     const Record& record = records_.at(id);
-    if (!waiting(record)) continue;
+    const bool pauses = pauses_for_an_arm(record);
+    if (!waiting(record) && !pauses) continue;
     for (JobId before : record.job.after) {
       if (waiting(records_.at(before))) edges.push_back({id, before});
     }
-    if (record.judged_at != version_) continue;
-    for (const Wait& wait : record.found) {
+    if (record.judged_at != version_ && !pauses) continue;
+    for (const Wait& wait : pauses ? record.job.waits_on : record.found) {
       const auto first = has_to_move_first(record, wait);
       if (!first) continue;
       if (wait.kind == Wait::Kind::arm) {
@@ -158,7 +167,8 @@ void Scheduler::settle_deadlocks() {
   for (const NamedRing& named : std::exchange(rings_, {})) {
     const bool stands =
         named.disturbed_at == disturbed_at_ && std::ranges::all_of(named.ring, [this](JobId id) {
-          return active_.contains(id) && waiting(records_.at(id));
+          return active_.contains(id) &&
+                 (waiting(records_.at(id)) || pauses_for_an_arm(records_.at(id)));
         });
     if (stands) resolve(named.ring);
     for (JobId id : named.ring) {
@@ -172,6 +182,11 @@ void Scheduler::settle_deadlocks() {
 // The last one that came gives way: the others were there before it closed the ring.
 void Scheduler::resolve(const Ring& ring) {
   Record& last = records_.at(*std::ranges::max_element(ring));
+  if (holds_reservation(last)) {
+    last.fail_reason = Reason::deadlock;
+    last.fail_detail.clear();
+    return brake(last, AfterStop::fail);
+  }
   const bool held = last.job.state == JobState::holding;
   end(last, JobState::failed, Reason::deadlock, "");
   if (held) effects_.push_back(Release{last.job.id});

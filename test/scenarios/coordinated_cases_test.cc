@@ -84,6 +84,31 @@ TEST_F(Coordinated, StaysBeforeAnArmThatWasCanceledInTheWayUntilItMovesOn) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
+// A job behind a canceled one cannot begin any more: nobody may count on it to clear the way.
+TEST_F(Coordinated, DoesNotCountOnAJobWhoseStartWillNotBeReached) {
+  cell.submit(slide("x", -1, 0, 3, "into the crossing"));
+  cell.submit(slide("x", 0, 0.5, 2, "on"));
+  cell.submit(slide("x", 0.5, 1, 2, "home"));
+  cell.run_until(at(2s));
+  ASSERT_TRUE(cell.simulation->executive().cancel("on"));
+  cell.submit(slide("y", -1, 1, 5, "waits"));
+  cell.run_until(at(20s));
+  EXPECT_EQ(cell.job("home").state, JobState::failed);
+  EXPECT_NE(cell.job("waits").state, JobState::succeeded) << "x rests in the crossing";
+  EXPECT_GT(cell.log.closest_m, 0.015);
+  EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
+  // Nor does a resume lead it there.
+  cell.simulation->executive().stop_all("operator");
+  cell.run_until(at(21s));
+  cell.simulation->executive().resume_all();
+  cell.run_until(at(30s));
+  EXPECT_GT(cell.log.closest_m, 0.015);
+  cell.submit(slide("x", 0, -1, 3, "makes way"));
+  cell.run_to_the_end(at(100s));
+  EXPECT_EQ(cell.job("waits").state, JobState::succeeded);
+  EXPECT_GT(cell.log.closest_m, 0.015);
+}
+
 TEST_F(Coordinated, KeepsItsOrderOverAStopAndAResume) {
   cell.submit(slide("x", -1, 1, 4, "first"));
   cell.submit(slide("y", -1, 1, 4, "second"));

@@ -230,6 +230,9 @@ TEST(RandomCommands, EveryJobReachesExactlyOneEndUnderCertified) {
 TEST(RandomCommands, EveryJobReachesExactlyOneEndUnderEarliestStart) {
   run_sequences(kSequences * 13 / 20 + 1, kSequences, "earliest_start");
 }
+TEST(RandomCommands, EveryJobReachesExactlyOneEndUnderCoordinated) {
+  run_sequences(kSequences + 1, kSequences * 27 / 20, "coordinated");
+}
 
 }  // namespace
 }  // namespace armloom
