@@ -1,5 +1,6 @@
 // Policies that coordinate: passing orders instead of times, held by authority over progress.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/scheduler/scheduler.h"
@@ -213,6 +214,7 @@ std::vector<JobId> Scheduler::with_all_that_wait(const std::vector<JobId>& group
     const Record& record = records_.at(id);
     const auto& arms = record.job.trajectory->arms();
     const bool goes = waiting(record) && record.job.after.empty() && !stop_of(record) &&
+                      begins_where_left(record) &&
                       std::ranges::none_of(arms, [&](ArmId arm) { return closed[arm.index()]; });
     if (goes) {
       all.push_back(id);
@@ -257,12 +259,34 @@ std::vector<JobId> Scheduler::with_next_jobs(const std::vector<JobId>& group,
     if (next == queue.end() || larger.size() >= 2 * order_.size()) continue;
     const Record& record = records_.at(*next);
     if (!waiting(record) || !record.job.after.empty() || stop_of(record)) continue;
+    if (!begins_where_left(record)) continue;
     const bool is_next = std::ranges::all_of(record.job.trajectory->arms(), [&](ArmId own) {
       return *std::ranges::find_if_not(order_[own.index()], goes) == *next;
     });
     if (is_next) larger.push_back(*next);
   }
   return larger;
+}
+
+// A job before it may have been canceled: then it will never begin, and clears no way.
+bool Scheduler::begins_where_left(const Record& record) const {
+  const Trajectory& own = *record.job.trajectory;
+  for (std::size_t j = 0; j < own.joints().size(); ++j) {
+    const JointId joint = own.joints()[j];
+    double left = rest_[static_cast<Eigen::Index>(joint.index())];
+    for (ArmId arm : own.arms()) {
+      for (JobId before : order_[arm.index()]) {
+        if (before == record.job.id) break;
+        const Trajectory& motion = *records_.at(before).job.trajectory;
+        const auto found = std::ranges::find(motion.joints(), joint);
+        if (found == motion.joints().end()) continue;
+        left = motion.goal()[found - motion.joints().begin()];
+      }
+    }
+    const double begins = own.start()[static_cast<Eigen::Index>(j)];
+    if (std::abs(begins - left) > cell_->execution.start_tolerance_rad) return false;
+  }
+  return true;
 }
 
 // ---- Authority ----

@@ -244,6 +244,7 @@ class Scheduler {
   void admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders);
   [[nodiscard]] std::vector<JobId> with_next_jobs(const std::vector<JobId>& group,
                                                   const std::vector<ArmId>& in_the_way) const;
+  [[nodiscard]] bool begins_where_left(const Record& record) const;
   void dispatch_ready();
   void dispatch_if_ready(Record& record);
   void expect_end(Record& record);
