@@ -165,7 +165,7 @@ bool Scheduler::leads_astray(const Verdict& verdict, const OpenQuestion& questio
     put_off(first, {Wait{.kind = Wait::Kind::order, .job = order->front()}});
     return true;
   }
-  std::vector<JobId> all = with_all_that_wait(question.jobs);
+  std::vector<JobId> all = with_all_that_wait(question.jobs, kTogetherMax);
   if (all.size() == question.jobs.size() || all.size() > kTogetherMax) return false;
   ahead_ = LookAhead{version_, question.jobs};
   ask(std::move(all), Purpose::start);
@@ -191,36 +191,23 @@ std::vector<WaitingWork> Scheduler::work_among(const std::vector<JobId>& jobs,
 }
 
 // The next jobs of each arm, so far as nothing else has to happen before them.
-std::vector<JobId> Scheduler::work_to_come() const {
-  std::vector<JobId> work;
-  std::vector<std::size_t> of_arm(order_.size(), 0);
-  for (JobId id : with_all_that_wait({})) {
-    const auto& arms = records_.at(id).job.trajectory->arms();
-    const bool soon =
-        std::ranges::all_of(arms, [&](ArmId arm) { return of_arm[arm.index()] < kWorkPerArm; });
-    for (ArmId arm : arms) ++of_arm[arm.index()];
-    if (soon) work.push_back(id);
-  }
-  return work;
-}
+std::vector<JobId> Scheduler::work_to_come() const { return with_all_that_wait({}, kWorkPerArm); }
 
-// In order of submission; without what comes after other jobs or is stopped, and without what is
-// behind that on its arms.
-std::vector<JobId> Scheduler::with_all_that_wait(const std::vector<JobId>& group) const {
+// At most so many of an arm, in order of submission; without what comes after other jobs or is
+// stopped, and without what is behind that on its arms.
+std::vector<JobId> Scheduler::with_all_that_wait(const std::vector<JobId>& group,
+                                                 std::size_t per_arm) const {
   std::vector<JobId> all = group;
-  std::vector<bool> closed(order_.size(), false);
+  std::vector<std::size_t> left(order_.size(), per_arm);
   for (JobId id : active_) {
     if (graph_->holds(id) || std::ranges::find(group, id) != group.end()) continue;
     const Record& record = records_.at(id);
     const auto& arms = record.job.trajectory->arms();
-    const bool goes = waiting(record) && record.job.after.empty() && !stop_of(record) &&
-                      begins_where_left(record) &&
-                      std::ranges::none_of(arms, [&](ArmId arm) { return closed[arm.index()]; });
-    if (goes) {
-      all.push_back(id);
-    } else {
-      for (ArmId arm : arms) closed[arm.index()] = true;
-    }
+    const bool room = std::ranges::all_of(arms, [&](ArmId arm) { return left[arm.index()] > 0; });
+    const bool goes = room && waiting(record) && record.job.after.empty() && !stop_of(record) &&
+                      begins_where_left(record);
+    if (goes) all.push_back(id);
+    for (ArmId arm : arms) left[arm.index()] = goes ? left[arm.index()] - 1 : 0;
   }
   return all;
 }

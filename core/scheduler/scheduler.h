@@ -240,7 +240,8 @@ class Scheduler {
   [[nodiscard]] std::vector<JobId> work_to_come() const;
   [[nodiscard]] std::vector<WaitingWork> work_among(const std::vector<JobId>& jobs,
                                                     const std::vector<RestInTheWay>& rests) const;
-  [[nodiscard]] std::vector<JobId> with_all_that_wait(const std::vector<JobId>& group) const;
+  [[nodiscard]] std::vector<JobId> with_all_that_wait(const std::vector<JobId>& group,
+                                                      std::size_t per_arm) const;
   void admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders);
   [[nodiscard]] std::vector<JobId> with_next_jobs(const std::vector<JobId>& group,
                                                   const std::vector<ArmId>& in_the_way) const;
