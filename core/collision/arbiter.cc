@@ -123,8 +123,8 @@ class Arbiter::Impl {
     constexpr double kAll = Region::kUnbounded;
     const double duration_a = to_seconds(turned ? diagram.duration_b : diagram.duration_a);
     const double duration_b = to_seconds(turned ? diagram.duration_a : diagram.duration_b);
-    diagram.evaluations += pair.refine({0.0, 0.0, kAll, kAll, kAll, kAll, duration_a, duration_b},
-                                       resolution, budget);
+    diagram.evaluations +=
+        pair.refine({0.0, 0.0, kAll, kAll, kAll, kAll, duration_a, duration_b}, resolution, budget);
     for (const CoordinationDiagram::CellView& cell : pair.cells()) {
       using From = CoordinationDiagram::CellState;
       const auto state = cell.state == From::free       ? DiagramCell::State::free

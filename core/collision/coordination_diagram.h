@@ -86,8 +86,8 @@ class CoordinationDiagram {
 
   // Motions that pass each other closely leave places that are neither free nor in conflict at a
   // resolution. Halves those whose middle lies in one of the areas, until each is free or no wider
-  // than `finest`, or one is proven to be a conflict: then it is no close pass. At the cost of about
-  // `budget` cells at most; returns how many.
+  // than `finest`, or one is proven to be a conflict: then it is no close pass. At the cost of
+  // about `budget` cells at most; returns how many.
   struct Area {
     Duration from_a, to_a, from_b, to_b;
   };

@@ -31,8 +31,8 @@ struct Conflict {
 
 // An arm at rest in the way of a motion that is still to be admitted.
 struct RestInTheWay {
-  JobId job;                   // whose way
-  ArmId arm;                   // which arm: where it will stand when all that is admitted has ended,
+  JobId job;  // whose way
+  ArmId arm;  // which arm: where it will stand when all that is admitted has ended,
   std::optional<JobId> after;  // or at the goal of this one of Question::later
 };
 

@@ -1,6 +1,6 @@
 // Motions share the workspace by passing orders instead of clocks: a job starts as soon as there is
-// an order in which everything comes to its end, goes as far as its precedences let it, pauses there
-// on its path, and goes on when the others have passed. Any arm may be late, slow or stop.
+// an order in which everything comes to its end, goes as far as its precedences let it, pauses
+// there on its path, and goes on when the others have passed. Any arm may be late, slow or stop.
 #include "core/scheduler/policies/policies.h"
 
 namespace armloom {
