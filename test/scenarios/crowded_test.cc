@@ -18,8 +18,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint64_t kWorlds = 100;
-// Jobs that an arm without jobs stands in the way of need on_idle_blocker "park".
-constexpr bool kIdleArmsMoveAside = true;
 
 // The smallest distance between any two discs, as measured at every tick.
 struct Closest final : Observer {
@@ -228,7 +226,6 @@ TEST(CrowdedWorlds, SucceedOrAreNamedAndNeverTouch) {
 
 TEST(CrowdedWorlds, WithArmsParkedInTheWaySucceedWhereTheseMoveAside) {
   const Tally tally = run_all(Crowd::parked, seed_count(kWorlds) / 4);
-  if (!kIdleArmsMoveAside) GTEST_SKIP() << "arms without jobs do not move aside yet";
   EXPECT_GE(share(tally.succeeded, tally.jobs), 0.99);
 }
 
