@@ -49,7 +49,8 @@ const errors = [];
 before(async () => {
   const port = await free_port();
   const url = `http://127.0.0.1:${port}/`;
-  server = spawn(kBinary, ['serve', '--cell', 'config/two_pandas.json', '--listen', `127.0.0.1:${port}`], { cwd: kRoot });
+  // certified: two jobs that cross show a backlog; the default would schedule the second.
+  server = spawn(kBinary, ['serve', '--cell', 'config/two_pandas.json', '--policy', 'certified', '--listen', `127.0.0.1:${port}`], { cwd: kRoot });
   server.on('error', (error) => { server_output += String(error); });
   for (const stream of [server.stdout, server.stderr]) stream.on('data', (data) => { server_output += data; });
   await until_healthy(`${url}healthz`);
