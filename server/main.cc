@@ -22,6 +22,12 @@ std::string not_a_seed(const std::string& text) {
   return text + " is no whole number from 0 to 18446744073709551615";
 }
 
+void add_seed(CLI::App& command, std::uint64_t& seed) {
+  command.add_option("--seed", seed, "of the arms' noise")
+      ->check(not_a_seed)
+      ->capture_default_str();
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Armloom: an execution server for robot cells with several arms");
   app.require_subcommand(1);
@@ -58,9 +64,7 @@ int run(int argc, char** argv) {
   add_cell(*simulate_command, simulating.cell_file);
   simulate_command->add_option("--jobs", simulating.jobs_file, "jobs file (JSON)")->required();
   simulate_command->add_option("--policy", simulating.policy, "instead of the cell's");
-  simulate_command->add_option("--seed", simulating.seed, "of the arms' noise")
-      ->check(not_a_seed)
-      ->capture_default_str();
+  add_seed(*simulate_command, simulating.seed);
   simulate_command->add_option("--out", simulating.out, "folder for the recording");
   simulate_command->add_option("--faults", simulating.faults_file, "faults file (JSON)");
 
@@ -70,9 +74,7 @@ int run(int argc, char** argv) {
   add_cell(*compare_command, comparing.cell_file);
   compare_command->add_option("--jobs", comparing.jobs_file, "jobs file (JSON)")->required();
   compare_command->add_option("--policies", comparing.policies, "names, a comma between (all)");
-  compare_command->add_option("--seed", comparing.seed, "of the arms' noise")
-      ->check(not_a_seed)
-      ->capture_default_str();
+  add_seed(*compare_command, comparing.seed);
   compare_command->add_option("--out", comparing.out, "folder for compare.csv and compare.svg");
 
   AuditOptions auditing;

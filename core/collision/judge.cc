@@ -157,9 +157,7 @@ class Judgement {
         other != nullptr && other->candidate && (own == nullptr || !own->candidate || other < own);
     if (b_is_own) {
       std::swap(own, other);
-      std::swap(proximity.body_a, proximity.body_b);
-      std::swap(proximity.arm_a, proximity.arm_b);
-      std::swap(proximity.held_a, proximity.held_b);
+      proximity = turned_around(std::move(proximity));
     }
     Conflict conflict{Conflict::With::scene, own->motion->job, std::nullopt,
                       std::move(proximity),  own->progress,    Duration::zero()};

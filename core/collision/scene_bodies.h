@@ -49,14 +49,6 @@ struct Part {
   return {a.name, b.name, a.arm, b.arm, !b.carrier, clearance_m, a.held(), b.held()};
 }
 
-// The same evidence as the second body sees it.
-[[nodiscard]] inline Proximity turned_around(Proximity proximity) {
-  std::swap(proximity.body_a, proximity.body_b);
-  std::swap(proximity.arm_a, proximity.arm_b);
-  std::swap(proximity.held_a, proximity.held_b);
-  return proximity;
-}
-
 // Two parts that must not touch. The first belongs to the group's first arm.
 struct PartPair {
   std::size_t a;

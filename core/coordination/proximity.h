@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/ids.h"
 
@@ -19,5 +20,13 @@ struct Proximity {
   bool held_a = false;         // body_a is an object that arm_a holds
   bool held_b = false;         // body_b is an object that arm_b holds
 };
+
+// The same evidence as the second body sees it.
+[[nodiscard]] inline Proximity turned_around(Proximity proximity) {
+  std::swap(proximity.body_a, proximity.body_b);
+  std::swap(proximity.arm_a, proximity.arm_b);
+  std::swap(proximity.held_a, proximity.held_b);
+  return proximity;
+}
 
 }  // namespace armloom

@@ -398,12 +398,17 @@ void Scheduler::admit(Record& record, TimePoint start_at) {
   record.judged_at = 0;
   record.checked_at = version_;
   record.from_progress = job.progress;
-  const double remaining_s = to_seconds(job.trajectory->duration() - job.progress);
-  record.overrun_at = start_at + from_seconds(remaining_s * cell_->execution.duration_scaling) +
-                      cell_->execution.duration_margin;
+  expect_end(record, start_at);
   changed(record);
   record.dispatched = false;
   if (start_at <= now_ + std::max(kDispatchAhead, allowance_)) dispatch(record);
+}
+
+// Later than this, going on from `start_at`, it overruns.
+void Scheduler::expect_end(Record& record, TimePoint start_at) const {
+  const double remaining_s = to_seconds(record.job.trajectory->duration() - record.job.progress);
+  record.overrun_at = start_at + from_seconds(remaining_s * cell_->execution.duration_scaling) +
+                      cell_->execution.duration_margin;
 }
 
 void Scheduler::dispatch(Record& record) {

@@ -204,8 +204,7 @@ std::vector<JobId> Scheduler::with_all_that_wait(const std::vector<JobId>& group
     const Record& record = records_.at(id);
     const auto& arms = record.job.trajectory->arms();
     const bool room = std::ranges::all_of(arms, [&](ArmId arm) { return left[arm.index()] > 0; });
-    const bool goes = room && waiting(record) && record.job.after.empty() && !stop_of(record) &&
-                      begins_where_left(record);
+    const bool goes = room && may_follow(record);
     if (goes) all.push_back(id);
     for (ArmId arm : arms) left[arm.index()] = goes ? left[arm.index()] - 1 : 0;
   }
@@ -245,14 +244,19 @@ std::vector<JobId> Scheduler::with_next_jobs(const std::vector<JobId>& group,
     const auto next = std::ranges::find_if_not(queue, goes);
     if (next == queue.end() || larger.size() >= 2 * order_.size()) continue;
     const Record& record = records_.at(*next);
-    if (!waiting(record) || !record.job.after.empty() || stop_of(record)) continue;
-    if (!begins_where_left(record)) continue;
+    if (!may_follow(record)) continue;
     const bool is_next = std::ranges::all_of(record.job.trajectory->arms(), [&](ArmId own) {
       return *std::ranges::find_if_not(order_[own.index()], goes) == *next;
     });
     if (is_next) larger.push_back(*next);
   }
   return larger;
+}
+
+// It could go when those before it on its arms have gone.
+bool Scheduler::may_follow(const Record& record) const {
+  return waiting(record) && record.job.after.empty() && !stop_of(record) &&
+         begins_where_left(record);
 }
 
 // A job before it may have been canceled: then it will never begin, and clears no way.
@@ -310,7 +314,7 @@ void Scheduler::dispatch_if_ready(Record& record) {
   record.plan_at = now_;
   record.plan_progress = record.from_progress = job.progress;
   job.scheduled_at = now_;
-  expect_end(record);
+  expect_end(record, now_);
   set_waits(record, {});
   effects_.push_back(Dispatch{job.id, now_, job.progress, authority});
 }
@@ -352,7 +356,7 @@ void Scheduler::see_pauses(Record& record, Duration progress_before) {
   if (job.state != JobState::running || job.stopping) return;
   const Duration limit = graph_->limit(job.id);
   if (limit < job.trajectory->duration() && job.progress + record.horizon >= limit) {
-    expect_end(record);
+    expect_end(record, now_);
   }
   const bool at_limit = limit < job.trajectory->duration() && job.progress + kAtLimit >= limit;
   if (job.progress > progress_before) {
@@ -365,12 +369,6 @@ void Scheduler::see_pauses(Record& record, Duration progress_before) {
     explain_pause(record);
     changed(record);
   }
-}
-
-void Scheduler::expect_end(Record& record) {
-  const double remaining_s = to_seconds(record.job.trajectory->duration() - record.job.progress);
-  record.overrun_at = now_ + from_seconds(remaining_s * cell_->execution.duration_scaling) +
-                      cell_->execution.duration_margin;
 }
 
 // Its motion is admitted no more: it rests where it is. Nor are those behind it on its arms, which

@@ -1,7 +1,6 @@
 #include "core/scheduler/passing_orders.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -44,9 +43,7 @@ class Search {
       : motions_(admitted), first_candidate_(admitted.size()), work_behind_(work_behind) {
     motions_.insert(motions_.end(), candidates.begin(), candidates.end());
     link_arms();
-    for (const Precedence& precedence : precedences) {
-      add_decided(precedence);
-    }
+    for (const Precedence& precedence : precedences) add_decided(precedence);
     decided_ = decisions_.size();
   }
 
@@ -168,8 +165,7 @@ class Search {
     for (const ArmId arm : motions_[m].arms) answer_.in_the_way.push_back(arm);
   }
 
-  // ---- Rests between two motions of an arm: who passes before the one passes before the other
-  // ----
+  // ---- Rests between two motions of an arm: their regions are decided alike ----
 
   void tie_chains() {
     ties_.resize(decisions_.size());
@@ -390,18 +386,11 @@ class Search {
     const Decision& decision = decisions_[d];
     const ConflictRegion& region = decision.region;
     const bool own_is_a = decision.a >= first_candidate_;
-    Obstacle obstacle{motions_[own_is_a ? decision.a : decision.b].job,
-                      motions_[own_is_a ? decision.b : decision.a].job,
-                      std::nullopt,
-                      region.proximity,
-                      own_is_a ? region.time_a : region.time_b,
-                      own_is_a ? region.time_b : region.time_a};
-    if (!own_is_a) {
-      std::swap(obstacle.proximity.body_a, obstacle.proximity.body_b);
-      std::swap(obstacle.proximity.arm_a, obstacle.proximity.arm_b);
-      std::swap(obstacle.proximity.held_a, obstacle.proximity.held_b);
-    }
-    answer_.obstacles.push_back(std::move(obstacle));
+    answer_.obstacles.push_back({motions_[own_is_a ? decision.a : decision.b].job,
+                                 motions_[own_is_a ? decision.b : decision.a].job, std::nullopt,
+                                 own_is_a ? region.proximity : turned_around(region.proximity),
+                                 own_is_a ? region.time_a : region.time_b,
+                                 own_is_a ? region.time_b : region.time_a});
   }
 
   void report_blocked(const Choice& choice) {

@@ -47,9 +47,8 @@ struct PassingOrders {
 // Finds the passing orders of the candidates' conflict regions under which everything comes to its
 // end, and of these the ones that cost least: the sum over arms of when each has done what is
 // admitted, and when the last one has done its work (what waits behind counted); motions of larger
-// priority before
-// others. Nobody is made to go back: an order is open, or may be turned, as long as the one who
-// would have to wait has no authority in the region.
+// priority before others. Nobody is made to go back: an order is open, or may be turned, as long as
+// the one who would have to wait has no authority in the region.
 //
 // All assignments are tried for up to kTriedInFull free choices; beyond that, single choices are
 // changed while that helps.

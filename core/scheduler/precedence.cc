@@ -11,9 +11,7 @@ ConflictRegion turned(ConflictRegion region) {
     std::swap(box.from_a, box.from_b);
     std::swap(box.to_a, box.to_b);
   }
-  std::swap(region.proximity.body_a, region.proximity.body_b);
-  std::swap(region.proximity.arm_a, region.proximity.arm_b);
-  std::swap(region.proximity.held_a, region.proximity.held_b);
+  region.proximity = turned_around(std::move(region.proximity));
   std::swap(region.time_a, region.time_b);
   return region;
 }

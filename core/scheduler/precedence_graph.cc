@@ -96,11 +96,8 @@ std::optional<HeldBack> PrecedenceGraph::held_back(JobId job) const {
     if (precedence.second() != job) continue;
     if (precedence.limit(find(precedence.first())->progress) != at) continue;
     const ConflictRegion& region = precedence.region();
-    HeldBack held{precedence.first(), std::nullopt, region.proximity, region.time_b, region.time_a};
-    std::swap(held.proximity.body_a, held.proximity.body_b);
-    std::swap(held.proximity.arm_a, held.proximity.arm_b);
-    std::swap(held.proximity.held_a, held.proximity.held_b);
-    return held;
+    return HeldBack{precedence.first(), std::nullopt, turned_around(region.proximity),
+                    region.time_b, region.time_a};
   }
   return std::nullopt;
 }
@@ -157,14 +154,10 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& rests, Duration at) 
       });
       if (own_to <= passed || !rests_in(at, from, to, rests.duration, seam)) continue;
       if (!blockade) {
-        HeldBack evidence{std::nullopt, rests.arms.front(), region.proximity,
+        HeldBack evidence{std::nullopt, rests.arms.front(),
+                          first ? turned_around(region.proximity) : region.proximity,
                           first ? region.time_b : region.time_a,
                           first ? region.time_a : region.time_b};
-        if (first) {
-          std::swap(evidence.proximity.body_a, evidence.proximity.body_b);
-          std::swap(evidence.proximity.arm_a, evidence.proximity.arm_b);
-          std::swap(evidence.proximity.held_a, evidence.proximity.held_b);
-        }
         if (evidence.proximity.arm_b) evidence.arm = evidence.proximity.arm_b;
         blockade = Blockade{*evidence.arm, other, own_from, own_to, evidence};
       }

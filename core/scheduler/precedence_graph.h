@@ -20,7 +20,7 @@ struct HeldBack {
 // how far each may go. The invariant: for any two of them, with their progress s and authority
 // alpha, the rectangle [s_A, alpha_A] x [s_B, alpha_B] is certified free; so any may be late, slow
 // or stop, in any combination. The graph is acyclic after every admission, so that all come to
-// their ends. Pure; copied for what-if questions.
+// their ends. Pure.
 class PrecedenceGraph {
  public:
   explicit PrecedenceGraph(std::size_t arms) : work_behind_(arms) {}

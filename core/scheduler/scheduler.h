@@ -50,6 +50,11 @@ inline constexpr Duration kOnTimeAgain = std::chrono::milliseconds(200);
 // Such a job holds its reservation from then on; its motion is dispatched just before. When what it
 // waits for ends otherwise than planned, its start moves forward.
 //
+// Under a policy that coordinates, a reservation is a place in the precedence graph instead
+// (precedence_graph.h): motions are granted authority as far as their passing orders let them, and
+// pause on their way. Nothing there counts on times, so that late arms disturb nobody, and braking
+// ones need not be waited for.
+//
 // Whose turn it is: held jobs first, then the larger priority, where a job that others wait for is
 // as urgent as the most urgent of them, then the earlier. A job that has waited for
 // scheduling.aging since it was first in conflict, or first without a place, holds back every other
@@ -64,6 +69,9 @@ inline constexpr Duration kOnTimeAgain = std::chrono::milliseconds(200);
 // before: these are judged again, and those in conflict are held until the way is free. An arm that
 // loses time is judged twice: going on, and standing where it is. While an arm is braking nothing
 // is judged: where it will rest is not known yet.
+//
+// An arm without a job that rests in a job's way is sent aside, if the cell says so, by a job of
+// the caller's own (MoveAside).
 class Scheduler {
  public:
   // `rest` is where every joint stands at the beginning. The policy is not null.
@@ -201,6 +209,7 @@ class Scheduler {
   void admit_ahead(Record& record, const Verdict& verdict, const OpenQuestion& question);
   void add_others(Question& question, const std::vector<JobId>& candidates) const;
   void admit(Record& record, TimePoint start_at);
+  void expect_end(Record& record, TimePoint start_at) const;
   void refuse(Record& record, const Verdict& verdict, bool recheck);
   void put_off(Record& record, std::vector<Wait> waits);
 
@@ -245,10 +254,10 @@ class Scheduler {
   void admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders);
   [[nodiscard]] std::vector<JobId> with_next_jobs(const std::vector<JobId>& group,
                                                   const std::vector<ArmId>& in_the_way) const;
+  [[nodiscard]] bool may_follow(const Record& record) const;
   [[nodiscard]] bool begins_where_left(const Record& record) const;
   void dispatch_ready();
   void dispatch_if_ready(Record& record);
-  void expect_end(Record& record);
   void extend_authority(JobId moved);
   void extend_own_authority(Record& record);
   void explain_pause(Record& record);

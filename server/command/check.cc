@@ -12,14 +12,10 @@ namespace armloom {
 int check_jobs_file(const CheckOptions& options) {
   const auto loaded = load_cell(options.cell_file);
   if (!loaded) return kExitBadInput;
-  const auto refuse = [&](const Problems& problems) {
-    complain(options.jobs_file, problems);
-    return kExitBadInput;
-  };
   const auto text = read_text_file(options.jobs_file);
-  if (!text) return refuse(text.error());
+  if (!text) return refuse(options.jobs_file, text.error());
   const auto jobs = read_jobs_text(*text);
-  if (!jobs) return refuse(jobs.error());
+  if (!jobs) return refuse(options.jobs_file, jobs.error());
   auto checked = check_jobs(loaded->cell, options.policy, *jobs);
   if (!checked) {
     // A policy is the cell's business, everything else is the jobs'.
@@ -28,8 +24,7 @@ int check_jobs_file(const CheckOptions& options) {
     if (!options.policy.empty()) {
       problems = said_of_option(std::move(problems), "unknown-policy", "--policy");
     }
-    complain(of_cell ? options.cell_file : options.jobs_file, problems);
-    return kExitBadInput;
+    return refuse(of_cell ? options.cell_file : options.jobs_file, problems);
   }
   for (const CheckedJob& job : *checked) {
     JsonWriter out;

@@ -80,6 +80,8 @@ struct LoadedCell {
 
 // "armloom: config/x.json:/robots/0/urdf: ..." on stderr, one line for each problem.
 void complain(const std::string& file, const Problems& problems);
+// The same, as an answer: kExitBadInput.
+int refuse(const std::string& file, const Problems& problems);
 
 // The problems, with those of this slug said to be at an option of the command line: "--out".
 [[nodiscard]] Problems said_of_option(Problems problems, std::string_view slug,

@@ -111,10 +111,6 @@ int compare_policies(const CompareOptions& options) {
   const auto loaded = load_cell(options.cell_file);
   if (!loaded) return kExitBadInput;
   const Cell& cell = *loaded->cell;
-  const auto refuse = [](const std::string& file, const Problems& problems) {
-    complain(file, problems);
-    return kExitBadInput;
-  };
   const auto policies = read_policies(options.policies, cell);
   if (!policies) return refuse("", policies.error());
   const auto jobs = load_jobs(options.jobs_file, cell);

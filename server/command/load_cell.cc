@@ -14,6 +14,11 @@ void complain(const std::string& file, const Problems& problems) {
   }
 }
 
+int refuse(const std::string& file, const Problems& problems) {
+  complain(file, problems);
+  return kExitBadInput;
+}
+
 Problems said_of_option(Problems problems, std::string_view slug, std::string_view option) {
   for (Problem& problem : problems) {
     if (problem.slug == slug) problem.pointer = option;

@@ -65,10 +65,6 @@ int simulate_jobs(const SimulateOptions& options) {
   const auto loaded = load_cell(options.cell_file);
   if (!loaded) return kExitBadInput;
   const Cell& cell = *loaded->cell;
-  const auto refuse = [](const std::string& file, const Problems& problems) {
-    complain(file, problems);
-    return kExitBadInput;
-  };
   auto jobs = load_jobs(options.jobs_file, cell);
   if (!jobs) return kExitBadInput;
   std::vector<FaultRequest> faults;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/scheduler/scheduler.h"
+#include "test/scheduler/one_joint_arms.h"
 
 namespace armloom {
 namespace {
@@ -19,28 +20,6 @@ using namespace std::chrono_literals;
 constexpr std::size_t kArms = 16;
 constexpr ArmId kRuns{0};              // has a job in motion
 constexpr ArmId kInTheWay{kArms - 1};  // at rest without jobs: all others wait for it
-
-CellPtr one_joint_arms() {
-  auto cell = std::make_shared<Cell>();
-  cell->robots.emplace_back();
-  for (std::uint32_t i = 0; i < kArms; ++i) {
-    cell->joints.push_back(Joint{.name = "joint" + std::to_string(i),
-                                 .robot = RobotId{0},
-                                 .arm = ArmId{i},
-                                 .kind = JointKind::revolute,
-                                 .lower = -3,
-                                 .upper = 3,
-                                 .velocity_max = 2,
-                                 .acceleration_max = 10,
-                                 .jerk_max = 1000,
-                                 .brake = 10});
-    cell->arms.push_back(Arm{.name = "arm" + std::to_string(i),
-                             .robot = RobotId{0},
-                             .joints = {JointId{i}},
-                             .home = Eigen::VectorXd::Zero(1)});
-  }
-  return cell;
-}
 
 // From home to home, 10 s: all jobs of an arm can follow each other.
 TrajectoryPtr motion_of(ArmId arm) {
@@ -55,7 +34,7 @@ TrajectoryPtr motion_of(ArmId arm) {
 class Crowd {
  public:
   Crowd(const std::string& policy, std::size_t waiting)
-      : cell_(one_joint_arms()),
+      : cell_(one_joint_arms(kArms)),
         scheduler_(cell_, std::move(*make_policy(policy, *cell_)), cell_->home()) {
     for (std::uint32_t i = 0; i < kArms; ++i) motions_.push_back(motion_of(ArmId{i}));
     for (std::size_t n = 0; n < waiting; ++n) {

@@ -7,16 +7,16 @@
 #include <stdexcept>
 
 #include "core/trajectory/validate.h"
+#include "test/trajectory/random_spline.h"
 #include "test/trajectory/test_cell.h"
 
 namespace armloom {
 namespace {
 
 using namespace std::chrono_literals;
-
-double uniform(std::mt19937_64& random, double from, double to) {
-  return std::uniform_real_distribution<double>(from, to)(random);
-}
+using testing::random_spline;
+using testing::SplineScale;
+using testing::uniform;
 
 // No tolerance beyond the limits, and jerk limits that matter.
 Cell strict_cell() {
@@ -119,24 +119,10 @@ TEST(JointLine, IsRefusedAsEveryTrajectoryIs) {
                std::invalid_argument);
 }
 
-// Random splines of several segments, cubic and quintic, as clients send them.
-TrajectoryPtr random_spline(std::mt19937_64& random, const Cell& cell, bool quintic) {
-  TrajectoryRequest request{{"pair_a", "pair_b"}, {}};
-  const int count = std::uniform_int_distribution<int>(2, 6)(random);
-  double time_s = 0.0;
-  for (int k = 0; k < count; ++k) {
-    const bool end = k == 0 || k + 1 == count;
-    WaypointRequest point;
-    for (int j = 0; j < 2; ++j) {
-      point.positions.push_back(uniform(random, -0.3, 0.3));
-      point.velocities.push_back(end ? 0.0 : uniform(random, -0.3, 0.3));
-      if (quintic) point.accelerations.push_back(uniform(random, -0.3, 0.3));
-    }
-    point.time_from_start_s = time_s;
-    request.points.push_back(point);
-    time_s += uniform(random, 1.0, 2.0);
-  }
-  return validate(request, cell).value();
+// Slow enough for the limits.
+TrajectoryPtr valid_spline(std::mt19937_64& random, const Cell& cell, bool quintic) {
+  const SplineScale slow{.reach = 0.3, .shortest_s = 1.0, .longest_s = 2.0};
+  return validate(random_spline(random, slow, quintic), cell).value();
 }
 
 TEST(Retraced, IsWhereItWasAtTheMirroredTimeWithTheVelocityNegated) {
@@ -144,7 +130,7 @@ TEST(Retraced, IsWhereItWasAtTheMirroredTimeWithTheVelocityNegated) {
   const Cell cell = strict_cell();
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE(i);
-    const TrajectoryPtr there = random_spline(random, cell, i % 2 == 1);
+    const TrajectoryPtr there = valid_spline(random, cell, i % 2 == 1);
     const TrajectoryPtr back = retraced(*there);
     ASSERT_EQ(back->duration(), there->duration());
     EXPECT_EQ(back->joints(), there->joints());
@@ -167,7 +153,7 @@ TEST(Retraced, TwiceIsTheSameMotion) {
   const Cell cell = strict_cell();
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE(i);
-    const TrajectoryPtr once = random_spline(random, cell, i % 2 == 1);
+    const TrajectoryPtr once = valid_spline(random, cell, i % 2 == 1);
     const TrajectoryPtr twice = retraced(*retraced(*once));
     ASSERT_EQ(twice->segments().size(), once->segments().size());
     JointState a, b;

@@ -5,38 +5,19 @@
 #include <random>
 
 #include "core/trajectory/validate.h"
+#include "test/trajectory/random_spline.h"
 #include "test/trajectory/test_cell.h"
 
 namespace armloom {
 namespace {
 
+using testing::random_spline;
+using testing::uniform;
+
 // Limits of joints pair_a and pair_b with the cell's tolerance of 0.05.
 constexpr double kPositionMax = 2.8;
 constexpr double kVelocityMax = 2.0 * 1.05;
 constexpr double kAccelerationMax = 4.0 * 1.05;
-
-double uniform(std::mt19937_64& random, double from, double to) {
-  return std::uniform_real_distribution<double>(from, to)(random);
-}
-
-TrajectoryRequest random_spline(std::mt19937_64& random, bool quintic) {
-  TrajectoryRequest request{{"pair_a", "pair_b"}, {}};
-  const int count = std::uniform_int_distribution<int>(2, 6)(random);
-  double time_s = 0.0;
-  for (int k = 0; k < count; ++k) {
-    const bool end = k == 0 || k + 1 == count;
-    WaypointRequest point;
-    for (int j = 0; j < 2; ++j) {
-      point.positions.push_back(uniform(random, -1.0, 1.0));
-      point.velocities.push_back(end ? 0.0 : uniform(random, -1.0, 1.0));
-      if (quintic) point.accelerations.push_back(uniform(random, -1.0, 1.0));
-    }
-    point.time_from_start_s = time_s;
-    request.points.push_back(point);
-    time_s += uniform(random, 0.2, 1.5);
-  }
-  return request;
-}
 
 void scale(TrajectoryRequest& request, double factor) {
   for (WaypointRequest& point : request.points) {
@@ -93,7 +74,8 @@ TEST(LimitsProperty, DenseSamplingAndValidationAgreeOn500RandomSplines) {
   int refused = 0;
   for (int i = 0; i < 500; ++i) {
     SCOPED_TRACE(i);
-    TrajectoryRequest request = random_spline(random, i % 2 == 1);
+    TrajectoryRequest request =
+        random_spline(random, {.reach = 1.0, .shortest_s = 0.2, .longest_s = 1.5}, i % 2 == 1);
     const double before = peak_of(*unlimited(request, cell), kCoarse).share();
     const double targets[] = {0.9985, 1.0005, 1.01, uniform(random, 0.3, 0.99),
                               uniform(random, 1.02, 3.0)};
@@ -123,7 +105,8 @@ TEST(LimitsProperty, ARefusalNamesAValueThatTheMotionReaches) {
   int only_between = 0;
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE(i);
-    TrajectoryRequest request = random_spline(random, i % 2 == 1);
+    TrajectoryRequest request =
+        random_spline(random, {.reach = 1.0, .shortest_s = 0.2, .longest_s = 1.5}, i % 2 == 1);
     const TrajectoryPtr before = unlimited(request, cell);
     scale(request, 1.001 / peak_of(*before, kCoarse).share());
     const Peak peak = peak_of(*unlimited(request, cell), kDense);

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/model/cell.h"
+
+namespace armloom {
+
+// A cell of one-joint arms named a, b, c, ... without geometry: the scheduler needs none.
+inline CellPtr one_joint_arms(std::size_t count) {
+  auto cell = std::make_shared<Cell>();
+  cell->robots.emplace_back();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name(1, static_cast<char>('a' + i));
+    const ArmId arm{static_cast<std::uint32_t>(i)};
+    const JointId joint{static_cast<std::uint32_t>(i)};
+    cell->joints.push_back(Joint{.name = name + "_joint",
+                                 .robot = RobotId{0},
+                                 .arm = arm,
+                                 .kind = JointKind::revolute,
+                                 .lower = -3,
+                                 .upper = 3,
+                                 .velocity_max = 2,
+                                 .acceleration_max = 10,
+                                 .jerk_max = 1000,
+                                 .brake = 10});
+    cell->arms.push_back(Arm{
+        .name = name, .robot = RobotId{0}, .joints = {joint}, .home = Eigen::VectorXd::Zero(1)});
+  }
+  return cell;
+}
+
+}  // namespace armloom
