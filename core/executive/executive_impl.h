@@ -88,7 +88,10 @@ class Executive::Impl final : public JobNames {
     int priority;
     Duration backlog_timeout;
     std::vector<std::string> after;
-    std::vector<TrajectoryPtr> returns;  // of its arms, to where their clients left them
+    std::vector<TrajectoryPtr> returns;   // of its arms, to where their clients left them
+    bool own = false;                     // Submit::own
+    std::optional<JobId> before = {};     // Submit::before
+    std::optional<JobId> lets_pass = {};  // Submit::lets_pass
   };
   // Where joints will stand, and which keys are taken, when the jobs before it are accepted.
   struct Ahead {
@@ -100,9 +103,10 @@ class Executive::Impl final : public JobNames {
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   JobView accept(Prepared prepared);
   void make_way(MoveAside aside);
+  void remember_way_back(const MoveAside& aside);
   [[nodiscard]] Ahead ahead_now() const;
   std::vector<TrajectoryPtr> returns_for(const Trajectory& motion, Ahead& ahead) const;
-  void accept_own(TrajectoryPtr trajectory, std::string name, int priority);
+  Prepared own_job(TrajectoryPtr trajectory, std::string name, int priority);
   Result<const Job*> known(const std::string& key, const std::string& pointer) const;
   DiagramView::Side side_of(const Job& job) const;
   std::string free_key(JobId id) const;

@@ -172,7 +172,8 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
 JobView Executive::Impl::accept(Prepared prepared) {
   for (TrajectoryPtr& back : prepared.returns) {
     const std::string arm = cell_->arm(back->arms().front()).name;
-    accept_own(std::move(back), arm + " returns to where it was left", prepared.priority);
+    (void)accept(
+        own_job(std::move(back), arm + " returns to where it was left", prepared.priority));
   }
   const JobId id{next_job_++};
   const std::string key = prepared.key.empty() ? free_key(id) : std::move(prepared.key);
@@ -187,12 +188,34 @@ JobView Executive::Impl::accept(Prepared prepared) {
               .trajectory = std::move(prepared.trajectory),
               .priority = prepared.priority,
               .backlog_timeout = prepared.backlog_timeout,
-              .after = std::move(after)});
+              .after = std::move(after),
+              .own = prepared.own,
+              .before = prepared.before,
+              .lets_pass = prepared.lets_pass});
   return view_of(*scheduler_.find(id), *cell_, *this);
 }
 
-// An arm rests in a job's way: it goes aside, and is remembered to have been here.
 void Executive::Impl::make_way(MoveAside aside) {
+  const Job& job = *scheduler_.find(aside.way_of);
+  const std::string arm = cell_->arm(aside.arm).name;
+  Prepared way = own_job(aside.trajectory, arm + " moves aside for " + key(job.id), job.priority);
+  if (!aside.before) {
+    remember_way_back(aside);
+    (void)accept(std::move(way));
+    return;
+  }
+  way.before = aside.before;
+  const JobView goes = accept(std::move(way));
+  Prepared back =
+      own_job(retraced(*aside.trajectory), arm + " returns to where it stood", job.priority);
+  back.after = {goes.key};
+  back.before = aside.before;
+  back.lets_pass = aside.way_of;
+  (void)accept(std::move(back));
+}
+
+// Where the clients of an arm left it, however often it goes aside.
+void Executive::Impl::remember_way_back(const MoveAside& aside) {
   const Trajectory& way = *aside.trajectory;
   TrajectoryPtr back = retraced(way);
   if (const auto before = ways_back_.find(aside.arm); before != ways_back_.end()) {
@@ -202,24 +225,23 @@ void Executive::Impl::make_way(MoveAside aside) {
     }
   }
   ways_back_[aside.arm] = std::move(back);
-  const Job& job = *scheduler_.find(aside.way_of);
-  accept_own(std::move(aside.trajectory),
-             cell_->arm(aside.arm).name + " moves aside for " + key(job.id), job.priority);
 }
 
 // A job of the server's own.
-void Executive::Impl::accept_own(TrajectoryPtr trajectory, std::string name, int priority) {
+Executive::Impl::Prepared Executive::Impl::own_job(TrajectoryPtr trajectory, std::string name,
+                                                   int priority) {
   std::string own;
   do {
     own = "aside-" + std::to_string(next_aside_++);
   } while (ids_.contains(own));
-  (void)accept({.key = std::move(own),
-                .name = std::move(name),
-                .trajectory = std::move(trajectory),
-                .priority = priority,
-                .backlog_timeout = cell_->scheduling.backlog_timeout,
-                .after = {},
-                .returns = {}});
+  return {.key = std::move(own),
+          .name = std::move(name),
+          .trajectory = std::move(trajectory),
+          .priority = priority,
+          .backlog_timeout = cell_->scheduling.backlog_timeout,
+          .after = {},
+          .returns = {},
+          .own = true};
 }
 
 // "job-17"; where a client has taken that name, "job-17.2", ...

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 #include "core/scheduler/scheduler.h"
@@ -47,8 +48,30 @@ bool Scheduler::holds_reservation(const Record& record) const {
          (state == JobState::holding && record.job.stopping);
 }
 
+// All that is active in an order that is every arm's: by submission, but for those that took their
+// places before others.
+std::vector<JobId> Scheduler::in_turn() const {
+  std::vector<JobId> jobs;
+  jobs.reserve(active_.size());
+  for (JobId id : active_) {
+    const auto& before = records_.at(id).before;
+    if (before && active_.contains(*before)) continue;
+    if (const auto placed = placed_before_.find(id); placed != placed_before_.end()) {
+      std::ranges::copy_if(placed->second, std::back_inserter(jobs),
+                           [this](JobId own) { return active_.contains(own); });
+    }
+    jobs.push_back(id);
+  }
+  return jobs;
+}
+
+bool Scheduler::lets_another_pass(const Record& record) const {
+  return record.lets_pass && active_.contains(*record.lets_pass) &&
+         waiting(records_.at(*record.lets_pass));
+}
+
 bool Scheduler::at_head(const Record& record) const {
-  return record.job.after.empty() &&
+  return record.job.after.empty() && !lets_another_pass(record) &&
          std::ranges::all_of(record.job.trajectory->arms(), [&](ArmId arm) {
            return order_[arm.index()].front() == record.job.id;
          });
@@ -122,7 +145,7 @@ void Scheduler::form_round() {
   std::erase_if(round_, [this](JobId id) { return !active_.contains(id); });
   const bool stuck = std::ranges::all_of(round_, [this](JobId id) {
     const Record& record = records_.at(id);
-    return waiting(record) && record.judged_at == version_;
+    return waiting(record) && (record.judged_at == version_ || !at_head(record));
   });
   if (round_.empty()) round_begun_ = false;
   for (JobId id : round_) {
@@ -139,7 +162,7 @@ void Scheduler::explain_waits() {
   const std::vector<const Job*> occupied_by = occupying();
   const std::vector<Aged> aged = aged_jobs();
   std::vector<std::optional<JobId>> before(cell_->arms.size());  // per arm: the job ahead
-  for (JobId id : active_) {
+  for (JobId id : in_turn()) {
     Record& record = records_.at(id);
     std::optional<Wait> wait;
     for (ArmId arm : record.job.trajectory->arms()) {
@@ -149,6 +172,9 @@ void Scheduler::explain_waits() {
     if (!waiting(record)) continue;
     if (!wait && !record.job.after.empty()) {
       wait = Wait{.kind = Wait::Kind::order, .job = record.job.after.front()};
+    }
+    if (!wait && lets_another_pass(record)) {
+      wait = Wait{.kind = Wait::Kind::order, .job = *record.lets_pass};
     }
     if (!wait) wait = stop_of(record);
     if (!wait && (wait = capacity_of(record, occupied_by)) && !record.ages_from) {
@@ -258,6 +284,8 @@ void Scheduler::ask_next() {
   if (braking && !graph_) return;
   if (auto recheck = next_recheck(); !recheck.empty()) {
     ask(std::move(recheck), Purpose::recheck);
+  } else if (const auto opens = next_aside_in_a_ring()) {
+    ask_aside(*opens);
   } else if (auto held = held_together(); !held.empty()) {
     held_together_tried_ = version_;
     ask(std::move(held), Purpose::start);

@@ -193,13 +193,13 @@ std::vector<WaitingWork> Scheduler::work_among(const std::vector<JobId>& jobs,
 // The next jobs of each arm, so far as nothing else has to happen before them.
 std::vector<JobId> Scheduler::work_to_come() const { return with_all_that_wait({}, kWorkPerArm); }
 
-// At most so many of an arm, in order of submission; without what comes after other jobs or is
+// At most so many of an arm, each after those before it; without what comes after other jobs or is
 // stopped, and without what is behind that on its arms.
 std::vector<JobId> Scheduler::with_all_that_wait(const std::vector<JobId>& group,
                                                  std::size_t per_arm) const {
   std::vector<JobId> all = group;
   std::vector<std::size_t> left(order_.size(), per_arm);
-  for (JobId id : active_) {
+  for (JobId id : in_turn()) {
     if (graph_->holds(id) || std::ranges::find(group, id) != group.end()) continue;
     const Record& record = records_.at(id);
     const auto& arms = record.job.trajectory->arms();
@@ -255,8 +255,8 @@ std::vector<JobId> Scheduler::with_next_jobs(const std::vector<JobId>& group,
 
 // It could go when those before it on its arms have gone.
 bool Scheduler::may_follow(const Record& record) const {
-  return waiting(record) && record.job.after.empty() && !stop_of(record) &&
-         begins_where_left(record);
+  return waiting(record) && record.job.after.empty() && !lets_another_pass(record) &&
+         !stop_of(record) && begins_where_left(record);
 }
 
 // A job before it may have been canceled: then it will never begin, and clears no way.

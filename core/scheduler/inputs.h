@@ -23,6 +23,11 @@ struct Submit {
   int priority = 0;  // larger goes first
   Duration backlog_timeout;
   std::vector<JobId> after = {};  // active jobs that have to succeed first; smaller ids than `job`
+  bool own = false;  // the caller's, for a MoveAside: in a ring it gives way to jobs of clients
+  // For a MoveAside of an arm that has jobs: it takes its place before this one of its arm ...
+  std::optional<JobId> before = {};
+  // ... and does not begin while this one waits.
+  std::optional<JobId> lets_pass = {};
 };
 struct Cancel {
   JobId job;
@@ -89,12 +94,15 @@ struct Grant {
 struct Brake {
   JobId job;
 };
-// An arm without a job rests in this job's way: come back at once with Submit of a job of one's own
-// that has this motion.
+// An arm rests in this job's way: come back at once with Submit of a job of one's own that has this
+// motion. If the arm has a job, `before`, the two wait for each other in a ring: the motion takes
+// its place before that job, and behind it a second one, back to where the arm stands now, that
+// comes after the first and lets the other pass.
 struct MoveAside {
   ArmId arm;
   JobId way_of;
   TrajectoryPtr trajectory;
+  std::optional<JobId> before = {};
 };
 // The job has ended and its arms are at rest: the controllers drop its motion.
 struct Release {

@@ -1,4 +1,4 @@
-// Arms without a job that rest in the way (scheduling.on_idle_blocker "park").
+// Arms that rest in the way (scheduling.on_idle_blocker "park"): without a job, or in a ring.
 #include <algorithm>
 #include <utility>
 
@@ -13,71 +13,136 @@ constexpr std::size_t kAsidesMax = 8;
 
 }  // namespace
 
-// The first job that waits for an arm which no job will move, and a pose of that arm that has not
-// been tried for it.
+// The first job that waits for an arm which no job will move.
 std::optional<Scheduler::Aside> Scheduler::next_aside() const {
-  if (cell_->scheduling.on_idle_blocker != "park") return std::nullopt;
   for (JobId id : active_) {
     const Record& record = records_.at(id);
     const bool put_off = waiting(record) && record.judged_at == version_;
     if (!put_off && !record.job.pausing) continue;
     for (const Wait& wait : put_off ? record.found : record.job.waits_on) {
-      if (wait.kind != Wait::Kind::arm || !wait.arm) continue;
-      const ArmId arm = *wait.arm;
-      if (!order_[arm.index()].empty() || stopped_[arm.index()]) continue;
-      const TrajectoryPtr& came_by = came_by_[arm.index()];
-      const auto found = record.asides_tried.find(arm);
-      const AsidesTried tried = found == record.asides_tried.end() ? AsidesTried{} : found->second;
-      const std::size_t next = tried.from == came_by ? tried.next : 0;
-      const auto ways = ways_aside(*cell_, arm, rest_, came_by);
-      if (next < ways.size() && tried.total < kAsidesMax) return Aside{id, arm, ways[next]};
+      if (wait.kind != Wait::Kind::arm || !wait.arm || !order_[wait.arm->index()].empty()) continue;
+      if (auto aside = untried(record, *wait.arm)) return aside;
     }
   }
   return std::nullopt;
 }
 
-// Would the job find that arm out of its way?
-void Scheduler::ask_aside(Aside aside) {
-  const Record& record = records_.at(aside.way_of);
-  const auto& joints = aside.way->joints();
-  Question question{
-      .version = version_,
-      .start_at = now_ + allowance_,
-      .candidates = {graph_ ? motion_now(record)
-                            : Motion{record.job.id, record.job.trajectory, record.job.progress}},
-      .others = {},
-      .rest = rest_,
-      .method = policy_->method()};
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    question.rest[static_cast<Eigen::Index>(joints[j].index())] =
-        aside.way->goal()[static_cast<Eigen::Index>(j)];
+std::optional<Scheduler::Aside> Scheduler::next_aside_in_a_ring() const {
+  for (const NamedRing& named : rings_) {
+    if (named.opens) continue;
+    if (auto aside = aside_in(named.ring)) return aside;
   }
-  add_others(question, {aside.way_of});
-  open_ = OpenQuestion{version_, now_, question.start_at, {aside.way_of}, Purpose::aside, aside};
+  return std::nullopt;
+}
+
+// Each job of a ring waits for the next one, mostly for the arm that only that will move: could it
+// move before its job? The one whose job would have to give way otherwise is tried first. Not where
+// moves aside are in the ring themselves: these give way.
+std::optional<Scheduler::Aside> Scheduler::aside_in(const Ring& ring) const {
+  const bool among_clients =
+      std::ranges::none_of(ring, [this](JobId id) { return records_.at(id).own; });
+  if (!among_clients) return std::nullopt;
+  const Ring from_last = beginning_with(*std::ranges::max_element(ring), ring);
+  for (std::size_t i = 0; i < from_last.size(); ++i) {
+    const Record& next = records_.at(from_last[i]);
+    const Record& waits = records_.at(from_last[(i + from_last.size() - 1) % from_last.size()]);
+    if (!waiting(next) || next.job.started_at) continue;
+    for (const Wait& wait : waits.job.pausing ? waits.job.waits_on : waits.found) {
+      const bool near = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::job;
+      if (!near || !wait.arm) continue;
+      const auto& queue = order_[wait.arm->index()];
+      if (queue.empty() || queue.front() != next.job.id) continue;
+      auto aside = untried(waits, *wait.arm);
+      if (!aside) continue;
+      aside->before = next.job.id;
+      return aside;
+    }
+  }
+  return std::nullopt;
+}
+
+// A way aside of this arm that has not been tried for the job.
+std::optional<Scheduler::Aside> Scheduler::untried(const Record& record, ArmId arm) const {
+  if (cell_->scheduling.on_idle_blocker != "park" || stopped_[arm.index()]) return std::nullopt;
+  const TrajectoryPtr& came_by = came_by_[arm.index()];
+  const auto found = record.asides_tried.find(arm);
+  const AsidesTried tried = found == record.asides_tried.end() ? AsidesTried{} : found->second;
+  const std::size_t next = tried.from == came_by ? tried.next : 0;
+  if (tried.total >= kAsidesMax) return std::nullopt;
+  const auto ways = ways_aside(*cell_, arm, rest_, came_by);
+  if (next >= ways.size()) return std::nullopt;
+  return Aside{.way_of = record.job.id, .arm = arm, .way = ways[next]};
+}
+
+// First whether the way itself will be free, then whether the job would find the arm gone.
+void Scheduler::ask_aside(Aside aside) {
+  const TimePoint start_at = now_ + allowance_;
+  Question question = hypothetical(aside.way, start_at);
+  question.find_earliest = false;
+  if (aside.is_free) {
+    const Record& record = records_.at(aside.way_of);
+    const auto& joints = aside.way->joints();
+    question.candidates = {graph_
+                               ? motion_now(record)
+                               : Motion{record.job.id, record.job.trajectory, record.job.progress}};
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      question.rest[static_cast<Eigen::Index>(joints[j].index())] =
+          aside.way->goal()[static_cast<Eigen::Index>(j)];
+    }
+    question.others.clear();
+    add_others(question, {aside.way_of});
+  }
+  open_ = OpenQuestion{version_, now_, start_at, {aside.way_of}, Purpose::aside, aside};
   effects_.push_back(Judge{std::move(question)});
 }
 
-void Scheduler::answer_aside(const Verdict& verdict, const Aside& aside) {
-  if (!order_[aside.arm.index()].empty()) return;  // it has got a job meanwhile
+void Scheduler::answer_aside(const Verdict& verdict, Aside aside) {
+  const auto& queue = order_[aside.arm.index()];
+  const bool as_it_was = aside.before ? !queue.empty() && queue.front() == *aside.before  //
+                                      : queue.empty();
+  if (!as_it_was) return;  // it has got a job meanwhile
+  const bool passes = lets_through(verdict, aside);
+  if (passes && !aside.is_free) {
+    aside.is_free = true;
+    return ask_aside(std::move(aside));
+  }
   AsidesTried& tried = records_.at(aside.way_of).asides_tried[aside.arm];
   const TrajectoryPtr& came_by = came_by_[aside.arm.index()];
   if (tried.from != came_by) tried.next = 0;
   tried.from = came_by;
   ++tried.next;
   ++tried.total;
-  const bool in_the_way =
-      std::ranges::any_of(verdict.conflicts,
-                          [&](const Conflict& conflict) {
-                            const bool lasting = conflict.with != Conflict::With::motion;
-                            const bool other_arm = conflict.with == Conflict::With::rest &&
-                                                   conflict.proximity.arm_b != aside.arm;
-                            return lasting && !other_arm;
-                          }) ||
-      std::ranges::any_of(verdict.regions, [&](const PairRegions& pair) {
-        const auto* arm = std::get_if<ArmId>(&pair.b);
-        return arm != nullptr && *arm == aside.arm;
-      });
-  if (!in_the_way) effects_.push_back(MoveAside{aside.arm, aside.way_of, aside.way});
+  if (passes) move_aside(aside);
+}
+
+// Whether nothing that stays keeps the arm from its way, or, where that is free, the job from its
+// own: an object, the moving arm itself, an arm of the ring; or the arm that has gone aside.
+bool Scheduler::lets_through(const Verdict& verdict, const Aside& aside) const {
+  const auto stays = [&](ArmId arm) {
+    if (aside.is_free) return arm == aside.arm;
+    const auto& queue = order_[arm.index()];
+    if (queue.empty()) return false;  // it may go aside too
+    return queue.front() == aside.way_of || (aside.before && waiting(records_.at(queue.front())));
+  };
+  for (const Conflict& conflict : verdict.conflicts) {
+    if (conflict.with == Conflict::With::motion) continue;
+    const bool at_rest = conflict.with == Conflict::With::rest && conflict.proximity.arm_b;
+    if (!at_rest || stays(*conflict.proximity.arm_b)) return false;
+  }
+  return std::ranges::none_of(verdict.regions, [&](const PairRegions& pair) {
+    const auto* arm = std::get_if<ArmId>(&pair.b);
+    return arm != nullptr && stays(*arm);
+  });
+}
+
+void Scheduler::move_aside(const Aside& aside) {
+  effects_.push_back(MoveAside{aside.arm, aside.way_of, aside.way, aside.before});
+  for (NamedRing& named : rings_) {
+    const auto in_ring = [&](JobId job) {
+      return std::ranges::find(named.ring, job) != named.ring.end();
+    };
+    if (aside.before && in_ring(*aside.before)) named.opens = true;
+  }
 }
 
 }  // namespace armloom

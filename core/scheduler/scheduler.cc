@@ -68,7 +68,7 @@ void Scheduler::settle() {
 
 Configuration Scheduler::predicted_rest() const {
   Configuration q = rest_;
-  for (JobId id : active_) {
+  for (JobId id : in_turn()) {
     const Trajectory& trajectory = *records_.at(id).job.trajectory;
     for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
       q[static_cast<Eigen::Index>(trajectory.joints()[j].index())] =
@@ -112,9 +112,27 @@ void Scheduler::on(const Submit& input) {
                            .backlog_timeout = input.backlog_timeout,
                            .after = input.after,
                            .submitted_at = now_}};
-  for (ArmId arm : input.trajectory->arms()) order_[arm.index()].push_back(input.job);
+  record.own = input.own;
+  record.before = input.before;
+  record.lets_pass = input.lets_pass;
+  for (ArmId arm : input.trajectory->arms()) {
+    auto& queue = order_[arm.index()];
+    queue.insert(input.before ? std::ranges::find(queue, *input.before) : queue.end(), input.job);
+  }
   active_.insert(input.job);
   changed(records_.emplace(input.job, std::move(record)).first->second);
+  if (input.before) take_place(input.job, *input.before);
+}
+
+// Before a job that was in a ring: an arm of that goes aside now.
+void Scheduler::take_place(JobId job, JobId before) {
+  placed_before_[before].push_back(job);
+  if (round_.contains(before)) round_.insert(job);
+  std::erase_if(rings_, [&](const NamedRing& named) {
+    const bool opened = std::ranges::find(named.ring, before) != named.ring.end();
+    if (opened) untell(named.ring);
+    return opened;
+  });
 }
 
 void Scheduler::on(const Cancel& input) {
@@ -330,6 +348,7 @@ void Scheduler::end(Record& record, JobState state, Reason reason, std::string d
   if (state == JobState::succeeded) job.progress = job.trajectory->duration();
   for (ArmId arm : job.trajectory->arms()) std::erase(order_[arm.index()], job.id);
   active_.erase(job.id);
+  placed_before_.erase(job.id);
   ++version_;
   if (state != JobState::succeeded) freed_at_ = version_;
   changed(record);
@@ -402,7 +421,9 @@ void Scheduler::ask_for_wake() {
     if (!graph_ && has_not_begun(record))
       consider(record.plan_at + cell_->checking.delay + Duration(1));
   }
-  if (!rings_.empty()) consider(now_ + Duration(1));  // a step of its own
+  const bool undecided =
+      std::ranges::any_of(rings_, [](const NamedRing& r) { return !r.way_out && !r.opens; });
+  if (undecided) consider(now_ + Duration(1));  // a step of its own
   if (next && next != wake_at_) effects_.push_back(WakeAt{*next});
   wake_at_ = next;
 }

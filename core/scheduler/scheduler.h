@@ -62,7 +62,8 @@ inline constexpr Duration kOnTimeAgain = std::chrono::milliseconds(200);
 // object or a stop (README: how long a job can wait).
 //
 // Jobs that wait for each other in a ring can never move: each is told its ring in the step that
-// finds it, and in the next one the job that was submitted last fails.
+// finds it. Then an arm of the ring goes aside and comes back when the other has passed, if the
+// cell says so and there is such a way; else the job that was submitted last fails.
 //
 // An arm that comes to rest off its plan (canceled, stopped, faulted), that loses more than
 // checking.delay against its plan, or a scene that changes may endanger motions that were admitted
@@ -70,8 +71,8 @@ inline constexpr Duration kOnTimeAgain = std::chrono::milliseconds(200);
 // loses time is judged twice: going on, and standing where it is. While an arm is braking nothing
 // is judged: where it will rest is not known yet.
 //
-// An arm without a job that rests in a job's way is sent aside, if the cell says so, by a job of
-// the caller's own (MoveAside).
+// An arm without a job that rests in a job's way is sent aside, if the cell says so, too. Either is
+// done by jobs of the caller's own (MoveAside).
 class Scheduler {
  public:
   // `rest` is where every joint stands at the beginning. The policy is not null.
@@ -125,6 +126,9 @@ class Scheduler {
     TimePoint plan_at{};
     std::map<ArmId, AsidesTried> asides_tried;  // of arms that could make way for it
     Duration horizon{};  // coordinated: how far ahead of its progress its authority may reach
+    bool own = false;                // Submit::own
+    std::optional<JobId> before;     // Submit::before
+    std::optional<JobId> lets_pass;  // Submit::lets_pass
   };
   // A job that has waited for longer than scheduling.aging, and all that have to go before it.
   struct Aged {
@@ -134,17 +138,21 @@ class Scheduler {
   struct NamedRing {
     Ring ring;
     Version disturbed_at;
+    bool way_out = false;  // an arm of it may go aside
+    bool opens = false;    // and does
   };
   enum class Purpose {
     start,    // of a job that waits
     recheck,  // of a motion that is under way or scheduled
     forward,  // an earlier start of a scheduled job
-    aside,    // whether the job could go if an arm without one stood elsewhere
+    aside,    // whether an arm could go aside, and the job then pass
   };
   struct Aside {
     JobId way_of;
     ArmId arm;
     TrajectoryPtr way;
+    std::optional<JobId> before = {};  // MoveAside::before
+    bool is_free = false;              // the way; else that is the question
   };
   struct OpenQuestion {
     Version version;
@@ -164,6 +172,7 @@ class Scheduler {
 
   // scheduler.cc: what happens to jobs
   void on(const Submit& input);
+  void take_place(JobId job, JobId before);
   void on(const Cancel& input);
   void on(const Judged& input);
   void on(const MotionReport& input);
@@ -225,19 +234,28 @@ class Scheduler {
                                                   const std::vector<Aged>& aged) const;
   void name_deadlocks();
   void settle_deadlocks();
+  [[nodiscard]] bool stands(const NamedRing& named) const;
   void resolve(const Ring& ring);
+  void untell(const Ring& ring);
 
   [[nodiscard]] std::vector<const Job*> occupying() const;  // scheduled, in motion, held
   [[nodiscard]] static Duration progress_at(const Record& record, TimePoint when);
+  [[nodiscard]] std::vector<JobId> in_turn() const;  // active, each after those before it
   [[nodiscard]] bool at_head(const Record& record) const;
+  [[nodiscard]] bool lets_another_pass(const Record& record) const;
   [[nodiscard]] bool holds_reservation(const Record& record) const;
   [[nodiscard]] static bool waiting(const Record& record);
   void set_waits(Record& record, std::vector<Wait> waits);
 
   // moving_aside.cc
   [[nodiscard]] std::optional<Aside> next_aside() const;
+  [[nodiscard]] std::optional<Aside> next_aside_in_a_ring() const;
+  [[nodiscard]] std::optional<Aside> aside_in(const Ring& ring) const;
+  [[nodiscard]] std::optional<Aside> untried(const Record& record, ArmId arm) const;
   void ask_aside(Aside aside);
-  void answer_aside(const Verdict& verdict, const Aside& aside);
+  void answer_aside(const Verdict& verdict, Aside aside);
+  [[nodiscard]] bool lets_through(const Verdict& verdict, const Aside& aside) const;
+  void move_aside(const Aside& aside);
 
   // coordinating.cc: policies that coordinate
   [[nodiscard]] Motion motion_now(const Record& record) const;
@@ -279,7 +297,8 @@ class Scheduler {
   Duration allowance_;               // how far ahead of now a question's instant lies
   std::set<JobId> round_;            // policies with rounds: the jobs of the present one
   bool round_begun_ = false;
-  std::vector<NamedRing> rings_;  // in an earlier step; to be resolved in this one
+  std::vector<NamedRing> rings_;                       // told in an earlier step
+  std::map<JobId, std::vector<JobId>> placed_before_;  // Submit::before
   std::optional<OpenQuestion> open_;
   std::optional<LookAhead> ahead_;
   std::optional<PrecedenceGraph> graph_;  // policies that coordinate

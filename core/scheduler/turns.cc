@@ -1,5 +1,6 @@
 // Whose turn it is among the jobs that wait: aging, priorities without inversion, deadlocks.
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "core/scheduler/deadlock.h"
@@ -12,17 +13,21 @@ namespace armloom {
 // and two that are held may go on together though neither can alone.
 std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wait& wait) const {
   const bool undecided = !wait.detail.empty();
-  std::optional<JobId> first;
-  if (wait.kind == Wait::Kind::job) first = wait.job;
-  if (wait.kind == Wait::Kind::arm && !order_[wait.arm->index()].empty()) {
-    first = order_[wait.arm->index()].front();
+  const bool of_job = wait.kind == Wait::Kind::job;
+  if (undecided || (!of_job && wait.kind != Wait::Kind::arm)) return std::nullopt;
+  if (of_job && !active_.contains(*wait.job)) return std::nullopt;
+  std::optional<JobId> first = wait.job;
+  const bool begun = of_job && records_.at(*wait.job).job.started_at;
+  if (!begun && wait.arm) {  // its arm moves with its next job
+    const auto& queue = order_[wait.arm->index()];
+    first = queue.empty() ? std::nullopt : std::optional(queue.front());
   }
-  if (undecided || !first || !active_.contains(*first)) return std::nullopt;
+  if (!first) return std::nullopt;
   const Record& other = records_.at(*first);
   const bool both_held =
       record.job.state == JobState::holding && other.job.state == JobState::holding;
-  const bool stands = waiting(other) || pauses_for_an_arm(other);
-  return stands && !both_held ? first : std::nullopt;
+  const bool at_rest = waiting(other) || pauses_for_an_arm(other);
+  return at_rest && !both_held ? first : std::nullopt;
 }
 
 // On its way, before an arm at rest.
@@ -46,6 +51,7 @@ WaitsFor Scheduler::waits_for() const {
     for (JobId before : record.job.after) {
       if (waiting(records_.at(before))) edges.push_back({id, before});
     }
+    if (lets_another_pass(record)) edges.push_back({id, *record.lets_pass});
     if (record.judged_at != version_ && !pauses) continue;
     for (const Wait& wait : pauses ? record.job.waits_on : record.found) {
       const auto first = has_to_move_first(record, wait);
@@ -152,6 +158,10 @@ void Scheduler::name_deadlocks() {
   });
   if (!in_the_way) return;
   for (Ring& ring : find_rings(waits_for())) {
+    const bool told = std::ranges::any_of(rings_, [&](const NamedRing& named) {
+      return std::ranges::find_first_of(named.ring, ring) != named.ring.end();
+    });
+    if (told) continue;
     for (JobId id : ring) {
       Record& record = records_.at(id);
       record.job.ring = beginning_with(id, ring);
@@ -163,25 +173,50 @@ void Scheduler::name_deadlocks() {
 
 // No arm of a ring moves while its jobs wait. So a ring that was found stands until one of these
 // goes, or the scene is another one.
+bool Scheduler::stands(const NamedRing& named) const {
+  return named.disturbed_at == disturbed_at_ && std::ranges::all_of(named.ring, [this](JobId id) {
+           return active_.contains(id) &&
+                  (waiting(records_.at(id)) || pauses_for_an_arm(records_.at(id)));
+         });
+}
+
 void Scheduler::settle_deadlocks() {
-  for (const NamedRing& named : std::exchange(rings_, {})) {
-    const bool stands =
-        named.disturbed_at == disturbed_at_ && std::ranges::all_of(named.ring, [this](JobId id) {
-          return active_.contains(id) &&
-                 (waiting(records_.at(id)) || pauses_for_an_arm(records_.at(id)));
-        });
-    if (stands) resolve(named.ring);
-    for (JobId id : named.ring) {
-      if (!active_.contains(id)) continue;
-      records_.at(id).job.ring.clear();
-      changed(records_.at(id));
+  for (NamedRing& named : std::exchange(rings_, {})) {
+    const bool stood = stands(named);
+    named.way_out = stood && aside_in(named.ring).has_value();
+    if (named.way_out || (stood && named.opens)) {
+      rings_.push_back(std::move(named));
+      continue;
     }
+    if (stood) resolve(named.ring);
+    untell(named.ring);
   }
 }
 
-// The last one that came gives way: the others were there before it closed the ring.
+void Scheduler::untell(const Ring& ring) {
+  for (JobId id : ring) {
+    if (!active_.contains(id)) continue;
+    records_.at(id).job.ring.clear();
+    changed(records_.at(id));
+  }
+}
+
+// An arm that is aside for the sake of another one of the ring comes back first. Else a move aside
+// gives way, or the last job that a client sent: the others were there before it closed the ring.
+// Not a return, on which a client's job counts.
 void Scheduler::resolve(const Ring& ring) {
-  Record& last = records_.at(*std::ranges::max_element(ring));
+  for (JobId id : ring) {
+    Record& record = records_.at(id);
+    if (lets_another_pass(record) && std::ranges::find(ring, *record.lets_pass) != ring.end()) {
+      record.lets_pass.reset();
+      return;
+    }
+  }
+  const auto dispensable = [this](JobId id) {
+    const Record& record = records_.at(id);
+    return std::tuple(!record.lets_pass, record.own, id);
+  };
+  Record& last = records_.at(*std::ranges::max_element(ring, {}, dispensable));
   if (holds_reservation(last)) {
     last.fail_reason = Reason::deadlock;
     last.fail_detail.clear();

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+
+using Keys = std::vector<std::string>;
+
+// Sliders whose rails run from one corner of a polygon to the next, 2 m long: each stands at -1 m,
+// its own corner, and +1 m is the next one's. Two make a line with both arms on it. The arm "free"
+// slides far away.
+inline CellDescription polygon(int corners) {
+  CellDescription cell{.name = "polygon"};
+  const double turn = 2 * std::numbers::pi / corners;
+  const double apothem = corners == 2 ? 0.0 : 1.0 / std::tan(turn / 2);
+  for (int i = 0; i <= corners; ++i) {
+    const std::string name = i == corners ? "free" : std::string(1, static_cast<char>('a' + i));
+    RobotDescription robot{.name = name,
+                           .urdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.urdf",
+                           .srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.srdf",
+                           .prefix = name + "_"};
+    robot.X_WB.linear() = Eigen::AngleAxisd(turn * i, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    robot.X_WB.translation() = robot.X_WB.linear() * Eigen::Vector3d(0, -apothem, 0);
+    if (i == corners) robot.X_WB.translation() = Eigen::Vector3d(0, 10, 0);
+    ArmDescription arm{.name = name, .group = "axis", .home = {-1.0}, .limits = {}};
+    arm.limits["slide"].acceleration = 20.0;
+    robot.arms.push_back(std::move(arm));
+    cell.robots.push_back(std::move(robot));
+  }
+  cell.checking.time_step = 10ms;
+  return cell;
+}
+
+// When the job was first told to be in a deadlock, and its ring then.
+struct Told {
+  TimePoint when;
+  Keys ring;
+};
+inline std::optional<Told> deadlock_of(const Crossing& cell, const std::string& key) {
+  for (const Event& event : cell.log.events) {
+    const auto* job = std::get_if<JobView>(&event.body);
+    if (job && job->key == key && !job->ring.empty()) return Told{event.time, job->ring};
+  }
+  return std::nullopt;
+}
+
+}  // namespace armloom
