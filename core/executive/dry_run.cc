@@ -92,17 +92,23 @@ class Plan final : public JobNames {
 
 JobId id_of(std::size_t index) { return JobId{index + 1}; }
 
-// What `index` finds at its start; `begun`: indices of those that have begun, in order of starts.
-Question question_for(const Plan& plan, std::size_t index, const std::vector<std::size_t>& begun,
-                      const Cell& cell, const Policy& policy) {
-  const Planned& job = plan.jobs()[index];
+// What the first of the group finds at its start; `begun`: indices of those that have begun, in
+// order of starts.
+Question question_for(const Plan& plan, const std::vector<std::size_t>& group,
+                      const std::vector<std::size_t>& begun, const Cell& cell,
+                      const Policy& policy) {
+  const Planned& job = plan.jobs()[group.front()];
   Question question{.version = 1,
                     .start_at = job.starts,
-                    .candidates = {Motion{id_of(index), job.trajectory, Duration{}}},
+                    .candidates = {},
                     .others = {},
                     .rest = cell.home(),
                     .method = policy.method(),
                     .find_earliest = true};
+  for (std::size_t candidate : group) {
+    question.candidates.push_back(
+        Motion{id_of(candidate), plan.jobs()[candidate].trajectory, Duration{}});
+  }
   for (std::size_t other : begun) {
     const Planned& earlier = plan.jobs()[other];
     if (earlier.ends() <= job.starts) {
@@ -126,34 +132,74 @@ std::optional<JobId> capacity(const Question& question, const Policy& policy) {
   return policy.capacity_taken_by(pointers);
 }
 
-// Where passing orders decide: beside everything that has begun and whose authority reaches to
-// where it may come next.
-Verdict weighed(const Question& question, const Policy& policy, const Cell& cell, Verdict verdict) {
-  if (!policy.coordinates()) return verdict;
-  const auto coordinated = [](const Motion& motion) {
-    return CoordinatedMotion{.job = motion.job,
-                             .arms = motion.trajectory->arms(),
-                             .duration = motion.trajectory->duration(),
-                             .progress = motion.progress,
-                             .authority = motion.progress};
+// Beside everything that has begun and whose authority reaches to where it may come next.
+PassingOrders orders_for(const Question& question, const Cell& cell, const Verdict& verdict) {
+  const auto coordinated = [](const std::vector<Motion>& motions) {
+    std::vector<CoordinatedMotion> result;
+    for (const Motion& motion : motions) {
+      result.push_back({.job = motion.job,
+                        .arms = motion.trajectory->arms(),
+                        .duration = motion.trajectory->duration(),
+                        .progress = motion.progress,
+                        .authority = motion.progress});
+    }
+    return result;
   };
-  std::vector<CoordinatedMotion> begun;
-  for (const Motion& motion : question.others) begun.push_back(coordinated(motion));
   const std::vector<Duration> no_work(cell.arms.size());
-  const PassingOrders orders = find_passing_orders(
-      begun, {}, {coordinated(question.candidates.front())}, verdict.regions, no_work);
-  return as_verdict(orders, std::move(verdict));
+  return find_passing_orders(coordinated(question.others), {}, coordinated(question.candidates),
+                             verdict.regions, no_work);
 }
 
-CheckView judged(const Question& question, const Plan& plan, const Cell& cell, const Policy& policy,
-                 Arbiter& arbiter) {
+// Of the arms in the way the first job each that has not begun: it would move them away.
+std::vector<std::size_t> with_next_jobs(std::vector<std::size_t> group, const Plan& plan,
+                                        const std::vector<std::size_t>& begun,
+                                        const std::vector<ArmId>& in_the_way) {
+  const auto is_in = [](const std::vector<std::size_t>& jobs, std::size_t job) {
+    return std::ranges::find(jobs, job) != jobs.end();
+  };
+  for (ArmId arm : in_the_way) {
+    for (std::size_t next = 0; next < plan.jobs().size(); ++next) {
+      const auto& arms = plan.jobs()[next].trajectory->arms();
+      if (std::ranges::find(arms, arm) == arms.end()) continue;
+      if (is_in(begun, next) || is_in(group, next)) continue;
+      if (arms.size() == 1) group.push_back(next);
+      break;
+    }
+  }
+  return group;
+}
+
+// Where passing orders decide, as admission does: in conflict by itself, the job is tried together
+// with others.
+Verdict weighed(std::size_t index, const std::vector<std::size_t>& begun, const Plan& plan,
+                const Cell& cell, const Policy& policy, Arbiter& arbiter) {
+  std::vector<std::size_t> group{index};
+  std::optional<Verdict> alone;
+  for (;;) {
+    const Question question = question_for(plan, group, begun, cell, policy);
+    const Verdict answer = arbiter.judge(question);
+    if (!policy.coordinates()) return answer;
+    const PassingOrders orders = orders_for(question, cell, answer);
+    Verdict meant = as_verdict(orders, group.size(), answer);
+    if (meant.kind == Verdict::Kind::free) return meant;
+    if (!alone) alone = std::move(meant);
+    if (answer.kind != Verdict::Kind::free) return *alone;
+    const auto larger = with_next_jobs(group, plan, begun, orders.in_the_way);
+    if (larger.size() == group.size() || larger.size() > 2 * cell.arms.size()) return *alone;
+    group = larger;
+  }
+}
+
+CheckView judged(std::size_t index, const std::vector<std::size_t>& begun, const Plan& plan,
+                 const Cell& cell, const Policy& policy, Arbiter& arbiter) {
+  const Question question = question_for(plan, {index}, begun, cell, policy);
   CheckView view{.kind = Verdict::Kind::conflict, .scene_version = 1};
   if (const auto taken_by = capacity(question, policy)) {
     const Wait wait{.kind = Wait::Kind::capacity, .job = *taken_by};
     view.conflicts.push_back(view_of(wait, cell, plan));
     return view;
   }
-  const Verdict verdict = weighed(question, policy, cell, arbiter.judge(question));
+  const Verdict verdict = weighed(index, begun, plan, cell, policy, arbiter);
   view.kind = verdict.kind;
   view.clearance_bound_m = verdict.clearance_bound_m;
   view.evaluations = verdict.evaluations;
@@ -187,8 +233,7 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
     const Planned& job = plan.jobs()[index];
     checked[index].key = job.key;
     CheckView& view = checked[index].verdict;
-    view =
-        judged(question_for(plan, index, begun, *cell, **policy), plan, *cell, **policy, arbiter);
+    view = judged(index, begun, plan, *cell, **policy, arbiter);
     if (view.kind == Verdict::Kind::free && !view.earliest_start_s) {
       view.earliest_start_s = to_seconds(job.starts - job.asked);
     } else if (view.earliest_start_s) {  // counted from where it was judged

@@ -17,7 +17,8 @@ struct CheckedJob {
 // `after` have run to their ends; it is judged at that instant beside every other job that has
 // begun by then (of those that begin together: that stands before it), whatever the verdict on that
 // one was. So of each two that overlap the later one is judged against the earlier one.
-// `earliest_start_s` counts from the job's own time. In the order given.
+// Where the policy coordinates, a job that could not go for arms in its way is judged together with
+// their next jobs. `earliest_start_s` counts from the job's own time. In the order given.
 //
 // Problems: an unknown policy; what submit() would say, its pointers below "/<index>/job".
 [[nodiscard]] Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& policy,

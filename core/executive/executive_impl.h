@@ -102,6 +102,8 @@ class Executive::Impl final : public JobNames {
   Result<Prepared> prepare(JobRequest request, Ahead& ahead) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   JobView accept(Prepared prepared);
+  void judge_together(Question question, std::optional<Verdict> alone,
+                      std::function<void(Verdict)> done);
   void make_way(MoveAside aside);
   void remember_way_back(const MoveAside& aside);
   [[nodiscard]] Ahead ahead_now() const;

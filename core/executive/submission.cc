@@ -261,22 +261,38 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
     view.conflicts.push_back(view_of(wait, *cell_, *this));
   }
   if (!view.conflicts.empty()) return done(std::move(view));
-  Question question = scheduler_.hypothetical(std::move(prepared->trajectory), now_);
-  judges_.ask(question, scene_,
-              [this, view, question, done = std::move(done)](Verdict answer) mutable {
-                const Verdict verdict = scheduler_.meaning(question, std::move(answer));
-                view.kind = verdict.kind;
-                if (verdict.kind == Verdict::Kind::free) view.earliest_start_s = 0.0;
-                if (verdict.earliest_start) {
-                  view.earliest_start_s = to_seconds(*verdict.earliest_start);
-                }
-                view.clearance_bound_m = verdict.clearance_bound_m;
-                view.evaluations = verdict.evaluations;
-                for (const Conflict& conflict : verdict.conflicts) {
-                  view.conflicts.push_back(view_of(wait_for(conflict), *cell_, *this));
-                }
-                done(std::move(view));
-              });
+  judge_together(scheduler_.hypothetical(std::move(prepared->trajectory), now_), std::nullopt,
+                 [this, view = std::move(view), done = std::move(done)](Verdict verdict) mutable {
+                   view.kind = verdict.kind;
+                   if (verdict.kind == Verdict::Kind::free) view.earliest_start_s = 0.0;
+                   if (verdict.earliest_start) {
+                     view.earliest_start_s = to_seconds(*verdict.earliest_start);
+                   }
+                   view.clearance_bound_m = verdict.clearance_bound_m;
+                   view.evaluations = verdict.evaluations;
+                   for (const Conflict& conflict : verdict.conflicts) {
+                     view.conflicts.push_back(view_of(wait_for(conflict), *cell_, *this));
+                   }
+                   done(std::move(view));
+                 });
+}
+
+// As admission would: in conflict by itself, it is tried together with others. `alone` is what was
+// said of it by itself.
+void Executive::Impl::judge_together(Question question, std::optional<Verdict> alone,
+                                     std::function<void(Verdict)> done) {
+  judges_.ask(
+      question, scene_,
+      [this, question, alone = std::move(alone), done = std::move(done)](Verdict answer) mutable {
+        Verdict meant = scheduler_.meaning(question, answer);
+        if (meant.kind == Verdict::Kind::free) return done(std::move(meant));
+        if (!alone) alone = std::move(meant);
+        if (auto larger = scheduler_.together(question, answer)) {
+          judge_together(std::move(*larger), std::move(alone), std::move(done));
+        } else {
+          done(std::move(*alone));
+        }
+      });
 }
 
 Result<JobView> Executive::Impl::cancel(const std::string& key) {

@@ -63,12 +63,38 @@ void Scheduler::add_coordinated(Question& question, const std::vector<JobId>& ca
   }
 }
 
+PassingOrders Scheduler::orders_for(const Question& hypothetical, const Verdict& verdict) const {
+  std::vector<CoordinatedMotion> candidates;
+  for (const Motion& motion : hypothetical.candidates) {
+    const auto known = records_.find(motion.job);
+    candidates.push_back(known != records_.end()
+                             ? coordinated(known->second)
+                             : CoordinatedMotion{.job = motion.job,
+                                                 .arms = motion.trajectory->arms(),
+                                                 .duration = motion.trajectory->duration()});
+  }
+  return graph_->try_to_admit(candidates, verdict.regions);
+}
+
 Verdict Scheduler::meaning(const Question& hypothetical, Verdict verdict) const {
   if (!graph_) return verdict;
-  const Motion& motion = hypothetical.candidates.front();
-  const PassingOrders orders = graph_->try_to_admit(
-      {{motion.job, motion.trajectory->arms(), motion.trajectory->duration()}}, verdict.regions);
-  return as_verdict(orders, std::move(verdict));
+  const PassingOrders orders = orders_for(hypothetical, verdict);
+  return as_verdict(orders, hypothetical.candidates.size(), std::move(verdict));
+}
+
+std::optional<Question> Scheduler::together(const Question& hypothetical,
+                                            const Verdict& verdict) const {
+  if (!graph_ || hypothetical.version != version_) return std::nullopt;
+  if (verdict.kind != Verdict::Kind::free) return std::nullopt;
+  std::vector<JobId> group;
+  for (const Motion& motion : hypothetical.candidates) group.push_back(motion.job);
+  const auto larger = with_next_jobs(group, orders_for(hypothetical, verdict).in_the_way);
+  if (larger.size() == group.size()) return std::nullopt;
+  Question question = hypothetical;
+  for (std::size_t i = group.size(); i < larger.size(); ++i) {
+    question.candidates.push_back(motion_now(records_.at(larger[i])));
+  }
+  return question;
 }
 
 // ---- The answer ----

@@ -439,11 +439,12 @@ PassingOrders find_passing_orders(const std::vector<CoordinatedMotion>& admitted
   return Search(admitted, precedences, candidates, work_behind).run(regions);
 }
 
-Verdict as_verdict(const PassingOrders& orders, Verdict verdict) {
+Verdict as_verdict(const PassingOrders& orders, std::size_t candidates, Verdict verdict) {
   if (verdict.kind != Verdict::Kind::free) return verdict;
   verdict.regions.clear();
   if (orders.obstacles.empty()) {
-    verdict.earliest_start = orders.prediction.begins.back();
+    verdict.earliest_start =
+        *(orders.prediction.begins.end() - static_cast<std::ptrdiff_t>(candidates));
     return verdict;
   }
   verdict.kind = Verdict::Kind::conflict;

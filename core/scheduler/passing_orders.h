@@ -58,8 +58,9 @@ inline constexpr std::size_t kTriedInFull = 5;
     const std::vector<CoordinatedMotion>& candidates, const std::vector<PairRegions>& regions,
     const std::vector<Duration>& work_behind);  // by ArmId: of jobs that are in neither list
 
-// The same as an answer to clients: in conflict with the obstacles, or free to start when the
-// (single) candidate begins.
-[[nodiscard]] Verdict as_verdict(const PassingOrders& orders, Verdict verdict);
+// The same as an answer to clients about the first of so many candidates: in conflict with the
+// obstacles, or free to start when it begins.
+[[nodiscard]] Verdict as_verdict(const PassingOrders& orders, std::size_t candidates,
+                                 Verdict verdict);
 
 }  // namespace armloom

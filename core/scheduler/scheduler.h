@@ -90,6 +90,10 @@ class Scheduler {
   [[nodiscard]] Question hypothetical(TrajectoryPtr trajectory, TimePoint start_at) const;
   // What its answer means for the policy: whether and when the motion could start.
   [[nodiscard]] Verdict meaning(const Question& hypothetical, Verdict verdict) const;
+  // The question that would be asked next if that is a conflict, for it together with jobs that
+  // would move arms out of its way (policies that coordinate). Nothing: that is the last word.
+  [[nodiscard]] std::optional<Question> together(const Question& hypothetical,
+                                                 const Verdict& verdict) const;
   // What keeps a job with this motion from being judged now: its arms' queues and stops, capacity,
   // an aged job.
   [[nodiscard]] std::vector<Wait> waits_before(const Trajectory& trajectory) const;
@@ -126,7 +130,7 @@ class Scheduler {
     TimePoint plan_at{};
     std::map<ArmId, AsidesTried> asides_tried;  // of arms that could make way for it
     Duration horizon{};  // coordinated: how far ahead of its progress its authority may reach
-    bool own = false;                // Submit::own
+    bool own = false;    // Submit::own
     std::optional<JobId> before;     // Submit::before
     std::optional<JobId> lets_pass;  // Submit::lets_pass
   };
@@ -262,6 +266,8 @@ class Scheduler {
   void add_coordinated(Question& question, const std::vector<JobId>& candidates) const;
   void answer_coordinated(const Verdict& verdict, const OpenQuestion& question);
   [[nodiscard]] CoordinatedMotion coordinated(const Record& record) const;
+  [[nodiscard]] PassingOrders orders_for(const Question& hypothetical,
+                                         const Verdict& verdict) const;
   [[nodiscard]] bool leads_astray(const Verdict& verdict, const OpenQuestion& question,
                                   const PassingOrders& orders);
   [[nodiscard]] std::vector<JobId> work_to_come() const;

@@ -2,7 +2,8 @@
 // come after others.
 #include <gtest/gtest.h>
 
-#include "test/scenarios/crossing.h"
+#include "core/executive/dry_run.h"
+#include "test/scenarios/polygon.h"
 
 namespace armloom {
 namespace {
@@ -162,6 +163,59 @@ TEST(Check, AnswersWithEvidenceAndChangesNothing) {
   EXPECT_EQ(answer->conflicts.front().kind, Wait::Kind::order);
   EXPECT_EQ(cell.log.events.size(), events);
   EXPECT_EQ(cell.simulation->executive().snapshot().jobs.size(), 1u);
+}
+
+// Each of three arms would go where the next one stands: none can go alone, all can together.
+TEST(Check, UnderCoordinatedCountsOnJobsThatWouldGoTogetherWithIt) {
+  Crossing cell(polygon(3), "coordinated");
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.submit(slide("b", -1, 1, 4, "two"));
+  cell.run_until(at(1s));
+  ASSERT_EQ(cell.job("one").state, JobState::backlogged);
+  std::optional<CheckView> answer;
+  const auto keep = [&](Result<CheckView> view) {
+    ASSERT_TRUE(view);
+    answer = *view;
+  };
+  cell.simulation->executive().check(slide("c", -1, 1, 4), keep);
+  cell.run_until(at(1100ms));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->kind, Verdict::Kind::free);
+  cell.submit(slide("c", -1, 1, 4, "three"));
+  cell.run_to_the_end(at(20s));
+  for (const char* key : {"one", "two", "three"}) {
+    EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key;
+  }
+}
+
+TEST(Check, UnderCoordinatedSaysOfOneThatIsStillAloneWhatIsInItsWay) {
+  Crossing cell(polygon(3), "coordinated");
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.run_until(at(1s));
+  std::optional<CheckView> answer;
+  cell.simulation->executive().check(slide("c", -1, 1, 4),
+                                     [&](Result<CheckView> view) { answer = view.value(); });
+  cell.run_until(at(1100ms));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->kind, Verdict::Kind::conflict);
+  ASSERT_FALSE(answer->conflicts.empty());
+  EXPECT_EQ(answer->conflicts.front().arm, "a");
+}
+
+TEST(DryRun, UnderCoordinatedJobsThatGoTogetherAreFree) {
+  const auto cell = build_cell(polygon(3));
+  ASSERT_TRUE(cell);
+  const std::vector<TimedJob> jobs{{at(0s), slide("a", -1, 1, 4, "one")},
+                                   {at(0s), slide("b", -1, 1, 4, "two")},
+                                   {at(0s), slide("c", -1, 1, 4, "three")}};
+  const auto together = check_jobs(*cell, "coordinated", jobs);
+  ASSERT_TRUE(together);
+  for (const CheckedJob& job : *together) {
+    EXPECT_EQ(job.verdict.kind, Verdict::Kind::free) << job.key;
+  }
+  const auto alone = check_jobs(*cell, "coordinated", {jobs.front()});
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(alone->front().verdict.kind, Verdict::Kind::conflict);
 }
 
 TEST(Synchronous, ArmsOfOneTrajectoryStartAndEndTogether) {
