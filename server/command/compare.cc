@@ -57,16 +57,6 @@ std::vector<Duration> work_done(const SimulationResult& result, const Cell& cell
   return work;
 }
 
-// Each job that did not succeed, on stderr: the table only counts them.
-void complain_of_ends(const SimulationResult& result, const std::string& policy) {
-  for (const JobView& job : result.jobs) {
-    if (job.state == JobState::succeeded) continue;
-    std::cerr << "armloom: " << policy << ": job " << job.key << " "
-              << (is_terminal(job.state) ? "" : "did not end, it is ") << to_string(job.state)
-              << (job.detail.empty() ? "" : ": " + job.detail) << '\n';
-  }
-}
-
 Result<ComparedRun> run(const std::string& policy, const CellPtr& cell, const JobsFile& file,
                         const CompareOptions& options) {
   ExecutiveOptions executive_options;

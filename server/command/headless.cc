@@ -1,6 +1,7 @@
 #include "server/command/headless.h"
 
 #include <algorithm>
+#include <iostream>
 #include <set>
 
 #include "core/trajectory/validate.h"
@@ -31,6 +32,17 @@ Problems read_trajectories(JobsFile& file, const Cell& cell) {
     }
   }
   return faults;
+}
+
+// ", waits for arm right"
+std::string waits_for(const WaitView& wait) {
+  std::string text = std::string(", waits for ") + to_string(wait.kind);
+  const bool names_arm = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::stop;
+  const std::string& name = names_arm ? wait.arm : wait.job;
+  if (!name.empty()) text += " " + name;
+  if (wait.kind == Wait::Kind::object && wait.links.size() == 2) text += " " + wait.links[1];
+  if (!wait.detail.empty()) text += " (" + wait.detail + ")";
+  return text;
 }
 
 }  // namespace
@@ -86,6 +98,18 @@ void complain_of_refusals(const SimulationResult& result, const std::string& job
       if (!under.empty()) problem.detail += " (under " + under + ")";
       complain(jobs_file, {problem});
     }
+  }
+}
+
+void complain_of_ends(const SimulationResult& result, const std::string& under) {
+  for (const JobView& job : result.jobs) {
+    if (job.state == JobState::succeeded) continue;
+    std::string said = is_terminal(job.state) ? "" : "did not end, it is ";
+    said += to_string(job.state);
+    if (!job.detail.empty()) said += ": " + job.detail;
+    for (const WaitView& wait : job.waits_on) said += waits_for(wait);
+    std::cerr << "armloom: " << (under.empty() ? "" : under + ": ") << "job " << job.key << " "
+              << said << '\n';
   }
 }
 

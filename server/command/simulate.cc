@@ -105,6 +105,7 @@ int simulate_jobs(const SimulateOptions& options) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
 
   complain_of_refusals(*result, options.jobs_file);
+  complain_of_ends(*result);
   if (recording != nullptr && !recording->good()) {
     return refuse("", {Problem{ProblemKind::unavailable, "cannot-write", "--out",
                                "the recording could not be written whole", options.out}});
