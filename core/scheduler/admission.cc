@@ -432,11 +432,19 @@ void Scheduler::admit(Record& record, TimePoint start_at) {
   if (start_at <= now_ + std::max(kDispatchAhead, allowance_)) dispatch(record);
 }
 
-// Later than this, going on from `start_at`, it overruns.
+// Later than this, going on from `start_at`, it may overrun.
 void Scheduler::expect_end(Record& record, TimePoint start_at) const {
   const double remaining_s = to_seconds(record.job.trajectory->duration() - record.job.progress);
   record.overrun_at = start_at + from_seconds(remaining_s * cell_->execution.duration_scaling) +
                       cell_->execution.duration_margin;
+  record.moved_at = start_at;
+}
+
+// Its time has passed, and it stands still.
+bool Scheduler::overruns(Record& record) const {
+  if (!record.overrun_at || now_ < *record.overrun_at || record.job.stopping) return false;
+  record.overrun_at = std::max(*record.overrun_at, record.moved_at + kStandstill);
+  return now_ >= *record.overrun_at;
 }
 
 void Scheduler::dispatch(Record& record) {

@@ -54,7 +54,7 @@ enum class Reason {
   self_collision,      // the arm would hit itself: it can never run
   predecessor_failed,  // a job named in `after` ended without success
   arm_fault,
-  overrun,  // took longer than execution.duration_scaling and _margin allow
+  overrun,  // took longer than execution.duration_scaling and _margin allow, and stands still
   server_restart,
   deadlock,  // it waited in a ring of jobs none of which could ever move, and came last
 };

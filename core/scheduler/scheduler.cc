@@ -155,6 +155,7 @@ void Scheduler::on(const MotionReport& input) {
   Record& record = it->second;
   const Duration before = std::exchange(record.job.progress, input.progress);
   record.job.progress_seen_at = now_;
+  if (input.progress > before) record.moved_at = now_;
   if (graph_) {
     graph_->progress(record.job.id, input.progress);
     see_pauses(record, before);
@@ -376,9 +377,10 @@ void Scheduler::expire_and_overrun() {
     if (backlogged && now_ >= *job.backlogged_at + job.backlog_timeout) {
       end(record, JobState::expired, Reason::backlog_timeout,
           "waited " + seconds_text(job.backlog_timeout) + " in the backlog");
-    } else if (record.overrun_at && now_ >= *record.overrun_at && !job.stopping) {
+    } else if (overruns(record)) {
       record.fail_reason = Reason::overrun;
-      record.fail_detail = "still moving after duration_scaling and duration_margin";
+      record.fail_detail = "has not moved for " + seconds_text(now_ - record.moved_at) +
+                           ", and has had its duration by duration_scaling and duration_margin";
       brake(record, AfterStop::fail);
     } else if (!graph_ && has_not_begun(record) && loses_time(record)) {
       job.progress_seen_at = now_;  // nothing is heard of an arm that does not move

@@ -34,6 +34,11 @@ inline constexpr Duration kForwardMin = std::chrono::milliseconds(50);
 // A late arm that keeps up with the clock for this long is late no more.
 inline constexpr Duration kOnTimeAgain = std::chrono::milliseconds(200);
 
+// A motion that takes longer than execution.duration_scaling and _margin allow overruns only when
+// it has not moved for this long: one that is slow or late comes to its end, and to end it earlier
+// would free nobody's way.
+inline constexpr Duration kStandstill = std::chrono::seconds(10);
+
 // What a conflict makes a job wait for.
 [[nodiscard]] Wait wait_for(const Conflict& conflict);
 
@@ -123,7 +128,8 @@ class Scheduler {
     std::optional<TimePoint> ages_from;  // first in conflict, or first without a place
     Version checked_at = 0;              // in motion: the version on which it was last found free
     Duration from_progress{};            // where the present dispatch begins
-    std::optional<TimePoint> overrun_at;
+    std::optional<TimePoint> overrun_at;  // if it does not move before
+    TimePoint moved_at{};                 // last
     bool dispatched = false;    // the arms have the motion; else it is scheduled at most
     Version forward_tried = 0;  // scheduled: the version on which an earlier start was sought
     Duration plan_progress{};   // progress at plan_at: from there it should advance with the clock
@@ -223,6 +229,7 @@ class Scheduler {
   void add_others(Question& question, const std::vector<JobId>& candidates) const;
   void admit(Record& record, TimePoint start_at);
   void expect_end(Record& record, TimePoint start_at) const;
+  [[nodiscard]] bool overruns(Record& record) const;
   void refuse(Record& record, const Verdict& verdict, bool recheck);
   void put_off(Record& record, std::vector<Wait> waits);
 

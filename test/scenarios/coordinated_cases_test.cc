@@ -11,14 +11,8 @@ struct Coordinated : ::testing::Test {
   double position(std::size_t arm) const { return cell.log.last[static_cast<Eigen::Index>(arm)]; }
 };
 
-CellDescription patient() {
-  CellDescription cell = crossing_description();
-  cell.execution.duration_margin = 60s;
-  return cell;
-}
-
 TEST(CoordinatedLate, GoesAsFarAsItMayAndPausesThere) {
-  Crossing cell(patient(), "coordinated");
+  Crossing cell(crossing_description(), "coordinated");
   ASSERT_TRUE(cell.simulation->executive().inject(
       {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1800ms), .lasting = 3s}));
   cell.submit(slide("x", -1, 1, 4, "first"));
@@ -51,7 +45,7 @@ TEST_F(Coordinated, LetsAShortOnePassBeforeALongOneThatIsStillFar) {
 
 // T5: the leader stalls in the crossing; who follows stays before it for as long as that takes.
 TEST(CoordinatedLate, WaitsForALeaderThatStalls) {
-  Crossing cell(patient(), "coordinated");
+  Crossing cell(crossing_description(), "coordinated");
   ASSERT_TRUE(cell.simulation->executive().inject(
       {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1900ms), .lasting = 6s}));
   cell.submit(slide("x", -1, 1, 4, "stalls"));

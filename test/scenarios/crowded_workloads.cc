@@ -304,7 +304,6 @@ CellDescription CrowdedWorkload::cell() const {
     robot.arms.push_back(std::move(arm));
     cell.robots.push_back(std::move(robot));
   }
-  cell.execution.duration_margin = 60s;
   cell.scheduling.backlog_timeout = 60s;
   return cell;
 }

@@ -8,12 +8,6 @@ namespace {
 
 double seconds(const std::optional<TimePoint>& time) { return to_seconds(*time); }
 
-CellDescription patient_crossing() {
-  CellDescription description = crossing_description();
-  description.execution.duration_margin = 60s;  // late arms are not failed for it
-  return description;
-}
-
 TEST(EarliestStart, CrossingJobsEndSoonerThanWhenOneWaitsForTheOthersEnd) {
   struct Run {
     double end_s, start_s, closest_m;
@@ -77,7 +71,7 @@ TEST_P(Policies, T5ALateStartAndASlowArmTouchNobodyAndEveryJobSucceeds) {
           FaultRequest{.arm = "x", .kind = ArmFault::Kind::slow, .value = 0.3}}) {
       SCOPED_TRACE(std::to_string(to_seconds(when)) + " s, " +
                    (fault.kind == ArmFault::Kind::slow ? "slow" : "late"));
-      Crossing cell(patient_crossing(), GetParam());
+      Crossing cell(crossing_description(), GetParam());
       ASSERT_TRUE(cell.simulation->executive().inject(fault));
       cell.submit(slide("x", -1, 1, 4, "off its plan"));
       cell.run_until(at(when));

@@ -48,7 +48,6 @@ struct Stock {
 Stock stock(const std::string& name) {
   CellDescription description =
       *read_cell_text(text_of(name + ".json"), ARMLOOM_SOURCE_DIR "/config");
-  description.execution.duration_margin = 300s;
   description.scheduling.backlog_timeout = 300s;
   Stock read{*build_cell(description), {}};
   std::map<std::string, std::vector<JobRequest>> chains;

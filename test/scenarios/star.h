@@ -21,7 +21,6 @@ inline CellDescription star(std::size_t arms) {
     robot.X_WB.linear() = Eigen::AngleAxisd(turned, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     cell.robots.push_back(std::move(robot));
   }
-  cell.execution.duration_margin = 300s;
   cell.scheduling.backlog_timeout = 300s;
   return cell;
 }

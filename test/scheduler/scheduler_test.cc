@@ -244,19 +244,47 @@ TEST(Synchronous, AJobOfTwoArmsWaitsForBothQueues) {
   EXPECT_EQ(bench.job(b).waits_on.front().job, both);
 }
 
-TEST(Overrun, BrakesAndFailsAfterScalingAndMargin) {
+TEST(Overrun, OfAMotionThatStandsStillEndsIt) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
   bench.progressed(job, 0ms, at(3ms));
-  const TimePoint limit = at(3ms + 2200ms + 500ms);
-  bench.step(Wake{}, limit - 1ms);
+  bench.progressed(job, 500ms, at(503ms));
+  bench.progressed(job, 500ms, at(5s));
+  bench.step(Wake{}, at(503ms + kStandstill) - 1ms);
   EXPECT_TRUE(bench.braked.empty());
-  bench.step(Wake{}, limit);
+  ASSERT_TRUE(bench.wake_at);
+  EXPECT_EQ(*bench.wake_at, at(503ms + kStandstill));
+  bench.step(Wake{}, *bench.wake_at);
   EXPECT_THAT(bench.braked, ElementsAre(job));
-  bench.stopped(job, 1500ms, limit + 100ms);
+  bench.stopped(job, 500ms, at(11s));
   EXPECT_EQ(bench.state(job), JobState::failed);
   EXPECT_EQ(bench.job(job).reason, Reason::overrun);
+}
+
+TEST(Overrun, IsNoneWhileItMovesHoweverSlowly) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  for (int s = 0; s < 100; s += 9) {
+    bench.progressed(job, s * 20ms, at(3ms + s * 1s));
+    bench.step(Wake{}, at(4ms + s * 1s));
+  }
+  EXPECT_TRUE(bench.braked.empty());
+  bench.finished(job, at(100s));
+  EXPECT_EQ(bench.state(job), JobState::succeeded);
+}
+
+TEST(Overrun, LeavesALongMotionItsTimeAlthoughItStandsStill) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 20s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(job, 0ms, at(3ms));
+  bench.progressed(job, 1s, at(1003ms));
+  bench.step(Wake{}, at(3ms + 22s + 500ms) - 1ms);
+  EXPECT_TRUE(bench.braked.empty());
+  bench.step(Wake{}, at(3ms + 22s + 500ms));
+  EXPECT_THAT(bench.braked, ElementsAre(job));
 }
 
 TEST(Scheduler, RefusesTimeThatGoesBackwards) {
