@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <iterator>
 #include <utility>
 
 #include "core/scheduler/scheduler.h"
@@ -46,28 +45,6 @@ bool Scheduler::holds_reservation(const Record& record) const {
   const JobState state = record.job.state;
   return state == JobState::scheduled || state == JobState::running ||
          (state == JobState::holding && record.job.stopping);
-}
-
-// All that is active in an order that is every arm's: by submission, but for those that took their
-// places before others.
-std::vector<JobId> Scheduler::in_turn() const {
-  std::vector<JobId> jobs;
-  jobs.reserve(active_.size());
-  for (JobId id : active_) {
-    const auto& before = records_.at(id).before;
-    if (before && active_.contains(*before)) continue;
-    if (const auto placed = placed_before_.find(id); placed != placed_before_.end()) {
-      std::ranges::copy_if(placed->second, std::back_inserter(jobs),
-                           [this](JobId own) { return active_.contains(own); });
-    }
-    jobs.push_back(id);
-  }
-  return jobs;
-}
-
-bool Scheduler::lets_another_pass(const Record& record) const {
-  return record.lets_pass && active_.contains(*record.lets_pass) &&
-         waiting(records_.at(*record.lets_pass));
 }
 
 bool Scheduler::at_head(const Record& record) const {

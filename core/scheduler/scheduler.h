@@ -123,14 +123,14 @@ class Scheduler {
     AfterStop after_stop = AfterStop::hold;
     Reason fail_reason = Reason::overrun;  // with AfterStop::fail
     std::string fail_detail;
-    Version judged_at = 0;               // the version on which it was last found in conflict
-    std::vector<Wait> found;             // with what
-    std::optional<TimePoint> ages_from;  // first in conflict, or first without a place
-    Version checked_at = 0;              // in motion: the version on which it was last found free
-    Duration from_progress{};            // where the present dispatch begins
+    Version judged_at = 0;                // the version on which it was last found in conflict
+    std::vector<Wait> found;              // with what
+    std::optional<TimePoint> ages_from;   // first in conflict, or first without a place
+    Version checked_at = 0;               // in motion: the version on which it was last found free
+    Duration from_progress{};             // where the present dispatch begins
     std::optional<TimePoint> overrun_at;  // if it does not move before
     TimePoint moved_at{};                 // last
-    bool dispatched = false;    // the arms have the motion; else it is scheduled at most
+    bool dispatched = false;              // the arms have the motion; else it is scheduled at most
     Version forward_tried = 0;  // scheduled: the version on which an earlier start was sought
     Duration plan_progress{};   // progress at plan_at: from there it should advance with the clock
     TimePoint plan_at{};
@@ -234,6 +234,8 @@ class Scheduler {
   void put_off(Record& record, std::vector<Wait> waits);
 
   // turns.cc: whose turn it is among waiting jobs
+  [[nodiscard]] std::vector<JobId> in_turn() const;  // active, each after those before it
+  [[nodiscard]] bool lets_another_pass(const Record& record) const;
   [[nodiscard]] WaitsFor waits_for() const;
   [[nodiscard]] std::optional<JobId> has_to_move_first(const Record& record,
                                                        const Wait& wait) const;
@@ -251,9 +253,7 @@ class Scheduler {
 
   [[nodiscard]] std::vector<const Job*> occupying() const;  // scheduled, in motion, held
   [[nodiscard]] static Duration progress_at(const Record& record, TimePoint when);
-  [[nodiscard]] std::vector<JobId> in_turn() const;  // active, each after those before it
   [[nodiscard]] bool at_head(const Record& record) const;
-  [[nodiscard]] bool lets_another_pass(const Record& record) const;
   [[nodiscard]] bool holds_reservation(const Record& record) const;
   [[nodiscard]] static bool waiting(const Record& record);
   void set_waits(Record& record, std::vector<Wait> waits);

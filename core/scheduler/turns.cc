@@ -1,5 +1,6 @@
 // Whose turn it is among the jobs that wait: aging, priorities without inversion, deadlocks.
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -8,6 +9,28 @@
 #include "core/scheduler/scheduler.h"
 
 namespace armloom {
+
+// All that is active in an order that is every arm's: by submission, but for those that took their
+// places before others.
+std::vector<JobId> Scheduler::in_turn() const {
+  std::vector<JobId> jobs;
+  jobs.reserve(active_.size());
+  for (JobId id : active_) {
+    const auto& before = records_.at(id).before;
+    if (before && active_.contains(*before)) continue;
+    if (const auto placed = placed_before_.find(id); placed != placed_before_.end()) {
+      std::ranges::copy_if(placed->second, std::back_inserter(jobs),
+                           [this](JobId own) { return active_.contains(own); });
+    }
+    jobs.push_back(id);
+  }
+  return jobs;
+}
+
+bool Scheduler::lets_another_pass(const Record& record) const {
+  return record.lets_pass && active_.contains(*record.lets_pass) &&
+         waiting(records_.at(*record.lets_pass));
+}
 
 // Edges from judgements count on the version that was judged only. What is undecided is no proof,
 // and two that are held may go on together though neither can alone.
