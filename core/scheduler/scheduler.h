@@ -126,7 +126,7 @@ class Scheduler {
     TimePoint plan_at{};
     std::map<ArmId, AsidesTried> asides_tried;  // of arms that could make way for it
     Duration horizon{};  // coordinated: how far ahead of its progress its authority may reach
-    bool own = false;                // Submit::own
+    bool own = false;    // Submit::own
     std::optional<JobId> before;     // Submit::before
     std::optional<JobId> lets_pass;  // Submit::lets_pass
   };
@@ -235,6 +235,7 @@ class Scheduler {
   void name_deadlocks();
   void settle_deadlocks();
   [[nodiscard]] bool stands(const NamedRing& named) const;
+  [[nodiscard]] bool is_counted_on(const Record& own) const;
   void resolve(const Ring& ring);
   void untell(const Ring& ring);
 

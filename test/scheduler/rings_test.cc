@@ -322,5 +322,39 @@ TEST(RingUnderPark, WithAReturnInItTheReturnWaitsNoMoreForTheOther) {
   EXPECT_EQ(bench.question->candidates.front().job, bench.back);
 }
 
+// It lets nobody pass any more, but a client's job counts on it all the same.
+TEST(RingUnderPark, ThatClosesAgainWithTheReturnFailsTheOtherAndNotTheReturn) {
+  Parking bench;
+  bench.go_aside();
+  bench.answer_conflict(at(2001ms), Conflict::With::rest, {}, ArmId{1});
+  bench.step(Wake{}, at(2002ms));
+  bench.answer_conflict(at(2003ms), Conflict::With::rest, {}, ArmId{0});
+  EXPECT_THAT(bench.job(bench.back).ring, ElementsAre(bench.back, bench.a));
+  bench.step(Wake{}, at(2004ms));
+  EXPECT_EQ(bench.job(bench.a).reason, Reason::deadlock);
+  EXPECT_EQ(bench.state(bench.back), JobState::backlogged);
+  EXPECT_FALSE(is_terminal(bench.state(bench.b)));
+}
+
+// A client's job has been sent for where the arm will stand.
+TEST(RingUnderPark, WithAMoveAsideThatAClientCountsOnFailsTheOther) {
+  Bench bench(one_joint_arms_that_park(2), "certified");
+  const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
+  bench.answer_free(at(2ms));  // the way
+  bench.answer_free(at(3ms));  // the passing
+  ASSERT_EQ(bench.asides.size(), 1u);
+  const TrajectoryPtr aside = bench.asides[0].trajectory;
+  const JobId way = bench.submit(
+      Submit{.job = a, .trajectory = aside, .backlog_timeout = 60s, .own = true}, at(3ms));
+  const JobId counts = bench.submit(move({1}, -1, 0.5, 2s), at(3ms));
+  bench.answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{0});
+  EXPECT_THAT(bench.job(a).ring, ElementsAre(a, way));
+  bench.step(Wake{}, at(5ms));
+  EXPECT_EQ(bench.job(a).reason, Reason::deadlock);
+  EXPECT_EQ(bench.state(way), JobState::backlogged);
+  EXPECT_FALSE(is_terminal(bench.state(counts)));
+}
+
 }  // namespace
 }  // namespace armloom
