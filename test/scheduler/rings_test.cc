@@ -356,5 +356,65 @@ TEST(RingUnderPark, WithAMoveAsideThatAClientCountsOnFailsTheOther) {
   EXPECT_FALSE(is_terminal(bench.state(counts)));
 }
 
+// ---- What is asked of arms has an end ----
+
+// Arm 1 goes aside for a, and for its sake arm 2.
+struct Chain : Bench {
+  Chain() : Bench(one_joint_arms_that_park(3), "certified") {
+    a = submit(move({0}, 0, 1, 2s), at(0ms));
+    answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
+    answer_free(at(2ms));  // the way
+    answer_free(at(3ms));  // the passing
+    way = submit(Submit{.job = a,
+                        .trajectory = asides.at(0).trajectory,
+                        .backlog_timeout = 60s,
+                        .own = true,
+                        .helps = a},
+                 at(3ms));
+    answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{2});
+  }
+  // Whether arm 2 is asked about.
+  bool asks_for_arm_2() const {
+    return question && question->candidates.front().job == JobId{0} &&
+           question->candidates.front().trajectory->arms() == std::vector{ArmId{2}};
+  }
+  JobId a{0}, way{0};
+};
+
+TEST(MovingAside, ForWhatHelpsAJobEndsWithThatJob) {
+  Chain bench;
+  ASSERT_TRUE(bench.asks_for_arm_2());
+  bench.step(Cancel{bench.a}, at(5ms));
+  bench.answer_free(at(6ms));  // stale
+  ASSERT_EQ(bench.question->candidates.front().job, bench.way);
+  bench.answer_conflict(at(7ms), Conflict::With::rest, {}, ArmId{2});
+  EXPECT_FALSE(bench.question);
+  EXPECT_EQ(bench.state(bench.way), JobState::backlogged);
+}
+
+// Every other job that helps a finds arm 2 asked before.
+TEST(MovingAside, ForWhatHelpsAJobCountsAsForThatJob) {
+  Chain bench;
+  int asked = 0;
+  for (Duration now = 10ms; now < 1s; now += 10ms) {
+    if (bench.asks_for_arm_2()) {
+      ++asked;
+      bench.answer_conflict(at(now), Conflict::With::scene);
+    } else if (bench.question) {
+      const bool is_a = bench.question->candidates.front().job == bench.a;
+      bench.answer_conflict(at(now), Conflict::With::rest, {}, ArmId{is_a ? 1u : 2u});
+    } else {  // the same again
+      bench.step(Cancel{bench.way}, at(now));
+      bench.way = bench.submit(Submit{.job = bench.a,
+                                      .trajectory = bench.asides.at(0).trajectory,
+                                      .backlog_timeout = 60s,
+                                      .own = true,
+                                      .helps = bench.a},
+                               at(now));
+    }
+  }
+  EXPECT_EQ(asked, 8);
+}
+
 }  // namespace
 }  // namespace armloom
