@@ -90,6 +90,7 @@ class Executive::Impl final : public JobNames {
     std::vector<std::string> after;
     std::vector<TrajectoryPtr> returns;   // of its arms, to where their clients left them
     bool own = false;                     // Submit::own
+    std::optional<JobId> helps = {};      // Submit::helps
     std::optional<JobId> before = {};     // Submit::before
     std::optional<JobId> lets_pass = {};  // Submit::lets_pass
   };

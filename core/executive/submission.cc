@@ -190,6 +190,7 @@ JobView Executive::Impl::accept(Prepared prepared) {
               .backlog_timeout = prepared.backlog_timeout,
               .after = std::move(after),
               .own = prepared.own,
+              .helps = prepared.helps,
               .before = prepared.before,
               .lets_pass = prepared.lets_pass});
   return view_of(*scheduler_.find(id), *cell_, *this);
@@ -199,6 +200,7 @@ void Executive::Impl::make_way(MoveAside aside) {
   const Job& job = *scheduler_.find(aside.way_of);
   const std::string arm = cell_->arm(aside.arm).name;
   Prepared way = own_job(aside.trajectory, arm + " moves aside for " + key(job.id), job.priority);
+  way.helps = aside.way_of;
   if (!aside.before) {
     remember_way_back(aside);
     (void)accept(std::move(way));
@@ -211,6 +213,7 @@ void Executive::Impl::make_way(MoveAside aside) {
   back.after = {goes.key};
   back.before = aside.before;
   back.lets_pass = aside.way_of;
+  back.helps = aside.before;
   (void)accept(std::move(back));
 }
 

@@ -24,6 +24,8 @@ struct Submit {
   Duration backlog_timeout;
   std::vector<JobId> after = {};  // active jobs that have to succeed first; smaller ids than `job`
   bool own = false;  // the caller's, for a MoveAside: in a ring it gives way to jobs of clients
+  // For a MoveAside: the job that it is to help. What goes aside for this one, goes for that.
+  std::optional<JobId> helps = {};
   // For a MoveAside of an arm that has jobs: it takes its place before this one of its arm ...
   std::optional<JobId> before = {};
   // ... and does not begin while this one waits.

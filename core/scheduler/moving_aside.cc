@@ -8,7 +8,7 @@
 namespace armloom {
 namespace {
 
-// Ways that are tried for one job and one arm, lest they go to and fro for ever.
+// Ways that are tried for one job of a client and one arm, lest arms go to and fro for ever.
 constexpr std::size_t kAsidesMax = 8;
 
 }  // namespace
@@ -61,14 +61,18 @@ std::optional<Scheduler::Aside> Scheduler::aside_in(const Ring& ring) const {
   return std::nullopt;
 }
 
-// A way aside of this arm that has not been tried for the job.
+// A way aside of this arm that has not been tried for the job. Nobody makes way any more for what
+// was to help a job that has ended.
 std::optional<Scheduler::Aside> Scheduler::untried(const Record& record, ArmId arm) const {
   if (cell_->scheduling.on_idle_blocker != "park" || stopped_[arm.index()]) return std::nullopt;
   const TrajectoryPtr& came_by = came_by_[arm.index()];
   const auto found = record.asides_tried.find(arm);
   const AsidesTried tried = found == record.asides_tried.end() ? AsidesTried{} : found->second;
   const std::size_t next = tried.from == came_by ? tried.next : 0;
-  if (tried.total >= kAsidesMax) return std::nullopt;
+  if (!active_.contains(record.helps)) return std::nullopt;
+  const auto& of_all = records_.at(record.helps).asides_tried;
+  const auto all = of_all.find(arm);
+  if (all != of_all.end() && all->second.total >= kAsidesMax) return std::nullopt;
   const auto ways = ways_aside(*cell_, arm, rest_, came_by);
   if (next >= ways.size()) return std::nullopt;
   return Aside{.way_of = record.job.id, .arm = arm, .way = ways[next]};
@@ -111,7 +115,8 @@ void Scheduler::answer_aside(const Verdict& verdict, Aside aside) {
   if (tried.from != came_by) tried.next = 0;
   tried.from = came_by;
   ++tried.next;
-  ++tried.total;
+  const JobId helped = records_.at(aside.way_of).helps;
+  if (active_.contains(helped)) ++records_.at(helped).asides_tried[aside.arm].total;
   if (passes) move_aside(aside);
 }
 

@@ -124,7 +124,7 @@ class Search {
     Decision decision{.a = a, .b = b, .region = precedence.region()};
     for (const ProgressBox& box : decision.region.boxes) {
       if (is_behind(motions_[b], box.to_b)) continue;
-      if (reaches(a, box.from_a) || blocks_end(b, box.to_b)) decision.b_may = false;
+      if (reaches(a, box.from_a, b) || blocks_end(b, box.to_b, a)) decision.b_may = false;
     }
     if (motions_[a].keeps_its_place && !motions_[b].keeps_its_place) decision.b_may = false;
     decisions_.push_back(std::move(decision));
@@ -137,10 +137,10 @@ class Search {
     });
     if (decision.region.boxes.empty()) return;
     for (const ProgressBox& box : decision.region.boxes) {
-      if (reaches(b, box.from_b) || blocks_end(a, box.to_a)) decision.a_may = false;
-      if (reaches(a, box.from_a) || blocks_end(b, box.to_b)) decision.b_may = false;
-      if (blocks_end(a, box.to_a)) note_in_the_way(a);
-      if (blocks_end(b, box.to_b)) note_in_the_way(b);
+      if (reaches(b, box.from_b, a) || blocks_end(a, box.to_a, b)) decision.a_may = false;
+      if (reaches(a, box.from_a, b) || blocks_end(b, box.to_b, a)) decision.b_may = false;
+      if (blocks_end(a, box.to_a, b)) note_in_the_way(a);
+      if (blocks_end(b, box.to_b, a)) note_in_the_way(b);
     }
     if (decision.a_may && decision.b_may) {
       if (motions_[a].keeps_its_place && !motions_[b].keeps_its_place) decision.b_may = false;
@@ -152,14 +152,29 @@ class Search {
   static bool is_behind(const CoordinatedMotion& motion, Duration to) {
     return to < motion.progress && to < motion.duration;
   }
-  // It has, or may have, entered what begins at `from`.
-  [[nodiscard]] bool reaches(std::size_t m, Duration from) const {
-    return from < motions_[m].authority ||
-           (from <= Duration{} && motions_[m].authority <= Duration{} && stands_[m]);
+  // It has, or may have, entered what begins at `from` when the other one passes: it stands at its
+  // start now, or does before the other one begins, which follows what brings it there.
+  [[nodiscard]] bool reaches(std::size_t m, Duration from, std::size_t other) const {
+    if (from < motions_[m].authority) return true;
+    const bool at_start = from <= Duration{} && motions_[m].authority <= Duration{};
+    return at_start && (stands_[m] || std::ranges::any_of(before_[m], [&](std::size_t ahead) {
+                          return ahead < other && share_an_arm(ahead, other);
+                        }));
   }
-  // It comes to rest there and nothing is known to take it away.
-  [[nodiscard]] bool blocks_end(std::size_t m, Duration to) const {
-    return to >= motions_[m].duration && !moves_on(m);
+  // It comes to rest there and nothing takes it away, or only what follows the other one.
+  [[nodiscard]] bool blocks_end(std::size_t m, Duration to, std::size_t other) const {
+    if (to < motions_[m].duration) return false;
+    if (!moves_on(m)) return true;
+    for (std::size_t next = std::max(m, other) + 1; next < motions_.size(); ++next) {
+      const bool follows = std::ranges::find(before_[next], m) != before_[next].end();
+      if (follows && share_an_arm(next, other)) return true;
+    }
+    return false;
+  }
+  [[nodiscard]] bool share_an_arm(std::size_t a, std::size_t b) const {
+    return std::ranges::any_of(motions_[a].arms, [&](ArmId arm) {
+      return std::ranges::find(motions_[b].arms, arm) != motions_[b].arms.end();
+    });
   }
   void note_in_the_way(std::size_t m) {
     for (const ArmId arm : motions_[m].arms) answer_.in_the_way.push_back(arm);

@@ -112,6 +112,8 @@ void Scheduler::on(const Submit& input) {
                            .backlog_timeout = input.backlog_timeout,
                            .after = input.after,
                            .submitted_at = now_}};
+  const bool known = input.helps && records_.contains(*input.helps);
+  record.helps = known ? records_.at(*input.helps).helps : input.job;
   record.own = input.own;
   record.before = input.before;
   record.lets_pass = input.lets_pass;

@@ -114,8 +114,8 @@ class Scheduler {
  private:
   enum class AfterStop { hold, cancel, fail };
   struct AsidesTried {
-    std::size_t total = 0;
-    std::size_t next = 0;  // of the ways from where the arm came to rest by `from`
+    std::size_t total = 0;  // for all that helps the job too
+    std::size_t next = 0;   // of the ways from where the arm came to rest by `from`
     TrajectoryPtr from;
   };
   struct Record {
@@ -137,6 +137,7 @@ class Scheduler {
     std::map<ArmId, AsidesTried> asides_tried;  // of arms that could make way for it
     Duration horizon{};  // coordinated: how far ahead of its progress its authority may reach
     bool own = false;    // Submit::own
+    JobId helps{0};      // Submit::helps, and what that helps; else itself
     std::optional<JobId> before;     // Submit::before
     std::optional<JobId> lets_pass;  // Submit::lets_pass
   };
@@ -248,6 +249,7 @@ class Scheduler {
   void name_deadlocks();
   void settle_deadlocks();
   [[nodiscard]] bool stands(const NamedRing& named) const;
+  [[nodiscard]] bool is_counted_on(const Record& own) const;
   void resolve(const Ring& ring);
   void untell(const Ring& ring);
 

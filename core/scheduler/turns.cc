@@ -1,5 +1,6 @@
 // Whose turn it is among the jobs that wait: aging, priorities without inversion, deadlocks.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <tuple>
 #include <utility>
@@ -224,9 +225,28 @@ void Scheduler::untell(const Ring& ring) {
   }
 }
 
+// A client's job behind this one of one's own does not begin where their arm stands without it.
+bool Scheduler::is_counted_on(const Record& own) const {
+  const ArmId arm = own.job.trajectory->arms().front();
+  const auto& queue = order_[arm.index()];
+  const auto of_a_client = [this](JobId id) { return !records_.at(id).own; };
+  const auto next = std::find_if(std::ranges::find(queue, own.job.id), queue.end(), of_a_client);
+  if (next == queue.end()) return false;
+  if (own.job.started_at) return true;
+  const Trajectory& motion = *records_.at(*next).job.trajectory;
+  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
+    const JointId joint = motion.joints()[j];
+    if (cell_->joint(joint).arm != arm) continue;
+    const double begins = motion.start()[static_cast<Eigen::Index>(j)];
+    const double stands = rest_[static_cast<Eigen::Index>(joint.index())];
+    if (std::abs(begins - stands) > cell_->execution.start_tolerance_rad) return true;
+  }
+  return false;
+}
+
 // An arm that is aside for the sake of another one of the ring comes back first. Else a move aside
 // gives way, or the last job that a client sent: the others were there before it closed the ring.
-// Not a return, on which a client's job counts.
+// Not a return, or a move aside on which a client's job counts by now.
 void Scheduler::resolve(const Ring& ring) {
   for (JobId id : ring) {
     Record& record = records_.at(id);
@@ -237,7 +257,7 @@ void Scheduler::resolve(const Ring& ring) {
   }
   const auto dispensable = [this](JobId id) {
     const Record& record = records_.at(id);
-    return std::tuple(!record.lets_pass, record.own, id);
+    return std::tuple(!record.own || !is_counted_on(record), record.own, id);
   };
   Record& last = records_.at(*std::ranges::max_element(ring, {}, dispensable));
   if (holds_reservation(last)) {

@@ -146,5 +146,42 @@ TEST(DeathOfTheExecutive, LeavesEveryArmAtRestWithoutContact) {
   }
 }
 
+// x comes to rest in the crossing, and leaves it only together with y, after y has passed there.
+JobRequest both(double x_from_m, double x_to_m, double y_from_m, double y_to_m, std::string key) {
+  JobRequest request = slide("x", x_from_m, x_to_m, 2, std::move(key));
+  request.trajectory.joint_names.push_back("y_slide");
+  request.trajectory.points[0].positions.push_back(y_from_m);
+  request.trajectory.points[1].positions.push_back(y_to_m);
+  for (auto& point : request.trajectory.points) {
+    point.velocities = point.accelerations = {0.0, 0.0};
+  }
+  return request;
+}
+
+TEST_F(Coordinated, CountsOnNoDepartureThatComesAfterItself) {
+  cell.submit(slide("x", -1, 0, 2, "in the middle"));
+  cell.run_until(at(1800ms));
+  cell.submit(slide("y", -1, 1, 4, "passes"));
+  cell.submit(both(0, 1, 1, 0.9, "both"));
+  cell.run_until(at(10s));
+  EXPECT_GT(cell.log.closest_m, 0.015);
+  EXPECT_EQ(cell.job("in the middle").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("passes").state, JobState::backlogged);
+  EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
+}
+
+// The same backwards: after both, x stands in the crossing, to leave it when it likes.
+TEST_F(Coordinated, PassesNoStartAtWhichTheOtherArrivesBeforeItself) {
+  cell.submit(both(-1, 0, -1, -0.9, "both"));
+  cell.submit(slide("x", 0, 1, 20, "leaves"));
+  cell.submit(slide("y", -0.9, 1, 2, "passes"));
+  cell.run_to_the_end();
+  EXPECT_GT(cell.log.closest_m, 0.015);
+  for (const char* key : {"both", "leaves", "passes"}) {
+    EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key;
+  }
+  EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
+}
+
 }  // namespace
 }  // namespace armloom

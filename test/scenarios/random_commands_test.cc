@@ -1,30 +1,59 @@
-// 2,000 random command sequences through the whole executive: whatever is asked in whatever order,
-// every submitted job reaches exactly one terminal state, events, jobs and queue tell the same
-// story, no reservation outlives its job, and nothing touches but for what a fault or the coarse
-// step lets through (the monitor's business).
+// 3,000 random command sequences through the whole executive: whatever is asked in whatever order,
+// every job, the server's own included, reaches exactly one terminal state, events, jobs and queue
+// tell the same story, no reservation outlives its job, arms do not go aside for ever, and nothing
+// touches but for what a fault or the coarse step lets through (the monitor's business).
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <random>
+#include <set>
 
-#include "test/scenarios/crossing.h"
+#include "test/scenarios/polygon.h"
+#include "test/scenarios/seeds.h"
 
 namespace armloom {
 namespace {
 
 constexpr std::uint64_t kSequences = 2000;  // of each policy its share
+constexpr std::uint64_t kParked = 140;      // of each policy, under "park"
 constexpr int kCommands = 25;
+
+// The two arms and how they stand to each other.
+struct World {
+  std::array<std::string, 2> arms;
+  CellDescription description;
+  double (*apart_m)(const Configuration& q);  // how far the two balls are; null: a fault
+                                              // may bring them together
+};
+
+World crossing_world() { return {{"x", "y"}, crossing_description(), nullptr}; }
+
+// Both on one line, where they pass each other only if one goes aside: home, or behind their ends.
+World line_world() {
+  World world{
+      {"a", "b"}, polygon(2), [](const Configuration& q) { return std::abs(q[0] + q[1]) - 0.2; }};
+  world.description.robots.pop_back();
+  world.description.scheduling.on_idle_blocker = "park";
+  for (RobotDescription& robot : world.description.robots) {
+    robot.srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider_with_back.srdf";
+  }
+  return world;
+}
 
 class RandomCommands {
  public:
-  explicit RandomCommands(std::uint64_t seed, const std::string& policy)
-      : random_(seed), cell_(description(), policy) {}
+  explicit RandomCommands(std::uint64_t seed, const std::string& policy, World world)
+      : random_(seed),
+        arms_(world.arms),
+        cell_(hurried(std::move(world.description)), policy),
+        apart_m_(world.apart_m) {}
 
   void run() {
     for (int i = 0; i < kCommands; ++i) {
       command();
-      cell_.run_until(cell_.simulation->now() + std::chrono::milliseconds(pick(0, 400)));
+      run_for(std::chrono::milliseconds(pick(0, 400)));
       compare();
     }
     end_all();
@@ -33,8 +62,7 @@ class RandomCommands {
   }
 
  private:
-  static CellDescription description() {
-    CellDescription cell = crossing_description();
+  static CellDescription hurried(CellDescription cell) {
     cell.scheduling.backlog_timeout = 3s;
     cell.checking.time_step = 50ms;
     return cell;
@@ -48,10 +76,10 @@ class RandomCommands {
     const Snapshot now = executive().snapshot();
     JobRequest request;
     std::vector<double> from, to;
-    const int which = pick(0, 8);  // 0..3 x, 4..7 y, 8 both
+    const int which = pick(0, 8);  // 0..3 the first, 4..7 the second, 8 both
     for (const std::size_t arm : {0u, 1u}) {
       if (which < 8 && (which < 4) != (arm == 0)) continue;
-      request.trajectory.joint_names.push_back(arm == 0 ? "x_slide" : "y_slide");
+      request.trajectory.joint_names.push_back(arms_[arm] + "_slide");
       from.push_back(predicted(now, arm) + (pick(0, 19) == 0 ? 0.2 : 0.0));
       to.push_back(0.1 * pick(-12, 12));
     }
@@ -65,15 +93,20 @@ class RandomCommands {
     return request;
   }
 
-  // Where the arm stands when the jobs accepted for it have run.
+  // Where the arm stands when the jobs accepted for it have run; while the server sends it aside,
+  // where clients left it.
   double predicted(const Snapshot& now, std::size_t arm) {
-    const std::string name = arm == 0 ? "x" : "y";
     double q = now.arms[arm].q.front();
     for (const JobView& job : now.jobs) {
-      const auto goal = goals_.find({job.key, name});
+      const bool of_this = std::ranges::find(job.arms, arms_[arm]) != job.arms.end();
+      if (!of_this || is_terminal(job.state)) continue;
+      q = own_.contains(job.key) ? left_[arm] : goals_.at({job.key, arms_[arm]});
+    }
+    for (const JobView& job : now.jobs) {
+      const auto goal = goals_.find({job.key, arms_[arm]});
       if (!is_terminal(job.state) && goal != goals_.end()) q = goal->second;
     }
-    return q;
+    return left_[arm] = q;
   }
 
   void submit(JobRequest request) {
@@ -150,15 +183,28 @@ class RandomCommands {
   }
 
   void inject(ArmFault::Kind kind, double value) {
-    static_cast<void>(executive().inject({.arm = pick(0, 1) == 0 ? "x" : "y",
+    static_cast<void>(executive().inject({.arm = arms_[static_cast<std::size_t>(pick(0, 1))],
                                           .kind = kind,
                                           .lasting = std::chrono::milliseconds(pick(100, 1500)),
                                           .value = value}));
   }
 
-  // What is left is canceled: it must end, whatever state it was in.
+  void run_for(Duration duration) {
+    const TimePoint until = cell_.simulation->now() + duration;
+    while (cell_.simulation->now() < until) {
+      cell_.simulation->tick();
+      if (apart_m_ != nullptr) closest_m_ = std::min(closest_m_, apart_m_(cell_.log.last));
+    }
+  }
+
+  // What is left is canceled: it must end, whatever state it was in. An arm may be sent aside or
+  // back even then, once.
   void end_all() {
-    for (const std::string& key : submitted_) static_cast<void>(executive().cancel(key));
+    for (int turn = 0; turn < 3; ++turn) {
+      for (const std::string& key : submitted_) static_cast<void>(executive().cancel(key));
+      run_for(1s);
+      compare();
+    }
     cell_.run_to_the_end(cell_.simulation->now() + 30s);
   }
 
@@ -174,9 +220,11 @@ class RandomCommands {
       }
     }
     for (; read_ < cell_.log.events.size(); ++read_) {
-      if (const auto* job = std::get_if<JobView>(&cell_.log.events[read_].body)) {
-        told_[job->key] = *job;
-      }
+      const auto* job = std::get_if<JobView>(&cell_.log.events[read_].body);
+      if (job == nullptr) continue;
+      told_[job->key] = *job;
+      const bool own = job->key.starts_with("aside-");
+      if (own && own_.insert(job->key).second) submitted_.push_back(job->key);
     }
     for (const JobView& job : now.jobs) {
       ASSERT_TRUE(told_.contains(job.key)) << "no event tells of " << job.key;
@@ -202,21 +250,29 @@ class RandomCommands {
     }
     for (const std::string& key : submitted_) EXPECT_EQ(endings[key], 1) << key;
     EXPECT_TRUE(executive().all_ended());
+    EXPECT_LE(own_.size(), 4 * (submitted_.size() - own_.size())) << "arms go to and fro";
+    EXPECT_GT(closest_m_, 0.0) << "contact";  // where that is measured
     for (const ArmView& arm : executive().snapshot().arms) EXPECT_EQ(arm.job, "");
   }
 
   std::mt19937_64 random_;
+  std::array<std::string, 2> arms_;
   Crossing cell_;
-  std::vector<std::string> submitted_;
+  std::vector<std::string> submitted_;  // the server's own included
+  std::set<std::string> own_;
+  std::array<double, 2> left_{};  // where clients left the arms
   std::map<std::pair<std::string, std::string>, double> goals_;
   std::map<std::string, JobView> told_;
   std::size_t read_ = 0;
+  double (*apart_m_)(const Configuration& q);
+  double closest_m_ = 1e9;
 };
 
-void run_sequences(std::uint64_t first, std::uint64_t last, const std::string& policy) {
+void run_sequences(std::uint64_t first, std::uint64_t last, const std::string& policy,
+                   World (*world)() = crossing_world) {
   for (std::uint64_t seed = first; seed <= last; ++seed) {
     SCOPED_TRACE(policy + ", seed " + std::to_string(seed));
-    RandomCommands(seed, policy).run();
+    RandomCommands(seed, policy, world()).run();
     if (::testing::Test::HasFailure()) return;
   }
 }
@@ -232,6 +288,16 @@ TEST(RandomCommands, EveryJobReachesExactlyOneEndUnderEarliestStart) {
 }
 TEST(RandomCommands, EveryJobReachesExactlyOneEndUnderCoordinated) {
   run_sequences(kSequences + 1, kSequences * 27 / 20, "coordinated");
+}
+
+class RandomCommandsUnderPark : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Policies, RandomCommandsUnderPark,
+                         ::testing::Values("coordinated", "earliest_start", "certified",
+                                           "reservation", "timed_discrete", "lockstep",
+                                           "sequential"));
+
+TEST_P(RandomCommandsUnderPark, EveryJobReachesExactlyOneEndAndArmsDoNotGoAsideForEver) {
+  run_sequences(1, seed_count(kParked), GetParam(), line_world);
 }
 
 }  // namespace

@@ -37,7 +37,9 @@ inline TrajectoryPtr move(std::vector<std::uint32_t> arms, double from, double t
 class Bench {
  public:
   explicit Bench(std::size_t arms, const char* policy = "timed_discrete")
-      : cell(one_joint_arms(arms)),
+      : Bench(one_joint_arms(arms), policy) {}
+  Bench(CellPtr description, const char* policy)
+      : cell(std::move(description)),
         scheduler(cell, std::move(*make_policy(policy, *cell)), cell->home()) {}
 
   void step(const Input& input, TimePoint now) {
@@ -46,6 +48,7 @@ class Bench {
       if (auto* wake = std::get_if<WakeAt>(&effect)) wake_at = wake->when;
       if (auto* d = std::get_if<Dispatch>(&effect)) dispatched.push_back(*d);
       if (auto* b = std::get_if<Brake>(&effect)) braked.push_back(b->job);
+      if (auto* m = std::get_if<MoveAside>(&effect)) asides.push_back(*m);
       if (auto* r = std::get_if<Release>(&effect)) released.push_back(r->job);
       if (auto* c = std::get_if<JobChanged>(&effect)) {
         const Job& job = *scheduler.find(c->job);
@@ -55,9 +58,13 @@ class Bench {
   }
 
   JobId submit(TrajectoryPtr trajectory, TimePoint now, Duration timeout = 60s, int priority = 0) {
-    const JobId job{++last_};
-    step(Submit{job, std::move(trajectory), priority, timeout}, now);
-    return job;
+    return submit(Submit{JobId{0}, std::move(trajectory), priority, timeout}, now);
+  }
+  // The same under the next id.
+  JobId submit(Submit submitted, TimePoint now) {
+    submitted.job = JobId{++last_};
+    step(submitted, now);
+    return submitted.job;
   }
 
   // Answers the open question.
@@ -118,6 +125,7 @@ class Bench {
   std::optional<Question> question;
   std::optional<TimePoint> wake_at;
   std::vector<Dispatch> dispatched;
+  std::vector<MoveAside> asides;
   std::vector<JobId> braked, released;
   std::map<JobId, int> terminal_events;
 

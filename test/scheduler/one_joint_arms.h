@@ -31,4 +31,12 @@ inline CellPtr one_joint_arms(std::size_t count) {
   return cell;
 }
 
+// The same, where arms in the way go aside: to their pose "back", at -1 rad.
+inline CellPtr one_joint_arms_that_park(std::size_t count) {
+  auto cell = std::make_shared<Cell>(*one_joint_arms(count));
+  cell->scheduling.on_idle_blocker = "park";
+  for (Arm& arm : cell->arms) arm.named_states["back"] = Eigen::VectorXd::Constant(1, -1.0);
+  return cell;
+}
+
 }  // namespace armloom

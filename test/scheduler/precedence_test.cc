@@ -196,5 +196,34 @@ TEST_F(Graph, WhoKeepsItsPlaceIsNotOvertaken) {
   EXPECT_EQ(graph.limit(kB), 1s);
 }
 
+// ---- Motions of several arms ----
+
+CoordinatedMotion of_both(JobId job, Duration duration) {
+  return {.job = job, .arms = {ArmId{0}, ArmId{1}}, .duration = duration};
+}
+
+// A ends in B's way, and what takes its arm away takes B's too: after B.
+TEST(PassingOrders, NobodyWaitsForADepartureThatFollowsItself) {
+  PrecedenceGraph graph(2);
+  graph.admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 5s);
+  const std::vector<CoordinatedMotion> candidates = {motion(kB, 1, 5s), of_both(kNext, 2s)};
+  const auto orders = graph.try_to_admit(candidates, {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}});
+  ASSERT_EQ(orders.obstacles.size(), 1u);
+  EXPECT_EQ(orders.obstacles[0].candidate, kB);
+  EXPECT_EQ(orders.obstacles[0].other, kA);
+}
+
+// A brings both arms to where B begins, in C's way; C begins when A has ended.
+TEST(PassingOrders, NobodyPassesAStartAtWhichTheOtherStandsByThen) {
+  PrecedenceGraph graph(2);
+  graph.admit({of_both(kA, 5s)}, {});
+  const std::vector<CoordinatedMotion> candidates = {motion(kB, 0, 50s), motion(kC, 1, 5s)};
+  const auto orders = graph.try_to_admit(candidates, {{kB, kC, {region({{0s, 40s, 2s, 3s}})}}});
+  EXPECT_TRUE(orders.obstacles.empty());
+  ASSERT_EQ(orders.precedences.size(), 1u);
+  EXPECT_EQ(orders.precedences[0].first(), kB);
+}
+
 }  // namespace
 }  // namespace armloom
