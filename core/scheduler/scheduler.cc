@@ -126,10 +126,10 @@ void Scheduler::on(const Submit& input) {
   if (input.before) take_place(input.job, *input.before);
 }
 
-// Before a job that was in a ring: an arm of that goes aside now. An answer that is under way shall
-// not start what comes behind it.
+// Before a job that was in a ring: an arm of that goes aside now.
 void Scheduler::take_place(JobId job, JobId before) {
-  ++version_;
+  const bool is_judged = open_ && std::ranges::find(open_->jobs, before) != open_->jobs.end();
+  if (is_judged) ++version_;  // the answer shall not start what comes behind it
   placed_before_[before].push_back(job);
   if (round_.contains(before)) round_.insert(job);
   std::erase_if(rings_, [&](const NamedRing& named) {
