@@ -56,6 +56,7 @@ std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wa
 
 // On its way, before an arm at rest.
 bool Scheduler::pauses_for_an_arm(const Record& record) {
+  if (record.job.stopping) return false;  // it comes to rest elsewhere, or ends
   return record.job.pausing && std::ranges::any_of(record.job.waits_on, [](const Wait& wait) {
            return wait.kind == Wait::Kind::arm;
          });
@@ -220,8 +221,12 @@ void Scheduler::settle_deadlocks() {
 void Scheduler::untell(const Ring& ring) {
   for (JobId id : ring) {
     if (!active_.contains(id)) continue;
-    records_.at(id).job.ring.clear();
-    changed(records_.at(id));
+    Record& record = records_.at(id);
+    const bool ends_for_it = record.job.stopping && record.after_stop == AfterStop::fail &&
+                             record.fail_reason == Reason::deadlock;
+    if (ends_for_it) continue;  // braking: kept, as the reason
+    record.job.ring.clear();
+    changed(record);
   }
 }
 
