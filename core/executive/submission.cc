@@ -197,6 +197,11 @@ JobView Executive::Impl::accept(Prepared prepared) {
 }
 
 void Executive::Impl::make_way(MoveAside aside) {
+  const auto waits = [this](JobId id) {
+    const Job* known = scheduler_.find(id);
+    return known != nullptr && !is_terminal(known->state);
+  };
+  if (!waits(aside.way_of) || (aside.before && !waits(*aside.before))) return;
   const Job& job = *scheduler_.find(aside.way_of);
   const std::string arm = cell_->arm(aside.arm).name;
   Prepared way = own_job(aside.trajectory, arm + " moves aside for " + key(job.id), job.priority);

@@ -266,8 +266,12 @@ void Scheduler::withdraw(Record& record, AfterStop then) {
   if (!graph_) disturbed_at_ = version_;
   if (then != AfterStop::hold) {
     const bool held = record.job.started_at.has_value();
-    end(record, JobState::canceled, Reason::canceled_by_client,
-        held ? "canceled while holding" : "canceled before it moved");
+    if (then == AfterStop::fail) {
+      end(record, JobState::failed, record.fail_reason, record.fail_detail);
+    } else {
+      end(record, JobState::canceled, Reason::canceled_by_client,
+          held ? "canceled while holding" : "canceled before it moved");
+    }
     if (held) effects_.push_back(Release{record.job.id});
     return;
   }
