@@ -27,8 +27,9 @@ namespace armloom {
 // between different arms and the scene.
 //
 // Coordinated: candidates against themselves and what stands still, from their progress on, as
-// above; the arms of one synchronous motion against each other in step. Where that is free the
-// verdict is, and names the regions of the pairs (pair_regions.h) with the same margins.
+// above; the arms of one synchronous motion against each other, in step and as far ahead of each
+// other as kAheadOfSiblings allows. Where that is free the verdict is, and names the regions of the
+// pairs (pair_regions.h) with the same margins.
 // find_earliest is not heeded.
 //
 // find_earliest: motions of candidates that have not begun are shifted to later starts until

@@ -87,7 +87,7 @@ void Motions::keep_together(const Motion& motion) {
     last = std::min(last, feedback_[arm.index()].commanded_progress);
   }
   for (ArmId arm : motion.trajectory->arms()) {
-    const bool ahead = feedback_[arm.index()].commanded_progress - last > kAhead;
+    const bool ahead = feedback_[arm.index()].commanded_progress - last > kAheadOfSiblings;
     controllers_[arm.index()]->grant(ahead ? std::min(last, motion.authority) : motion.authority);
   }
 }

@@ -12,8 +12,8 @@ namespace armloom {
 
 // The arms and the motions on them: hands a job's trajectory to the controllers of its arms
 // and joins what they say into one report for the job (one progress, that of the last; one end).
-// Siblings of an arm that faults are braked; siblings that get ahead of it by more than kAhead wait
-// on the path.
+// Siblings of an arm that faults are braked; siblings that get ahead of it by more than
+// kAheadOfSiblings wait on the path.
 class Motions {
  public:
   Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
@@ -40,7 +40,6 @@ class Motions {
   [[nodiscard]] double deviation(ArmId arm) const;
 
  private:
-  inline static constexpr Duration kAhead = std::chrono::milliseconds(50);
   struct Motion {
     TrajectoryPtr trajectory;
     std::map<ArmId, Duration>

@@ -250,5 +250,42 @@ TEST(Synchronous, AFaultOfOneArmStopsItsSibling) {
   EXPECT_LT(cell.log.last[1], 0.5) << "the sibling stopped, too";
 }
 
+// x passes the crossing 40 cm before y does.
+JobRequest one_after_the_other(double duration_s) {
+  JobRequest both;
+  both.key = "both";
+  both.trajectory.joint_names = {"x_slide", "y_slide"};
+  both.trajectory.points = {{{-0.8, -1.2}, {0, 0}, {0, 0}, 0.0},
+                            {{1.2, 0.8}, {0, 0}, {0, 0}, duration_s}};
+  return both;
+}
+CellDescription crossing_from_behind() {
+  CellDescription cell = crossing_description();
+  cell.robots[0].arms[0].home = {-0.8};
+  cell.robots[1].arms[0].home = {-1.2};
+  return cell;
+}
+
+TEST(Synchronous, ArmsKeepClearOfEachOtherWhenOneOfThemFallsBehind) {
+  for (const char* policy : {"coordinated", "earliest_start", "certified"}) {
+    Crossing cell(crossing_from_behind(), policy);
+    cell.submit(one_after_the_other(8));
+    ASSERT_TRUE(cell.simulation->executive().inject(
+        {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(3500ms), .lasting = 3s}));
+    cell.run_to_the_end();
+    EXPECT_EQ(cell.job("both").state, JobState::succeeded) << policy;
+    EXPECT_GT(cell.log.closest_m, 0.03) << policy;
+  }
+}
+
+TEST(Synchronous, ArmsThatWouldTouchIfOneFellBehindDoNotGoTogether) {
+  for (const char* policy : {"coordinated", "earliest_start", "certified"}) {
+    Crossing cell(crossing_from_behind(), policy);
+    cell.submit(one_after_the_other(2));
+    cell.run_to_the_end();
+    EXPECT_EQ(cell.job("both").reason, Reason::self_collision) << policy;
+  }
+}
+
 }  // namespace
 }  // namespace armloom
