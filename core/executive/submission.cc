@@ -15,6 +15,9 @@ Problems prefixed(const std::string& prefix, Problems problems) {
   return problems;
 }
 
+// Without the noise of arithmetic: 0, not 6.9e-18.
+double told(double q) { return std::abs(q) < 1e-9 ? 0.0 : q; }
+
 Problem key_in_use(const std::string& key) {
   return Problem{ProblemKind::conflict, "id-in-use", "/id",
                  "id \"" + key + "\" is in use by another job", key};
@@ -163,7 +166,7 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
     std::snprintf(text, sizeof text,
                   "waypoint 0, %s: begins at %.6g, but will stand at %.6g when the jobs accepted "
                   "for the arm have run",
-                  joint.name.c_str(), begins, stands);
+                  joint.name.c_str(), told(begins), told(stands));
     problems.push_back({ProblemKind::invalid, "start-mismatch",
                         "/trajectory/points/0/positions/" + std::to_string(j), text, begins});
   }

@@ -31,6 +31,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .name = names.name(job.id),
                .state = job.pausing ? JobState::holding : job.state,
                .priority = job.priority,
+               .own = job.own,
                .submitted_at = job.submitted_at,
                .scheduled_at = job.scheduled_at,
                .started_at = job.started_at,

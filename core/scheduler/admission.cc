@@ -15,6 +15,9 @@ std::string format(const char* text, const std::string& name, double a, double b
   return buffer;
 }
 
+// Without the noise of arithmetic: 0, not 6.9e-18.
+double told(double q) { return std::abs(q) < 1e-9 ? 0.0 : q; }
+
 // What a job waits for that is treated as a conflict without being proven one.
 constexpr const char* kUndecided = "undecided within the budget of evaluations";
 
@@ -194,7 +197,7 @@ std::optional<std::string> Scheduler::start_mismatch(const Trajectory& trajector
     const double stands = rest_[static_cast<Eigen::Index>(joint.index())];
     if (std::abs(begins - stands) > cell_->execution.start_tolerance_rad) {
       return format("%s stands at %.6g, the trajectory begins at %.6g", cell_->joint(joint).name,
-                    stands, begins);
+                    told(stands), told(begins));
     }
   }
   return std::nullopt;

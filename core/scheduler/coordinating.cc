@@ -376,6 +376,16 @@ void Scheduler::extend_own_authority(Record& record) {
   effects_.push_back(Grant{job, authority});
 }
 
+// Admitted, and at rest as far as it may go: by whom.
+std::optional<Wait> Scheduler::held_up_by(const Record& record) const {
+  const Job& job = record.job;
+  const bool to_start = job.state == JobState::scheduled && !record.dispatched && at_head(record);
+  if (!graph_ || job.stopping || (!job.pausing && !to_start)) return std::nullopt;
+  if (graph_->limit(job.id) > job.progress + kAtLimit) return std::nullopt;
+  const auto held = graph_->held_back(job.id);
+  return held ? std::optional(wait_for(*held)) : std::nullopt;
+}
+
 // At rest at its limit a running motion pauses; what it loses there is no overrun.
 void Scheduler::see_pauses(Record& record, Duration progress_before) {
   Job& job = record.job;

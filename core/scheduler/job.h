@@ -67,6 +67,7 @@ struct Job {
   int priority = 0;
   Duration backlog_timeout{};
   std::vector<JobId> after;  // those that have not ended yet
+  bool own = false;          // the server's: a move aside
   JobState state = JobState::queued;
   bool stopping = false;  // braking: on the way to canceled, holding or failed
   TimePoint submitted_at{};

@@ -10,6 +10,18 @@ namespace {
 
 // Ways that are tried for one job of a client and one arm, lest arms go to and fro for ever.
 constexpr std::size_t kAsidesMax = 8;
+// So often an arm goes to one and the same place for it: clients may have sent it back there.
+constexpr std::ptrdiff_t kSamePlaceMax = 2;
+constexpr double kSamePlace = 1e-3;  // relative
+
+// Whether the second motion, pausing at `progress`, is in the way of the first.
+bool rests_in(const PairRegions& pair, Duration progress) {
+  return std::ranges::any_of(pair.regions, [&](const ConflictRegion& region) {
+    return std::ranges::any_of(region.boxes, [&](const ProgressBox& box) {
+      return box.from_b <= progress && progress <= box.to_b;
+    });
+  });
+}
 
 }  // namespace
 
@@ -37,17 +49,19 @@ std::optional<Scheduler::Aside> Scheduler::next_aside_in_a_ring() const {
 
 // Each job of a ring waits for the next one, mostly for the arm that only that will move: could it
 // move before its job? The one whose job would have to give way otherwise is tried first. Not where
-// moves aside are in the ring themselves: these give way.
+// a move aside is in the ring that can give way itself.
 std::optional<Scheduler::Aside> Scheduler::aside_in(const Ring& ring) const {
-  const bool among_clients =
-      std::ranges::none_of(ring, [this](JobId id) { return records_.at(id).own; });
-  if (!among_clients) return std::nullopt;
+  const bool dispensable = std::ranges::any_of(ring, [this](JobId id) {
+    const Record& record = records_.at(id);
+    return record.job.own && !is_counted_on(record);
+  });
+  if (dispensable) return std::nullopt;
   const Ring from_last = beginning_with(*std::ranges::max_element(ring), ring);
   for (std::size_t i = 0; i < from_last.size(); ++i) {
     const Record& next = records_.at(from_last[i]);
     const Record& waits = records_.at(from_last[(i + from_last.size() - 1) % from_last.size()]);
-    if (!waiting(next) || next.job.started_at) continue;
-    for (const Wait& wait : waits.job.pausing ? waits.job.waits_on : waits.found) {
+    if (!waiting(next) || next.job.started_at || next.job.own) continue;
+    for (const Wait& wait : held_up_by(waits) ? known_waits(waits) : waits.found) {
       const bool near = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::job;
       if (!near || !wait.arm) continue;
       const auto& queue = order_[wait.arm->index()];
@@ -68,14 +82,22 @@ std::optional<Scheduler::Aside> Scheduler::untried(const Record& record, ArmId a
   const TrajectoryPtr& came_by = came_by_[arm.index()];
   const auto found = record.asides_tried.find(arm);
   const AsidesTried tried = found == record.asides_tried.end() ? AsidesTried{} : found->second;
-  const std::size_t next = tried.from == came_by ? tried.next : 0;
   if (!active_.contains(record.helps)) return std::nullopt;
   const auto& of_all = records_.at(record.helps).asides_tried;
   const auto all = of_all.find(arm);
   if (all != of_all.end() && all->second.total >= kAsidesMax) return std::nullopt;
+  const auto been_there = [&](const Trajectory& way) {
+    return all != of_all.end() &&
+           std::ranges::count_if(all->second.went_to, [&](const Eigen::VectorXd& goal) {
+             return goal.size() == way.goal().size() && goal.isApprox(way.goal(), kSamePlace);
+           }) >= kSamePlaceMax;
+  };
   const auto ways = ways_aside(*cell_, arm, rest_, came_by);
-  if (next >= ways.size()) return std::nullopt;
-  return Aside{.way_of = record.job.id, .arm = arm, .way = ways[next]};
+  for (std::size_t i = tried.from == came_by ? tried.next : 0; i < ways.size(); ++i) {
+    if (been_there(*ways[i])) continue;
+    return Aside{.way_of = record.job.id, .arm = arm, .way = ways[i], .index = i};
+  }
+  return std::nullopt;
 }
 
 // First whether the way itself will be free, then whether the job would find the arm gone.
@@ -112,11 +134,14 @@ void Scheduler::answer_aside(const Verdict& verdict, Aside aside) {
   }
   AsidesTried& tried = records_.at(aside.way_of).asides_tried[aside.arm];
   const TrajectoryPtr& came_by = came_by_[aside.arm.index()];
-  if (tried.from != came_by) tried.next = 0;
   tried.from = came_by;
-  ++tried.next;
+  tried.next = aside.index + 1;
   const JobId helped = records_.at(aside.way_of).helps;
-  if (active_.contains(helped)) ++records_.at(helped).asides_tried[aside.arm].total;
+  if (active_.contains(helped)) {
+    AsidesTried& of_all = records_.at(helped).asides_tried[aside.arm];
+    ++of_all.total;
+    if (passes) of_all.went_to.push_back(aside.way->goal());
+  }
   if (passes) move_aside(aside);
 }
 
@@ -136,7 +161,9 @@ bool Scheduler::lets_through(const Verdict& verdict, const Aside& aside) const {
   }
   return std::ranges::none_of(verdict.regions, [&](const PairRegions& pair) {
     const auto* arm = std::get_if<ArmId>(&pair.b);
-    return arm != nullptr && stays(*arm);
+    if (arm != nullptr) return stays(*arm);
+    const bool of_it = !aside.is_free && std::get<JobId>(pair.b) == aside.way_of;
+    return of_it && rests_in(pair, records_.at(aside.way_of).job.progress);
   });
 }
 

@@ -111,10 +111,10 @@ void Scheduler::on(const Submit& input) {
                            .priority = input.priority,
                            .backlog_timeout = input.backlog_timeout,
                            .after = input.after,
+                           .own = input.own,
                            .submitted_at = now_}};
   const bool known = input.helps && records_.contains(*input.helps);
   record.helps = known ? records_.at(*input.helps).helps : input.job;
-  record.own = input.own;
   record.before = input.before;
   record.lets_pass = input.lets_pass;
   for (ArmId arm : input.trajectory->arms()) {
@@ -130,7 +130,6 @@ void Scheduler::on(const Submit& input) {
 void Scheduler::take_place(JobId job, JobId before) {
   const bool is_judged = open_ && std::ranges::find(open_->jobs, before) != open_->jobs.end();
   if (is_judged) ++version_;  // the answer shall not start what comes behind it
-  placed_before_[before].push_back(job);
   if (round_.contains(before)) round_.insert(job);
   std::erase_if(rings_, [&](const NamedRing& named) {
     const bool opened = std::ranges::find(named.ring, before) != named.ring.end();
@@ -223,9 +222,8 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
   job.late = false;
   job.pausing = false;
   for (ArmId arm : job.trajectory->arms()) {
-    const bool at_goal = report.kind == MotionReport::Kind::finished;
     const bool alone = job.trajectory->arms().size() == 1;
-    came_by_[arm.index()] = at_goal && alone ? job.trajectory : nullptr;
+    came_by_[arm.index()] = alone ? job.trajectory : nullptr;
   }
   record.overrun_at.reset();
   if (report.kind == MotionReport::Kind::finished) {
@@ -244,7 +242,9 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
     end(record, JobState::canceled, Reason::canceled_by_client, "braked on its path");
     effects_.push_back(Release{job.id});
   } else if (record.after_stop == AfterStop::fail) {
-    end(record, JobState::failed, record.fail_reason, record.fail_detail);
+    const bool expires = record.fail_reason == Reason::backlog_timeout;
+    end(record, expires ? JobState::expired : JobState::failed, record.fail_reason,
+        record.fail_detail);
     effects_.push_back(Release{job.id});
   } else if (!job.started_at) {
     // Stopped before it moved: it waits in the queue again, as if it had not been admitted.
@@ -357,7 +357,6 @@ void Scheduler::end(Record& record, JobState state, Reason reason, std::string d
   if (state == JobState::succeeded) job.progress = job.trajectory->duration();
   for (ArmId arm : job.trajectory->arms()) std::erase(order_[arm.index()], job.id);
   active_.erase(job.id);
-  placed_before_.erase(job.id);
   ++version_;
   if (state != JobState::succeeded) freed_at_ = version_;
   changed(record);
@@ -381,10 +380,13 @@ void Scheduler::expire_and_overrun() {
   for (JobId id : ids) {
     Record& record = records_.at(id);
     Job& job = record.job;
+    see_whether_in_vain(record);
     const bool backlogged = job.state == JobState::backlogged;
     if (backlogged && now_ >= *job.backlogged_at + job.backlog_timeout) {
       end(record, JobState::expired, Reason::backlog_timeout,
           "waited " + seconds_text(job.backlog_timeout) + " in the backlog");
+    } else if (record.in_vain_since && now_ >= *record.in_vain_since + job.backlog_timeout) {
+      give_up(record);
     } else if (overruns(record)) {
       record.fail_reason = Reason::overrun;
       record.fail_detail = "has not moved for " + seconds_text(now_ - record.moved_at) +
@@ -395,6 +397,32 @@ void Scheduler::expire_and_overrun() {
       falls_behind(record);
     }
   }
+}
+
+// On its path, where only a job of another arm that has none, or another scene, would let it go on.
+void Scheduler::see_whether_in_vain(Record& record) const {
+  const bool held = record.job.state == JobState::holding && waiting(record);
+  if ((!held && !record.job.pausing) || record.job.stopping || stop_of(record)) {
+    record.in_vain_since.reset();
+    return;
+  }
+  if (held && record.judged_at != version_) return;  // not known yet
+  const auto waits = known_waits(record);
+  const bool in_vain = std::ranges::any_of(waits, [this](const Wait& wait) {
+    return wait.kind == Wait::Kind::object ||
+           (wait.kind == Wait::Kind::arm && order_[wait.arm->index()].empty());
+  });
+  if (!in_vain) record.in_vain_since.reset();
+  if (in_vain && !record.in_vain_since) record.in_vain_since = now_;
+}
+
+void Scheduler::give_up(Record& record) {
+  record.in_vain_since.reset();
+  record.fail_reason = Reason::backlog_timeout;
+  record.fail_detail = "waited " + seconds_text(record.job.backlog_timeout) + " on its path";
+  if (holds_reservation(record)) return brake(record, AfterStop::fail);
+  end(record, JobState::expired, record.fail_reason, record.fail_detail);
+  effects_.push_back(Release{record.job.id});
 }
 
 // Starts whose time has come. Where something has changed that they have not been judged again for,
@@ -425,6 +453,7 @@ void Scheduler::ask_for_wake() {
       consider(*record.job.backlogged_at + record.job.backlog_timeout);
     }
     if (record.overrun_at && !record.job.stopping) consider(*record.overrun_at);
+    if (record.in_vain_since) consider(*record.in_vain_since + record.job.backlog_timeout);
     if (!graph_ && record.job.state == JobState::scheduled && !record.dispatched) {
       consider(*record.job.scheduled_at - kDispatchAhead);
     }

@@ -117,6 +117,7 @@ class Scheduler {
     std::size_t total = 0;  // for all that helps the job too
     std::size_t next = 0;   // of the ways from where the arm came to rest by `from`
     TrajectoryPtr from;
+    std::vector<Eigen::VectorXd> went_to;  // for all that helps the job too
   };
   struct Record {
     Job job;
@@ -130,13 +131,13 @@ class Scheduler {
     Duration from_progress{};             // where the present dispatch begins
     std::optional<TimePoint> overrun_at;  // if it does not move before
     TimePoint moved_at{};                 // last
-    bool dispatched = false;              // the arms have the motion; else it is scheduled at most
+    std::optional<TimePoint> in_vain_since;  // on its path, for what no job moves
+    bool dispatched = false;    // the arms have the motion; else it is scheduled at most
     Version forward_tried = 0;  // scheduled: the version on which an earlier start was sought
     Duration plan_progress{};   // progress at plan_at: from there it should advance with the clock
     TimePoint plan_at{};
     std::map<ArmId, AsidesTried> asides_tried;  // of arms that could make way for it
     Duration horizon{};  // coordinated: how far ahead of its progress its authority may reach
-    bool own = false;    // Submit::own
     JobId helps{0};      // Submit::helps, and what that helps; else itself
     std::optional<JobId> before;     // Submit::before
     std::optional<JobId> lets_pass;  // Submit::lets_pass
@@ -164,6 +165,7 @@ class Scheduler {
     TrajectoryPtr way;
     std::optional<JobId> before = {};  // MoveAside::before
     bool is_free = false;              // the way; else that is the question
+    std::size_t index = 0;             // of the ways from where the arm rests
   };
   struct OpenQuestion {
     Version version;
@@ -231,6 +233,8 @@ class Scheduler {
   void admit(Record& record, TimePoint start_at);
   void expect_end(Record& record, TimePoint start_at) const;
   [[nodiscard]] bool overruns(Record& record) const;
+  void see_whether_in_vain(Record& record) const;
+  void give_up(Record& record);
   void refuse(Record& record, const Verdict& verdict, bool recheck);
   void put_off(Record& record, std::vector<Wait> waits);
 
@@ -238,6 +242,8 @@ class Scheduler {
   [[nodiscard]] std::vector<JobId> in_turn() const;  // active, each after those before it
   [[nodiscard]] bool lets_another_pass(const Record& record) const;
   [[nodiscard]] WaitsFor waits_for() const;
+  [[nodiscard]] bool stands_still(const Record& record) const;
+  [[nodiscard]] std::vector<Wait> known_waits(const Record& record) const;
   [[nodiscard]] std::optional<JobId> has_to_move_first(const Record& record,
                                                        const Wait& wait) const;
   [[nodiscard]] std::map<JobId, int> urgencies() const;  // empty: all are the same
@@ -294,7 +300,7 @@ class Scheduler {
   void extend_authority(JobId moved);
   void extend_own_authority(Record& record);
   void explain_pause(Record& record);
-  [[nodiscard]] static bool pauses_for_an_arm(const Record& record);
+  [[nodiscard]] std::optional<Wait> held_up_by(const Record& record) const;
   void see_pauses(Record& record, Duration progress_before);
 
   CellPtr cell_;
@@ -304,7 +310,7 @@ class Scheduler {
   std::set<JobId> active_;
   std::vector<std::deque<JobId>> order_;             // per arm: active jobs, first goes first
   std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
-  std::vector<TrajectoryPtr> came_by_;  // per arm: the motion that ended where it rests; or null
+  std::vector<TrajectoryPtr> came_by_;  // per arm: the motion on which it came to rest; or null
   Version version_ = 1;
   Version disturbed_at_ = 0;         // the last time an arm came to rest off its plan
   Version freed_at_ = 0;             // the last time a motion ended otherwise than planned
@@ -312,8 +318,7 @@ class Scheduler {
   Duration allowance_;               // how far ahead of now a question's instant lies
   std::set<JobId> round_;            // policies with rounds: the jobs of the present one
   bool round_begun_ = false;
-  std::vector<NamedRing> rings_;                       // told in an earlier step
-  std::map<JobId, std::vector<JobId>> placed_before_;  // Submit::before
+  std::vector<NamedRing> rings_;  // told in an earlier step
   std::optional<OpenQuestion> open_;
   std::optional<LookAhead> ahead_;
   std::optional<PrecedenceGraph> graph_;  // policies that coordinate

@@ -1,7 +1,6 @@
 // Whose turn it is among the jobs that wait: aging, priorities without inversion, deadlocks.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -12,17 +11,23 @@
 namespace armloom {
 
 // All that is active in an order that is every arm's: by submission, but for those that took their
-// places before others.
+// places before others, which stand first of their arms.
 std::vector<JobId> Scheduler::in_turn() const {
+  std::map<JobId, std::vector<JobId>> ahead;  // by the first job that did not
+  std::set<JobId> told;
+  for (const auto& queue : order_) {
+    const auto first = std::ranges::find_if_not(
+        queue, [this](JobId id) { return records_.at(id).before.has_value(); });
+    if (first == queue.end()) continue;
+    told.insert(queue.begin(), first);
+    ahead[*first].insert(ahead[*first].end(), queue.begin(), first);
+  }
   std::vector<JobId> jobs;
   jobs.reserve(active_.size());
   for (JobId id : active_) {
-    const auto& before = records_.at(id).before;
-    if (before && active_.contains(*before)) continue;
-    if (const auto placed = placed_before_.find(id); placed != placed_before_.end()) {
-      std::ranges::copy_if(placed->second, std::back_inserter(jobs),
-                           [this](JobId own) { return active_.contains(own); });
-    }
+    if (told.contains(id)) continue;
+    const auto own = ahead.find(id);
+    if (own != ahead.end()) jobs.insert(jobs.end(), own->second.begin(), own->second.end());
     jobs.push_back(id);
   }
   return jobs;
@@ -33,12 +38,25 @@ bool Scheduler::lets_another_pass(const Record& record) const {
          waiting(records_.at(*record.lets_pass));
 }
 
-// Edges from judgements count on the version that was judged only. What is undecided is no proof,
-// and two that are held may go on together though neither can alone.
+// Nothing moves it but what others do first.
+bool Scheduler::stands_still(const Record& record) const {
+  if (waiting(record) || held_up_by(record)) return true;
+  const bool admitted = record.job.state == JobState::scheduled && !record.dispatched;
+  return graph_ && admitted && !at_head(record);
+}
+
+// What it is known to wait for. Judgements count on the version that was judged only.
+std::vector<Wait> Scheduler::known_waits(const Record& record) const {
+  if (auto held = held_up_by(record)) return {std::move(*held)};
+  if (waiting(record) && record.judged_at == version_) return record.found;
+  return {};
+}
+
+// What is undecided counts as a conflict: it stays so while nothing moves. But two that are held
+// may go on together though neither can alone.
 std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wait& wait) const {
-  const bool undecided = !wait.detail.empty();
   const bool of_job = wait.kind == Wait::Kind::job;
-  if (undecided || (!of_job && wait.kind != Wait::Kind::arm)) return std::nullopt;
+  if (!of_job && wait.kind != Wait::Kind::arm) return std::nullopt;
   if (of_job && !active_.contains(*wait.job)) return std::nullopt;
   std::optional<JobId> first = wait.job;
   const bool begun = of_job && records_.at(*wait.job).job.started_at;
@@ -50,35 +68,24 @@ std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wa
   const Record& other = records_.at(*first);
   const bool both_held =
       record.job.state == JobState::holding && other.job.state == JobState::holding;
-  const bool at_rest = waiting(other) || pauses_for_an_arm(other);
-  return at_rest && !both_held ? first : std::nullopt;
-}
-
-// On its way, before an arm at rest.
-bool Scheduler::pauses_for_an_arm(const Record& record) {
-  if (record.job.stopping) return false;  // it comes to rest elsewhere, or ends
-  return record.job.pausing && std::ranges::any_of(record.job.waits_on, [](const Wait& wait) {
-           return wait.kind == Wait::Kind::arm;
-         });
+  return stands_still(other) && !both_held ? first : std::nullopt;
 }
 
 WaitsFor Scheduler::waits_for() const {
   std::vector<WaitsForEdge> edges;
   for (const auto& queue : order_) {
     for (std::size_t i = 1; i < queue.size(); ++i) {
-      if (waiting(records_.at(queue[i - 1]))) edges.push_back({queue[i], queue[i - 1]});
+      if (stands_still(records_.at(queue[i - 1]))) edges.push_back({queue[i], queue[i - 1]});
     }
   }
   for (JobId id : active_) {
     const Record& record = records_.at(id);
-    const bool pauses = pauses_for_an_arm(record);
-    if (!waiting(record) && !pauses) continue;
+    if (!stands_still(record)) continue;
     for (JobId before : record.job.after) {
-      if (waiting(records_.at(before))) edges.push_back({id, before});
+      if (stands_still(records_.at(before))) edges.push_back({id, before});
     }
     if (lets_another_pass(record)) edges.push_back({id, *record.lets_pass});
-    if (record.judged_at != version_ && !pauses) continue;
-    for (const Wait& wait : pauses ? record.job.waits_on : record.found) {
+    for (const Wait& wait : known_waits(record)) {
       const auto first = has_to_move_first(record, wait);
       if (!first) continue;
       if (wait.kind == Wait::Kind::arm) {
@@ -176,10 +183,9 @@ void Scheduler::name_deadlocks() {
   const bool in_the_way = std::ranges::any_of(order_, [this](const auto& queue) {
     if (queue.empty()) return false;
     const Record& record = records_.at(queue.front());
-    return waiting(record) && record.judged_at == version_ &&
-           std::ranges::any_of(record.found, [&](const Wait& wait) {
-             return has_to_move_first(record, wait).has_value();
-           });
+    return std::ranges::any_of(known_waits(record), [&](const Wait& wait) {
+      return has_to_move_first(record, wait).has_value();
+    });
   });
   if (!in_the_way) return;
   for (Ring& ring : find_rings(waits_for())) {
@@ -200,8 +206,7 @@ void Scheduler::name_deadlocks() {
 // goes, or the scene is another one.
 bool Scheduler::stands(const NamedRing& named) const {
   return named.disturbed_at == disturbed_at_ && std::ranges::all_of(named.ring, [this](JobId id) {
-           return active_.contains(id) &&
-                  (waiting(records_.at(id)) || pauses_for_an_arm(records_.at(id)));
+           return active_.contains(id) && stands_still(records_.at(id));
          });
 }
 
@@ -234,7 +239,7 @@ void Scheduler::untell(const Ring& ring) {
 bool Scheduler::is_counted_on(const Record& own) const {
   const ArmId arm = own.job.trajectory->arms().front();
   const auto& queue = order_[arm.index()];
-  const auto of_a_client = [this](JobId id) { return !records_.at(id).own; };
+  const auto of_a_client = [this](JobId id) { return !records_.at(id).job.own; };
   const auto next = std::find_if(std::ranges::find(queue, own.job.id), queue.end(), of_a_client);
   if (next == queue.end()) return false;
   if (own.job.started_at) return true;
@@ -262,7 +267,7 @@ void Scheduler::resolve(const Ring& ring) {
   }
   const auto dispensable = [this](JobId id) {
     const Record& record = records_.at(id);
-    return std::tuple(!record.own || !is_counted_on(record), record.own, id);
+    return std::tuple(!record.job.own || !is_counted_on(record), record.job.own, id);
   };
   Record& last = records_.at(*std::ranges::max_element(ring, {}, dispensable));
   if (holds_reservation(last)) {

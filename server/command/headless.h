@@ -33,10 +33,11 @@ struct JobsFile {
 void complain_of_refusals(const SimulationResult& result, const std::string& jobs_file,
                           const std::string& under = "");
 
-// Each job that did not succeed, and what it waits for if it has not ended, on stderr: counts alone
+// Each job of a client that did not succeed, and each that did not end, and what it waits for if it has not ended, on stderr: counts alone
 // do not tell. `under` as above.
 void complain_of_ends(const SimulationResult& result, const std::string& under = "");
 
+// Of the clients' jobs; moves aside of the server's own are not counted.
 struct RunSummary {
   Duration makespan{};  // from the first submission; zero: no job started
   // Every terminal state and "refused"; other states only when the time limit came first.

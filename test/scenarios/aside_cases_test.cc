@@ -78,6 +78,22 @@ TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
   EXPECT_FALSE(cell->simulation->executive().job("aside-1"));
 }
 
+// Canceled in the crossing, with its home behind it out of reach: it goes on along its line.
+TEST_P(Aside, AnArmThatStoppedOnItsWayGoesToTheEndOfThatIfNotBack) {
+  cell.emplace(parking("park"), GetParam());
+  CollisionObject behind{.name = "behind", .shape = Sphere{0.1}};
+  behind.X_WO.translation().x() = -0.5;
+  cell->submit(slide("x", -1, 0.5, 4, "canceled"));
+  while (cell->log.last[0] < -0.1) cell->simulation->tick();
+  ASSERT_TRUE(cell->simulation->executive().cancel("canceled"));
+  ASSERT_TRUE(cell->simulation->executive().add_object(behind));
+  cell->run_until(cell->simulation->now() + 1s);
+  cell->submit(slide("y", -1, 1, 3, "passes"));
+  cell->run_to_the_end(at(30s));
+  EXPECT_EQ(cell->job("passes").state, JobState::succeeded);
+  EXPECT_NEAR(cell->log.last[0], 0.5, 1e-3);
+}
+
 // ---- Arms with jobs, which wait for each other ----
 
 // Every arm has a pose "back", 1 m behind its corner.

@@ -79,6 +79,25 @@ TEST_F(Coordinated, StaysBeforeAnArmThatWasCanceledInTheWayUntilItMovesOn) {
 }
 
 // A job behind a canceled one cannot begin any more: nobody may count on it to clear the way.
+// Nothing bounds a stop; what waits on its path for an arm that no job moves ends as in the backlog.
+TEST_F(Coordinated, GivesUpOnItsPathWhenNothingMovesTheArmAway) {
+  cell.submit(slide("x", -1, 1, 4, "canceled"));
+  JobRequest follows = slide("y", -1, 1, 4, "follows");
+  follows.backlog_timeout = 20s;
+  cell.submit(follows);
+  cell.run_until(at(1950ms));
+  ASSERT_TRUE(cell.simulation->executive().cancel("canceled"));
+  cell.run_until(at(20s));
+  EXPECT_EQ(cell.job("follows").state, JobState::holding);
+  cell.run_to_the_end(at(25s));
+  const JobView gave_up = cell.job("follows");
+  EXPECT_EQ(gave_up.state, JobState::expired);
+  EXPECT_EQ(gave_up.reason, Reason::backlog_timeout);
+  EXPECT_EQ(gave_up.detail, "waited 20 s on its path");
+  ASSERT_EQ(gave_up.waits_on.size(), 1U);
+  EXPECT_EQ(gave_up.waits_on[0].arm, "x");
+}
+
 TEST_F(Coordinated, DoesNotCountOnAJobWhoseStartWillNotBeReached) {
   cell.submit(slide("x", -1, 0, 3, "into the crossing"));
   cell.submit(slide("x", 0, 0.5, 2, "on"));

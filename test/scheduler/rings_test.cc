@@ -330,7 +330,7 @@ TEST(RingUnderPark, ThatClosesAgainWithTheReturnFailsTheOtherAndNotTheReturn) {
   bench.step(Wake{}, at(2002ms));
   bench.answer_conflict(at(2003ms), Conflict::With::rest, {}, ArmId{0});
   EXPECT_THAT(bench.job(bench.back).ring, ElementsAre(bench.back, bench.a));
-  bench.step(Wake{}, at(2004ms));
+  bench.answer_conflict(at(2004ms), Conflict::With::scene);  // a's arm cannot go aside
   EXPECT_EQ(bench.job(bench.a).reason, Reason::deadlock);
   EXPECT_EQ(bench.state(bench.back), JobState::backlogged);
   EXPECT_FALSE(is_terminal(bench.state(bench.b)));
@@ -350,7 +350,7 @@ TEST(RingUnderPark, WithAMoveAsideThatAClientCountsOnFailsTheOther) {
   const JobId counts = bench.submit(move({1}, -1, 0.5, 2s), at(3ms));
   bench.answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{0});
   EXPECT_THAT(bench.job(a).ring, ElementsAre(a, way));
-  bench.step(Wake{}, at(5ms));
+  bench.answer_conflict(at(5ms), Conflict::With::scene);  // a's arm cannot go aside
   EXPECT_EQ(bench.job(a).reason, Reason::deadlock);
   EXPECT_EQ(bench.state(way), JobState::backlogged);
   EXPECT_FALSE(is_terminal(bench.state(counts)));
