@@ -11,6 +11,7 @@
 #include "core/collision/motion_store.h"
 #include "core/collision/pair_regions.h"
 #include "core/collision/parting.h"
+#include "core/coordination/in_step.h"
 
 namespace armloom {
 namespace {
@@ -305,7 +306,7 @@ class Arbiter::Impl {
     ask(store_.pair(*a.entry, *b.entry), region_of(a, b), own, &other, turned);
   }
 
-  // Two arms of one synchronous motion.
+  // Two arms of one synchronous motion: side by side, or one of them as far behind as it can get.
   void ask_in_step(const Mover& own, const Mover& other) {
     if (store_.out_of_reach(own.arm, other.arm)) return;
     const bool turned = other.arm < own.arm;
@@ -313,11 +314,14 @@ class Arbiter::Impl {
     const Mover& b = turned ? own : other;
     const double progress = std::max(progress_of(own), 0.0);
     const double duration = to_seconds(own.entry->tube->duration());
-    const Region line{.progress_a = progress,
+    const double apart_s = to_seconds(kOutOfStep + kUntilTold);
+    const Region band{.progress_a = progress,
                       .progress_b = progress,
+                      .lag_a = apart_s + b.entry->stopping_reach_s,
+                      .lag_b = apart_s + a.entry->stopping_reach_s,
                       .duration_a = duration,
                       .duration_b = duration};
-    ask(store_.pair(*a.entry, *b.entry), line, own, &other, turned);
+    ask(store_.pair(*a.entry, *b.entry), band, own, &other, turned);
   }
 
   void ask(const MotionStore::Diagram& diagram, const Region& region, const Mover& own,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/arm/arm_controller.h"
+#include "core/coordination/in_step.h"
 #include "core/model/cell.h"
 #include "core/scheduler/inputs.h"
 
@@ -12,7 +13,8 @@ namespace armloom {
 
 // The arms and the motions on them: hands a job's trajectory to the controllers of its arms
 // and joins what they say into one report for the job (one progress, that of the last; one end).
-// Siblings of an arm that faults are braked; siblings that get ahead of it by more than kAhead wait
+// Siblings of an arm that faults are braked; siblings that get ahead of it by more than kOutOfStep
+// wait
 // on the path.
 class Motions {
  public:
@@ -40,7 +42,6 @@ class Motions {
   [[nodiscard]] double deviation(ArmId arm) const;
 
  private:
-  inline static constexpr Duration kAhead = std::chrono::milliseconds(50);
   struct Motion {
     TrajectoryPtr trajectory;
     std::map<ArmId, Duration>
