@@ -219,6 +219,7 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
         report.rest_position[static_cast<Eigen::Index>(j)];
   }
   ++version_;
+  record.farthest = report.farthest;
   job.stopping = false;
   job.late = false;
   job.pausing = false;
@@ -264,10 +265,15 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
 void Scheduler::withdraw(Record& record, AfterStop then) {
   ++version_;  // others may have counted on its departure
   if (!graph_) disturbed_at_ = version_;
+  record.job.pausing = false;
   if (then != AfterStop::hold) {
     const bool held = record.job.started_at.has_value();
-    end(record, JobState::canceled, Reason::canceled_by_client,
-        held ? "canceled while holding" : "canceled before it moved");
+    if (then == AfterStop::fail) {
+      end(record, JobState::failed, record.fail_reason, record.fail_detail);
+    } else {
+      end(record, JobState::canceled, Reason::canceled_by_client,
+          held ? "canceled while holding" : "canceled before it moved");
+    }
     if (held) effects_.push_back(Release{record.job.id});
     return;
   }

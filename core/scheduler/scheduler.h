@@ -128,6 +128,7 @@ class Scheduler {
     std::optional<TimePoint> ages_from;   // first in conflict, or first without a place
     Version checked_at = 0;               // in motion: the version on which it was last found free
     Duration from_progress{};             // where the present dispatch begins
+    Duration farthest{};                  // MotionReport::farthest of the last rest
     std::optional<TimePoint> overrun_at;  // if it does not move before
     TimePoint moved_at{};                 // last
     bool dispatched = false;              // the arms have the motion; else it is scheduled at most
@@ -237,6 +238,7 @@ class Scheduler {
   // turns.cc: whose turn it is among waiting jobs
   [[nodiscard]] std::vector<JobId> in_turn() const;  // active, each after those before it
   [[nodiscard]] bool lets_another_pass(const Record& record) const;
+  [[nodiscard]] std::vector<Wait> found_in_the_way(const Record& record) const;
   [[nodiscard]] WaitsFor waits_for() const;
   [[nodiscard]] std::optional<JobId> has_to_move_first(const Record& record,
                                                        const Wait& wait) const;
@@ -294,7 +296,8 @@ class Scheduler {
   void extend_authority(JobId moved);
   void extend_own_authority(Record& record);
   void explain_pause(Record& record);
-  [[nodiscard]] static bool pauses_for_an_arm(const Record& record);
+  [[nodiscard]] std::optional<Wait> held_where_it_stands(const Record& record) const;
+  [[nodiscard]] bool stands(const Record& record) const;
   void see_pauses(Record& record, Duration progress_before);
 
   CellPtr cell_;

@@ -50,34 +50,31 @@ std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wa
   const Record& other = records_.at(*first);
   const bool both_held =
       record.job.state == JobState::holding && other.job.state == JobState::holding;
-  const bool at_rest = waiting(other) || pauses_for_an_arm(other);
-  return at_rest && !both_held ? first : std::nullopt;
+  return stands(other) && !both_held ? first : std::nullopt;
 }
 
-// On its way, before an arm at rest.
-bool Scheduler::pauses_for_an_arm(const Record& record) {
-  return record.job.pausing && std::ranges::any_of(record.job.waits_on, [](const Wait& wait) {
-           return wait.kind == Wait::Kind::arm;
-         });
+// What was found when it was judged last, if that still counts; of what is admitted, what holds it.
+std::vector<Wait> Scheduler::found_in_the_way(const Record& record) const {
+  if (waiting(record)) return record.judged_at == version_ ? record.found : std::vector<Wait>{};
+  const auto held = held_where_it_stands(record);
+  return held ? std::vector<Wait>{*held} : std::vector<Wait>{};
 }
 
 WaitsFor Scheduler::waits_for() const {
   std::vector<WaitsForEdge> edges;
   for (const auto& queue : order_) {
     for (std::size_t i = 1; i < queue.size(); ++i) {
-      if (waiting(records_.at(queue[i - 1]))) edges.push_back({queue[i], queue[i - 1]});
+      if (stands(records_.at(queue[i - 1]))) edges.push_back({queue[i], queue[i - 1]});
     }
   }
   for (JobId id : active_) {
     const Record& record = records_.at(id);
-    const bool pauses = pauses_for_an_arm(record);
-    if (!waiting(record) && !pauses) continue;
+    if (!stands(record)) continue;
     for (JobId before : record.job.after) {
-      if (waiting(records_.at(before))) edges.push_back({id, before});
+      if (stands(records_.at(before))) edges.push_back({id, before});
     }
     if (lets_another_pass(record)) edges.push_back({id, *record.lets_pass});
-    if (record.judged_at != version_ && !pauses) continue;
-    for (const Wait& wait : pauses ? record.job.waits_on : record.found) {
+    for (const Wait& wait : found_in_the_way(record)) {
       const auto first = has_to_move_first(record, wait);
       if (!first) continue;
       if (wait.kind == Wait::Kind::arm) {
@@ -175,10 +172,9 @@ void Scheduler::name_deadlocks() {
   const bool in_the_way = std::ranges::any_of(order_, [this](const auto& queue) {
     if (queue.empty()) return false;
     const Record& record = records_.at(queue.front());
-    return waiting(record) && record.judged_at == version_ &&
-           std::ranges::any_of(record.found, [&](const Wait& wait) {
-             return has_to_move_first(record, wait).has_value();
-           });
+    return std::ranges::any_of(found_in_the_way(record), [&](const Wait& wait) {
+      return has_to_move_first(record, wait).has_value();
+    });
   });
   if (!in_the_way) return;
   for (Ring& ring : find_rings(waits_for())) {
@@ -199,8 +195,7 @@ void Scheduler::name_deadlocks() {
 // goes, or the scene is another one.
 bool Scheduler::stands(const NamedRing& named) const {
   return named.disturbed_at == disturbed_at_ && std::ranges::all_of(named.ring, [this](JobId id) {
-           return active_.contains(id) &&
-                  (waiting(records_.at(id)) || pauses_for_an_arm(records_.at(id)));
+           return active_.contains(id) && stands(records_.at(id));
          });
 }
 
@@ -220,8 +215,12 @@ void Scheduler::settle_deadlocks() {
 void Scheduler::untell(const Ring& ring) {
   for (JobId id : ring) {
     if (!active_.contains(id)) continue;
-    records_.at(id).job.ring.clear();
-    changed(records_.at(id));
+    Record& record = records_.at(id);
+    const bool ends_for_it = record.job.stopping && record.after_stop == AfterStop::fail &&
+                             record.fail_reason == Reason::deadlock;
+    if (ends_for_it) continue;  // it names the ring when it has come to rest
+    record.job.ring.clear();
+    changed(record);
   }
 }
 
