@@ -320,10 +320,10 @@ class TeamsRun {
       if (watched_.events.size() != events) {
         events = watched_.events.size();
         changed_at = simulation_->now();
-        if (simulation_->now() > resumed_at + 1s && stopped_in_vain()) {
-          executive().resume_all();
-          resumed_at = simulation_->now();
-        }
+      }
+      if (simulation_->now() > resumed_at + 1s) {
+        if (stopped_in_vain()) executive().resume_all();
+        resumed_at = simulation_->now();
       }
       if (simulation_->now() > std::max(changed_at, watched_.moved_at) + kQuiet) break;
     }
