@@ -11,6 +11,7 @@
 #include "core/collision/motion_store.h"
 #include "core/collision/pair_regions.h"
 #include "core/collision/parting.h"
+#include "core/coordination/in_step.h"
 
 namespace armloom {
 namespace {
@@ -29,8 +30,7 @@ Freedom freedom_of(const CheckMethod& method, const Cell& cell) {
     return {.swept = true, .tracking_error = swept->tracking_error};
   }
   if (const auto* coordinated = std::get_if<Coordinated>(&method)) {
-    return {.reaction_s = to_seconds(cell.monitor.reaction),
-            .tracking_error = coordinated->tracking_error};
+    return {.tracking_error = coordinated->tracking_error};
   }
   const auto& certified = std::get<Certified>(method);
   return {.lag_s = to_seconds(certified.lag),
@@ -306,7 +306,7 @@ class Arbiter::Impl {
     ask(store_.pair(*a.entry, *b.entry), region_of(a, b), own, &other, turned);
   }
 
-  // Two arms of one synchronous motion, in step or either ahead of the other.
+  // Two arms of one synchronous motion: side by side, or one of them as far behind as it can get.
   void ask_in_step(const Mover& own, const Mover& other) {
     if (store_.out_of_reach(own.arm, other.arm)) return;
     const bool turned = other.arm < own.arm;
@@ -314,11 +314,11 @@ class Arbiter::Impl {
     const Mover& b = turned ? own : other;
     const double progress = std::max(progress_of(own), 0.0);
     const double duration = to_seconds(own.entry->tube->duration());
-    const double ahead_s = to_seconds(kAheadOfSiblings) + freedom_.reaction_s;
+    const double apart_s = to_seconds(kOutOfStep + kUntilTold);
     const Region band{.progress_a = progress,
                       .progress_b = progress,
-                      .lead_a = ahead_s + a.entry->stopping_reach_s,
-                      .lead_b = ahead_s + b.entry->stopping_reach_s,
+                      .lag_a = apart_s + b.entry->stopping_reach_s,
+                      .lag_b = apart_s + a.entry->stopping_reach_s,
                       .duration_a = duration,
                       .duration_b = duration};
     ask(store_.pair(*a.entry, *b.entry), band, own, &other, turned);

@@ -28,7 +28,7 @@ namespace armloom {
 //
 // Coordinated: candidates against themselves and what stands still, from their progress on, as
 // above; the arms of one synchronous motion against each other, in step and as far ahead of each
-// other as kAheadOfSiblings allows. Where that is free the verdict is, and names the regions of the
+// other as they can get (in_step.h). Where that is free the verdict is, and names the regions of the
 // pairs (pair_regions.h) with the same margins.
 // find_earliest is not heeded.
 //

@@ -28,10 +28,6 @@ struct Motion {
   [[nodiscard]] Duration remaining() const { return trajectory->duration() - progress; }
 };
 
-// Arms of one motion keep in step: one that gets further ahead of the last one brakes. So it is
-// ahead of it by no more than this and its stopping distance, which is what they are judged for.
-inline constexpr Duration kAheadOfSiblings = std::chrono::milliseconds(50);
-
 // How motions are compared.
 struct TimedDiscrete {  // the paper's: at equal instants, every `step`; between them nothing is
                         // promised

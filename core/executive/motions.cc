@@ -87,7 +87,7 @@ void Motions::keep_together(const Motion& motion) {
     last = std::min(last, feedback_[arm.index()].commanded_progress);
   }
   for (ArmId arm : motion.trajectory->arms()) {
-    const bool ahead = feedback_[arm.index()].commanded_progress - last > kAheadOfSiblings;
+    const bool ahead = feedback_[arm.index()].commanded_progress - last > kOutOfStep;
     controllers_[arm.index()]->grant(ahead ? std::min(last, motion.authority) : motion.authority);
   }
 }
@@ -96,7 +96,7 @@ void Motions::report(JobId job, Motion& motion) {
   if (motion.resting) return;
   bool all_rest = true, all_finished = true, any_moves = false;
   const ArmFeedback* fault = nullptr;
-  Duration progress = motion.trajectory->duration();
+  Duration progress = motion.trajectory->duration(), farthest{};
   for (ArmId arm : motion.trajectory->arms()) {
     const ArmFeedback& feedback = feedback_[arm.index()];
     all_rest = all_rest && at_rest(feedback.phase);
@@ -104,6 +104,7 @@ void Motions::report(JobId job, Motion& motion) {
     any_moves = any_moves || moving(arm);
     if (feedback.phase == Phase::fault) fault = &feedback;
     progress = std::min(progress, feedback.measured_progress);
+    farthest = std::max(farthest, feedback.measured_progress);
   }
   if (fault && !motion.braking) brake(job);
   if (all_rest) {
@@ -115,7 +116,7 @@ void Motions::report(JobId job, Motion& motion) {
                       : all_finished ? MotionReport::Kind::finished
                                      : MotionReport::Kind::stopped;
     reports_.push_back({job, kind, progress, measured_joints(*motion.trajectory),
-                        fault ? fault->detail : std::string()});
+                        fault ? fault->detail : std::string(), farthest});
   } else if (any_moves) {
     reports_.push_back({job, MotionReport::Kind::progressed, progress});
   }

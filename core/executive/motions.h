@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/arm/arm_controller.h"
+#include "core/coordination/in_step.h"
 #include "core/model/cell.h"
 #include "core/scheduler/inputs.h"
 
@@ -12,8 +13,8 @@ namespace armloom {
 
 // The arms and the motions on them: hands a job's trajectory to the controllers of its arms
 // and joins what they say into one report for the job (one progress, that of the last; one end).
-// Siblings of an arm that faults are braked; siblings that get ahead of it by more than
-// kAheadOfSiblings wait on the path.
+// Siblings of an arm that faults are braked; siblings that get ahead of it by more than kOutOfStep
+// wait on the path.
 class Motions {
  public:
   Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,

@@ -322,6 +322,22 @@ void Scheduler::explain_pause(Record& record) {
   if (const auto held = graph_->held_back(record.job.id)) set_waits(record, {wait_for(*held)});
 }
 
+// What keeps an admitted job from going on, or from beginning; nothing: it goes, or is about to.
+std::optional<Wait> Scheduler::held_where_it_stands(const Record& record) const {
+  if (!graph_ || waiting(record) || record.job.stopping) return std::nullopt;
+  const bool not_told = record.job.state == JobState::scheduled && !record.dispatched;
+  if (!not_told && !record.job.pausing) return std::nullopt;
+  if (graph_->limit(record.job.id) > record.job.progress + kAtLimit) return std::nullopt;
+  const auto held = graph_->held_back(record.job.id);
+  return held ? std::optional(wait_for(*held)) : std::nullopt;
+}
+
+// It moves only after others have moved.
+bool Scheduler::stands(const Record& record) const {
+  const bool behind = record.job.state == JobState::scheduled && graph_ && !at_head(record);
+  return waiting(record) || behind || held_where_it_stands(record).has_value();
+}
+
 void Scheduler::dispatch_if_ready(Record& record) {
   Job& job = record.job;
   if (!at_head(record)) return;
@@ -331,9 +347,14 @@ void Scheduler::dispatch_if_ready(Record& record) {
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {
     const auto held = graph_->held_back(job.id);
     if (held && held->arm && !job.started_at) return withdraw(record, AfterStop::hold);
+    if (job.started_at && !job.pausing) {  // stopped on its way: it pauses there until it may go on
+      job.pausing = true;
+      changed(record);
+    }
     explain_pause(record);
     return;
   }
+  job.pausing = false;
   const Duration authority = std::min(limit, job.progress + record.horizon);
   graph_->granted(job.id, authority);
   record.dispatched = true;
@@ -376,16 +397,6 @@ void Scheduler::extend_own_authority(Record& record) {
   effects_.push_back(Grant{job, authority});
 }
 
-// Admitted, and at rest as far as it may go: by whom.
-std::optional<Wait> Scheduler::held_up_by(const Record& record) const {
-  const Job& job = record.job;
-  const bool to_start = job.state == JobState::scheduled && !record.dispatched && at_head(record);
-  if (!graph_ || job.stopping || (!job.pausing && !to_start)) return std::nullopt;
-  if (graph_->limit(job.id) > job.progress + kAtLimit) return std::nullopt;
-  const auto held = graph_->held_back(job.id);
-  return held ? std::optional(wait_for(*held)) : std::nullopt;
-}
-
 // At rest at its limit a running motion pauses; what it loses there is no overrun.
 void Scheduler::see_pauses(Record& record, Duration progress_before) {
   Job& job = record.job;
@@ -423,7 +434,7 @@ void Scheduler::leave_graph(const Record& record) {
   for (auto job = behind.rbegin(); job != behind.rend(); ++job) {
     if (graph_->holds(*job)) withdraw(records_.at(*job), AfterStop::hold);
   }
-  graph_->abandon(record.job.id, record.job.progress);
+  graph_->abandon(record.job.id, record.job.progress, record.farthest);
 }
 
 }  // namespace armloom

@@ -53,6 +53,9 @@ struct MotionReport {
   Eigen::VectorXd rest_position = {};  // stopped, finished, faulted: measured positions of the
                                        // trajectory's joints, in its order
   std::string detail = {};             // faulted: why
+  // stopped, faulted: the progress of that one of its arms that got farthest; `progress` is the
+  // last one's. Zero: the same.
+  Duration farthest{};
 };
 // Stop these arms (all: every arm of the cell) and start nothing on them until Resume.
 struct Stop {

@@ -61,7 +61,7 @@ std::optional<Scheduler::Aside> Scheduler::aside_in(const Ring& ring) const {
     const Record& next = records_.at(from_last[i]);
     const Record& waits = records_.at(from_last[(i + from_last.size() - 1) % from_last.size()]);
     if (!waiting(next) || next.job.started_at || next.job.own) continue;
-    for (const Wait& wait : held_up_by(waits) ? known_waits(waits) : waits.found) {
+    for (const Wait& wait : waiting(waits) ? waits.found : waits.job.waits_on) {
       const bool near = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::job;
       if (!near || !wait.arm) continue;
       const auto& queue = order_[wait.arm->index()];

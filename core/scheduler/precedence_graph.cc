@@ -13,10 +13,24 @@ bool share_an_arm(const CoordinatedMotion& a, const CoordinatedMotion& b) {
 
 // Whether an arm that rests at `at` of its motion is in the interval; its closed edges are free,
 // but for the motion's own ends.
-bool rests_in(Duration at, Duration from, Duration to, Duration duration, bool seam) {
-  const bool after = from < at || from <= Duration{} || seam;
+// Arms of one motion may rest apart on it, from `at` to `farthest`.
+bool rests_in(Duration at, Duration farthest, Duration from, Duration to, Duration duration,
+              bool seam) {
+  const bool after = from < farthest || from <= Duration{} || seam;
   const bool before = at < to || to >= duration;
-  return after && before && from <= at && at <= to;
+  return after && before && from <= farthest && at <= to;
+}
+
+// Comes right after it on one of its arms.
+bool follows(const std::vector<CoordinatedMotion>& motions, const CoordinatedMotion& next,
+             const CoordinatedMotion& before) {
+  return std::ranges::any_of(next.arms, [&](ArmId arm) {
+    const auto takes = [arm](const CoordinatedMotion& motion) {
+      return std::ranges::find(motion.arms, arm) != motion.arms.end();
+    };
+    return takes(before) && std::none_of(motions.begin() + (&before - motions.data()) + 1,
+                                         motions.begin() + (&next - motions.data()), takes);
+  });
 }
 
 }  // namespace
@@ -118,26 +132,29 @@ void PrecedenceGraph::finish(JobId job) {
   const bool moves_on = std::ranges::any_of(motions_, [&](const CoordinatedMotion& motion) {
     return &motion > found && share_an_arm(motion, *found);
   });
-  if (!moves_on) block_others(*found, found->duration);
+  if (!moves_on) block_others(*found, found->duration, found->duration);
   erase(job);
 }
 
-void PrecedenceGraph::abandon(JobId job, Duration rests_at) {
+void PrecedenceGraph::abandon(JobId job, Duration rests_at, Duration farthest) {
   const CoordinatedMotion* found = find(job);
   if (found == nullptr) return;
-  block_others(*found, rests_at);
-  // Who was to pass after it has left the goal of the one before it would wait in vain.
+  block_others(*found, rests_at, std::max(rests_at, farthest));
+  // Who was to pass after it has left the goal of the one before it would wait in vain. Not who
+  // passes before that one comes there.
   for (const CoordinatedMotion& before : motions_) {
     if (&before == found) break;
-    if (share_an_arm(before, *found)) block_others(before, before.duration);
+    if (follows(motions_, *found, before)) block_others(before, before.duration, before.duration);
   }
   erase(job);
 }
 
-void PrecedenceGraph::block_others(const CoordinatedMotion& rests, Duration at) {
+// Whether it rests there now or will.
+void PrecedenceGraph::block_others(const CoordinatedMotion& rests, Duration at, Duration farthest) {
+  const bool is_there = rests.progress >= at;
   for (const Precedence& precedence : precedences_) {
     const bool first = precedence.first() == rests.job;
-    if (!first && precedence.second() != rests.job) continue;
+    if (!first && (precedence.second() != rests.job || !is_there)) continue;
     const JobId other = first ? precedence.second() : precedence.first();
     const ConflictRegion& region = precedence.region();
     const Duration passed = find(other)->progress;
@@ -148,11 +165,11 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& rests, Duration at) 
       const Duration own_to = first ? box.to_b : box.to_a;
       // Where another box ends that it is in the way of too, the edge is none of the outline.
       const bool seam = std::ranges::any_of(region.boxes, [&](const ProgressBox& other_box) {
-        return (first ? other_box.to_a : other_box.to_b) == at &&
+        return (first ? other_box.to_a : other_box.to_b) == farthest &&
                (first ? other_box.from_b : other_box.from_a) <= own_to &&
                own_from <= (first ? other_box.to_b : other_box.to_a);
       });
-      if (own_to <= passed || !rests_in(at, from, to, rests.duration, seam)) continue;
+      if (own_to <= passed || !rests_in(at, farthest, from, to, rests.duration, seam)) continue;
       if (!blockade) {
         HeldBack evidence{std::nullopt, rests.arms.front(),
                           first ? turned_around(region.proximity) : region.proximity,

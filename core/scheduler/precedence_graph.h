@@ -50,9 +50,10 @@ class PrecedenceGraph {
   void keep_place(JobId job);
 
   // The motion has ended: at its goal, or where it rests instead for good. In the latter case
-  // motions that would pass there stay where they may be until its arm moves again.
+  // motions that would pass there stay where they may be until its arm moves again. Of several arms
+  // one may rest farther on the path than another.
   void finish(JobId job);
-  void abandon(JobId job, Duration rests_at);
+  void abandon(JobId job, Duration rests_at, Duration farthest = {});
 
  private:
   // An arm that rests in the way of an admitted motion.
@@ -65,7 +66,7 @@ class PrecedenceGraph {
   };
   [[nodiscard]] CoordinatedMotion* motion(JobId job);
   [[nodiscard]] bool waits_for_own_arm(std::size_t index) const;
-  void block_others(const CoordinatedMotion& rests, Duration at);
+  void block_others(const CoordinatedMotion& rests, Duration at, Duration farthest);
   void erase(JobId job);
 
   std::vector<CoordinatedMotion> motions_;  // in order per arm

@@ -218,6 +218,7 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
         report.rest_position[static_cast<Eigen::Index>(j)];
   }
   ++version_;
+  record.farthest = report.farthest;
   job.stopping = false;
   job.late = false;
   job.pausing = false;
@@ -264,6 +265,7 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
 void Scheduler::withdraw(Record& record, AfterStop then) {
   ++version_;  // others may have counted on its departure
   if (!graph_) disturbed_at_ = version_;
+  record.job.pausing = false;
   if (then != AfterStop::hold) {
     const bool held = record.job.started_at.has_value();
     if (then == AfterStop::fail) {
@@ -407,7 +409,7 @@ void Scheduler::see_whether_in_vain(Record& record) const {
     return;
   }
   if (held && record.judged_at != version_) return;  // not known yet
-  const auto waits = known_waits(record);
+  const auto waits = found_in_the_way(record);
   const bool in_vain = std::ranges::any_of(waits, [this](const Wait& wait) {
     return wait.kind == Wait::Kind::object ||
            (wait.kind == Wait::Kind::arm && order_[wait.arm->index()].empty());

@@ -129,6 +129,7 @@ class Scheduler {
     std::optional<TimePoint> ages_from;   // first in conflict, or first without a place
     Version checked_at = 0;               // in motion: the version on which it was last found free
     Duration from_progress{};             // where the present dispatch begins
+    Duration farthest{};                  // MotionReport::farthest of the last rest
     std::optional<TimePoint> overrun_at;  // if it does not move before
     TimePoint moved_at{};                 // last
     std::optional<TimePoint> in_vain_since;  // on its path, for what no job moves
@@ -241,9 +242,8 @@ class Scheduler {
   // turns.cc: whose turn it is among waiting jobs
   [[nodiscard]] std::vector<JobId> in_turn() const;  // active, each after those before it
   [[nodiscard]] bool lets_another_pass(const Record& record) const;
+  [[nodiscard]] std::vector<Wait> found_in_the_way(const Record& record) const;
   [[nodiscard]] WaitsFor waits_for() const;
-  [[nodiscard]] bool stands_still(const Record& record) const;
-  [[nodiscard]] std::vector<Wait> known_waits(const Record& record) const;
   [[nodiscard]] std::optional<JobId> has_to_move_first(const Record& record,
                                                        const Wait& wait) const;
   [[nodiscard]] std::map<JobId, int> urgencies() const;  // empty: all are the same
@@ -300,7 +300,8 @@ class Scheduler {
   void extend_authority(JobId moved);
   void extend_own_authority(Record& record);
   void explain_pause(Record& record);
-  [[nodiscard]] std::optional<Wait> held_up_by(const Record& record) const;
+  [[nodiscard]] std::optional<Wait> held_where_it_stands(const Record& record) const;
+  [[nodiscard]] bool stands(const Record& record) const;
   void see_pauses(Record& record, Duration progress_before);
 
   CellPtr cell_;

@@ -38,20 +38,6 @@ bool Scheduler::lets_another_pass(const Record& record) const {
          waiting(records_.at(*record.lets_pass));
 }
 
-// Nothing moves it but what others do first.
-bool Scheduler::stands_still(const Record& record) const {
-  if (waiting(record) || held_up_by(record)) return true;
-  const bool admitted = record.job.state == JobState::scheduled && !record.dispatched;
-  return graph_ && admitted && !at_head(record);
-}
-
-// What it is known to wait for. Judgements count on the version that was judged only.
-std::vector<Wait> Scheduler::known_waits(const Record& record) const {
-  if (auto held = held_up_by(record)) return {std::move(*held)};
-  if (waiting(record) && record.judged_at == version_) return record.found;
-  return {};
-}
-
 // What is undecided counts as a conflict: it stays so while nothing moves. But two that are held
 // may go on together though neither can alone.
 std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wait& wait) const {
@@ -68,24 +54,31 @@ std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wa
   const Record& other = records_.at(*first);
   const bool both_held =
       record.job.state == JobState::holding && other.job.state == JobState::holding;
-  return stands_still(other) && !both_held ? first : std::nullopt;
+  return stands(other) && !both_held ? first : std::nullopt;
+}
+
+// What was found when it was judged last, if that still counts; of what is admitted, what holds it.
+std::vector<Wait> Scheduler::found_in_the_way(const Record& record) const {
+  if (waiting(record)) return record.judged_at == version_ ? record.found : std::vector<Wait>{};
+  const auto held = held_where_it_stands(record);
+  return held ? std::vector<Wait>{*held} : std::vector<Wait>{};
 }
 
 WaitsFor Scheduler::waits_for() const {
   std::vector<WaitsForEdge> edges;
   for (const auto& queue : order_) {
     for (std::size_t i = 1; i < queue.size(); ++i) {
-      if (stands_still(records_.at(queue[i - 1]))) edges.push_back({queue[i], queue[i - 1]});
+      if (stands(records_.at(queue[i - 1]))) edges.push_back({queue[i], queue[i - 1]});
     }
   }
   for (JobId id : active_) {
     const Record& record = records_.at(id);
-    if (!stands_still(record)) continue;
+    if (!stands(record)) continue;
     for (JobId before : record.job.after) {
-      if (stands_still(records_.at(before))) edges.push_back({id, before});
+      if (stands(records_.at(before))) edges.push_back({id, before});
     }
     if (lets_another_pass(record)) edges.push_back({id, *record.lets_pass});
-    for (const Wait& wait : known_waits(record)) {
+    for (const Wait& wait : found_in_the_way(record)) {
       const auto first = has_to_move_first(record, wait);
       if (!first) continue;
       if (wait.kind == Wait::Kind::arm) {
@@ -183,7 +176,7 @@ void Scheduler::name_deadlocks() {
   const bool in_the_way = std::ranges::any_of(order_, [this](const auto& queue) {
     if (queue.empty()) return false;
     const Record& record = records_.at(queue.front());
-    return std::ranges::any_of(known_waits(record), [&](const Wait& wait) {
+    return std::ranges::any_of(found_in_the_way(record), [&](const Wait& wait) {
       return has_to_move_first(record, wait).has_value();
     });
   });
@@ -206,7 +199,7 @@ void Scheduler::name_deadlocks() {
 // goes, or the scene is another one.
 bool Scheduler::stands(const NamedRing& named) const {
   return named.disturbed_at == disturbed_at_ && std::ranges::all_of(named.ring, [this](JobId id) {
-           return active_.contains(id) && stands_still(records_.at(id));
+           return active_.contains(id) && stands(records_.at(id));
          });
 }
 
@@ -229,7 +222,7 @@ void Scheduler::untell(const Ring& ring) {
     Record& record = records_.at(id);
     const bool ends_for_it = record.job.stopping && record.after_stop == AfterStop::fail &&
                              record.fail_reason == Reason::deadlock;
-    if (ends_for_it) continue;  // braking: kept, as the reason
+    if (ends_for_it) continue;  // it names the ring when it has come to rest
     record.job.ring.clear();
     changed(record);
   }

@@ -196,10 +196,48 @@ TEST_F(Graph, WhoKeepsItsPlaceIsNotOvertaken) {
   EXPECT_EQ(graph.limit(kB), 1s);
 }
 
+// B was to wait until Next has taken the arm from A's goal. What comes after that is no matter.
+TEST_F(Graph, WhoIsAbandonedBlocksOnlyThePlacesThatItWasToLeave) {
+  const std::vector<PairRegions> regions = {{kA, kB, {region({{4s, 5s, 2s, 3s}})}},
+                                            {kNext, kB, {region({{0s, 1s, 2s, 3s}})}}};
+  for (const JobId abandoned : {kC, kNext}) {
+    graph = PrecedenceGraph(3);
+    admit({motion(kA, 0, 5s)}, {});
+    graph.granted(kA, 5s);
+    admit({motion(kB, 1, 5s), motion(kNext, 0, 5s), motion(kC, 0, 5s)}, regions);
+    graph.abandon(kC, 0s);
+    if (abandoned == kNext) graph.abandon(kNext, 0s);
+    graph.progress(kA, 5s);
+    graph.finish(kA);
+    graph.progress(kNext, 2s);
+    EXPECT_EQ(graph.limit(kB), abandoned == kC ? 5s : 2s);
+  }
+}
+
+// Nor is it one for who passes before the other comes there at all.
+TEST_F(Graph, WhoPassesFirstIsNotBlockedByAGoalThatTheOtherHasNotReached) {
+  admit({motion(kA, 0, 20s)}, {});
+  admit({motion(kB, 1, 5s), motion(kNext, 0, 5s)}, {{kB, kA, {region({{2s, 3s, 18s, 20s}})}}});
+  ASSERT_EQ(graph.limit(kA), 18s);
+  graph.abandon(kNext, 0s);
+  EXPECT_EQ(graph.limit(kB), 5s);
+  EXPECT_EQ(graph.limit(kA), 18s);
+}
+
 // ---- Motions of several arms ----
 
 CoordinatedMotion of_both(JobId job, Duration duration) {
   return {.job = job, .arms = {ArmId{0}, ArmId{1}}, .duration = duration};
+}
+
+// One arm rests before the region, the other one, which got ahead, in it.
+TEST_F(Graph, AnArmThatRestsFartherThanItsSiblingIsInTheWayToo) {
+  admit({of_both(kA, 5s)}, {});
+  graph.granted(kA, 5s);
+  admit({motion(kB, 2, 5s)}, {{kB, kA, {region({{2s, 3s, 2s, 3s}})}}});
+  graph.progress(kA, 1980ms);
+  graph.abandon(kA, 1980ms, 2040ms);
+  EXPECT_EQ(graph.limit(kB), 2s);
 }
 
 // A ends in B's way, and what takes its arm away takes B's too: after B.
