@@ -358,7 +358,12 @@ class TeamsRun {
     std::set<std::string> explained;
     for (const JobView& job : now.jobs) {
       if (is_terminal(job.state)) continue;
-      for (const std::string& arm : job.arms) waits["arm:" + arm].insert(job.key);
+      for (const std::string& arm : job.arms) {
+        auto& of_arm = waits["arm:" + arm];
+        const bool behind = job.state == JobState::scheduled && job.waits_on.empty();
+        if (behind) waits[job.key].insert(of_arm.begin(), of_arm.end());  // is not told
+        of_arm.insert(job.key);
+      }
       for (const WaitView& wait : job.waits_on) {
         waits[job.key].insert(wait.kind == Wait::Kind::arm ? "arm:" + wait.arm : wait.job);
       }
