@@ -14,8 +14,7 @@ namespace armloom {
 // The arms and the motions on them: hands a job's trajectory to the controllers of its arms
 // and joins what they say into one report for the job (one progress, that of the last; one end).
 // Siblings of an arm that faults are braked; siblings that get ahead of it by more than kOutOfStep
-// wait
-// on the path.
+// wait on the path.
 class Motions {
  public:
   Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
