@@ -1,6 +1,7 @@
 // Arms that rest in the way (scheduling.on_idle_blocker "park"): without a job, or in a ring.
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "core/scheduler/scheduler.h"
 #include "core/scheduler/ways_aside.h"
@@ -14,13 +15,23 @@ constexpr std::size_t kAsidesMax = 8;
 constexpr std::ptrdiff_t kSamePlaceMax = 2;
 constexpr double kSamePlace = 1e-3;  // relative
 
-// Whether the second motion, pausing at `progress`, is in the way of the first.
-bool rests_in(const PairRegions& pair, Duration progress) {
-  return std::ranges::any_of(pair.regions, [&](const ConflictRegion& region) {
-    return std::ranges::any_of(region.boxes, [&](const ProgressBox& box) {
-      return box.from_b <= progress && progress <= box.to_b;
-    });
-  });
+// Whether the second motion, pausing at `progress`, is in the way of the first, which lasts so
+// long: unless they stand close now, and the first one leaves that for good.
+bool rests_in(const PairRegions& pair, Duration progress, Duration lasts) {
+  std::vector<std::pair<Duration, Duration>> close;  // when
+  for (const ConflictRegion& region : pair.regions) {
+    for (const ProgressBox& box : region.boxes) {
+      const bool holds = box.from_b <= progress && progress <= box.to_b;
+      if (holds) close.emplace_back(box.from_a, box.to_a);
+    }
+  }
+  std::ranges::sort(close);
+  Duration leaves{};
+  for (const auto& [from, to] : close) {
+    if (from > leaves) return true;
+    leaves = std::max(leaves, to);
+  }
+  return leaves >= lasts;
 }
 
 }  // namespace
@@ -163,7 +174,7 @@ bool Scheduler::lets_through(const Verdict& verdict, const Aside& aside) const {
     const auto* arm = std::get_if<ArmId>(&pair.b);
     if (arm != nullptr) return stays(*arm);
     const bool of_it = !aside.is_free && std::get<JobId>(pair.b) == aside.way_of;
-    return of_it && rests_in(pair, records_.at(aside.way_of).job.progress);
+    return of_it && rests_in(pair, records_.at(aside.way_of).job.progress, aside.way->duration());
   });
 }
 
