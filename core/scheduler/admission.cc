@@ -59,7 +59,7 @@ bool Scheduler::at_head(const Record& record) const {
 
 std::vector<const Job*> Scheduler::occupying() const {
   std::vector<const Job*> jobs;
-  for (JobId id : active_) {
+  for (JobId id : past_queue_) {
     const Record& record = records_.at(id);
     const bool held = record.job.state == JobState::holding;
     if (held || holds_reservation(record)) jobs.push_back(&record.job);
@@ -132,45 +132,10 @@ void Scheduler::form_round() {
     if (records_.at(id).job.started_at) round_begun_ = true;
   }
   if (round_begun_ && !stuck) return;
-  for (JobId id : active_) {
-    const Record& record = records_.at(id);
-    if (waiting(record) && at_head(record) && !stop_of(record)) round_.insert(id);
-  }
-}
-
-void Scheduler::explain_waits() {
-  const std::vector<const Job*> occupied_by = occupying();
-  const std::vector<Aged> aged = aged_jobs();
-  std::vector<std::optional<JobId>> before(cell_->arms.size());  // per arm: the job ahead
-  for (JobId id : in_turn()) {
-    Record& record = records_.at(id);
-    std::optional<Wait> wait;
-    for (ArmId arm : record.job.trajectory->arms()) {
-      const auto ahead = std::exchange(before[arm.index()], id);
-      if (ahead && !wait) wait = Wait{.kind = Wait::Kind::order, .job = *ahead, .arm = arm};
-    }
-    if (!waiting(record)) continue;
-    if (!wait && !record.job.after.empty()) {
-      wait = Wait{.kind = Wait::Kind::order, .job = record.job.after.front()};
-    }
-    if (!wait && lets_another_pass(record)) {
-      wait = Wait{.kind = Wait::Kind::order, .job = *record.lets_pass};
-    }
-    if (!wait) wait = stop_of(record);
-    if (!wait && (wait = capacity_of(record, occupied_by)) && !record.ages_from) {
-      record.ages_from = now_;
-    }
-    if (!wait && record.judged_at != version_) {
-      if (const auto old = held_back_by(record, aged)) {
-        if (records_.at(*old).judged_at != version_) continue;  // it may be about to go
-        wait = Wait{.kind = Wait::Kind::order, .job = *old};
-      }
-    }
-    if (wait) {
-      set_waits(record, {std::move(*wait)});
-    } else if (record.judged_at == 0) {
-      set_waits(record, {});  // nothing stands against it but that it is not judged yet
-    }
+  for (const auto& queue : order_) {
+    if (queue.empty()) continue;
+    const Record& record = records_.at(queue.front());
+    if (waiting(record) && at_head(record) && !stop_of(record)) round_.insert(queue.front());
   }
 }
 
@@ -204,7 +169,7 @@ std::optional<std::string> Scheduler::start_mismatch(const Trajectory& trajector
 }
 
 std::vector<JobId> Scheduler::next_recheck() const {
-  for (JobId id : active_) {
+  for (JobId id : past_queue_) {
     const Record& record = records_.at(id);
     if (holds_reservation(record) && record.checked_at < disturbed_at_) return {id};
   }
@@ -226,7 +191,7 @@ std::vector<JobId> Scheduler::held_together() const {
 
 std::optional<JobId> Scheduler::next_to_move_forward() const {
   if (graph_) return std::nullopt;
-  for (JobId id : active_) {
+  for (JobId id : past_queue_) {
     const Record& record = records_.at(id);
     const bool ahead = record.job.state == JobState::scheduled && !record.dispatched;
     if (ahead && record.forward_tried < freed_at_) return id;
@@ -246,8 +211,9 @@ std::optional<JobId> Scheduler::next_candidate() const {
     return urgency.at(a.id) > urgency.at(b.id);
   };
   const std::vector<const Job*> occupied_by = occupying();
-  for (JobId id : active_) {
-    const Record& record = records_.at(id);
+  for (const auto& queue : order_) {
+    if (queue.empty()) continue;
+    const Record& record = records_.at(queue.front());
     if (record.judged_at == version_ || !may_be_judged(record, occupied_by)) continue;
     if (held_back_by(record, aged)) continue;
     if (!best || goes_before(record.job, *best)) best = &record.job;
@@ -260,7 +226,7 @@ std::optional<JobId> Scheduler::next_candidate() const {
 void Scheduler::ask_next() {
   if (open_) return;
   const bool braking =
-      std::ranges::any_of(active_, [this](JobId id) { return records_.at(id).job.stopping; });
+      std::ranges::any_of(past_queue_, [this](JobId id) { return records_.at(id).job.stopping; });
   if (braking && !graph_) return;
   if (auto recheck = next_recheck(); !recheck.empty()) {
     ask(std::move(recheck), Purpose::recheck);
@@ -313,7 +279,7 @@ std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory) const {
 // Every motion that holds a reservation and is none of the candidates.
 void Scheduler::add_others(Question& question, const std::vector<JobId>& candidates) const {
   if (graph_) return add_coordinated(question, candidates);
-  for (JobId id : active_) {
+  for (JobId id : past_queue_) {
     const Record& record = records_.at(id);
     if (!holds_reservation(record) || std::ranges::find(candidates, id) != candidates.end()) {
       continue;
@@ -330,7 +296,7 @@ void Scheduler::add_others(Question& question, const std::vector<JobId>& candida
 void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
   const bool recheck = purpose == Purpose::recheck;
   const TimePoint start_at = now_ + allowance_;
-  for (JobId id : active_) {  // late arms of which nothing is heard stand where they are
+  for (JobId id : past_queue_) {  // late arms of which nothing is heard stand where they are
     Record& record = records_.at(id);
     if (has_not_begun(record) && record.job.late) record.job.progress_seen_at = now_;
   }
@@ -399,7 +365,7 @@ void Scheduler::on(const Judged& input) {
 
 void Scheduler::admit(Record& record, TimePoint start_at) {
   Job& job = record.job;
-  job.state = JobState::scheduled;
+  set_state(record, JobState::scheduled);
   job.scheduled_at = start_at;
   job.waits_on.clear();
   record.after_stop = AfterStop::hold;
@@ -483,7 +449,7 @@ void Scheduler::put_off(Record& record, std::vector<Wait> waits) {
   record.found = waits;
   if (!record.ages_from) record.ages_from = now_;
   if (job.state == JobState::queued) {
-    job.state = JobState::backlogged;
+    set_state(record, JobState::backlogged);
     if (!job.backlogged_at) job.backlogged_at = now_;
     changed(record);
   }

@@ -124,7 +124,7 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
       }
     }
     if (!waits.empty()) return put_off(first, std::move(waits));
-    first.job.state = JobState::scheduled;
+    set_state(first, JobState::scheduled);
     first.job.scheduled_at = now_;
     first.dispatched = false;
     first.checked_at = ++version_;
@@ -132,16 +132,16 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
     return;
   }
   std::vector<CoordinatedMotion> candidates;
-  std::vector<Duration> work_behind(cell_->arms.size());
-  for (JobId id : active_) {
-    const Record& record = records_.at(id);
-    const bool overtaken = record.ages_from && now_ - *record.ages_from >= cell_->scheduling.aging;
-    if (overtaken) graph_->keep_place(id);
-    const bool candidate = std::ranges::find(question.jobs, id) != question.jobs.end();
-    if (candidate || graph_->holds(id)) continue;
-    for (ArmId arm : record.job.trajectory->arms()) {
-      work_behind[arm.index()] += record.job.trajectory->duration();
-    }
+  std::vector<Duration> work_behind = work_;
+  std::vector<JobId> in_front = question.jobs;
+  for (const CoordinatedMotion& motion : graph_->motions()) {
+    const auto& ages_from = records_.at(motion.job).ages_from;
+    if (ages_from && now_ - *ages_from >= cell_->scheduling.aging) graph_->keep_place(motion.job);
+    in_front.push_back(motion.job);
+  }
+  for (JobId id : in_front) {
+    const Trajectory& trajectory = *records_.at(id).job.trajectory;
+    for (ArmId arm : trajectory.arms()) work_behind[arm.index()] -= trajectory.duration();
   }
   for (JobId id : question.jobs) candidates.push_back(coordinated(records_.at(id)));
   graph_->set_work_behind(std::move(work_behind));
@@ -219,14 +219,28 @@ std::vector<WaitingWork> Scheduler::work_among(const std::vector<JobId>& jobs,
 // The next jobs of each arm, so far as nothing else has to happen before them.
 std::vector<JobId> Scheduler::work_to_come() const { return with_all_that_wait({}, kWorkPerArm); }
 
+// Of each arm's jobs that are not admitted or in the group the first ones.
+std::set<JobId> Scheduler::first_of_arms(const std::vector<JobId>& group,
+                                         std::size_t per_arm) const {
+  std::set<JobId> jobs;
+  for (const auto& queue : order_) {
+    std::size_t left = per_arm;
+    for (auto id = queue.begin(); id != queue.end() && left > 0; ++id) {
+      if (graph_->holds(*id) || std::ranges::find(group, *id) != group.end()) continue;
+      jobs.insert(*id);
+      --left;
+    }
+  }
+  return jobs;
+}
+
 // At most so many of an arm, each after those before it; without what comes after other jobs or is
 // stopped, and without what is behind that on its arms.
 std::vector<JobId> Scheduler::with_all_that_wait(const std::vector<JobId>& group,
                                                  std::size_t per_arm) const {
   std::vector<JobId> all = group;
   std::vector<std::size_t> left(order_.size(), per_arm);
-  for (JobId id : in_turn()) {
-    if (graph_->holds(id) || std::ranges::find(group, id) != group.end()) continue;
+  for (JobId id : in_turn(first_of_arms(group, per_arm))) {
     const Record& record = records_.at(id);
     const auto& arms = record.job.trajectory->arms();
     const bool room = std::ranges::all_of(arms, [&](ArmId arm) { return left[arm.index()] > 0; });
@@ -243,7 +257,7 @@ void Scheduler::admit_coordinated(const std::vector<JobId>& jobs, const PassingO
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     Record& record = records_.at(jobs[i]);
     Job& job = record.job;
-    job.state = JobState::scheduled;
+    set_state(record, JobState::scheduled);
     job.scheduled_at = now_ + orders.prediction.begins[before + i];
     job.waits_on.clear();
     record.after_stop = AfterStop::hold;
@@ -310,7 +324,7 @@ bool Scheduler::begins_where_left(const Record& record) const {
 
 // What is admitted starts when precedence lets it leave its place.
 void Scheduler::dispatch_ready() {
-  const std::vector<JobId> ids(active_.begin(), active_.end());
+  const std::vector<JobId> ids(past_queue_.begin(), past_queue_.end());
   for (JobId id : ids) {
     Record& record = records_.at(id);
     if (record.job.state == JobState::scheduled && !record.dispatched) dispatch_if_ready(record);

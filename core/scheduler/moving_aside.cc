@@ -38,7 +38,7 @@ bool rests_in(const PairRegions& pair, Duration progress, Duration lasts) {
 
 // The first job that waits for an arm which no job will move.
 std::optional<Scheduler::Aside> Scheduler::next_aside() const {
-  for (JobId id : active_) {
+  for (JobId id : past_queue_) {
     const Record& record = records_.at(id);
     const bool put_off = waiting(record) && record.judged_at == version_;
     if (!put_off && !record.job.pausing) continue;

@@ -20,6 +20,7 @@ Scheduler::Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configu
     : cell_(std::move(cell)),
       policy_(std::move(policy)),
       rest_(std::move(rest)),
+      work_(cell_->arms.size()),
       order_(cell_->arms.size()),
       stopped_(cell_->arms.size()),
       came_by_(cell_->arms.size()),
@@ -68,7 +69,7 @@ void Scheduler::settle() {
 
 Configuration Scheduler::predicted_rest() const {
   Configuration q = rest_;
-  for (JobId id : in_turn()) {
+  for (JobId id : in_turn(active_)) {
     const Trajectory& trajectory = *records_.at(id).job.trajectory;
     for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
       q[static_cast<Eigen::Index>(trajectory.joints()[j].index())] =
@@ -120,8 +121,12 @@ void Scheduler::on(const Submit& input) {
   for (ArmId arm : input.trajectory->arms()) {
     auto& queue = order_[arm.index()];
     queue.insert(input.before ? std::ranges::find(queue, *input.before) : queue.end(), input.job);
+    work_[arm.index()] += input.trajectory->duration();
   }
   active_.insert(input.job);
+  unexplained_.insert(input.job);
+  ++priorities_[input.priority];
+  for (JobId before : input.after) followers_[before].push_back(input.job);
   changed(records_.emplace(input.job, std::move(record)).first->second);
   if (input.before) take_place(input.job, *input.before);
 }
@@ -130,6 +135,7 @@ void Scheduler::on(const Submit& input) {
 void Scheduler::take_place(JobId job, JobId before) {
   const bool is_judged = open_ && std::ranges::find(open_->jobs, before) != open_->jobs.end();
   if (is_judged) ++version_;  // the answer shall not start what comes behind it
+  unexplained_.insert(before);
   if (round_.contains(before)) round_.insert(job);
   std::erase_if(rings_, [&](const NamedRing& named) {
     const bool opened = std::ranges::find(named.ring, before) != named.ring.end();
@@ -173,7 +179,7 @@ void Scheduler::on(const MotionReport& input) {
 void Scheduler::progress(Record& record) {
   Job& job = record.job;
   if (job.state == JobState::scheduled) {
-    job.state = JobState::running;
+    set_state(record, JobState::running);
     if (!job.started_at) job.started_at = now_;
     changed(record);
   }
@@ -250,13 +256,13 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
   } else if (!job.started_at) {
     // Stopped before it moved: it waits in the queue again, as if it had not been admitted.
     leave_graph(record);
-    job.state = JobState::queued;
+    set_state(record, JobState::queued);
     job.scheduled_at.reset();
     record.dispatched = false;
     effects_.push_back(Release{job.id});
     changed(record);
   } else {
-    job.state = JobState::holding;
+    set_state(record, JobState::holding);
     changed(record);
   }
 }
@@ -279,9 +285,9 @@ void Scheduler::withdraw(Record& record, AfterStop then) {
   }
   leave_graph(record);
   Job& job = record.job;
-  job.state = job.started_at      ? JobState::holding
-              : job.backlogged_at ? JobState::backlogged
-                                  : JobState::queued;
+  set_state(record, job.started_at      ? JobState::holding
+                    : job.backlogged_at ? JobState::backlogged
+                                        : JobState::queued);
   job.scheduled_at.reset();
   record.overrun_at.reset();
   record.judged_at = 0;
@@ -303,7 +309,7 @@ void Scheduler::brake(Record& record, AfterStop then) {
     effects_.push_back(Brake{record.job.id});
   }
   if (then == AfterStop::hold && record.after_stop == AfterStop::hold && record.job.started_at) {
-    record.job.state = JobState::holding;
+    set_state(record, JobState::holding);
   }
   changed(record);
 }
@@ -345,11 +351,22 @@ void Scheduler::on(const Interrupt&) {
 
 void Scheduler::on(const Wake&) {}
 
+void Scheduler::set_state(Record& record, JobState state) {
+  const JobId id = record.job.id;
+  record.job.state = state;
+  if (state == JobState::queued || is_terminal(state)) {
+    past_queue_.erase(id);
+  } else {
+    past_queue_.insert(id);
+  }
+  unexplained_.insert(id);
+}
+
 void Scheduler::end(Record& record, JobState state, Reason reason, std::string detail) {
   Job& job = record.job;
   if (state != JobState::succeeded) leave_graph(record);
   if (graph_ && state == JobState::succeeded) graph_->finish(job.id);
-  job.state = state;
+  set_state(record, state);
   job.stopping = false;
   job.ended_at = now_;
   job.reason = reason;
@@ -357,8 +374,15 @@ void Scheduler::end(Record& record, JobState state, Reason reason, std::string d
   if (reason != Reason::deadlock) job.ring.clear();
   if (state != JobState::expired) job.waits_on.clear();  // else: what it waited for in vain
   if (state == JobState::succeeded) job.progress = job.trajectory->duration();
-  for (ArmId arm : job.trajectory->arms()) std::erase(order_[arm.index()], job.id);
+  for (ArmId arm : job.trajectory->arms()) {
+    auto& queue = order_[arm.index()];
+    const auto next = queue.erase(std::ranges::find(queue, job.id));
+    if (next != queue.end()) unexplained_.insert(*next);
+    work_[arm.index()] -= job.trajectory->duration();
+  }
   active_.erase(job.id);
+  unexplained_.erase(job.id);
+  if (--priorities_.at(job.priority) == 0) priorities_.erase(job.priority);
   ++version_;
   if (state != JobState::succeeded) freed_at_ = version_;
   changed(record);
@@ -367,18 +391,19 @@ void Scheduler::end(Record& record, JobState state, Reason reason, std::string d
 
 // Nobody waits for a job that has ended: those that named it in `after` go on, or fail with it.
 void Scheduler::forget_predecessor(JobId ended, bool succeeded) {
-  const std::vector<JobId> later(active_.upper_bound(ended), active_.end());
-  for (JobId id : later) {
+  const auto node = followers_.extract(ended);
+  if (node.empty()) return;
+  for (JobId id : node.mapped()) {
+    if (!active_.contains(id)) continue;  // failed meanwhile, with another of its own
     Record& record = records_.at(id);
     if (std::erase(record.job.after, ended) == 0 || succeeded) continue;
-    if (is_terminal(record.job.state)) continue;  // failed meanwhile, with another of its own
     end(record, JobState::failed, Reason::predecessor_failed,
         "a job that it comes after did not succeed");
   }
 }
 
 void Scheduler::expire_and_overrun() {
-  std::vector<JobId> ids(active_.begin(), active_.end());
+  const std::vector<JobId> ids(past_queue_.begin(), past_queue_.end());
   for (JobId id : ids) {
     Record& record = records_.at(id);
     Job& job = record.job;
@@ -432,8 +457,8 @@ void Scheduler::give_up(Record& record) {
 void Scheduler::dispatch_due() {
   if (graph_) return dispatch_ready();
   const bool braking =
-      std::ranges::any_of(active_, [this](JobId id) { return records_.at(id).job.stopping; });
-  const std::vector<JobId> ids(active_.begin(), active_.end());
+      std::ranges::any_of(past_queue_, [this](JobId id) { return records_.at(id).job.stopping; });
+  const std::vector<JobId> ids(past_queue_.begin(), past_queue_.end());
   for (JobId id : ids) {
     Record& record = records_.at(id);
     const bool ahead = record.job.state == JobState::scheduled && !record.dispatched;
@@ -449,7 +474,7 @@ void Scheduler::dispatch_due() {
 void Scheduler::ask_for_wake() {
   std::optional<TimePoint> next;
   const auto consider = [&next](TimePoint when) { next = next ? std::min(*next, when) : when; };
-  for (JobId id : active_) {
+  for (JobId id : past_queue_) {
     const Record& record = records_.at(id);
     if (record.job.state == JobState::backlogged) {
       consider(*record.job.backlogged_at + record.job.backlog_timeout);

@@ -204,6 +204,7 @@ class Scheduler {
   void brake(Record& record, AfterStop then);
   void withdraw(Record& record, AfterStop then);
   void come_to_rest(Record& record, const MotionReport& report);
+  void set_state(Record& record, JobState state);
   void end(Record& record, JobState state, Reason reason, std::string detail);
   void settle();  // deadlines, waits, the next question, the next wake
   void expire_and_overrun();
@@ -214,7 +215,6 @@ class Scheduler {
 
   // admission.cc: who may be judged, what is asked, what the answer means
   void form_round();
-  void explain_waits();
   void ask_next();
   [[nodiscard]] bool may_be_judged(const Record& record,
                                    const std::vector<const Job*>& occupying) const;
@@ -240,8 +240,11 @@ class Scheduler {
   void put_off(Record& record, std::vector<Wait> waits);
 
   // turns.cc: whose turn it is among waiting jobs
-  [[nodiscard]] std::vector<JobId> in_turn() const;  // active, each after those before it
+  // The same jobs, each after those before it.
+  [[nodiscard]] std::vector<JobId> in_turn(const std::set<JobId>& jobs) const;
   [[nodiscard]] bool lets_another_pass(const Record& record) const;
+  void explain_waits();
+  [[nodiscard]] std::optional<Wait> order_of(const Record& record) const;
   [[nodiscard]] std::vector<Wait> found_in_the_way(const Record& record) const;
   [[nodiscard]] WaitsFor waits_for() const;
   [[nodiscard]] std::optional<JobId> has_to_move_first(const Record& record,
@@ -290,6 +293,8 @@ class Scheduler {
                                                     const std::vector<RestInTheWay>& rests) const;
   [[nodiscard]] std::vector<JobId> with_all_that_wait(const std::vector<JobId>& group,
                                                       std::size_t per_arm) const;
+  [[nodiscard]] std::set<JobId> first_of_arms(const std::vector<JobId>& group,
+                                              std::size_t per_arm) const;
   void admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders);
   [[nodiscard]] std::vector<JobId> with_next_jobs(const std::vector<JobId>& group,
                                                   const std::vector<ArmId>& in_the_way) const;
@@ -309,6 +314,11 @@ class Scheduler {
   Configuration rest_;
   std::map<JobId, Record> records_;
   std::set<JobId> active_;
+  std::set<JobId> past_queue_;   // of these, all that are more than queued
+  std::set<JobId> unexplained_;  // new, or another one stands before it than when it was told
+  std::map<JobId, std::vector<JobId>> followers_;    // those that name it in Submit::after
+  std::map<int, std::size_t> priorities_;            // how many active jobs have it
+  std::vector<Duration> work_;                       // per arm: of its active jobs
   std::vector<std::deque<JobId>> order_;             // per arm: active jobs, first goes first
   std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
   std::vector<TrajectoryPtr> came_by_;  // per arm: the motion on which it came to rest; or null

@@ -1,6 +1,8 @@
-// Whose turn it is among the jobs that wait: aging, priorities without inversion, deadlocks.
+// Whose turn it is among the jobs that wait, and why: aging, priorities without inversion,
+// deadlocks.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -10,27 +12,24 @@
 
 namespace armloom {
 
-// All that is active in an order that is every arm's: by submission, but for those that took their
-// places before others, which stand first of their arms.
-std::vector<JobId> Scheduler::in_turn() const {
-  std::map<JobId, std::vector<JobId>> ahead;  // by the first job that did not
-  std::set<JobId> told;
+// By submission, but for those that took their places before others: these stand first of their
+// arms, in the order in which they came.
+std::vector<JobId> Scheduler::in_turn(const std::set<JobId>& jobs) const {
+  std::map<JobId, JobId> behind;  // the first job of the arm that did not
   for (const auto& queue : order_) {
     const auto first = std::ranges::find_if_not(
         queue, [this](JobId id) { return records_.at(id).before.has_value(); });
     if (first == queue.end()) continue;
-    told.insert(queue.begin(), first);
-    ahead[*first].insert(ahead[*first].end(), queue.begin(), first);
+    for (auto id = queue.begin(); id != first; ++id) behind.emplace(*id, *first);
   }
-  std::vector<JobId> jobs;
-  jobs.reserve(active_.size());
-  for (JobId id : active_) {
-    if (told.contains(id)) continue;
-    const auto own = ahead.find(id);
-    if (own != ahead.end()) jobs.insert(jobs.end(), own->second.begin(), own->second.end());
-    jobs.push_back(id);
-  }
-  return jobs;
+  std::vector<JobId> sorted(jobs.begin(), jobs.end());
+  if (behind.empty()) return sorted;
+  std::ranges::sort(sorted, {}, [&behind](JobId id) {
+    const auto first = behind.find(id);
+    const bool placed = first != behind.end();
+    return std::tuple(placed ? first->second : id, !placed, id);
+  });
+  return sorted;
 }
 
 bool Scheduler::lets_another_pass(const Record& record) const {
@@ -92,18 +91,64 @@ WaitsFor Scheduler::waits_for() const {
   return WaitsFor(std::move(edges));
 }
 
+// ---- What is told ----
+
+// Which job stands before it, on the first of its arms where one does.
+std::optional<Wait> Scheduler::order_of(const Record& record) const {
+  for (ArmId arm : record.job.trajectory->arms()) {
+    const auto& queue = order_[arm.index()];
+    if (queue.front() == record.job.id) continue;
+    const auto ahead = std::next(std::find(queue.rbegin(), queue.rend(), record.job.id));
+    return Wait{.kind = Wait::Kind::order, .job = *ahead, .arm = arm};
+  }
+  return std::nullopt;
+}
+
+// What is not the first of an arm waits for the one before it, as long as that is the same.
+void Scheduler::explain_waits() {
+  const std::vector<const Job*> occupied_by = occupying();
+  const std::vector<Aged> aged = aged_jobs();
+  std::set<JobId> jobs = std::exchange(unexplained_, {});
+  for (const auto& queue : order_) {
+    if (!queue.empty()) jobs.insert(queue.front());
+  }
+  for (JobId id : jobs) {
+    Record& record = records_.at(id);
+    std::optional<Wait> wait = order_of(record);
+    if (!waiting(record)) continue;
+    if (!wait && !record.job.after.empty()) {
+      wait = Wait{.kind = Wait::Kind::order, .job = record.job.after.front()};
+    }
+    if (!wait && lets_another_pass(record)) {
+      wait = Wait{.kind = Wait::Kind::order, .job = *record.lets_pass};
+    }
+    if (!wait) wait = stop_of(record);
+    if (!wait && (wait = capacity_of(record, occupied_by)) && !record.ages_from) {
+      record.ages_from = now_;
+    }
+    if (!wait && record.judged_at != version_) {
+      if (const auto old = held_back_by(record, aged)) {
+        if (records_.at(*old).judged_at != version_) continue;  // it may be about to go
+        wait = Wait{.kind = Wait::Kind::order, .job = *old};
+      }
+    }
+    if (wait) {
+      set_waits(record, {std::move(*wait)});
+    } else if (record.judged_at == 0) {
+      set_waits(record, {});  // nothing stands against it but that it is not judged yet
+    }
+  }
+}
+
 // ---- Priorities ----
 
 std::map<JobId, int> Scheduler::urgencies() const {
+  if (priorities_.size() <= 1) return {};
   std::vector<Urgency> jobs;
-  bool equal = true;
   for (JobId id : active_) {
     const Record& record = records_.at(id);
-    if (!waiting(record)) continue;
-    jobs.push_back({id, record.job.priority});
-    equal = equal && jobs.front().priority == record.job.priority;
+    if (waiting(record)) jobs.push_back({id, record.job.priority});
   }
-  if (equal) return {};
   return effective_priorities(waits_for(), std::move(jobs));
 }
 

@@ -175,7 +175,7 @@ void sizes(benchmark::internal::Benchmark* bench) {
       ->Arg(10000)
       ->UseManualTime()
       ->Unit(benchmark::kMicrosecond)
-      ->Complexity(benchmark::oNLogN);
+      ->Complexity(benchmark::oLogN);
 }
 
 BENCHMARK_CAPTURE(submit, earliest_start, "earliest_start")->Apply(sizes);
