@@ -28,9 +28,8 @@ namespace armloom {
 //
 // Coordinated: candidates against themselves and what stands still, from their progress on, as
 // above; the arms of one synchronous motion against each other, in step and as far ahead of each
-// other as they can get (in_step.h). Where that is free the verdict is, and names the regions of the
-// pairs (pair_regions.h) with the same margins.
-// find_earliest is not heeded.
+// other as they can get (in_step.h). Where that is free the verdict is, and names the regions of
+// the pairs (pair_regions.h) with the same margins. find_earliest is not heeded.
 //
 // find_earliest: motions of candidates that have not begun are shifted to later starts until
 // nothing is in their way any more; each conflict that is found says how far at least (see

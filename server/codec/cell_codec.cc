@@ -206,8 +206,8 @@ void read_scheduling(const JsonNode& node, SchedulingSettings& scheduling) {
   node.optional("on_idle_blocker", [&](const JsonNode& n) {
     if (n.read(scheduling.on_idle_blocker) && scheduling.on_idle_blocker != "report" &&
         scheduling.on_idle_blocker != "park") {
-      n.invalid("unknown-choice", "it is \"" + scheduling.on_idle_blocker +
-                                      "\", expected \"report\" or \"park\"");
+      n.invalid("unknown-choice",
+                "it is \"" + scheduling.on_idle_blocker + "\", expected \"report\" or \"park\"");
     }
   });
 }

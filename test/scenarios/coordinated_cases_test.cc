@@ -79,7 +79,8 @@ TEST_F(Coordinated, StaysBeforeAnArmThatWasCanceledInTheWayUntilItMovesOn) {
 }
 
 // A job behind a canceled one cannot begin any more: nobody may count on it to clear the way.
-// Nothing bounds a stop; what waits on its path for an arm that no job moves ends as in the backlog.
+// Nothing bounds a stop; what waits on its path for an arm that no job moves ends as in the
+// backlog.
 TEST_F(Coordinated, GivesUpOnItsPathWhenNothingMovesTheArmAway) {
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   JobRequest follows = slide("y", -1, 1, 4, "follows");
