@@ -78,7 +78,6 @@ TEST_F(Coordinated, StaysBeforeAnArmThatWasCanceledInTheWayUntilItMovesOn) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-// A job behind a canceled one cannot begin any more: nobody may count on it to clear the way.
 // Nothing bounds a stop; what waits on its path for an arm that no job moves ends as in the
 // backlog.
 TEST_F(Coordinated, GivesUpOnItsPathWhenNothingMovesTheArmAway) {
@@ -99,6 +98,7 @@ TEST_F(Coordinated, GivesUpOnItsPathWhenNothingMovesTheArmAway) {
   EXPECT_EQ(gave_up.waits_on[0].arm, "x");
 }
 
+// A job behind a canceled one cannot begin any more: nobody may count on it to clear the way.
 TEST_F(Coordinated, DoesNotCountOnAJobWhoseStartWillNotBeReached) {
   cell.submit(slide("x", -1, 0, 3, "into the crossing"));
   cell.submit(slide("x", 0, 0.5, 2, "on"));
