@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/base/told.h"
 #include "core/executive/executive_impl.h"
 #include "core/trajectory/joint_line.h"
 
@@ -14,9 +15,6 @@ Problems prefixed(const std::string& prefix, Problems problems) {
   for (Problem& problem : problems) problem.pointer.insert(0, prefix);
   return problems;
 }
-
-// Without the noise of arithmetic: 0, not 6.9e-18.
-double told(double q) { return std::abs(q) < 1e-9 ? 0.0 : q; }
 
 Problem key_in_use(const std::string& key) {
   return Problem{ProblemKind::conflict, "id-in-use", "/id",

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/base/told.h"
 #include "core/scheduler/scheduler.h"
 
 namespace armloom {
@@ -14,9 +15,6 @@ std::string format(const char* text, const std::string& name, double a, double b
   std::snprintf(buffer, sizeof buffer, text, name.c_str(), a, b);
   return buffer;
 }
-
-// Without the noise of arithmetic: 0, not 6.9e-18.
-double told(double q) { return std::abs(q) < 1e-9 ? 0.0 : q; }
 
 // What a job waits for that is treated as a conflict without being proven one.
 constexpr const char* kUndecided = "undecided within the budget of evaluations";

@@ -102,7 +102,7 @@ struct Brake {
 // An arm rests in this job's way: come back at once with Submit of a job of one's own that has this
 // motion. If the arm has a job, `before`, the two wait for each other in a ring: the motion takes
 // its place before that job, and behind it a second one, back to where the arm stands now, that
-// comes after the first and lets the other pass.
+// comes after the first and lets the other pass. The first helps `way_of`, the second `before`.
 struct MoveAside {
   ArmId arm;
   JobId way_of;

@@ -158,7 +158,7 @@ class Search {
     if (from < motions_[m].authority) return true;
     const bool at_start = from <= Duration{} && motions_[m].authority <= Duration{};
     return at_start && (stands_[m] || std::ranges::any_of(before_[m], [&](std::size_t ahead) {
-                          return ahead < other && share_an_arm(ahead, other);
+                          return ahead < other && share_an_arm(motions_[ahead], motions_[other]);
                         }));
   }
   // It comes to rest there and nothing takes it away, or only what follows the other one.
@@ -167,14 +167,9 @@ class Search {
     if (!moves_on(m)) return true;
     for (std::size_t next = std::max(m, other) + 1; next < motions_.size(); ++next) {
       const bool follows = std::ranges::find(before_[next], m) != before_[next].end();
-      if (follows && share_an_arm(next, other)) return true;
+      if (follows && share_an_arm(motions_[next], motions_[other])) return true;
     }
     return false;
-  }
-  [[nodiscard]] bool share_an_arm(std::size_t a, std::size_t b) const {
-    return std::ranges::any_of(motions_[a].arms, [&](ArmId arm) {
-      return std::ranges::find(motions_[b].arms, arm) != motions_[b].arms.end();
-    });
   }
   void note_in_the_way(std::size_t m) {
     for (const ArmId arm : motions_[m].arms) answer_.in_the_way.push_back(arm);
@@ -452,6 +447,11 @@ PassingOrders find_passing_orders(const std::vector<CoordinatedMotion>& admitted
                                   const std::vector<PairRegions>& regions,
                                   const std::vector<Duration>& work_behind) {
   return Search(admitted, precedences, candidates, work_behind).run(regions);
+}
+
+bool share_an_arm(const CoordinatedMotion& a, const CoordinatedMotion& b) {
+  return std::ranges::any_of(
+      a.arms, [&](ArmId arm) { return std::ranges::find(b.arms, arm) != b.arms.end(); });
 }
 
 Verdict as_verdict(const PassingOrders& orders, std::size_t candidates, Verdict verdict) {

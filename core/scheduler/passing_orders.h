@@ -25,6 +25,8 @@ struct CoordinatedMotion {
   bool keeps_its_place = false;  // has been overtaken long enough
 };
 
+[[nodiscard]] bool share_an_arm(const CoordinatedMotion& a, const CoordinatedMotion& b);
+
 // Why a candidate cannot be admitted.
 struct Obstacle {
   JobId candidate;

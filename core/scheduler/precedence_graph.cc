@@ -6,11 +6,6 @@
 namespace armloom {
 namespace {
 
-bool share_an_arm(const CoordinatedMotion& a, const CoordinatedMotion& b) {
-  return std::ranges::any_of(
-      a.arms, [&](ArmId arm) { return std::ranges::find(b.arms, arm) != b.arms.end(); });
-}
-
 // Whether an arm that rests at `at` of its motion is in the interval; its closed edges are free,
 // but for the motion's own ends.
 // Arms of one motion may rest apart on it, from `at` to `farthest`.

@@ -41,11 +41,8 @@ struct Stream {
   }
 };
 
-class T9 : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Policies, T9,
-                         ::testing::Values("certified", "reservation", "timed_discrete",
-                                           "earliest_start", "sequential", "lockstep",
-                                           "coordinated"));
+class T9 : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, T9, ::testing::ValuesIn(known_policies()));
 
 // The bound of the README: aging + the longest motion that was under way then.
 TEST_P(T9, AWaitingJobStartsWithinItsBound) {

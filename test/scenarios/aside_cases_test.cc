@@ -10,7 +10,7 @@ CellDescription parking(const std::string& on_idle_blocker) {
   return cell;
 }
 
-class Aside : public ::testing::TestWithParam<const char*> {
+class Aside : public ::testing::TestWithParam<std::string> {
  protected:
   // x has come to rest in the crossing, and y wants to pass.
   void start(const std::string& on_idle_blocker) {
@@ -22,10 +22,7 @@ class Aside : public ::testing::TestWithParam<const char*> {
   }
   std::optional<Crossing> cell;
 };
-INSTANTIATE_TEST_SUITE_P(Policies, Aside,
-                         ::testing::Values("coordinated", "earliest_start", "certified",
-                                           "reservation", "timed_discrete", "lockstep",
-                                           "sequential"));
+INSTANTIATE_TEST_SUITE_P(Policies, Aside, ::testing::ValuesIn(known_policies()));
 
 TEST_P(Aside, AnIdleArmInTheWayIsTold) {
   start("report");
@@ -106,11 +103,8 @@ CellDescription parking_polygon(int corners) {
   return cell;
 }
 
-class InARing : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Policies, InARing,
-                         ::testing::Values("coordinated", "earliest_start", "certified",
-                                           "reservation", "timed_discrete", "lockstep",
-                                           "sequential"));
+class InARing : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, InARing, ::testing::ValuesIn(known_policies()));
 
 // Both stand on one line, each at the other's goal: b backs out, a passes to where b stood, and
 // makes way in its turn for b to return and go.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/executive/known_policies.h"
 #include "core/executive/simulation.h"
 #include "core/model/build_cell.h"
 
@@ -14,22 +15,28 @@ namespace armloom {
 
 using namespace std::chrono_literals;
 
+// A ball of 10 cm radius on a linear axis along x, at -1 m (home).
+inline RobotDescription slider(const std::string& name) {
+  RobotDescription robot{.name = name,
+                         .urdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.urdf",
+                         .srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.srdf",
+                         .prefix = name + "_"};
+  ArmDescription arm{.name = name, .group = "axis", .home = {-1.0}, .limits = {}};
+  arm.limits["slide"].acceleration = 20.0;
+  robot.arms.push_back(std::move(arm));
+  return robot;
+}
+
 // Two balls of 10 cm radius on linear axes that cross at the origin: "x" slides along x, "y" along
 // y, both from -1 m (home). They touch when both are within 20 cm of the origin and nowhere else.
 inline CellDescription crossing_description() {
   CellDescription cell{.name = "crossing"};
   for (const std::string name : {"x", "y"}) {
-    RobotDescription robot{.name = name,
-                           .urdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.urdf",
-                           .srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.srdf",
-                           .prefix = name + "_"};
+    RobotDescription robot = slider(name);
     if (name == "y") {
       robot.X_WB.linear() =
           Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     }
-    ArmDescription arm{.name = name, .group = "axis", .home = {-1.0}, .limits = {}};
-    arm.limits["slide"].acceleration = 20.0;
-    robot.arms.push_back(std::move(arm));
     cell.robots.push_back(std::move(robot));
   }
   cell.checking.time_step = 10ms;

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <map>
 
+#include "core/executive/known_policies.h"
 #include "core/model/build_cell.h"
 #include "test/scenarios/crowded_oracle.h"
 #include "test/scenarios/crowded_workloads.h"
@@ -271,11 +272,8 @@ TEST(CrowdedWorlds, WhereMovesAsideWaitForEachOtherComeToAnEnd) {
   EXPECT_EQ(tally.worlds, 1U);
 }
 
-class CrowdedWorldsUnder : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Policies, CrowdedWorldsUnder,
-                         ::testing::Values("coordinated", "earliest_start", "certified",
-                                           "reservation", "timed_discrete", "lockstep",
-                                           "sequential"));
+class CrowdedWorldsUnder : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, CrowdedWorldsUnder, ::testing::ValuesIn(known_policies()));
 
 TEST_P(CrowdedWorldsUnder, EndByNameAndNeverTouch) {
   for (const Crowd crowd : kCrowds) {

@@ -7,11 +7,8 @@
 namespace armloom {
 namespace {
 
-class T10 : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Policies, T10,
-                         ::testing::Values("certified", "earliest_start", "reservation",
-                                           "timed_discrete", "sequential", "lockstep",
-                                           "coordinated"));
+class T10 : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, T10, ::testing::ValuesIn(known_policies()));
 
 TEST_P(T10, ASwapOfTwoGoalsIsNamedAtOnceAndTheLastJobGivesWay) {
   Crossing cell(polygon(2), GetParam());
@@ -45,7 +42,7 @@ TEST_P(T10, ARingOfThreeIsNamedAtOnceAndOpensWhenOneArmMovesAway) {
   cell.submit(slide("b", -1, 1, 4, "two"));
   cell.submit(slide("c", -1, 1, 4, "three"));
   cell.submit(slide("free", -1, 1, 4, "far"));
-  if (std::string(GetParam()) == "coordinated") {  // all three can go at once: it is none
+  if (GetParam() == "coordinated") {  // all three can go at once: it is none
     cell.run_to_the_end();
     for (const char* key : {"one", "two", "three", "far"}) {
       EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key;

@@ -21,16 +21,10 @@ inline CellDescription polygon(int corners) {
   const double apothem = corners == 2 ? 0.0 : 1.0 / std::tan(turn / 2);
   for (int i = 0; i <= corners; ++i) {
     const std::string name = i == corners ? "free" : std::string(1, static_cast<char>('a' + i));
-    RobotDescription robot{.name = name,
-                           .urdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.urdf",
-                           .srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.srdf",
-                           .prefix = name + "_"};
+    RobotDescription robot = slider(name);
     robot.X_WB.linear() = Eigen::AngleAxisd(turn * i, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     robot.X_WB.translation() = robot.X_WB.linear() * Eigen::Vector3d(0, -apothem, 0);
     if (i == corners) robot.X_WB.translation() = Eigen::Vector3d(0, 10, 0);
-    ArmDescription arm{.name = name, .group = "axis", .home = {-1.0}, .limits = {}};
-    arm.limits["slide"].acceleration = 20.0;
-    robot.arms.push_back(std::move(arm));
     cell.robots.push_back(std::move(robot));
   }
   cell.checking.time_step = 10ms;

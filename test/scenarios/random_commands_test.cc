@@ -309,11 +309,8 @@ TEST(RandomCommands, EveryJobReachesExactlyOneEndUnderCoordinated) {
   run_sequences(sequences() + 1, sequences() * 27 / 20, "coordinated");
 }
 
-class RandomCommandsUnderPark : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Policies, RandomCommandsUnderPark,
-                         ::testing::Values("coordinated", "earliest_start", "certified",
-                                           "reservation", "timed_discrete", "lockstep",
-                                           "sequential"));
+class RandomCommandsUnderPark : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, RandomCommandsUnderPark, ::testing::ValuesIn(known_policies()));
 
 TEST_P(RandomCommandsUnderPark, EveryJobReachesExactlyOneEndAndArmsDoNotGoAsideForEver) {
   run_sequences(1, seed_count(kParked), GetParam(), line_world);

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cmath>
+
+namespace armloom {
+
+// A joint position (rad or m) as people are told it, without the noise of arithmetic: 0, not
+// 6.9e-18.
+[[nodiscard]] inline double told(double q) { return std::abs(q) < 1e-9 ? 0.0 : q; }
+
+}  // namespace armloom
