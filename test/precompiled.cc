@@ -1,0 +1,1 @@
+// See core/base/precompiled.cc.
