@@ -15,7 +15,12 @@ namespace armloom {
 // A cell file as plain data, before anything in it has been checked against the robots' URDFs.
 // Defaults here are the documented defaults of the file. Names are as the file spells them.
 
-struct JointLimitsDescription {        // URDFs carry none of these; absent means the stated default
+// Of one joint, as the cell gives them; absent: the robot's joint_limits file, then the URDF, then
+// the stated default decides.
+struct JointLimitsDescription {
+  std::optional<double> lower;         // rad (m): not below the URDF's
+  std::optional<double> upper;         // rad (m): not above the URDF's
+  std::optional<double> velocity;      // rad/s (m/s): not above the URDF's
   std::optional<double> acceleration;  // rad/s^2 (m/s^2), default kDefaultAcceleration
   std::optional<double> jerk;          // rad/s^3 (m/s^3), default kDefaultJerk
   std::optional<double> brake;         // rad/s^2 (m/s^2), default twice the acceleration
@@ -24,9 +29,12 @@ inline constexpr double kDefaultAcceleration = 3.75;
 inline constexpr double kDefaultJerk = 7500.0;
 
 struct ArmDescription {
-  std::string name;          // unique in the cell
-  std::string group;         // SRDF group (a chain, or joints) that the arm consists of
-  std::vector<double> home;  // group order; empty: every joint at zero, clamped to its limits
+  std::string name;   // unique in the cell
+  std::string group;  // SRDF group (a chain, or joints) that the arm consists of
+  // Group order; empty: as home_state says, and if that is empty too, every joint at zero, clamped
+  // to its limits.
+  std::vector<double> home;
+  std::string home_state;  // a state of the group by its name in the SRDF
   std::map<std::string, JointLimitsDescription> limits;  // by URDF joint name, without prefix
 };
 
@@ -38,11 +46,14 @@ struct ControllerDescription {
 
 struct RobotDescription {
   std::string name;
-  std::string urdf;    // path, resolved against the folder of the cell file
-  std::string srdf;    // the same
-  std::string prefix;  // joint, link names in the cell are prefix + URDF name
+  std::string urdf;          // path, resolved against the folder of the cell file
+  std::string srdf;          // the same
+  std::string joint_limits;  // path of a MoveIt joint_limits.yaml, the same; empty: none
+  std::string prefix;        // joint, link names in the cell are prefix + URDF name
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();  // base link in the world
   std::map<std::string, std::string> packages;             // package:// name -> folder
+  // Joints that are held at a value, by URDF name (rad or m): they are no joints of the cell.
+  std::map<std::string, double> fixed;
   std::vector<ArmDescription> arms;
   ControllerDescription controller;
 };
