@@ -1,6 +1,7 @@
 #include "server/api/parts.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace armloom {
 
@@ -22,18 +23,17 @@ tl::unexpected<Problems> unsupported(const char* slug, const char* field, std::s
 
 Result<void> check_content_type(const Request& request) {
   const std::string found = request.content_type.value_or("none");
-  const std::string type = small(found);
-  if (type.substr(0, type.find(';')) != "application/json") {
+  std::istringstream parts(small(found));
+  std::string part;
+  std::getline(parts, part, ';');
+  if (part != "application/json") {
     return unsupported("unsupported-media-type", "Content-Type",
                        "the body must be application/json", found);
   }
-  for (std::size_t at = type.find(';'); at != type.npos;) {
-    const std::size_t end = type.find(';', at + 1);
-    const std::string parameter = type.substr(at + 1, end == type.npos ? end : end - at - 1);
-    if (parameter.starts_with("charset=") && parameter != "charset=utf-8") {
+  while (std::getline(parts, part, ';')) {
+    if (part.starts_with("charset=") && part != "charset=utf-8") {
       return unsupported("unsupported-charset", "Content-Type", "JSON must be in UTF-8", found);
     }
-    at = end;
   }
   const std::string encoding = request.content_encoding.value_or("identity");
   if (small(encoding) != "identity") {
