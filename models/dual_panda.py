@@ -14,6 +14,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 NOTE = "Written by models/dual_panda.py from models/panda.{}: change those, not this file."
+RESERVE = "The shapes are those of panda.urdf, and a box, the plate; reserve: 0 mm."
 
 SIDES = {"left": "0 0.35 0", "right": "0 -0.35 0"}  # where each arm stands on the plate
 PLATE = """  <!-- A steel plate, whose top is at height zero; both arms are bolted to it. -->
@@ -31,7 +32,7 @@ def urdf():
     plate = re.sub(r'<material name="(\w+)"/>',
                    lambda use: re.search(f'<material name="{use[1]}">.*?</material>', materials)[0],
                    PLATE)
-    parts = [f'<?xml version="1.0"?>\n<!-- {NOTE.format("urdf")} -->\n<robot name="dual_panda">',
+    parts = [f'<?xml version="1.0"?>\n<!-- {NOTE.format("urdf")}\n     {RESERVE} -->\n<robot name="dual_panda">',
              materials, "", plate]
     for side, xyz in SIDES.items():
         parts += [f'  <joint name="{side}_mount" type="fixed">',
