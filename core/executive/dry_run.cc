@@ -80,6 +80,11 @@ class Plan final : public JobNames {
   [[nodiscard]] const std::vector<Planned>& jobs() const { return jobs_; }
   std::string key(JobId job) const override { return jobs_[job.value() - 1].key; }
   std::string name(JobId job) const override { return jobs_[job.value() - 1].name; }
+  [[nodiscard]] bool has_job(ArmId arm) const override {
+    return std::ranges::any_of(jobs_, [arm](const Planned& job) {
+      return std::ranges::find(job.trajectory->arms(), arm) != job.trajectory->arms().end();
+    });
+  }
 
  private:
   const Cell& cell_;

@@ -21,6 +21,13 @@ std::string Executive::Impl::name(JobId job) const {
   return label == labels_.end() ? std::string() : label->second.name;
 }
 
+bool Executive::Impl::has_job(ArmId arm) const {
+  return std::ranges::any_of(scheduler_.active(), [&](JobId job) {
+    const auto& arms = scheduler_.find(job)->trajectory->arms();
+    return std::ranges::find(arms, arm) != arms.end();
+  });
+}
+
 void Executive::Impl::tell_job(JobId job) {
   JobView view = view_of(*scheduler_.find(job), *cell_, *this);
   if (is_terminal(view.state)) count(view);

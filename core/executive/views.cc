@@ -3,11 +3,31 @@
 namespace armloom {
 namespace {
 
-// "a -> b -> a: none of them can move before the next one does".
-std::string deadlock_text(const std::vector<std::string>& ring) {
+constexpr const char* kToPark = "\"on_idle_blocker\": \"park\" in the cell's scheduling";
+constexpr const char* kWaysAside =
+    "back along its last motion, home, or to a named pose of its group";
+
+// What would open the way past an arm that no job moves.
+std::string opens(const std::string& arm, const Cell& cell) {
+  const std::string text = "arm " + arm + " has no job: ";
+  if (cell.scheduling.on_idle_blocker != "park") {
+    return text + "one that moves it away would open the way, or " + kToPark +
+           ", which sends it aside";
+  }
+  return text + "it goes aside where it has a free way (" + kWaysAside +
+         "), else one that moves it away would open this one";
+}
+
+// "a -> b -> a: none of them can move before the next one does", and what would open it.
+std::string deadlock_text(const std::vector<std::string>& ring, const Cell& cell) {
   std::string text;
   for (const std::string& key : ring) text += key + " -> ";
-  return text + ring.front() + ": none of them can move before the next one does";
+  text += ring.front() + ": none of them can move before the next one does; a job before them " +
+          "that moves an arm out of the others' way would open the ring, or ";
+  if (cell.scheduling.on_idle_blocker != "park") {
+    return text + kToPark + ", which sends one aside";
+  }
+  return text + "a free way aside for one (" + kWaysAside + "), of which none was found";
 }
 
 }  // namespace
@@ -16,6 +36,9 @@ WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names) {
   WaitView view{.kind = wait.kind, .detail = wait.detail};
   if (wait.job) view.job = names.key(*wait.job);
   if (wait.arm) view.arm = cell.arm(*wait.arm).name;
+  if (wait.kind == Wait::Kind::arm && wait.arm && !names.has_job(*wait.arm)) {
+    view.detail += (view.detail.empty() ? "" : "; ") + opens(view.arm, cell);
+  }
   if (wait.proximity) {
     view.links = {wait.proximity->body_a, wait.proximity->body_b};
     view.own_time_s = to_seconds(wait.own_time);
@@ -44,7 +67,12 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   for (ArmId arm : job.trajectory->arms()) view.arms.push_back(cell.arm(arm).name);
   for (const Wait& wait : job.waits_on) view.waits_on.push_back(view_of(wait, cell, names));
   for (JobId on_it : job.ring) view.ring.push_back(names.key(on_it));
-  if (job.reason == Reason::deadlock) view.detail = deadlock_text(view.ring);
+  if (job.reason == Reason::deadlock) view.detail = deadlock_text(view.ring, cell);
+  if (job.reason == Reason::backlog_timeout) {  // what it waited for in vain
+    for (const WaitView& wait : view.waits_on) {
+      if (wait.kind == Wait::Kind::arm && !wait.detail.empty()) view.detail += "; " + wait.detail;
+    }
+  }
   return view;
 }
 

@@ -8,12 +8,14 @@
 
 namespace armloom {
 
-// What clients call their jobs: the string beside the JobId.
+// What clients call their jobs, the string beside the JobId, and whom they are for.
 class JobNames {
  public:
   virtual ~JobNames() = default;
   [[nodiscard]] virtual std::string key(JobId job) const = 0;
   [[nodiscard]] virtual std::string name(JobId job) const = 0;
+  // Whether a job that has not ended moves the arm, or will.
+  [[nodiscard]] virtual bool has_job(ArmId arm) const = 0;
 };
 
 [[nodiscard]] WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names);

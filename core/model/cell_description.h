@@ -74,7 +74,7 @@ struct SchedulingSettings {
   std::string policy = "earliest_start";
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
-  std::string on_idle_blocker = "report";
+  std::string on_idle_blocker = "park";
 };
 struct MonitorSettings {
   double rate_hz = 100.0;

@@ -32,6 +32,28 @@ TEST_P(Aside, AnIdleArmInTheWayIsTold) {
   ASSERT_FALSE(waits.waits_on.empty());
   EXPECT_EQ(waits.waits_on[0].kind, Wait::Kind::arm);
   EXPECT_EQ(waits.waits_on[0].arm, "x");
+  EXPECT_EQ(waits.waits_on[0].detail,
+            "arm x has no job: one that moves it away would open the way, or \"on_idle_blocker\": "
+            "\"park\" in the cell's scheduling, which sends it aside");
+}
+
+TEST_P(Aside, WhatWouldHaveOpenedTheWayStandsInTheReasonWhenItExpires) {
+  start("report");
+  cell->run_to_the_end(at(80s));
+  const JobView expired = cell->job("passes");
+  ASSERT_EQ(expired.reason, Reason::backlog_timeout);
+  EXPECT_EQ(expired.detail.rfind("waited 60 s in the backlog; arm x has no job: ", 0), 0u)
+      << expired.detail;
+}
+
+// As soon as a job is there that moves the arm, nobody has to be told how to open the way.
+TEST_P(Aside, AnArmThatAJobWillMoveIsToldWithoutAdvice) {
+  start("report");
+  cell->run_until(at(10s));
+  cell->submit(slide("y", 1, -1, 3, "back"));
+  EXPECT_FALSE(cell->job("passes").waits_on[0].detail.empty());
+  cell->submit(slide("x", 0, 1, 2, "leaves"));
+  for (const WaitView& wait : cell->job("passes").waits_on) EXPECT_EQ(wait.detail, "");
 }
 
 TEST_P(Aside, AnIdleArmInTheWayGoesBackWhereItCameFrom) {
@@ -71,8 +93,18 @@ TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
   cell.emplace(description, GetParam());
   cell->submit(slide("y", -1, 1, 3, "passes"));
   cell->run_until(at(10s));
-  EXPECT_EQ(cell->job("passes").state, JobState::backlogged);
+  const JobView waits = cell->job("passes");
+  EXPECT_EQ(waits.state, JobState::backlogged);
   EXPECT_FALSE(cell->simulation->executive().job("aside-1"));
+  ASSERT_FALSE(waits.waits_on.empty());
+  EXPECT_EQ(waits.waits_on[0].detail,
+            "arm x has no job: it goes aside where it has a free way (back along its last motion, "
+            "home, or to a named pose of its group), else one that moves it away would open this "
+            "one");
+}
+
+TEST(AsideByDefault, ArmsInTheWayGoAside) {
+  EXPECT_EQ(CellDescription{}.scheduling.on_idle_blocker, "park");
 }
 
 // Canceled in the crossing, with its home behind it out of reach: it goes on along its line.
@@ -168,6 +200,7 @@ TEST_P(InARing, WithNowhereToGoTheLastJobFailsAtOnce) {
   cell.submit(slide("b", -1, 1, 4, "two"));
   cell.run_until(at(100ms));
   EXPECT_EQ(cell.job("two").reason, Reason::deadlock);
+  EXPECT_NE(cell.job("two").detail.find("or a free way aside for one"), std::string::npos);
   EXPECT_FALSE(cell.simulation->executive().job("aside-1"));
 }
 

@@ -24,7 +24,11 @@ TEST_P(T10, ASwapOfTwoGoalsIsNamedAtOnceAndTheLastJobGivesWay) {
   const JobView failed = cell.job("two");
   EXPECT_EQ(failed.state, JobState::failed);
   EXPECT_EQ(failed.reason, Reason::deadlock);
-  EXPECT_EQ(failed.detail, "two -> one -> two: none of them can move before the next one does");
+  EXPECT_EQ(
+      failed.detail,
+      "two -> one -> two: none of them can move before the next one does; a job before them that "
+      "moves an arm out of the others' way would open the ring, or \"on_idle_blocker\": "
+      "\"park\" in the cell's scheduling, which sends one aside");
   const JobView stays = cell.job("one");
   EXPECT_EQ(stays.state, JobState::backlogged);
   EXPECT_TRUE(stays.ring.empty());

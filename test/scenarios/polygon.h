@@ -28,6 +28,7 @@ inline CellDescription polygon(int corners) {
     cell.robots.push_back(std::move(robot));
   }
   cell.checking.time_step = 10ms;
+  cell.scheduling.on_idle_blocker = "report";
   return cell;
 }
 

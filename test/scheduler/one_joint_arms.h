@@ -10,6 +10,7 @@ namespace armloom {
 // A cell of one-joint arms named a, b, c, ... without geometry: the scheduler needs none.
 inline CellPtr one_joint_arms(std::size_t count) {
   auto cell = std::make_shared<Cell>();
+  cell->scheduling.on_idle_blocker = "report";
   cell->robots.emplace_back();
   for (std::size_t i = 0; i < count; ++i) {
     const std::string name(1, static_cast<char>('a' + i));

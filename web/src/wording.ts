@@ -43,7 +43,7 @@ export function wait_in_words(w: WaitsOn): string {
   const how = approach(w);
   switch (w.kind) {
     case 'job': return how ? `waits for ${who}: ${how}` : `waits for ${who} to end`;
-    case 'arm': return how ? `waits for ${who} to move away: ${how}` : `waits for ${who} to move away`;
+    case 'arm': return `waits for ${who} to move away${how ? `: ${how}` : ''}${w.detail ? ` (${w.detail})` : ''}`;
     case 'object': return how ? `waits for ${who} to be clear: ${how}` : `waits for ${who} to be clear`;
     case 'order': return w.id ? `waits its turn: ${short_id(w.id)}${w.arm ? ` of ${w.arm}` : ''} comes first` : `waits its turn${w.arm ? ` on ${w.arm}` : ''}`;
     case 'capacity': return w.id ? `waits until ${who} has ended: one at a time` : 'waits for a free place';
