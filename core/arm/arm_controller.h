@@ -26,6 +26,10 @@ struct ArmFeedback {
   Duration measured_progress{};   // trajectory time that measurement proves (lags behind)
   Eigen::VectorXd measured;       // positions of the controller's joints (see joints())
   std::string detail;             // fault: why
+  // It stands: it has no motion, waits for its start, or rests on its path.
+  bool at_rest = false;
+  // And time alone changes nothing of it: it stands until the next command.
+  bool settled = false;
 };
 
 // One arm (arm joints, then gripper joints) behind an interface that real arms can implement.

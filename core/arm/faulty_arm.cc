@@ -75,7 +75,19 @@ const ArmFeedback& FaultyArm::tick(TimePoint now) {
     feedback_.detail = "the simulated controller gave up";
   }
   phase_ = feedback_.phase;
+  if (under_way_ && fault_changes()) feedback_.settled = false;
   return feedback_;
+}
+
+// Whether time alone makes the faults do otherwise to a motion that is under way.
+bool FaultyArm::fault_changes() const {
+  const bool over = phase_ == Phase::stopped || phase_ == Phase::finished || phase_ == Phase::fault;
+  if (over) return false;
+  return (allowed_ != granted_ && active(ArmFault::Kind::slow) != nullptr) ||
+         std::ranges::any_of(faults_, [this](const auto& entry) {
+           const ArmFault& fault = entry.second;
+           return fault.from > now_ || (fault.until && *fault.until > now_);
+         });
 }
 
 void FaultyArm::give_up() {

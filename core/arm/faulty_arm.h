@@ -48,6 +48,7 @@ class FaultyArm final : public ArmController {
   [[nodiscard]] const ArmFault* active(ArmFault::Kind kind) const;
   void withhold(Duration period);
   void give_up();
+  [[nodiscard]] bool fault_changes() const;
 
   std::unique_ptr<ArmController> inner_;
   std::map<std::uint64_t, ArmFault> faults_;

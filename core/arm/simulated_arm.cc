@@ -136,7 +136,16 @@ const ArmFeedback& SimulatedArm::tick(TimePoint now) {
     advance(now - previous);
   }
   if (noise_ > 0.0) measure();
+  feedback_.at_rest = stands();
+  feedback_.settled = feedback_.at_rest && feedback_.phase != Phase::waiting;
   return feedback_;
+}
+
+bool SimulatedArm::stands() const {
+  if (!under_way() || feedback_.phase == Phase::waiting) return true;
+  return feedback_.phase == Phase::moving && rate_ == 0.0 && !has_offset_ &&
+         feedback_.commanded_progress >= std::min(authority_, trajectory_->duration()) &&
+         feedback_.measured_progress == feedback_.commanded_progress;
 }
 
 void SimulatedArm::begin(TimePoint now, TimePoint previous) {

@@ -61,6 +61,7 @@ class SimulatedArm final : public ArmController {
   void place();    // position_ from the measured progress
   void measure();  // feedback_.measured from position_
   [[nodiscard]] bool under_way() const;
+  [[nodiscard]] bool stands() const;
 
   CellPtr cell_;
   std::vector<JointId> joints_;

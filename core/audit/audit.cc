@@ -83,7 +83,7 @@ Result<AuditReport> audit(const Cell& cell, const std::vector<RecordedState>& st
     const RecordedState& to = states[i];
     const Duration gap = to.time - from.time;
     const std::int64_t steps = (gap.count() + step.count() - 1) / step.count();
-    for (std::int64_t k = 1; k < steps; ++k) {
+    for (std::int64_t k = 1; k < steps && !to.after_rest; ++k) {
       const double share = static_cast<double>(k) / static_cast<double>(steps);
       q = from.q + share * (to.q - from.q);
       audit.look_at(from.time + Duration{std::llround(share * static_cast<double>(gap.count()))},

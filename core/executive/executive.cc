@@ -103,7 +103,7 @@ void Executive::Impl::tick(TimePoint now) {
   now_ = now;
   if (options_.dies_at && now_ >= *options_.dies_at) {
     motions_.tick_arms(now_);
-    observer_.on_tick(now_, motions_.measured());
+    tell_tick();
     return;
   }
   if (wake_at_ && now_ >= *wake_at_) {
@@ -123,11 +123,19 @@ void Executive::Impl::tick(TimePoint now) {
     watch();
   }
   tell_arms();
-  observer_.on_tick(now_, motions_.measured());
+  tell_tick();
   if (wound_down_ && !any_moving()) {
     step(Interrupt{});
     std::exchange(wound_down_, nullptr)();
   }
+}
+
+void Executive::Impl::tell_tick() {
+  if (const bool at_rest = motions_.all_at_rest(); at_rest != told_rest_) {
+    told_rest_ = at_rest;
+    observer_.on_rest(at_rest);
+  }
+  observer_.on_tick(now_, motions_.measured());
 }
 
 // ---- The monitor ----
@@ -251,7 +259,8 @@ std::optional<JobView> Executive::job(const std::string& key) const { return imp
 Snapshot Executive::snapshot(std::size_t ended_max) const { return impl_->snapshot(ended_max); }
 std::vector<ArmView> Executive::arms() const { return impl_->arms(); }
 TimePoint Executive::now() const { return impl_->now_; }
-bool Executive::all_ended() const { return impl_->scheduler_.active().empty(); }
+bool Executive::all_ended() const { return impl_->active_ == 0; }
+bool Executive::settled() const { return impl_->settled(); }
 const RunFigures& Executive::figures() const { return impl_->figures_; }
 void Executive::tick(TimePoint now) { impl_->tick(now); }
 

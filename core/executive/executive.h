@@ -57,6 +57,9 @@ class Observer {
   virtual void on_event(const Event& event) = 0;
   // Every control tick: measured positions of the whole cell. Cheap consumers only.
   virtual void on_tick(TimePoint now, const Configuration& measured) = 0;
+  // Told before on_tick() when it has changed: from this tick on no arm moves, or one does. At the
+  // beginning arms count as moving.
+  virtual void on_rest(bool /*at_rest*/) {}
   // Every monitor period.
   virtual void on_state(const StateFrame& frame) = 0;
 };
@@ -181,6 +184,10 @@ class Executive {
   [[nodiscard]] std::vector<ArmView> arms() const;
   [[nodiscard]] TimePoint now() const;
   [[nodiscard]] bool all_ended() const;  // no job is active
+  // Time alone changes nothing any more: every arm stands until it gets a command, and no timeout
+  // or planned start is to come. What may still change something: an input, a judgement that is
+  // open.
+  [[nodiscard]] bool settled() const;
   [[nodiscard]] const RunFigures& figures() const;
 
   // One control cycle. `now` must grow by kControlPeriod from call to call.

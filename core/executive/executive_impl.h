@@ -65,6 +65,7 @@ class Executive::Impl final : public JobNames {
 
   std::vector<ArmId> all_arms() const;
   bool any_moving() const;
+  bool settled() const { return !wake_at_ && motions_.all_settled(); }
 
   CellPtr cell_;
   ExecutiveOptions options_;
@@ -72,6 +73,7 @@ class Executive::Impl final : public JobNames {
   PlanningScenePtr scene_;
   std::uint64_t scene_version_ = 1;
   RunFigures figures_;
+  std::size_t active_ = 0;  // jobs that have not ended
   TimePoint now_{};
   std::function<void()> wound_down_;  // set: the last act has begun
 
@@ -117,6 +119,7 @@ class Executive::Impl final : public JobNames {
 
   void carry_out(const Effect& effect);
   void watch();
+  void tell_tick();
   static StateCheck monitored(const PlanningScenePtr& scene);
   void tell_job(JobId job);
   void tell_arms();
@@ -149,6 +152,7 @@ class Executive::Impl final : public JobNames {
   std::vector<MoveAside> asides_;  // of the present step
   std::map<ArmId, TrajectoryPtr> ways_back_;
   std::uint64_t seq_ = 0;
+  bool told_rest_ = false;
   std::vector<ArmState> told_arms_;
   std::vector<std::string> told_arm_jobs_;
   QueueView told_queue_;

@@ -33,6 +33,7 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
     const auto stands_at = motion.stands_at.find(arm);
     const Duration from =
         stands_at == motion.stands_at.end() ? dispatch.from_progress : stands_at->second;
+    feedback_[arm.index()].settled = false;  // until its next tick
     controllers_[arm.index()]->start(
         trajectory, dispatch.start_at + (from - dispatch.from_progress), from, dispatch.authority);
   }
@@ -41,6 +42,7 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
 void Motions::grant(const Grant& grant) {
   Motion& motion = motions_.at(grant.job);
   motion.authority = grant.authority;
+  for (ArmId arm : motion.trajectory->arms()) feedback_[arm.index()].settled = false;
   if (motion.trajectory->arms().size() > 1) return;  // keep_together() hands it on
   for (ArmId arm : motion.trajectory->arms()) controllers_[arm.index()]->grant(grant.authority);
 }
@@ -48,7 +50,10 @@ void Motions::grant(const Grant& grant) {
 void Motions::brake(JobId job) {
   Motion& motion = motions_.at(job);
   motion.braking = true;
-  for (ArmId arm : motion.trajectory->arms()) controllers_[arm.index()]->brake();
+  for (ArmId arm : motion.trajectory->arms()) {
+    feedback_[arm.index()].settled = false;
+    controllers_[arm.index()]->brake();
+  }
 }
 
 void Motions::release(JobId job) {
@@ -126,6 +131,9 @@ bool Motions::moving(ArmId arm) const {
   const Phase phase = feedback_[arm.index()].phase;
   return phase == Phase::moving || phase == Phase::braking;
 }
+
+bool Motions::all_at_rest() const { return std::ranges::all_of(feedback_, &ArmFeedback::at_rest); }
+bool Motions::all_settled() const { return std::ranges::all_of(feedback_, &ArmFeedback::settled); }
 
 Eigen::VectorXd Motions::measured_joints(const Trajectory& trajectory) const {
   Eigen::VectorXd q(static_cast<Eigen::Index>(trajectory.joints().size()));

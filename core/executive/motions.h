@@ -36,6 +36,10 @@ class Motions {
   [[nodiscard]] bool moving(ArmId arm) const;
   // It got ahead on its path in the last tick: a pause on the way is none.
   [[nodiscard]] bool advances(ArmId arm) const { return advances_[arm.index()]; }
+  // No arm moves, as of the last tick.
+  [[nodiscard]] bool all_at_rest() const;
+  // Nor will one before the next command.
+  [[nodiscard]] bool all_settled() const;
   // Largest distance of a measured joint from where its path is at the measured progress, rad or
   // m; zero without a motion.
   [[nodiscard]] double deviation(ArmId arm) const;

@@ -45,6 +45,7 @@ class Simulation::Judge final : public JudgePool {
   }
 
   [[nodiscard]] const Judging& judging() const { return judging_; }
+  [[nodiscard]] bool is_idle() const { return pending_.empty(); }
 
  private:
   struct Answer {
@@ -76,6 +77,8 @@ Result<std::unique_ptr<Simulation>> Simulation::create(CellPtr cell, ExecutiveOp
 
 const Judging& Simulation::judging() const { return judge_->judging(); }
 
+bool Simulation::settled() const { return judge_->is_idle() && executive_->settled(); }
+
 void Simulation::tick() {
   executive_->tick(next_);
   judge_->deliver(next_);
@@ -104,13 +107,14 @@ Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
 
   SimulationResult result;
   auto next = order.begin();
-  while (!result.all_ended && (*simulation)->now() < time_limit) {
+  while (!result.all_ended && !result.settled && (*simulation)->now() < time_limit) {
     (*simulation)->tick();
     for (; next != order.end() && jobs[*next].at <= executive.now(); ++next) {
       auto accepted = executive.submit(std::move(jobs[*next].job));
       if (!accepted) result.refused.push_back({*next, std::move(accepted.error())});
     }
     result.all_ended = next == order.end() && executive.all_ended();
+    result.settled = next == order.end() && (*simulation)->settled();
   }
   result.ended_at = executive.now();
   result.figures = executive.figures();

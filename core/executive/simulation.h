@@ -35,6 +35,9 @@ class Simulation {
   [[nodiscard]] TimePoint now() const { return executive_->now(); }
   [[nodiscard]] const Judging& judging() const;
 
+  // Nothing happens any more unless somebody asks for it.
+  [[nodiscard]] bool settled() const;
+
   // One control cycle; the first one is at time zero.
   void tick();
   // Cycles up to and with `time`.
@@ -63,12 +66,14 @@ struct SimulationResult {
     Problems problems;
   };
   std::vector<Refused> refused;  // at their time
-  bool all_ended = false;        // false: `time_limit` came first
+  bool all_ended = false;        // false: nothing could happen any more, or `time_limit` came first
+  bool settled = false;          // false: `time_limit` came first, if not all have ended
   TimePoint ended_at{};
 };
 
-// Submits the jobs at their times and runs until all have ended, or until `time_limit`. Problems:
-// as create(); a fault of an unknown arm.
+// Submits the jobs at their times and runs until all have ended, until nothing can happen any more
+// (arms that are stopped, with nobody to resume them), or until `time_limit`. Problems: as
+// create(); a fault of an unknown arm.
 [[nodiscard]] Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
                                                 std::vector<TimedJob> jobs, TimePoint time_limit,
                                                 Observer& observer,

@@ -185,6 +185,7 @@ JobView Executive::Impl::accept(Prepared prepared) {
   }
   ids_.emplace(key, id);
   labels_.emplace(id, Label{key, std::move(prepared.name)});
+  ++active_;
   step(Submit{.job = id,
               .trajectory = std::move(prepared.trajectory),
               .priority = prepared.priority,

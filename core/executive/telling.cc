@@ -44,6 +44,7 @@ void Executive::Impl::tell_job(JobId job) {
 void Executive::Impl::count(const JobView& ended) {
   figures_.last_end = std::max(figures_.last_end, *ended.ended_at);
   ended_.push_back(ended.id);
+  --active_;
   while (ended_.size() > options_.ended_kept) {
     const JobId oldest = ended_.front();
     ended_.pop_front();

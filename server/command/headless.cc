@@ -34,14 +34,14 @@ Problems read_trajectories(JobsFile& file, const Cell& cell) {
   return faults;
 }
 
-// ", waits for arm right"
-std::string waits_for(const WaitView& wait) {
+// ", waits for arm right"; without its detail where `said` has it already.
+std::string waits_for(const WaitView& wait, const std::string& said) {
   std::string text = std::string(", waits for ") + to_string(wait.kind);
   const bool names_arm = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::stop;
   const std::string& name = names_arm ? wait.arm : wait.job;
   if (!name.empty()) text += " " + name;
   if (wait.kind == Wait::Kind::object && wait.links.size() == 2) text += " " + wait.links[1];
-  if (!wait.detail.empty()) text += " (" + wait.detail + ")";
+  if (said.find(wait.detail) == said.npos) text += " (" + wait.detail + ")";
   return text;
 }
 
@@ -102,14 +102,18 @@ void complain_of_refusals(const SimulationResult& result, const std::string& job
 }
 
 void complain_of_ends(const SimulationResult& result, const std::string& under) {
+  const std::string begin = "armloom: " + (under.empty() ? "" : under + ": ");
+  if (!result.all_ended) {
+    std::cerr << begin << (result.settled ? "nothing can happen any more" : "every limit is over")
+              << " at " << to_seconds(result.ended_at) << " s, and not all jobs have ended\n";
+  }
   for (const JobView& job : result.jobs) {
     if (job.state == JobState::succeeded || (job.own && is_terminal(job.state))) continue;
     std::string said = is_terminal(job.state) ? "" : "did not end, it is ";
     said += to_string(job.state);
     if (!job.detail.empty()) said += ": " + job.detail;
-    for (const WaitView& wait : job.waits_on) said += waits_for(wait);
-    std::cerr << "armloom: " << (under.empty() ? "" : under + ": ") << "job " << job.key << " "
-              << said << '\n';
+    for (const WaitView& wait : job.waits_on) said += waits_for(wait, said);
+    std::cerr << begin << "job " << job.key << " " << said << '\n';
   }
 }
 

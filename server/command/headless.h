@@ -33,8 +33,9 @@ struct JobsFile {
 void complain_of_refusals(const SimulationResult& result, const std::string& jobs_file,
                           const std::string& under = "");
 
-// Each job of a client that did not succeed, and each that did not end, and what it waits for if it
-// has not ended, on stderr: counts alone do not tell. `under` as above.
+// Whether the run ended before its jobs, each job of a client that did not succeed, and each that
+// did not end, and what it waits for if it has not ended, on stderr: counts alone do not tell.
+// `under` as above.
 void complain_of_ends(const SimulationResult& result, const std::string& under = "");
 
 // Of the clients' jobs; moves aside of the server's own are not counted.

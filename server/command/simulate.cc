@@ -28,6 +28,9 @@ class Watcher final : public Observer {
   void on_tick(TimePoint now, const Configuration& measured) override {
     if (recording_ != nullptr) recording_->state(now, measured);
   }
+  void on_rest(bool at_rest) override {
+    if (recording_ != nullptr) recording_->at_rest(at_rest);
+  }
   void on_state(const StateFrame&) override {}
 
   [[nodiscard]] std::size_t backlogged() const { return backlogged_.size(); }

@@ -20,6 +20,10 @@ void Broadcast::on_tick(TimePoint now, const Configuration& measured) {
   if (parts_.recording != nullptr) parts_.recording->state(now, measured);
 }
 
+void Broadcast::on_rest(bool at_rest) {
+  if (parts_.recording != nullptr) parts_.recording->at_rest(at_rest);
+}
+
 void Broadcast::on_state(const StateFrame& frame) {
   const auto now = std::chrono::steady_clock::now();
   if (now < next_frame_) return;

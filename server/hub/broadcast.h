@@ -30,6 +30,7 @@ class Broadcast final : public Observer {
 
   void on_event(const Event& event) override;
   void on_tick(TimePoint now, const Configuration& measured) override;
+  void on_rest(bool at_rest) override;
   void on_state(const StateFrame& frame) override;
 
  private:

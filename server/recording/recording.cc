@@ -43,6 +43,7 @@ Result<std::unique_ptr<Recording>> Recording::create(const fs::path& folder, con
     recording->states_.emplace(folder / "states.csv", cell);
   } else {
     fs::remove(folder / "states.csv", ec);  // of an earlier recording
+    fs::remove(idle_file_of(folder / "states.csv"), ec);
   }
   return recording;
 }

@@ -37,6 +37,10 @@ class Recording {
   void state(TimePoint time, const Configuration& q) {
     if (states_) states_->write(time, q);
   }
+  // As StatesWriter::at_rest.
+  void at_rest(bool at_rest) {
+    if (states_) states_->at_rest(at_rest);
+  }
   // Either the whole jobs file at once, or job by job as they are accepted.
   void jobs_file(std::string_view text);
   void job(TimePoint at, std::string_view body);

@@ -1,81 +1,83 @@
 #include "server/recording/states_csv.h"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
+
+#include "server/recording/csv_text.h"
 
 namespace armloom {
 namespace {
 
 constexpr std::size_t kBuffer = 1U << 20U;
-constexpr std::int64_t kNano = 1'000'000'000;
 
-// A recording has one row per control tick. What happened in a longer hole cannot be audited.
+// A recording has one row per control tick in which an arm moves. What happened in a longer hole
+// cannot be audited.
 constexpr std::size_t kDoubtsMax = 10;
 constexpr Duration kGapMax = std::chrono::milliseconds(50);
 
-// `nano` billionths as a decimal fraction with `decimals` (3 or 9) places.
-void append_fraction(std::string& out, std::int64_t nano, int decimals) {
-  char text[32];
-  char* at = text;
-  if (nano < 0) {
-    *at++ = '-';
-    nano = -nano;
-  }
-  at = std::to_chars(at, text + sizeof text, nano / kNano).ptr;
-  *at++ = '.';
-  std::int64_t rest = nano % kNano;
-  std::int64_t unit = kNano / 10;
-  for (int i = 0; i < decimals; ++i, unit /= 10) {
-    *at++ = static_cast<char>('0' + rest / unit);
-    rest %= unit;
-  }
-  out.append(text, static_cast<std::size_t>(at - text));
-}
-
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    fields.push_back(line.substr(0, comma));
-    if (comma == line.npos) return fields;
-    line.remove_prefix(comma + 1);
-  }
-}
+// While no arm is commanded to move, none should leave where it rests by more than this.
+double rest_tolerance(const Cell& cell) { return cell.checking.tracking_error_rad; }
 
 // Reads line after line and keeps the place for problems.
 class StatesReader {
  public:
   StatesReader(const std::filesystem::path& file, const Cell& cell,
                std::vector<std::string>* doubts)
-      : in_(file), name_(file.filename().string()), cell_(cell), doubts_(doubts) {}
+      : in_(file),
+        name_(file.filename().string()),
+        idle_file_(idle_file_of(file)),
+        cell_(cell),
+        doubts_(doubts) {}
 
   Result<std::vector<RecordedState>> read() {
     if (!in_) return fault("", "cannot be opened", {});
     if (!next_line()) return fault("", "the file is empty", {});
     if (auto bad = read_header()) return failure(std::move(*bad));
+    auto idle = read_idle_stretches(idle_file_);
+    if (!idle) return failure(std::move(idle.error()));
+    idle_ = std::move(*idle);
     std::vector<RecordedState> states;
     while (next_line()) {
       RecordedState state{TimePoint{},
                           Configuration::Zero(static_cast<Eigen::Index>(cell_.joints.size()))};
       if (auto bad = read_row(state)) return failure(std::move(*bad));
       if (!states.empty() && state.time <= states.back().time) {
-        return fault("time_s", "times must increase", std::string(split(line_).front()));
+        return fault("time_s", "times must increase", std::string(split_fields(line_).front()));
       }
-      if (!states.empty() && state.time - states.back().time > kGapMax) {
-        doubt(
-            "more than 50 ms without a row before this one: what happened in between is not known");
-      }
+      if (!states.empty()) look_between(states.back(), state);
       if (in_.eof()) doubt("the last row has no end of line and may be cut off");
       states.push_back(std::move(state));
     }
     if (states.empty()) return fault("", "there is no row of states", {});
+    if (idle_next_ < idle_.size()) {
+      doubt("rows are missing: " + idle_file_.filename().string() + " goes on");
+    }
     return states;
   }
 
  private:
-  void doubt(const char* what) const {
+  // Where rows were left out because nothing moved, that has been said; a hole it is where they
+  // were not, or something did move.
+  void look_between(const RecordedState& before, RecordedState& state) {
+    while (idle_next_ < idle_.size() && idle_[idle_next_].to < state.time) {
+      doubt("rows are missing before this one, between which nothing moved");
+      ++idle_next_;
+    }
+    if (idle_next_ < idle_.size() && idle_[idle_next_] == IdleStretch{before.time, state.time}) {
+      ++idle_next_;
+      const double moved = (state.q - before.q).cwiseAbs().maxCoeff();
+      state.after_rest = moved <= rest_tolerance(cell_);
+      if (!state.after_rest) {
+        doubt("arms have moved in what was to be a rest: what happened in between is not known");
+      }
+    } else if (state.time - before.time > kGapMax) {
+      doubt("more than 50 ms without a row before this one: what happened in between is not known");
+    }
+  }
+
+  void doubt(const std::string& what) const {
     if (doubts_ == nullptr || doubts_->size() >= kDoubtsMax) return;
     doubts_->push_back(name_ + ":" + std::to_string(line_number_) + ": " + what);
   }
@@ -103,7 +105,7 @@ class StatesReader {
 
   std::optional<Problem> read_header() {
     columns_.clear();
-    for (const std::string_view name : split(line_)) columns_.emplace_back(name);
+    for (const std::string_view name : split_fields(line_)) columns_.emplace_back(name);
     if (columns_.front() != "time_s") {
       return problem("", "the first column must be time_s", columns_.front());
     }
@@ -122,7 +124,7 @@ class StatesReader {
   }
 
   std::optional<Problem> read_row(RecordedState& state) const {
-    const auto fields = split(line_);
+    const auto fields = split_fields(line_);
     if (fields.size() != columns_.size()) {
       return problem("",
                      "expected " + std::to_string(columns_.size()) + " fields, found " +
@@ -130,17 +132,15 @@ class StatesReader {
                      line_);
     }
     for (std::size_t i = 0; i < fields.size(); ++i) {
-      double number = 0.0;
-      const char* end = fields[i].data() + fields[i].size();
-      const auto [stop, ec] = std::from_chars(fields[i].data(), end, number);
-      if (ec != std::errc{} || stop != end || !std::isfinite(number) || std::abs(number) > 9e8) {
+      const auto number = read_number(fields[i]);
+      if (!number) {
         return problem(columns_[i], "expected a finite number",
                        fields[i].empty() ? "nothing" : fields[i]);
       }
       if (i == 0) {
-        state.time = at(from_seconds(number));
+        state.time = at(from_seconds(*number));
       } else {
-        state.q[static_cast<Eigen::Index>(joints_[i - 1].index())] = number;
+        state.q[static_cast<Eigen::Index>(joints_[i - 1].index())] = *number;
       }
     }
     return std::nullopt;
@@ -148,6 +148,9 @@ class StatesReader {
 
   std::ifstream in_;
   std::string name_;
+  std::filesystem::path idle_file_;
+  std::vector<IdleStretch> idle_;
+  std::size_t idle_next_ = 0;
   const Cell& cell_;
   std::vector<std::string>* doubts_;
   std::string line_;
@@ -159,18 +162,45 @@ class StatesReader {
 }  // namespace
 
 StatesWriter::StatesWriter(const std::filesystem::path& file, const Cell& cell)
-    : out_(file, std::ios::binary) {
+    : out_(file, std::ios::binary), idle_(idle_file_of(file)), tolerance_(rest_tolerance(cell)) {
   buffer_.reserve(kBuffer + 4096);
   buffer_ = "time_s";
   for (const Joint& joint : cell.joints) buffer_ += "," + joint.name;
   buffer_ += '\n';
 }
 
-StatesWriter::~StatesWriter() { flush(); }
+StatesWriter::~StatesWriter() {
+  end_rest();
+  flush();
+}
 
 void StatesWriter::write(TimePoint time, const Configuration& q) {
-  const std::int64_t nano = time.time_since_epoch().count();
-  append_fraction(buffer_, nano, nano % 1'000'000 == 0 ? 3 : 9);
+  const bool goes_on = at_rest_ && rest_from_ && q.size() == rest_q_.size() &&
+                       (q - rest_q_).cwiseAbs().maxCoeff() <= tolerance_;
+  if (goes_on) {
+    rows_held_ += 1;
+    held_at_ = time;
+    held_q_ = q;
+    return;
+  }
+  end_rest();
+  if (at_rest_) {
+    rest_from_ = time;
+    rest_q_ = q;
+  }
+  append(time, q);
+}
+
+// The last row of a stretch, and where rows were left out before it, that they were.
+void StatesWriter::end_rest() {
+  if (rows_held_ > 1) idle_.write({*rest_from_, held_at_});
+  if (rows_held_ > 0) append(held_at_, held_q_);
+  rows_held_ = 0;
+  rest_from_.reset();
+}
+
+void StatesWriter::append(TimePoint time, const Configuration& q) {
+  append_seconds(buffer_, time);
   for (const double position : q) {
     buffer_ += ',';
     append_fraction(buffer_, std::llround(position * 1e9), 9);

@@ -305,6 +305,34 @@ TEST_F(Command, SimulateWithFaultsLosesTimeAndNothingElse) {
   EXPECT_GT(with.last_line()["makespan_s"], without.last_line()["makespan_s"].get<double>() + 4.0);
 }
 
+// The left arm gives up in the middle, and the right one's job waits there for 10 min: its states
+// are few, the run ends with that, and says what it left.
+TEST_F(Command, AStuckLoadEndsWhenNothingCanHappenAnyMoreAndWritesNoIdleRows) {
+  json jobs = json::parse(read_text_file(conflicting_jobs()).value());
+  for (json& timed : jobs) timed["job"]["backlog_timeout_s"] = 600;
+  const std::string faults =
+      file("faults.json", R"([{"at_s": 1.5, "arm": "left", "kind": "fault"}])").string();
+  const std::string recording = (folder_ / "recording").string();
+  const Outcome outcome =
+      run("simulate --cell " + kCell + " --jobs " + file("stuck.json", jobs.dump()).string() +
+          " --faults " + faults + " --out " + recording);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("armloom: nothing can happen any more at "), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("job j1 did not end, it is queued, waits for stop left"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_LT(fs::file_size(folder_ / "recording/states.csv"), 2'000'000U);
+  EXPECT_EQ(outcome.err.find("every limit is over"), std::string::npos) << outcome.err;
+
+  const std::string audit = "audit --cell " + kCell + " --recording " + recording;
+  const Outcome whole = run(audit);
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_EQ(whole.err, "") << "no hole";
+  fs::remove(folder_ / "recording/states_idle.csv");
+  EXPECT_NE(run(audit).err.find("without a row"), std::string::npos);
+}
+
 TEST_F(Command, BadFaultsFilesAreNamedWithFilePlaceAndValue) {
   const struct {
     const char* text;

@@ -12,6 +12,7 @@ namespace armloom {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::chrono_literals;
 
 CellPtr two_pandas() {
   const fs::path file = fs::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
@@ -54,6 +55,106 @@ TEST(StatesCsv, ReadsBackWhatItWrote) {
   doubts.clear();
   ASSERT_TRUE(read_states(file, *cell, &doubts));
   EXPECT_EQ(doubts.back(), "states.csv:4: the last row has no end of line and may be cut off");
+}
+
+// Rows at these milliseconds, the left arm's first joint at that place, told to be at rest or not.
+struct Row {
+  int at_ms;
+  double q0;
+  bool at_rest;
+};
+fs::path recorded(const Cell& cell, const std::vector<Row>& rows) {
+  fs::path file = folder_of_test() / "states.csv";
+  StatesWriter writer(file, cell);
+  Configuration q = cell.home();
+  for (const Row& row : rows) {
+    writer.at_rest(row.at_rest);
+    q[0] = row.q0;
+    writer.write(at(std::chrono::milliseconds(row.at_ms)), q);
+  }
+  return file;
+}
+std::vector<std::int64_t> times_ms(const std::vector<RecordedState>& states) {
+  std::vector<std::int64_t> times;
+  for (const RecordedState& s : states) times.push_back(s.time.time_since_epoch() / 1'000'000ns);
+  return times;
+}
+using Times = std::vector<std::int64_t>;
+using Doubts = std::vector<std::string>;
+
+TEST(IdleStretches, HaveTheirFirstAndTheirLastRowAndAreDeclared) {
+  const CellPtr cell = two_pandas();
+  std::vector<Row> rows;
+  for (int ms = 1; ms <= 500; ++ms) rows.push_back({ms, 0.0, true});
+  for (int ms = 501; ms <= 503; ++ms) rows.push_back({ms, 0.001 * (ms - 500), false});
+  for (int ms = 504; ms <= 900; ++ms) rows.push_back({ms, 0.003 + 1e-5 * (ms % 7), true});  // noise
+  const fs::path file = recorded(*cell, rows);
+  EXPECT_EQ(read_text_file(idle_file_of(file)).value(), "from_s,to_s\n0.001,0.500\n0.504,0.900\n");
+  Doubts doubts;
+  const auto states = read_states(file, *cell, &doubts);
+  ASSERT_TRUE(states);
+  EXPECT_EQ(times_ms(*states), (Times{1, 500, 501, 502, 503, 504, 900}));
+  EXPECT_EQ(doubts, Doubts{});
+  std::vector<bool> after_rest;
+  for (const RecordedState& s : *states) after_rest.push_back(s.after_rest);
+  EXPECT_EQ(after_rest, (std::vector<bool>{false, true, false, false, false, false, true}));
+}
+
+TEST(IdleStretches, OfOneOrTwoRowsLeaveNothingOut) {
+  const CellPtr cell = two_pandas();
+  const fs::path file =
+      recorded(*cell, {{1, 0, true}, {2, 0, true}, {3, 0.1, false}, {4, 0, true}});
+  EXPECT_EQ(times_ms(*read_states(file, *cell)), (Times{1, 2, 3, 4}));
+  EXPECT_FALSE(fs::exists(idle_file_of(file)));
+}
+
+// Nothing was commanded, and yet a joint moves: that is written row by row.
+TEST(IdleStretches, EndWhereAJointLeavesItsPlace) {
+  const CellPtr cell = two_pandas();
+  ASSERT_EQ(cell->checking.tracking_error_rad, 0.001);
+  std::vector<Row> rows;
+  for (int ms = 1; ms <= 200; ++ms) rows.push_back({ms, 0.0, true});
+  for (int ms = 201; ms <= 203; ++ms) rows.push_back({ms, 0.005 * (ms - 200), true});
+  for (int ms = 204; ms <= 400; ++ms) rows.push_back({ms, 0.015, true});
+  const fs::path file = recorded(*cell, rows);
+  Doubts doubts;
+  EXPECT_EQ(times_ms(*read_states(file, *cell, &doubts)), (Times{1, 200, 201, 202, 203, 400}));
+  EXPECT_EQ(doubts, Doubts{});
+}
+
+// What is lost is not taken for a rest: not between rows, not at the end, not what has moved.
+TEST(IdleStretches, AreNoExcuseForRowsThatAreLost) {
+  const CellPtr cell = two_pandas();
+  std::vector<Row> rows;
+  for (int ms = 1; ms <= 200; ++ms) rows.push_back({ms, 0.0, true});
+  for (int ms = 201; ms <= 400; ++ms) rows.push_back({ms, 0.001 * (ms - 200), false});
+  for (int ms = 401; ms <= 600; ++ms) rows.push_back({ms, 0.2, true});
+  const fs::path file = recorded(*cell, rows);
+  const std::string text = read_text_file(file).value();
+  const auto from_row = [&](const std::string& time) { return text.find("\n" + time) + 1; };
+  const auto doubts_of = [&](const std::string& changed) {
+    std::ofstream(file) << changed;
+    Doubts doubts;
+    EXPECT_TRUE(read_states(file, *cell, &doubts));
+    return doubts;
+  };
+  EXPECT_EQ(doubts_of(text), Doubts{});
+  const std::string hole = text.substr(0, from_row("0.250")) + text.substr(from_row("0.350"));
+  EXPECT_EQ(doubts_of(hole).size(), 1U) << "the motion has a hole";
+  const std::string cut = text.substr(0, from_row("0.300"));
+  EXPECT_EQ(doubts_of(cut), Doubts{"states.csv:102: rows are missing: states_idle.csv goes on"});
+  const std::string no_begin = text.substr(0, from_row("0.200")) + text.substr(from_row("0.230"));
+  EXPECT_EQ(doubts_of(no_begin).size(), 2U) << "the rest has no end, and there is a hole";
+
+  std::ofstream(idle_file_of(file)) << "from_s,to_s\n0.001,0.200\n0.401,0.600\n0.700,0.650\n";
+  const auto states = read_states(file, *cell);
+  ASSERT_FALSE(states);
+  EXPECT_EQ(states.error().front().pointer, "states_idle.csv:4");
+  std::ofstream(idle_file_of(file)) << "from_s,to_s\n0.001,0.200\n0.210,0.400\n";
+  Doubts doubts;
+  std::ofstream(file) << text.substr(0, from_row("0.211")) + text.substr(from_row("0.400"));
+  ASSERT_TRUE(read_states(file, *cell, &doubts));
+  EXPECT_NE(doubts.at(0).find("arms have moved in what was to be a rest"), std::string::npos);
 }
 
 struct BadRecording {

@@ -1,0 +1,127 @@
+// When nothing can happen any more: that is said no earlier, and the run ends.
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+FaultRequest fault(const std::string& arm, ArmFault::Kind kind, Duration from,
+                   std::optional<Duration> lasting = {}) {
+  return {.arm = arm, .kind = kind, .at = at(from), .lasting = lasting, .value = 0.5};
+}
+
+class Settled : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { cell.emplace(crossing_description(), GetParam()); }
+  void inject(const FaultRequest& request) {
+    ASSERT_TRUE(cell->simulation->executive().inject(request));
+  }
+  // Runs until nothing can happen any more, and on for longer than anything in the cell waits.
+  void expect_nothing_more(TimePoint limit) {
+    while (!cell->simulation->settled()) {
+      cell->simulation->tick();
+      ASSERT_LT(cell->simulation->now(), limit) << "it never settles";
+    }
+    const std::size_t told = cell->log.events.size();
+    const Configuration q = cell->log.last;
+    cell->run_until(cell->simulation->now() + 200s);
+    EXPECT_EQ(cell->log.events.size(), told);
+    EXPECT_EQ(cell->log.last, q);
+    EXPECT_TRUE(cell->simulation->settled());
+  }
+  std::optional<Crossing> cell;
+};
+INSTANTIATE_TEST_SUITE_P(Policies, Settled, ::testing::ValuesIn(known_policies()));
+
+// x gives up in the crossing: y's job expires there, and x's next one waits for somebody.
+TEST_P(Settled, AfterAFaultWhenTheTimeoutsAreOver) {
+  inject(fault("x", ArmFault::Kind::fault, 1s));
+  cell->submit(slide("x", -1, 1, 2, "gives up"));
+  cell->submit(slide("x", 1, -1, 2, "comes back"));
+  cell->submit(slide("y", -1, 1, 3, "passes"));
+  expect_nothing_more(at(100s));
+}
+
+TEST_P(Settled, WhileAllArmsAreStoppedAndNobodyResumes) {
+  cell->submit(slide("x", -1, 1, 2, "one"));
+  cell->submit(slide("y", -1, 1, 3, "two"));
+  cell->run_until(at(500ms));
+  cell->simulation->executive().stop_all("operator");
+  expect_nothing_more(at(100s));
+  EXPECT_FALSE(cell->simulation->executive().all_ended());
+  cell->simulation->executive().resume_all();
+  cell->run_to_the_end(at(400s));
+  EXPECT_EQ(cell->job("one").state, JobState::succeeded);
+  EXPECT_EQ(cell->job("two").state, JobState::succeeded);
+}
+
+// It moves again by itself: that is still to come.
+TEST_P(Settled, NotWhileAStallIsToEnd) {
+  inject(fault("x", ArmFault::Kind::stall, 500ms, 5s));
+  cell->submit(slide("x", -1, 1, 2, "one"));
+  cell->submit(slide("y", -1, 1, 3, "two"));
+  while (!cell->simulation->executive().all_ended()) {
+    EXPECT_FALSE(cell->simulation->settled()) << to_seconds(cell->simulation->now() - at(0s));
+    cell->simulation->tick();
+    ASSERT_LT(cell->simulation->now(), at(60s));
+  }
+  EXPECT_EQ(cell->job("one").state, JobState::succeeded);
+  EXPECT_EQ(cell->job("two").state, JobState::succeeded);
+}
+
+TEST_P(Settled, NotBeforeASlowMotionOrALateStart) {
+  inject(fault("x", ArmFault::Kind::slow, 0s));
+  inject(fault("y", ArmFault::Kind::late_start, 0s));
+  cell->submit(slide("x", -1, 1, 2, "one"));
+  cell->submit(slide("y", -1, 1, 3, "two"));
+  while (!cell->simulation->executive().all_ended()) {
+    ASSERT_FALSE(cell->simulation->settled()) << to_seconds(cell->simulation->now() - at(0s));
+    cell->simulation->tick();
+    ASSERT_LT(cell->simulation->now(), at(60s));
+  }
+}
+
+TEST_P(Settled, ASimulationEndsThenAndNotWhenItsLimitIsOver) {
+  CellPtr built = build_cell(crossing_description()).value();
+  Log log;
+  std::vector<TimedJob> jobs;
+  jobs.push_back({at(0s), slide("x", -1, 1, 2, "gives up")});
+  jobs.push_back({at(5s), slide("x", 1, -1, 2, "comes back")});
+  ExecutiveOptions options{.policy = GetParam()};
+  const auto result = simulate(built, options, std::move(jobs), at(100'000s), log,
+                               {fault("x", ArmFault::Kind::fault, 1s)});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->all_ended || result->settled);
+  EXPECT_LT(result->ended_at, at(70s));
+}
+
+// From where the arms stand still, until one moves: pauses and waits for a start are rests, too.
+TEST_P(Settled, RestsAreToldAsTheyBeginAndEnd) {
+  struct Rests final : Observer {
+    void on_event(const Event&) override {}
+    void on_state(const StateFrame&) override {}
+    void on_rest(bool now_at_rest) override { at_rest = now_at_rest; }
+    void on_tick(TimePoint, const Configuration& q) override {
+      if (at_rest && was_at_rest) moved_m = std::max(moved_m, (q - last).cwiseAbs().maxCoeff());
+      at_rest ? ++rows_at_rest : ++rows_in_motion;
+      was_at_rest = at_rest;
+      last = q;
+    }
+    bool at_rest = false, was_at_rest = false;
+    int rows_at_rest = 0, rows_in_motion = 0;
+    double moved_m = 0.0;
+    Configuration last;
+  } rests;
+  std::vector<TimedJob> jobs;
+  jobs.push_back({at(1s), slide("x", -1, 1, 2)});
+  jobs.push_back({at(20s), slide("y", -1, 1, 2)});
+  const auto result = simulate(build_cell(crossing_description()).value(), {.policy = GetParam()},
+                               std::move(jobs), at(60s), rests);
+  ASSERT_TRUE(result && result->all_ended);
+  EXPECT_EQ(rests.moved_m, 0.0);
+  EXPECT_GT(rests.rows_at_rest, 17'000);
+  EXPECT_GT(rests.rows_in_motion, 4'000);
+  EXPECT_LT(rests.rows_in_motion, 4'800) << "two motions of 2 s, and the controllers' lag";
+}
+
+}  // namespace
+}  // namespace armloom
