@@ -23,8 +23,9 @@ class RunningServer : public ::testing::Test {
     if (file.empty()) file = std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
     const auto text = read_text_file(file);
     ASSERT_TRUE(text);
-    const auto description = read_cell_text(*text, file.parent_path());
+    auto description = read_cell_text(*text, file.parent_path());
     ASSERT_TRUE(description);
+    if (!on_idle_blocker_.empty()) description->scheduling.on_idle_blocker = on_idle_blocker_;
     const auto cell = build_cell(*description);
     ASSERT_TRUE(cell);
     options_.port = 0;
@@ -68,7 +69,8 @@ class RunningServer : public ::testing::Test {
     return request(port(), "POST", target, body, type);
   }
 
-  ServiceOptions options_;  // for start(), which sets port, speed and web
+  ServiceOptions options_;       // for start(), which sets port, speed and web
+  std::string on_idle_blocker_;  // for start(); empty: as in the file
 
  private:
   std::unique_ptr<Service> service_;
