@@ -305,13 +305,13 @@ TEST_F(Command, SimulateWithFaultsLosesTimeAndNothingElse) {
   EXPECT_GT(with.last_line()["makespan_s"], without.last_line()["makespan_s"].get<double>() + 4.0);
 }
 
-// The left arm gives up in the middle, and the right one's job waits there for 10 min: its states
-// are few, the run ends with that, and says what it left.
+// The left arm gives up just before its goal, and the right one's job waits there for 10 min: its
+// states are few, the run ends with that, and says what it left.
 TEST_F(Command, AStuckLoadEndsWhenNothingCanHappenAnyMoreAndWritesNoIdleRows) {
   json jobs = json::parse(read_text_file(conflicting_jobs()).value());
   for (json& timed : jobs) timed["job"]["backlog_timeout_s"] = 600;
   const std::string faults =
-      file("faults.json", R"([{"at_s": 1.5, "arm": "left", "kind": "fault"}])").string();
+      file("faults.json", R"([{"at_s": 2.98, "arm": "left", "kind": "fault"}])").string();
   const std::string recording = (folder_ / "recording").string();
   const Outcome outcome =
       run("simulate --cell " + kCell + " --jobs " + file("stuck.json", jobs.dump()).string() +
