@@ -164,6 +164,7 @@ class Arbiter::Impl {
     verdict_.regions = search.find();
     verdict_.rests_in_the_way = search.rests_in_the_way();
     verdict_.evaluations += search.evaluations();
+    verdict_.clearance_bound_m = std::min(*verdict_.clearance_bound_m, search.least_limit_m());
   }
 
   // Arms of candidates, of others, and those at rest, in this order.
@@ -340,9 +341,14 @@ class Arbiter::Impl {
       CoordinationDiagram alone = store_.with_pairs(diagram, parting);
       answer = alone.ask(region, budget);
       verdict_.evaluations += answer.evaluations;
-      if (answer.free) return;
+      if (answer.free) return keep(*diagram.bodies, parting);
     }
     report(answer, *diagram.bodies, own, other, turned);
+  }
+
+  // Pairs that are held to less: that is what is proven.
+  void keep(const PlanningScene::Bodies& bodies, const PairSet& pairs) {
+    verdict_.clearance_bound_m = least_limit_m(bodies, pairs, *verdict_.clearance_bound_m);
   }
 
   void report(const CoordinationDiagram::Answer& answer, const PlanningScene::Bodies& bodies,
@@ -364,7 +370,7 @@ class Arbiter::Impl {
                       turned ? found.time_a : found.time_b};
     if (turned) conflict.proximity = turned_around(std::move(conflict.proximity));
     if (other == nullptr) {
-      const bool itself = a.arm == b.arm || (b.link && a.robot == b.robot);
+      const bool itself = bodies.group_of(found.pair).kind == PairGroup::Kind::self;
       if (itself) conflict.with = Conflict::With::self;
     } else if (other->motion == own.motion) {
       conflict.with = Conflict::With::self;

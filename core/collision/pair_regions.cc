@@ -45,7 +45,8 @@ std::uint64_t PairRegionSearch::cells_for(const Side& a, const Side& b) {
 PairRegionSearch::PairRegionSearch(MotionStore& store, const Question& question)
     : store_(store),
       question_(question),
-      tracking_error_(std::get<Coordinated>(question.method).tracking_error) {
+      tracking_error_(std::get<Coordinated>(question.method).tracking_error),
+      least_limit_m_(store.scene()->cell().clearance_m) {
   for (const Motion& motion : question.others) in_order_.push_back(&motion);
   for (const Motion& motion : question.candidates) in_order_.push_back(&motion);
   std::ranges::stable_partition(in_order_, [](const Motion* motion) { return !motion->to_come; });
@@ -199,6 +200,7 @@ void PairRegionSearch::add_layer(const Side& a, MotionStore::Entry& arm_a, const
       Parting& parting = *partings_.emplace_back(std::make_unique<Parting>());
       parting.pairs = held_to_less(*diagram.pairs, close, Arbiter::kPartingShare);
       parting.cells = store_.with_pairs(diagram, parting.pairs);
+      least_limit_m_ = armloom::least_limit_m(*diagram.bodies, parting.pairs, least_limit_m_);
       cells = &*parting.cells;
       look(*cells);
     }

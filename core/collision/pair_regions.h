@@ -34,6 +34,9 @@ class PairRegionSearch {
   // Of Question::later: against every arm that it does not move, where that stands at the end of
   // what is named and at the goals of later ones. Among arms that can meet a candidate's.
   [[nodiscard]] std::vector<RestInTheWay> rests_in_the_way();
+  // The smallest distance that a pair of bodies was held to: the cell's clearance_m, or less of
+  // those that part.
+  [[nodiscard]] double least_limit_m() const { return least_limit_m_; }
   // Cells looked at.
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
@@ -80,6 +83,7 @@ class PairRegionSearch {
   const Question& question_;
   double tracking_error_;
   std::uint64_t evaluations_ = 0;
+  double least_limit_m_;
   std::vector<const Motion*> in_order_;  // all motions: of each arm, as they follow each other
   // Of the two sides at hand:
   std::vector<Layer> layers_;
