@@ -73,6 +73,7 @@ class Arbiter::Impl {
       throw std::invalid_argument("Arbiter: rest must have one entry per joint of the cell");
     }
     freedom_ = freedom_of(question.method, cell);
+    budget_ = kBudget * question.effort;
     verdict_ = {Verdict::Kind::free, question.version, {}, cell.clearance_m, 0, {}};
     store_.begin_question();
     if (std::holds_alternative<Coordinated>(question.method)) {
@@ -165,6 +166,7 @@ class Arbiter::Impl {
     verdict_.rests_in_the_way = search.rests_in_the_way();
     verdict_.evaluations += search.evaluations();
     verdict_.clearance_bound_m = std::min(*verdict_.clearance_bound_m, search.least_limit_m());
+    verdict_.exhausted = search.exhausted();
   }
 
   // Arms of candidates, of others, and those at rest, in this order.
@@ -267,8 +269,9 @@ class Arbiter::Impl {
     const auto ask_at = [&](double shift) {
       Region region = turned ? region_of(other, own) : region_of(own, other);
       (turned ? region.progress_b : region.progress_a) -= shift;
-      CoordinationDiagram::Answer answer = diagram.cells->ask(region, kBudget);
+      CoordinationDiagram::Answer answer = diagram.cells->ask(region, budget_);
       verdict_.evaluations += answer.evaluations;
+      verdict_.exhausted = verdict_.exhausted || (answer.exhausted && !answer.proven);
       return answer;
     };
     std::optional<double> blocked_s;  // the last shift that is known not to be free
@@ -329,7 +332,8 @@ class Arbiter::Impl {
            const Mover* other, bool turned) {
     if (diagram.pairs->empty()) return;
     const double longest_s = std::max(region.duration_a, region.duration_b);
-    const auto budget = static_cast<std::uint64_t>(kBudget * std::max(1.0, longest_s / 10.0));
+    const auto budget =
+        static_cast<std::uint64_t>(static_cast<double>(budget_) * std::max(1.0, longest_s / 10.0));
     CoordinationDiagram::Answer answer = diagram.cells->ask(region, budget);
     verdict_.evaluations += answer.evaluations;
     if (answer.free) return;
@@ -353,6 +357,7 @@ class Arbiter::Impl {
 
   void report(const CoordinationDiagram::Answer& answer, const PlanningScene::Bodies& bodies,
               const Mover& own, const Mover* other, bool turned) {
+    verdict_.exhausted = verdict_.exhausted || (answer.exhausted && !answer.proven);
     if (answer.proven) {
       verdict_.kind = Verdict::Kind::conflict;
     } else if (verdict_.kind == Verdict::Kind::free) {
@@ -386,6 +391,7 @@ class Arbiter::Impl {
   MotionStore store_;
   CollisionChecker checker_;
   Freedom freedom_;
+  std::uint64_t budget_ = kBudget;  // of one pair of motions up to 10 s
   Verdict verdict_{Verdict::Kind::free, 0, {}, {}, 0, {}};
   std::vector<Mover> parts_;
 };

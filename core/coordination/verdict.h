@@ -53,6 +53,9 @@ struct Verdict {
   // that is not free everywhere.
   std::vector<PairRegions> regions = {};
   std::vector<RestInTheWay> rests_in_the_way = {};  // Coordinated: of the motions to come later
+  // Not all was decided, as the budget of evaluations ended: a larger Question::effort may find
+  // more free.
+  bool exhausted = false;
 };
 
 }  // namespace armloom

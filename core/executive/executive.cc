@@ -63,7 +63,7 @@ Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr s
       told_arm_jobs_(cell->arms.size()),
       told_queue_(queue()) {
   figures_.busy.assign(cell_->arms.size(), Duration{});
-  figures_.min_clearance_m = std::numeric_limits<double>::infinity();
+  figures_.min_clearance_m = figures_.between_arms_m = std::numeric_limits<double>::infinity();
 }
 
 // ---- The scheduler and its effects ----
@@ -137,6 +137,8 @@ void Executive::Impl::watch() {
     clearance_ = checker_.closest_apart(q, kClearanceHorizon_m);
     for (const Proximity& pair : clearance_) {
       figures_.min_clearance_m = std::min(figures_.min_clearance_m, pair.clearance_m);
+      if (!pair.arm_b) continue;
+      figures_.between_arms_m = std::min(figures_.between_arms_m, pair.clearance_m);
     }
     std::vector<bool> moving;
     for (ArmId arm : all_arms()) moving.push_back(motions_.moving(arm));

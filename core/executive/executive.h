@@ -79,6 +79,7 @@ struct RunFigures {
   // Smallest that the monitor saw between arms, and of arms from what stands still (each its mount
   // left out); +inf: never near.
   double min_clearance_m;
+  double between_arms_m;  // the smallest of two arms alone; +inf: never near
   std::uint64_t monitor_stops = 0;
 };
 

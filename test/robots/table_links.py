@@ -23,7 +23,7 @@ BOXES = {  # size, middle
 }
 JOINTS = ("turn", "lift", "bend", "tilt")
 HOME = (0.25, 0.25)  # of the finger's tip: out, up
-SEGMENT_S = 1.2
+SEGMENT_S = 1.6
 
 
 def text_of(values):
@@ -137,12 +137,12 @@ def probes():
     chance = random.Random(11)
     places += [(chance.choice(tuple(SIDES)), chance.uniform(-0.5, 0.5), chance.uniform(0.35, 0.55),
                 chance.uniform(0.002, 0.1)) for _ in range(24)]
-    return [to_and_fro(f"probe-{i}", *place, at=5.0 * i) for i, place in enumerate(places)]
+    return [to_and_fro(f"probe-{i}", *place, at=7.0 * i) for i, place in enumerate(places)]
 
 
 def dips():
     return [job("dip-table", "left", [pose(0, 0.42, 0.005)]),
-            job("dip-shelf", "right", [pose(0, 0.56, 0.1), pose(0, 0.56, 0.135)], at=4.0)]
+            job("dip-shelf", "right", [pose(0, 0.56, 0.1), pose(0, 0.56, 0.135)], at=6.0)]
 
 
 def cell(name, urdf_file, srdf_file, objects):
