@@ -33,8 +33,8 @@ struct AuditReport {
 // Re-checks what really happened with plain FCL, sharing nothing with the admission path beyond the
 // model: its own FCL objects, one per collision element as the URDF has it. Between two recorded
 // states joints are interpolated linearly so that no step is longer than `step`, but for stretches
-// of rest. Arms against each
-// other and against the scene count for the smallest clearance; self pairs for contact only.
+// of rest. Arms against each other and against the scene, static links included, count for the
+// smallest clearance; what is one arm's own (Cell::is_own) for contact only.
 // Precondition: every q has one entry per joint of the cell; times increase.
 [[nodiscard]] Result<AuditReport> audit(const Cell& cell, const std::vector<RecordedState>& states,
                                         Duration step);

@@ -53,8 +53,9 @@ bool may_touch(const Cell& cell, const AuditedSolid& a, const AuditedSolid& b) {
   return cell.allowed_link_pairs.count({*a.link, *b.link}) > 0;
 }
 
-bool one_arm_only(const AuditedSolid& a, const AuditedSolid& b) {
-  return a.robot == b.robot && (!a.arm || !b.arm || a.arm == b.arm);
+bool one_arm_only(const Cell& cell, const AuditedSolid& a, const AuditedSolid& b) {
+  if (!a.link || !b.link) return false;
+  return a.arm ? cell.is_own(*b.link, *a.arm) : cell.is_own(*a.link, *b.arm);
 }
 
 using Element = AuditedSolid::Element;
@@ -97,8 +98,7 @@ Result<AuditedCell> AuditedCell::build(const Cell& cell) {
       refuse_mesh(link.name);
       continue;
     }
-    audited.add({link.name, LinkId{static_cast<std::uint32_t>(i)}, link.arm, link.robot, {}},
-                link.shapes);
+    audited.add({link.name, LinkId{static_cast<std::uint32_t>(i)}, link.arm, {}}, link.shapes);
   }
   for (const CollisionObject& object : cell.objects) {
     const std::vector<PlacedShape> shapes(1, {object.shape, Eigen::Isometry3d::Identity()});
@@ -106,7 +106,7 @@ Result<AuditedCell> AuditedCell::build(const Cell& cell) {
       refuse_mesh(object.name);
       continue;
     }
-    AuditedSolid solid{object.name, std::nullopt, std::nullopt, std::nullopt, {}};
+    AuditedSolid solid{object.name, std::nullopt, std::nullopt, {}};
     solid.X_WL = object.X_WO;
     audited.add(std::move(solid), shapes);
   }
@@ -118,7 +118,7 @@ Result<AuditedCell> AuditedCell::build(const Cell& cell) {
       const AuditedSolid& second = audited.solids_[b];
       if (may_touch(cell, first, second)) continue;
       audited.pairs_.push_back(
-          {a, b, one_arm_only(first, second), -std::numeric_limits<double>::infinity(), 0.0});
+          {a, b, one_arm_only(cell, first, second), -std::numeric_limits<double>::infinity(), 0.0});
     }
   }
   return audited;

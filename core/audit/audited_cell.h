@@ -27,7 +27,6 @@ struct AuditedSolid {
   std::string name;
   std::optional<LinkId> link;  // none: an object
   std::optional<ArmId> arm;    // none: it stands still
-  std::optional<RobotId> robot;
   std::vector<Element> elements;
   double radius_m = 0.0;  // about the origin of the link, all elements within
   Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
@@ -38,7 +37,7 @@ struct AuditedSolid {
 struct AuditedPair {
   std::size_t a;
   std::size_t b;
-  bool contact_only;  // a self pair
+  bool contact_only;  // one arm's own (Cell::is_own)
   // What the distance was known to be, at least, and how far both had travelled then.
   double distance_then_m;
   double travel_then_m;

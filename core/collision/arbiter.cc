@@ -73,6 +73,7 @@ class Arbiter::Impl {
       throw std::invalid_argument("Arbiter: rest must have one entry per joint of the cell");
     }
     freedom_ = freedom_of(question.method, cell);
+    budget_ = kBudget * question.effort;
     verdict_ = {Verdict::Kind::free, question.version, {}, cell.clearance_m, 0, {}};
     store_.begin_question();
     if (std::holds_alternative<Coordinated>(question.method)) {
@@ -164,6 +165,8 @@ class Arbiter::Impl {
     verdict_.regions = search.find();
     verdict_.rests_in_the_way = search.rests_in_the_way();
     verdict_.evaluations += search.evaluations();
+    verdict_.clearance_bound_m = std::min(*verdict_.clearance_bound_m, search.least_limit_m());
+    verdict_.exhausted = search.exhausted();
   }
 
   // Arms of candidates, of others, and those at rest, in this order.
@@ -266,8 +269,9 @@ class Arbiter::Impl {
     const auto ask_at = [&](double shift) {
       Region region = turned ? region_of(other, own) : region_of(own, other);
       (turned ? region.progress_b : region.progress_a) -= shift;
-      CoordinationDiagram::Answer answer = diagram.cells->ask(region, kBudget);
+      CoordinationDiagram::Answer answer = diagram.cells->ask(region, budget_);
       verdict_.evaluations += answer.evaluations;
+      verdict_.exhausted = verdict_.exhausted || (answer.exhausted && !answer.proven);
       return answer;
     };
     std::optional<double> blocked_s;  // the last shift that is known not to be free
@@ -328,7 +332,8 @@ class Arbiter::Impl {
            const Mover* other, bool turned) {
     if (diagram.pairs->empty()) return;
     const double longest_s = std::max(region.duration_a, region.duration_b);
-    const auto budget = static_cast<std::uint64_t>(kBudget * std::max(1.0, longest_s / 10.0));
+    const auto budget =
+        static_cast<std::uint64_t>(static_cast<double>(budget_) * std::max(1.0, longest_s / 10.0));
     CoordinationDiagram::Answer answer = diagram.cells->ask(region, budget);
     verdict_.evaluations += answer.evaluations;
     if (answer.free) return;
@@ -340,13 +345,19 @@ class Arbiter::Impl {
       CoordinationDiagram alone = store_.with_pairs(diagram, parting);
       answer = alone.ask(region, budget);
       verdict_.evaluations += answer.evaluations;
-      if (answer.free) return;
+      if (answer.free) return keep(*diagram.bodies, parting);
     }
     report(answer, *diagram.bodies, own, other, turned);
   }
 
+  // Pairs that are held to less: that is what is proven.
+  void keep(const PlanningScene::Bodies& bodies, const PairSet& pairs) {
+    verdict_.clearance_bound_m = least_limit_m(bodies, pairs, *verdict_.clearance_bound_m);
+  }
+
   void report(const CoordinationDiagram::Answer& answer, const PlanningScene::Bodies& bodies,
               const Mover& own, const Mover* other, bool turned) {
+    verdict_.exhausted = verdict_.exhausted || (answer.exhausted && !answer.proven);
     if (answer.proven) {
       verdict_.kind = Verdict::Kind::conflict;
     } else if (verdict_.kind == Verdict::Kind::free) {
@@ -364,7 +375,7 @@ class Arbiter::Impl {
                       turned ? found.time_a : found.time_b};
     if (turned) conflict.proximity = turned_around(std::move(conflict.proximity));
     if (other == nullptr) {
-      const bool itself = a.arm == b.arm || (b.link && a.robot == b.robot);
+      const bool itself = bodies.group_of(found.pair).kind == PairGroup::Kind::self;
       if (itself) conflict.with = Conflict::With::self;
     } else if (other->motion == own.motion) {
       conflict.with = Conflict::With::self;
@@ -380,6 +391,7 @@ class Arbiter::Impl {
   MotionStore store_;
   CollisionChecker checker_;
   Freedom freedom_;
+  std::uint64_t budget_ = kBudget;  // of one pair of motions up to 10 s
   Verdict verdict_{Verdict::Kind::free, 0, {}, {}, 0, {}};
   std::vector<Mover> parts_;
 };

@@ -15,9 +15,6 @@ bool includes(const Group& group, const std::vector<bool>& arms) {
   return arms[group.arm.index()] || (group.other && arms[group.other->index()]);
 }
 
-// A clearance of zero still forbids contact, where distances are zero.
-constexpr double kTouching_m = 1e-9;
-
 struct PlacedPart {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // of the bounding sphere
   bool bodies_placed = false;                        // else only the sphere is
@@ -106,11 +103,7 @@ struct CollisionChecker::Scratch {
 
   // What the group keeps where different arms keep `clearance_m`.
   [[nodiscard]] double limit_of(const Group& group, double clearance_m) const {
-    const Cell& cell = *bodies.cell;
-    const bool scaled = group.kind == Group::Kind::self && cell.clearance_m > 0.0;
-    const double limit_m =
-        scaled ? clearance_m * (cell.self_clearance_m / cell.clearance_m) : clearance_m;
-    return std::max(limit_m, kTouching_m);
+    return group.limit_m(PairLimits::scaled(*bodies.cell, clearance_m));
   }
 
   [[nodiscard]] bool far_apart(const Group& group, double limit_m) const {
@@ -139,13 +132,6 @@ struct CollisionChecker::Scratch {
       return pair.clearance_m;
     });
     return found;
-  }
-
-  [[nodiscard]] const Group& group_of(PairId pair) const {
-    const auto after = std::upper_bound(
-        bodies.groups.begin(), bodies.groups.end(), pair.index(),
-        [](std::size_t index, const Group& group) { return index < group.pairs_end; });
-    return *after;
   }
 };
 
@@ -184,12 +170,11 @@ std::vector<Proximity> CollisionChecker::all_closer_than(const Configuration& q,
   return found;
 }
 
-std::vector<Proximity> CollisionChecker::closest_between_arms(const Configuration& q,
-                                                              double horizon_m) {
+std::vector<Proximity> CollisionChecker::closest_apart(const Configuration& q, double horizon_m) {
   scratch_->move_to(q);
   std::vector<Proximity> found;
   for (const Group& group : scratch_->bodies.groups) {
-    if (group.kind != Group::Kind::arms) continue;
+    if (group.kind == Group::Kind::self) continue;
     if (const auto pair = scratch_->closest(group, horizon_m)) found.push_back(describe(*pair));
   }
   return found;
@@ -212,7 +197,7 @@ void CollisionChecker::near_pairs(const Configuration& q, double clearance_m,
 
 bool CollisionChecker::looks_at(PairId pair, const std::vector<bool>& of,
                                 const std::vector<bool>& moved) const {
-  const Group& group = scratch_->group_of(pair);
+  const Group& group = scratch_->bodies.group_of(pair);
   return includes(group, of) && includes(group, moved);
 }
 
@@ -224,7 +209,7 @@ Proximity CollisionChecker::describe(const NearPair& near) const {
 }
 
 bool CollisionChecker::is_self(PairId pair) const {
-  return scratch_->group_of(pair).kind == Group::Kind::self;
+  return scratch_->bodies.group_of(pair).kind == Group::Kind::self;
 }
 
 }  // namespace armloom

@@ -27,8 +27,8 @@ struct NearPair {
 // What an arm holds is one of its links in all that follows.
 // Configurations have one entry per joint of the cell (throws std::invalid_argument otherwise), arm
 // masks one per arm.
-// A `clearance_m` asked for is what arms keep from each other and from the scene; an arm's own
-// links are held to the share self_clearance_m / clearance_m of it, as the cell has them.
+// A `clearance_m` asked for is what arms keep from each other and from the scene; an arm is held to
+// its share of that from itself (PairLimits::scaled).
 class CollisionChecker {
  public:
   explicit CollisionChecker(PlanningScenePtr scene);
@@ -49,10 +49,9 @@ class CollisionChecker {
   // pair of arms, of each arm with the objects and static links, and of each arm with itself.
   [[nodiscard]] std::vector<Proximity> all_closer_than(const Configuration& q, double clearance_m);
 
-  // The closest pair of links for each pair of different arms, exact when below `horizon_m`;
-  // pairs farther apart are left out.
-  [[nodiscard]] std::vector<Proximity> closest_between_arms(const Configuration& q,
-                                                            double horizon_m);
+  // The closest pair of each two arms, and of each arm with all that stands still (its mount left
+  // out), exact when below `horizon_m`; pairs farther apart are left out.
+  [[nodiscard]] std::vector<Proximity> closest_apart(const Configuration& q, double horizon_m);
 
   // Every pair closer than `clearance_m` that involves a link of one of the arms in `of` and a link
   // of one of the arms in `moved`, in the scene's order; `near` is overwritten (no allocation once
@@ -65,7 +64,7 @@ class CollisionChecker {
   // Names and arms. body_a belongs to the arm with the smaller id; body_b to the other, or it is a
   // static link or an object.
   [[nodiscard]] Proximity describe(const NearPair& near) const;
-  // Both bodies belong to one robot, at least one of them to an arm, and not to two arms.
+  // Both bodies are one arm's own (Cell::is_own), or held by it.
   [[nodiscard]] bool is_self(PairId pair) const;
 
  private:

@@ -9,7 +9,7 @@ namespace armloom {
 // Answers a Question by the paper's discrete check: all candidates and all others are put where
 // they are at equal instants, every `method.step` from the question's instant until the last of
 // them has come to rest (both ends included), and each combined state is checked with the cell's
-// clearance_m (an arm's own links: self_clearance_m): candidates against everything (not others
+// clearance_m (an arm from itself: self_clearance_m): candidates against everything (not others
 // among themselves). So a rest before, between and after motions counts, and the others'
 // *remaining* motion is what is compared. Between the instants nothing is promised.
 //
@@ -18,8 +18,8 @@ namespace armloom {
 // unknown (flat cylinders, box against box) it counts as zero, so that such a pair may stay in
 // contact.
 //
-// Counterparts are another job, an arm at rest, an object or another robot's static link
-// (With::scene), and the candidate's own links with its robot's static ones (With::self; also the
+// Counterparts are another job, an arm at rest, an object or a static link (With::scene), and the
+// candidate's own links with its mount (With::self; also the
 // other arms of the same synchronous motion). Stops at the first instant with a conflict and
 // reports every counterpart of that instant, each with its closest pair; two candidates that
 // conflict are reported once, the one that is named first as the candidate.

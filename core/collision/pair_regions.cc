@@ -38,14 +38,20 @@ Duration PairRegionSearch::Side::now() const {
   return motion == nullptr ? Duration{} : std::clamp(motion->progress, Duration{}, end());
 }
 
-std::uint64_t PairRegionSearch::cells_for(const Side& a, const Side& b) {
-  return static_cast<std::uint64_t>(std::ceil(kCells * to_seconds(a.end() + b.end())));
+std::uint64_t PairRegionSearch::cells_for(const Side& a, const Side& b) const {
+  return question_.effort *
+         static_cast<std::uint64_t>(std::ceil(kCells * to_seconds(a.end() + b.end())));
+}
+
+Duration PairRegionSearch::closest() const {
+  return question_.effort > 1 ? CoordinationDiagram::kFinest : kClosest;
 }
 
 PairRegionSearch::PairRegionSearch(MotionStore& store, const Question& question)
     : store_(store),
       question_(question),
-      tracking_error_(std::get<Coordinated>(question.method).tracking_error) {
+      tracking_error_(std::get<Coordinated>(question.method).tracking_error),
+      least_limit_m_(store.scene()->cell().clearance_m) {
   for (const Motion& motion : question.others) in_order_.push_back(&motion);
   for (const Motion& motion : question.candidates) in_order_.push_back(&motion);
   std::ranges::stable_partition(in_order_, [](const Motion* motion) { return !motion->to_come; });
@@ -170,6 +176,9 @@ void PairRegionSearch::compare(const Side& a, const Side& b, std::vector<PairReg
   std::vector<BlockedRegion> regions = blocked(a, b);
   if (look_closer(regions, cells_for(a, b))) regions = blocked(a, b);
   if (regions.empty()) return;
+  exhausted_ = exhausted_ || std::ranges::any_of(regions, [this](const BlockedRegion& region) {
+                 return blocked_[region.evidence].evidence != BlockedCell::Evidence::proven;
+               });
   PairRegions& pair = found.emplace_back(PairRegions{a.motion->job, b.who, {}});
   for (BlockedRegion& region : regions) pair.regions.push_back(region_of(std::move(region)));
 }
@@ -199,6 +208,7 @@ void PairRegionSearch::add_layer(const Side& a, MotionStore::Entry& arm_a, const
       Parting& parting = *partings_.emplace_back(std::make_unique<Parting>());
       parting.pairs = held_to_less(*diagram.pairs, close, Arbiter::kPartingShare);
       parting.cells = store_.with_pairs(diagram, parting.pairs);
+      least_limit_m_ = armloom::least_limit_m(*diagram.bodies, parting.pairs, least_limit_m_);
       cells = &*parting.cells;
       look(*cells);
     }
@@ -245,7 +255,7 @@ bool PairRegionSearch::look_closer(const std::vector<BlockedRegion>& regions,
                          : CoordinationDiagram::Area{box.from_a, box.to_a, box.from_b, box.to_b});
       }
       if (looked_at >= budget) break;
-      looked_at += layer.cells->look_closer(areas, kClosest, budget - looked_at);
+      looked_at += layer.cells->look_closer(areas, closest(), budget - looked_at);
     }
   }
   evaluations_ += looked_at;

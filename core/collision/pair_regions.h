@@ -34,6 +34,11 @@ class PairRegionSearch {
   // Of Question::later: against every arm that it does not move, where that stands at the end of
   // what is named and at the goals of later ones. Among arms that can meet a candidate's.
   [[nodiscard]] std::vector<RestInTheWay> rests_in_the_way();
+  // The smallest distance that a pair of bodies was held to: the cell's clearance_m, or less of
+  // those that part.
+  [[nodiscard]] double least_limit_m() const { return least_limit_m_; }
+  // Where no conflict is proven, more cells might have found more that is free.
+  [[nodiscard]] bool exhausted() const { return exhausted_; }
   // Cells looked at.
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
@@ -41,7 +46,8 @@ class PairRegionSearch {
       .coarse = std::chrono::milliseconds(80), .fine = std::chrono::milliseconds(25)};
   // Of two arms, for each second of both motions together.
   inline static constexpr double kCells = 500.0;
-  // Where no conflict is proven it may be a close pass: there, down to here, at as many cells more.
+  // Where no conflict is proven it may be a close pass: there, down to here, at as many cells more;
+  // with more than the usual effort as far as cells go.
   inline static constexpr Duration kClosest = std::chrono::milliseconds(2);
 
  private:
@@ -73,13 +79,16 @@ class PairRegionSearch {
                  MotionStore::Entry& arm_b);
   [[nodiscard]] std::vector<BlockedRegion> blocked(const Side& a, const Side& b);
   bool look_closer(const std::vector<BlockedRegion>& regions, std::uint64_t budget);
-  [[nodiscard]] static std::uint64_t cells_for(const Side& a, const Side& b);
+  [[nodiscard]] std::uint64_t cells_for(const Side& a, const Side& b) const;
+  [[nodiscard]] Duration closest() const;
   [[nodiscard]] ConflictRegion region_of(BlockedRegion blocked);
 
   MotionStore& store_;
   const Question& question_;
   double tracking_error_;
   std::uint64_t evaluations_ = 0;
+  double least_limit_m_;
+  bool exhausted_ = false;
   std::vector<const Motion*> in_order_;  // all motions: of each arm, as they follow each other
   // Of the two sides at hand:
   std::vector<Layer> layers_;

@@ -10,8 +10,6 @@
 namespace armloom {
 namespace {
 
-constexpr double kTouching_m = 1e-9;  // a clearance of zero still forbids contact
-
 double extent_of(const Eigen::Vector3d& p, const Eigen::Vector3d& half, double radius_m) {
   return p.norm() + half.norm() + radius_m;
 }
@@ -22,9 +20,7 @@ int index_of(const std::vector<LinkagePart>& parts, std::size_t part) {
 }
 
 double limit_of(const PlanningScene::Bodies& bodies, const PairGroup& group) {
-  const Cell& cell = *bodies.cell;
-  const bool self = group.kind == PairGroup::Kind::self;
-  return std::max(self ? cell.self_clearance_m : cell.clearance_m, kTouching_m);
+  return group.limit_m(PairLimits::of(*bodies.cell));
 }
 
 // All pairs of capsules of the two parts.
@@ -233,6 +229,16 @@ PairSet still_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm,
             });
   group(set, still.capsules, true, margin_max_m);
   return set;
+}
+
+double least_limit_m(const PlanningScene::Bodies& bodies, const PairSet& set, double most_m) {
+  for (const std::vector<NarrowPair>* pairs : {&set.narrow, &set.narrow_boxes}) {
+    for (const NarrowPair& pair : *pairs) {
+      if (bodies.group_of(pair.pair).kind == PairGroup::Kind::self) continue;
+      most_m = std::min(most_m, pair.limit_m);
+    }
+  }
+  return most_m;
 }
 
 double part_distance(const PlanningScene::Bodies& bodies, std::size_t part_a,

@@ -47,15 +47,19 @@ struct PairSet {
   void limits_changed();
 };
 
-// Limits: the cell's clearance_m between arms, objects and other robots' links; self_clearance_m
-// between the links of one robot's arm. Rows of the sides' inflation arrays: one for each capsule
-// (cross_pairs, still_pairs), or those of the linkage's motion bounds (self_pairs), where what both
-// capsules share does not count.
+// Limits: those of the cell for the pairs' groups (PairGroup::limit_m). Rows of the sides'
+// inflation arrays: one for each capsule (cross_pairs, still_pairs), or those of the linkage's
+// motion bounds (self_pairs), where what both capsules share does not count.
 [[nodiscard]] PairSet cross_pairs(const PlanningScene::Bodies& bodies, const Linkage& a,
                                   const Linkage& b);
 [[nodiscard]] PairSet self_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm);
 [[nodiscard]] PairSet still_pairs(const PlanningScene::Bodies& bodies, const Linkage& arm,
                                   const StillParts& still);
+
+// What every pair of different arms, and of an arm and what stands still, is held to; at most
+// `most_m`.
+[[nodiscard]] double least_limit_m(const PlanningScene::Bodies& bodies, const PairSet& set,
+                                   double most_m);
 
 // The distance of two parts, exact where it is below `limit_m`, else at least limit_m.
 [[nodiscard]] double part_distance(const PlanningScene::Bodies& bodies, std::size_t part_a,

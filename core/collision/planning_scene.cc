@@ -135,6 +135,32 @@ void add_part(PlanningScene::Bodies& scene, Part part, const std::vector<PlacedS
   scene.parts.push_back(std::move(part));
 }
 
+// A link is one part, as its shapes move as one. Of one that is scene each box is a part, as it
+// would be as an object: a sphere, or a capsule, says little about a table.
+void add_link(PlanningScene::Bodies& scene, LinkId id) {
+  const Cell& cell = *scene.cell;
+  const Link& link = cell.link(id);
+  Part part;
+  part.name = link.name;
+  part.link = part.carrier = id;
+  part.arm = link.arm;
+  part.robot = link.robot;
+  bool scene_only = true;
+  for (std::uint32_t arm = 0; arm < cell.arms.size(); ++arm) {
+    scene_only = scene_only && !cell.is_own(id, ArmId{arm});
+  }
+  if (!scene_only) return add_part(scene, std::move(part), link.shapes);
+  std::vector<PlacedShape> others;
+  for (const PlacedShape& placed : link.shapes) {
+    if (std::holds_alternative<Box>(placed.shape)) {
+      add_part(scene, part, {placed});
+    } else {
+      others.push_back(placed);
+    }
+  }
+  add_part(scene, std::move(part), others);
+}
+
 // What is held, against anything.
 bool held_allowed(const PlanningScene::Bodies& scene, std::size_t held, const Part& other) {
   if (!other.carrier) return false;
@@ -179,18 +205,19 @@ void add_pairs(PlanningScene::Bodies& scene) {
                 [&](std::size_t, const Part& part, std::size_t) { return part.arm == ArmId{j}; });
     }
   }
+  const auto is_mount = [&](const Part& part, ArmId arm) {
+    return part.link && cell.is_mount(*part.link, arm);
+  };
   for (std::uint32_t i = 0; i < arm_count; ++i) {
-    const RobotId robot = cell.arms[i].robot;
     add_group(scene, {Kind::still, ArmId{i}, std::nullopt},
               [&](std::size_t, const Part& part, std::size_t) {
-                return !part.arm && part.robot != robot;
+                return !part.arm && !is_mount(part, ArmId{i});
               });
   }
   for (std::uint32_t i = 0; i < arm_count; ++i) {
-    const RobotId robot = cell.arms[i].robot;
     add_group(scene, {Kind::self, ArmId{i}, std::nullopt},
               [&](std::size_t a, const Part& part, std::size_t b) {
-                return (part.arm == ArmId{i} && b > a) || (!part.arm && part.robot == robot);
+                return (part.arm == ArmId{i} && b > a) || is_mount(part, ArmId{i});
               });
   }
 }
@@ -259,15 +286,7 @@ Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
   bodies.cell = cell;
   bodies.attachments = std::make_shared<const std::vector<Attachment>>();
   bodies.parts_of_arm.resize(cell->arms.size());
-  for (std::size_t i = 0; i < cell->links.size(); ++i) {
-    const Link& link = cell->links[i];
-    Part part;
-    part.name = link.name;
-    part.link = part.carrier = LinkId{static_cast<std::uint32_t>(i)};
-    part.arm = link.arm;
-    part.robot = link.robot;
-    add_part(bodies, std::move(part), link.shapes);
-  }
+  for (std::uint32_t i = 0; i < cell->links.size(); ++i) add_link(bodies, LinkId{i});
   bodies.links_end = bodies.held_end = bodies.parts.size();
   return links.with_objects(cell->objects);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -11,6 +12,8 @@
 #include "core/base/ids.h"
 #include "core/collision/body.h"
 #include "core/collision/capsule_fit.h"
+#include "core/collision/collision_checker.h"
+#include "core/collision/pair_limits.h"
 #include "core/collision/planning_scene.h"
 #include "core/coordination/verdict.h"
 #include "core/model/attachment.h"
@@ -19,7 +22,8 @@
 
 namespace armloom {
 
-// A link with shapes, or an object, held or not: what is placed as one, with its bodies.
+// A link with shapes, a box of one that is scene, or an object, held or not: what is placed as one,
+// with its bodies.
 struct Part {
   std::string name;
   std::optional<LinkId> link;     // none: an object
@@ -55,18 +59,27 @@ struct PartPair {
   std::size_t b;
 };
 
-// All pairs of one counterpart: judged or skipped together.
+// A clearance of zero still forbids contact, where distances are zero.
+inline constexpr double kTouching_m = 1e-9;
+
+// All pairs of one counterpart: judged or skipped together. The kind is what limits, conflicts, the
+// monitor and all figures go by.
 struct PairGroup {
   enum class Kind {
     arms,   // links of two arms, with what they hold
-    still,  // an arm against objects and the static links of other robots
-    self,   // an arm against itself and the static links of its own robot
+    still,  // an arm against all that stands still: objects and links, but for its mount
+    self,   // an arm against itself: what it moves and holds, and its mount (Cell::is_own)
   };
   Kind kind;
   ArmId arm;
   std::optional<ArmId> other;   // Kind::arms only, and larger than arm
   std::size_t pairs_begin = 0;  // range in Bodies::pairs
   std::size_t pairs_end = 0;
+
+  [[nodiscard]] double limit_m(const PairLimits& limits) const {
+    const bool self = kind == Kind::self;
+    return std::max(self ? limits.self_clearance_m : limits.clearance_m, kTouching_m);
+  }
 };
 
 // Pairs are in the order of their groups: arms by (arm, other), then still, then self by arm; in a
@@ -82,6 +95,10 @@ struct PlanningScene::Bodies {
   std::vector<PartPair> pairs;
   std::vector<PairGroup> groups;
   std::vector<std::vector<std::size_t>> parts_of_arm;  // by ArmId
+
+  [[nodiscard]] const PairGroup& group_of(PairId pair) const {
+    return *std::ranges::upper_bound(groups, pair.index(), {}, &PairGroup::pairs_end);
+  }
 };
 
 }  // namespace armloom

@@ -42,16 +42,9 @@ struct Comparison {
 
 void set_limits(const PlanningScene::Bodies& bodies, const StateCheck::Limits& limits,
                 PairSet& set) {
-  const auto limit_of = [&](PairId pair) {
-    for (const PairGroup& group : bodies.groups) {
-      if (pair.index() >= group.pairs_end) continue;
-      return group.kind == PairGroup::Kind::self ? limits.self_clearance_m : limits.clearance_m;
-    }
-    return limits.clearance_m;
-  };
   const auto set_all = [&](auto& entries, std::vector<NarrowPair>& narrow) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
-      narrow[i].limit_m = std::max(limit_of(narrow[i].pair), 1e-9);  // contact is too close
+      narrow[i].limit_m = bodies.group_of(narrow[i].pair).limit_m(limits);
       entries[i].limit_up = round_up(narrow[i].limit_m);
     }
   };
@@ -152,8 +145,7 @@ struct StateCheck::Scratch {
 };
 
 StateCheck::StateCheck(PlanningScenePtr scene, const filter::Kernel& kernel)
-    : StateCheck(scene, Limits{scene->cell().clearance_m, scene->cell().self_clearance_m}, kernel) {
-}
+    : StateCheck(scene, PairLimits::of(scene->cell()), kernel) {}
 StateCheck::StateCheck(PlanningScenePtr scene, Limits limits, const filter::Kernel& kernel)
     : scratch_(std::make_unique<Scratch>(std::move(scene), limits, kernel)) {}
 StateCheck::~StateCheck() = default;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/collision/filter/kernels.h"
+#include "core/collision/pair_limits.h"
 #include "core/collision/planning_scene.h"
 #include "core/model/cell.h"
 
@@ -14,11 +15,7 @@ namespace armloom {
 // the exact distance does. Holds the scratch: one per worker thread, not thread-safe.
 class StateCheck {
  public:
-  // What different arms keep from each other and from the scene, and an arm from itself (m).
-  struct Limits {
-    double clearance_m;
-    double self_clearance_m;
-  };
+  using Limits = PairLimits;
   // Without limits: the cell's.
   explicit StateCheck(PlanningScenePtr scene, const filter::Kernel& kernel = filter::best_kernel());
   StateCheck(PlanningScenePtr scene, Limits limits,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -61,6 +62,8 @@ struct Question {
   // their way? (Verdict::rests_in_the_way)
   std::vector<Motion> later = {};
   bool find_earliest = false;  // not free: how much later would it be? (not for TimedDiscrete)
+  // How many times the usual budget of evaluations an answer may cost (not for TimedDiscrete).
+  std::uint64_t effort = 1;
 };
 
 }  // namespace armloom

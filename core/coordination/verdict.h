@@ -18,8 +18,8 @@ struct Conflict {
   enum class With {
     motion,  // another job's motion, or its rest after its end
     rest,    // an arm at rest that no job will move
-    scene,   // an object
-    self,    // the candidate's own links
+    scene,   // an object, or a link that stands still
+    self,    // the candidate's own links, or its mount
   };
   With with;
   JobId candidate;                 // whose motion
@@ -42,8 +42,9 @@ struct Verdict {
   Kind kind;
   Version version;                  // of the question
   std::vector<Conflict> conflicts;  // the first one found with each counterpart; empty when free
-  std::optional<double> clearance_bound_m;  // what is proven to be kept; absent: nothing is proven
-  std::uint64_t evaluations = 0;            // combined states looked at
+  // What is proven to be kept between arms, and by arms from the scene; absent: nothing is proven.
+  std::optional<double> clearance_bound_m;
+  std::uint64_t evaluations = 0;  // combined states looked at
   // Not free, and asked for: the candidates could start this much after the question's instant, and
   // no earlier (to within Arbiter::kShift_s), if they wait where they are. Absent: never, as things
   // stand.
@@ -52,6 +53,9 @@ struct Verdict {
   // that is not free everywhere.
   std::vector<PairRegions> regions = {};
   std::vector<RestInTheWay> rests_in_the_way = {};  // Coordinated: of the motions to come later
+  // Not all was decided, as the budget of evaluations ended: a larger Question::effort may find
+  // more free.
+  bool exhausted = false;
 };
 
 }  // namespace armloom

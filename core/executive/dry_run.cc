@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/collision/arbiter.h"
+#include "core/coordination/effort.h"
 #include "core/executive/executive_impl.h"
 #include "core/scheduler/passing_orders.h"
 
@@ -174,19 +175,30 @@ std::vector<std::size_t> with_next_jobs(std::vector<std::size_t> group, const Pl
   return group;
 }
 
-// Where passing orders decide, as admission does: in conflict by itself, the job is tried together
-// with others.
+// As admission does: with more effort where the budget ends, and, where passing orders decide,
+// together with others if it is in conflict by itself.
 Verdict weighed(std::size_t index, const std::vector<std::size_t>& begun, const Plan& plan,
                 const Cell& cell, const Policy& policy, Arbiter& arbiter) {
   std::vector<std::size_t> group{index};
   std::optional<Verdict> alone;
   for (;;) {
-    const Question question = question_for(plan, group, begun, cell, policy);
-    const Verdict answer = arbiter.judge(question);
-    if (!policy.coordinates()) return answer;
+    Question question = question_for(plan, group, begun, cell, policy);
+    Verdict answer = arbiter.judge(question);
+    const auto means = [&] {
+      return policy.coordinates()
+                 ? as_verdict(orders_for(question, cell, answer), group.size(), answer)
+                 : answer;
+    };
+    Verdict meant = means();
+    while (meant.kind != Verdict::Kind::free) {
+      const auto effort = larger_effort(answer, question.effort);
+      if (!effort) break;
+      question.effort = *effort;
+      answer = arbiter.judge(question);
+      meant = means();
+    }
+    if (meant.kind == Verdict::Kind::free || !policy.coordinates()) return meant;
     const PassingOrders orders = orders_for(question, cell, answer);
-    Verdict meant = as_verdict(orders, group.size(), answer);
-    if (meant.kind == Verdict::Kind::free) return meant;
     if (!alone) alone = std::move(meant);
     if (answer.kind != Verdict::Kind::free) return *alone;
     const auto larger = with_next_jobs(group, plan, begun, orders.in_the_way);

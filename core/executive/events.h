@@ -98,7 +98,7 @@ struct Event {
 struct StateFrame {
   TimePoint time;
   Configuration q;                   // measured, all joints of the cell
-  std::vector<Proximity> clearance;  // closest pair for each pair of arms that are near
+  std::vector<Proximity> clearance;  // closest pair of two arms, and of an arm with the scene
 };
 
 // Everything at one instant: what a new client gets first.

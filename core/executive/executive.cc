@@ -13,7 +13,7 @@
 namespace armloom {
 namespace {
 
-// Pairs of arms farther apart than this are not told in state frames nor counted as near.
+// What is farther apart than this is not told in state frames nor counted as near.
 constexpr double kClearanceHorizon_m = 2.0;
 
 std::string sentence(const MonitorFinding& finding) {
@@ -37,12 +37,10 @@ std::vector<std::unique_ptr<ArmController>> controllers(
 
 }  // namespace
 
-// An arm's own links are held to the same share as in CollisionChecker::all_closer_than.
+// As CollisionChecker::all_closer_than.
 StateCheck Executive::Impl::monitored(const PlanningScenePtr& scene) {
   const Cell& cell = scene->cell();
-  const double stop_m = cell.monitor.stop_clearance_m;
-  const double share = cell.clearance_m > 0.0 ? cell.self_clearance_m / cell.clearance_m : 1.0;
-  return StateCheck(scene, StateCheck::Limits{stop_m, stop_m * share});
+  return StateCheck(scene, PairLimits::scaled(cell, cell.monitor.stop_clearance_m));
 }
 
 Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
@@ -65,7 +63,7 @@ Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr s
       told_arm_jobs_(cell->arms.size()),
       told_queue_(queue()) {
   figures_.busy.assign(cell_->arms.size(), Duration{});
-  figures_.min_clearance_m = std::numeric_limits<double>::infinity();
+  figures_.min_clearance_m = figures_.between_arms_m = std::numeric_limits<double>::infinity();
 }
 
 // ---- The scheduler and its effects ----
@@ -144,9 +142,11 @@ void Executive::Impl::watch() {
   const Configuration& q = motions_.measured();
   if (watched_.size() != q.size() || watched_ != q) {
     watched_ = q;
-    clearance_ = checker_.closest_between_arms(q, kClearanceHorizon_m);
+    clearance_ = checker_.closest_apart(q, kClearanceHorizon_m);
     for (const Proximity& pair : clearance_) {
       figures_.min_clearance_m = std::min(figures_.min_clearance_m, pair.clearance_m);
+      if (!pair.arm_b) continue;
+      figures_.between_arms_m = std::min(figures_.between_arms_m, pair.clearance_m);
     }
     std::vector<bool> moving;
     for (ArmId arm : all_arms()) moving.push_back(motions_.moving(arm));

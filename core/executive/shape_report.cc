@@ -1,5 +1,6 @@
 #include "core/executive/shape_report.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/collision/scene_bodies.h"
@@ -13,6 +14,13 @@ Result<std::vector<LinkShapeReport>> report_shapes(CellPtr cell) {
   std::vector<LinkShapeReport> report;
   for (std::size_t i = 0; i < bodies.links_end; ++i) {
     const Part& part = bodies.parts[i];
+    if (i > 0 && part.link == bodies.parts[i - 1].link) {
+      LinkShapeReport& link = report.back();
+      link.convex_shapes += part.bodies_end - part.bodies_begin;
+      link.capsules += part.capsules.size();
+      link.excess_m = std::max(link.excess_m, part.capsule_excess_m);
+      continue;
+    }
     report.push_back({part.name, part.bodies_end - part.bodies_begin, part.capsules.size(),
                       part.capsule_excess_m});
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/told.h"
+#include "core/coordination/effort.h"
 #include "core/executive/executive_impl.h"
 #include "core/trajectory/joint_line.h"
 
@@ -296,6 +297,10 @@ void Executive::Impl::judge_together(Question question, std::optional<Verdict> a
       [this, question, alone = std::move(alone), done = std::move(done)](Verdict answer) mutable {
         Verdict meant = scheduler_.meaning(question, answer);
         if (meant.kind == Verdict::Kind::free) return done(std::move(meant));
+        if (const auto effort = larger_effort(answer, question.effort)) {
+          question.effort = *effort;
+          return judge_together(std::move(question), std::move(alone), std::move(done));
+        }
         if (!alone) alone = std::move(meant);
         if (auto larger = scheduler_.together(question, answer)) {
           judge_together(std::move(*larger), std::move(alone), std::move(done));

@@ -64,7 +64,11 @@ Result<void> Executive::Impl::change_objects(std::vector<CollisionObject> object
   if (!scene) return failure(std::move(scene.error()));
   CollisionChecker checker(*scene);
   const double limit_m = cell_->monitor.stop_clearance_m;
-  for (const Proximity& pair : checker.all_closer_than(motions_.measured(), limit_m)) {
+  const std::vector<bool> all(cell_->arms.size(), true);
+  std::vector<NearPair> near;
+  checker.near_pairs(motions_.measured(), limit_m, all, all, near);
+  for (const NearPair& closer : near) {
+    const Proximity pair = checker.describe(closer);
     if (!pair.object_b) continue;
     char text[256];
     std::snprintf(text, sizeof text, "%s would be %.4f m from %s as it stands now, limit %.4f m",

@@ -25,6 +25,16 @@ std::optional<LinkId> Cell::find_link(std::string_view link_name) const {
   return find_by_name<LinkId>(links, link_name);
 }
 
+bool Cell::is_mount(LinkId link, ArmId arm) const {
+  if (this->link(link).arm) return false;
+  return std::ranges::any_of(
+      links, [&](const Link& carried) { return carried.parent == link && carried.arm == arm; });
+}
+
+bool Cell::is_own(LinkId link, ArmId arm) const {
+  return this->link(link).arm == arm || is_mount(link, arm);
+}
+
 Configuration Cell::home() const {
   Configuration q(static_cast<Eigen::Index>(joints.size()));
   for (std::size_t j = 0; j < joints.size(); ++j) {

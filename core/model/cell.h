@@ -101,7 +101,7 @@ struct Cell {
   std::set<std::pair<LinkId, std::string>> allowed_link_objects;
 
   double clearance_m = 0.02;
-  double self_clearance_m = 0.005;  // at most clearance_m
+  double self_clearance_m = 0.005;  // of what is_own(); at most clearance_m
   CheckingSettings checking;
   SchedulingSettings scheduling;
   MonitorSettings monitor;
@@ -113,6 +113,13 @@ struct Cell {
   [[nodiscard]] std::optional<ArmId> find_arm(std::string_view arm_name) const;
   [[nodiscard]] std::optional<JointId> find_joint(std::string_view joint_name) const;
   [[nodiscard]] std::optional<LinkId> find_link(std::string_view link_name) const;
+
+  // A link that stands still and carries a link that the arm moves: what the arm is mounted on.
+  [[nodiscard]] bool is_mount(LinkId link, ArmId arm) const;
+  // The arm itself: what it moves, and its mount. What neither this nor another arm moves is scene
+  // to it, whatever file it comes from: it keeps clearance_m from that, and self_clearance_m from
+  // what is its own.
+  [[nodiscard]] bool is_own(LinkId link, ArmId arm) const;
 
   // Every arm at its home; joints of no arm and gripper joints at zero, clamped to their limits.
   [[nodiscard]] Configuration home() const;

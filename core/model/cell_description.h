@@ -93,8 +93,8 @@ struct CellDescription {
   std::vector<ObjectDescription> objects;
   std::vector<std::pair<std::string, std::string>> allowed_collisions;  // link or object names
   double clearance_m = 0.02;
-  double self_clearance_m =
-      0.005;  // of an arm's own links, which pass each other closely by design
+  // Of an arm's own links and its mount, which pass each other closely by design.
+  double self_clearance_m = 0.005;
   CheckingSettings checking;
   SchedulingSettings scheduling;
   MonitorSettings monitor;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/told.h"
+#include "core/coordination/effort.h"
 #include "core/scheduler/scheduler.h"
 
 namespace armloom {
@@ -18,6 +19,8 @@ std::string format(const char* text, const std::string& name, double a, double b
 
 // What a job waits for that is treated as a conflict without being proven one.
 constexpr const char* kUndecided = "undecided within the budget of evaluations";
+// So often is the budget of one job's questions raised.
+constexpr int kRaisedMax = 12;
 
 }  // namespace
 
@@ -201,7 +204,10 @@ std::optional<JobId> Scheduler::next_candidate() const {
   const Job* best = nullptr;
   const std::map<JobId, int> urgency = urgencies();
   const std::vector<Aged> aged = aged_jobs();
-  const auto goes_before = [&urgency](const Job& a, const Job& b) {
+  const auto goes_before = [&](const Job& a, const Job& b) {
+    const std::uint64_t a_effort = records_.at(a.id).effort;
+    const std::uint64_t b_effort = records_.at(b.id).effort;
+    if (a_effort != b_effort) return a_effort < b_effort;  // what takes long keeps nobody waiting
     const bool a_held = a.state == JobState::holding;
     const bool b_held = b.state == JobState::holding;
     if (a_held != b_held) return a_held;
@@ -305,6 +311,7 @@ void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
                     .rest = rest_,
                     .method = recheck ? policy_->recheck_method() : policy_->method(),
                     .find_earliest = !recheck && jobs.size() == 1 && policy_->schedules_ahead()};
+  if (purpose == Purpose::start) question.effort = records_.at(jobs.front()).effort;
   for (JobId id : jobs) {
     const Record& record = records_.at(id);
     if (graph_) {
@@ -357,6 +364,7 @@ void Scheduler::on(const Judged& input) {
     ++version_;
     for (JobId id : question.jobs) admit(records_.at(id), question.start_at);
   } else if (question.jobs.size() == 1) {
+    if (!recheck && is_asked_again(first, input.verdict)) return;
     refuse(first, input.verdict, recheck);
   }  // else: held jobs that cannot go on together are judged one by one
 }
@@ -367,6 +375,7 @@ void Scheduler::admit(Record& record, TimePoint start_at) {
   job.scheduled_at = start_at;
   job.waits_on.clear();
   record.after_stop = AfterStop::hold;
+  record.effort = 1;
   record.judged_at = 0;
   record.checked_at = version_;
   record.from_progress = job.progress;
@@ -416,6 +425,20 @@ void Scheduler::admit_ahead(Record& record, const Verdict& verdict, const OpenQu
   if (forward) freed_at_ = version_;  // others may move forward behind it
   record.forward_tried = version_;
   if (!record.dispatched) set_waits(record, std::move(waits));
+}
+
+// Where the budget of evaluations has ended it is not put off yet, but judged again with a larger
+// one when its turn comes, behind those that are judged with less. So often at most that a job that
+// cannot be decided takes no time from others each time that something changes.
+bool Scheduler::is_asked_again(Record& record, const Verdict& verdict) const {
+  const auto effort = larger_effort(verdict, record.effort);
+  if (!effort || record.raised >= kRaisedMax) {
+    record.effort = 1;
+    return false;
+  }
+  record.effort = *effort;
+  ++record.raised;
+  return true;
 }
 
 void Scheduler::refuse(Record& record, const Verdict& verdict, bool recheck) {

@@ -103,6 +103,7 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   Record& first = records_.at(question.jobs.front());
   const bool recheck = question.purpose == Purpose::recheck;
   if (verdict.kind != Verdict::Kind::free) {
+    if (!recheck && is_asked_again(first, verdict)) return;
     if (question.jobs.size() == 1) {
       refuse(first, verdict, recheck);
     } else {
@@ -160,7 +161,7 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   const std::vector<JobId> group = with_next_jobs(question.jobs, orders.in_the_way);
   if (group.size() > question.jobs.size()) {
     ask(group, Purpose::start);
-  } else {
+  } else if (!is_asked_again(first, verdict)) {
     put_off(first, first.found);
   }
 }

@@ -142,6 +142,8 @@ class Scheduler {
     JobId helps{0};      // Submit::helps, and what that helps; else itself
     std::optional<JobId> before;     // Submit::before
     std::optional<JobId> lets_pass;  // Submit::lets_pass
+    std::uint64_t effort = 1;        // Question::effort of the next time that it is judged
+    int raised = 0;                  // how often that was raised
   };
   // A job that has waited for longer than scheduling.aging, and all that have to go before it.
   struct Aged {
@@ -236,6 +238,7 @@ class Scheduler {
   [[nodiscard]] bool overruns(Record& record) const;
   void see_whether_in_vain(Record& record) const;
   void give_up(Record& record);
+  [[nodiscard]] bool is_asked_again(Record& record, const Verdict& verdict) const;
   void refuse(Record& record, const Verdict& verdict, bool recheck);
   void put_off(Record& record, std::vector<Wait> waits);
 

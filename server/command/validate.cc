@@ -90,7 +90,7 @@ void print_arm(const Cell& cell, const Arm& arm, const ArmDescription& descripti
 
 void print_settings(const Cell& cell) {
   std::cout << "clearance " << cell.clearance_m << " m, " << cell.self_clearance_m
-            << " m within an arm\n"
+            << " m of an arm from itself and its mount\n"
             << "checking: time step " << to_seconds(cell.checking.time_step)
             << " s, tracking error " << cell.checking.tracking_error_rad << " rad, delay "
             << to_seconds(cell.checking.delay) << " s, limit tolerance "

@@ -30,8 +30,8 @@ ExactScene::ExactScene(const CellPtr& cell)
 
 double ExactScene::between_arms(const Configuration& q, double horizon_m) {
   double smallest = horizon_m;
-  for (const Proximity& pair : checker.closest_between_arms(q, horizon_m)) {
-    smallest = std::min(smallest, pair.clearance_m);
+  for (const Proximity& pair : checker.closest_apart(q, horizon_m)) {
+    if (pair.arm_b) smallest = std::min(smallest, pair.clearance_m);
   }
   return smallest;
 }

@@ -132,7 +132,7 @@ Run run_policy(const Workload& workload, const std::string& name, const std::str
     row.busy.push_back(to_seconds(busy) / row.makespan_s);
   }
   row.together = to_seconds(spectator.together()) / row.makespan_s;
-  row.clearance_m = result->figures.min_clearance_m;
+  row.clearance_m = result->figures.between_arms_m;
   row.monitor_stops = result->figures.monitor_stops;
   row.backlogged = spectator.backlogged();
   row.judgements = result->judging.judgements;

@@ -101,6 +101,21 @@ class Bench {
     step(Judged{std::move(verdict)}, now);
   }
 
+  // Not decided, as the budget of evaluations ended.
+  void answer_exhausted(TimePoint now, Conflict::With with) {
+    ASSERT_TRUE(question) << "nothing was asked";
+    Verdict verdict{Verdict::Kind::undecided, question->version, {}, {}, 1};
+    verdict.conflicts.push_back({with,
+                                 question->candidates.front().job,
+                                 {},
+                                 Proximity{.body_a = "own", .body_b = "other"},
+                                 100ms,
+                                 200ms});
+    verdict.exhausted = true;
+    question.reset();
+    step(Judged{std::move(verdict)}, now);
+  }
+
   void progressed(JobId job, Duration progress, TimePoint now) {
     step(MotionReport{job, MotionReport::Kind::progressed, progress}, now);
   }

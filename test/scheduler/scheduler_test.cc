@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/coordination/effort.h"
 #include "test/scheduler/bench_cell.h"
 
 namespace armloom {
@@ -108,6 +109,40 @@ TEST(Admission, TriesTheLargerPriorityFirst) {
   const JobId urgent = bench.submit(move({2}, 0, 1, 2s), at(0ms), 60s, 5);
   bench.answer_free(at(1ms));
   EXPECT_EQ(bench.question->candidates.front().job, urgent);
+}
+
+TEST(Admission, RaisesABudgetThatEndedBeforeItPutsAJobOff) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  int now_ms = 1;
+  for (std::uint64_t effort = 1; effort < kEffortMax; effort *= kEffortGrowth) {
+    ASSERT_TRUE(bench.question);
+    EXPECT_EQ(bench.question->effort, effort);
+    bench.answer_exhausted(at(std::chrono::milliseconds(now_ms++)), Conflict::With::scene);
+    EXPECT_EQ(bench.state(job), JobState::queued);
+  }
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.question->effort, kEffortMax);
+  bench.answer_exhausted(at(std::chrono::milliseconds(now_ms++)), Conflict::With::scene);
+  EXPECT_FALSE(bench.question);
+  EXPECT_EQ(bench.state(job), JobState::backlogged);
+  EXPECT_FALSE(bench.job(job).waits_on.front().detail.empty());
+}
+
+TEST(Admission, JudgesOthersBeforeOneWhoseBudgetWasRaised) {
+  Bench bench(2);
+  const JobId hard = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  const JobId other = bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  bench.answer_exhausted(at(1ms), Conflict::With::scene);
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.question->candidates.front().job, other);
+  EXPECT_EQ(bench.question->effort, 1U);
+  bench.answer_free(at(2ms));
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.question->candidates.front().job, hard);
+  EXPECT_EQ(bench.question->effort, kEffortGrowth);
+  bench.answer_free(at(3ms));
+  EXPECT_EQ(bench.state(hard), JobState::scheduled);
 }
 
 TEST(Admission, FailsWhatHitsItself) {

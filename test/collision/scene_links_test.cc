@@ -1,0 +1,215 @@
+// What stands still is scene, whether it is an object of the cell or a link of an arm's own URDF.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/audit/audit.h"
+#include "core/collision/arbiter.h"
+#include "core/collision/check_home.h"
+#include "core/collision/state_check.h"
+#include "test/collision/small_cell.h"
+#include "test/collision/walled_cell.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+
+using small::As;
+using small::walled;
+
+constexpr ArmId kA{0};
+constexpr ArmId kB{1};
+
+PlanningScenePtr scene_of(const CellPtr& cell) { return *PlanningScene::build(cell); }
+
+std::vector<CheckMethod> methods() {
+  return {TimedDiscrete{20ms}, Certified{.lag = 100ms, .stopping = true, .tracking_error = 0.001},
+          Swept{0.001}, Coordinated{0.001}};
+}
+
+// The same motions in either cell.
+Question question(const Cell& cell, const CheckMethod& method, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto angle = [&](double most) {
+    return (2.0 * static_cast<double>(random() >> 11U) / 9007199254740992.0 - 1.0) * most;
+  };
+  Question asked{.version = 1,
+                 .start_at = TimePoint{},
+                 .candidates = {},
+                 .others = {},
+                 .rest = cell.home(),
+                 .method = method,
+                 .find_earliest = !std::holds_alternative<TimedDiscrete>(method)};
+  const double down = -0.5;
+  asked.candidates = {
+      {JobId{1}, small::sweep(cell, {kA}, {down, 0.0}, {angle(1.2), angle(1.5)}, 2s), 0s}};
+  asked.others = {
+      {JobId{2}, small::sweep(cell, {kB}, {down, 0.0}, {angle(1.2), angle(1.5)}, 3s), 0s}};
+  return asked;
+}
+
+void expect_same(const Verdict& link, const Verdict& object, const std::string& where) {
+  EXPECT_EQ(link.kind, object.kind) << where;
+  EXPECT_EQ(link.clearance_bound_m, object.clearance_bound_m) << where;
+  EXPECT_EQ(link.earliest_start, object.earliest_start) << where;
+  EXPECT_EQ(link.evaluations, object.evaluations) << where;
+  EXPECT_EQ(link.regions.size(), object.regions.size()) << where;
+  ASSERT_EQ(link.conflicts.size(), object.conflicts.size()) << where;
+  for (std::size_t i = 0; i < link.conflicts.size(); ++i) {
+    const Conflict& a = link.conflicts[i];
+    const Conflict& b = object.conflicts[i];
+    EXPECT_EQ(a.with, b.with) << where;
+    EXPECT_EQ(a.proximity.body_a, b.proximity.body_a) << where;
+    EXPECT_EQ(a.proximity.body_b, b.proximity.body_b) << where;
+    EXPECT_EQ(a.proximity.arm_b, b.proximity.arm_b) << where;
+    EXPECT_DOUBLE_EQ(a.proximity.clearance_m, b.proximity.clearance_m) << where;
+    EXPECT_EQ(a.own_time, b.own_time) << where;
+  }
+}
+
+TEST(SceneLinks, AreJudgedAsTheSameObjectIsByEveryMethod) {
+  const CellPtr with_link = walled(As::link);
+  const CellPtr with_object = walled(As::object);
+  int met = 0;
+  int free = 0;
+  for (const CheckMethod& method : methods()) {
+    Arbiter of_link(scene_of(with_link));
+    Arbiter of_object(scene_of(with_object));
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+      const Verdict link = of_link.judge(question(*with_link, method, seed));
+      const Verdict object = of_object.judge(question(*with_object, method, seed));
+      expect_same(link, object,
+                  "method " + std::to_string(method.index()) + ", seed " + std::to_string(seed));
+      free += link.kind == Verdict::Kind::free ? 1 : 0;
+      for (const Conflict& conflict : link.conflicts) {
+        if (conflict.proximity.body_b != "wall") continue;
+        EXPECT_EQ(conflict.with, Conflict::With::scene);
+        ++met;
+      }
+    }
+  }
+  EXPECT_GE(met, 40);
+  EXPECT_GE(free, 40);
+}
+
+// The tip of arm "a" with the second joint straight: (0.6 sin q + 0.03) from y = 0, wall at 0.4.
+Configuration tip_from_wall(const Cell& cell, double gap_m) {
+  Configuration q = cell.home();
+  q[0] = std::asin((0.4 - 0.03 - gap_m) / 0.6);
+  return q;
+}
+
+TEST(SceneLinks, GetTheClearanceOfTheScene) {
+  for (const As as : {As::link, As::object}) {
+    const CellPtr cell = walled(as);
+    const PlanningScenePtr scene = scene_of(cell);
+    CollisionChecker checker(scene);
+    StateCheck states(scene);
+    for (const double gap_m : {0.0094, 0.0199, 0.0201}) {
+      const Configuration q = tip_from_wall(*cell, gap_m);
+      const Configuration* state[] = {&q};
+      const bool too_close = gap_m < cell->clearance_m;
+      EXPECT_EQ(states.too_close(state) != 0, too_close) << gap_m;
+      EXPECT_EQ(checker.first_closer_than(q, cell->clearance_m, {true, true}).has_value(),
+                too_close)
+          << gap_m;
+      const auto stops = checker.all_closer_than(q, 0.01);
+      EXPECT_EQ(stops.size(), gap_m < 0.01 ? 1U : 0U);
+    }
+  }
+}
+
+TEST(SceneLinks, CountInTheFiguresAndInTheAudit) {
+  for (const As as : {As::link, As::object}) {
+    const CellPtr cell = walled(as);
+    CollisionChecker checker(scene_of(cell));
+    const Configuration q = tip_from_wall(*cell, 0.0094);
+    const auto closest = checker.closest_apart(q, 2.0);
+    ASSERT_EQ(closest.size(), 3U);  // a with b, a and b with what stands still
+    EXPECT_EQ(closest[1].arm_a, kA);
+    EXPECT_FALSE(closest[1].arm_b);
+    EXPECT_EQ(closest[1].body_b, "wall");
+    EXPECT_NEAR(closest[1].clearance_m, 0.0094, 1e-6);
+    const auto report = audit(*cell, {{TimePoint{}, q}}, 1ms);
+    ASSERT_TRUE(report && report->smallest_clearance);
+    EXPECT_EQ(report->smallest_clearance->body_b == "wall" ? report->smallest_clearance->body_b
+                                                           : report->smallest_clearance->body_a,
+              "wall");
+    EXPECT_NEAR(report->smallest_clearance->distance_m, 0.0094, 1e-6);
+  }
+}
+
+// 5 mm from its own mount, 20 mm from the other arm's, though both are static links of one URDF.
+TEST(SceneLinks, AreNotTheArmsOwnMountButThatOfAnotherArm) {
+  const CellPtr cell = walled(As::link);
+  const LinkId mount = *cell->find_link("a_base");
+  EXPECT_TRUE(cell->is_mount(mount, kA));
+  EXPECT_FALSE(cell->is_mount(mount, kB));
+  EXPECT_FALSE(cell->is_mount(*cell->find_link("wall"), kA));
+  EXPECT_TRUE(cell->is_own(*cell->find_link("a_link2"), kA));
+  EXPECT_FALSE(cell->is_own(*cell->find_link("a_link2"), kB));
+  const PlanningScenePtr scene = scene_of(cell);
+  CollisionChecker checker(scene);
+  std::vector<NearPair> near;
+  checker.near_pairs(cell->home(), 10.0, {true, false}, {true, true}, near);
+  int own = 0;
+  for (const NearPair& pair : near) {
+    const Proximity found = checker.describe(pair);
+    if (found.body_b != "a_base") continue;
+    EXPECT_TRUE(checker.is_self(pair.pair)) << found.body_a;
+    ++own;
+  }
+  EXPECT_EQ(own, 2);
+  checker.near_pairs(cell->home(), 10.0, {false, true}, {true, true}, near);
+  int others = 0;
+  for (const NearPair& pair : near) {
+    const Proximity found = checker.describe(pair);
+    if (found.arm_a != kB || found.body_b != "a_base") continue;
+    EXPECT_FALSE(checker.is_self(pair.pair)) << found.body_a;
+    ++others;
+  }
+  EXPECT_EQ(others, 2);
+}
+
+// A pair that parts is held to less: the verdict does not claim more.
+TEST(ClearanceBound, IsNoMoreThanWhatEveryPairWasHeldTo) {
+  for (const As as : {As::link, As::object}) {
+    const CellPtr cell = walled(as);
+    const Configuration q = tip_from_wall(*cell, 0.01);
+    for (const CheckMethod& method : methods()) {
+      if (std::holds_alternative<TimedDiscrete>(method)) continue;
+      Arbiter arbiter(scene_of(cell));
+      Question asked{
+          .version = 1,
+          .start_at = TimePoint{},
+          .candidates = {{JobId{1}, small::sweep(*cell, {kA}, {q[0], 0.0}, {-0.5, 0.0}, 2s), 0s}},
+          .others = {},
+          .rest = cell->home(),
+          .method = method};
+      const Verdict parts = arbiter.judge(asked);
+      ASSERT_EQ(parts.kind, Verdict::Kind::free) << method.index();
+      ASSERT_TRUE(parts.clearance_bound_m);
+      EXPECT_NEAR(*parts.clearance_bound_m, Arbiter::kPartingShare * 0.01, 1e-6);
+      asked.candidates = {{JobId{1}, small::sweep(*cell, {kA}, {0.0, 0.0}, {-0.5, 0.0}, 2s), 0s}};
+      EXPECT_EQ(arbiter.judge(asked).clearance_bound_m, 0.02);
+    }
+  }
+}
+
+TEST(SceneLinks, NearAHomeAreRefusedAsTheSameObjectIs) {
+  for (const As as : {As::link, As::object}) {
+    Cell cell = *walled(as);
+    cell.arms[0].home[0] = tip_from_wall(cell, 0.012)[0];
+    const Problems problems = check_home(scene_of(small::shared(cell)));
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_EQ(problems[0].detail,
+              "a_link2 and wall: 0.0120 m apart at home, clearance_m is 0.0200");
+  }
+}
+
+}  // namespace
+}  // namespace armloom

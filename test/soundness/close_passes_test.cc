@@ -1,0 +1,41 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "core/collision/arbiter.h"
+#include "core/coordination/effort.h"
+#include "test/bench/cells.h"
+#include "test/soundness/pairs.h"
+
+namespace armloom::soundness {
+namespace {
+
+// Two Pandas that have to keep 5 mm only. Motions that keep to their paths exactly: what their
+// tracking errors may do is another question (README of this folder).
+TEST(ClosePasses, AreDecidedWhenTheBudgetIsRaised) {
+  Cell cell = *bench::two_pandas();
+  cell.clearance_m = 0.005;
+  const auto shared = std::make_shared<const Cell>(std::move(cell));
+  bench::ExactScene exact(shared);
+  const Pool pool(exact, 16, 77);
+  std::size_t open = 0;
+  std::size_t left = 0;
+  for (const MovingPair& pair : random_pairs(exact, pool, 400, 78)) {
+    Arbiter arbiter(exact.scene);
+    Question question = pair.question(*shared, Swept{.tracking_error = 0.0});
+    Verdict verdict = arbiter.judge(question);
+    if (verdict.kind == Verdict::Kind::undecided) ++open;
+    while (verdict.kind == Verdict::Kind::undecided) {
+      const auto effort = larger_effort(verdict, question.effort);
+      if (!effort) break;
+      question.effort = *effort;
+      verdict = arbiter.judge(question);
+    }
+    left += verdict.kind == Verdict::Kind::undecided ? 1 : 0;
+  }
+  EXPECT_GE(open, 20U);
+  EXPECT_EQ(left, 0U);
+}
+
+}  // namespace
+}  // namespace armloom::soundness
