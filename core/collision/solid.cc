@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/collision/enclosure.h"
 #include "core/collision/triangle_distance.h"
@@ -35,12 +36,14 @@ class Descent {
         best_m_(limit_m),
         enough_m_(enough_m) {}
 
-  double run() {
+  // Nullopt: nothing is closer than the limit.
+  std::optional<double> run() {
     const Node& a = a_.nodes.front();
     const Node& b = b_.nodes.front();
+    const double limit_m = best_m_;
     roots_m_ = gap(a, b);
     if (roots_m_ < best_m_) visit(a, b);
-    return best_m_;
+    return best_m_ < limit_m ? std::optional(best_m_) : std::nullopt;
   }
   // Whether the boxes around all of A and all of B keep apart.
   [[nodiscard]] bool boxes_apart() const { return roots_m_ > 0.0; }
@@ -81,8 +84,9 @@ class Descent {
   void measure(std::uint32_t a, std::uint32_t b) {
     TrianglePoints other = b_.corners(b);
     for (Vector3d& p : other) p = R_ * p + p_;
-    best_m_ = std::min(best_m_, triangle_distance(a_.corners(a), other, best_m_ + rounding_m_) -
-                                    rounding_m_);
+    const double limit_m = best_m_ + rounding_m_;
+    const double found_m = triangle_distance(a_.corners(a), other, limit_m);
+    if (found_m < limit_m) best_m_ = found_m - rounding_m_;
   }
 
   const SurfaceTree& a_;
@@ -115,12 +119,13 @@ double distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
   if (limit_m + radii_m <= 0.0) return limit_m;
   const Eigen::Isometry3d X_AB = X_WA.inverse(Eigen::Isometry) * X_WB;
   Descent descent(*a.tree, *b.tree, X_AB, limit_m + radii_m, enough_m + radii_m);
-  const double found_m = descent.run() - radii_m;
+  const std::optional<double> closest_m = descent.run();
+  const double found_m = closest_m ? std::min(*closest_m - radii_m, limit_m) : limit_m;
   if (found_m <= 0.0) return std::min(limit_m, 0.0);
-  if (found_m < enough_m || descent.boxes_apart()) return std::min(found_m, limit_m);
+  if (found_m < enough_m || descent.boxes_apart()) return found_m;
   const bool inside = lies_inside(*a.tree, *b.tree, X_AB.inverse(Eigen::Isometry)) ||
                       lies_inside(*b.tree, *a.tree, X_AB);
-  return std::min(limit_m, inside ? 0.0 : found_m);
+  return inside ? std::min(limit_m, 0.0) : found_m;
 }
 
 }  // namespace
@@ -139,7 +144,9 @@ double distance_to_surface(const SurfaceTree& tree, const Eigen::Vector3d& p_T) 
   static const SurfaceTreePtr kPoint = make_surface_tree({Vector3d::Zero()}, {{0, 0, 0}});
   Eigen::Isometry3d X_TP = Eigen::Isometry3d::Identity();
   X_TP.translation() = p_T;
-  return Descent(tree, *kPoint, X_TP, std::numeric_limits<double>::infinity(), 0.0).run();
+  return Descent(tree, *kPoint, X_TP, std::numeric_limits<double>::infinity(), 0.0)
+      .run()
+      .value();
 }
 
 }  // namespace armloom

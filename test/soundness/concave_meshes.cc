@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "core/model/convex_pieces.h"
-#include "test/soundness/pairs.h"
 
 namespace armloom::soundness {
 namespace {
@@ -76,7 +75,7 @@ class Surfacer {
       double at = 0.0;
       for (int i = 0; i <= made.count[k]; ++i) {
         planes_[k].push_back(at);
-        at += uniform(random, 0.3, 1.0);
+        at += between(random, 0.3, 1.0);
       }
     }
   }
@@ -137,7 +136,7 @@ void scale(MeshData& mesh, const MeshWish& wish, std::mt19937_64& random) {
   const double factor = wish.size_m / box.diagonal().norm();
   for (Eigen::Vector3d& p : mesh.vertices) {
     // A block is 0.3 long at least: corners moved by less than half of that keep their order.
-    const auto moved = [&] { return 0.3 * wish.noise * uniform(random, -1.0, 1.0); };
+    const auto moved = [&] { return 0.3 * wish.noise * between(random, -1.0, 1.0); };
     const Eigen::Vector3d noise(moved(), moved(), moved());
     p = factor * (p - box.center() + noise);
   }
@@ -154,18 +153,13 @@ MeshPtr concave_mesh(const MeshWish& wish, std::mt19937_64& random) {
     MeshData crumb;
     const Blocks one = blocks({1, 1, 1}, [](int, int, int) { return true; });
     Surfacer(one, random).fill(crumb);
-    scale(crumb, {0.1 * wish.size_m, 0.0, true, false}, random);
+    scale(crumb, {0.1 * wish.size_m, 0.0, false}, random);
     const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
     for (const Eigen::Vector3d& p : crumb.vertices) {
       mesh->vertices.emplace_back(p + Eigen::Vector3d(0.6 * wish.size_m, 0, 0));
     }
     for (const Triangle& t : crumb.triangles) {
       mesh->triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    }
-  }
-  if (!wish.one_mind) {
-    for (Triangle& t : mesh->triangles) {
-      if (random() % 4 == 0) std::swap(t[0], t[1]);
     }
   }
   mesh->hull = convex_hull(mesh->vertices).value();
@@ -175,19 +169,34 @@ MeshPtr concave_mesh(const MeshWish& wish, std::mt19937_64& random) {
   return mesh;
 }
 
-int winding_about(const MeshData& mesh, const Eigen::Vector3d& p) {
-  std::vector<std::uint32_t> component(mesh.vertices.size());
-  std::iota(component.begin(), component.end(), std::uint32_t{0});
+MeshPtr turned_over(const MeshData& mesh, std::mt19937_64& random) {
+  auto turned = std::make_shared<MeshData>(mesh);
+  for (Triangle& t : turned->triangles) {
+    if (random() % 4 == 0) std::swap(t[0], t[1]);
+  }
+  turned->pieces = convex_pieces(*turned);
+  turned->surface = make_surface_tree(turned->vertices, turned->triangles);
+  return turned;
+}
+
+std::vector<std::uint32_t> components_of(const MeshData& mesh) {
+  std::vector<std::uint32_t> components(mesh.vertices.size());
+  std::iota(components.begin(), components.end(), std::uint32_t{0});
   for (bool changed = true; changed;) {  // the smallest number spreads
     changed = false;
     for (const Triangle& t : mesh.triangles) {
-      const auto least = std::min({component[t[0]], component[t[1]], component[t[2]]});
+      const auto least = std::min({components[t[0]], components[t[1]], components[t[2]]});
       for (const std::uint32_t i : t) {
-        changed = changed || component[i] != least;
-        component[i] = least;
+        changed = changed || components[i] != least;
+        components[i] = least;
       }
     }
   }
+  return components;
+}
+
+bool winds_about(const MeshData& mesh, const std::vector<std::uint32_t>& components,
+                 const Eigen::Vector3d& p) {
   std::map<std::uint32_t, double> angle;
   for (const Triangle& t : mesh.triangles) {
     const Eigen::Vector3d a = mesh.vertices[t[0]] - p;
@@ -196,14 +205,14 @@ int winding_about(const MeshData& mesh, const Eigen::Vector3d& p) {
     // van Oosterom and Strackee 1983
     const double denominator = a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
                                b.dot(c) * a.norm() + c.dot(a) * b.norm();
-    angle[component[t[0]]] += 2.0 * std::atan2(a.dot(b.cross(c)), denominator);
+    angle[components[t[0]]] += 2.0 * std::atan2(a.dot(b.cross(c)), denominator);
   }
-  int most = 0;
-  for (const auto& [root, sum] : angle) {
-    const auto turns = static_cast<int>(std::lround(sum / (4.0 * std::numbers::pi)));
-    most = std::max(most, std::abs(turns));
-  }
-  return most;
+  return std::ranges::any_of(
+      angle, [](const auto& sum) { return std::abs(sum.second) > 2.0 * std::numbers::pi; });
+}
+
+double between(std::mt19937_64& random, double from, double to) {
+  return from + (to - from) * (static_cast<double>(random() >> 11) * 0x1p-53);
 }
 
 }  // namespace armloom::soundness

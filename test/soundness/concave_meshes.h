@@ -1,7 +1,8 @@
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <random>
+#include <vector>
 
 #include "core/model/mesh.h"
 
@@ -13,14 +14,23 @@ namespace armloom::soundness {
 // and surface as a mesh that was read from a file has them.
 struct MeshWish {
   double size_m = 0.3;
-  double noise = 0.0;     // 0 to 0.25
-  bool one_mind = true;   // false: some triangles are turned over
-  bool crumbs = false;    // and a small loose box beside it
+  double noise = 0.0;   // 0 to 0.25
+  bool crumbs = false;  // and a small loose box beside it
 };
 [[nodiscard]] MeshPtr concave_mesh(const MeshWish& wish, std::mt19937_64& random);
 
-// How often the surface's components wind about the point, the largest of them, by solid angles: no
-// rays, no tree. Right where triangles are of one mind.
-[[nodiscard]] int winding_about(const MeshData& mesh, const Eigen::Vector3d& p);
+// The same with some triangles turned over: where outside is cannot be told by them any more.
+[[nodiscard]] MeshPtr turned_over(const MeshData& mesh, std::mt19937_64& random);
+
+// For each corner the smallest one that it hangs together with.
+[[nodiscard]] std::vector<std::uint32_t> components_of(const MeshData& mesh);
+
+// Whether one of the components winds about the point, by solid angles: no rays, no tree.
+// Precondition: the triangles are of one mind about outside.
+[[nodiscard]] bool winds_about(const MeshData& mesh, const std::vector<std::uint32_t>& components,
+                               const Eigen::Vector3d& p);
+
+// Uniform in [from, to).
+[[nodiscard]] double between(std::mt19937_64& random, double from, double to);
 
 }  // namespace armloom::soundness

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/collision/triangle_distance.h"
+
 namespace armloom::soundness {
 
 // The distances of concave meshes against FCL's of the same triangles, and solid angles.
@@ -26,5 +28,8 @@ struct SurfaceReport {
 // loose components or triangles turned over; every fourth against a box, cylinder, capsule or
 // sphere, whose truth is that of a mesh inscribed in it.
 [[nodiscard]] SurfaceReport check_surfaces(std::size_t pairs, std::uint64_t seed);
+
+// The distance of two triangles.
+[[nodiscard]] double triangles_by_fcl(const TrianglePoints& a, const TrianglePoints& b);
 
 }  // namespace armloom::soundness
