@@ -15,7 +15,7 @@ namespace armloom::soundness {
 namespace {
 
 TEST(Surfaces, AreNeverSaidToBeFartherApartThanTheyAre) {
-  const SurfaceReport report = check_surfaces(10'000, 51);
+  const SurfaceReport report = check_surfaces(6'000, 51);
   EXPECT_EQ(report.too_far, 0U) << "by up to " << report.worst_m << " m";
   for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
   std::printf("%zu pairs, %zu apart, %zu in contact (%zu inside), %zu opened, %zu false contacts, "
