@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/collision/exact_distance.h"
+#include "core/collision/solid_of_body.h"
 #include "core/model/mesh.h"
 
 namespace armloom {
@@ -48,9 +49,16 @@ void add_plain_bodies(const PlacedShape& placed, std::vector<Body>& bodies) {
     bodies.push_back(primitive_body(placed));
     return;
   }
+  const std::size_t first = bodies.size();
   if (mesh->data->pieces.empty()) bodies.push_back(hull_body(placed.X_LS, mesh->data->hull));
   for (const ConvexHull& piece_M : mesh->data->pieces) {
     bodies.push_back(hull_body(placed.X_LS, piece_M));
+  }
+  if (!mesh->data->surface) return;
+  const auto solid = std::make_shared<const Solid>(Solid{mesh->data->surface, placed.X_LS});
+  for (std::size_t i = first; i < bodies.size(); ++i) {
+    bodies[i].solid = solid;
+    bodies[i].is_piece = true;
   }
 }
 
@@ -135,6 +143,7 @@ std::vector<Body> make_bodies(const std::vector<PlacedShape>& shapes) {
     if (dropped[i]) continue;
     bodies[i].p_SE_P = bodies[i].X_PS.linear().col(2) * bodies[i].half_length_m;
     bodies[i].exact = make_exact_geometry(bodies[i]);
+    if (!bodies[i].solid) bodies[i].solid = solid_of(bodies[i]);
     kept.push_back(std::move(bodies[i]));
   }
   return kept;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/collision/part_distance.h"
 #include "core/collision/scene_bodies.h"
 #include "core/model/kinematics.h"
 
@@ -15,7 +16,7 @@ bool includes(const Group& group, const std::vector<bool>& arms) {
   return arms[group.arm.index()] || (group.other && arms[group.other->index()]);
 }
 
-struct PlacedPart {
+struct PartPlace {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // of the bounding sphere
   bool bodies_placed = false;                        // else only the sphere is
 };
@@ -27,7 +28,7 @@ struct CollisionChecker::Scratch {
   PlanningScenePtr scene;
   const PlanningScene::Bodies& bodies;
   LinkPoses X_WL;
-  std::vector<PlacedPart> parts;
+  std::vector<PartPlace> parts;
   std::vector<PlacedBody> placed;            // by body
   std::vector<Eigen::AlignedBox3d> arm_box;  // around the bounding spheres of an arm's parts
 
@@ -91,14 +92,8 @@ struct CollisionChecker::Scratch {
       return limit_m;
     }
     place_bodies(pair.a);
-    double smallest = limit_m;
-    for (std::size_t i = a.bodies_begin; i < a.bodies_end; ++i) {
-      for (std::size_t j = b.bodies_begin; j < b.bodies_end; ++j) {
-        smallest =
-            distance_below(bodies.bodies[i], placed[i], bodies.bodies[j], placed[j], smallest);
-      }
-    }
-    return smallest;
+    return part_distance(bodies.bodies, {a, a.pose(X_WL), placed.data()},
+                         {b, b.pose(X_WL), placed.data()}, limit_m);
   }
 
   // What the group keeps where different arms keep `clearance_m`.

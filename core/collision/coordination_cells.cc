@@ -3,6 +3,7 @@
 
 #include "core/collision/coordination_diagram_impl.h"
 #include "core/collision/filter/kernels.h"
+#include "core/collision/part_distance.h"
 
 namespace armloom {
 namespace {

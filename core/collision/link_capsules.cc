@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/collision/exact_distance.h"
 
 namespace armloom {
 namespace {
@@ -124,10 +123,7 @@ double distance_from(const Body& body, const Eigen::Vector3d& p_P) {
     return std::hypot(std::max(0.0, std::abs(p.z()) - body.half_length_m),
                       std::max(0.0, std::hypot(p.x(), p.y()) - body.radius_m));
   }
-  static const Body kPoint = make_bodies({{Sphere{1e-9}}}).front();
-  Eigen::Isometry3d at_point = Eigen::Isometry3d::Identity();
-  at_point.translation() = p_P;
-  return exact_distance(body, body.X_PS, kPoint, at_point);
+  return distance_to_surface(*body.solid->tree, body.solid->X_PT.inverse(Eigen::Isometry) * p_P);
 }
 
 // Points on the surface: rings along the side, and the caps.

@@ -241,22 +241,4 @@ double least_limit_m(const PlanningScene::Bodies& bodies, const PairSet& set, do
   return most_m;
 }
 
-double part_distance(const PlanningScene::Bodies& bodies, std::size_t part_a,
-                     const Eigen::Isometry3d& X_WA, std::size_t part_b,
-                     const Eigen::Isometry3d& X_WB, double limit_m) {
-  const Part& a = bodies.parts[part_a];
-  const Part& b = bodies.parts[part_b];
-  double smallest = limit_m;
-  PlacedBody at_a;
-  PlacedBody at_b;
-  for (std::size_t i = a.bodies_begin; i < a.bodies_end; ++i) {
-    place(bodies.bodies[i], X_WA, at_a);
-    for (std::size_t j = b.bodies_begin; j < b.bodies_end; ++j) {
-      place(bodies.bodies[j], X_WB, at_b);
-      smallest = distance_below(bodies.bodies[i], at_a, bodies.bodies[j], at_b, smallest);
-    }
-  }
-  return smallest;
-}
-
 }  // namespace armloom

@@ -61,9 +61,4 @@ struct PairSet {
 [[nodiscard]] double least_limit_m(const PlanningScene::Bodies& bodies, const PairSet& set,
                                    double most_m);
 
-// The distance of two parts, exact where it is below `limit_m`, else at least limit_m.
-[[nodiscard]] double part_distance(const PlanningScene::Bodies& bodies, std::size_t part_a,
-                                   const Eigen::Isometry3d& X_WA, std::size_t part_b,
-                                   const Eigen::Isometry3d& X_WB, double limit_m);
-
 }  // namespace armloom

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/collision/pair_set.h"
+#include "core/collision/part_distance.h"
 #include "core/collision/scene_bodies.h"
 
 namespace armloom {
@@ -123,8 +124,8 @@ struct StateCheck::Scratch {
     const LinkagePart& other = c.still ? still.parts[b] : arms[c.b].linkage.parts()[b];
     const double* frames_b = c.still ? nullptr : arms[c.b].frames.data();
     const Eigen::Isometry3d X_WB = c.still ? other.X_FP : pose(other, frames_b);
-    return part_distance(bodies, a.part, pose(a, arms[c.a].frames.data()), other.part, X_WB,
-                         pair.limit_m) < pair.limit_m;
+    return parts_closer_than(bodies, a.part, pose(a, arms[c.a].frames.data()), other.part, X_WB,
+                             pair.limit_m);
   }
 
   // Lanes in which one of the first `found` hits is too close indeed.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <tuple>
@@ -52,18 +51,6 @@ Points unit_spread(int count) {
     directions.emplace_back(r * std::cos(turn * i), r * std::sin(turn * i), z);
   }
   return directions;
-}
-
-// Every edge borders an even number of triangles: the surface has no rim.
-bool is_closed(const MeshData& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, bool> odd;
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      bool& edge = odd[std::minmax(t[i], t[(i + 1) % 3])];
-      edge = !edge;
-    }
-  }
-  return std::none_of(odd.begin(), odd.end(), [](const auto& edge) { return edge.second; });
 }
 
 // The part with sign * (x - at) >= 0 along the axis (Sutherland and Hodgman).
@@ -294,7 +281,7 @@ double volume_m3(const ConvexHull& hull) {
 }
 
 std::vector<ConvexHull> convex_pieces(const MeshData& mesh) {
-  if (mesh.triangles.size() > kMaxTrianglesCut || !is_closed(mesh)) return {mesh.hull};
+  if (mesh.triangles.size() > kMaxTrianglesCut || !is_closed(mesh.triangles)) return {mesh.hull};
   std::vector<Cell3> open{whole(mesh)};
   const double least_gain_m3 = kCutGain * open.front().volume_m3;
   if (open.front().volume_m3 - enclosed_volume(mesh) < least_gain_m3) return {mesh.hull};

@@ -304,6 +304,9 @@ Checked<MeshPtr> load(const std::string& path, const Eigen::Vector3d& scale) {
     return refuse(ProblemKind::invalid, "mesh-hull", "it has no convex hull: " + hull.error());
   mesh->hull = *std::move(hull);
   mesh->pieces = convex_pieces(*mesh);
+  if (is_closed(mesh->triangles)) {
+    mesh->surface = make_surface_tree(mesh->vertices, mesh->triangles);
+  }
   return std::make_shared<const MeshData>(*std::move(mesh));
 }
 

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -12,10 +10,9 @@
 
 #include "core/base/problem.h"
 #include "core/model/convex_hull.h"
+#include "core/model/surface_tree.h"
 
 namespace armloom {
-
-using Triangle = std::array<std::uint32_t, 3>;
 
 // The surface of a mesh as its file has it: in the shape's frame S, metres, with the file's own
 // units, the transforms of its nodes and the scale of the URDF applied. A file's "up axis" is not:
@@ -26,6 +23,9 @@ struct MeshData {
   std::vector<Triangle> triangles;  // indices into vertices; at least one
   ConvexHull hull;                  // contains all vertices (convex_hull.h)
   std::vector<ConvexHull> pieces;   // contain the solid together (convex_pieces.h); none: the hull
+  // The same triangles, where they close: what the pieces stand for. Null: the pieces are taken for
+  // the solid, as nobody can say what an open surface encloses.
+  SurfaceTreePtr surface;
 };
 using MeshPtr = std::shared_ptr<const MeshData>;
 

@@ -10,6 +10,7 @@
 
 #include "core/collision/filter/kernels.h"
 #include "core/collision/pair_set.h"
+#include "core/collision/part_distance.h"
 #include "core/model/build_cell.h"
 #include "core/model/kinematics.h"
 #include "server/codec/cell_codec.h"

@@ -1,10 +1,12 @@
 #include "test/soundness/plain_fcl.h"
 
+#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
+#include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
@@ -16,7 +18,19 @@ namespace {
 
 using Shape = std::shared_ptr<fcl::CollisionGeometryd>;
 
+// What the pieces of a closed mesh stand for: its triangles.
+Shape surface_of(const SurfaceTree& tree) {
+  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  std::vector<fcl::Triangle> triangles;
+  for (const Triangle& t : tree.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  model->beginModel();
+  model->addSubModel(tree.vertices, triangles);
+  model->endModel();
+  return model;
+}
+
 Shape shape_of(const Body& body) {
+  if (body.is_piece) return surface_of(*body.solid->tree);
   if (body.kind == BodyKind::box) return std::make_shared<fcl::Boxd>(2.0 * body.half_size_m);
   if (body.kind == BodyKind::cylinder) {
     return std::make_shared<fcl::Cylinderd>(body.radius_m, 2.0 * body.half_length_m);
@@ -38,14 +52,17 @@ Shape shape_of(const Body& body) {
 }  // namespace
 
 struct PlainFcl::Shapes {
-  std::vector<Shape> of_body;
+  std::vector<Shape> of_body;  // null: another piece of the same mesh stands for this one, too
 };
 
 PlainFcl::PlainFcl(const PlanningScene::Bodies& bodies)
     : bodies_(bodies), shapes_(std::make_unique<Shapes>()) {
+  const Solid* last = nullptr;
   for (const Body& body : bodies.bodies) {
-    shapes_->of_body.push_back(shape_of(body));
-    shapes_->of_body.back()->computeLocalAABB();
+    const bool known = body.solid.get() == last;
+    last = body.solid.get();
+    shapes_->of_body.push_back(known ? nullptr : shape_of(body));
+    if (!known) shapes_->of_body.back()->computeLocalAABB();
   }
 }
 
@@ -58,13 +75,17 @@ double PlainFcl::distance(std::size_t part_a, const Eigen::Isometry3d& X_WA, std
   double smallest = std::numeric_limits<double>::infinity();
   fcl::DistanceRequestd request;
   request.distance_tolerance = 1e-12;
+  const auto pose = [](const Body& body) {
+    return body.is_piece ? body.solid->X_PT : body.X_PS;
+  };
   for (std::size_t i = a.bodies_begin; i < a.bodies_end; ++i) {
     for (std::size_t j = b.bodies_begin; j < b.bodies_end; ++j) {
+      if (!shapes_->of_body[i] || !shapes_->of_body[j]) continue;
       fcl::DistanceResultd result;
       try {
         const double distance = fcl::distance<double>(
-            shapes_->of_body[i].get(), X_WA * bodies_.bodies[i].X_PS, shapes_->of_body[j].get(),
-            X_WB * bodies_.bodies[j].X_PS, request, result);
+            shapes_->of_body[i].get(), X_WA * pose(bodies_.bodies[i]), shapes_->of_body[j].get(),
+            X_WB * pose(bodies_.bodies[j]), request, result);
         smallest = std::min(smallest, distance);
       } catch (const std::exception&) {
         smallest = std::min(smallest, 0.0);

@@ -1,0 +1,105 @@
+#include "core/collision/part_distance.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace armloom {
+namespace {
+
+constexpr double kFound = -std::numeric_limits<double>::max();  // no limit is closer
+
+// The bodies of one part, group after group: those that stand for one solid stand together.
+class Groups {
+ public:
+  Groups(const std::vector<Body>& bodies, const PlacedPart& part)
+      : bodies_(bodies), part_(part), begin_(part.part.bodies_begin) {
+    find_end();
+  }
+  [[nodiscard]] bool ended() const { return begin_ == part_.part.bodies_end; }
+  void next() {
+    begin_ = end_;
+    find_end();
+  }
+  [[nodiscard]] std::size_t begin() const { return begin_; }
+  [[nodiscard]] std::size_t end() const { return end_; }
+  [[nodiscard]] const Solid& solid() const { return *bodies_[begin_].solid; }
+  [[nodiscard]] Eigen::Isometry3d X_WT() const { return part_.X_WP * solid().X_PT; }
+  [[nodiscard]] bool are_pieces() const { return bodies_[begin_].is_piece; }
+
+  [[nodiscard]] const PlacedBody& placed(std::size_t body, PlacedBody& own) const {
+    if (part_.placed != nullptr) return part_.placed[body];
+    place(bodies_[body], part_.X_WP, own);
+    return own;
+  }
+
+ private:
+  void find_end() {
+    end_ = begin_;
+    while (end_ < part_.part.bodies_end && bodies_[end_].solid == bodies_[begin_].solid) ++end_;
+  }
+
+  const std::vector<Body>& bodies_;
+  const PlacedPart& part_;
+  std::size_t begin_;
+  std::size_t end_ = 0;
+};
+
+// Of the convex bodies; the first that is below the limit where pieces are among them.
+double bodies_distance(const std::vector<Body>& bodies, const Groups& a, const Groups& b,
+                       double limit_m) {
+  double smallest = limit_m;
+  PlacedBody own_a;
+  PlacedBody own_b;
+  for (std::size_t i = a.begin(); i < a.end(); ++i) {
+    const PlacedBody& at_a = a.placed(i, own_a);
+    for (std::size_t j = b.begin(); j < b.end(); ++j) {
+      smallest = distance_below(bodies[i], at_a, bodies[j], b.placed(j, own_b), smallest);
+      if (smallest < limit_m && (a.are_pieces() || b.are_pieces())) return smallest;
+    }
+  }
+  return smallest;
+}
+
+// `of_solids`(a, X_WA, b, X_WB, limit): what is to be known of two solids.
+template <class OfSolids>
+double smallest_distance(const std::vector<Body>& bodies, const PlacedPart& a, const PlacedPart& b,
+                         double limit_m, const OfSolids& of_solids) {
+  double smallest = limit_m;
+  for (Groups of_a(bodies, a); !of_a.ended(); of_a.next()) {
+    for (Groups of_b(bodies, b); !of_b.ended(); of_b.next()) {
+      const double distance_m = bodies_distance(bodies, of_a, of_b, smallest);
+      if (distance_m >= smallest) continue;
+      const bool surfaces = of_a.are_pieces() || of_b.are_pieces();
+      smallest = surfaces ? of_solids(of_a.solid(), of_a.X_WT(), of_b.solid(), of_b.X_WT(), smallest)
+                          : distance_m;
+    }
+  }
+  return smallest;
+}
+
+}  // namespace
+
+double part_distance(const std::vector<Body>& bodies, const PlacedPart& a, const PlacedPart& b,
+                     double limit_m) {
+  return smallest_distance(bodies, a, b, limit_m, solid_distance);
+}
+
+double part_distance(const PlanningScene::Bodies& bodies, std::size_t part_a,
+                     const Eigen::Isometry3d& X_WA, std::size_t part_b,
+                     const Eigen::Isometry3d& X_WB, double limit_m) {
+  return part_distance(bodies.bodies, {bodies.parts[part_a], X_WA}, {bodies.parts[part_b], X_WB},
+                       limit_m);
+}
+
+bool parts_closer_than(const PlanningScene::Bodies& bodies, std::size_t part_a,
+                       const Eigen::Isometry3d& X_WA, std::size_t part_b,
+                       const Eigen::Isometry3d& X_WB, double limit_m) {
+  const auto found = [](const Solid& a, const Eigen::Isometry3d& X_A, const Solid& b,
+                        const Eigen::Isometry3d& X_B, double within_m) {
+    return closer_than(a, X_A, b, X_B, within_m) ? kFound : within_m;
+  };
+  return smallest_distance(bodies.bodies, {bodies.parts[part_a], X_WA},
+                           {bodies.parts[part_b], X_WB}, limit_m, found) < limit_m;
+}
+
+}  // namespace armloom

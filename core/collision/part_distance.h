@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/collision/scene_bodies.h"
+
+namespace armloom {
+
+// A part somewhere in the world.
+struct PlacedPart {
+  const Part& part;
+  Eigen::Isometry3d X_WP;
+  // By body of the scene, those of the part filled (place()); null: they are placed when needed.
+  const PlacedBody* placed = nullptr;
+};
+
+// The distance of two parts, exact where it is below `limit_m`, else at least limit_m; zero or
+// negative in contact. Convex bodies answer first (capsules, then GJK); what pieces of a closed
+// mesh call closer is decided by its surface (solid.h). Never larger than the true distance.
+[[nodiscard]] double part_distance(const std::vector<Body>& bodies, const PlacedPart& a,
+                                   const PlacedPart& b, double limit_m);
+[[nodiscard]] double part_distance(const PlanningScene::Bodies& bodies, std::size_t part_a,
+                                   const Eigen::Isometry3d& X_WA, std::size_t part_b,
+                                   const Eigen::Isometry3d& X_WB, double limit_m);
+
+// Whether part_distance() is below limit_m, found out sooner.
+[[nodiscard]] bool parts_closer_than(const PlanningScene::Bodies& bodies, std::size_t part_a,
+                                     const Eigen::Isometry3d& X_WA, std::size_t part_b,
+                                     const Eigen::Isometry3d& X_WB, double limit_m);
+
+}  // namespace armloom

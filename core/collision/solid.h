@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+
+#include "core/model/surface_tree.h"
+
+namespace armloom {
+
+// What a body really is, as a surface: all points within radius_m of the tree's triangles, and all
+// that they enclose (encloses()). A closed mesh is its triangles as the file has them; a box or the
+// hull of an open mesh its faces; a cylinder a prism around it (kPrismExcess_m); a capsule or
+// sphere its axis, a triangle without area, with its radius.
+struct Solid {
+  SurfaceTreePtr tree;
+  Eigen::Isometry3d X_PT = Eigen::Isometry3d::Identity();  // of the tree's frame, in the part's P
+  double radius_m = 0.0;
+};
+using SolidPtr = std::shared_ptr<const Solid>;
+
+// min(distance, limit_m) of two solids whose trees stand at X_WA and X_WB; zero where they
+// touch, overlap or one is inside of the other. Never larger than the true distance (each pair
+// of triangles is proven apart, triangle_distance.h; the rounding of the tree's boxes is taken
+// off); measured less than 1e-9 m below it. What lies farther than limit_m is passed over: cheap
+// when limit_m is small. Throws nothing, allocates nothing; any thread.
+[[nodiscard]] double solid_distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+                                    const Eigen::Isometry3d& X_WB, double limit_m);
+
+// Whether they are closer than limit_m, which is found out sooner than how close.
+[[nodiscard]] bool closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+                               const Eigen::Isometry3d& X_WB, double limit_m);
+
+// How far a point is from the surface, inside or outside (no radius).
+[[nodiscard]] double distance_to_surface(const SurfaceTree& tree, const Eigen::Vector3d& p_T);
+
+}  // namespace armloom

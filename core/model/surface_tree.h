@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace armloom {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+// Every edge borders an even number of triangles: the surface has no rim.
+[[nodiscard]] bool is_closed(const std::vector<Triangle>& triangles);
+
+// The triangles of a surface in a tree of boxes, for distances that ask few of them. Everything is
+// in the frame T of the vertices, in metres. About 90 bytes a triangle. Immutable.
+struct SurfaceTree {
+  // A box along the axes of T around all triangles below it.
+  struct Node {
+    std::array<float, 3> center;
+    std::array<float, 3> half;  // rounded up, so that the box holds its triangles
+    std::uint32_t first;        // the first of two children that stand together; of a leaf: triangle
+    bool leaf;
+  };
+  // Triangles that hang together by common corners. Of a closed surface each component is closed.
+  struct Component {
+    std::uint32_t vertex;  // one of its corners
+    // Each edge is passed as often one way as the other: the triangles are of one mind about where
+    // outside is (either side), so that a winding number is defined.
+    bool oriented;
+  };
+
+  std::vector<Node> nodes;  // the root first
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Triangle> triangles;          // in the order of the leaves
+  std::vector<std::uint32_t> component_of;  // by triangle
+  std::vector<Component> components;
+  double reach_m = 0.0;   // of the farthest vertex from the origin of T
+  bool encloses = false;  // is_closed(), and enough triangles to hold a volume
+
+  [[nodiscard]] std::array<Eigen::Vector3d, 3> corners(std::uint32_t triangle) const {
+    const Triangle& t = triangles[triangle];
+    return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+  }
+};
+using SurfaceTreePtr = std::shared_ptr<const SurfaceTree>;
+
+// Halved at the median along the longest side until a leaf is one triangle. Degenerate triangles
+// (a point, a segment) are as good as others. Deterministic; half a second for half a million
+// triangles. Precondition: at least one triangle, all numbers finite.
+[[nodiscard]] SurfaceTreePtr make_surface_tree(std::vector<Eigen::Vector3d> vertices,
+                                               std::vector<Triangle> triangles);
+
+}  // namespace armloom

@@ -1,0 +1,75 @@
+// Decided states of two meshed arms. Compiles against any earlier engine as well, for before and
+// after: names are "decided_<question>/<cell>/<states>".
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <string>
+
+#include "core/collision/collision_checker.h"
+#include "core/collision/state_check.h"
+#include "test/bench/mesh_cells.h"
+
+namespace armloom::bench {
+namespace {
+
+constexpr std::size_t kStates = 2048;
+
+// One iteration: one state; eight are decided at once.
+void decided(benchmark::State& run, const PlanningScenePtr& scene,
+             const std::vector<Configuration>& states, const StateCheck::Limits& limits) {
+  StateCheck check(scene, limits);
+  std::vector<const Configuration*> eight(filter::kLanes);
+  std::size_t next = 0;
+  double close = 0.0;
+  double asked = 0.0;
+  while (run.KeepRunningBatch(filter::kLanes)) {
+    for (const Configuration*& q : eight) q = &states[next++ % states.size()];
+    close += __builtin_popcount(check.too_close(eight));
+    asked += filter::kLanes;
+  }
+  run.counters["not_clear_percent"] = 100.0 * close / asked;
+}
+
+// What the monitor's figures cost: the closest pair of different arms below a horizon.
+void closest(benchmark::State& run, const PlanningScenePtr& scene,
+             const std::vector<Configuration>& states, double horizon_m) {
+  CollisionChecker checker(scene);
+  std::size_t next = 0;
+  for (auto _ : run) {
+    benchmark::DoNotOptimize(
+        checker.closest_between_arms(states[next++ % states.size()], horizon_m));
+  }
+}
+
+void register_cell(const std::string& name, const CellPtr& cell) {
+  if (!cell) {
+    std::fprintf(stderr, "%s: its files are not here, left out\n", name.c_str());
+    return;
+  }
+  const PlanningScenePtr scene = PlanningScene::build(cell).value();
+  for (const bool near : {false, true}) {
+    const auto states = random_states(*cell, kStates, near);
+    const std::string row = "/" + name + (near ? "/near" : "/anywhere");
+    benchmark::RegisterBenchmark(("decided_contact" + row).c_str(), [=](auto& run) {
+      decided(run, scene, states, {0.0, 0.0});
+    });
+    benchmark::RegisterBenchmark(("decided_clearance" + row).c_str(), [=](auto& run) {
+      decided(run, scene, states, {cell->clearance_m, cell->self_clearance_m});
+    });
+    benchmark::RegisterBenchmark(("closest_below_0.1m" + row).c_str(),
+                                 [=](auto& run) { closest(run, scene, states, 0.1); });
+    benchmark::RegisterBenchmark(("closest_below_1m" + row).c_str(),
+                                 [=](auto& run) { closest(run, scene, states, 1.0); });
+  }
+}
+
+}  // namespace
+}  // namespace armloom::bench
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  armloom::bench::register_cell("two_fanucs", armloom::bench::two_fanucs());
+  armloom::bench::register_cell("two_channel_arms", armloom::bench::two_channel_arms());
+  benchmark::RunSpecifiedBenchmarks();
+}
