@@ -70,8 +70,9 @@ double smallest_distance(const std::vector<Body>& bodies, const PlacedPart& a, c
       const double distance_m = bodies_distance(bodies, of_a, of_b, smallest);
       if (distance_m >= smallest) continue;
       const bool surfaces = of_a.are_pieces() || of_b.are_pieces();
-      smallest = surfaces ? of_solids(of_a.solid(), of_a.X_WT(), of_b.solid(), of_b.X_WT(), smallest)
-                          : distance_m;
+      smallest = surfaces
+                     ? of_solids(of_a.solid(), of_a.X_WT(), of_b.solid(), of_b.X_WT(), smallest)
+                     : distance_m;
     }
   }
   return smallest;

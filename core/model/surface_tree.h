@@ -21,7 +21,7 @@ struct SurfaceTree {
   struct Node {
     std::array<float, 3> center;
     std::array<float, 3> half;  // rounded up, so that the box holds its triangles
-    std::uint32_t first;        // the first of two children that stand together; of a leaf: triangle
+    std::uint32_t first;  // the first of two children that stand together; of a leaf: triangle
     bool leaf;
   };
   // Triangles that hang together by common corners. Of a closed surface each component is closed.
