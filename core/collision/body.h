@@ -31,8 +31,8 @@ struct Body {
   Eigen::Vector3d p_SE_P = Eigen::Vector3d::Zero();       // from the centre to the axis' upper end
   std::shared_ptr<const HullShape> hull;                  // hulls only
   std::shared_ptr<const ExactGeometry> exact;
-  SolidPtr solid;             // what it stands for; pieces of one mesh have the same
-  bool is_piece = false;      // of a closed mesh: the solid is less than the body
+  SolidPtr solid;         // what it stands for; pieces of one mesh have the same
+  bool is_piece = false;  // of a closed mesh: the solid is less than the body
 
   // Of the bounding sphere about the origin of S.
   [[nodiscard]] double bounding_radius_m() const { return half_length_m + radius_m; }
@@ -41,7 +41,8 @@ struct Body {
 // The bodies of a link or object. A cylinder with a sphere of its radius centred at both ends
 // (within kMergeTolerance_m) becomes one capsule that contains all three; the spheres are dropped,
 // also when two cylinders share one. A mesh becomes its convex pieces, or its hull when it has
-// none; where it is closed they stand for its surface. Everything else stays as it is. Precondition: meshes hold their data.
+// none; where it is closed they stand for its surface. Everything else stays as it is.
+// Precondition: meshes hold their data.
 inline constexpr double kMergeTolerance_m = 1e-6;
 [[nodiscard]] std::vector<Body> make_bodies(const std::vector<PlacedShape>& shapes);
 

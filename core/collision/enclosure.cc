@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace armloom {
 namespace {
@@ -79,6 +80,7 @@ bool may_meet(const SurfaceTree::Node& box, const Vector3d& p, const Vector3d& i
 
 struct Crossing {
   std::uint32_t component;
+  std::uint32_t triangle;
   int turn;
 };
 
@@ -113,7 +115,7 @@ Crossings cross(const SurfaceTree& tree, const Vector3d& p, const Vector3d& n) {
       crossings.doubtful = true;
       return crossings;
     }
-    crossings.all[crossings.count++] = {tree.component_of[node.first],
+    crossings.all[crossings.count++] = {tree.component_of[node.first], node.first,
                                         hit == Hit::from_behind ? 1 : -1};
   }
   return crossings;
@@ -123,9 +125,14 @@ enum class Answer { outside, enclosed, open };
 
 // What a clear ray says: it is open where it crosses components that are not of one mind.
 Answer answer_of(const SurfaceTree& tree, Crossings& crossings) {
-  const auto end = crossings.all.begin() + static_cast<std::ptrdiff_t>(crossings.count);
-  std::sort(crossings.all.begin(), end,
-            [](const Crossing& a, const Crossing& b) { return a.component < b.component; });
+  const auto begin = crossings.all.begin();
+  const auto place = [](const Crossing& c) { return std::pair(c.component, c.triangle); };
+  std::sort(begin, begin + static_cast<std::ptrdiff_t>(crossings.count),
+            [&](const Crossing& a, const Crossing& b) { return place(a) < place(b); });
+  // Several leaves may have the triangle.
+  const auto end =
+      std::unique(begin, begin + static_cast<std::ptrdiff_t>(crossings.count),
+                  [](const Crossing& a, const Crossing& b) { return a.triangle == b.triangle; });
   Answer answer = Answer::outside;
   for (auto at = crossings.all.begin(); at != end;) {
     const std::uint32_t component = at->component;

@@ -44,9 +44,11 @@ class Groups {
   std::size_t end_ = 0;
 };
 
-// Of the convex bodies; the first that is below the limit where pieces are among them.
+// Of the convex bodies; where pieces are among them, the first that is close enough to ask their
+// surface.
 double bodies_distance(const std::vector<Body>& bodies, const Groups& a, const Groups& b,
                        double limit_m) {
+  const bool pieces = a.are_pieces() || b.are_pieces();
   double smallest = limit_m;
   PlacedBody own_a;
   PlacedBody own_b;
@@ -54,7 +56,7 @@ double bodies_distance(const std::vector<Body>& bodies, const Groups& a, const G
     const PlacedBody& at_a = a.placed(i, own_a);
     for (std::size_t j = b.begin(); j < b.end(); ++j) {
       smallest = distance_below(bodies[i], at_a, bodies[j], b.placed(j, own_b), smallest);
-      if (smallest < limit_m && (a.are_pieces() || b.are_pieces())) return smallest;
+      if (pieces && smallest < std::min(limit_m, kSurfaceWithin_m)) return smallest;
     }
   }
   return smallest;
@@ -69,9 +71,13 @@ double smallest_distance(const std::vector<Body>& bodies, const PlacedPart& a, c
     for (Groups of_b(bodies, b); !of_b.ended(); of_b.next()) {
       const double distance_m = bodies_distance(bodies, of_a, of_b, smallest);
       if (distance_m >= smallest) continue;
-      const bool surfaces = of_a.are_pieces() || of_b.are_pieces();
-      smallest = surfaces ? of_solids(of_a.solid(), of_a.X_WT(), of_b.solid(), of_b.X_WT(), smallest)
-                          : distance_m;
+      const bool pieces = of_a.are_pieces() || of_b.are_pieces();
+      if (!pieces || distance_m >= kSurfaceWithin_m) {
+        smallest = distance_m;
+        continue;
+      }
+      const double within_m = std::min(smallest, kSurfaceWithin_m);
+      smallest = of_solids(of_a.solid(), of_a.X_WT(), of_b.solid(), of_b.X_WT(), within_m);
     }
   }
   return smallest;

@@ -15,9 +15,14 @@ struct PlacedPart {
   const PlacedBody* placed = nullptr;
 };
 
-// The distance of two parts, exact where it is below `limit_m`, else at least limit_m; zero or
-// negative in contact. Convex bodies answer first (capsules, then GJK); what pieces of a closed
-// mesh call closer is decided by its surface (solid.h). Never larger than the true distance.
+// Surfaces are asked no farther than this: beyond it the distance of pieces, or this one where that
+// is smaller, is near enough, and a surface's would cost milliseconds.
+inline constexpr double kSurfaceWithin_m = 0.05;
+
+// The distance of two parts where it is below `limit_m`, else at least limit_m; zero or negative in
+// contact. Convex bodies answer first (capsules, then GJK); what pieces of a closed mesh call
+// closer is decided by its surface (solid.h). Never larger than the true distance; exact but for
+// pieces of meshes that are farther apart than kSurfaceWithin_m.
 [[nodiscard]] double part_distance(const std::vector<Body>& bodies, const PlacedPart& a,
                                    const PlacedPart& b, double limit_m);
 [[nodiscard]] double part_distance(const PlanningScene::Bodies& bodies, std::size_t part_a,

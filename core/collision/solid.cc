@@ -41,7 +41,7 @@ class Descent {
     const Node& a = a_.nodes.front();
     const Node& b = b_.nodes.front();
     const double limit_m = best_m_;
-    roots_m_ = gap(a, b);
+    roots_m_ = gap(a, b).least_m;
     if (roots_m_ < best_m_) visit(a, b);
     return best_m_ < limit_m ? std::optional(best_m_) : std::nullopt;
   }
@@ -49,16 +49,25 @@ class Descent {
   [[nodiscard]] bool boxes_apart() const { return roots_m_ > 0.0; }
 
  private:
+  struct Gap {
+    double least_m;  // no distance is below it
+    double order;    // what to look at first: of boxes that overlap, those that do so deeply
+  };
+
   // At most the distance of what is in the boxes: that of B's box from the box along A's axes that
   // holds A's, and the other way around.
-  [[nodiscard]] double gap(const Node& a, const Node& b) const {
+  [[nodiscard]] Gap gap(const Node& a, const Node& b) const {
     const Vector3d half_a = vector_of(a.half);
     const Vector3d half_b = vector_of(b.half);
     const Vector3d apart = R_ * vector_of(b.center) + p_ - vector_of(a.center);
-    const Vector3d in_a = (apart.cwiseAbs() - half_a - width_ * half_b).cwiseMax(0.0);
+    const Vector3d in_a = apart.cwiseAbs() - half_a - width_ * half_b;
     const Vector3d in_b =
-        ((R_.transpose() * apart).cwiseAbs() - half_b - width_.transpose() * half_a).cwiseMax(0.0);
-    return std::sqrt(std::max(in_a.squaredNorm(), in_b.squaredNorm())) - rounding_m_;
+        (R_.transpose() * apart).cwiseAbs() - half_b - width_.transpose() * half_a;
+    const double across = std::max(in_a.maxCoeff(), in_b.maxCoeff());
+    if (across <= 0.0) return {-rounding_m_, across};
+    const double least_m =
+        std::sqrt(std::max(in_a.cwiseMax(0.0).squaredNorm(), in_b.cwiseMax(0.0).squaredNorm()));
+    return {least_m - rounding_m_, least_m};
   }
 
   void visit(const Node& a, const Node& b) {
@@ -68,11 +77,11 @@ class Descent {
     }
     const bool into_a = b.leaf || (!a.leaf && size(a) >= size(b));
     const Node* children = into_a ? &a_.nodes[a.first] : &b_.nodes[b.first];
-    const double gaps[] = {into_a ? gap(children[0], b) : gap(a, children[0]),
-                           into_a ? gap(children[1], b) : gap(a, children[1])};
-    const int nearer = gaps[1] < gaps[0] ? 1 : 0;
+    const Gap gaps[] = {into_a ? gap(children[0], b) : gap(a, children[0]),
+                        into_a ? gap(children[1], b) : gap(a, children[1])};
+    const int nearer = gaps[1].order < gaps[0].order ? 1 : 0;
     for (const int child : {nearer, 1 - nearer}) {
-      if (gaps[child] >= best_m_ || best_m_ < enough_m_) continue;
+      if (gaps[child].least_m >= best_m_ || best_m_ < enough_m_) continue;
       into_a ? visit(children[child], b) : visit(a, children[child]);
     }
   }
@@ -113,11 +122,24 @@ bool lies_inside(const SurfaceTree& inner, const SurfaceTree& outer,
   });
 }
 
+// Whether balls of both come closer than enough_m, or overlap.
+bool balls_meet(const Solid& a, const Solid& b, const Eigen::Isometry3d& X_AB, double enough_m) {
+  for (const Solid::InnerBall& ball_b : b.inner) {
+    const Vector3d p_A = X_AB * ball_b.p_T;
+    for (const Solid::InnerBall& ball_a : a.inner) {
+      const double reach_m = ball_a.radius_m + ball_b.radius_m + enough_m;
+      if ((ball_a.p_T - p_A).squaredNorm() < reach_m * reach_m) return true;
+    }
+  }
+  return false;
+}
+
 double distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
                 const Eigen::Isometry3d& X_WB, double limit_m, double enough_m) {
   const double radii_m = a.radius_m + b.radius_m;
   if (limit_m + radii_m <= 0.0) return limit_m;
   const Eigen::Isometry3d X_AB = X_WA.inverse(Eigen::Isometry) * X_WB;
+  if (balls_meet(a, b, X_AB, enough_m)) return std::min(limit_m, 0.0);
   Descent descent(*a.tree, *b.tree, X_AB, limit_m + radii_m, enough_m + radii_m);
   const std::optional<double> closest_m = descent.run();
   const double found_m = closest_m ? std::min(*closest_m - radii_m, limit_m) : limit_m;
@@ -140,13 +162,34 @@ bool closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
   return distance(a, X_WA, b, X_WB, limit_m, limit_m) < limit_m;
 }
 
+std::vector<Solid::InnerBall> inner_balls(const SurfaceTree& tree) {
+  constexpr int kAlong = 8;  // points tried along each side of the box around the surface
+  std::vector<Solid::InnerBall> tried;
+  const Node& box = tree.nodes.front();
+  for (int i = 0; tree.encloses && i < kAlong * kAlong * kAlong; ++i) {
+    const Vector3d at(i % kAlong, i / kAlong % kAlong, i / kAlong / kAlong);
+    const Vector3d p =
+        vector_of(box.center) +
+        ((2.0 * at.array() + 1.0) / kAlong - 1.0).matrix().cwiseProduct(vector_of(box.half));
+    if (may_enclose(tree, p)) tried.push_back({p, distance_to_surface(tree, p)});
+  }
+  std::stable_sort(tried.begin(), tried.end(),
+                   [](const auto& a, const auto& b) { return a.radius_m > b.radius_m; });
+  std::vector<Solid::InnerBall> chosen;
+  for (const Solid::InnerBall& ball : tried) {
+    const bool covered = std::ranges::any_of(chosen, [&](const Solid::InnerBall& other) {
+      return (other.p_T - ball.p_T).norm() < 0.7 * other.radius_m;
+    });
+    if (!covered && chosen.size() < kInnerBalls) chosen.push_back(ball);
+  }
+  return chosen;
+}
+
 double distance_to_surface(const SurfaceTree& tree, const Eigen::Vector3d& p_T) {
   static const SurfaceTreePtr kPoint = make_surface_tree({Vector3d::Zero()}, {{0, 0, 0}});
   Eigen::Isometry3d X_TP = Eigen::Isometry3d::Identity();
   X_TP.translation() = p_T;
-  return Descent(tree, *kPoint, X_TP, std::numeric_limits<double>::infinity(), 0.0)
-      .run()
-      .value();
+  return Descent(tree, *kPoint, X_TP, std::numeric_limits<double>::infinity(), 0.0).run().value();
 }
 
 }  // namespace armloom

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <vector>
 
 #include "core/model/surface_tree.h"
 
@@ -15,6 +16,13 @@ struct Solid {
   SurfaceTreePtr tree;
   Eigen::Isometry3d X_PT = Eigen::Isometry3d::Identity();  // of the tree's frame, in the part's P
   double radius_m = 0.0;
+  // Balls that lie in the solid, in the tree's frame: where those of two solids overlap, these do,
+  // and no triangle is asked. May be none.
+  struct InnerBall {
+    Eigen::Vector3d p_T;
+    double radius_m;
+  };
+  std::vector<InnerBall> inner = {};
 };
 using SolidPtr = std::shared_ptr<const Solid>;
 
@@ -29,6 +37,10 @@ using SolidPtr = std::shared_ptr<const Solid>;
 // Whether they are closer than limit_m, which is found out sooner than how close.
 [[nodiscard]] bool closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
                                const Eigen::Isometry3d& X_WB, double limit_m);
+
+// Large ones, at most kInnerBalls; a millisecond.
+inline constexpr std::size_t kInnerBalls = 16;
+[[nodiscard]] std::vector<Solid::InnerBall> inner_balls(const SurfaceTree& tree);
 
 // How far a point is from the surface, inside or outside (no radius).
 [[nodiscard]] double distance_to_surface(const SurfaceTree& tree, const Eigen::Vector3d& p_T);

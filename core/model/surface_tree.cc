@@ -19,43 +19,91 @@ float rounded_up(double x) {
   return std::nextafter(near, std::numeric_limits<float>::infinity());
 }
 
+// A triangle, or the share of one that lies in a box: a long triangle would need a box that is
+// mostly empty.
+struct Share {
+  std::uint32_t triangle;
+  Eigen::AlignedBox3d box;
+};
+
+constexpr double kShare = 1.0 / 16.0;  // of the surface's extent: larger triangles are shared out
+constexpr double kRounding = 1e-12;    // of the same: shares are larger by that than they are
+
 class Builder {
  public:
-  explicit Builder(SurfaceTree& tree) : tree_(tree), order_(tree.triangles.size()) {
-    std::iota(order_.begin(), order_.end(), std::uint32_t{0});
-    for (std::uint32_t t = 0; t < order_.size(); ++t) {
-      const auto [a, b, c] = tree.corners(t);
-      middles_.emplace_back((a + b + c) / 3.0);
+  explicit Builder(SurfaceTree& tree) : tree_(tree) {
+    Eigen::AlignedBox3d all;
+    for (const Eigen::Vector3d& p : tree.vertices) all.extend(p);
+    const double extent_m = all.sizes().maxCoeff();
+    largest_m_ = kShare * extent_m;
+    rounding_m_ = kRounding * (extent_m + all.center().norm());
+    for (std::uint32_t t = 0; t < tree.triangles.size(); ++t) {
+      const auto corners = tree.corners(t);
+      share_out(t, {corners.begin(), corners.end()});
     }
   }
 
   void build() {
-    tree_.nodes.reserve(2 * order_.size() - 1);
+    tree_.nodes.reserve(2 * shares_.size() - 1);
     tree_.nodes.emplace_back();
-    split(0, 0, order_.size());
-    std::vector<Triangle> sorted;
-    sorted.reserve(order_.size());
-    for (const std::uint32_t t : order_) sorted.push_back(tree_.triangles[t]);
-    tree_.triangles = std::move(sorted);
+    split(0, 0, shares_.size());
   }
 
  private:
-  // Its depth is the logarithm of the number of triangles.
+  // Halves the polygon until it is small, or fills its box anyway.
+  void share_out(std::uint32_t triangle, const std::vector<Eigen::Vector3d>& polygon) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& p : polygon) box.extend(p);
+    Eigen::Index axis = 0;
+    const Eigen::Vector3d sizes = box.sizes();
+    const double longest_m = sizes.maxCoeff(&axis);
+    const double across_m = sizes.sum() - longest_m;
+    if (longest_m <= largest_m_ || across_m <= 1e-3 * longest_m || polygon.size() < 3) {
+      box.extend(box.min() - Eigen::Vector3d::Constant(rounding_m_));
+      box.extend(box.max() + Eigen::Vector3d::Constant(rounding_m_));
+      shares_.push_back({triangle, box});
+      return;
+    }
+    for (const double side : {-1.0, 1.0}) {
+      const auto part = clipped(polygon, axis, box.center()[axis], side);
+      if (!part.empty()) share_out(triangle, part);
+    }
+  }
+
+  static std::vector<Eigen::Vector3d> clipped(const std::vector<Eigen::Vector3d>& polygon,
+                                              Eigen::Index axis, double at, double side) {
+    std::vector<Eigen::Vector3d> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Eigen::Vector3d& p = polygon[i];
+      const Eigen::Vector3d& next = polygon[(i + 1) % polygon.size()];
+      const double d = side * (p[axis] - at);
+      const double d_next = side * (next[axis] - at);
+      if (d >= 0.0) kept.push_back(p);
+      if ((d > 0.0 && d_next < 0.0) || (d < 0.0 && d_next > 0.0)) {
+        kept.emplace_back(p + d / (d - d_next) * (next - p));
+        kept.back()[axis] = at;
+      }
+    }
+    return kept;
+  }
+
+  // Its depth is the logarithm of the number of shares.
   void split(std::uint32_t node, std::size_t begin, std::size_t end) {
     bound(tree_.nodes[node], begin, end);
     if (end - begin == 1) {
       tree_.nodes[node].leaf = true;
-      tree_.nodes[node].first = static_cast<std::uint32_t>(begin);
+      tree_.nodes[node].first = shares_[begin].triangle;
       return;
     }
     Eigen::AlignedBox3d middles;
-    for (std::size_t i = begin; i < end; ++i) middles.extend(middles_[order_[i]]);
+    for (std::size_t i = begin; i < end; ++i) middles.extend(shares_[i].box.center());
     Eigen::Index axis = 0;
     middles.sizes().maxCoeff(&axis);
     const std::size_t half = begin + (end - begin) / 2;
-    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(half), at(end), [&](std::uint32_t s, std::uint32_t t) {
-      return std::pair(middles_[s][axis], s) < std::pair(middles_[t][axis], t);
+    const auto at = [&](std::size_t i) { return shares_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(begin), at(half), at(end), [&](const Share& s, const Share& t) {
+      return std::pair(s.box.center()[axis], s.triangle) <
+             std::pair(t.box.center()[axis], t.triangle);
     });
     const auto first = static_cast<std::uint32_t>(tree_.nodes.size());
     tree_.nodes[node].leaf = false;
@@ -67,9 +115,7 @@ class Builder {
 
   void bound(SurfaceTree::Node& node, std::size_t begin, std::size_t end) const {
     Eigen::AlignedBox3d box;
-    for (std::size_t i = begin; i < end; ++i) {
-      for (const Eigen::Vector3d& p : tree_.corners(order_[i])) box.extend(p);
-    }
+    for (std::size_t i = begin; i < end; ++i) box.extend(shares_[i].box);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
       node.center[k] = static_cast<float>(box.center()[axis]);
@@ -79,8 +125,9 @@ class Builder {
   }
 
   SurfaceTree& tree_;
-  std::vector<std::uint32_t> order_;
-  std::vector<Eigen::Vector3d> middles_;
+  std::vector<Share> shares_;
+  double largest_m_;
+  double rounding_m_;
 };
 
 std::uint32_t root_of(std::vector<std::uint32_t>& above, std::uint32_t i) {

@@ -15,13 +15,14 @@ using Triangle = std::array<std::uint32_t, 3>;
 [[nodiscard]] bool is_closed(const std::vector<Triangle>& triangles);
 
 // The triangles of a surface in a tree of boxes, for distances that ask few of them. Everything is
-// in the frame T of the vertices, in metres. About 90 bytes a triangle. Immutable.
+// in the frame T of the vertices, in metres. Some 100 bytes a triangle, more where they are long.
+// Immutable.
 struct SurfaceTree {
-  // A box along the axes of T around all triangles below it.
+  // A box along the axes of T around all triangles below it, or shares of them.
   struct Node {
     std::array<float, 3> center;
     std::array<float, 3> half;  // rounded up, so that the box holds its triangles
-    std::uint32_t first;        // the first of two children that stand together; of a leaf: triangle
+    std::uint32_t first;  // the first of two children that stand together; of a leaf: its triangle
     bool leaf;
   };
   // Triangles that hang together by common corners. Of a closed surface each component is closed.
@@ -34,7 +35,7 @@ struct SurfaceTree {
 
   std::vector<Node> nodes;  // the root first
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<Triangle> triangles;          // in the order of the leaves
+  std::vector<Triangle> triangles;
   std::vector<std::uint32_t> component_of;  // by triangle
   std::vector<Component> components;
   double reach_m = 0.0;   // of the farthest vertex from the origin of T
@@ -47,8 +48,9 @@ struct SurfaceTree {
 };
 using SurfaceTreePtr = std::shared_ptr<const SurfaceTree>;
 
-// Halved at the median along the longest side until a leaf is one triangle. Degenerate triangles
-// (a point, a segment) are as good as others. Deterministic; half a second for half a million
+// Long triangles are shared out among several leaves first, each with a box around its share.
+// Halved at the median along the longest side until a leaf is one share. Degenerate triangles (a
+// point, a segment) are as good as others. Deterministic; half a second for half a million
 // triangles. Precondition: at least one triangle, all numbers finite.
 [[nodiscard]] SurfaceTreePtr make_surface_tree(std::vector<Eigen::Vector3d> vertices,
                                                std::vector<Triangle> triangles);

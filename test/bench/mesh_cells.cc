@@ -26,7 +26,7 @@ constexpr int kLinks = 6;
 
 // A U from low to high x, open upwards, 0.1 m wide, walls of 0.02 m.
 small::Surface channel_along_x(double low, double high) {
-  constexpr double kOutline[8][2] = {{-.05, -.05}, {.05, -.05}, {.05, .05},  {.03, .05},
+  constexpr double kOutline[8][2] = {{-.05, -.05}, {.05, -.05},  {.05, .05},  {.03, .05},
                                      {.03, -.03},  {-.03, -.03}, {-.03, .05}, {-.05, .05}};
   small::Surface surface;
   for (int s = 0; s <= kSegments; ++s) {

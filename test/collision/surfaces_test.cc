@@ -1,4 +1,5 @@
-// Concave closed meshes in whole checks: what convex pieces call too close is decided by the surface.
+// Concave closed meshes in whole checks: what convex pieces call too close is decided by the
+// surface.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -151,8 +152,8 @@ TEST(Surface, OfAnOpenMeshIsNotTrusted) {
 
 TEST(Surface, FindsAnArmInsideOfTheBody) {
   InNotch passes(0.012);
-  passes.cell.objects[0].shape = loaded(small::joined(
-      notch(0.05), small::box_surface({-0.3, -1.2, -0.3}, {0.3, -0.6, 0.3})));
+  passes.cell.objects[0].shape =
+      loaded(small::joined(notch(0.05), small::box_surface({-0.3, -1.2, -0.3}, {0.3, -0.6, 0.3})));
   passes.cell.objects[0].X_WO = small::at_xyz(0.1, 0.9, 0);
   const auto scene = PlanningScene::build(small::shared(passes.cell)).value();
   const auto inside = CollisionChecker(scene).first_closer_than(passes.q(0.0), 0.008, {true});

@@ -18,10 +18,11 @@ TEST(Surfaces, AreNeverSaidToBeFartherApartThanTheyAre) {
   const SurfaceReport report = check_surfaces(6'000, 51);
   EXPECT_EQ(report.too_far, 0U) << "by up to " << report.worst_m << " m";
   for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
-  std::printf("%zu pairs, %zu apart, %zu in contact (%zu inside), %zu opened, %zu false contacts, "
-              "shortfall %.3g m, to round shapes %.3g m\n",
-              report.pairs, report.apart, report.in_contact, report.inside, report.opened,
-              report.false_contacts, report.shortfall_m, report.round_shortfall_m);
+  std::printf(
+      "%zu pairs, %zu apart, %zu in contact (%zu inside), %zu opened, %zu false contacts, "
+      "shortfall %.3g m, to round shapes %.3g m\n",
+      report.pairs, report.apart, report.in_contact, report.inside, report.opened,
+      report.false_contacts, report.shortfall_m, report.round_shortfall_m);
   EXPECT_GE(report.apart, 1'000U);
   EXPECT_GE(report.in_contact, 1'000U);
   EXPECT_GE(report.inside, 50U);
@@ -68,7 +69,8 @@ TEST(Surfaces, AreCloserThanALimitWhenTheirDistanceIs) {
                   i % 2 == 0 ? 0.0 : 0.01};
     for (int k = 0; k < 20; ++k) {
       Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-      X.translation() = Eigen::Vector3d(between(random, -0.4, 0.4), between(random, -0.4, 0.4), 0.1);
+      X.translation() =
+          Eigen::Vector3d(between(random, -0.4, 0.4), between(random, -0.4, 0.4), 0.1);
       const double distance = solid_distance(a, Eigen::Isometry3d::Identity(), b, X, 10.0);
       for (const double limit : {1e-9, 0.02, 0.1}) {
         ASSERT_EQ(closer_than(a, Eigen::Isometry3d::Identity(), b, X, limit), distance < limit);
@@ -92,9 +94,9 @@ TEST(Triangles, AreNeverSaidToBeFartherApartThanTheyAre) {
   for (int i = 0; i < 20'000; ++i) {
     TrianglePoints a{corner(), corner(), corner()};
     TrianglePoints b{corner(), corner(), corner()};
-    if (i % 5 == 0) a[2] = a[1];                   // a segment
-    if (i % 7 == 0) b[2] = b[1] = b[0];            // a point
-    if (i % 11 == 0) a[2] = 0.5 * (a[0] + a[1]);   // no area
+    if (i % 5 == 0) a[2] = a[1];                  // a segment
+    if (i % 7 == 0) b[2] = b[1] = b[0];           // a point
+    if (i % 11 == 0) a[2] = 0.5 * (a[0] + a[1]);  // no area
     if (i % 3 == 0) {
       for (auto& p : b) p += Eigen::Vector3d(0, 0, 1.5);
     }
