@@ -52,6 +52,11 @@ int run(int argc, char** argv) {
       app.add_subcommand("validate", "say what a cell holds, or its faults");
   add_cell(*validate_command, validated_file);
 
+  bool markdown = false;
+  CLI::App* schema_command =
+      app.add_subcommand("schema", "print the JSON schema of cell files, as editors use it");
+  schema_command->add_flag("--markdown", markdown, "the reference for people instead");
+
   CheckOptions checking;
   CLI::App* check_command =
       app.add_subcommand("check", "judge jobs against each other without running them");
@@ -93,6 +98,7 @@ int run(int argc, char** argv) {
   }
   if (serve_command->parsed()) return serve(serving);
   if (validate_command->parsed()) return validate_cell(validated_file);
+  if (schema_command->parsed()) return print_cell_schema(markdown);
   if (check_command->parsed()) return check_jobs_file(checking);
   if (simulate_command->parsed()) return simulate_jobs(simulating);
   if (compare_command->parsed()) return compare_policies(comparing);

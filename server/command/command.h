@@ -31,6 +31,9 @@ int serve(const ServeOptions& options);
 
 int validate_cell(const std::string& cell_file);
 
+// What a cell file may hold: its JSON schema, or the reference for people (config/README.md).
+int print_cell_schema(bool markdown);
+
 // A Verdict as JSON for each job of the file, one a line.
 struct CheckOptions {
   std::string cell_file;
