@@ -162,7 +162,7 @@ PartPtr<ArmDescription> home_part() {
 
 FormatPtr<ArmDescription> arm_format() {
   return object<ArmDescription>({
-      required("name", &ArmDescription::name, name(), "Of the arm; unique in the cell."),
+      required("name", &ArmDescription::name, name(), "The arm's name; unique in the cell."),
       required("group", &ArmDescription::group, name(),
                "The group of the SRDF that the arm consists of: a chain, or joints."),
       home_part(),
@@ -186,7 +186,7 @@ FormatPtr<ControllerDescription> controller_format() {
 FormatPtr<RobotDescription> robot_format() {
   using Robot = RobotDescription;
   return object<Robot>({
-      required("name", &Robot::name, name(), "Of the robot; unique in the cell."),
+      required("name", &Robot::name, name(), "The robot's name; unique in the cell."),
       required("urdf", &Robot::urdf, path(), "The robot's URDF."),
       required("srdf", &Robot::srdf, path(),
                "The robot's SRDF: groups, named states, pairs of links that need no check."),
@@ -211,7 +211,7 @@ FormatPtr<RobotDescription> robot_format() {
 FormatPtr<ObjectDescription> make_object_format() {
   return object<ObjectDescription>({
       required("name", &ObjectDescription::name, name(),
-               "Of the object; unique in the cell, and no link's or robot's name."),
+               "The object's name; unique in the cell, and no link's or robot's name."),
       inlined(&ObjectDescription::shape, shape_part()),
       inlined(&ObjectDescription::X_WO, pose_part()),
   });
@@ -307,7 +307,7 @@ const Format<CellDescription>& cell_format() {
   static const FormatPtr<Description> format = object<Description>({
       ignored<Description>("$schema", path(),
                            "This schema: editors check and complete the file by it."),
-      required("name", &Description::name, name(), "Of the cell."),
+      required("name", &Description::name, name(), "The cell's name."),
       required("robots", &Description::robots, list(robot_format(), 1),
                "The robots with their arms."),
       field("objects", &Description::objects, list(make_object_format()),

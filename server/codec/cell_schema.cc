@@ -12,7 +12,7 @@ const Schema& cell_schema() {
                  {"description",
                   "The robots of a cell, their arms, the scene and the settings. JSON, in which // "
                   "and /* */ comments are allowed."}};
-    for (auto& [key, value] : cell_format().schema().items()) whole[key] = value;
+    whole.update(cell_format().schema());
     return whole;
   }();
   return schema;

@@ -51,6 +51,16 @@ struct MemberText {
 void describe_member(Schema& object, const MemberText& member, Schema schema,
                      const std::optional<Schema>& fallback);
 
+// A value to read into; Eigen leaves its own as they come.
+template <class M>
+[[nodiscard]] M fresh() {
+  if constexpr (requires { M::Zero(); }) {
+    return M::Zero();
+  } else {
+    return M{};
+  }
+}
+
 // One member of the object. Get(const T&) gives the value, or an optional that is empty where the
 // member is absent; Put(T&, M) stores what was read.
 template <class T, class M>
@@ -67,7 +77,7 @@ class MemberPart final : public Part<T> {
   void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back(text_.key); }
   void read(const JsonNode& object, T& out) const override {
     const auto take = [&](const JsonNode& node) {
-      M value = get_(out).value_or(M{});
+      M value = get_(out).value_or(fresh<M>());
       format_->read(node, value);
       put_(out, std::move(value));
     };

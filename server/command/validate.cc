@@ -6,28 +6,11 @@
 #include <sstream>
 
 #include "core/audit/audit.h"
-#include "core/executive/executive.h"
 #include "core/executive/shape_report.h"
-#include "core/model/build_cell.h"
-#include "core/model/cell_checks.h"
-#include "server/codec/problem_codec.h"
 #include "server/command/command.h"
 
 namespace armloom {
 namespace {
-
-// Nothing runs here: the executive is only built, to learn what it would refuse.
-class NoJudges final : public JudgePool {
- public:
-  void ask(Question, PlanningScenePtr, std::function<void(Verdict)>) override {}
-  bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
-};
-class NoObserver final : public Observer {
- public:
-  void on_event(const Event&) override {}
-  void on_tick(TimePoint, const Configuration&) override {}
-  void on_state(const StateFrame&) override {}
-};
 
 double no_minus_zero(double number) { return number == 0.0 ? 0.0 : number; }
 
@@ -155,22 +138,11 @@ int validate_cell(const std::string& cell_file) {
   if (!loaded) return kExitBadInput;
   const Cell& cell = *loaded->cell;
   print_cell(cell, loaded->description);
-  for (const Problems& doubts :
-       {doubts_about_limits(loaded->description, cell), doubts_about_meshes(cell)}) {
-    for (const Problem& doubt : doubts) {
-      std::cerr << "armloom: warning: " << problem_sentence(cell_file, doubt) << '\n';
-    }
-  }
+  if (!is_fit_to_run(*loaded)) return kExitBadInput;
 
   const auto shapes = report_shapes(loaded->cell);
   if (!shapes) {
     complain(cell_file, shapes.error());
-    return kExitBadInput;
-  }
-  NoJudges judges;
-  NoObserver observer;
-  if (const auto executive = Executive::create(loaded->cell, {}, judges, observer); !executive) {
-    complain(cell_file, executive.error());
     return kExitBadInput;
   }
   const auto report =

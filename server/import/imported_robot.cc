@@ -1,0 +1,101 @@
+#include "server/import/imported_robot.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+
+#include "core/model/srdf_reader.h"
+#include "core/model/text_file.h"
+#include "core/model/urdf_reader.h"
+#include "server/import/homes.h"
+
+namespace armloom {
+namespace {
+
+std::string name_in(const std::string& urdf_text) {
+  tinyxml2::XMLDocument document;
+  document.Parse(urdf_text.data(), urdf_text.size());
+  const auto* robot = document.RootElement();
+  const char* name = robot == nullptr ? nullptr : robot->Attribute("name");
+  return name == nullptr || *name == '\0' ? "robot" : name;
+}
+
+// Where the states of the SRDF have a joint; those whose names speak of home come first.
+HeldJoint hold(const RobotTree& tree, const RobotSemantics& semantics, std::size_t joint) {
+  const TreeLink& link = tree.links[joint];
+  HeldJoint held{link.joint, std::clamp(0.0, link.lower, link.upper), {}};
+  std::size_t best = 0;
+  for (const auto& [group, states] : semantics.states) {
+    for (const auto& [name, state] : states) {
+      const auto value = state.find(joint);
+      if (value == state.end()) continue;
+      if (!held.state.empty() && home_rank(name) >= best) continue;
+      held = {link.joint, value->second, name};
+      best = home_rank(name);
+    }
+  }
+  return held;
+}
+
+tl::unexpected<Problems> no_arm(const RobotSemantics& semantics,
+                                const std::vector<GroupChoice>& choices) {
+  std::string why;
+  for (const GroupChoice& choice : choices) {
+    why += (why.empty() ? ": " : "; ") + choice.group + ": " + choice.why;
+  }
+  return failure(Problem{ProblemKind::invalid,
+                         "no-arm",
+                         semantics.file + ": robot",
+                         semantics.file + ": robot: no group of it is an arm" +
+                             (choices.empty() ? ", it has none" : why),
+                         {}});
+}
+
+}  // namespace
+
+Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
+                                          const std::map<std::string, std::string>& packages) {
+  auto urdf = read_text_file(files.urdf, "--urdf", "the robot");
+  auto srdf = read_text_file(files.srdf, "--srdf", "the robot");
+  Problems unread;
+  if (!urdf) unread.insert(unread.end(), urdf.error().begin(), urdf.error().end());
+  if (!srdf) unread.insert(unread.end(), srdf.error().begin(), srdf.error().end());
+  if (!unread.empty()) return failure(std::move(unread));
+
+  ImportedRobot robot{.files = files};
+  robot.name = name_in(*urdf);
+  robot.packages = find_packages(*urdf, files.urdf, packages, installed_package_folders());
+  Findings findings;
+  const auto tree = read_urdf(*std::move(urdf), files.urdf, robot.packages.folders, findings);
+  if (!tree) {
+    Problems problems = findings.take();
+    for (const std::string& package : robot.packages.missing) {
+      problems.push_back({ProblemKind::invalid,
+                          "package-missing",
+                          "--package",
+                          "the folder of the package " + package + " was not found above " +
+                              files.urdf.string() + ": give it with --package " + package +
+                              "=FOLDER",
+                          {}});
+    }
+    return failure(std::move(problems));
+  }
+  const auto semantics = read_srdf(*std::move(srdf), files.srdf, *tree, findings);
+  if (!semantics) return failure(findings.take());
+
+  const auto choices = choose_arm_groups(*tree, *semantics, read_group_names(semantics->text));
+  for (const GroupChoice& choice : choices) {
+    if (choice.is_arm) {
+      robot.arms.push_back(choice.group);
+    } else {
+      robot.left_out.push_back(choice);
+    }
+  }
+  if (robot.arms.empty()) return no_arm(*semantics, choices);
+  for (const std::size_t joint : joints_above_arms(*tree, *semantics, choices)) {
+    robot.held.push_back(hold(*tree, *semantics, joint));
+  }
+  return robot;
+}
+
+}  // namespace armloom
