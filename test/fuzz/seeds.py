@@ -59,13 +59,14 @@ def job_seeds():
 
 def cell_seeds():
     for file in sorted((TOP / "config").glob("*.json")):
-        if not file.name.endswith("_jobs.json"):
+        if not file.name.endswith(("_jobs.json", ".schema.json")):
             yield uncommented(file.read_text())
             yield file.read_text()
     yield json.dumps({"name": "rod", "cylinder": [0.015, 0.5], "xyz": [0, 0.9, 0.4], "rpy": [0, 0, 1]})
     yield json.dumps({"name": "c", "clearance_m": 0.02, "self_clearance_m": 0.005,
                       "robots": [{"name": "r", "urdf": "r.urdf", "srdf": "../r.srdf", "prefix": "r_",
                                   "base": {"xyz": [0, 0, 1], "rpy": [0, 0, 1.5]}, "packages": {"p": "../p"},
+                                  "joint_limits": "joint_limits.yaml", "fixed": {"torso": 0.1},
                                   "arms": [{"name": "a", "group": "g", "home": [0],
                                             "limits": {"j": {"acceleration_rad_s2": 3, "jerk_rad_s3": 5,
                                                              "brake_rad_s2": 7}}}],

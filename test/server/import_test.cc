@@ -139,8 +139,8 @@ CellDescription facing_pandas(double apart_m) {
       read_cell_text(read_text_file(folder / "two_pandas.json").value(), folder).value();
   cell.objects.clear();
   cell.allowed_collisions.clear();
-  cell.robots[0].X_WB.translation() = {-apart_m / 2, 0, 0};
-  cell.robots[1].X_WB.translation() = {apart_m / 2, 0, 0};
+  cell.robots[0].X_WB.translation() = Eigen::Vector3d(-apart_m / 2, 0, 0);
+  cell.robots[1].X_WB.translation() = Eigen::Vector3d(apart_m / 2, 0, 0);
   for (RobotDescription& robot : cell.robots) robot.arms.front().home.clear();
   return cell;
 }
