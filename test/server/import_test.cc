@@ -156,7 +156,7 @@ TEST(ChosenHomes, AreTheStatesThatSpeakOfHomeWhereTheseAreFree) {
 
 TEST(ChosenHomes, StandFreeWhereTheWantedOnesDoNot) {
   // So near that both at home would touch.
-  const CellDescription near = facing_pandas(0.6);
+  const CellDescription near = facing_pandas(0.4);
   const auto cell = build_cell(near);
   ASSERT_TRUE(cell);
   const auto homes = choose_homes(*cell);
