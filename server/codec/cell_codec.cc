@@ -6,6 +6,7 @@
 
 #include "server/codec/cell_format.h"
 #include "server/codec/json_text.h"
+#include "server/codec/scene_format.h"
 
 namespace armloom {
 namespace {
@@ -35,7 +36,7 @@ Result<CollisionObject> read_object_text(std::string_view text,
                 "cylinder or a sphere");
     });
   } else {
-    object_format().read(node, object);
+    scene_object_format()->read(node, object);
   }
   node.optional("name", [&](const JsonNode& n) {
     const bool plain = std::ranges::none_of(object.name,

@@ -11,9 +11,8 @@ namespace armloom {
 // and the settings in GET /cell. A new field is one line here, and its use.
 [[nodiscard]] const Format<CellDescription>& cell_format();
 
-// Parts of it that are written and read on their own.
-[[nodiscard]] const Format<ObjectDescription>& object_format();
-// Clearances, checking, scheduling, monitor, execution: members of the cell's own object.
+// The part that is written on its own, in GET /cell: clearances, checking, scheduling, monitor,
+// execution, as members of one object.
 [[nodiscard]] const formats::Part<CellDescription>& settings_part();
 
 }  // namespace armloom

@@ -21,7 +21,7 @@ const Schema& cell_schema() {
 std::string cell_schema_text() { return cell_schema().dump(2) + "\n"; }
 
 std::string cell_reference_text() {
-  return R"(<!-- Written by `armloom schema --markdown`: change server/codec/cell_format.cc, not this file. -->
+  return R"(<!-- Written by `armloom schema --markdown`: change the descriptions in server/codec/*_format.cc, not this file. -->
 # The cell file
 
 What a cell file holds: robots with their arms, the scene, and the settings. It is JSON in which `//`

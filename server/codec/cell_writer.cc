@@ -4,6 +4,7 @@
 #include "server/codec/cell_format.h"
 #include "server/codec/mesh_address.h"
 #include "server/codec/pose_words.h"
+#include "server/codec/scene_format.h"
 
 namespace armloom {
 namespace {
@@ -83,7 +84,7 @@ void write_object(JsonWriter& out, const CollisionObject& object) {
   ObjectDescription description{object.name, object.shape, object.X_WO};
   // Clients fetch meshes from the server: they are told the address, not the file.
   if (auto* mesh = std::get_if<Mesh>(&description.shape)) mesh->path = mesh_address(mesh->path);
-  object_format().write(out, description);
+  scene_object_format()->write(out, description);
 }
 
 void write_objects(JsonWriter& out, const std::vector<CollisionObject>& objects) {

@@ -1,4 +1,4 @@
-#include "server/codec/object_format.h"
+#include "server/codec/member_rules.h"
 
 #include <algorithm>
 
@@ -19,25 +19,7 @@ void add_rule(Schema& object, Schema rule) {
 
 Schema has(const std::string& key) { return {{"required", {key}}}; }
 
-// A default that is worth a word: an object's are those of its members.
-bool is_telling(const Schema& fallback) {
-  return !fallback.is_object() && !(fallback.is_array() && fallback.empty());
-}
-
 }  // namespace
-
-void describe_member(Schema& object, const MemberText& member, Schema schema,
-                     const std::optional<Schema>& fallback) {
-  schema["description"] = member.text;
-  if (member.need == Need::required) {
-    object["required"].push_back(member.key);
-  } else if (member.stated) {
-    schema["default"] = *member.stated;
-  } else if (fallback && is_telling(*fallback)) {
-    schema["default"] = *fallback;
-  }
-  object["properties"][member.key] = std::move(schema);
-}
 
 void check_count(const JsonNode& object, HowMany how_many, const std::vector<std::string>& keys) {
   const auto count =
