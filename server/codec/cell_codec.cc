@@ -58,13 +58,21 @@ Result<CollisionObject> read_object_text(std::string_view text,
 }
 
 Result<CellDescription> read_cell_text(std::string_view text, const fs::path& folder) {
-  auto file = parse_json(text, JsonComments::allowed);
-  if (!file) return failure(file.error());
-  cell_format().map_paths(*file, [&](const std::string& path) { return resolved(path, folder); });
   Problems faults;
-  CellDescription cell;
-  cell_format().read(JsonNode(*file, "", faults), cell);
+  CellDescription cell = read_cell_text(text, folder, faults);
   if (!faults.empty()) return failure(std::move(faults));
+  return cell;
+}
+
+CellDescription read_cell_text(std::string_view text, const fs::path& folder, Problems& faults) {
+  CellDescription cell;
+  auto file = parse_json(text, JsonComments::allowed);
+  if (!file) {
+    faults = file.error();
+    return cell;
+  }
+  cell_format().map_paths(*file, [&](const std::string& path) { return resolved(path, folder); });
+  cell_format().read(JsonNode(*file, "", faults), cell);
   return cell;
 }
 

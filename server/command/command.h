@@ -91,8 +91,10 @@ struct LoadedCell {
   CellDescription description;
   std::filesystem::path file;
   std::string text;  // of the cell file
+  Problems warnings;
 };
-// Reads the file and builds the cell; on problems says each on stderr and returns nothing.
+// Reads the file and builds the cell; on problems says each on stderr, and all warnings, and
+// returns nothing.
 [[nodiscard]] std::optional<LoadedCell> load_cell(const std::string& cell_file);
 // The same of a text that stands in `cell_file`, or is going to.
 [[nodiscard]] std::optional<LoadedCell> load_cell_text(std::string text,
@@ -103,7 +105,9 @@ struct LoadedCell {
 
 // "armloom: config/x.json:/robots/0/urdf: ..." on stderr, one line for each problem.
 void complain(const std::string& file, const Problems& problems);
-// The same, as an answer: kExitBadInput.
+// "armloom: warning: ...", alike.
+void warn(const std::string& file, const Problems& warnings);
+// Problems, as an answer: kExitBadInput.
 int refuse(const std::string& file, const Problems& problems);
 
 // The problems, with those of this slug said to be at an option of the command line: "--out".

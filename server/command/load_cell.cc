@@ -1,8 +1,8 @@
+#include <algorithm>
 #include <iostream>
 
 #include "core/executive/executive.h"
 #include "core/model/build_cell.h"
-#include "core/model/cell_checks.h"
 #include "server/codec/cell_codec.h"
 #include "server/codec/problem_codec.h"
 #include "server/command/command.h"
@@ -24,11 +24,36 @@ class NoObserver final : public Observer {
   void on_state(const StateFrame&) override {}
 };
 
+bool is_at_or_below(const std::string& pointer, const std::string& above) {
+  return pointer.starts_with(above) &&
+         (pointer.size() == above.size() || pointer[above.size()] == '/');
+}
+
+// Adds what building the cell found, but for what may only follow from a fault of the cell file: at
+// its place, above or below it.
+void add_what_is_independent(const Problems& found, Problems& problems) {
+  const Problems faults = problems;
+  for (const Problem& problem : found) {
+    const bool follows = std::any_of(faults.begin(), faults.end(), [&](const Problem& fault) {
+      return fault.pointer.empty() || fault.pointer.front() != '/' ||
+             is_at_or_below(problem.pointer, fault.pointer) ||
+             is_at_or_below(fault.pointer, problem.pointer);
+    });
+    if (!follows) problems.push_back(problem);
+  }
+}
+
 }  // namespace
 
 void complain(const std::string& file, const Problems& problems) {
   for (const Problem& problem : problems) {
     std::cerr << "armloom: " << problem_sentence(file, problem) << '\n';
+  }
+}
+
+void warn(const std::string& file, const Problems& warnings) {
+  for (const Problem& warning : warnings) {
+    std::cerr << "armloom: warning: " << problem_sentence(file, warning) << '\n';
   }
 }
 
@@ -54,29 +79,22 @@ std::optional<LoadedCell> load_cell(const std::string& cell_file) {
 }
 
 std::optional<LoadedCell> load_cell_text(std::string text, const std::string& cell_file) {
-  LoadedCell loaded{nullptr, {}, cell_file, std::move(text)};
-  auto description = read_cell_text(loaded.text, loaded.file.parent_path());
-  if (!description) {
-    complain(cell_file, description.error());
+  LoadedCell loaded{nullptr, {}, cell_file, std::move(text), {}};
+  Problems problems;
+  loaded.description = read_cell_text(loaded.text, loaded.file.parent_path(), problems);
+  auto cell = build_cell(loaded.description, loaded.warnings);
+  if (!cell) add_what_is_independent(cell.error(), problems);
+  if (!problems.empty()) {
+    complain(cell_file, problems);
+    warn(cell_file, loaded.warnings);
     return std::nullopt;
   }
-  auto cell = build_cell(*description);
-  if (!cell) {
-    complain(cell_file, cell.error());
-    return std::nullopt;
-  }
-  loaded.cell = std::move(*cell);
-  loaded.description = std::move(*description);
+  loaded.cell = *std::move(cell);
   return loaded;
 }
 
 bool is_fit_to_run(const LoadedCell& loaded) {
-  for (const Problems& doubts :
-       {doubts_about_limits(loaded.description, *loaded.cell), doubts_about_meshes(*loaded.cell)}) {
-    for (const Problem& doubt : doubts) {
-      std::cerr << "armloom: warning: " << problem_sentence(loaded.file.string(), doubt) << '\n';
-    }
-  }
+  warn(loaded.file.string(), loaded.warnings);
   NoJudges judges;
   NoObserver observer;
   const auto executive = Executive::create(loaded.cell, {}, judges, observer);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "core/model/robot_file.h"
 #include "core/model/srdf_reader.h"
-#include "core/model/text_file.h"
 #include "core/model/urdf_reader.h"
 #include "server/import/homes.h"
 
@@ -23,12 +23,14 @@ std::string name_in(const std::string& urdf_text) {
 // Where the states of the SRDF have a joint; those whose names speak of home come first.
 HeldJoint hold(const RobotTree& tree, const RobotSemantics& semantics, std::size_t joint) {
   const TreeLink& link = tree.links[joint];
-  HeldJoint held{link.joint, std::clamp(0.0, link.lower, link.upper), {}};
+  double nearest_to_zero = std::max(0.0, link.limits.lower.value_or(0.0));
+  if (link.limits.upper) nearest_to_zero = std::min(nearest_to_zero, *link.limits.upper);
+  HeldJoint held{link.joint, nearest_to_zero, {}};
   std::size_t best = 0;
   for (const auto& [group, states] : semantics.states) {
     for (const auto& [name, state] : states) {
-      const auto value = state.find(joint);
-      if (value == state.end()) continue;
+      const auto value = state.values.find(joint);
+      if (value == state.values.end()) continue;
       if (!held.state.empty() && home_rank(name) >= best) continue;
       held = {link.joint, value->second, name};
       best = home_rank(name);
@@ -55,19 +57,16 @@ tl::unexpected<Problems> no_arm(const RobotSemantics& semantics,
 
 Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
                                           const std::map<std::string, std::string>& packages) {
-  auto urdf = read_text_file(files.urdf, "--urdf", "the robot");
-  auto srdf = read_text_file(files.srdf, "--srdf", "the robot");
-  Problems unread;
-  if (!urdf) unread.insert(unread.end(), urdf.error().begin(), urdf.error().end());
-  if (!srdf) unread.insert(unread.end(), srdf.error().begin(), srdf.error().end());
-  if (!unread.empty()) return failure(std::move(unread));
+  Findings findings;
+  auto urdf = load_robot_file(files.urdf, "--urdf", "the robot", findings);
+  auto srdf = load_robot_file(files.srdf, "--srdf", "the robot", findings);
+  if (!urdf || !srdf) return failure(findings.take());
 
   ImportedRobot robot{.files = files};
   robot.name = name_in(*urdf);
   robot.packages = find_packages(*urdf, files.urdf, packages, installed_package_folders());
-  Findings findings;
   const auto tree = read_urdf(*std::move(urdf), files.urdf, robot.packages.folders, findings);
-  if (!tree) {
+  if (!tree || findings.count() > 0) {
     Problems problems = findings.take();
     for (const std::string& package : robot.packages.missing) {
       problems.push_back({ProblemKind::invalid,
@@ -80,8 +79,8 @@ Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
     }
     return failure(std::move(problems));
   }
-  const auto semantics = read_srdf(*std::move(srdf), files.srdf, *tree, findings);
-  if (!semantics) return failure(findings.take());
+  const auto semantics = read_srdf(*std::move(srdf), files.srdf, *tree, {}, findings);
+  if (!semantics || findings.count() > 0) return failure(findings.take());
 
   const auto choices = choose_arm_groups(*tree, *semantics, read_group_names(semantics->text));
   for (const GroupChoice& choice : choices) {
