@@ -83,8 +83,10 @@ class CellImport {
     robot.X_WB = pose_of_words(placement.base);
     robot.packages = source.packages.folders;
     for (const HeldJoint& joint : source.held) robot.fixed[joint.name] = joint.value;
-    for (const std::string& group : source.arms) {
+    for (std::size_t a = 0; a < source.arms.size(); ++a) {
+      const std::string& group = source.arms[a];
       ArmDescription& arm = robot.arms.emplace_back();
+      arm.limits = source.guesses[a];
       arm.group = group;
       arm.name = source.arms.size() == 1 ? placement.name
                  : alone                 ? group
@@ -109,6 +111,40 @@ class CellImport {
     }
     for (const GroupChoice& group : source.left_out) {
       remark(pointer + "/arms", "The group " + group.group + " is no arm here: " + group.why + ".");
+    }
+    remark_on_guesses(source, pointer);
+  }
+
+  // Of each arm: what was guessed for its joints.
+  void remark_on_guesses(const ImportedRobot& source, const std::string& pointer) {
+    for (std::size_t a = 0; a < source.guesses.size(); ++a) {
+      std::string joints;
+      for (const auto& [joint, guess] : source.guesses[a]) {
+        joints += (joints.empty() ? "" : ", ") + joint;
+      }
+      if (joints.empty()) continue;
+      remark(pointer + "/arms/" + std::to_string(a) + "/limits",
+             source.files.urdf.filename().string() + " does not give all limits of " + joints +
+                 ": these are guesses, slow and short. Write what the robot really allows.");
+    }
+  }
+
+  // A description does not know how its joints move: limits of those that slide are in metres.
+  void spell_in_metres(Schema& cell) const {
+    for (std::size_t r = 0; r < cell["robots"].size(); ++r) {
+      for (Schema& arm : cell["robots"][r]["arms"]) {
+        if (!arm.contains("limits")) continue;
+        for (auto& [joint, limits] : arm["limits"].items()) {
+          if (!source_of(r).sliding.contains(joint)) continue;
+          Schema spelt = Schema::object();
+          for (auto& [key, value] : limits.items()) {
+            std::string name = key;
+            name.replace(name.find("_rad"), 4, "_m");
+            spelt[name] = value;
+          }
+          limits = std::move(spelt);
+        }
+      }
     }
   }
 
@@ -192,7 +228,9 @@ class CellImport {
                   "its default."};
     JsonWriter out;
     cell_format().write(out, cell);
-    return commented_json(Schema::parse(out.text()), cell_schema(), notes_);
+    Schema file = Schema::parse(out.text());
+    spell_in_metres(file);
+    return commented_json(file, cell_schema(), notes_);
   }
 
   void shorten(std::string& path) const {

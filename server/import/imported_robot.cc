@@ -8,6 +8,7 @@
 #include "core/model/srdf_reader.h"
 #include "core/model/urdf_reader.h"
 #include "server/import/homes.h"
+#include "server/import/limit_guesses.h"
 
 namespace armloom {
 namespace {
@@ -60,7 +61,10 @@ Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
   Findings findings;
   auto urdf = load_robot_file(files.urdf, "--urdf", "the robot", findings);
   auto srdf = load_robot_file(files.srdf, "--srdf", "the robot", findings);
-  if (!urdf || !srdf) return failure(findings.take());
+  std::optional<std::string> limits;
+  if (!files.joint_limits.empty())
+    limits = load_robot_file(files.joint_limits, "--joint-limits", "the robot", findings);
+  if (findings.count() > 0) return failure(findings.take());
 
   ImportedRobot robot{.files = files};
   robot.name = name_in(*urdf);
@@ -80,17 +84,24 @@ Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
     return failure(std::move(problems));
   }
   const auto semantics = read_srdf(*std::move(srdf), files.srdf, *tree, {}, findings);
+  std::optional<LimitsFile> limits_file;
+  if (limits) limits_file = read_limits_file(*limits, files.joint_limits, findings);
   if (!semantics || findings.count() > 0) return failure(findings.take());
 
   const auto choices = choose_arm_groups(*tree, *semantics, read_group_names(semantics->text));
   for (const GroupChoice& choice : choices) {
     if (choice.is_arm) {
       robot.arms.push_back(choice.group);
+      robot.guesses.push_back(guess_limits(*tree, semantics->groups.at(choice.group),
+                                           limits_file ? &*limits_file : nullptr));
     } else {
       robot.left_out.push_back(choice);
     }
   }
   if (robot.arms.empty()) return no_arm(*semantics, choices);
+  for (const TreeLink& link : tree->links) {
+    if (link.motion == JointKind::prismatic) robot.sliding.insert(link.joint);
+  }
   for (const std::size_t joint : joints_above_arms(*tree, *semantics, choices)) {
     robot.held.push_back(hold(*tree, *semantics, joint));
   }

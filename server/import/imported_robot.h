@@ -1,9 +1,11 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "core/model/cell_description.h"
 #include "server/import/arm_groups.h"
 #include "server/import/import_cell.h"
 #include "server/import/packages.h"
@@ -24,6 +26,9 @@ struct ImportedRobot {
   std::vector<std::string> arms;      // groups, in the order of the SRDF
   std::vector<GroupChoice> left_out;  // groups that are no arms
   std::vector<HeldJoint> held;        // joints above the arms that are in none
+  // Limits that no file gives, for each of `arms`, by joint.
+  std::vector<std::map<std::string, JointLimitsDescription>> guesses;
+  std::set<std::string> sliding;  // joints whose limits are in metres
   Packages packages;
 };
 

@@ -5,6 +5,7 @@
 
 #include "server/codec/json_text.h"
 #include "test/server/command_fixture.h"
+#include "test/server/torso_robot.h"
 
 namespace armloom {
 namespace {
@@ -70,6 +71,43 @@ TEST_F(Import, TakesRobotsOfDifferentKinds) {
   const json file = parse_json(made.out, JsonComments::allowed).value();
   EXPECT_THAT(file["robots"][1]["urdf"].get<std::string>(), HasSubstr("ur5e.urdf"));
   EXPECT_EQ(file["robots"][1]["prefix"], "b_");
+}
+
+TEST_F(Import, GuessesWhatNoFileSaysAndHoldsTheTorso) {
+  std::string urdf = test::torso_urdf();
+  // A shoulder that turns without end, and a lift that says nothing of its velocity.
+  const auto drop = [&](const std::string& begin, const std::string& what, const std::string& by) {
+    const std::size_t at = urdf.find(what, urdf.find("<joint name=\"" + begin + "\""));
+    ASSERT_NE(at, urdf.npos);
+    urdf.replace(at, what.size(), by);
+  };
+  drop("left_1", R"(type="revolute")", R"(type="continuous")");
+  drop("left_1", R"(<limit lower="-2.5" upper="2.5" effort="1" velocity="1"/>)", "");
+  drop("right_2", R"(type="revolute")", R"(type="prismatic")");
+  drop("right_2", R"(velocity="1")", R"(velocity="0")");
+  const std::string arguments = "import --urdf " + file("torso.urdf", urdf).string() + " --srdf " +
+                                file("torso.srdf", test::torso_srdf()).string();
+  const test::Outcome made = run(arguments + " --out " + (folder_ / "cell.json").string());
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const json robot = written("cell.json")["robots"][0];
+  EXPECT_EQ(robot["fixed"], json({{"torso_lift", 0.1}}));
+  ASSERT_EQ(robot["arms"].size(), 2U);
+  EXPECT_EQ(robot["arms"][0]["home"], "left_home");
+  EXPECT_EQ(robot["arms"][0]["limits"], json({{"left_1", {{"velocity_rad_s", 0.5}}}}));
+  EXPECT_EQ(robot["arms"][1]["limits"], json({{"right_2", {{"velocity_m_s", 0.05}}}}));
+  EXPECT_THAT(made.err, HasSubstr("torso.urdf does not give all limits of left_1"));
+  EXPECT_THAT(made.err, HasSubstr("torso_lift moves arms and is in none of them: held where the "
+                                  "state home has it."));
+  // MoveIt's file says it: nothing to guess.
+  const fs::path limits = file("joint_limits.yaml",
+                               "joint_limits:\n"
+                               "  left_1:\n    has_velocity_limits: true\n    max_velocity: 2\n"
+                               "  right_2:\n    has_velocity_limits: true\n    max_velocity: 1\n");
+  const test::Outcome told = run(arguments + " --joint-limits " + limits.string() + " --out " +
+                                 (folder_ / "told.json").string());
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_FALSE(written("told.json")["robots"][0]["arms"][0].contains("limits"));
+  EXPECT_EQ(written("told.json")["robots"][0]["joint_limits"], "joint_limits.yaml");
 }
 
 TEST_F(Import, WritesWhatDoesNotLoadAndEndsWithTwo) {

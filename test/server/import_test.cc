@@ -29,7 +29,7 @@ class ArmGroups : public ::testing::Test {
   void SetUp() override {
     tree_ = read_urdf(test::torso_urdf(), "/torso.urdf", {}, findings_);
     ASSERT_TRUE(tree_) << findings_.take().front().detail;
-    semantics_ = read_srdf(test::torso_srdf(), "/torso.srdf", *tree_, findings_);
+    semantics_ = read_srdf(test::torso_srdf(), "/torso.srdf", *tree_, {}, findings_);
     ASSERT_TRUE(semantics_) << findings_.take().front().detail;
     choices_ = choose_arm_groups(*tree_, *semantics_, read_group_names(test::torso_srdf()));
   }
