@@ -52,6 +52,39 @@ int run(int argc, char** argv) {
       app.add_subcommand("validate", "say what a cell holds, or its faults");
   add_cell(*validate_command, validated_file);
 
+  bool markdown = false;
+  CLI::App* schema_command =
+      app.add_subcommand("schema", "print the JSON schema of cell files, as editors use it");
+  schema_command->add_flag("--markdown", markdown, "the reference for people instead");
+
+  ImportOptions importing;
+  CLI::App* import_command =
+      app.add_subcommand("import", "write a cell file from a robot's URDF and SRDF");
+  import_command->add_option("--urdf", importing.urdf, "URDF; several: one for each --robot")
+      ->required()
+      ->allow_extra_args(false);
+  import_command->add_option("--srdf", importing.srdf, "SRDF, as many as URDFs")
+      ->required()
+      ->allow_extra_args(false);
+  import_command->add_option("--joint-limits", importing.joint_limits, "MoveIt's joint_limits.yaml")
+      ->allow_extra_args(false);
+  import_command
+      ->add_option("--robot", importing.robots,
+                   "a robot and where it stands, as left:x=-0.75,yaw_deg=90 (x, y, z in m; "
+                   "roll_deg, pitch_deg, yaw_deg); may be repeated")
+      ->type_name("NAME[:...]")
+      ->allow_extra_args(false);
+  import_command
+      ->add_option("--package", importing.packages,
+                   "where package://NAME/ is; else it is looked for above the URDF")
+      ->type_name("NAME=FOLDER")
+      ->allow_extra_args(false);
+  import_command->add_option("--prefix", importing.prefix,
+                             "of joints and links; several robots have their names as prefixes");
+  import_command->add_option("--name", importing.name, "of the cell (that of --out)");
+  import_command->add_option("--out", importing.out,
+                             "cell file, with paths relative to it (stdout, with absolute ones)");
+
   CheckOptions checking;
   CLI::App* check_command =
       app.add_subcommand("check", "judge jobs against each other without running them");
@@ -93,6 +126,8 @@ int run(int argc, char** argv) {
   }
   if (serve_command->parsed()) return serve(serving);
   if (validate_command->parsed()) return validate_cell(validated_file);
+  if (schema_command->parsed()) return print_cell_schema(markdown);
+  if (import_command->parsed()) return import_robots(importing);
   if (check_command->parsed()) return check_jobs_file(checking);
   if (simulate_command->parsed()) return simulate_jobs(simulating);
   if (compare_command->parsed()) return compare_policies(comparing);

@@ -1,73 +1,25 @@
 #include "core/model/build_cell.h"
 
+#include <tinyxml2.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <set>
 #include <system_error>
 
 #include "core/model/cell_checks.h"
+#include "core/model/cell_doubts.h"
 #include "core/model/findings.h"
+#include "core/model/hold_joints.h"
 #include "core/model/mesh.h"
 #include "core/model/mesh_path.h"
 #include "core/model/robot_build.h"
-#include "core/model/text_file.h"
+#include "core/model/robot_file.h"
 #include "core/model/urdf_reader.h"
+#include "core/model/xml_element.h"
 
 namespace armloom {
 namespace {
-
-// How many bytes the character takes that begins at `at`; zero: it is none of UTF-8 (RFC 3629).
-std::size_t utf8_length(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const unsigned first = byte(at);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xC2 && first < 0xE0   ? 2
-                             : first >= 0xE0 && first < 0xF0 ? 3
-                             : first >= 0xF0 && first < 0xF5 ? 4
-                                                             : 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(at + i) & 0xC0U) != 0x80) return 0;
-  }
-  const unsigned second = byte(at + 1);
-  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
-  const bool beyond = (first == 0xED && second >= 0xA0) || (first == 0xF4 && second >= 0x90);
-  return overlong || beyond ? 0 : length;
-}
-
-// The text goes out again as JSON, which must be UTF-8. A file that names another encoding would
-// be read wrongly by the XML library as well.
-std::optional<Problem> utf8_fault(const std::string& text, const std::string& path) {
-  std::size_t line = 1;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_length(text, at);
-    if (length == 0) {
-      char byte[8];
-      std::snprintf(byte, sizeof byte, "0x%02x", static_cast<unsigned char>(text[at]));
-      const std::string place = path + ":" + std::to_string(line);
-      return Problem{ProblemKind::malformed, "not-utf-8", place,
-                     place + ": the byte " + byte + " is not UTF-8", std::string(byte)};
-    }
-    if (text[at] == '\n') ++line;
-    at += length;
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> load(const std::string& path, const std::string& pointer,
-                                const std::string& whose, Findings& findings) {
-  auto text = read_text_file(path, pointer, whose);
-  if (text) {
-    auto fault = utf8_fault(*text, path);
-    if (!fault) return *std::move(text);
-    findings.add(*std::move(fault));
-    return std::nullopt;
-  }
-  for (Problem& problem : text.error()) findings.add(std::move(problem));
-  return std::nullopt;
-}
 
 // Fills in the shape's triangles when it is a mesh.
 void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& whose,
@@ -102,29 +54,55 @@ void load_meshes_of_objects(Cell& cell, MeshShelf& meshes, Findings& findings) {
   }
 }
 
-// The robot's files, or nothing with the reasons in `findings`.
+// Tells what of an SRDF can be told without its robot: whether it is XML at all.
+void check_srdf_alone(const std::string& text, const std::filesystem::path& path,
+                      Findings& findings) {
+  tinyxml2::XMLDocument document;
+  static_cast<void>(parse_robot_xml(text, path.filename().string(), document, findings));
+}
+
+std::set<std::string> used_groups(const RobotDescription& robot) {
+  std::set<std::string> groups;
+  for (const ArmDescription& arm : robot.arms) groups.insert(arm.group);
+  return groups;
+}
+
+// The robot's files as far as they can be read, or nothing without a URDF.
 std::optional<RobotBuild> read_robot(const RobotDescription& description, std::size_t index,
                                      MeshShelf& meshes, Findings& findings) {
   const std::string pointer = "/robots/" + std::to_string(index);
-  const std::string whose = "robot " + description.name;
-  auto urdf = load(description.urdf, pointer + "/urdf", whose, findings);
-  auto srdf = description.srdf.empty() ? std::nullopt
-                                       : load(description.srdf, pointer + "/srdf", whose, findings);
-  if (!urdf) return std::nullopt;
-  auto tree = read_urdf(*std::move(urdf), description.urdf, description.packages, findings);
-  if (!tree || (!srdf && !description.srdf.empty())) return std::nullopt;
+  const auto load = [&](const std::string& path, const char* key) {
+    return path.empty()
+               ? std::nullopt
+               : load_robot_file(path, pointer + "/" + key, "robot " + description.name, findings);
+  };
+  auto urdf =
+      load_robot_file(description.urdf, pointer + "/urdf", "robot " + description.name, findings);
+  auto srdf = load(description.srdf, "srdf");
+  const auto limits = load(description.joint_limits, "joint_limits");
+  auto limits_file =
+      limits ? read_limits_file(*limits, description.joint_limits, findings) : std::nullopt;
+  auto tree = urdf ? read_urdf(*std::move(urdf), description.urdf, description.packages, findings)
+                   : std::nullopt;
+  if (!tree) {
+    if (srdf) check_srdf_alone(*srdf, description.srdf, findings);
+    return std::nullopt;
+  }
   load_meshes_of(*tree, meshes, findings);
+  hold_joints(description.fixed, pointer, description.name, *tree, findings);
 
   RobotBuild robot{.id = RobotId(static_cast<std::uint32_t>(index)),
                    .pointer = pointer,
                    .description = &description,
                    .tree = *std::move(tree),
                    .semantics = std::nullopt,
+                   .limits_file = std::move(limits_file),
                    .links = {},
-                   .joints = {}};
+                   .joints = {},
+                   .arms = {}};
   if (srdf) {
-    robot.semantics = read_srdf(*std::move(srdf), description.srdf, robot.tree, findings);
-    if (!robot.semantics) return std::nullopt;
+    robot.semantics = read_srdf(*std::move(srdf), description.srdf, robot.tree,
+                                used_groups(description), findings);
   }
   return robot;
 }
@@ -140,9 +118,9 @@ void add_joints(RobotBuild& robot, Cell& cell) {
                            .robot = robot.id,
                            .arm = std::nullopt,
                            .kind = *link.motion,
-                           .lower = link.lower,
-                           .upper = link.upper,
-                           .velocity_max = link.velocity_max,
+                           .lower = 0.0,  // these until settle_limits
+                           .upper = 0.0,
+                           .velocity_max = kDefaultVelocity,
                            .acceleration_max = kDefaultAcceleration,
                            .jerk_max = kDefaultJerk,
                            .brake = 2.0 * kDefaultAcceleration});
@@ -226,8 +204,13 @@ void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
   if (robot.semantics) added.srdf_text = robot.semantics->text;
   add_joints(robot, cell);
   add_links(robot, cell);
-  add_arms(robot, cell, findings);
-  assign_to_arms(robot, cell, findings);
+  if (robot.semantics || robot.description->srdf.empty()) {  // else what it says is not known
+    add_arms(robot, cell, findings);
+    assign_to_arms(robot, cell);
+    refuse_shared_joints(robot, cell, findings);
+    settle_limits(robot, cell, findings);
+    settle_homes(robot, cell, findings);
+  }
   allow_pairs_of_robot(robot, cell);
 }
 
@@ -264,27 +247,12 @@ void require_an_arm(const CellDescription& description, Findings& findings) {
 
 }  // namespace
 
-Problems doubts_about_meshes(const Cell& cell) {
-  Problems doubts;
-  std::set<std::string> told;  // robots of one kind share their meshes
-  const auto look_at = [&](const Shape& shape, const std::string& place, const std::string& whose) {
-    const auto* mesh = std::get_if<Mesh>(&shape);
-    if (mesh == nullptr || mesh->data == nullptr || !is_flat(*mesh->data)) return;
-    if (!told.insert(mesh->path).second) return;
-    doubts.push_back({ProblemKind::invalid, "flat-mesh", place,
-                      whose + ": mesh " + mesh->path + " is flat: it has no inside", mesh->path});
-  };
-  for (const Link& link : cell.links) {
-    for (const PlacedShape& placed : link.shapes) look_at(placed.shape, "", "link " + link.name);
-  }
-  for (std::size_t o = 0; o < cell.objects.size(); ++o) {
-    look_at(cell.objects[o].shape, "/objects/" + std::to_string(o) + "/mesh",
-            "object " + cell.objects[o].name);
-  }
-  return doubts;
+Result<CellPtr> build_cell(const CellDescription& description) {
+  Problems warnings;
+  return build_cell(description, warnings);
 }
 
-Result<CellPtr> build_cell(const CellDescription& description) {
+Result<CellPtr> build_cell(const CellDescription& description, Problems& warnings) {
   Findings findings;
   require_an_arm(description, findings);
   check_names(description, findings);
@@ -313,7 +281,9 @@ Result<CellPtr> build_cell(const CellDescription& description) {
   check_objects_are_no_links(description, links, findings);
   // With a robot missing its links' names would all seem unknown.
   if (complete) allow_pairs_of_cell(description, *cell, findings);
+  warn_of_doubts(description, *cell, findings);
 
+  warnings = findings.take_warnings();
   if (findings.count() > 0) return failure(findings.take());
   return CellPtr(std::move(cell));
 }

@@ -30,12 +30,20 @@ struct Joint {
   RobotId robot;
   std::optional<ArmId> arm;  // the arm that it belongs to, as arm or gripper joint
   JointKind kind;
-  double lower;  // rad or m; -inf/+inf for continuous joints
+  double lower;  // rad or m; -inf/+inf for continuous joints that no file limits
   double upper;
   double velocity_max;      // > 0; rad/s or m/s
   double acceleration_max;  // > 0
   double jerk_max;          // > 0
   double brake;             // > 0: deceleration that a stop may use
+
+  // Limits that no file gives: the defaults that cell_description.h states.
+  struct Assumed {
+    bool velocity = false;
+    bool acceleration = true;
+    bool jerk = true;
+    bool brake = true;
+  } assumed = {};
 };
 
 // A link, with the joint above it folded in:
@@ -71,7 +79,7 @@ struct Robot {
   std::string prefix;
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   std::vector<ArmId> arms;
-  std::string urdf_text;  // as read, for the dashboard
+  std::string urdf_text;  // for the dashboard: as read, joints that the cell holds being fixed
   std::string srdf_text;
   ControllerDescription controller;
   // Meshes as the URDF names them (package://..., of visuals too) and their files, where they

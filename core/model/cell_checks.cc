@@ -166,28 +166,4 @@ void check_settings(const CellDescription& d, Findings& findings) {
   }
 }
 
-Problems doubts_about_limits(const CellDescription& description, const Cell& cell) {
-  Problems doubts;
-  for (std::size_t r = 0; r < description.robots.size(); ++r) {
-    const RobotDescription& robot = description.robots[r];
-    for (std::size_t a = 0; a < robot.arms.size(); ++a) {
-      for (const auto& [name, given] : robot.arms[a].limits) {
-        const double acceleration = given.acceleration.value_or(kDefaultAcceleration);
-        if (!given.brake || *given.brake >= acceleration) continue;
-        const auto joint = cell.find_joint(robot.prefix + name);
-        const bool linear = joint && cell.joint(*joint).kind == JointKind::prismatic;
-        const std::string unit = linear ? "m_s2" : "rad_s2";
-        const std::string pointer = "/robots/" + std::to_string(r) + "/arms/" + std::to_string(a) +
-                                    "/limits/" + pointer_token(name) + "/brake_" + unit;
-        doubts.push_back({ProblemKind::invalid, "weak-brake", pointer,
-                          "joint " + robot.prefix + name + ": brake_" + unit + " is " +
-                              text_of(*given.brake) + ", less than its acceleration_" + unit +
-                              " of " + text_of(acceleration),
-                          *given.brake});
-      }
-    }
-  }
-  return doubts;
-}
-
 }  // namespace armloom

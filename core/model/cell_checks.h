@@ -16,11 +16,6 @@ void check_settings(const CellDescription& description, Findings& findings);
 void check_pose(const Eigen::Isometry3d& X, const std::string& pointer, const std::string& whose,
                 Findings& findings);
 
-// What is allowed but hardly meant: a joint whose brake is weaker than its acceleration, so that a
-// stop takes longer than the motion took to begin. Precondition: the cell was built from the
-// description.
-[[nodiscard]] Problems doubts_about_limits(const CellDescription& description, const Cell& cell);
-
 // Adds the cell file's allowed_collisions: link with link of any robot, or link with object.
 // Precondition: every robot's links are in the cell.
 void allow_pairs_of_cell(const CellDescription& description, Cell& cell, Findings& findings);

@@ -25,6 +25,7 @@ struct JointLimitsDescription {
   std::optional<double> jerk;          // rad/s^3 (m/s^3), default kDefaultJerk
   std::optional<double> brake;         // rad/s^2 (m/s^2), default twice the acceleration
 };
+inline constexpr double kDefaultVelocity = 1.0;  // of joints that no arm's group holds, as MoveIt's
 inline constexpr double kDefaultAcceleration = 3.75;
 inline constexpr double kDefaultJerk = 7500.0;
 

@@ -5,15 +5,42 @@
 
 namespace armloom {
 
-void Findings::add(Problem problem) {
-  ++added_;
-  if (seen_.contains({problem.pointer, problem.detail})) return;
-  if (kept_.size() == kMaxFindings) {
-    ++dropped_;
+void Findings::Kept::add(Problem problem) {
+  if (seen.contains({problem.pointer, problem.detail})) return;
+  if (problems.size() == kMaxFindings) {
+    ++dropped;
     return;
   }
-  seen_.emplace(problem.pointer, problem.detail);
-  kept_.push_back(std::move(problem));
+  seen.emplace(problem.pointer, problem.detail);
+  problems.push_back(std::move(problem));
+}
+
+Problems Findings::Kept::take(const std::string& kind) {
+  if (dropped > 0) {
+    problems.push_back({ProblemKind::invalid,
+                        "too-many-problems",
+                        "",
+                        "and " + std::to_string(dropped) + " more " + kind + " of the cell",
+                        {}});
+  }
+  return std::move(problems);
+}
+
+void Findings::add(Problem problem) {
+  ++added_;
+  problems_.add(std::move(problem));
+}
+
+void Findings::warn(Problem problem) { warnings_.add(std::move(problem)); }
+
+void Findings::merge(Findings other) {
+  for (Problem& problem : other.take()) add(std::move(problem));
+  for (Problem& warning : other.take_warnings()) warn(std::move(warning));
+}
+
+void Findings::merge_as_warnings(Findings other) {
+  for (Problem& problem : other.take()) warn(std::move(problem));
+  for (Problem& warning : other.take_warnings()) warn(std::move(warning));
 }
 
 void Findings::in_cell(std::string slug, std::string pointer, std::string detail,
@@ -22,16 +49,8 @@ void Findings::in_cell(std::string slug, std::string pointer, std::string detail
        std::move(value)});
 }
 
-Problems Findings::take() {
-  if (dropped_ > 0) {
-    kept_.push_back({ProblemKind::invalid,
-                     "too-many-problems",
-                     "",
-                     "and " + std::to_string(dropped_) + " more problems of the cell",
-                     {}});
-  }
-  return std::move(kept_);
-}
+Problems Findings::take() { return problems_.take("problems"); }
+Problems Findings::take_warnings() { return warnings_.take("warnings"); }
 
 std::string text_of(double number) {
   std::array<char, 32> buffer{};

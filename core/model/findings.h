@@ -10,14 +10,20 @@
 
 namespace armloom {
 
-// Collects what is wrong with a cell while reading goes on, so that a user sees every mistake at
-// once. Two robots may share one URDF file: a problem that was already found is not repeated.
-// Bounded: after kMaxFindings the rest is only counted, and the last problem says how many.
+// Collects what is wrong with a cell, and what is only odd, while reading goes on, so that a user
+// sees every mistake at once. Two robots may share one URDF file: a problem that was already found
+// is not repeated. Bounded: after kMaxFindings the rest is only counted, and the last problem says
+// how many.
 class Findings {
  public:
   static constexpr std::size_t kMaxFindings = 100;
 
   void add(Problem problem);
+  // What can be taken but is hardly meant, or is left out: it refuses nothing. Bounded alike.
+  void warn(Problem problem);
+  // Takes over what another one has found: its problems, or all of it as warnings.
+  void merge(Findings other);
+  void merge_as_warnings(Findings other);
 
   // A mistake in the cell file: `pointer` is a JSON pointer, `detail` a sentence that stands alone.
   void in_cell(std::string slug, std::string pointer, std::string detail,
@@ -29,12 +35,21 @@ class Findings {
 
   // Hands over what was found; empty when nothing was.
   [[nodiscard]] Problems take();
+  [[nodiscard]] Problems take_warnings();
 
  private:
-  Problems kept_;
-  std::set<std::pair<std::string, std::string>> seen_;  // pointer, detail
+  struct Kept {
+    Problems problems;
+    std::set<std::pair<std::string, std::string>> seen;  // pointer, detail
+    std::size_t dropped = 0;
+
+    void add(Problem problem);
+    [[nodiscard]] Problems take(const std::string& kind);
+  };
+
+  Kept problems_;
+  Kept warnings_;
   std::size_t added_ = 0;
-  std::size_t dropped_ = 0;
 };
 
 // The shortest text that reads back as the same number: 0.1, not 0.10000000000000001.

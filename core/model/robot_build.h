@@ -6,28 +6,51 @@
 
 #include "core/model/cell.h"
 #include "core/model/findings.h"
+#include "core/model/joint_limits_file.h"
 #include "core/model/robot_tree.h"
 #include "core/model/srdf_reader.h"
 
 namespace armloom {
 
-// A robot on its way into the cell: its files as read, and where its links and joints went. The
-// functions below are the steps of build_cell for one robot, each in a file of its own.
+// An arm on its way into the cell.
+struct ArmBuild {
+  ArmId id;
+  std::string pointer;  // "/robots/0/arms/1"
+  const ArmDescription* description;
+  std::vector<std::size_t> group;  // tree indices, from base to tip, with the joints that are held
+};
+
+// A robot on its way into the cell: its files as read, and where its links, joints and arms went.
+// The functions below are the steps of build_cell for one robot, each in a file of its own, in this
+// order. Each tells all that it finds and leaves out what cannot be, so that the next can go on.
 struct RobotBuild {
   RobotId id;
   std::string pointer;  // "/robots/0"
   const RobotDescription* description;
   RobotTree tree;
   std::optional<RobotSemantics> semantics;     // none: the robot has no SRDF
+  std::optional<LimitsFile> limits_file;       // none: it has no file of joint limits
   std::vector<LinkId> links;                   // tree index -> link of the cell
   std::vector<std::optional<JointId>> joints;  // tree index -> joint of the cell, if independent
+  std::vector<ArmBuild> arms;                  // those whose groups could be found
 };
 
-// Adds the robot's arms to the cell, with joints, home, limits and named states; then settles which
-// arm each joint and link belongs to. Arms of one robot must not move each other: a shared joint,
-// also upstream and also one of no arm, is a problem.
-void add_arms(const RobotBuild& robot, Cell& cell, Findings& findings);
-void assign_to_arms(const RobotBuild& robot, Cell& cell, Findings& findings);
+// Adds the robot's arms to the cell, with their joints; then settles which arm each joint and link
+// belongs to.
+void add_arms(RobotBuild& robot, Cell& cell, Findings& findings);
+void assign_to_arms(const RobotBuild& robot, Cell& cell);
+
+// Arms of one robot must not move each other: a shared joint, also upstream and also one of no arm,
+// is a problem, which holding the joint solves.
+void refuse_shared_joints(const RobotBuild& robot, const Cell& cell, Findings& findings);
+
+// Settles every limit of the robot's joints, from the cell file's `limits` over joint_limits.yaml
+// over the URDF and the defaults. Positions and velocities are never wider than the URDF's. What an
+// arm's own joints need and no file gives is a problem.
+void settle_limits(RobotBuild& robot, Cell& cell, Findings& findings);
+
+// Named states and homes of the robot's arms. Precondition: its limits are settled.
+void settle_homes(RobotBuild& robot, Cell& cell, Findings& findings);
 
 // Adds the pairs of the robot's links that need no check: those of the SRDF and those within one
 // rigid body. Without an SRDF also links on both sides of one movable joint.

@@ -8,9 +8,19 @@
 #include <vector>
 
 #include "core/model/cell.h"
+#include "core/model/findings.h"
 #include "core/model/shape.h"
 
 namespace armloom {
+
+// What the URDF says of how a joint may move; whether that is enough depends on whose joint it is.
+struct UrdfLimits {
+  std::optional<double> lower;  // rad or m; none: absent, or no number
+  std::optional<double> upper;
+  std::optional<double>
+      velocity;     // > 0; none: absent, no number, or 0, which says nothing (MoveIt)
+  Findings faults;  // numbers that are none, limits that cross
+};
 
 // One robot as its URDF describes it: plain data between the reader and the cell. Names are without
 // prefix. A joint is known by the index of the link that it moves.
@@ -25,12 +35,12 @@ struct TreeLink {
   std::optional<std::size_t> parent;  // smaller than the own index; none: root
   std::string joint;                  // name of the joint above; empty for the root
   std::optional<JointKind> motion;    // none: fixed, or root
+  bool many_values = false;           // of a floating or planar joint: fixed at its origin
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // unit
   std::optional<Mimic> mimic;
-  double lower = 0.0;  // rad or m; -inf/+inf for continuous joints
-  double upper = 0.0;
-  double velocity_max = 0.0;
+  UrdfLimits limits;
+  std::optional<double> held;  // by the cell file's "fixed": rad or m, which X_PJ then contains
   std::vector<PlacedShape> shapes;
 
   // A joint with a value of its own: it becomes a Joint of the cell.
@@ -39,11 +49,15 @@ struct TreeLink {
 };
 
 struct RobotTree {
+  std::string name;  // of the robot, as the file has it
   std::string file;  // file name without folder, as places name it
   std::string text;
   std::vector<TreeLink> links;                  // depth first: parents before children
   std::map<std::string, std::size_t> by_link;   // link name -> index
   std::map<std::string, std::size_t> by_joint;  // joint name -> index of the link that it moves
+  // What hangs where is wrong in the file and was told: links may hang elsewhere than meant, so
+  // what follows from that need not be told again.
+  bool patched = false;
 };
 
 }  // namespace armloom

@@ -16,6 +16,7 @@ using JointSet = RobotSemantics::JointSet;
 struct Group {
   JointSet joints;
   std::vector<std::string> subgroups;
+  Findings faults;  // problems if the group is used, warnings if not
   enum class Mark { fresh, open, done } mark = Mark::fresh;
 };
 
@@ -28,10 +29,10 @@ class GroupReader {
   void read(const XMLElement& element) {
     const XmlPlace at_line(file_ + ": group at line " + std::to_string(element.GetLineNum()),
                            findings_);
-    const std::string name = at_line.name(element, "name");
+    const std::string name = at_line.only_warning("no arm can be this group").name(element, "name");
     if (name.empty()) return;
-    const XmlPlace place = place_of(name);
     const auto [entry, first] = groups_.emplace(name, Group{});
+    const XmlPlace place = place_of(name, entry->second.faults);
     if (!first) return place.report("duplicate-name", "more than one group has this name", name);
     place.only_children(element, {"chain", "joint", "link", "group", "passive_joint"});
     for (const auto* child = element.FirstChildElement(); child != nullptr;
@@ -40,15 +41,17 @@ class GroupReader {
     }
   }
 
-  std::map<std::string, JointSet> resolve() {
+  std::map<std::string, JointSet> resolve(const std::set<std::string>& used) {
     std::map<std::string, JointSet> resolved;
     for (auto& [name, group] : groups_) resolved[name] = joints_of(name, group);
+    for (const std::string& name : used) tell_faults(name);
+    for (auto& [name, group] : groups_) findings_.merge_as_warnings(std::move(group.faults));
     return resolved;
   }
 
  private:
-  XmlPlace place_of(const std::string& group) const {
-    return {file_ + ": group " + group, findings_};
+  XmlPlace place_of(const std::string& group, Findings& findings) const {
+    return {file_ + ": group " + group, findings};
   }
 
   void read_member(const XMLElement& member, const XmlPlace& place, Group& group) {
@@ -61,11 +64,13 @@ class GroupReader {
     if (tag == "joint" && virtual_joints_.contains(name)) return;
     const auto& index = tag == "joint" ? tree_.by_joint : tree_.by_link;
     const auto found = index.find(name);
-    if (found == index.end()) {
-      return place.report("unknown-name",
-                          std::string(tag) + " " + name + " is not in " + tree_.file, name);
-    }
-    add(found->second, group);
+    if (found == index.end()) return warn_unknown(std::string(tag), name, place);
+    add(found->second, place, group);
+  }
+
+  void warn_unknown(const std::string& what, const std::string& name, const XmlPlace& place) const {
+    place.warn("unknown-name",
+               what + " " + name + " is not in " + tree_.file + "; the group is without it", name);
   }
 
   void add_chain(const XMLElement& chain, const XmlPlace& place, Group& group) const {
@@ -76,12 +81,13 @@ class GroupReader {
     std::optional<std::size_t> link = *tip;
     for (; link && *link != *base; link = tree_.links[*link].parent) joints.insert(*link);
     if (!link) {
+      if (tree_.patched) return;  // links may hang elsewhere than meant
       return place.report("broken-chain",
                           "tip_link " + tree_.links[*tip].name + " is not below base_link " +
                               tree_.links[*base].name,
                           tree_.links[*tip].name);
     }
-    for (const std::size_t joint : joints) add(joint, group);
+    for (const std::size_t joint : joints) add(joint, place, group);
   }
 
   std::optional<std::size_t> link_at(const XMLElement& chain, const char* end,
@@ -90,13 +96,19 @@ class GroupReader {
     if (name.empty()) return std::nullopt;
     const auto found = tree_.by_link.find(name);
     if (found != tree_.by_link.end()) return found->second;
-    place.report("unknown-name",
-                 "chain " + std::string(end) + " " + name + " is not in " + tree_.file, name);
+    warn_unknown("chain " + std::string(end), name, place);
     return std::nullopt;
   }
 
-  void add(std::size_t joint, Group& group) const {
-    if (tree_.links[joint].is_independent()) group.joints.insert(joint);
+  void add(std::size_t joint, const XmlPlace& place, Group& group) const {
+    const TreeLink& link = tree_.links[joint];
+    if (link.many_values) {
+      place.report("unsupported-joint",
+                   "joint " + link.joint + " is floating or planar, which no arm can hold",
+                   link.joint, ProblemKind::unsupported);
+    } else if (link.is_independent() || link.held) {
+      group.joints.insert(joint);
+    }
   }
 
   // Joints of the group and of all groups below it. A group met while it is open holds itself.
@@ -104,12 +116,14 @@ class GroupReader {
     if (group.mark != Group::Mark::fresh) return group.joints;
     group.mark = Group::Mark::open;
     for (const auto& subgroup : group.subgroups) {
+      const XmlPlace place = place_of(name, group.faults);
       const auto found = groups_.find(subgroup);
       if (found == groups_.end()) {
-        place_of(name).report("unknown-name", "group " + subgroup + " does not exist", subgroup);
+        place.warn("unknown-name", "group " + subgroup + " does not exist; the group is without it",
+                   subgroup);
       } else if (found->second.mark == Group::Mark::open) {
-        place_of(name).report("group-cycle", "group " + subgroup + " holds this group too: a cycle",
-                              subgroup);
+        place.report("group-cycle", "group " + subgroup + " holds this group too: a cycle",
+                     subgroup);
       } else {
         const JointSet& below = joints_of(subgroup, found->second);
         group.joints.insert(below.begin(), below.end());
@@ -119,11 +133,20 @@ class GroupReader {
     return group.joints;
   }
 
+  // Of a used group and of all below it. Each once: cycles end.
+  void tell_faults(const std::string& name) {
+    const auto found = groups_.find(name);
+    if (found == groups_.end() || !told_.insert(name).second) return;
+    findings_.merge(std::exchange(found->second.faults, {}));
+    for (const auto& subgroup : found->second.subgroups) tell_faults(subgroup);
+  }
+
   const std::string& file_;
   const RobotTree& tree_;
   const std::set<std::string>& virtual_joints_;
   Findings& findings_;
   std::map<std::string, Group> groups_;
+  std::set<std::string> told_;
 };
 
 }  // namespace
@@ -131,7 +154,7 @@ class GroupReader {
 std::map<std::string, JointSet> read_groups(const XMLElement& srdf, const std::string& file,
                                             const RobotTree& tree,
                                             const std::set<std::string>& virtual_joints,
-                                            Findings& findings) {
+                                            const std::set<std::string>& used, Findings& findings) {
   constexpr std::size_t kMaxGroups = 1000;  // also bounds how deep groups can hold each other
   GroupReader reader(file, tree, virtual_joints, findings);
   std::size_t count = 0;
@@ -145,7 +168,7 @@ std::map<std::string, JointSet> read_groups(const XMLElement& srdf, const std::s
     }
     reader.read(*group);
   }
-  return reader.resolve();
+  return reader.resolve(used);
 }
 
 }  // namespace armloom

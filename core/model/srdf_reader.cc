@@ -12,23 +12,30 @@ namespace {
 
 using tinyxml2::XMLElement;
 
+// Elements of one tag that name links which the URDF does not have: told together, as an SRDF that
+// is behind its URDF has many of them.
+struct StaleElements {
+  std::size_t stale = 0;
+  std::size_t all = 0;
+  std::string examples;
+};
+
 class SrdfReader {
  public:
   SrdfReader(const XMLElement& srdf, std::string file, const RobotTree& tree, Findings& findings)
       : srdf_(srdf), file_(std::move(file)), tree_(tree), findings_(findings) {}
 
-  RobotSemantics read() {
+  RobotSemantics read(const std::set<std::string>& used_groups) {
     RobotSemantics semantics;
+    check_name();
     const std::set<std::string> virtual_joints = read_virtual_joints();
-    const std::size_t before = findings_.count();
-    semantics.groups = read_groups(srdf_, file_, tree_, virtual_joints, findings_);
-    if (findings_.count() == before) {  // states of broken groups would only repeat what is wrong
-      for_each("group_state",
-               [&](const XMLElement& state) { read_state(state, virtual_joints, semantics); });
-    }
+    semantics.groups = read_groups(srdf_, file_, tree_, virtual_joints, used_groups, findings_);
+    for_each("group_state",
+             [&](const XMLElement& state) { read_state(state, virtual_joints, semantics); });
     for_each("passive_joint",
              [&](const XMLElement& passive) { read_passive_joint(passive, virtual_joints); });
     read_allowed_pairs(semantics);
+    warn_of_stale_elements();
     return semantics;
   }
 
@@ -46,96 +53,133 @@ class SrdfReader {
             findings_};
   }
 
+  void check_name() const {
+    const XmlPlace place(file_ + ": robot", findings_);
+    const std::string name =
+        place.only_warning("whether it is of the URDF's robot is not known").name(srdf_, "name");
+    if (name.empty() || name == tree_.name) return;
+    place.warn("other-robot",
+               "the SRDF is of robot " + name + ", " + tree_.file + " of robot " + tree_.name +
+                   "; pairs of links that it disables are not checked, and its groups are taken as "
+                   "they are, so it has to be of the same robot",
+               name);
+  }
+
   std::set<std::string> read_virtual_joints() const {
     std::set<std::string> names;
-    for_each("virtual_joint",
-             [&](const XMLElement& joint) { names.insert(at_line(joint).name(joint, "name")); });
+    for_each("virtual_joint", [&](const XMLElement& joint) {
+      names.insert(at_line(joint).only_warning("it is left out").name(joint, "name"));
+    });
     return names;
   }
 
   // The value of a passive joint is not ours to command; only its name can be wrong.
   void read_passive_joint(const XMLElement& passive,
                           const std::set<std::string>& virtual_joints) const {
-    const XmlPlace place = at_line(passive);
+    const XmlPlace place = at_line(passive).only_warning("it is left out");
     const std::string name = place.name(passive, "name");
     if (name.empty() || virtual_joints.contains(name) || tree_.by_joint.contains(name)) return;
     place.report("unknown-name", "joint " + name + " is not in " + tree_.file, name);
   }
 
+  // A state with a fault can be no home and no goal; its faults say why.
   void read_state(const XMLElement& element, const std::set<std::string>& virtual_joints,
                   RobotSemantics& semantics) const {
-    const XmlPlace line = at_line(element);
+    const std::string consequence = "the state is left out";
+    const XmlPlace line = at_line(element).only_warning(consequence);
     const std::string name = line.name(element, "name");
     const std::string group = line.name(element, "group");
     if (name.empty() || group.empty()) return;
-    const XmlPlace place(file_ + ": group_state " + name + " of " + group, findings_);
+    NamedState state;
+    const XmlPlace place(file_ + ": group_state " + name + " of " + group, state.faults);
     const auto found = semantics.groups.find(group);
     if (found == semantics.groups.end()) {
-      return place.report("unknown-name", "group " + group + " does not exist", group);
+      return XmlPlace(place.text(), findings_)
+          .only_warning(consequence)
+          .report("unknown-name", "group " + group + " does not exist", group);
     }
-    RobotSemantics::State state;
     for (const auto* joint = element.FirstChildElement("joint"); joint != nullptr;
          joint = joint->NextSiblingElement("joint")) {
       read_state_value(*joint, found->second, virtual_joints, place, state);
     }
-    if (!semantics.states[group].emplace(name, std::move(state)).second) {
-      place.report("duplicate-name", "more than one state of this group has this name", name);
-    }
+    const auto [known, first] = semantics.states[group].emplace(name, std::move(state));
+    if (first) return;
+    XmlPlace(place.text(), known->second.faults)
+        .report("duplicate-name", "more than one state of this group has this name", name);
   }
 
   void read_state_value(const XMLElement& element, const RobotSemantics::JointSet& group,
                         const std::set<std::string>& virtual_joints, const XmlPlace& place,
-                        RobotSemantics::State& state) const {
+                        NamedState& state) const {
     const std::string name = place.name(element, "name");
     if (name.empty() || virtual_joints.contains(name)) return;
     const auto found = tree_.by_joint.find(name);
     if (found == tree_.by_joint.end()) {
-      return place.report("unknown-name", "joint " + name + " is not in " + tree_.file, name);
+      return place.warn("unknown-name",
+                        "joint " + name + " is not in " + tree_.file + "; the state is without it",
+                        name);
     }
-    const auto value = XmlPlace(place.text() + ": joint " + name, findings_)
-                           .number(element, "value", Presence::required);
     const TreeLink& link = tree_.links[found->second];
-    if (!value || !link.is_independent())
-      return;  // fixed and mimic joints have no value of their own
+    if (!link.is_independent()) return;  // it has no value of its own
+    const auto value = XmlPlace(place.text() + ": joint " + name, state.faults)
+                           .number(element, "value", Presence::required);
+    if (!value) return;
     if (!group.contains(found->second)) {
-      return place.report("foreign-joint", "joint " + name + " is not in the group", name);
+      return place.warn("foreign-joint",
+                        "joint " + name + " is not in the group; the state is without it", name);
     }
-    if (*value < link.lower || *value > link.upper) {
-      place.report("limit-exceeded",
-                   "joint " + name + " is at " + text_of(*value) + ", outside [" +
-                       text_of(link.lower) + ", " + text_of(link.upper) + "]",
-                   *value);
-    }
-    if (!state.emplace(found->second, *value).second) {
+    if (!state.values.emplace(found->second, *value).second) {
       place.report("duplicate-name", "joint " + name + " has more than one value", name);
     }
   }
 
-  std::optional<std::size_t> link_at(const XMLElement& element, const char* attribute) const {
-    const XmlPlace place = at_line(element);
-    const std::string name = place.name(element, attribute);
+  std::optional<std::size_t> link_at(const XMLElement& element, const char* attribute) {
+    const std::string name = at_line(element)
+                                 .only_warning("the links of the pair stay checked")
+                                 .name(element, attribute);
     if (name.empty()) return std::nullopt;
     const auto found = tree_.by_link.find(name);
     if (found != tree_.by_link.end()) return found->second;
-    place.report("unknown-name", "link " + name + " is not in " + tree_.file, name);
+    StaleElements& stale = stale_[element.Name()];
+    if (last_stale_ != &element) ++stale.stale;
+    last_stale_ = &element;
+    if (stale.stale <= 3) {
+      stale.examples += (stale.examples.empty() ? "" : ", ") + name + " at line " +
+                        std::to_string(element.GetLineNum());
+    }
     return std::nullopt;
   }
 
+  void warn_of_stale_elements() const {
+    for (const auto& [tag, stale] : stale_) {
+      if (stale.stale == 0) continue;
+      XmlPlace(file_ + ": " + tag, findings_)
+          .warn("unknown-name",
+                std::to_string(stale.stale) + " of " + std::to_string(stale.all) +
+                    " name links that are not in " + tree_.file + " (" + stale.examples +
+                    (stale.stale > 3 ? ", ..." : "") +
+                    "); they are left out, and the links that were meant stay checked");
+    }
+  }
+
   template <class Visit>
-  void for_each_pair(const char* tag, Visit visit) const {
+  void for_each_pair(const char* tag, Visit visit) {
     for_each(tag, [&](const XMLElement& element) {
+      ++stale_[tag].all;
       const auto a = link_at(element, "link1");
       const auto b = link_at(element, "link2");
       if (!a || !b) return;
-      if (a == b)
-        return at_line(element).report("same-link", "link1 and link2 are the same link",
-                                       tree_.links[*a].name);
+      if (a == b) {
+        return at_line(element).warn(
+            "same-link", "link1 and link2 are the same link; it is left out", tree_.links[*a].name);
+      }
       visit(std::minmax(*a, *b));
     });
   }
 
-  void read_allowed_pairs(RobotSemantics& semantics) const {
+  void read_allowed_pairs(RobotSemantics& semantics) {
     for_each("disable_default_collisions", [&](const XMLElement& element) {
+      ++stale_[element.Name()].all;
       const auto link = link_at(element, "link");
       for (std::size_t other = 0; link && other < tree_.links.size(); ++other) {
         if (other != *link) semantics.allowed_pairs.insert(std::minmax(*link, other));
@@ -151,19 +195,21 @@ class SrdfReader {
   std::string file_;
   const RobotTree& tree_;
   Findings& findings_;
+  std::map<std::string, StaleElements> stale_;  // tag -> those with unknown links
+  const XMLElement* last_stale_ = nullptr;
 };
 
 }  // namespace
 
 std::optional<RobotSemantics> read_srdf(std::string text, const std::filesystem::path& path,
-                                        const RobotTree& tree, Findings& findings) {
-  const std::size_t before = findings.count();
+                                        const RobotTree& tree,
+                                        const std::set<std::string>& used_groups,
+                                        Findings& findings) {
   const std::string file = path.filename().string();
   tinyxml2::XMLDocument document;
   const auto* srdf = parse_robot_xml(text, file, document, findings);
   if (srdf == nullptr) return std::nullopt;
-  RobotSemantics semantics = SrdfReader(*srdf, file, tree, findings).read();
-  if (findings.count() != before) return std::nullopt;
+  RobotSemantics semantics = SrdfReader(*srdf, file, tree, findings).read(used_groups);
   semantics.file = file;
   semantics.text = std::move(text);
   return semantics;

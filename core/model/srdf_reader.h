@@ -15,24 +15,29 @@ namespace armloom {
 
 // What an SRDF says about a robot, with every name resolved. Joints and links are indices into
 // RobotTree::links; a joint is the link that it moves.
+struct NamedState {
+  std::map<std::size_t, double> values;  // joint -> rad or m
+  Findings faults;  // why it can be no home and no goal; problems only of an arm whose home it is
+};
 struct RobotSemantics {
-  using JointSet = std::set<std::size_t>;       // in tree order: from base to tip
-  using State = std::map<std::size_t, double>;  // joint -> rad or m
+  using JointSet = std::set<std::size_t>;  // in tree order: from base to tip
 
   std::string file;  // file name without folder, as places name it
   std::string text;
-  std::map<std::string, JointSet> groups;                       // independent joints only
-  std::map<std::string, std::map<std::string, State>> states;   // group -> state name -> values
-  std::set<std::pair<std::size_t, std::size_t>> allowed_pairs;  // links, smaller first
+  std::map<std::string, JointSet> groups;  // independent joints, and those that the cell holds
+  std::map<std::string, std::map<std::string, NamedState>> states;  // group -> state name -> values
+  std::set<std::pair<std::size_t, std::size_t>> allowed_pairs;      // links, smaller first
 };
 
 // Reads an SRDF that was loaded from `path`. Groups by chain, joints, links and subgroups in any
-// order; group states, whose values must keep the URDF's limits; disable_collisions,
-// disable_default_collisions and enable_collisions. Virtual joints are ignored: the cell file
-// places the base. Nothing, with the reasons in `findings`, when a name is unknown or a number is
-// none.
+// order; group states; disable_collisions, disable_default_collisions and enable_collisions.
+// Virtual joints are ignored: the cell file places the base. As MoveIt does, leaves out what names
+// links, joints or groups that are not there, with a warning; so it does with all that the cell's
+// `used_groups` do not need. Nothing, with the reasons in `findings`, when the text is no XML.
 [[nodiscard]] std::optional<RobotSemantics> read_srdf(std::string text,
                                                       const std::filesystem::path& path,
-                                                      const RobotTree& tree, Findings& findings);
+                                                      const RobotTree& tree,
+                                                      const std::set<std::string>& used_groups,
+                                                      Findings& findings);
 
 }  // namespace armloom

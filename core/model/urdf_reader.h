@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -10,8 +11,13 @@
 
 namespace armloom {
 
-// Reads a URDF that was loaded from `path`. Nothing, with the reasons in `findings`, when anything
-// in it is wrong; places are "panda.urdf: joint panda_joint3". Meshes are resolved (see
+// A robot has at most this many links: pairs of links are stored and checked.
+inline constexpr std::size_t kMaxLinksOfRobot = 1000;
+
+// Reads a URDF that was loaded from `path`; places are "panda.urdf: joint panda_joint3". All that
+// is wrong goes to `findings`, and the robot is read as far as it can be, so that what else is
+// wrong with the cell can be told at once: the tree only holds what was meant when nothing was
+// added. Nothing when the text is no XML, or of too many links. Meshes are resolved (see
 // mesh_path.h) and not loaded (build_cell does).
 [[nodiscard]] std::optional<RobotTree> read_urdf(std::string text,
                                                  const std::filesystem::path& path,

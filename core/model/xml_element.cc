@@ -60,14 +60,29 @@ tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string
                   std::string("the root element is <") + root->Name() + ">, not <robot>");
   }
   if (const auto* xacro = find_xacro(*root)) {
-    return refuse(xacro->GetLineNum(), "the file is xacro, expand it first");
+    return refuse(xacro->GetLineNum(),
+                  "the file is xacro: name it ....xacro, or expand it by hand (xacro IN > OUT) and "
+                  "name that");
   }
   return root;
 }
 
+XmlPlace XmlPlace::only_warning(std::string consequence) const {
+  XmlPlace other = *this;
+  other.consequence_ = std::move(consequence);
+  return other;
+}
+
 void XmlPlace::report(std::string slug, const std::string& sentence, decltype(Problem::value) value,
                       ProblemKind kind) const {
+  if (consequence_) return warn(std::move(slug), sentence + "; " + *consequence_, std::move(value));
   findings_->add({kind, std::move(slug), place_, place_ + ": " + sentence, std::move(value)});
+}
+
+void XmlPlace::warn(std::string slug, const std::string& sentence,
+                    decltype(Problem::value) value) const {
+  findings_->warn(
+      {ProblemKind::invalid, std::move(slug), place_, place_ + ": " + sentence, std::move(value)});
 }
 
 std::optional<double> XmlPlace::number(const tinyxml2::XMLElement& element, const char* attribute,
@@ -124,8 +139,8 @@ void XmlPlace::only_children(const tinyxml2::XMLElement& element,
     // An element of another namespace (drake:..., mujoco:...) is an extension, not a misspelling.
     if (tag.find(':') != std::string_view::npos) continue;
     if (std::find(known.begin(), known.end(), tag) != known.end()) continue;
-    report("unknown-element", "<" + std::string(tag) + "> is not known here", std::string(tag),
-           ProblemKind::unsupported);
+    warn("unknown-element", "<" + std::string(tag) + "> is not known here and is left out",
+         std::string(tag));
   }
 }
 

@@ -33,9 +33,15 @@ class XmlPlace {
   XmlPlace(std::string place, Findings& findings)
       : place_(std::move(place)), findings_(&findings) {}
 
+  // The same place for what the cell does not use: all that is wrong there is only a warning, which
+  // ends with this consequence.
+  [[nodiscard]] XmlPlace only_warning(std::string consequence) const;
+
   [[nodiscard]] const std::string& text() const { return place_; }
   void report(std::string slug, const std::string& sentence, decltype(Problem::value) value = {},
               ProblemKind kind = ProblemKind::invalid) const;
+  void warn(std::string slug, const std::string& sentence,
+            decltype(Problem::value) value = {}) const;
 
   // One finite number; nothing (and reported, unless absent and optional) otherwise.
   std::optional<double> number(const tinyxml2::XMLElement& element, const char* attribute,
@@ -50,13 +56,14 @@ class XmlPlace {
   // second one is reported.
   const tinyxml2::XMLElement* only_child(const tinyxml2::XMLElement& element, const char* child,
                                          Presence presence) const;
-  // Reports children of other names. A misspelt <colision> would otherwise vanish without a word.
+  // Warns of children of other names. A misspelt <colision> would otherwise vanish without a word.
   void only_children(const tinyxml2::XMLElement& element,
                      std::initializer_list<std::string_view> known) const;
 
  private:
   std::string place_;
   Findings* findings_;
+  std::optional<std::string> consequence_;  // given: of a place that only warns
 };
 
 }  // namespace armloom

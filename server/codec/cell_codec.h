@@ -18,6 +18,11 @@ namespace armloom {
 [[nodiscard]] Result<CellDescription> read_cell_text(std::string_view text,
                                                      const std::filesystem::path& folder);
 
+// The same as far as it can be read: what is wrong is in `faults` (empty before), and left at its
+// default in the description.
+[[nodiscard]] CellDescription read_cell_text(std::string_view text,
+                                             const std::filesystem::path& folder, Problems& faults);
+
 // The same cell file for another place: every path in it made relative to `to`, comments lost.
 // Precondition: read_cell_text(text, from) succeeded.
 [[nodiscard]] std::string relocate_cell_text(std::string_view text,

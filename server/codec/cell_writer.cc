@@ -1,8 +1,10 @@
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "server/codec/cell_codec.h"
+#include "server/codec/cell_format.h"
 #include "server/codec/mesh_address.h"
+#include "server/codec/pose_words.h"
+#include "server/codec/scene_format.h"
 
 namespace armloom {
 namespace {
@@ -13,39 +15,13 @@ void write_vector(JsonWriter& out, const Eigen::VectorXd& numbers) {
   out.end_array();
 }
 
-// Fixed-axis roll, pitch, yaw as URDF has them. At pitch = ±90° yaw is taken as zero.
-Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
-  const double cos_pitch = std::hypot(R(0, 0), R(1, 0));
-  const double pitch = std::atan2(-R(2, 0), cos_pitch);
-  if (cos_pitch < 1e-9) return {std::atan2(-R(1, 2), R(1, 1)), pitch, 0.0};
-  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
-}
-
 void write_pose(JsonWriter& out, const Eigen::Isometry3d& X) {
+  const PoseWords words = pose_in_words(X);
   out.key("xyz");
-  write_vector(out, X.translation());
+  write_vector(out, words.xyz_m);
   out.key("rpy");
-  write_vector(out, rpy_of(X.linear()));
+  write_vector(out, words.rpy_rad);
 }
-
-struct ShapeWriter {
-  JsonWriter& out;
-  void operator()(const Box& box) const {
-    out.key("box");
-    write_vector(out, box.size_m);
-  }
-  void operator()(const Cylinder& cylinder) const {
-    out.key("cylinder").begin_array().value(cylinder.radius_m).value(cylinder.length_m).end_array();
-  }
-  void operator()(const Sphere& sphere) const {
-    out.key("sphere").begin_array().value(sphere.radius_m).end_array();
-  }
-  void operator()(const Mesh& mesh) const {
-    out.field("mesh", mesh_address(mesh.path));
-    out.key("scale");
-    write_vector(out, mesh.scale);
-  }
-};
 
 void write_arm(JsonWriter& out, const Cell& cell, const Arm& arm) {
   out.begin_object().field("name", arm.name).field("group", arm.group);
@@ -92,35 +68,23 @@ void write_joint(JsonWriter& out, const Cell& cell, const Joint& joint) {
 }
 
 void write_settings(JsonWriter& out, const Cell& cell) {
-  out.field("clearance_m", cell.clearance_m);
-  out.field("self_clearance_m", cell.self_clearance_m);
-  out.key("checking").begin_object();
-  out.field("time_step_s", cell.checking.time_step);
-  out.field("tracking_error_rad", cell.checking.tracking_error_rad);
-  out.field("delay_s", cell.checking.delay);
-  out.field("limit_tolerance", cell.checking.limit_tolerance).end_object();
-  out.key("scheduling").begin_object();
-  out.field("policy", cell.scheduling.policy);
-  out.field("backlog_timeout_s", cell.scheduling.backlog_timeout);
-  out.field("aging_s", cell.scheduling.aging);
-  out.field("on_idle_blocker", cell.scheduling.on_idle_blocker).end_object();
-  out.key("monitor").begin_object();
-  out.field("rate_hz", cell.monitor.rate_hz);
-  out.field("reaction_s", cell.monitor.reaction);
-  out.field("stop_clearance_m", cell.monitor.stop_clearance_m).end_object();
-  out.key("execution").begin_object();
-  out.field("start_tolerance_rad", cell.execution.start_tolerance_rad);
-  out.field("duration_scaling", cell.execution.duration_scaling);
-  out.field("duration_margin_s", cell.execution.duration_margin).end_object();
+  CellDescription settings;
+  settings.clearance_m = cell.clearance_m;
+  settings.self_clearance_m = cell.self_clearance_m;
+  settings.checking = cell.checking;
+  settings.scheduling = cell.scheduling;
+  settings.monitor = cell.monitor;
+  settings.execution = cell.execution;
+  settings_part().write(out, settings);
 }
 
 }  // namespace
 
 void write_object(JsonWriter& out, const CollisionObject& object) {
-  out.begin_object().field("name", object.name);
-  std::visit(ShapeWriter{out}, object.shape);
-  write_pose(out, object.X_WO);
-  out.end_object();
+  ObjectDescription description{object.name, object.shape, object.X_WO};
+  // Clients fetch meshes from the server: they are told the address, not the file.
+  if (auto* mesh = std::get_if<Mesh>(&description.shape)) mesh->path = mesh_address(mesh->path);
+  scene_object_format()->write(out, description);
 }
 
 void write_objects(JsonWriter& out, const std::vector<CollisionObject>& objects) {

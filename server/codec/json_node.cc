@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "server/codec/json_pointer.h"
+#include "server/codec/nearest_name.h"
 
 namespace armloom {
 namespace {
@@ -60,7 +61,7 @@ void JsonNode::missing(std::string_view key) const {
 bool JsonNode::array() const { return value_->is_array() || wrong_type("an array"); }
 bool JsonNode::is_object() const { return value_->is_object() || wrong_type("an object"); }
 
-bool JsonNode::object(std::initializer_list<std::string_view> known) const {
+bool JsonNode::object(std::span<const std::string_view> known) const {
   if (!is_object()) return false;
   for (auto it = value_->begin(); it != value_->end(); ++it) {
     if (std::find(known.begin(), known.end(), it.key()) != known.end()) continue;
@@ -69,8 +70,12 @@ bool JsonNode::object(std::initializer_list<std::string_view> known) const {
       list += list.empty() ? "" : ", ";
       list += name;
     }
+    const auto meant = nearest_name(it.key(), known);
     JsonNode(it.value(), *this, it.key())
-        .invalid("unknown-field", "unknown field \"" + it.key() + "\"; known here: " + list);
+        .invalid("unknown-field",
+                 "unknown field \"" + it.key() + "\"" +
+                     (meant ? ", did you mean \"" + std::string(*meant) + "\"?" : ";") +
+                     " known here: " + list);
   }
   return true;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,7 +30,10 @@ class JsonNode {
   [[nodiscard]] const nlohmann::json& raw() const { return *value_; }
 
   // Whether it is an object; each key that is not `known` is a fault.
-  [[nodiscard]] bool object(std::initializer_list<std::string_view> known) const;
+  [[nodiscard]] bool object(std::span<const std::string_view> known) const;
+  [[nodiscard]] bool object(std::initializer_list<std::string_view> known) const {
+    return object(std::span(known.begin(), known.size()));
+  }
   [[nodiscard]] bool has(std::string_view key) const { return value_->contains(key); }
   // Calls read(member) when the member is there. Precondition: object() was true.
   template <class Read>

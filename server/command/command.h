@@ -31,6 +31,23 @@ int serve(const ServeOptions& options);
 
 int validate_cell(const std::string& cell_file);
 
+// What a cell file may hold: its JSON schema, or the reference for people (config/README.md).
+int print_cell_schema(bool markdown);
+
+// A cell file from a robot's URDF and SRDF, on stdout or in a file; what was chosen and what is
+// wrong with it on stderr. Exit 0: it loads.
+struct ImportOptions {
+  std::vector<std::string> urdf;
+  std::vector<std::string> srdf;          // one for each URDF
+  std::vector<std::string> joint_limits;  // none, or one for each URDF
+  std::vector<std::string> robots;        // NAME or NAME:x=0.75,yaw_deg=180
+  std::vector<std::string> packages;      // NAME=FOLDER
+  std::string prefix;                     // of a single robot
+  std::string name;                       // of the cell; empty: of its robots
+  std::string out;                        // empty: stdout
+};
+int import_robots(const ImportOptions& options);
+
 // A Verdict as JSON for each job of the file, one a line.
 struct CheckOptions {
   std::string cell_file;
@@ -74,13 +91,23 @@ struct LoadedCell {
   CellDescription description;
   std::filesystem::path file;
   std::string text;  // of the cell file
+  Problems warnings;
 };
-// Reads the file and builds the cell; on problems says each on stderr and returns nothing.
+// Reads the file and builds the cell; on problems says each on stderr, and all warnings, and
+// returns nothing.
 [[nodiscard]] std::optional<LoadedCell> load_cell(const std::string& cell_file);
+// The same of a text that stands in `cell_file`, or is going to.
+[[nodiscard]] std::optional<LoadedCell> load_cell_text(std::string text,
+                                                       const std::string& cell_file);
+// Whether a server would run the cell: homes free, policy and controllers known. Warnings and what
+// is wrong on stderr.
+[[nodiscard]] bool is_fit_to_run(const LoadedCell& loaded);
 
 // "armloom: config/x.json:/robots/0/urdf: ..." on stderr, one line for each problem.
 void complain(const std::string& file, const Problems& problems);
-// The same, as an answer: kExitBadInput.
+// "armloom: warning: ...", alike.
+void warn(const std::string& file, const Problems& warnings);
+// Problems, as an answer: kExitBadInput.
 int refuse(const std::string& file, const Problems& problems);
 
 // The problems, with those of this slug said to be at an option of the command line: "--out".

@@ -6,28 +6,11 @@
 #include <sstream>
 
 #include "core/audit/audit.h"
-#include "core/executive/executive.h"
 #include "core/executive/shape_report.h"
-#include "core/model/build_cell.h"
-#include "core/model/cell_checks.h"
-#include "server/codec/problem_codec.h"
 #include "server/command/command.h"
 
 namespace armloom {
 namespace {
-
-// Nothing runs here: the executive is only built, to learn what it would refuse.
-class NoJudges final : public JudgePool {
- public:
-  void ask(Question, PlanningScenePtr, std::function<void(Verdict)>) override {}
-  bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
-};
-class NoObserver final : public Observer {
- public:
-  void on_event(const Event&) override {}
-  void on_tick(TimePoint, const Configuration&) override {}
-  void on_state(const StateFrame&) override {}
-};
 
 double no_minus_zero(double number) { return number == 0.0 ? 0.0 : number; }
 
@@ -52,29 +35,24 @@ std::string counted_shapes(const Cell& cell, const std::vector<LinkId>& links) {
   return text.empty() ? "none" : text;
 }
 
-// `marked` limits were not given by the cell file.
+// `marked` limits are defaults.
 void print_limit(double limit, bool marked = false) {
   std::cout << std::setw(9) << no_minus_zero(limit) << (marked ? '*' : ' ');
 }
 
-void print_joint(const Joint& joint, const JointLimitsDescription& given) {
+void print_joint(const Joint& joint) {
   std::cout << "    " << std::left << std::setw(30) << joint.name << std::right;
   print_limit(joint.lower);
   print_limit(joint.upper);
-  print_limit(joint.velocity_max);
-  print_limit(joint.acceleration_max, !given.acceleration);
-  print_limit(joint.jerk_max, !given.jerk);
-  print_limit(joint.brake, !given.brake);
+  print_limit(joint.velocity_max, joint.assumed.velocity);
+  print_limit(joint.acceleration_max, joint.assumed.acceleration);
+  print_limit(joint.jerk_max, joint.assumed.jerk);
+  print_limit(joint.brake, joint.assumed.brake);
   std::cout << " " << (joint.kind == JointKind::prismatic ? "m" : "rad") << '\n';
 }
 
-void print_arm(const Cell& cell, const Arm& arm, const ArmDescription& description) {
-  const std::string& prefix = cell.robots[arm.robot.index()].prefix;
-  const auto print = [&](JointId id) {
-    const auto given = description.limits.find(cell.joint(id).name.substr(prefix.size()));
-    print_joint(cell.joint(id),
-                given == description.limits.end() ? JointLimitsDescription{} : given->second);
-  };
+void print_arm(const Cell& cell, const Arm& arm) {
+  const auto print = [&](JointId id) { print_joint(cell.joint(id)); };
   std::cout << "  arm " << arm.name << " (group " << arm.group << "), " << arm.joints.size()
             << " joints, " << arm.links.size()
             << " links, shapes: " << counted_shapes(cell, arm.links) << '\n';
@@ -107,23 +85,21 @@ void print_settings(const Cell& cell) {
             << to_seconds(cell.execution.duration_margin) << " s\n";
 }
 
-void print_cell(const Cell& cell, const CellDescription& description) {
+void print_cell(const Cell& cell) {
   std::cout << std::setprecision(6) << "cell " << cell.name << ": " << cell.robots.size()
             << " robots, " << cell.arms.size() << " arms, " << cell.joints.size() << " joints, "
             << cell.links.size() << " links, " << cell.objects.size() << " objects\n";
-  for (std::size_t r = 0; r < cell.robots.size(); ++r) {
-    const Robot& robot = cell.robots[r];
+  for (const Robot& robot : cell.robots) {
     const Eigen::Vector3d& p = robot.X_WB.translation();
     std::cout << "robot " << robot.name << " (prefix \"" << robot.prefix << "\") at "
               << no_minus_zero(p.x()) << ", " << no_minus_zero(p.y()) << ", "
               << no_minus_zero(p.z()) << "; controller " << robot.controller.type << ", lag "
               << to_seconds(robot.controller.lag) << " s, noise " << robot.controller.noise_rad
               << " rad\n";
-    for (std::size_t a = 0; a < robot.arms.size(); ++a) {
-      print_arm(cell, cell.arm(robot.arms[a]), description.robots[r].arms[a]);
-    }
+    for (const ArmId arm : robot.arms) print_arm(cell, cell.arm(arm));
   }
-  std::cout << "  * a default: acceleration " << kDefaultAcceleration << ", jerk " << kDefaultJerk
+  std::cout << "  * a default: velocity " << kDefaultVelocity << ", acceleration "
+            << kDefaultAcceleration << ", jerk " << kDefaultJerk
             << ", brake twice the acceleration\n";
   static constexpr const char* kNames[] = {"box", "cylinder", "sphere", "mesh"};
   for (const CollisionObject& object : cell.objects) {
@@ -154,23 +130,12 @@ int validate_cell(const std::string& cell_file) {
   const auto loaded = load_cell(cell_file);
   if (!loaded) return kExitBadInput;
   const Cell& cell = *loaded->cell;
-  print_cell(cell, loaded->description);
-  for (const Problems& doubts :
-       {doubts_about_limits(loaded->description, cell), doubts_about_meshes(cell)}) {
-    for (const Problem& doubt : doubts) {
-      std::cerr << "armloom: warning: " << problem_sentence(cell_file, doubt) << '\n';
-    }
-  }
+  print_cell(cell);
+  if (!is_fit_to_run(*loaded)) return kExitBadInput;
 
   const auto shapes = report_shapes(loaded->cell);
   if (!shapes) {
     complain(cell_file, shapes.error());
-    return kExitBadInput;
-  }
-  NoJudges judges;
-  NoObserver observer;
-  if (const auto executive = Executive::create(loaded->cell, {}, judges, observer); !executive) {
-    complain(cell_file, executive.error());
     return kExitBadInput;
   }
   const auto report =

@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "server/codec/cell_schema.h"
+
 namespace armloom {
 namespace {
 
@@ -16,6 +18,10 @@ void add_openapi_routes(Router& router) {
   router.add("GET", "/openapi.json", [](const Request&, const Router::Arguments&, Respond respond) {
     respond(page("application/json", openapi_json()));
   });
+  router.add("GET", "/cell.schema.json",
+             [](const Request&, const Router::Arguments&, Respond respond) {
+               respond(page("application/schema+json", cell_schema_text()));
+             });
   router.add("GET", "/docs", [](const Request&, const Router::Arguments&, Respond respond) {
     Response response = page("text/html; charset=utf-8", docs_html());
     response.headers.emplace_back(

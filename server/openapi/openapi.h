@@ -12,7 +12,7 @@ namespace armloom {
 [[nodiscard]] std::string_view openapi_json();
 [[nodiscard]] std::string_view docs_html();
 
-// GET /openapi.json, GET /docs
+// GET /openapi.json, GET /cell.schema.json, GET /docs
 void add_openapi_routes(Router& router);
 
 }  // namespace armloom

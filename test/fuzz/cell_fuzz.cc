@@ -35,6 +35,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   for (std::size_t r = 0; r < cell->robots.size(); ++r) {
     fuzz::demand(again->robots[r].urdf == cell->robots[r].urdf);
     fuzz::demand(again->robots[r].srdf == cell->robots[r].srdf);
+    fuzz::demand(again->robots[r].joint_limits == cell->robots[r].joint_limits);
   }
   return 0;
 }

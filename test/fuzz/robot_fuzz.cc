@@ -1,12 +1,14 @@
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "core/model/build_cell.h"
 #include "core/model/kinematics.h"
 #include "test/fuzz/problems.h"
 
-// A robot's URDF and SRDF: build_cell on a cell of one robot whose files come from the input.
-// An input is the name of the arm's group, a newline, the URDF, a line "=== SRDF", the SRDF.
+// A robot's URDF, SRDF and joint limits: build_cell on a cell of one robot whose files come from the
+// input. An input is the name of the arm's group, a newline, the URDF, a line "=== SRDF", the SRDF, a
+// line "=== LIMITS", the YAML; the last two are optional.
 // The files are written to the folder ARMLOOM_FUZZ_SCRATCH (a memory file system, for speed).
 
 namespace armloom::fuzz {
@@ -25,7 +27,17 @@ void write_file(const fs::path& file, const std::string& text) {
   demand(out.good());
 }
 
-CellDescription description_of(const std::string& input, const fs::path& folder) {
+// Cuts the part after the line off the input; nothing when there is no such line.
+std::optional<std::string> cut_part(std::string& input, const std::string& separator) {
+  const std::size_t cut = input.find(separator);
+  if (cut == std::string::npos) return std::nullopt;
+  std::string part = input.substr(cut + separator.size());
+  input.resize(cut);
+  return part;
+}
+
+CellDescription description_of(std::string input, const fs::path& folder) {
+  const auto limits = cut_part(input, "\n=== LIMITS\n");
   const std::string separator = "\n=== SRDF\n";
   const std::size_t line = std::min(input.find('\n'), input.size());
   const std::size_t cut = std::min(input.find(separator, line), input.size());
@@ -37,6 +49,10 @@ CellDescription description_of(const std::string& input, const fs::path& folder)
   if (cut < input.size()) {
     write_file(folder / "r.srdf", input.substr(cut + separator.size()));
     robot.srdf = (folder / "r.srdf").string();
+  }
+  if (limits) {
+    write_file(folder / "joint_limits.yaml", *limits);
+    robot.joint_limits = (folder / "joint_limits.yaml").string();
   }
   robot.packages["meshes"] = (folder / "meshes").string();
   ArmDescription arm;

@@ -28,6 +28,16 @@ SMALL_SRDF = """<robot name="s"><group name="g"><chain base_link="l0" tip_link="
 <disable_collisions link1="l0" link2="l2" reason="Never"/><disable_default_collisions link="l1"/>
 <enable_collisions link1="l0" link2="l1"/></robot>"""
 
+SMALL_LIMITS = """joint_limits:
+  j1: {has_velocity_limits: true, max_velocity: 1.5, has_acceleration_limits: true, max_acceleration: 2}
+  j2:
+    has_position_limits: true
+    min_position: -1
+    max_position: 1
+    has_jerk_limits: false
+default_velocity_scaling_factor: 0.1
+"""
+
 
 def uncommented(text):
     return re.sub(r"(?m)^\s*//.*$|\s//\s.*$", "", re.sub(r"/\*.*?\*/", "", text, flags=re.S))
@@ -59,13 +69,14 @@ def job_seeds():
 
 def cell_seeds():
     for file in sorted((TOP / "config").glob("*.json")):
-        if not file.name.endswith("_jobs.json"):
+        if not file.name.endswith(("_jobs.json", ".schema.json")):
             yield uncommented(file.read_text())
             yield file.read_text()
     yield json.dumps({"name": "rod", "cylinder": [0.015, 0.5], "xyz": [0, 0.9, 0.4], "rpy": [0, 0, 1]})
     yield json.dumps({"name": "c", "clearance_m": 0.02, "self_clearance_m": 0.005,
                       "robots": [{"name": "r", "urdf": "r.urdf", "srdf": "../r.srdf", "prefix": "r_",
                                   "base": {"xyz": [0, 0, 1], "rpy": [0, 0, 1.5]}, "packages": {"p": "../p"},
+                                  "joint_limits": "joint_limits.yaml", "fixed": {"torso": 0.1},
                                   "arms": [{"name": "a", "group": "g", "home": [0],
                                             "limits": {"j": {"acceleration_rad_s2": 3, "jerk_rad_s3": 5,
                                                              "brake_rad_s2": 7}}}],
@@ -83,6 +94,7 @@ def cell_seeds():
 
 def robot_seeds():
     yield "\n".join(["g", SMALL_URDF, "=== SRDF", SMALL_SRDF])
+    yield "\n".join(["g", SMALL_URDF, "=== SRDF", SMALL_SRDF, "=== LIMITS", SMALL_LIMITS])
     yield "\n".join(["g", SMALL_URDF])
     for model, group in (("ur5e", "manipulator"), ("panda", "panda_arm")):
         files = [minified_xml((TOP / f"models/{model}{end}").read_text()) for end in (".urdf", ".srdf")]

@@ -156,7 +156,7 @@ CellDescription torso_cell(const ScratchFolder& folder, const std::string& torso
   robot.srdf =
       folder.write("r.srdf", "<robot name='r'><group name='ga'>" + group_a +
                                  "</group><group name='gb'><joint name='jb'/></group></robot>");
-  robot.arms = {{"A", "ga", {}, {}}, {"B", "gb", {}, {}}};
+  robot.arms = {{"A", "ga", {}, {}, {}}, {"B", "gb", {}, {}, {}}};
   CellDescription cell;
   cell.robots.push_back(robot);
   return cell;
@@ -166,19 +166,21 @@ TEST(SharedJoints, AreRefusedWhenTheTorsoBelongsToOneOfTheArms) {
   const ScratchFolder folder;
   EXPECT_THAT(
       problems_of(torso_cell(folder, "revolute", "<joint name='waist'/><joint name='ja'/>")),
-      HasSubstr("/robots/0/arms | robot r: arms A and B both move link b"));
+      HasSubstr("/robots/0/arms | robot r: arms A, B share the movable joints waist, so that "
+                "each moves the other; hold what they share (add to the robot \"fixed\": "
+                "{\"waist\": 0}) or make them one arm"));
 }
 
 TEST(SharedJoints, AreRefusedWhenTheTorsoBelongsToNoArm) {
   const ScratchFolder folder;
   EXPECT_THAT(problems_of(torso_cell(folder, "revolute", "<joint name='ja'/>")),
-              HasSubstr("robot r: arms A and B share the movable joint waist above them"));
+              HasSubstr("add to the robot \"fixed\": {\"waist\": 0}"));
 }
 
 TEST(SharedJoints, AreRefusedWhenTwoGroupsHoldTheSameJoint) {
   const ScratchFolder folder;
   EXPECT_THAT(problems_of(torso_cell(folder, "fixed", "<joint name='ja'/><joint name='jb'/>")),
-              HasSubstr("/robots/0/arms/1/group | arm B: joint jb belongs to arm A"));
+              HasSubstr("arms A, B share the movable joints jb"));
 }
 
 TEST(SharedJoints, DoNotIncludeAFixedTorso) {

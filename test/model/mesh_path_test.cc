@@ -54,10 +54,38 @@ TEST_F(MeshPath, StaysInsideItsFolderThroughLinks) {
   EXPECT_THAT(refusal("package://p/up/secret.stl"), HasSubstr("through a link"));
 }
 
+TEST_F(MeshPath, TakesAbsolutePathsBelowTheFoldersThatTheCellNames) {
+  const std::string inside = (folder_.path() / "package/meshes/b.stl").string();
+  const auto real = std::filesystem::canonical(inside);
+  EXPECT_EQ(resolve("file://" + inside), real);
+  EXPECT_EQ(resolve("file://localhost" + inside), real);
+  EXPECT_EQ(resolve("file://" + folder_.path().string() + "/package/mesh%65s/b%2Estl"), real);
+  EXPECT_EQ(resolve(inside), real);
+  EXPECT_EQ(resolve("file://" + (folder_.path() / "robot/meshes/a.stl").string()),
+            std::filesystem::canonical(folder_.path() / "robot/meshes/a.stl"));
+}
+
+TEST_F(MeshPath, SaysTheLineThatLetsAnAbsolutePathIn) {
+  folder_.write("elsewhere/arm_description/meshes/visual/c.stl", "solid c");
+  folder_.write("elsewhere/other/package.xml", "<package/>");
+  folder_.write("elsewhere/other/deep/d.stl", "solid d");
+  const auto real = std::filesystem::canonical(folder_.path() / "elsewhere").string();
+  EXPECT_THAT(refusal("file://" + real + "/arm_description/meshes/visual/c.stl"),
+              HasSubstr("add to the robot \"packages\": {\"arm_description\": \"" + real +
+                        "/arm_description\"}"));
+  EXPECT_THAT(refusal(real + "/other/deep/d.stl"),
+              HasSubstr("{\"other\": \"" + real + "/other\"}"));
+  EXPECT_THAT(refusal("package://package/x.stl"),
+              HasSubstr("add to the robot \"packages\": {\"package\": \""));
+  EXPECT_THAT(refusal("file:///etc/hostname"), HasSubstr("lies neither below the URDF's folder"));
+  EXPECT_THAT(refusal("/etc/no-such-file"), HasSubstr("does not exist"));
+  EXPECT_THAT(refusal("file://host/a.stl"), HasSubstr("another host"));
+  EXPECT_THAT(refusal("file://" + (folder_.path() / "package/meshes/link.stl").string()),
+              HasSubstr("lies neither"));
+}
+
 TEST_F(MeshPath, RefusesOtherSchemesAndWhatIsNoFile) {
-  EXPECT_THAT(refusal("file:///etc/hostname"), HasSubstr("neither package://"));
   EXPECT_THAT(refusal("http://127.0.0.1/a.stl"), HasSubstr("neither package://"));
-  EXPECT_THAT(refusal("/etc/hostname"), HasSubstr("neither package://"));
   EXPECT_THAT(refusal("package://q/a.stl"), HasSubstr("package 'q'"));
   EXPECT_THAT(refusal("package://p"), HasSubstr("names no file"));
   EXPECT_THAT(refusal("package://p/meshes"), HasSubstr("not a regular file"));

@@ -24,7 +24,7 @@ RobotDescription panda(const std::string& name, double x, double yaw) {
   robot.srdf = model_file("panda.srdf");
   robot.prefix = name + "_";
   robot.X_WB = Eigen::Translation3d(x, 0, 0.1) * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
-  robot.arms.push_back({name, "panda_arm", {0, -1.2, 0, -2.6, 0, 1.6, 0.785}, {}});
+  robot.arms.push_back({name, "panda_arm", {0, -1.2, 0, -2.6, 0, 1.6, 0.785}, {}, {}});
   return robot;
 }
 
@@ -46,8 +46,8 @@ CellDescription two_arms_description() {
   robot.X_WB = Eigen::Translation3d(1, -2, 0.5) *
                Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
   robot.packages = {{"shapes", data_file("shapes")}};
-  robot.arms.push_back({"left", "left_arm", {0.3, -0.5}, {}});
-  robot.arms.push_back({"right", "right_arm", {}, {}});
+  robot.arms.push_back({"left", "left_arm", {0.3, -0.5}, {}, {}});
+  robot.arms.push_back({"right", "right_arm", {}, {}, {}});
   CellDescription cell;
   cell.name = "two_arms";
   cell.robots.push_back(robot);
@@ -74,6 +74,13 @@ CellPtr build_or_fail(const CellDescription& description) {
 std::string problems_of(const CellDescription& description) {
   const auto cell = build_cell(description);
   return cell ? "" : all_of(cell.error());
+}
+
+std::string warnings_of(const CellDescription& description) {
+  Problems warnings;
+  const auto cell = build_cell(description, warnings);
+  if (!cell) throw std::runtime_error(all_of(cell.error()));
+  return all_of(warnings);
 }
 
 ScratchFolder::ScratchFolder() {

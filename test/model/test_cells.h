@@ -22,6 +22,9 @@ namespace armloom {
 // All problems of the description, one line each: "<pointer> | <detail>"; empty when it builds.
 [[nodiscard]] std::string problems_of(const CellDescription& description);
 
+// Builds, or throws, and returns all warnings likewise.
+[[nodiscard]] std::string warnings_of(const CellDescription& description);
+
 // A folder of its own that goes away with it.
 class ScratchFolder {
  public:

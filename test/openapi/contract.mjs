@@ -76,7 +76,7 @@ export class Contract {
     for (const name of Object.keys(response.headers ?? {})) {
       assert.ok(headers[name.toLowerCase()], `${what} has no ${name}`);
     }
-    if (type === 'application/json' || type === 'application/problem+json') {
+    if (type === 'application/json' || type?.endsWith('+json')) {
       const faults = this.faults(contents[type].schema, JSON.parse(text));
       assert.equal(faults, null, `${what}:\n  ${faults}\n  ${text.slice(0, 1500)}`);
     }

@@ -121,6 +121,8 @@ test('The readers of events are told everything from a snapshot on', async () =>
 test('What only reads', async () => {
   await call(200, 'GET', '/');
   await call(200, 'GET', '/docs');
+  const schema = JSON.parse(fs.readFileSync(path.join(top, 'config/cell.schema.json'), 'utf8'));
+  assert.deepEqual(await call(200, 'GET', '/cell.schema.json'), schema);
   await call(200, 'GET', '/healthz');
   await call(200, 'GET', '/readyz');
   const cell = await call(200, 'GET', `${v1}/cell`);

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Executes the README's examples with curl as they stand and compares what comes back.
+"""Executes the README's examples as they stand: "Your own robot", where that robot's files are
+there, and those with curl, comparing what comes back.
 
     test/readme/tour.py ARMLOOM
 
@@ -15,6 +16,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 import urllib.request
 
@@ -58,6 +60,35 @@ def difference(expected, got, place=""):
     return None if same else f"{place}: {got!r}, expected {expected!r}"
 
 
+def own_robot(readme, armloom):
+    """Runs "Your own robot in five minutes" with its cell file in a folder of its own, and serves it."""
+    commands = readme.split("## Your own robot in five minutes")[1].split("```sh\n")[1].split("```")[0]
+    if not (TOP / re.search(r"^F=(\S+)", commands).group(1)).with_suffix(".urdf").exists():
+        print("own robot: skipped, its files are not here")
+        return 0
+    importing, serving = commands.split("./server/run --cell my_cell.json\n")
+    if serving:
+        sys.exit(f"own robot: something stands behind the last command: {serving}")
+    with tempfile.TemporaryDirectory() as folder:
+        cell = pathlib.Path(folder) / "my_cell.json"
+        importing = importing.replace("build/armloom", str(armloom)).replace("my_cell.json", str(cell))
+        done = subprocess.run(["bash", "-ec", importing], cwd=TOP, capture_output=True, text=True)
+        if done.returncode != 0:
+            print(f"own robot: FAIL exit {done.returncode}\n{done.stderr}")
+            return 1
+        server = subprocess.Popen([armloom, "serve", "--cell", cell], stdout=subprocess.DEVNULL)
+        try:
+            wait_until_up(server)
+            arms = json.load(urllib.request.urlopen("http://127.0.0.1:8080/api/v1/arms"))["arms"]
+        finally:
+            server.terminate()
+            server.wait(timeout=10)
+    found = [(arm["name"], arm["state"]) for arm in arms]
+    good = found == [("left", "idle"), ("right", "idle")]
+    print(f"own robot: {'ok' if good else 'FAIL'} {found}")
+    return 0 if good else 1
+
+
 def wait_until_up(server):
     for _ in range(200):
         if server.poll() is not None:
@@ -99,14 +130,16 @@ def main():
                                capture_output=True)
         if probe.returncode == 0:
             os.execvpe("unshare", inside, dict(os.environ, ARMLOOM_TOUR_INSIDE="1"))
-    tour = blocks((TOP / "README.md").read_text())
+    readme = (TOP / "README.md").read_text()
+    tour = blocks(readme)
     if len(tour) < 13:
         sys.exit(f"only {len(tour)} blocks found in the README")
+    failed = own_robot(readme, sys.argv[1])
     server = subprocess.Popen([sys.argv[1], "serve", "--cell", TOP / "config/two_pandas.json"],
                               stdout=subprocess.DEVNULL)
     try:
         wait_until_up(server)
-        failed = run_tour(tour)
+        failed += run_tour(tour)
     finally:
         server.terminate()
         server.wait(timeout=10)

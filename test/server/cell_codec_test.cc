@@ -1,5 +1,6 @@
 #include "server/codec/cell_codec.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -73,18 +74,71 @@ INSTANTIATE_TEST_SUITE_P(
         BadCell{"ArmsEmpty", "/robots/0/arms", "[]", "at least one"},
         BadCell{"XyzShort", "/robots/0/base/xyz", "[1, 2]", "expected 3 numbers, found 2"},
         BadCell{"HomeIsText", "/robots/0/arms/0/home/3", "\"x\"", "a number"},
+        BadCell{"BaseIsFar", "/robots/0/base/xyz", "[0, 2000, 0]", "2000 is not within"},
         BadCell{"LimitIsZero", "/robots/0/arms/0/limits/panda_joint1/brake_rad_s2", "0", "greater"},
         BadCell{"BoxIsFlat", "/objects/0/box", "[1, 1, 0]", "greater than zero"},
         BadCell{"TwoShapes", "/objects/0", R"({"name": "x", "box": [1,1,1], "sphere": [1]})",
                 "exactly one"},
-        BadCell{"ScaleOfABox", "/objects/0", R"({"name": "x", "box": [1,1,1], "scale": [1,1,1]})",
-                "only a mesh has a scale"},
+        BadCell{"ScaleOfABox", "/objects/0/scale", "[1, 1, 1]", "only a mesh has a scale"},
+        BadCell{"MisspeltKey", "/monitor/rate_hx", "5", "did you mean \"rate_hz\"?"},
+        BadCell{"HomeIsANumber", "/robots/0/arms/0/home", "7", "or the name of a state"},
+        BadCell{"HomeIsNameless", "/robots/0/arms/0/home", "\"\"", "a name is expected"},
+        BadCell{"FixedAtText", "/robots/0/fixed/torso", "\"up\"", "a number"},
+        BadCell{"JointLimitsEmpty", "/robots/0/joint_limits", "\"\"", "a path is expected"},
+        BadCell{"VelocityIsNegative", "/robots/0/arms/0/limits/panda_joint1/velocity_rad_s", "-1",
+                "greater than zero"},
+        BadCell{"LimitInBothUnits", "/robots/0/arms/0/limits/panda_joint1",
+                R"({"brake_rad_s2": 1, "brake_m_s2": 1})", "at most one of"},
+        BadCell{"Policy", "/scheduling/policy", "\"hopeful\"", "\"earliest_start\""},
+        BadCell{"IdleBlocker", "/scheduling/on_idle_blocker", "\"shove\"",
+                "expected \"report\" or \"park\""},
         BadCell{"PairIsSingle", "/allowed_collisions/0", "[\"table\"]", "a pair"},
         BadCell{"StepIsZero", "/checking/time_step_s", "0", "not within"},
         BadCell{"RateIsHigh", "/monitor/rate_hz", "5000", "not within"},
         BadCell{"Controller", "/robots/0/controller/type", "\"real\"", "sim"},
         BadCell{"Clearance", "/clearance_m", "-0.1", "not within"}),
     [](const auto& tested) { return tested.param.name; });
+
+TEST(CellCodec, ReadsWhatMoveItUsersBring) {
+  json file = two_pandas();
+  file["$schema"] = "cell.schema.json";
+  json& robot = file["robots"][0];
+  robot["joint_limits"] = "moveit/joint_limits.yaml";
+  robot["fixed"] = {{"torso_lift_joint", 0.1}};
+  robot["arms"][0]["home"] = "ready";
+  robot["arms"][0]["limits"] = {
+      {"panda_joint1", {{"velocity_rad_s", 1.5}, {"lower_rad", -2}, {"upper_rad", 2}}},
+      {"panda_finger_joint1", {{"velocity_m_s", 0.1}, {"upper_m", 0.03}}}};
+  const auto cell = read_cell_text(file.dump(), kConfig);
+  ASSERT_TRUE(cell) << cell.error().front().detail;
+  const RobotDescription& left = cell->robots.front();
+  EXPECT_EQ(fs::path(left.joint_limits), kConfig / "moveit/joint_limits.yaml");
+  EXPECT_EQ(left.fixed.at("torso_lift_joint"), 0.1);
+  EXPECT_EQ(left.arms.front().home_state, "ready");
+  EXPECT_TRUE(left.arms.front().home.empty());
+  const auto& limits = left.arms.front().limits;
+  EXPECT_EQ(limits.at("panda_joint1").velocity, 1.5);
+  EXPECT_EQ(limits.at("panda_joint1").lower, -2.0);
+  EXPECT_EQ(limits.at("panda_finger_joint1").velocity, 0.1);
+  EXPECT_EQ(limits.at("panda_finger_joint1").upper, 0.03);
+  EXPECT_FALSE(limits.at("panda_joint1").acceleration);
+}
+
+TEST(CellCodec, TellsEveryFaultAtOnce) {
+  json file = two_pandas();
+  file["clearance_m"] = -1;
+  file["robots"][0]["urfd"] = "x";
+  file["robots"][1].erase("srdf");
+  file["monitor"]["rate_hz"] = "fast";
+  file["objects"][0]["box"] = {1, 1};
+  const auto cell = read_cell_text(file.dump(), kConfig);
+  ASSERT_FALSE(cell);
+  std::vector<std::string> places;
+  for (const Problem& problem : cell.error()) places.push_back(problem.pointer);
+  EXPECT_THAT(places,
+              testing::UnorderedElementsAre("/clearance_m", "/robots/0/urfd", "/robots/1/srdf",
+                                            "/monitor/rate_hz", "/objects/0/box"));
+}
 
 TEST(CellCodec, CopiesACellFileSoThatItLoadsElsewhere) {
   const fs::path elsewhere = fs::path(::testing::TempDir()) / "armloom" / "copied";

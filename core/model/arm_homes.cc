@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/model/robot_build.h"
+
+namespace armloom {
+namespace {
+
+std::string span_text(const Joint& joint) {
+  const char* unit = joint.kind == JointKind::prismatic ? " m" : " rad";
+  return "[" + text_of(joint.lower) + ", " + text_of(joint.upper) + "]" + unit;
+}
+
+// Adds to `faults` why the state can be no home, and returns its values in the arm's order.
+Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const std::string& name,
+                          NamedState& state, const Cell& cell) {
+  const auto& joints = cell.arm(arm.id).joints;
+  const std::string place =
+      robot.semantics->file + ": group_state " + name + " of " + arm.description->group;
+  const auto fault = [&](const char* slug, const std::string& sentence, double value) {
+    state.faults.add({ProblemKind::invalid, slug, place, place + ": " + sentence, value});
+  };
+  Eigen::VectorXd values(static_cast<Eigen::Index>(joints.size()));
+  Eigen::Index row = 0;
+  for (const std::size_t index : arm.group) {
+    if (!robot.joints[index]) continue;  // held
+    const Joint& joint = cell.joint(*robot.joints[index]);
+    const std::string& plain = robot.tree.links[index].joint;
+    const auto value = state.values.find(index);
+    values[row++] = value == state.values.end() ? 0.0 : value->second;
+    if (value == state.values.end()) {
+      state.faults.add({ProblemKind::invalid,
+                        "missing",
+                        place,
+                        place + ": joint " + plain + " has no value",
+                        {}});
+    } else if (value->second < joint.lower || value->second > joint.upper) {
+      fault("limit-exceeded",
+            "joint " + plain + " is at " + text_of(value->second) + ", outside [" +
+                text_of(joint.lower) + ", " + text_of(joint.upper) + "]",
+            value->second);
+    }
+  }
+  return values;
+}
+
+// Reads the states of the arm's group. Those with faults are left out: their faults are problems
+// when the arm's home is such a one, and else warnings.
+void read_named_states(const RobotBuild& robot, const ArmBuild& build,
+                       std::map<std::string, NamedState>& states, Cell& cell, Findings& findings) {
+  for (auto& [name, state] : states) {
+    Eigen::VectorXd values = values_of(robot, build, name, state, cell);
+    if (state.faults.count() == 0)
+      cell.arms[build.id.index()].named_states.emplace(name, std::move(values));
+    if (name == build.description->home_state)
+      findings.merge(std::move(state.faults));
+    else
+      findings.merge_as_warnings(std::move(state.faults));
+  }
+}
+
+std::string listed(const std::map<std::string, Eigen::VectorXd>& states) {
+  std::string text;
+  for (const auto& [name, values] : states) {
+    if (text.size() < 200) text += (text.empty() ? "" : ", ") + name;
+  }
+  return text.empty() ? "none" : text;
+}
+
+// The home that the description names as a state, or nothing with the reason told.
+std::optional<Eigen::VectorXd> named_home(const RobotBuild& robot, const ArmBuild& build,
+                                          const Arm& arm, bool has_faults, Findings& findings) {
+  const std::string& name = build.description->home_state;
+  const auto state = arm.named_states.find(name);
+  if (state != arm.named_states.end()) return state->second;
+  if (has_faults) return std::nullopt;  // told with the state
+  findings.in_cell("unknown-state", build.pointer + "/home",
+                   "arm " + arm.name + ": home '" + name + "' is no state of group '" + arm.group +
+                       "'" + (robot.semantics ? " in " + robot.semantics->file : "") +
+                       "; its states: " + listed(arm.named_states),
+                   name);
+  return std::nullopt;
+}
+
+// The home that the description lists: a value for each joint of the group, those that are held
+// also or left out.
+std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBuild& build,
+                                           const Arm& arm, Findings& findings) {
+  const std::vector<double>& home = build.description->home;
+  std::vector<double> values;
+  if (home.size() == arm.joints.size()) {
+    values = home;
+  } else if (home.size() == build.group.size()) {
+    for (std::size_t j = 0; j < home.size(); ++j) {
+      if (robot.joints[build.group[j]]) values.push_back(home[j]);
+    }
+  } else {
+    std::string names;
+    for (const std::size_t joint : build.group) {
+      if (robot.joints[joint]) names += (names.empty() ? "" : ", ") + robot.tree.links[joint].joint;
+    }
+    findings.in_cell("wrong-size", build.pointer + "/home",
+                     "arm " + arm.name + ": home has " + std::to_string(home.size()) +
+                         " values, the group has " + std::to_string(arm.joints.size()) +
+                         " joints: " + names,
+                     static_cast<double>(home.size()));
+    return std::nullopt;
+  }
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+void check_home(const ArmBuild& build, const Arm& arm, const Cell& cell, Findings& findings) {
+  for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+    const Joint& joint = cell.joint(arm.joints[j]);
+    const double value = arm.home[static_cast<Eigen::Index>(j)];
+    if (std::isfinite(value) && value >= joint.lower && value <= joint.upper) continue;
+    findings.in_cell("limit-exceeded", build.pointer + "/home/" + std::to_string(j),
+                     "arm " + arm.name + ": home of " + joint.name + " is " + text_of(value) +
+                         ", outside " + span_text(joint),
+                     value);
+  }
+}
+
+}  // namespace
+
+void settle_homes(RobotBuild& robot, Cell& cell, Findings& findings) {
+  for (const ArmBuild& build : robot.arms) {
+    Arm& arm = cell.arms[build.id.index()];
+    arm.home = Eigen::VectorXd(static_cast<Eigen::Index>(arm.joints.size()));
+    for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+      const Joint& joint = cell.joint(arm.joints[j]);
+      arm.home[static_cast<Eigen::Index>(j)] = std::clamp(0.0, joint.lower, joint.upper);
+    }
+    if (robot.tree.patched) continue;  // the group may hold other joints than meant
+    const std::string& named = build.description->home_state;
+    bool has_faults = false;
+    if (robot.semantics) {
+      auto& states = robot.semantics->states[arm.group];
+      read_named_states(robot, build, states, cell, findings);
+      has_faults = states.contains(named) && !arm.named_states.contains(named);
+    }
+    std::optional<Eigen::VectorXd> home;
+    if (!named.empty())
+      home = named_home(robot, build, arm, has_faults, findings);
+    else if (!build.description->home.empty())
+      home = listed_home(robot, build, arm, findings);
+    if (home) arm.home = *std::move(home);
+    check_home(build, arm, cell, findings);
+  }
+}
+
+}  // namespace armloom

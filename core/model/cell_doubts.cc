@@ -1,0 +1,103 @@
+#include "core/model/cell_doubts.h"
+
+#include <set>
+
+#include "core/model/mesh.h"
+
+namespace armloom {
+namespace {
+
+constexpr double kHuge_m = 10.0;  // of a link's mesh
+
+void warn_of_brakes(const CellDescription& description, const Cell& cell, Findings& findings) {
+  for (std::size_t r = 0; r < description.robots.size(); ++r) {
+    const RobotDescription& robot = description.robots[r];
+    for (std::size_t a = 0; a < robot.arms.size(); ++a) {
+      for (const auto& [name, given] : robot.arms[a].limits) {
+        const auto joint = cell.find_joint(robot.prefix + name);
+        if (!joint || !given.brake) continue;
+        const double acceleration = cell.joint(*joint).acceleration_max;
+        if (*given.brake >= acceleration) continue;
+        const bool linear = cell.joint(*joint).kind == JointKind::prismatic;
+        const std::string unit = linear ? "m_s2" : "rad_s2";
+        const std::string pointer = "/robots/" + std::to_string(r) + "/arms/" + std::to_string(a) +
+                                    "/limits/" + pointer_token(name) + "/brake_" + unit;
+        findings.warn({ProblemKind::invalid, "weak-brake", pointer,
+                       "joint " + robot.prefix + name + ": brake_" + unit + " is " +
+                           text_of(*given.brake) + ", less than its acceleration_" + unit + " of " +
+                           text_of(acceleration) +
+                           ": a stop takes longer than the motion took to begin",
+                       *given.brake});
+      }
+    }
+  }
+}
+
+void warn_of_lags(const CellDescription& description, Findings& findings) {
+  const double delay_s = to_seconds(description.checking.delay);
+  for (std::size_t r = 0; r < description.robots.size(); ++r) {
+    const RobotDescription& robot = description.robots[r];
+    const double lag_s = to_seconds(robot.controller.lag);
+    if (lag_s <= delay_s) continue;
+    findings.warn({ProblemKind::invalid, "lag-above-delay",
+                   "/robots/" + std::to_string(r) + "/controller/lag_s",
+                   "robot " + robot.name + ": lag_s is " + text_of(lag_s) +
+                       ", more than checking delay_s of " + text_of(delay_s) +
+                       ": its arms follow later than motions are certified for, so the monitor "
+                       "slows or stops them and others; delay_s has to be at least lag_s",
+                   lag_s});
+  }
+}
+
+class MeshDoubts {
+ public:
+  explicit MeshDoubts(Findings& findings) : findings_(findings) {}
+
+  // Each file once: robots of one kind share their meshes.
+  void look_at(const Shape& shape, const std::string& place, const std::string& whose,
+               bool of_link) {
+    const auto* mesh = std::get_if<Mesh>(&shape);
+    if (mesh == nullptr || mesh->data == nullptr) return;
+    if (!told_.insert(mesh->path).second) return;
+    if (is_flat(*mesh->data))
+      warn("flat-mesh", place, whose + ": mesh " + mesh->path + " is flat: it has no inside",
+           mesh->path);
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : mesh->data->vertices) box.extend(vertex);
+    const double size_m = box.sizes().maxCoeff();
+    if (of_link && size_m > kHuge_m) {
+      warn("huge-mesh", place,
+           whose + ": mesh " + mesh->path + " is " + text_of(size_m) +
+               " m long, hardly meant (millimetres? then the URDF's mesh needs "
+               "scale=\"0.001 0.001 0.001\"); it fills the cell",
+           mesh->path);
+    }
+  }
+
+ private:
+  void warn(const char* slug, const std::string& place, const std::string& sentence,
+            const std::string& value) {
+    findings_.warn({ProblemKind::invalid, slug, place, sentence, value});
+  }
+
+  Findings& findings_;
+  std::set<std::string> told_;
+};
+
+}  // namespace
+
+void warn_of_doubts(const CellDescription& description, const Cell& cell, Findings& findings) {
+  warn_of_brakes(description, cell, findings);
+  warn_of_lags(description, findings);
+  MeshDoubts meshes(findings);
+  for (const Link& link : cell.links) {
+    for (const PlacedShape& placed : link.shapes)
+      meshes.look_at(placed.shape, "", "link " + link.name, true);
+  }
+  for (std::size_t o = 0; o < cell.objects.size(); ++o) {
+    meshes.look_at(cell.objects[o].shape, "/objects/" + std::to_string(o) + "/mesh",
+                   "object " + cell.objects[o].name, false);
+  }
+}
+
+}  // namespace armloom

@@ -1,0 +1,115 @@
+#include "server/codec/cell_format.h"
+
+#include "core/executive/known_policies.h"
+#include "server/codec/list_formats.h"
+#include "server/codec/robot_format.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/scene_format.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+constexpr Range kTime{0.0, 1e6};  // s
+constexpr Range kZeroToOne{0.0, 1.0};
+
+FormatPtr<CheckingSettings> checking_format() {
+  using Checking = CheckingSettings;
+  return object<Checking>({
+      field("time_step_s", &Checking::time_step, seconds({1e-4, 10.0}),
+            "Time between the instants that the policy timed_discrete compares."),
+      field("tracking_error_rad", &Checking::tracking_error_rad, number(kZeroToOne),
+            "How far each joint may be off its path: every proof covers it."),
+      field("delay_s", &Checking::delay, seconds(kTime),
+            "How far a motion may be behind its plan: every proof covers it. At least the "
+            "controllers' lag_s."),
+      field("limit_tolerance", &Checking::limit_tolerance, number(kZeroToOne),
+            "Share by which a trajectory may exceed a limit of velocity, acceleration or jerk "
+            "between its waypoints."),
+  });
+}
+
+FormatPtr<SchedulingSettings> scheduling_format() {
+  using Scheduling = SchedulingSettings;
+  return object<Scheduling>({
+      field("policy", &Scheduling::policy, one_of(known_policies()),
+            "The rule by which jobs start; `armloom compare` shows what each makes of your jobs."),
+      field("backlog_timeout_s", &Scheduling::backlog_timeout, seconds(kTime),
+            "A job that has waited so long in the backlog expires, unless it says otherwise."),
+      field("aging_s", &Scheduling::aging, seconds(kTime),
+            "A job that has waited so long is overtaken no more."),
+      field(
+          "on_idle_blocker", &Scheduling::on_idle_blocker, one_of({"report", "park"}),
+          "An arm without a job in the way of one: report tells of it, park sends the arm aside."),
+  });
+}
+
+FormatPtr<MonitorSettings> monitor_format() {
+  using Monitor = MonitorSettings;
+  return object<Monitor>({
+      field("rate_hz", &Monitor::rate_hz, number({1.0, 1000.0}),
+            "How often the measured state is looked at."),
+      field("reaction_s", &Monitor::reaction, seconds(kTime),
+            "Time from a finding to the first arm that brakes."),
+      field("stop_clearance_m", &Monitor::stop_clearance_m, number(kZeroToOne),
+            "Links closer than this stop their arms. At most clearance_m."),
+  });
+}
+
+FormatPtr<ExecutionSettings> execution_format() {
+  using Execution = ExecutionSettings;
+  return object<Execution>({
+      field("start_tolerance_rad", &Execution::start_tolerance_rad, number(kZeroToOne),
+            "How far an arm may stand from where its job begins."),
+      field("duration_scaling", &Execution::duration_scaling, number({1.0, 100.0}),
+            "A motion fails as overrun when it takes longer than this times its duration, plus the "
+            "margin, and no longer moves."),
+      field("duration_margin_s", &Execution::duration_margin, seconds(kTime),
+            "The margin of that."),
+  });
+}
+
+PartPtr<CellDescription> make_settings_part() {
+  using Description = CellDescription;
+  return std::make_shared<Parts<Description>>(std::vector<PartPtr<Description>>{
+      field("clearance_m", &Description::clearance_m, number(kZeroToOne),
+            "What every admitted motion keeps from other arms and the scene."),
+      field("self_clearance_m", &Description::self_clearance_m, number(kZeroToOne),
+            "What an arm's own links keep from each other; at most clearance_m counts."),
+      field("checking", &Description::checking, checking_format(),
+            "What the checks of motions allow for."),
+      field("scheduling", &Description::scheduling, scheduling_format(), "Which job goes when."),
+      field("monitor", &Description::monitor, monitor_format(),
+            "The watch over the measured state of all arms."),
+      field("execution", &Description::execution, execution_format(),
+            "When a motion may begin and when it has failed; the defaults are MoveIt's."),
+  });
+}
+
+}  // namespace
+
+const Part<CellDescription>& settings_part() {
+  static const PartPtr<CellDescription> part = make_settings_part();
+  return *part;
+}
+
+const Format<CellDescription>& cell_format() {
+  using Description = CellDescription;
+  static const FormatPtr<Description> format = object<Description>({
+      ignored<Description>("$schema", path(),
+                           "This schema: editors check and complete the file by it."),
+      required("name", &Description::name, name(), "The cell's name."),
+      required("robots", &Description::robots, list(robot_format(), 1),
+               "The robots with their arms."),
+      field("objects", &Description::objects, list(scene_object_format()),
+            "The scene at start: tables, fixtures, fences."),
+      field("allowed_collisions", &Description::allowed_collisions, list(pair_of(name())),
+            "Pairs that may touch: two links, or a link and an object; links with their prefix."),
+      make_settings_part(),
+  });
+  return *format;
+}
+
+}  // namespace armloom

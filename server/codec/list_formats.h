@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/codec/format.h"
+
+namespace armloom::formats {
+
+// A JSON array of elements that all have one format.
+template <class T>
+class ListFormat final : public Format<std::vector<T>> {
+ public:
+  ListFormat(FormatPtr<T> element, std::size_t fewest)
+      : element_(std::move(element)), fewest_(fewest) {}
+
+  void read(const JsonNode& node, std::vector<T>& out) const override {
+    out.clear();
+    node.each([&](const JsonNode& element) { element_->read(element, out.emplace_back()); });
+    if (!node.raw().is_array() || node.raw().size() >= fewest_) return;
+    node.invalid("too-few", "at least " + (fewest_ == 1 ? "one" : std::to_string(fewest_)) +
+                                " is expected here, found " + std::to_string(node.raw().size()));
+  }
+  void write(JsonWriter& out, const std::vector<T>& list) const override {
+    out.begin_array();
+    for (const T& element : list) element_->write(out, element);
+    out.end_array();
+  }
+  Schema schema() const override {
+    Schema schema{{"type", "array"}, {"items", element_->schema()}};
+    if (fewest_ > 0) schema["minItems"] = fewest_;
+    return schema;
+  }
+  void map_paths(nlohmann::json& value, const PathMap& map) const override {
+    if (!value.is_array()) return;
+    for (auto& element : value) element_->map_paths(element, map);
+  }
+
+ private:
+  FormatPtr<T> element_;
+  std::size_t fewest_;
+};
+
+template <class T>
+[[nodiscard]] FormatPtr<std::vector<T>> list(FormatPtr<T> element, std::size_t fewest = 0) {
+  return std::make_shared<ListFormat<T>>(std::move(element), fewest);
+}
+
+// A JSON object whose keys are names of the user's: {"torso_lift_joint": 0.1}.
+template <class T>
+class DictionaryFormat final : public Format<std::map<std::string, T>> {
+ public:
+  explicit DictionaryFormat(FormatPtr<T> member) : member_(std::move(member)) {}
+
+  void read(const JsonNode& node, std::map<std::string, T>& out) const override {
+    node.members(
+        [&](const std::string& key, const JsonNode& member) { member_->read(member, out[key]); });
+  }
+  void write(JsonWriter& out, const std::map<std::string, T>& members) const override {
+    out.begin_object();
+    for (const auto& [key, member] : members) {
+      out.key(key);
+      member_->write(out, member);
+    }
+    out.end_object();
+  }
+  Schema schema() const override {
+    return {{"type", "object"}, {"additionalProperties", member_->schema()}};
+  }
+  void map_paths(nlohmann::json& value, const PathMap& map) const override {
+    if (!value.is_object()) return;
+    for (auto& [key, member] : value.items()) member_->map_paths(member, map);
+  }
+
+ private:
+  FormatPtr<T> member_;
+};
+
+template <class T>
+[[nodiscard]] FormatPtr<std::map<std::string, T>> dictionary(FormatPtr<T> member) {
+  return std::make_shared<DictionaryFormat<T>>(std::move(member));
+}
+
+// An array of exactly two: ["table", "panda_link0"].
+template <class T>
+class PairFormat final : public Format<std::pair<T, T>> {
+ public:
+  explicit PairFormat(FormatPtr<T> element) : element_(std::move(element)) {}
+
+  void read(const JsonNode& node, std::pair<T, T>& out) const override {
+    if (!node.array()) return;
+    if (node.raw().size() != 2) {
+      return node.invalid("wrong-size",
+                          "expected a pair, found " + std::to_string(node.raw().size()));
+    }
+    T* next = &out.first;
+    node.each([&](const JsonNode& element) {
+      element_->read(element, *next);
+      next = &out.second;
+    });
+  }
+  void write(JsonWriter& out, const std::pair<T, T>& pair) const override {
+    out.begin_array();
+    element_->write(out, pair.first);
+    element_->write(out, pair.second);
+    out.end_array();
+  }
+  Schema schema() const override {
+    return {{"type", "array"}, {"items", element_->schema()}, {"minItems", 2}, {"maxItems", 2}};
+  }
+
+ private:
+  FormatPtr<T> element_;
+};
+
+template <class T>
+[[nodiscard]] FormatPtr<std::pair<T, T>> pair_of(FormatPtr<T> element) {
+  return std::make_shared<PairFormat<T>>(std::move(element));
+}
+
+}  // namespace armloom::formats

@@ -1,0 +1,59 @@
+#include "server/codec/member_rules.h"
+
+#include <algorithm>
+
+namespace armloom::formats {
+namespace {
+
+std::string listed(const std::vector<std::string>& keys) {
+  std::string text;
+  for (const std::string& key : keys) text += (text.empty() ? "" : ", ") + key;
+  return text;
+}
+
+// A rule of its own beside those that the object has.
+void add_rule(Schema& object, Schema rule) {
+  if (!object.contains("allOf")) object["allOf"] = Schema::array();
+  object["allOf"].push_back(std::move(rule));
+}
+
+Schema has(const std::string& key) { return {{"required", {key}}}; }
+
+}  // namespace
+
+void check_count(const JsonNode& object, HowMany how_many, const std::vector<std::string>& keys) {
+  const auto count =
+      std::ranges::count_if(keys, [&](const std::string& key) { return object.has(key); });
+  if (count == 1 || (count == 0 && how_many == HowMany::at_most_one)) return;
+  const std::string expected = how_many == HowMany::exactly_one ? "exactly" : "at most";
+  object.invalid(
+      how_many == HowMany::exactly_one ? "not-exactly-one" : "more-than-one",
+      expected + " one of " + listed(keys) + " is expected, found " + std::to_string(count));
+}
+
+void describe_count(Schema& object, HowMany how_many, const std::vector<std::string>& keys) {
+  if (how_many == HowMany::exactly_one) {
+    Schema choices = Schema::array();
+    for (const std::string& key : keys) choices.push_back(has(key));
+    add_rule(object, {{"oneOf", std::move(choices)}});
+    return;
+  }
+  for (std::size_t a = 0; a < keys.size(); ++a) {
+    for (std::size_t b = a + 1; b < keys.size(); ++b) {
+      add_rule(object, {{"not", {{"required", {keys[a], keys[b]}}}}});
+    }
+  }
+}
+
+void check_companion(const JsonNode& object, const std::string& key, const std::string& companion) {
+  if (!object.has(key) || object.has(companion)) return;
+  object.optional(key, [&](const JsonNode& node) {
+    node.invalid("without-companion", "only a " + companion + " has a " + key);
+  });
+}
+
+void describe_companion(Schema& object, const std::string& key, const std::string& companion) {
+  object["dependentRequired"][key] = Schema::array({companion});
+}
+
+}  // namespace armloom::formats

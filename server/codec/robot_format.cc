@@ -1,0 +1,149 @@
+#include "server/codec/robot_format.h"
+
+#include <optional>
+
+#include "server/codec/list_formats.h"
+#include "server/codec/object_format.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/scene_format.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+constexpr Range kHeld{-1000.0, 1000.0};  // rad or m
+constexpr Range kTime{0.0, 1e6};         // s
+constexpr Range kZeroToOne{0.0, 1.0};
+
+// A limit by its two names: of joints that turn, and of those that slide.
+std::vector<PartPtr<JointLimitsDescription>> limit(
+    const std::string& name, std::optional<double> JointLimitsDescription::*where,
+    const std::string& power, Range range, const std::string& text,
+    std::optional<Schema> stated = std::nullopt) {
+  const std::string angular = name + "_rad" + power;
+  const std::string linear = name + "_m" + power;
+  return {
+      field(angular, where, number(range), text, stated),
+      // Written once, by the name above: a description does not know how its joints move.
+      read_only(field(linear, where, number(range), "The same of a joint that slides.", stated)),
+      at_most_one<JointLimitsDescription>({angular, linear})};
+}
+
+FormatPtr<JointLimitsDescription> limits_format() {
+  std::vector<PartPtr<JointLimitsDescription>> parts;
+  const auto add = [&](std::vector<PartPtr<JointLimitsDescription>> more) {
+    parts.insert(parts.end(), more.begin(), more.end());
+  };
+  using Limits = JointLimitsDescription;
+  add(limit("lower", &Limits::lower, "", kAnyNumber,
+            "Lowest position: narrows the URDF's limits, or gives what it lacks."));
+  add(limit("upper", &Limits::upper, "", kAnyNumber, "Highest position, in the same way."));
+  add(limit("velocity", &Limits::velocity, "_s", kPositive,
+            "Highest velocity: at most the URDF's, or what it lacks."));
+  add(limit("acceleration", &Limits::acceleration, "_s2", kPositive,
+            "Highest acceleration; URDFs have none.", as_json(kDefaultAcceleration)));
+  add(limit("jerk", &Limits::jerk, "_s3", kPositive, "Highest jerk; URDFs have none.",
+            as_json(kDefaultJerk)));
+  add(limit("brake", &Limits::brake, "_s2", kPositive,
+            "Deceleration that a stop may use; twice the acceleration unless given."));
+  return object(std::move(parts));
+}
+
+// "home": values, or the name of a state.
+struct Home {
+  std::vector<double> values;
+  std::string state;
+};
+
+class HomeFormat final : public Format<Home> {
+ public:
+  void read(const JsonNode& node, Home& out) const override {
+    if (node.raw().is_array()) return values_->read(node, out.values);
+    if (node.raw().is_string()) return state_->read(node, out.state);
+    node.fault(ProblemKind::malformed, "wrong-type",
+               std::string("expected an array of numbers, or the name of a state, found ") +
+                   node.raw().type_name());
+  }
+  void write(JsonWriter& out, const Home& home) const override {
+    if (home.state.empty()) return values_->write(out, home.values);
+    state_->write(out, home.state);
+  }
+  Schema schema() const override {
+    return {{"anyOf", Schema::array({values_->schema(), state_->schema()})}};
+  }
+
+ private:
+  FormatPtr<std::vector<double>> values_ = list(number(kAnyNumber));
+  FormatPtr<std::string> state_ = name();
+};
+
+PartPtr<ArmDescription> home_part() {
+  return std::make_shared<MemberPart<ArmDescription, Home>>(
+      MemberText{"home",
+                 "Where the arm begins and parks: the joints' positions in the group's order (rad, "
+                 "m), or the name of a state of the group in the SRDF. Every joint at zero, or at "
+                 "the limit next to it, unless given.",
+                 Need::optional,
+                 {}},
+      std::make_shared<HomeFormat>(),
+      [](const ArmDescription& arm) -> std::optional<Home> {
+        if (arm.home.empty() && arm.home_state.empty()) return std::nullopt;
+        return Home{arm.home, arm.home_state};
+      },
+      [](ArmDescription& arm, Home home) {
+        arm.home = std::move(home.values);
+        arm.home_state = std::move(home.state);
+      });
+}
+
+FormatPtr<ArmDescription> arm_format() {
+  return object<ArmDescription>({
+      required("name", &ArmDescription::name, name(), "The arm's name; unique in the cell."),
+      required("group", &ArmDescription::group, name(),
+               "The group of the SRDF that the arm consists of: a chain, or joints."),
+      home_part(),
+      field("limits", &ArmDescription::limits, dictionary(limits_format()),
+            "Limits of joints of the arm and its gripper, by joint name without the prefix. They "
+            "come before those of joint_limits and of the URDF."),
+  });
+}
+
+FormatPtr<ControllerDescription> controller_format() {
+  using Controller = ControllerDescription;
+  return object<Controller>({
+      field("type", &Controller::type, one_of({"sim"}), "What moves the arms: simulated ones."),
+      field("lag_s", &Controller::lag, seconds(kTime),
+            "How far a measured position is behind the commanded one, along the path."),
+      field("noise_rad", &Controller::noise_rad, number(kZeroToOne),
+            "Standard deviation of measured positions."),
+  });
+}
+
+}  // namespace
+
+FormatPtr<RobotDescription> robot_format() {
+  using Robot = RobotDescription;
+  return object<Robot>({
+      required("name", &Robot::name, name(), "The robot's name; unique in the cell."),
+      required("urdf", &Robot::urdf, path(), "The robot's URDF."),
+      required("srdf", &Robot::srdf, path(),
+               "The robot's SRDF: groups, named states, pairs of links that need no check."),
+      field("joint_limits", &Robot::joint_limits, path(),
+            "MoveIt's joint_limits.yaml: velocities and accelerations of joints."),
+      field("prefix", &Robot::prefix, text(),
+            "Stands before every joint and link name of the robot: left_ makes left_joint_1."),
+      field("base", &Robot::X_WB, object<Eigen::Isometry3d>({pose_part()}),
+            "Where the root link of the URDF stands in the world."),
+      field("packages", &Robot::packages, dictionary(path()),
+            "The folder of each package that the URDF names: package://name/..."),
+      field("fixed", &Robot::fixed, dictionary(number(kHeld)),
+            "Joints that are held at a value (rad, m), as a torso under two arms: without the "
+            "prefix. No job moves them."),
+      required("arms", &Robot::arms, list(arm_format(), 1), "The robot's arms."),
+      field("controller", &Robot::controller, controller_format(), "What moves the robot."),
+  });
+}
+
+}  // namespace armloom

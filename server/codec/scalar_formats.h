@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/base/time.h"
+#include "server/codec/format.h"
+
+namespace armloom::formats {
+
+// Numbers a setting may have: lowest..highest, without the lowest itself where it is `open`.
+struct Range {
+  double lowest = -std::numeric_limits<double>::infinity();
+  double highest = std::numeric_limits<double>::infinity();
+  bool open = false;
+
+  [[nodiscard]] bool holds(double number) const {
+    return (open ? number > lowest : number >= lowest) && number <= highest;
+  }
+};
+inline constexpr Range kAnyNumber{};
+inline constexpr Range kPositive{0.0, std::numeric_limits<double>::infinity(), true};
+
+[[nodiscard]] FormatPtr<double> number(Range range);
+[[nodiscard]] FormatPtr<Duration> seconds(Range range);
+[[nodiscard]] FormatPtr<std::string> text();
+// A text that is not empty.
+[[nodiscard]] FormatPtr<std::string> name();
+// A path, not empty: what map_paths() changes, unless it is an address (https://...).
+[[nodiscard]] FormatPtr<std::string> path();
+// One of a few names.
+[[nodiscard]] FormatPtr<std::string> one_of(std::vector<std::string> names);
+// Exactly so many numbers, each in the range.
+[[nodiscard]] FormatPtr<Eigen::Vector3d> vector3(Range range);
+template <std::size_t size>
+[[nodiscard]] FormatPtr<std::array<double, size>> numbers(Range range);
+
+}  // namespace armloom::formats

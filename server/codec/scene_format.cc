@@ -1,0 +1,87 @@
+#include "server/codec/scene_format.h"
+
+#include <array>
+#include <optional>
+
+#include "server/codec/pose_words.h"
+#include "server/codec/scalar_formats.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+constexpr Range kLength{0.0, 1000.0, true};  // m
+constexpr Range kPosition{-1000.0, 1000.0};  // m
+constexpr Range kAngle{-100.0, 100.0};       // rad
+
+struct ShapeWords {
+  std::optional<Eigen::Vector3d> box;
+  std::optional<std::array<double, 2>> cylinder;
+  std::optional<std::array<double, 1>> sphere;
+  std::optional<std::string> mesh;
+  std::optional<Eigen::Vector3d> scale;
+};
+
+struct InWords {
+  ShapeWords operator()(const Box& box) const { return {.box = box.size_m}; }
+  ShapeWords operator()(const Cylinder& cylinder) const {
+    return {.cylinder = std::array{cylinder.radius_m, cylinder.length_m}};
+  }
+  ShapeWords operator()(const Sphere& sphere) const {
+    return {.sphere = std::array{sphere.radius_m}};
+  }
+  ShapeWords operator()(const Mesh& mesh) const { return {.mesh = mesh.path, .scale = mesh.scale}; }
+};
+
+ShapeWords shape_in_words(const Shape& shape) { return std::visit(InWords{}, shape); }
+
+Shape shape_of_words(const ShapeWords& words) {
+  if (words.cylinder) return Cylinder{(*words.cylinder)[0], (*words.cylinder)[1]};
+  if (words.sphere) return Sphere{(*words.sphere)[0]};
+  if (words.mesh) return Mesh{*words.mesh, words.scale.value_or(Eigen::Vector3d::Ones())};
+  return Box{words.box.value_or(Eigen::Vector3d::Zero())};
+}
+
+PartPtr<Shape> shape_part() {
+  return std::make_shared<SpeltPart<Shape, ShapeWords>>(
+      std::vector<PartPtr<ShapeWords>>{
+          field("box", &ShapeWords::box, vector3(kLength),
+                "A box: its full side lengths, in metres."),
+          field("cylinder", &ShapeWords::cylinder, numbers<2>(kLength),
+                "A cylinder along z: radius and full length, in metres."),
+          field("sphere", &ShapeWords::sphere, numbers<1>(kLength), "A sphere: radius, in metres."),
+          field("mesh", &ShapeWords::mesh, path(),
+                "A mesh (STL, OBJ, DAE): a file; in every check convex pieces that contain it."),
+          field("scale", &ShapeWords::scale, vector3(kAnyNumber),
+                "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1}),
+          exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"}),
+          only_with<ShapeWords>("mesh", "scale"),
+      },
+      shape_in_words, shape_of_words);
+}
+
+}  // namespace
+
+PartPtr<Eigen::Isometry3d> pose_part() {
+  return std::make_shared<SpeltPart<Eigen::Isometry3d, PoseWords>>(
+      std::vector<PartPtr<PoseWords>>{
+          field("xyz", &PoseWords::xyz_m, vector3(kPosition), "Position in metres."),
+          field("rpy", &PoseWords::rpy_rad, vector3(kAngle),
+                "Roll, pitch, yaw about fixed axes, in rad, as in a URDF."),
+      },
+      pose_in_words, pose_of_words);
+}
+
+FormatPtr<ObjectDescription> scene_object_format() {
+  static const FormatPtr<ObjectDescription> format = object<ObjectDescription>({
+      required("name", &ObjectDescription::name, name(),
+               "The object's name; unique in the cell, and no link's or robot's name."),
+      inlined(&ObjectDescription::shape, shape_part()),
+      inlined(&ObjectDescription::X_WO, pose_part()),
+  });
+  return format;
+}
+
+}  // namespace armloom

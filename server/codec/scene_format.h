@@ -1,0 +1,18 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "core/model/cell_description.h"
+#include "server/codec/format.h"
+#include "server/codec/object_format.h"
+
+namespace armloom {
+
+// Parts of the description of a cell file (cell_format.h): what stands where.
+
+// Members xyz and rpy.
+[[nodiscard]] formats::PartPtr<Eigen::Isometry3d> pose_part();
+// An object of the scene: a name, a shape, a pose.
+[[nodiscard]] FormatPtr<ObjectDescription> scene_object_format();
+
+}  // namespace armloom

@@ -1,0 +1,13 @@
+#include <iostream>
+
+#include "server/codec/cell_schema.h"
+#include "server/command/command.h"
+
+namespace armloom {
+
+int print_cell_schema(bool markdown) {
+  std::cout << (markdown ? cell_reference_text() : cell_schema_text()) << std::flush;
+  return kExitDone;
+}
+
+}  // namespace armloom

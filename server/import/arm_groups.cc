@@ -1,0 +1,157 @@
+#include "server/import/arm_groups.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+
+namespace armloom {
+namespace {
+
+using JointSet = RobotSemantics::JointSet;
+using tinyxml2::XMLElement;
+
+constexpr std::size_t kFewestJoints = 3;
+
+std::string attribute(const XMLElement& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value == nullptr ? "" : value;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+bool share_a_joint(const JointSet& a, const JointSet& b) {
+  return std::ranges::any_of(a, [&](std::size_t joint) { return b.contains(joint); });
+}
+
+bool holds(const JointSet& whole, const JointSet& part) {
+  return std::ranges::includes(whole, part);
+}
+
+// Whether every joint of `below` moves with a joint of `above`.
+bool is_above(const RobotTree& tree, const JointSet& above, const JointSet& below) {
+  return std::ranges::all_of(below, [&](std::size_t joint) {
+    for (auto link = tree.links[joint].parent; link; link = tree.links[*link].parent) {
+      if (above.contains(*link)) return true;
+    }
+    return false;
+  });
+}
+
+// Which of two candidates goes, and why: nothing when both can be arms.
+struct Loser {
+  bool is_first;
+  std::string why;
+};
+std::optional<Loser> weigh(const RobotTree& tree, const GroupChoice& first, const JointSet& a,
+                           const GroupChoice& second, const JointSet& b) {
+  if (a == b) return Loser{false, "it holds the same joints as " + first.group};
+  if (share_a_joint(a, b)) {
+    if (!holds(a, b) && !holds(b, a)) return Loser{false, "it shares joints with " + first.group};
+    const bool first_is_larger = a.size() > b.size();
+    const bool smaller_stays = 2 * std::min(a.size(), b.size()) >= std::max(a.size(), b.size());
+    const std::string& other = first_is_larger == smaller_stays ? second.group : first.group;
+    return Loser{first_is_larger == smaller_stays,
+                 smaller_stays ? "it is " + other + " and joints above or below it"
+                               : "it is a part of " + other};
+  }
+  const bool first_above = is_above(tree, a, b);
+  if (!first_above && !is_above(tree, b, a)) return std::nullopt;
+  const std::size_t upper = first_above ? a.size() : b.size();
+  const std::size_t lower = first_above ? b.size() : a.size();
+  if (lower > upper) {
+    return Loser{first_above, "it moves " + (first_above ? second.group : first.group)};
+  }
+  return Loser{!first_above, "it is moved by " + (first_above ? first.group : second.group)};
+}
+
+void leave_out(GroupChoice& choice, std::string why) {
+  choice.is_arm = false;
+  choice.why = std::move(why);
+}
+
+}  // namespace
+
+GroupNames read_group_names(const std::string& srdf_text) {
+  GroupNames names;
+  tinyxml2::XMLDocument document;
+  document.Parse(srdf_text.data(), srdf_text.size());
+  const XMLElement* robot = document.RootElement();
+  if (robot == nullptr) return names;
+  for (const auto* element = robot->FirstChildElement(); element != nullptr;
+       element = element->NextSiblingElement()) {
+    const std::string tag = element->Name();
+    if (tag == "end_effector") names.end_effectors.insert(attribute(*element, "group"));
+    if (tag != "group") continue;
+    const std::string group = attribute(*element, "name");
+    names.in_order.push_back(group);
+    for (const auto* part = element->FirstChildElement("group"); part != nullptr;
+         part = part->NextSiblingElement("group")) {
+      names.parts[group].push_back(attribute(*part, "name"));
+    }
+  }
+  return names;
+}
+
+std::vector<GroupChoice> choose_arm_groups(const RobotTree& tree, const RobotSemantics& semantics,
+                                           const GroupNames& names) {
+  std::vector<GroupChoice> choices;
+  const auto joints_of = [&](const GroupChoice& choice) -> const JointSet& {
+    return semantics.groups.at(choice.group);
+  };
+  for (const std::string& group : names.in_order) {
+    const auto known = semantics.groups.find(group);
+    if (known == semantics.groups.end()) continue;
+    GroupChoice choice{.group = group, .is_arm = true, .why = {}};
+    if (const auto parts = names.parts.find(group); parts != names.parts.end()) {
+      leave_out(choice, "it is made of " + listed(parts->second));
+    } else if (known->second.empty()) {
+      leave_out(choice, "it holds no movable joint");
+    } else if (names.end_effectors.contains(group)) {
+      leave_out(choice, "it is an end effector");
+    }
+    choices.push_back(std::move(choice));
+  }
+  for (std::size_t a = 0; a < choices.size(); ++a) {
+    for (std::size_t b = a + 1; b < choices.size() && choices[a].is_arm; ++b) {
+      if (!choices[b].is_arm) continue;
+      auto loser =
+          weigh(tree, choices[a], joints_of(choices[a]), choices[b], joints_of(choices[b]));
+      if (loser) leave_out(choices[loser->is_first ? a : b], std::move(loser->why));
+    }
+  }
+  const auto is_large = [&](const GroupChoice& choice) {
+    return choice.is_arm && joints_of(choice).size() >= kFewestJoints;
+  };
+  if (std::ranges::any_of(choices, is_large)) {
+    for (GroupChoice& choice : choices) {
+      if (!choice.is_arm || is_large(choice)) continue;
+      leave_out(choice, "it has only " + std::to_string(joints_of(choice).size()) +
+                            (joints_of(choice).size() == 1 ? " joint" : " joints"));
+    }
+  }
+  return choices;
+}
+
+std::set<std::size_t> joints_above_arms(const RobotTree& tree, const RobotSemantics& semantics,
+                                        const std::vector<GroupChoice>& choices) {
+  JointSet of_arms;
+  for (const GroupChoice& choice : choices) {
+    if (choice.is_arm) of_arms.merge(JointSet(semantics.groups.at(choice.group)));
+  }
+  std::set<std::size_t> above;
+  for (const std::size_t joint : of_arms) {
+    for (auto link = tree.links[joint].parent; link; link = tree.links[*link].parent) {
+      // A mimic joint moves with the joint that it follows.
+      const auto& mimic = tree.links[*link].mimic;
+      const std::size_t driver = mimic ? mimic->driver : *link;
+      if (tree.links[driver].is_independent() && !of_arms.contains(driver)) above.insert(driver);
+    }
+  }
+  return above;
+}
+
+}  // namespace armloom

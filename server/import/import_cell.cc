@@ -1,0 +1,256 @@
+#include "server/import/import_cell.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/model/build_cell.h"
+#include "server/codec/cell_format.h"
+#include "server/codec/cell_schema.h"
+#include "server/codec/commented_json.h"
+#include "server/import/homes.h"
+#include "server/import/imported_robot.h"
+
+namespace armloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Problems> refused(std::string option, std::string why) {
+  return failure(
+      Problem{ProblemKind::invalid, "bad-option", std::move(option), std::move(why), {}});
+}
+
+class CellImport {
+ public:
+  explicit CellImport(const ImportRequest& request) : request_(request) {}
+
+  Result<ImportedCell> run() {
+    Problems problems;
+    for (const RobotFiles& files : request_.files) {
+      auto robot = read_imported_robot(files, request_.packages);
+      if (robot) {
+        sources_.push_back(*std::move(robot));
+      } else {
+        problems.insert(problems.end(), robot.error().begin(), robot.error().end());
+      }
+    }
+    if (!problems.empty()) return failure(std::move(problems));
+    if (auto placed = place(); !placed) return failure(std::move(placed.error()));
+    for (std::size_t r = 0; r < placements_.size(); ++r) add_robot(r);
+    name_cell();
+    set_homes();
+    return ImportedCell{written(), std::move(remarks_)};
+  }
+
+ private:
+  Result<bool> place() {
+    placements_ = request_.robots;
+    if (placements_.empty()) {
+      for (const ImportedRobot& source : sources_) placements_.push_back({source.name, {}});
+    }
+    if (sources_.size() > 1 && sources_.size() != placements_.size()) {
+      return refused("--urdf", "there are " + std::to_string(sources_.size()) + " and " +
+                                   std::to_string(placements_.size()) +
+                                   " --robot: give one URDF for all robots, or one for each");
+    }
+    if (placements_.size() > 1 && !request_.prefix.empty()) {
+      return refused("--prefix", "several robots have their names as prefixes: \"" +
+                                     placements_.front().name + "_\"");
+    }
+    return true;
+  }
+
+  const ImportedRobot& source_of(std::size_t robot) const {
+    return sources_.size() == 1 ? sources_.front() : sources_[robot];
+  }
+
+  // A sentence about a place of the file: there and on stderr.
+  void remark(const std::string& pointer, const std::string& sentence) {
+    notes_[pointer].push_back(sentence);
+    remarks_.push_back(pointer + ": " + sentence);
+  }
+
+  void add_robot(std::size_t r) {
+    const ImportedRobot& source = source_of(r);
+    const Placement& placement = placements_[r];
+    const bool alone = placements_.size() == 1;
+    RobotDescription robot;
+    robot.name = placement.name;
+    robot.urdf = source.files.urdf.string();
+    robot.srdf = source.files.srdf.string();
+    robot.joint_limits = source.files.joint_limits.string();
+    robot.prefix = alone ? request_.prefix : placement.name + "_";
+    robot.X_WB = pose_of_words(placement.base);
+    robot.packages = source.packages.folders;
+    for (const HeldJoint& joint : source.held) robot.fixed[joint.name] = joint.value;
+    for (std::size_t a = 0; a < source.arms.size(); ++a) {
+      const std::string& group = source.arms[a];
+      ArmDescription& arm = robot.arms.emplace_back();
+      arm.limits = source.guesses[a];
+      arm.group = group;
+      arm.name = source.arms.size() == 1 ? placement.name
+                 : alone                 ? group
+                                         : placement.name + "_" + group;
+    }
+    cell_.robots.push_back(std::move(robot));
+    // What is true of the files is said once.
+    if (r == 0 || sources_.size() > 1) remark_on(source, "/robots/" + std::to_string(r));
+  }
+
+  void remark_on(const ImportedRobot& source, const std::string& pointer) {
+    for (const std::string& package : source.packages.missing) {
+      remark(pointer + "/urdf", "The folder of the package " + package +
+                                    " was not found: give it with --package " + package +
+                                    "=FOLDER.");
+    }
+    for (const HeldJoint& joint : source.held) {
+      remark(pointer + "/fixed",
+             joint.name + " moves arms and is in none of them: held " +
+                 (joint.state.empty() ? "at zero, or the limit next to it."
+                                      : "where the state " + joint.state + " has it."));
+    }
+    for (const GroupChoice& group : source.left_out) {
+      remark(pointer + "/arms", "The group " + group.group + " is no arm here: " + group.why + ".");
+    }
+    remark_on_guesses(source, pointer);
+  }
+
+  // Of each arm: what was guessed for its joints.
+  void remark_on_guesses(const ImportedRobot& source, const std::string& pointer) {
+    for (std::size_t a = 0; a < source.guesses.size(); ++a) {
+      std::string joints;
+      for (const auto& [joint, guess] : source.guesses[a]) {
+        joints += (joints.empty() ? "" : ", ") + joint;
+      }
+      if (joints.empty()) continue;
+      remark(pointer + "/arms/" + std::to_string(a) + "/limits",
+             source.files.urdf.filename().string() + " does not give all limits of " + joints +
+                 ": these are guesses, slow and short. Write what the robot really allows.");
+    }
+  }
+
+  // A description does not know how its joints move: limits of those that slide are in metres.
+  void spell_in_metres(Schema& cell) const {
+    for (std::size_t r = 0; r < cell["robots"].size(); ++r) {
+      for (Schema& arm : cell["robots"][r]["arms"]) {
+        if (!arm.contains("limits")) continue;
+        for (auto& [joint, limits] : arm["limits"].items()) {
+          if (!source_of(r).sliding.contains(joint)) continue;
+          Schema spelt = Schema::object();
+          for (auto& [key, value] : limits.items()) {
+            std::string name = key;
+            name.replace(name.find("_rad"), 4, "_m");
+            spelt[name] = value;
+          }
+          limits = std::move(spelt);
+        }
+      }
+    }
+  }
+
+  void name_cell() {
+    cell_.name = request_.cell;
+    std::set<std::string> told;
+    for (const ImportedRobot& source : sources_) {
+      if (!request_.cell.empty() || !told.insert(source.name).second) continue;
+      cell_.name += (cell_.name.empty() ? "" : "_and_") + source.name;
+    }
+    if (request_.cell.empty() && cell_.robots.size() > sources_.size()) {
+      cell_.name = std::to_string(cell_.robots.size()) + "_" + cell_.name;
+    }
+  }
+
+  // Where the cell does not load, who loads it will say why: homes are then those that are wanted.
+  void set_homes() {
+    const auto cell = build_cell(cell_);
+    if (!cell) return;
+    const auto homes = choose_homes(*cell);
+    if (!homes) return;
+    std::size_t next = 0;
+    for (std::size_t r = 0; r < cell_.robots.size(); ++r) {
+      for (std::size_t a = 0; a < cell_.robots[r].arms.size(); ++a, ++next) {
+        const std::string pointer =
+            "/robots/" + std::to_string(r) + "/arms/" + std::to_string(a) + "/home";
+        set_home(cell_.robots[r].arms[a], homes->of_arm[next], homes->wanted[next], pointer);
+      }
+    }
+    if (!homes->is_free) {
+      remark("/robots",
+             "No homes were found in which all arms stand free: move the bases apart, "
+             "or give homes yourself.");
+    }
+  }
+
+  void set_home(ArmDescription& arm, const HomeCandidate& home, const HomeCandidate& wanted,
+                const std::string& pointer) {
+    using Kind = HomeCandidate::Kind;
+    if (home.kind == Kind::named) {
+      arm.home_state = home.state;
+    } else {
+      arm.home.assign(home.q.begin(), home.q.end());
+    }
+    if (home.kind == wanted.kind && home.state == wanted.state) {
+      if (home.kind == Kind::zero) {
+        remark(pointer, "The SRDF has no state of the group: every joint is at zero.");
+      }
+      return;
+    }
+    const std::string not_free =
+        wanted.kind == Kind::named
+            ? "In the state " + wanted.state + " arm " + arm.name + " does not stand free here"
+            : "With every joint at zero arm " + arm.name + " does not stand free here";
+    if (home.kind == Kind::made_up) {
+      remark(pointer, not_free +
+                          ", nor in another state of the SRDF: this home was made up. "
+                          "Look at it before you use it, or move the bases apart.");
+    } else if (home.kind == Kind::zero) {
+      remark(pointer, not_free + ": every joint is at zero instead.");
+    } else {
+      remark(pointer, not_free + ": " + home.state + " is taken instead.");
+    }
+  }
+
+  std::string written() {
+    CellDescription cell = cell_;
+    for (RobotDescription& robot : cell.robots) {
+      for (std::string* path : {&robot.urdf, &robot.srdf, &robot.joint_limits}) shorten(*path);
+      for (auto& [name, folder] : robot.packages) shorten(folder);
+    }
+    std::set<std::string> names;
+    for (const ImportedRobot& source : sources_) {
+      names.insert(source.files.urdf.filename().string());
+      names.insert(source.files.srdf.filename().string());
+    }
+    std::string from;
+    for (const std::string& name : names) from += (from.empty() ? "" : ", ") + name;
+    notes_[""] = {"Written by armloom import from " + from +
+                  ". Positions are metres, angles radians, times seconds; every setting stands at "
+                  "its default."};
+    JsonWriter out;
+    cell_format().write(out, cell);
+    Schema file = Schema::parse(out.text());
+    spell_in_metres(file);
+    return commented_json(file, cell_schema(), notes_);
+  }
+
+  void shorten(std::string& path) const {
+    if (path.empty()) return;
+    const fs::path absolute = fs::weakly_canonical(path);
+    path = request_.folder
+               ? absolute.lexically_proximate(fs::weakly_canonical(*request_.folder)).string()
+               : absolute.string();
+  }
+
+  const ImportRequest& request_;
+  std::vector<ImportedRobot> sources_;
+  std::vector<Placement> placements_;
+  CellDescription cell_;
+  JsonNotes notes_;
+  std::vector<std::string> remarks_;
+};
+
+}  // namespace
+
+Result<ImportedCell> import_cell(const ImportRequest& request) { return CellImport(request).run(); }
+
+}  // namespace armloom

@@ -1,0 +1,111 @@
+#include "server/import/imported_robot.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+
+#include "core/model/robot_file.h"
+#include "core/model/srdf_reader.h"
+#include "core/model/urdf_reader.h"
+#include "server/import/homes.h"
+#include "server/import/limit_guesses.h"
+
+namespace armloom {
+namespace {
+
+std::string name_in(const std::string& urdf_text) {
+  tinyxml2::XMLDocument document;
+  document.Parse(urdf_text.data(), urdf_text.size());
+  const auto* robot = document.RootElement();
+  const char* name = robot == nullptr ? nullptr : robot->Attribute("name");
+  return name == nullptr || *name == '\0' ? "robot" : name;
+}
+
+// Where the states of the SRDF have a joint; those whose names speak of home come first.
+HeldJoint hold(const RobotTree& tree, const RobotSemantics& semantics, std::size_t joint) {
+  const TreeLink& link = tree.links[joint];
+  double nearest_to_zero = std::max(0.0, link.limits.lower.value_or(0.0));
+  if (link.limits.upper) nearest_to_zero = std::min(nearest_to_zero, *link.limits.upper);
+  HeldJoint held{link.joint, nearest_to_zero, {}};
+  std::size_t best = 0;
+  for (const auto& [group, states] : semantics.states) {
+    for (const auto& [name, state] : states) {
+      const auto value = state.values.find(joint);
+      if (value == state.values.end()) continue;
+      if (!held.state.empty() && home_rank(name) >= best) continue;
+      held = {link.joint, value->second, name};
+      best = home_rank(name);
+    }
+  }
+  return held;
+}
+
+tl::unexpected<Problems> no_arm(const RobotSemantics& semantics,
+                                const std::vector<GroupChoice>& choices) {
+  std::string why;
+  for (const GroupChoice& choice : choices) {
+    why += (why.empty() ? ": " : "; ") + choice.group + ": " + choice.why;
+  }
+  return failure(Problem{ProblemKind::invalid,
+                         "no-arm",
+                         semantics.file + ": robot",
+                         semantics.file + ": robot: no group of it is an arm" +
+                             (choices.empty() ? ", it has none" : why),
+                         {}});
+}
+
+}  // namespace
+
+Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
+                                          const std::map<std::string, std::string>& packages) {
+  Findings findings;
+  auto urdf = load_robot_file(files.urdf, "--urdf", "the robot", findings);
+  auto srdf = load_robot_file(files.srdf, "--srdf", "the robot", findings);
+  std::optional<std::string> limits;
+  if (!files.joint_limits.empty())
+    limits = load_robot_file(files.joint_limits, "--joint-limits", "the robot", findings);
+  if (findings.count() > 0) return failure(findings.take());
+
+  ImportedRobot robot{.files = files};
+  robot.name = name_in(*urdf);
+  robot.packages = find_packages(*urdf, files.urdf, packages, installed_package_folders());
+  const auto tree = read_urdf(*std::move(urdf), files.urdf, robot.packages.folders, findings);
+  if (!tree || findings.count() > 0) {
+    Problems problems = findings.take();
+    for (const std::string& package : robot.packages.missing) {
+      problems.push_back({ProblemKind::invalid,
+                          "package-missing",
+                          "--package",
+                          "the folder of the package " + package + " was not found above " +
+                              files.urdf.string() + ": give it with --package " + package +
+                              "=FOLDER",
+                          {}});
+    }
+    return failure(std::move(problems));
+  }
+  const auto semantics = read_srdf(*std::move(srdf), files.srdf, *tree, {}, findings);
+  std::optional<LimitsFile> limits_file;
+  if (limits) limits_file = read_limits_file(*limits, files.joint_limits, findings);
+  if (!semantics || findings.count() > 0) return failure(findings.take());
+
+  const auto choices = choose_arm_groups(*tree, *semantics, read_group_names(semantics->text));
+  for (const GroupChoice& choice : choices) {
+    if (choice.is_arm) {
+      robot.arms.push_back(choice.group);
+      robot.guesses.push_back(guess_limits(*tree, semantics->groups.at(choice.group),
+                                           limits_file ? &*limits_file : nullptr));
+    } else {
+      robot.left_out.push_back(choice);
+    }
+  }
+  if (robot.arms.empty()) return no_arm(*semantics, choices);
+  for (const TreeLink& link : tree->links) {
+    if (link.motion == JointKind::prismatic) robot.sliding.insert(link.joint);
+  }
+  for (const std::size_t joint : joints_above_arms(*tree, *semantics, choices)) {
+    robot.held.push_back(hold(*tree, *semantics, joint));
+  }
+  return robot;
+}
+
+}  // namespace armloom

@@ -1,0 +1,211 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "core/model/kinematics.h"
+#include "test/model/test_cells.h"
+
+// What a cell file can say where a robot's files say nothing, too much or something else: limits,
+// joint_limits.yaml, joints that are held, homes by name.
+
+namespace armloom {
+namespace {
+
+using testing::HasSubstr;
+
+const Joint& joint_of(const Cell& cell, const char* name) {
+  return cell.joint(*cell.find_joint(name));
+}
+
+CellDescription with_limits_file(const ScratchFolder& folder, const std::string& text) {
+  CellDescription cell = two_arms_description();
+  cell.robots[0].joint_limits = folder.write("joint_limits.yaml", text);
+  return cell;
+}
+
+constexpr const char* kTurnLimits =
+    "default_velocity_scaling_factor: 0.1\n"
+    "joint_limits:\n"
+    "  l_turn:\n"
+    "    has_velocity_limits: true\n"
+    "    max_velocity: 1.5\n"
+    "    has_acceleration_limits: true\n"
+    "    max_acceleration: 2\n"
+    "    has_jerk_limits: false\n"
+    "    max_jerk: 7\n"
+    "    has_position_limits: true\n"
+    "    min_position: -1.5\n"
+    "    max_position: 9\n";
+
+TEST(JointLimitsFile, IsTakenBelowTheCellsOwnLimitsAndNeverAboveTheUrdfs) {
+  const ScratchFolder folder;
+  CellDescription description = with_limits_file(folder, kTurnLimits);
+  description.robots[0].arms[0].limits["l_turn"].acceleration = 3.0;
+  const CellPtr cell = build_or_fail(description);
+  const Joint& turn = joint_of(*cell, "t_l_turn");
+  EXPECT_EQ(turn.velocity_max, 1.5);       // the file's
+  EXPECT_EQ(turn.acceleration_max, 3.0);   // the cell's
+  EXPECT_EQ(turn.jerk_max, kDefaultJerk);  // has_jerk_limits is false
+  EXPECT_EQ(turn.lower, -1.5);
+  EXPECT_EQ(turn.upper, 2.5);  // the URDF's
+  EXPECT_FALSE(turn.assumed.acceleration);
+  EXPECT_TRUE(turn.assumed.jerk);
+  EXPECT_THAT(
+      warnings_of(description),
+      HasSubstr("joint_limits.yaml:3: joint l_turn: max_position is 9, wider than the URDF's "
+                "2.5, which counts"));
+}
+
+TEST(JointLimitsFile, IsFoundUnderTheNamesOfRos2Parameters) {
+  const ScratchFolder folder;
+  const CellPtr cell = build_or_fail(with_limits_file(
+      folder,
+      "/**:\n  ros__parameters:\n    robot_description_planning:\n      joint_limits:\n"
+      "        l_turn: {has_velocity_limits: true, max_velocity: 1}\n"));
+  EXPECT_EQ(joint_of(*cell, "t_l_turn").velocity_max, 1.0);
+}
+
+TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
+  const ScratchFolder folder;
+  EXPECT_THAT(problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: [\n")),
+              HasSubstr("joint_limits.yaml:3: the YAML is malformed"));
+  EXPECT_THAT(problems_of(with_limits_file(folder, "limits: {}\n")),
+              HasSubstr("joint_limits.yaml: there is no joint_limits with joints in it"));
+  const std::string problems = problems_of(with_limits_file(
+      folder,
+      "joint_limits:\n  l_turn:\n    has_velocity_limits: true\n    max_velocity: fast\n"
+      "    has_acceleration_limits: true\n    max_acceleration: -1\n"
+      "    has_jerk_limits: perhaps\n    has_position_limits: true\n    max_position: .nan\n"
+      "  r_spin:\n    has_velocity_limits: true\n    has_velocity_limits: true\n    max_velocity: "
+      "1\n"
+      "  r_spin: {}\n"));
+  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:4: max_velocity is 'fast'"));
+  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:6: max_acceleration is -1, it must be"));
+  EXPECT_THAT(problems,
+              HasSubstr("joint_limits.yaml:7: has_jerk_limits is 'perhaps', not true or"));
+  EXPECT_THAT(problems, HasSubstr("min_position is missing, and has_position_limits is true"));
+  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:9: max_position is '.nan'"));
+  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:12: has_velocity_limits stands there twice"));
+  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:14: joint r_spin: more than one joint has"));
+}
+
+TEST(JointLimitsFile, OfOtherJointsWarns) {
+  const ScratchFolder folder;
+  const std::string warnings = warnings_of(with_limits_file(
+      folder, "joint_limits:\n  elbow: {}\n  l_turn: {max_speed: 3}\n  l_grip_mirror: 5\n"));
+  EXPECT_THAT(warnings, HasSubstr("joints that are not in two_arms.urdf are left out: elbow"));
+  EXPECT_THAT(warnings, HasSubstr("joint_limits.yaml:3: max_speed is not known here"));
+}
+
+TEST(CellLimits, AreNeverWiderThanTheUrdfs) {
+  CellDescription cell = two_arms_description();
+  cell.robots[0].arms[0].limits["l_turn"] = {.lower = -2.5, .upper = 3.0, .velocity = 2.5};
+  const std::string problems = problems_of(cell);
+  EXPECT_THAT(problems, HasSubstr("/robots/0/arms/0/limits/l_turn/lower_rad | joint l_turn: "
+                                  "lower_rad is -2.5, wider than the URDF's -2"));
+  EXPECT_THAT(problems, HasSubstr("upper_rad is 3, wider than the URDF's 2.5"));
+  EXPECT_THAT(problems, HasSubstr("velocity_rad_s is 2.5, wider than the URDF's 2"));
+  cell.robots[0].arms[0].limits["l_turn"] = {.lower = -1.0, .upper = 1.0, .velocity = 0.5};
+  cell.robots[0].arms[1].limits["r_spin"] = {.lower = -3.0, .upper = 3.0};
+  const CellPtr built = build_or_fail(cell);
+  EXPECT_EQ(joint_of(*built, "t_l_turn").lower, -1.0);
+  EXPECT_EQ(joint_of(*built, "t_l_turn").velocity_max, 0.5);
+  EXPECT_EQ(joint_of(*built, "t_r_spin").upper, 3.0);
+}
+
+TEST(Homes, MayNameAStateOfTheGroup) {
+  CellDescription cell = two_arms_description();
+  cell.robots[0].arms[0].home.clear();
+  cell.robots[0].arms[0].home_state = "out";
+  EXPECT_EQ(build_or_fail(cell)->arms[0].home, Eigen::Vector2d(0.2, 1.5));
+  cell.robots[0].arms[0].home_state = "ready";
+  EXPECT_THAT(problems_of(cell),
+              HasSubstr("/robots/0/arms/0/home | arm left: home 'ready' is no state of group "
+                        "'left_arm' in two_arms.srdf; its states: out"));
+}
+
+TEST(HeldJoints, AreNoJointsOfTheCellAndStandWhereTheyAreHeld) {
+  CellDescription free = two_arms_description();
+  CellDescription held = two_arms_description();
+  held.robots[0].fixed = {{"l_slide", 0.3}, {"r_bend", 0.7}};
+  const CellPtr a = build_or_fail(free);
+  const CellPtr b = build_or_fail(held);
+  EXPECT_FALSE(b->find_joint("t_l_slide").has_value());
+  ASSERT_EQ(b->arms[0].home.size(), 1);  // a home of the whole group serves, too
+  EXPECT_EQ(b->arms[0].home[0], -0.5);
+  EXPECT_FALSE(b->link(*b->find_link("t_l1")).arm.has_value());
+
+  Configuration q = a->home();
+  q[static_cast<Eigen::Index>(a->find_joint("t_r_bend")->index())] = 0.7;
+  LinkPoses X_a, X_b;
+  forward_kinematics(*a, q, X_a);
+  forward_kinematics(*b, b->home(), X_b);
+  for (std::size_t l = 0; l < X_a.size(); ++l)  // r3 follows r_bend as a mimic
+    EXPECT_TRUE(X_a[l].isApprox(X_b[l], 1e-12)) << a->links[l].name;
+}
+
+TEST(HeldJoints, AreFixedInTheUrdfThatTheDashboardGets) {
+  const ScratchFolder folder;
+  CellDescription held = two_arms_description();
+  held.robots[0].fixed = {{"l_slide", 0.3}, {"r_bend", 0.7}};
+  const CellPtr cell = build_or_fail(held);
+  CellDescription again = two_arms_description();
+  again.robots[0].urdf = folder.write("again.urdf", cell->robots[0].urdf_text);
+  again.robots[0].arms[0].home = {-0.5};
+  const CellPtr read = build_or_fail(again);
+  LinkPoses X_a, X_b;
+  forward_kinematics(*cell, cell->home(), X_a);
+  forward_kinematics(*read, read->home(), X_b);
+  ASSERT_EQ(X_a.size(), X_b.size());
+  for (std::size_t l = 0; l < X_a.size(); ++l)
+    EXPECT_TRUE(X_a[l].isApprox(X_b[l], 1e-12)) << cell->links[l].name;
+}
+
+TEST(HeldJoints, AreRefusedByNameAndValue) {
+  CellDescription cell = two_arms_description();
+  cell.robots[0].fixed = {
+      {"l_slide", 0.05}, {"l_grip_mirror", 0}, {"base_post", 0}, {"waist", 1}, {"r_spin", NAN}};
+  const std::string problems = problems_of(cell);
+  EXPECT_THAT(problems, HasSubstr("/robots/0/fixed/l_slide | robot twin: joint l_slide is held at "
+                                  "0.05, outside [0.1, 0.7]"));
+  EXPECT_THAT(problems, HasSubstr("joint l_grip_mirror follows joint l_grip: hold that one"));
+  EXPECT_THAT(problems, HasSubstr("joint base_post is fixed in two_arms.urdf"));
+  EXPECT_THAT(problems, HasSubstr("fixed joint waist is not in two_arms.urdf"));
+  EXPECT_THAT(problems, HasSubstr("joint r_spin is held at nan"));
+}
+
+TEST(AllProblems, OfUrdfSrdfLimitsAndCellAreToldAtOnce) {
+  const ScratchFolder folder;
+  CellDescription cell = with_limits_file(
+      folder, "joint_limits:\n  r_bend: {has_velocity_limits: true, max_velocity: quick}\n");
+  cell.robots[0].urdf = folder.write(
+      "twin.urdf",
+      file_with(data_file("two_arms.urdf"), "sphere radius=\"0.09\"", "sphere radius=\"-1\""));
+  cell.robots[0].srdf = folder.write(
+      "twin.srdf", file_with(data_file("two_arms.srdf"), "base_link=\"post\"", "base_link=\"l1\""));
+  cell.robots[0].arms[0].home[1] = 7;
+  cell.monitor.rate_hz = 0;
+  cell.allowed_collisions.emplace_back("t_post", "chair");
+  const std::string problems = problems_of(cell);
+  for (const char* told :
+       {"sphere radius is -1 m", "tip_link r_tip is not below", "home of t_l_turn is 7",
+        "rate_hz is 0", "there is no link or object chair"}) {
+    EXPECT_THAT(problems, HasSubstr(told));
+  }
+}
+
+TEST(Warnings, NameALagThatMotionsAreNotCertifiedFor) {
+  CellDescription cell = two_arms_description();
+  cell.robots[0].controller.lag = std::chrono::milliseconds(300);
+  EXPECT_THAT(warnings_of(cell),
+              HasSubstr("/robots/0/controller/lag_s | robot twin: lag_s is 0.3, more than checking "
+                        "delay_s of 0.1: its arms follow later"));
+}
+
+TEST(Warnings, AreNoneForTheCellsOfTheRepository) {
+  EXPECT_EQ(warnings_of(two_arms_description()), "");
+  EXPECT_EQ(warnings_of(two_pandas_description()), "");
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,26 @@
+"""An SRDF that its URDF has left behind: links, joints and groups that are not there any more, and a
+name of another robot. It loads as it is, and each is said in a warning.
+"""
+import small_robots as small
+
+WARNED = ["the SRDF is of robot old_robot, robot.urdf of robot new_robot",
+          "robot.srdf: disable_collisions: 3 of 7 name links that are not in robot.urdf",
+          "group left_arm: joint left_twist is not in robot.urdf; the group is without it",
+          "group both: group hand does not exist; the group is without it",
+          "group_state folded of hand: group hand does not exist; the state is left out",
+          "robot.srdf: passive_joint at line"]
+
+
+def write(folder):
+    urdf = small.link("base", small.box((1.2, 0.1, 0.1), (0, -0.2, -0.2)))
+    for side, xyz in small.SIDES.items():
+        urdf += small.arm(side, "base", xyz)
+    srdf = (small.group("left", ["left_pan", "left_bend", "left_twist"]) + small.group("right")
+            + '<group name="both"><group name="left_arm"/><group name="hand"/></group>\n'
+            + '<group_state name="folded" group="hand"><joint name="finger" value="0"/></group_state>\n'
+            + '<passive_joint name="caster"/>\n<end_effector name="hand" parent_link="x" group="hand"/>\n'
+            + small.neighbours("left", "base") + small.neighbours("right", "base")
+            + small.allowed(("left_fore", "left_hand"), ("hand", "camera"), ("base", "mast")))
+    small.write_files(folder, {
+        "robot.urdf": small.robot("new_robot", urdf), "robot.srdf": small.robot("old_robot", srdf),
+        "cell.json": small.cell("stale_srdf", small.arms()), "jobs.json": small.jobs()})
