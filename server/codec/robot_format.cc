@@ -43,8 +43,9 @@ FormatPtr<JointLimitsDescription> limits_format() {
   add(limit("velocity", &Limits::velocity, "_s", kPositive,
             "Highest velocity: at most the URDF's, or what it lacks."));
   add(limit("acceleration", &Limits::acceleration, "_s2", kPositive,
-            "Highest acceleration; URDFs have none.", as_json(kDefaultAcceleration)));
-  add(limit("jerk", &Limits::jerk, "_s3", kPositive, "Highest jerk; URDFs have none.",
+            "Highest acceleration: before that of joint_limits; URDFs have none.",
+            as_json(kDefaultAcceleration)));
+  add(limit("jerk", &Limits::jerk, "_s3", kPositive, "Highest jerk, in the same way.",
             as_json(kDefaultJerk)));
   add(limit("brake", &Limits::brake, "_s2", kPositive,
             "Deceleration that a stop may use; twice the acceleration unless given."));
