@@ -143,7 +143,7 @@ TEST(Surface, CertifiesAMotionThatPassesItAndRefusesOneThatScrapes) {
   EXPECT_EQ(passes.kind, Verdict::Kind::free);
   const Verdict scrapes = InNotch(0.005).sweep();
   ASSERT_EQ(scrapes.kind, Verdict::Kind::conflict);
-  EXPECT_NEAR(scrapes.conflicts.front().clearance_m, 0.005, 6e-4);
+  EXPECT_NEAR(scrapes.conflicts.front().proximity.clearance_m, 0.005, 6e-4);
 }
 
 TEST(Surface, OfAnOpenMeshIsNotTrusted) {
