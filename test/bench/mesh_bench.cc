@@ -37,7 +37,7 @@ void closest(benchmark::State& run, const PlanningScenePtr& scene,
   std::size_t next = 0;
   for (auto _ : run) {
     benchmark::DoNotOptimize(
-        checker.closest_between_arms(states[next++ % states.size()], horizon_m));
+        checker.closest_apart(states[next++ % states.size()], horizon_m));
   }
 }
 

@@ -243,7 +243,8 @@ def of_cell():
     yield cell('{"name": "block"', '{"name": "r_base"', "/objects/0/name", "the name r_base of an object is a link's name too", subject="block")
     yield cell('["r_base", "block"]', '["base", "block"]', "/allowed_collisions/0/0", "there is no link or object base", subject="block")
     yield cell('"stop_clearance_m": 0.01', '"stop_clearance_m": 0.03', "/monitor/stop_clearance_m", "stop_clearance_m is 0.03, it must be at most clearance_m")
-    yield cell('{"meshes": "meshes"}', '{"mesh": "meshes"}', "mesh package://meshes/fore.stl is in package 'meshes'", 'add to the robot "packages": {"meshes": "')
+    yield cell('{"meshes": "meshes"}', '{"mesh": "meshes"}', "mesh package://meshes/fore.stl is in package 'meshes'", 'add to the robot "packages": {"meshes": "',
+               subject="packages")  # not told where the URDF's mesh is no longer in the package
     # What the reader of the cell file itself says: the description is not complete then.
     for old, new, *told in (
             ('"home": "ready"', '"home": 3', f"{right}/home"),
