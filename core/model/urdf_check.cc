@@ -66,10 +66,8 @@ bool copy_lengths(const XMLElement& shape, const char* attribute, std::size_t si
   if (!read) return false;
   const std::string what = std::string(shape.Name()) + " " + attribute;
   for (const double number : *read) {
-    if (number > 0.0) {
-      warn_if_far(number, what, place);
-      continue;
-    }
+    warn_if_far(number, what, place);
+    if (number > 0.0) continue;
     place.report("not-positive", what + " is " + text_of(number) + " m, it must be greater than 0",
                  number);
     return false;
@@ -83,18 +81,15 @@ bool copy_mesh(const XMLElement& mesh, const XmlPlace& place, const MeshFolders&
   const std::string name = place.name(mesh, "filename");
   to.SetAttribute("filename", name.c_str());
   const auto scale = copy_numbers(mesh, "scale", 3, Presence::optional, place, to);
-  bool right = scale || mesh.Attribute("scale") == nullptr;
-  if (scale && std::find(scale->begin(), scale->end(), 0.0) != scale->end()) {
-    place.report("not-positive", "mesh scale holds a 0", 0.0);
-    right = false;
-  }
+  const bool flat = scale && std::find(scale->begin(), scale->end(), 0.0) != scale->end();
+  if (flat) place.report("not-positive", "mesh scale holds a 0", 0.0);
   if (name.empty()) return false;
   const auto path = resolve_mesh(name, folders.urdf_folder, *folders.packages);
   if (path)
     notes.meshes.emplace(name, path->string());
   else
     place.report("mesh-unresolved", "mesh " + name + " " + path.error(), name);
-  return right && path;
+  return path && !flat && (scale || mesh.Attribute("scale") == nullptr);
 }
 
 bool copy_shape(const XMLElement& shape, const XmlPlace& place, const MeshFolders& folders,
@@ -161,14 +156,13 @@ void check_link(const XMLElement& link, const XmlPlace& place, const MeshFolders
   XMLElement& unused = *to.GetDocument()->NewElement("unused");
   check_inertial(link, place.only_warning("masses play no part in the checks"), unused);
   const XmlPlace seen = place.only_warning("it is seen in the dashboard, and not checked");
-  for (const auto* visual = link.FirstChildElement("visual"); visual != nullptr;
-       visual = visual->NextSiblingElement("visual")) {
-    check_visual(*visual, seen, unused);
-  }
-  for (const auto* collision = link.FirstChildElement("collision"); collision != nullptr;
-       collision = collision->NextSiblingElement("collision")) {
+  for (const auto* child = link.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    const std::string_view tag = child->Name();
+    if (tag == "visual") check_visual(*child, seen, unused);
+    if (tag != "collision") continue;
     XMLElement& copy = *to.InsertNewChildElement("collision");
-    if (!copy_collision(*collision, place, folders, notes, copy)) to.DeleteChild(&copy);
+    if (!copy_collision(*child, place, folders, notes, copy)) to.DeleteChild(&copy);
   }
 }
 
