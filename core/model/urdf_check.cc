@@ -182,19 +182,17 @@ void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace&
       .number(*limit, "effort", Presence::optional);
   const auto velocity = number("velocity");
   notes.velocity = velocity && *velocity > 0.0;  // 0 says nothing, as for MoveIt
-  if (velocity && *velocity < 0.0) {
+  if (velocity && *velocity < 0.0)
     faults.report("not-positive",
                   "limit velocity is " + text_of(*velocity) + ", it must be greater than 0",
                   *velocity);
-  }
   if (type == "continuous") return;  // MoveIt's too ignore what stands there
   const auto lower = number("lower");
   const auto upper = number("upper");
   const bool crossed = lower && upper && *lower > *upper;
-  if (crossed) {
+  if (crossed)
     faults.report("limits-crossed",
                   "limit lower " + text_of(*lower) + " is above upper " + text_of(*upper), *lower);
-  }
   notes.lower = lower && !crossed;
   notes.upper = upper && !crossed;
 }
@@ -207,9 +205,8 @@ void check_axis(const XMLElement& joint, const XmlPlace& place, XMLElement& to) 
   const double norm = xyz ? norm_of(*xyz) : 0.0;
   if (norm >= 1e-6 && std::isfinite(norm)) return;
   to.DeleteChild(&copy);
-  if (!xyz) return;
-  place.report("zero-axis",
-               std::string("axis xyz '") + axis->Attribute("xyz") + "' has no direction", norm);
+  const char* text = axis->Attribute("xyz");
+  if (xyz) place.report("zero-axis", std::string("axis xyz '") + text + "' has no direction", norm);
 }
 
 // The type for urdfdom. A joint of several values stands at its origin, as MoveIt has it by
@@ -229,9 +226,8 @@ std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes
     place.report("unknown-joint-type", "joint type '" + type + "' is not known", type);
   // As what its limits would fit, so that all else of it is told.
   const auto* limit = joint.FirstChildElement("limit");
-  const bool bounded = limit != nullptr && (limit->Attribute("lower") != nullptr ||
-                                            limit->Attribute("upper") != nullptr);
-  return bounded ? "revolute" : "continuous";
+  if (limit == nullptr) return "continuous";
+  return limit->Attribute("lower") || limit->Attribute("upper") ? "revolute" : "continuous";
 }
 
 void check_joint(const XMLElement& joint, const XmlPlace& place, UrdfNotes::Joint& notes,
@@ -264,10 +260,9 @@ void check_joint(const XMLElement& joint, const XmlPlace& place, UrdfNotes::Join
 
 std::string place_of(const XMLElement& element, const std::string& file) {
   const char* name = element.Attribute("name");
-  const std::string known = name != nullptr && *name != '\0'
-                                ? std::string(" ") + name
-                                : " at line " + std::to_string(element.GetLineNum());
-  return file + ": " + element.Name() + known;
+  const std::string place = file + ": " + element.Name() + " ";
+  if (name != nullptr && *name != '\0') return place + name;
+  return place + "at line " + std::to_string(element.GetLineNum());
 }
 
 }  // namespace
