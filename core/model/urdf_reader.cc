@@ -4,7 +4,8 @@
 
 #include <utility>
 
-#include "core/model/urdf_elements.h"
+#include "core/model/urdf_check.h"
+#include "core/model/urdf_model.h"
 #include "core/model/xml_element.h"
 
 namespace armloom {
@@ -17,19 +18,23 @@ std::optional<RobotTree> read_urdf(std::string text, const std::filesystem::path
   const auto* robot = parse_robot_xml(text, file, document, findings);
   if (robot == nullptr) return std::nullopt;
   const XmlPlace place(file + ": robot", findings);
-  const std::string name = place.name(*robot, "name");
-  UrdfElements elements =
-      read_urdf_elements(*robot, file, {path.parent_path(), &packages}, findings);
-  if (elements.links.size() > kMaxLinksOfRobot) {
+  tinyxml2::XMLDocument document_of_mended;
+  auto* mended = document_of_mended.NewElement("robot");
+  document_of_mended.InsertEndChild(mended);
+  mended->SetAttribute("name", place.name(*robot, "name").c_str());
+  UrdfNotes notes =
+      check_urdf_elements(*robot, file, {path.parent_path(), &packages}, *mended, findings);
+  const std::size_t links = count_children(*robot, "link");
+  if (links > kMaxLinksOfRobot) {
     place.report("too-many-links",
-                 std::to_string(elements.links.size()) + " links, at most " +
-                     std::to_string(kMaxLinksOfRobot) + " are allowed",
-                 static_cast<double>(elements.links.size()), ProblemKind::too_large);
+                 std::to_string(links) + " links, at most " + std::to_string(kMaxLinksOfRobot) +
+                     " are allowed",
+                 static_cast<double>(links), ProblemKind::too_large);
     return std::nullopt;
   }
-  RobotTree tree = make_tree(std::move(elements), file, findings);
-  tree.name = name;
-  tree.text = std::move(text);
+  check_urdf_tree(*mended, file, notes, findings);
+  auto tree = read_with_urdfdom(*mended, file, std::move(notes), findings);
+  if (tree) tree->text = std::move(text);
   return tree;
 }
 

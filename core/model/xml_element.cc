@@ -67,6 +67,15 @@ tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string
   return root;
 }
 
+std::size_t count_children(const tinyxml2::XMLElement& element, const char* child) {
+  std::size_t count = 0;
+  for (const auto* one = element.FirstChildElement(child); one != nullptr;
+       one = one->NextSiblingElement(child)) {
+    ++count;
+  }
+  return count;
+}
+
 XmlPlace XmlPlace::only_warning(std::string consequence) const {
   XmlPlace other = *this;
   other.consequence_ = std::move(consequence);

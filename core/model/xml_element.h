@@ -26,6 +26,8 @@ enum class Presence { required, optional };
                                                     tinyxml2::XMLDocument& document,
                                                     Findings& findings);
 
+[[nodiscard]] std::size_t count_children(const tinyxml2::XMLElement& element, const char* child);
+
 // Reads one element of a robot file and reports what is wrong with it, always under the place that
 // it was made with: "panda.urdf: joint panda_joint3". The sentence is place + ": " + what is wrong.
 class XmlPlace {

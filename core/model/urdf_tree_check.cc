@@ -1,0 +1,221 @@
+#include <tinyxml2.h>
+
+#include <vector>
+
+#include "core/model/urdf_check.h"
+#include "core/model/xml_element.h"
+
+namespace armloom {
+namespace {
+
+using tinyxml2::XMLElement;
+
+std::string listed(const std::set<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) {
+    if (text.size() > 200) return text + ", ...";
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
+}
+
+// Connects the elements of a mended robot, whose names are unique. A joint whose child is missing,
+// unknown or moved by another one gets a made link; what then is no tree hangs on a made root.
+class TreeMender {
+ public:
+  TreeMender(XMLElement& robot, const std::string& file, UrdfNotes& notes, Findings& findings)
+      : robot_(robot), file_(file), notes_(notes), findings_(findings) {}
+
+  void mend() {
+    const std::size_t before = findings_.count();
+    index_names();
+    connect();
+    if (all_children_known_) check_one_root();  // else a root may only be misspelt elsewhere
+    notes_.patched = notes_.patched || findings_.count() != before || !all_children_known_ ||
+                     !notes_.loose.empty();
+    fix_faulty_mimics();
+    make_one_tree();
+  }
+
+ private:
+  struct Node {
+    std::string name;
+    XMLElement* joint = nullptr;  // above it
+    std::vector<const Node*> children;
+  };
+
+  void report(const std::string& whose, const std::string& slug, const std::string& sentence,
+              const std::string& value) const {
+    XmlPlace(file_ + ": " + whose, findings_).report(slug, sentence, value);
+  }
+
+  void index_names() {
+    for (auto* child = robot_.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      const std::string name = child->Attribute("name");
+      if (child->Name() == std::string("link"))
+        links_[name].name = name;
+      else
+        joints_.emplace(name, child);
+    }
+  }
+
+  Node* find_end(const std::string& joint, const std::string& end, const std::string& link) {
+    const auto found = links_.find(link);
+    if (found != links_.end()) return &found->second;
+    if (end == "child") all_children_known_ = false;
+    if (!link.empty())  // else told with the element
+      report("joint " + joint, "unknown-link", end + " link " + link + " does not exist", link);
+    return nullptr;
+  }
+
+  void connect() {
+    for (const auto& [name, joint] : joints_) {
+      const std::string link = joint->FirstChildElement("child")->Attribute("link");
+      Node* parent =
+          find_end(name, "parent", joint->FirstChildElement("parent")->Attribute("link"));
+      Node* child = find_end(name, "child", link);
+      if (child != nullptr && child->joint != nullptr) {
+        report("joint " + name, "two-parents",
+               "child link " + link + " already hangs on joint " + child->joint->Attribute("name"),
+               link);
+        all_children_known_ = false;  // which link this one was to move
+        child = nullptr;
+      }
+      if (child == nullptr) child = &childless_[name];
+      child->joint = joint;
+      if (parent != nullptr)
+        parent->children.push_back(child);
+      else
+        notes_.loose.insert(link);
+    }
+  }
+
+  void check_one_root() {
+    std::set<std::string> roots;
+    std::set<std::string> hanging;
+    for (const auto& [name, node] : links_) {
+      if (node.joint != nullptr)
+        hanging.insert(name);
+      else if (!notes_.loose.contains(name))
+        roots.insert(name);
+    }
+    if (links_.empty()) return report("robot", "missing", "there are no links", "");
+    if (roots.size() > 1)
+      return report("robot", "two-roots", "more than one root link: " + listed(roots),
+                    listed(roots));
+    for (const auto* starts : {&roots, &notes_.loose}) {
+      for (const std::string& start : *starts) {
+        if (links_.contains(start)) erase_tree(links_.at(start), hanging);
+      }
+    }
+    if (hanging.empty()) return;
+    report("robot", "loop", "links hang in a loop and not below a root: " + listed(hanging),
+           listed(hanging));
+  }
+
+  static void erase_tree(const Node& root, std::set<std::string>& names) {
+    names.erase(root.name);
+    std::vector<const Node*> open{&root};
+    while (!open.empty()) {
+      const Node* node = open.back();
+      open.pop_back();
+      for (const Node* child : node->children) {
+        if (names.erase(child->name) != 0) open.push_back(child);  // else seen: a loop
+      }
+    }
+  }
+
+  void fix_faulty_mimics() {
+    std::vector<XMLElement*> faulty;
+    for (const auto& [name, joint] : joints_) {
+      const auto* mimic = joint->FirstChildElement("mimic");
+      if (mimic != nullptr && !is_mimic_right(name, mimic->Attribute("joint")))
+        faulty.push_back(joint);
+    }
+    for (XMLElement* joint : faulty) {
+      joint->SetAttribute("type", "fixed");
+      joint->DeleteChild(joint->FirstChildElement("mimic"));
+    }
+  }
+
+  bool is_mimic_right(const std::string& name, const std::string& followed) const {
+    if (followed.empty()) return false;  // told with the element
+    const auto refuse = [&](const std::string& slug, const std::string& sentence) {
+      report("joint " + name, slug, sentence, followed);
+      return false;
+    };
+    const auto driver = joints_.find(followed);
+    if (driver == joints_.end())
+      return refuse("unknown-joint", "mimic joint " + followed + " does not exist");
+    if (followed == name) return refuse("mimic-chain", "the joint mimics itself");
+    if (driver->second->FirstChildElement("mimic") != nullptr)
+      return refuse("mimic-chain", "mimic joint " + followed + " is a mimic itself");
+    if (driver->second->Attribute("type", "fixed") != nullptr)
+      return refuse("mimic-fixed", "mimic joint " + followed + " is fixed");
+    return true;
+  }
+
+  void make_one_tree() {
+    std::vector<const Node*> nodes;
+    std::set<std::string> names;
+    for (auto& [joint, node] : childless_) {
+      node.name = make("link", "child of " + joint).Attribute("name");
+      node.joint->FirstChildElement("child")->SetAttribute("link", node.name.c_str());
+    }
+    for (const auto* some : {&links_, &childless_}) {
+      for (const auto& [name, node] : *some) {
+        // Roots first: what is left then hangs in loops, or on nothing.
+        nodes.insert(node.joint == nullptr ? nodes.begin() : nodes.end(), &node);
+        names.insert(node.name);
+      }
+    }
+    std::vector<const Node*> roots;
+    for (const Node* node : nodes) {
+      if (!names.contains(node->name)) continue;
+      roots.push_back(node);
+      erase_tree(*node, names);
+    }
+    if (roots.size() == 1 && roots.front()->joint == nullptr) return;
+    const std::string above = make("link", "above all").Attribute("name");
+    for (const Node* root : roots) hang(*root, above);
+  }
+
+  void hang(const Node& root, const std::string& above) {
+    XMLElement* joint = root.joint;
+    if (joint == nullptr) {
+      joint = &make("joint", "above " + root.name);
+      joint->SetAttribute("type", "fixed");
+      joint->InsertNewChildElement("parent");
+      joint->InsertNewChildElement("child")->SetAttribute("link", root.name.c_str());
+    }
+    joint->FirstChildElement("parent")->SetAttribute("link", above.c_str());
+  }
+
+  XMLElement& make(const char* tag, std::string name) {
+    while (links_.contains(name) || joints_.contains(name) || notes_.made.contains(name))
+      name += "'";
+    notes_.made.insert(name);
+    XMLElement& element = *robot_.InsertNewChildElement(tag);
+    element.SetAttribute("name", name.c_str());
+    return element;
+  }
+
+  XMLElement& robot_;
+  const std::string& file_;
+  UrdfNotes& notes_;
+  Findings& findings_;
+  std::map<std::string, Node> links_;
+  std::map<std::string, XMLElement*> joints_;
+  std::map<std::string, Node> childless_;  // by the joint that has no link of its own
+  bool all_children_known_ = true;
+};
+
+}  // namespace
+
+void check_urdf_tree(XMLElement& mended, const std::string& file, UrdfNotes& notes,
+                     Findings& findings) {
+  TreeMender(mended, file, notes, findings).mend();
+}
+
+}  // namespace armloom
