@@ -51,7 +51,9 @@ TEST_P(Settled, WhileAllArmsAreStoppedAndNobodyResumes) {
   cell->simulation->executive().resume_all();
   cell->run_to_the_end(at(400s));
   EXPECT_EQ(cell->job("one").state, JobState::succeeded);
-  EXPECT_EQ(cell->job("two").state, JobState::succeeded);
+  // Under reservation it was in the backlog already, and its time there was over.
+  EXPECT_EQ(cell->job("two").state,
+            GetParam() == "reservation" ? JobState::expired : JobState::succeeded);
 }
 
 // It moves again by itself: that is still to come.
@@ -73,11 +75,14 @@ TEST_P(Settled, NotBeforeASlowMotionOrALateStart) {
   inject(fault("y", ArmFault::Kind::late_start, 0s));
   cell->submit(slide("x", -1, 1, 2, "one"));
   cell->submit(slide("y", -1, 1, 3, "two"));
-  while (!cell->simulation->executive().all_ended()) {
+  const auto stops = [&] { return cell->simulation->executive().figures().monitor_stops; };
+  while (!cell->simulation->executive().all_ended() && stops() == 0) {
     ASSERT_FALSE(cell->simulation->settled()) << to_seconds(cell->simulation->now() - at(0s));
     cell->simulation->tick();
     ASSERT_LT(cell->simulation->now(), at(60s));
   }
+  // Of late arms the paper's rule promises nothing: the monitor stops them, and nobody resumes.
+  EXPECT_EQ(stops() > 0, GetParam() == "timed_discrete");
 }
 
 TEST_P(Settled, ASimulationEndsThenAndNotWhenItsLimitIsOver) {

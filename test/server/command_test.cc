@@ -50,7 +50,7 @@ TEST_F(Command, ValidateMarksTheLimitsThatAreDefaults) {
             "left_panda_joint2 -1.7628 1.7628 2.175 3.75* 7500* 7.5* rad");
   EXPECT_EQ(limits("left_panda_finger_joint1"),
             "left_panda_finger_joint1 0 0.04 0.2 3.75* 7500* 7.5* m");
-  EXPECT_NE(outcome.out.find("* a default: acceleration 3.75, jerk 7500, brake twice"),
+  EXPECT_NE(outcome.out.find("* a default: velocity 1, acceleration 3.75, jerk 7500, brake twice"),
             std::string::npos);
   EXPECT_EQ(outcome.err, "");
 }
@@ -66,11 +66,13 @@ TEST_F(Command, ValidateWarnsOfABrakeWeakerThanTheAcceleration) {
   EXPECT_EQ(outcome.err,
             "armloom: warning: " + limits +
                 "panda_finger_joint1/brake_m_s2: joint right_panda_finger_joint1: brake_m_s2 is "
-                "0.5, less than its acceleration_m_s2 of 3.75\n"
+                "0.5, less than its acceleration_m_s2 of 3.75: a stop takes longer than the motion "
+                "took to begin\n"
                 "armloom: warning: " +
                 limits +
                 "panda_joint1/brake_rad_s2: joint right_panda_joint1: brake_rad_s2 is 1.5, less "
-                "than its acceleration_rad_s2 of 3.75\n");
+                "than its acceleration_rad_s2 of 3.75: a stop takes longer than the motion took to "
+                "begin\n");
 }
 
 TEST_F(Command, NothingIsPrintedAsMinusZero) {
