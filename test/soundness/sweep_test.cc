@@ -66,29 +66,27 @@ Isometry3d moved(const std::vector<MovingAxis>& axes, const std::vector<double>&
 
 std::vector<Body> any_body(std::mt19937_64& random) {
   const auto size = [&] { return uniform(random, 0.02, 0.2); };
-  PlacedShape shape{.shape = Sphere{size()}};
   std::vector<PlacedShape> shapes;
   switch (random() % 4) {
     case 0:
-      shape.shape = Box{Vector3d(size(), size(), size())};
+      shapes.push_back({Box{Vector3d(size(), size(), size())}});
       break;
     case 1:
-      shape.shape = Cylinder{0.5 * size(), size()};
+      shapes.push_back({Cylinder{0.5 * size(), size()}});
       break;
     case 2: {  // a capsule
       const Cylinder cylinder{0.5 * size(), size()};
-      shape.shape = cylinder;
+      shapes.push_back({cylinder});
       for (const double end : {-0.5, 0.5}) {
-        PlacedShape cap{.shape = Sphere{cylinder.radius_m}};
-        cap.X_LS.translation().z() = end * cylinder.length_m;
-        shapes.push_back(cap);
+        shapes.push_back({Sphere{cylinder.radius_m}});
+        shapes.back().X_LS.translation().z() = end * cylinder.length_m;
       }
       break;
     }
     default:
+      shapes.push_back({Sphere{size()}});
       break;
   }
-  shapes.push_back(shape);
   return make_bodies(shapes);
 }
 
