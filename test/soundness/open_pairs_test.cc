@@ -16,7 +16,7 @@ void expect_open_only_where_close(const CheckMethod& method, std::size_t open_ma
   const OpenPairs found = find_open(kPairs, 77, method);
   EXPECT_EQ(found.pairs, kPairs);
   EXPECT_GE(found.free, kPairs / 2);
-  EXPECT_GE(found.conflict, 30U);
+  EXPECT_GE(found.conflict, 10U);
   EXPECT_LE(found.open.size(), open_max);
   for (const OpenPair& pair : found.open) {
     EXPECT_LT(pair.keeps_m, kCloseClearance_m + kAboveMargin_m) << "pair " << pair.pair;
