@@ -200,6 +200,18 @@ bool clears_box(const Eigen::Vector3d& p_W, double radius_m, const Body& box,
   return reach <= 0.0 || outside.squaredNorm() >= reach * reach;
 }
 
+std::optional<Separation> separation(const Body& a, const PlacedBody& at_a, const Body& b,
+                                     const PlacedBody& at_b) {
+  if (a.kind != BodyKind::round || b.kind != BodyKind::round) {
+    return exact_separation(a, shape_pose(a, at_a), b, shape_pose(b, at_b));
+  }
+  const Eigen::Vector3d gap = segment_segment_gap(at_b.segment, at_a.segment);
+  const double length = gap.norm();
+  const double distance_m = length - a.radius_m - b.radius_m;
+  if (!(distance_m > 0.0) || !(length > 0.0)) return std::nullopt;
+  return Separation{distance_m, gap / length};
+}
+
 double distance_below(const Body& a, const PlacedBody& at_a, const Body& b, const PlacedBody& at_b,
                       double limit_m) {
   const double reach = limit_m + a.bounding_radius_m() + b.bounding_radius_m();

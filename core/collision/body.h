@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/collision/hull_body.h"
@@ -65,6 +66,15 @@ struct Bound {
 // Whether every point within radius_m of a point in the world keeps at least limit_m from the box.
 [[nodiscard]] bool clears_box(const Eigen::Vector3d& p_W, double radius_m, const Body& box,
                               const PlacedBody& at_box, double limit_m);
+
+// Two bodies with a gap of distance_m between two planes across n, of unit length from a to b.
+// Nothing where none is found, as in contact.
+struct Separation {
+  double distance_m;
+  Eigen::Vector3d n_W;
+};
+[[nodiscard]] std::optional<Separation> separation(const Body& a, const PlacedBody& at_a,
+                                                   const Body& b, const PlacedBody& at_b);
 
 // min(distance, limit_m): cheap when the bound is not below the limit. Negative or zero in contact.
 [[nodiscard]] double distance_below(const Body& a, const PlacedBody& at_a, const Body& b,

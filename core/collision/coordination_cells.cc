@@ -4,6 +4,7 @@
 #include "core/collision/coordination_diagram_impl.h"
 #include "core/collision/filter/kernels.h"
 #include "core/collision/part_distance.h"
+#include "core/collision/part_sweep.h"
 
 namespace armloom {
 namespace {
@@ -12,6 +13,10 @@ constexpr int kLanes = filter::kLanes;
 
 // A side is halved together with the other if it moves at least this share as much.
 constexpr double kBothShare = 0.5;
+
+// Parts move towards each other at least this share of what they may move in all directions,
+// mostly: where more than that would have to be nothing, it is not asked.
+constexpr double kTowardsShare = 0.25;
 
 }  // namespace
 
@@ -98,15 +103,45 @@ void CoordinationDiagram::evaluate(const Open* open, std::size_t count) {
   }
 }
 
+const LinkagePart& CoordinationDiagram::second_part(const NarrowPair& pair) const {
+  const auto b = static_cast<std::size_t>(pair.part_b);
+  if (still_ != nullptr) return still_->parts[b];
+  return (b_ ? b_ : a_)->linkage().parts()[b];
+}
+
 double CoordinationDiagram::exact(const NarrowPair& pair, const double* frames_a,
                                   const double* frames_b, int stride, double limit_m) const {
   const LinkagePart& a = a_->linkage().parts()[static_cast<std::size_t>(pair.part_a)];
+  const LinkagePart& b = second_part(pair);
+  return part_distance(*setting_.bodies, a.part, part_pose(a, frames_a, stride), b.part,
+                       part_pose(b, b_ ? frames_b : frames_a, stride), limit_m);
+}
+
+// Whether the pair keeps its limit all over the cell where the bodies that come into question are
+// enough_m apart at its middle or do not come that close along their direction.
+bool CoordinationDiagram::keeps_apart(const Cell& cell, const NarrowPair& pair, double limit_m,
+                                      double enough_m) {
+  const Linkage& arm = a_->linkage();
+  const LinkagePart& a = arm.parts()[static_cast<std::size_t>(pair.part_a)];
+  const LinkagePart& b = second_part(pair);
   const bool self = !b_ && still_ == nullptr;
-  const auto b = static_cast<std::size_t>(pair.part_b);
-  const LinkagePart& part_b =
-      b_ ? b_->linkage().parts()[b] : (self ? a_->linkage().parts()[b] : still_->parts[b]);
-  return part_distance(*setting_.bodies, a.part, part_pose(a, frames_a, stride), part_b.part,
-                       part_pose(part_b, self ? frames_a : frames_b, stride), limit_m);
+  std::size_t common = 0;
+  if (self) {
+    const auto of_a = arm.ancestors(a.frame);
+    const auto of_b = arm.ancestors(b.frame);
+    common = static_cast<std::size_t>(std::ranges::mismatch(of_a, of_b).in1 - of_a.begin());
+  }
+  Scratch& s = *scratch_;
+  s.axes_b.clear();
+  a_->axes_of(cell.a, a.frame, common, s.axes_a);
+  if (self) a_->axes_of(cell.a, b.frame, common, s.axes_b);
+  if (b_) b_->axes_of(cell.b, b.frame, 0, s.axes_b);
+  const double* frames_a = a_->place_of(cell.a).frames();
+  const double* frames_b = b_ ? b_->place_of(cell.b).frames() : frames_a;
+  const std::vector<Part>& parts = setting_.bodies->parts;
+  return keep_apart(setting_.bodies->bodies,
+                    {{parts[a.part], part_pose(a, frames_a, kLanes)}, s.axes_a},
+                    {{parts[b.part], part_pose(b, frames_b, kLanes)}, s.axes_b}, limit_m, enough_m);
 }
 
 const NarrowPair& CoordinationDiagram::narrow(int entry, bool box) const {
@@ -123,6 +158,10 @@ bool CoordinationDiagram::clears(Cell& cell, Undecided& u) {
                        b_ ? b_->place_of(cell.b).frames() : nullptr, filter::kLanes, enough_m);
   u.slack_m = 0.0;
   if (u.distance_m >= enough_m) return true;
+  if (u.distance_m - u.limit_m > kTowardsShare * u.moves_m() &&
+      keeps_apart(cell, pair, u.limit_m, enough_m)) {
+    return true;
+  }
   note(cell, {pair.pair, u.narrow, u.box, u.distance_m});
   return false;
 }
@@ -148,10 +187,11 @@ void CoordinationDiagram::decide(int index) {
     choose_split(cell, clear ? *worst : *closest);
     return;
   }
-  if (room(*worst) < worst->moves_m()) {  // no distance would do: exact ones need not be asked
+  if (room(*worst) < kTowardsShare * worst->moves_m()) {  // no distance would do: none is asked
     choose_split(cell, *worst);
     return;
   }
+  std::iter_swap(undecided.begin(), worst);  // mostly it is the one that does not
   for (Undecided& u : undecided) {
     if (clears(cell, u)) continue;
     choose_split(cell, u);

@@ -19,7 +19,8 @@ namespace armloom {
 // A cell is free when for every pair of parts the distance at its middle, less what each part may
 // move during the cell (MotionTube), is at least the pair's limit: then so is the distance in every
 // state of the cell. Capsules answer first; where they leave it open, the exact distance of the two
-// parts at the middle does.
+// parts at the middle does. What it leaves open for what the parts may move, whichever way, may
+// still be free for what they may move towards each other (part_sweep.h).
 //
 // Not thread-safe; a tube may be shared by several diagrams of one thread.
 class CoordinationDiagram {
@@ -164,6 +165,9 @@ class CoordinationDiagram {
   void note(Cell& cell, const Found& found);
   void choose_split(Cell& cell, const Undecided& worst);
   bool clears(Cell& cell, Undecided& undecided);
+  [[nodiscard]] bool keeps_apart(const Cell& cell, const NarrowPair& pair, double limit_m,
+                                 double enough_m);
+  [[nodiscard]] const LinkagePart& second_part(const NarrowPair& pair) const;
   [[nodiscard]] const NarrowPair& narrow(int entry, bool box) const;
   [[nodiscard]] double exact(const NarrowPair& pair, const double* frames_a, const double* frames_b,
                              int stride, double limit_m) const;

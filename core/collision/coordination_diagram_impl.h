@@ -40,6 +40,7 @@ struct CoordinationDiagram::Scratch {
   Gathered a, b;
   std::vector<filter::Hit> hits, box_hits;
   std::vector<Undecided> undecided;  // of one cell
+  std::vector<MovingAxis> axes_a, axes_b;
   Point point;
   std::vector<int> nodes;
 };

@@ -51,10 +51,12 @@ double extent(const Body& body, const Eigen::Isometry3d& X_WS, const Eigen::Vect
 }
 
 // What FCL says, and what of it is certain: the gap between two parallel planes, across the
-// direction of FCL's nearest points, that hold the bodies apart. Both zero in contact.
+// direction of FCL's nearest points (n, from a to b), that hold the bodies apart. Both zero in
+// contact.
 struct Proof {
   double claimed;
   double proven;
+  Eigen::Vector3d n;
 };
 
 Proof prove(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
@@ -66,11 +68,11 @@ Proof prove(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
       fcl::distance<double>(a.exact->get(), X_WA, b.exact->get(), X_WB, request, result);
   const Eigen::Vector3d gap = result.nearest_points[1] - result.nearest_points[0];
   const double length = gap.norm();
-  if (!(distance > 0.0) || !(length > 0.0)) return {0.0, 0.0};
+  if (!(distance > 0.0) || !(length > 0.0)) return {0.0, 0.0, gap};
   const Eigen::Vector3d n = gap / length;
   const double proven =
       n.dot(X_WB.translation() - X_WA.translation()) - extent(a, X_WA, n) - extent(b, X_WB, -n);
-  return {distance, std::clamp(proven, 0.0, distance)};
+  return {distance, std::clamp(proven, 0.0, distance), n};
 }
 
 std::shared_ptr<fcl::CollisionGeometryd> convex_of(const ConvexHull& hull) {
@@ -111,13 +113,23 @@ std::shared_ptr<const ExactGeometry> make_exact_geometry(const Body& body) {
 
 double exact_distance(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
                       const Eigen::Isometry3d& X_WB) {
+  const auto apart = exact_separation(a, X_WA, b, X_WB);
+  return apart ? apart->distance_m : 0.0;
+}
+
+std::optional<Separation> exact_separation(const Body& a, const Eigen::Isometry3d& X_WA,
+                                           const Body& b, const Eigen::Isometry3d& X_WB) {
   try {
     const Proof one = prove(a, X_WA, b, X_WB);
-    if (one.claimed - one.proven < kProofGap_m) return one.proven;
-    const Proof other = prove(b, X_WB, a, X_WA);  // GJK takes another way
-    return other.claimed > 0.0 ? std::max(one.proven, other.proven) : 0.0;
+    Separation best{one.proven, one.n};
+    if (one.claimed - one.proven >= kProofGap_m) {
+      const Proof other = prove(b, X_WB, a, X_WA);  // GJK takes another way
+      if (!(other.claimed > 0.0)) return std::nullopt;
+      if (other.proven > best.distance_m) best = {other.proven, -other.n};
+    }
+    return best.distance_m > 0.0 ? std::optional(best) : std::nullopt;
   } catch (const std::exception&) {
-    return 0.0;
+    return std::nullopt;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 
 #include "core/collision/body.h"
 
@@ -21,5 +22,10 @@ class ExactGeometry;
 // is a proof. Allocates inside FCL.
 [[nodiscard]] double exact_distance(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
                                     const Eigen::Isometry3d& X_WB);
+// With that direction; nothing where exact_distance() is zero.
+[[nodiscard]] std::optional<Separation> exact_separation(const Body& a,
+                                                         const Eigen::Isometry3d& X_WA,
+                                                         const Body& b,
+                                                         const Eigen::Isometry3d& X_WB);
 
 }  // namespace armloom

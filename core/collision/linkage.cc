@@ -134,6 +134,12 @@ filter::Linkage Linkage::view() const {
           static_cast<int>(capsules_.size()), ancestors_.data()};
 }
 
+std::span<const int> Linkage::ancestors(int frame) const {
+  if (frame < 0) return {};
+  const auto f = static_cast<std::size_t>(frame);
+  return {ancestors_.data() + ancestors_begin_[f], static_cast<std::size_t>(depth_[f])};
+}
+
 int Linkage::common_ancestors(int capsule_a, int capsule_b) const {
   const filter::Capsule& a = capsules_[static_cast<std::size_t>(capsule_a)];
   const filter::Capsule& b = capsules_[static_cast<std::size_t>(capsule_b)];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 #include <vector>
 
 #include "core/base/ids.h"
@@ -40,6 +41,8 @@ class Linkage {
   // No point of the arm is ever farther than reach_m from here (in the world).
   [[nodiscard]] const Eigen::Vector3d& root() const { return root_; }
   [[nodiscard]] double reach_m() const { return reach_m_; }
+  // The frames that carry one, itself the last; none of the world (-1).
+  [[nodiscard]] std::span<const int> ancestors(int frame) const;
   // How many ancestors two capsules share.
   [[nodiscard]] int common_ancestors(int capsule_a, int capsule_b) const;
 

@@ -152,6 +152,7 @@ void MotionTube::place_batch(std::span<const int> nodes) {
   block.inflation.resize(lane_size(capsules));
   block.ball.resize(lane_size(4));
   block.frames.resize(lane_size(arm.frames().size() * 12));
+  block.spans = s.span;
   kernel.place(arm.view(), s.q.data(), {block.frames.data(), s.axes.data(), block.capsules.data()});
   kernel.inflate(arm.view(), s.axes.data(), block.capsules.data(), s.span.data(), s.suffix.data());
   for (std::size_t c = 0; c < capsules; ++c) {
@@ -176,6 +177,24 @@ void MotionTube::place_batch(std::span<const int> nodes) {
       self_hits_.push_back({hit.pair, hit.distance[lane], hit.inflation[lane]});
     }
     node.self_end = self_hits_.size();
+  }
+}
+
+void MotionTube::axes_of(int node, int frame, std::size_t skipped,
+                         std::vector<MovingAxis>& axes) const {
+  const Place place = place_of(node);
+  axes.clear();
+  for (const int f : linkage().ancestors(frame).subspan(skipped)) {
+    const auto at = static_cast<std::size_t>(f);
+    const double* X = place.frames() + lane_size(12 * at);
+    MovingAxis axis{
+        .z_W = {}, .p_WO = {}, .span = 0.0, .prismatic = linkage().frames()[at].prismatic};
+    for (int k = 0; k < 3; ++k) {
+      axis.z_W[k] = X[lane_size(static_cast<std::size_t>(6 + k))];
+      axis.p_WO[k] = X[lane_size(static_cast<std::size_t>(9 + k))];
+    }
+    axis.span = static_cast<double>(place.block->spans[lane_size(at) + place.lane]);
+    axes.push_back(axis);
   }
 }
 

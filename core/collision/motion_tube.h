@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/collision/pair_set.h"
+#include "core/collision/sweep.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
@@ -55,6 +56,7 @@ class MotionTube {
     std::vector<float> inflation;  // [capsule][kLanes]: motion bounds, m
     std::vector<float> ball;       // [4][kLanes], filter::Side::ball
     std::vector<double> frames;    // [frame][12][kLanes]
+    std::vector<float> spans;      // [frame][kLanes]: how far its joint may be off, rad or m
   };
   struct Place {
     const Block* block;
@@ -64,6 +66,9 @@ class MotionTube {
   [[nodiscard]] Place place_of(int node) const {
     return {blocks_[at(node).block].get(), at(node).lane};
   }
+  // The axes of the node that carry what a frame of the linkage carries, base to tip, without the
+  // first `skipped`.
+  void axes_of(int node, int frame, std::size_t skipped, std::vector<MovingAxis>& axes) const;
   // Pairs of the arm's own links (ArmGeometry::self) that are undecided over the interval; the
   // motion bound is that against each other.
   struct SelfHit {

@@ -3,50 +3,16 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/collision/part_groups.h"
+
 namespace armloom {
 namespace {
 
 constexpr double kFound = -std::numeric_limits<double>::max();  // no limit is closer
 
-// The bodies of one part, group after group: those that stand for one solid stand together.
-class Groups {
- public:
-  Groups(const std::vector<Body>& bodies, const PlacedPart& part)
-      : bodies_(bodies), part_(part), begin_(part.part.bodies_begin) {
-    find_end();
-  }
-  [[nodiscard]] bool ended() const { return begin_ == part_.part.bodies_end; }
-  void next() {
-    begin_ = end_;
-    find_end();
-  }
-  [[nodiscard]] std::size_t begin() const { return begin_; }
-  [[nodiscard]] std::size_t end() const { return end_; }
-  [[nodiscard]] const Solid& solid() const { return *bodies_[begin_].solid; }
-  [[nodiscard]] Eigen::Isometry3d X_WT() const { return part_.X_WP * solid().X_PT; }
-  [[nodiscard]] bool are_pieces() const { return bodies_[begin_].is_piece; }
-
-  [[nodiscard]] const PlacedBody& placed(std::size_t body, PlacedBody& own) const {
-    if (part_.placed != nullptr) return part_.placed[body];
-    place(bodies_[body], part_.X_WP, own);
-    return own;
-  }
-
- private:
-  void find_end() {
-    end_ = begin_;
-    while (end_ < part_.part.bodies_end && bodies_[end_].solid == bodies_[begin_].solid) ++end_;
-  }
-
-  const std::vector<Body>& bodies_;
-  const PlacedPart& part_;
-  std::size_t begin_;
-  std::size_t end_ = 0;
-};
-
 // Of the convex bodies; where pieces are among them, the first that is close enough to ask their
 // surface.
-double bodies_distance(const std::vector<Body>& bodies, const Groups& a, const Groups& b,
+double bodies_distance(const std::vector<Body>& bodies, const PartGroups& a, const PartGroups& b,
                        double limit_m) {
   const bool pieces = a.are_pieces() || b.are_pieces();
   double smallest = limit_m;
@@ -67,8 +33,8 @@ template <class OfSolids>
 double smallest_distance(const std::vector<Body>& bodies, const PlacedPart& a, const PlacedPart& b,
                          double limit_m, const OfSolids& of_solids) {
   double smallest = limit_m;
-  for (Groups of_a(bodies, a); !of_a.ended(); of_a.next()) {
-    for (Groups of_b(bodies, b); !of_b.ended(); of_b.next()) {
+  for (PartGroups of_a(bodies, a); !of_a.ended(); of_a.next()) {
+    for (PartGroups of_b(bodies, b); !of_b.ended(); of_b.next()) {
       const double distance_m = bodies_distance(bodies, of_a, of_b, smallest);
       if (distance_m >= smallest) continue;
       const bool pieces = of_a.are_pieces() || of_b.are_pieces();

@@ -27,7 +27,7 @@ Outside outside_at(const Eigen::Vector3d& p, const Eigen::Vector3d& d,
 
 }  // namespace
 
-double segment_segment_distance(const CenteredSegment& a, const CenteredSegment& b) {
+Eigen::Vector3d segment_segment_gap(const CenteredSegment& a, const CenteredSegment& b) {
   // Both parameters run from -1 to 1: p(s) = a.center + s a.half, r(t) = b.center + t b.half.
   const Eigen::Vector3d w = a.center - b.center;
   const double aa = a.half.squaredNorm();
@@ -46,7 +46,11 @@ double segment_segment_distance(const CenteredSegment& a, const CenteredSegment&
   double t = 0.0;
   if (bb > kPoint_m2) t = std::clamp((ab * s + bw) / bb, -1.0, 1.0);
   s = nearest_on_a(t);
-  return (w + s * a.half - t * b.half).norm();
+  return w + s * a.half - t * b.half;
+}
+
+double segment_segment_distance(const CenteredSegment& a, const CenteredSegment& b) {
+  return segment_segment_gap(a, b).norm();
 }
 
 double segment_box_distance(const CenteredSegment& segment, const Eigen::Vector3d& half_size_m) {

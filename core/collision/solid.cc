@@ -36,6 +36,8 @@ class Descent {
         best_m_(limit_m),
         enough_m_(enough_m) {}
 
+  // Leaves pairs of triangles (in A's frame) that pass out of account.
+  void pass_over(const TrianglesKept* kept) { kept_ = kept; }
   // Nullopt: nothing is closer than the limit.
   std::optional<double> run() {
     const Node& a = a_.nodes.front();
@@ -94,8 +96,11 @@ class Descent {
     TrianglePoints other = b_.corners(b);
     for (Vector3d& p : other) p = R_ * p + p_;
     const double limit_m = best_m_ + rounding_m_;
-    const double found_m = triangle_distance(a_.corners(a), other, limit_m);
-    if (found_m < limit_m) best_m_ = found_m - rounding_m_;
+    const TrianglePoints own = a_.corners(a);
+    const TriangleGap found = triangle_gap(own, other, limit_m);
+    if (found.distance_m >= limit_m) return;
+    if (kept_ != nullptr && found.distance_m > 0.0 && (*kept_)(own, other, found.n)) return;
+    best_m_ = found.distance_m - rounding_m_;
   }
 
   const SurfaceTree& a_;
@@ -107,6 +112,7 @@ class Descent {
   double best_m_;
   double enough_m_;
   double roots_m_ = 0.0;
+  const TrianglesKept* kept_ = nullptr;
 };
 
 // Surfaces that do not touch: whether a component of one is inside of the other.
@@ -135,12 +141,14 @@ bool balls_meet(const Solid& a, const Solid& b, const Eigen::Isometry3d& X_AB, d
 }
 
 double distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
-                const Eigen::Isometry3d& X_WB, double limit_m, double enough_m) {
+                const Eigen::Isometry3d& X_WB, double limit_m, double enough_m,
+                const TrianglesKept* kept = nullptr) {
   const double radii_m = a.radius_m + b.radius_m;
   if (limit_m + radii_m <= 0.0) return limit_m;
   const Eigen::Isometry3d X_AB = X_WA.inverse(Eigen::Isometry) * X_WB;
-  if (balls_meet(a, b, X_AB, enough_m)) return std::min(limit_m, 0.0);
+  if (balls_meet(a, b, X_AB, kept == nullptr ? enough_m : 0.0)) return std::min(limit_m, 0.0);
   Descent descent(*a.tree, *b.tree, X_AB, limit_m + radii_m, enough_m + radii_m);
+  descent.pass_over(kept);
   const std::optional<double> closest_m = descent.run();
   const double found_m = closest_m ? std::min(*closest_m - radii_m, limit_m) : limit_m;
   if (found_m <= 0.0) return std::min(limit_m, 0.0);
@@ -183,6 +191,17 @@ std::vector<Solid::InnerBall> inner_balls(const SurfaceTree& tree) {
     if (!covered && chosen.size() < kInnerBalls) chosen.push_back(ball);
   }
   return chosen;
+}
+
+bool all_apart(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+               const Eigen::Isometry3d& X_WB, double within_m, const TrianglesKept& kept) {
+  const TrianglesKept kept_in_a = [&](TrianglePoints at_a, TrianglePoints at_b,
+                                      const Vector3d& n_A) {
+    for (Vector3d& p : at_a) p = X_WA * p;
+    for (Vector3d& p : at_b) p = X_WA * p;
+    return kept(at_a, at_b, X_WA.linear() * n_A);
+  };
+  return distance(a, X_WA, b, X_WB, within_m, within_m, &kept_in_a) >= within_m;
 }
 
 double distance_to_surface(const SurfaceTree& tree, const Eigen::Vector3d& p_T) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <memory>
 #include <vector>
 
+#include "core/collision/triangle_distance.h"
 #include "core/model/surface_tree.h"
 
 namespace armloom {
@@ -41,6 +43,15 @@ using SolidPtr = std::shared_ptr<const Solid>;
 // Large ones, at most kInnerBalls; a millisecond.
 inline constexpr std::size_t kInnerBalls = 16;
 [[nodiscard]] std::vector<Solid::InnerBall> inner_balls(const SurfaceTree& tree);
+
+// Whether every two triangles (with the radii) that are closer than within_m pass `kept`, and
+// neither solid is inside of the other: `kept` gets both in the world, and the direction from a to
+// b (TriangleGap, in the world). Ends with the first that does not.
+using TrianglesKept = std::function<bool(const TrianglePoints& a, const TrianglePoints& b,
+                                         const Eigen::Vector3d& n_W)>;
+[[nodiscard]] bool all_apart(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+                             const Eigen::Isometry3d& X_WB, double within_m,
+                             const TrianglesKept& kept);
 
 // How far a point is from the surface, inside or outside (no radius).
 [[nodiscard]] double distance_to_surface(const SurfaceTree& tree, const Eigen::Vector3d& p_T);

@@ -27,7 +27,11 @@ class Search {
                                from_a_to_b.dot(a_[2])});
     const double b = std::min({from_a_to_b.dot(b_[0]), from_a_to_b.dot(b_[1]),  //
                                from_a_to_b.dot(b_[2])});
-    proven_ = std::max(proven_, (b - a) / length);
+    if (const double gap = (b - a) / length; gap > proven_) {
+      proven_ = gap;
+      direction_ = from_a_to_b;
+      length_ = length;
+    }
     return proven_ >= limit_m_ || proven_ >= claimed_ - kProven;
   }
 
@@ -42,7 +46,9 @@ class Search {
     return try_direction(gap, claimed_);
   }
 
-  [[nodiscard]] double result() const { return std::min(proven_, limit_m_); }
+  [[nodiscard]] TriangleGap result() const {
+    return {std::min(proven_, limit_m_), direction_ / length_};
+  }
 
  private:
   const TrianglePoints& a_;
@@ -51,6 +57,8 @@ class Search {
   double claimed_squared_ = std::numeric_limits<double>::infinity();
   double claimed_ = std::numeric_limits<double>::infinity();
   double proven_ = 0.0;
+  Vector3d direction_ = Vector3d::Zero();  // that proves it
+  double length_ = 1.0;
 };
 
 // The nearest points of p + s u and q + t v, s and t from 0 to 1 (Ericson, "Real-Time Collision
@@ -103,6 +111,10 @@ bool try_face(const TrianglePoints& face, const TrianglePoints& other, bool face
 }  // namespace
 
 double triangle_distance(const TrianglePoints& a, const TrianglePoints& b, double limit_m) {
+  return triangle_gap(a, b, limit_m).distance_m;
+}
+
+TriangleGap triangle_gap(const TrianglePoints& a, const TrianglePoints& b, double limit_m) {
   Search search(a, b, limit_m);
   if (try_face(a, b, true, search) || try_face(b, a, false, search)) return search.result();
   const TrianglePoints edges_a{a[1] - a[0], a[2] - a[1], a[0] - a[2]};

@@ -14,5 +14,12 @@ using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 // than the true one by less than 1e-9 m in all that was tried (test/soundness).
 [[nodiscard]] double triangle_distance(const TrianglePoints& a, const TrianglePoints& b,
                                        double limit_m);
+// The same with that direction, of unit length, from a to b; zero where they touch.
+struct TriangleGap {
+  double distance_m;
+  Eigen::Vector3d n;
+};
+[[nodiscard]] TriangleGap triangle_gap(const TrianglePoints& a, const TrianglePoints& b,
+                                       double limit_m);
 
 }  // namespace armloom

@@ -1,0 +1,39 @@
+// What no effort decides, where two Pandas have to keep 5 mm only with each joint up to 1 mrad off
+// its path. Whatever is left open is so close, with its deviations, that little is lost.
+#include <gtest/gtest.h>
+
+#include "test/soundness/soundness.h"
+#include "test/soundness/undecided.h"
+
+namespace armloom::soundness {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kPairs = 300;
+
+void expect_open_only_where_close(const CheckMethod& method, std::size_t open_max) {
+  const OpenPairs found = find_open(kPairs, 77, method);
+  EXPECT_EQ(found.pairs, kPairs);
+  EXPECT_GE(found.free, kPairs / 2);
+  EXPECT_GE(found.conflict, 10U);
+  EXPECT_LE(found.open.size(), open_max);
+  for (const OpenPair& pair : found.open) {
+    EXPECT_LT(pair.keeps_m, kCloseClearance_m + kAboveMargin_m) << "pair " << pair.pair;
+  }
+}
+
+TEST(OpenPairs, OfTimedMotionsKeepHardlyMoreThanTheClearance) {
+  expect_open_only_where_close(Certified{100ms, true, 0.001}, 1);
+}
+
+TEST(OpenPairs, OfSweptMotionsKeepHardlyMoreThanTheClearance) {
+  expect_open_only_where_close(Swept{0.001}, 2);
+}
+
+TEST(OpenPairs, OfConflictRegionsKeepHardlyMoreThanTheClearance) {
+  expect_open_only_where_close(Coordinated{0.001}, 4);
+}
+
+}  // namespace
+}  // namespace armloom::soundness
