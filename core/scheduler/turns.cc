@@ -40,6 +40,10 @@ bool Scheduler::lets_another_pass(const Record& record) const {
 // What is undecided counts as a conflict: it stays so while nothing moves. But two that are held
 // may go on together though neither can alone.
 std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wait& wait) const {
+  if (wait.kind == Wait::Kind::order) {  // it shall be done before, lest it never can be
+    const bool still = active_.contains(*wait.job) && stands(records_.at(*wait.job));
+    return still ? wait.job : std::nullopt;
+  }
   const bool of_job = wait.kind == Wait::Kind::job;
   if (!of_job && wait.kind != Wait::Kind::arm) return std::nullopt;
   if (of_job && !active_.contains(*wait.job)) return std::nullopt;
@@ -300,6 +304,7 @@ void Scheduler::resolve(const Ring& ring) {
     Record& record = records_.at(id);
     if (lets_another_pass(record) && std::ranges::find(ring, *record.lets_pass) != ring.end()) {
       record.lets_pass.reset();
+      lanes_changed_ = true;
       return;
     }
   }
