@@ -63,12 +63,12 @@ void Scheduler::settle() {
   settle_deadlocks();
   dispatch_due();
   fail_impossible_starts();
-  form_round();
-  explain_waits();
-  name_deadlocks();
-  if (ask_next()) {  // some have been put off without a question
+  bool put_off = true;
+  while (put_off) {  // until a question is open, or nothing is left to be asked
+    form_round();
     explain_waits();
     name_deadlocks();
+    put_off = ask_next();
   }
   ask_for_wake();
 }

@@ -38,7 +38,7 @@ bool Scheduler::lets_another_pass(const Record& record) const {
 }
 
 // What is undecided counts as a conflict: it stays so while nothing moves. But two that are held
-// may go on together though neither can alone.
+// may go on together though neither can alone, until that has been tried.
 std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wait& wait) const {
   if (wait.kind == Wait::Kind::order) {  // it shall be done before, lest it never can be
     const bool still = active_.contains(*wait.job) && stands(records_.at(*wait.job));
@@ -56,7 +56,8 @@ std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wa
   if (!first) return std::nullopt;
   const Record& other = records_.at(*first);
   const bool both_held =
-      record.job.state == JobState::holding && other.job.state == JobState::holding;
+      record.job.state == JobState::holding && other.job.state == JobState::holding &&
+      held_together_tried_ != version_;
   return stands(other) && !both_held ? first : std::nullopt;
 }
 
