@@ -265,7 +265,8 @@ Question Scheduler::hypothetical(TrajectoryPtr trajectory, TimePoint start_at) c
   return question;
 }
 
-std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory) const {
+std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory,
+                                          const std::vector<JobId>& after) const {
   std::vector<Wait> waits;
   for (ArmId arm : trajectory.arms()) {
     const auto& queue = order_[arm.index()];
@@ -276,8 +277,13 @@ std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory) const {
       waits.push_back({.kind = Wait::Kind::stop, .arm = arm, .detail = *cause});
     }
   }
+  for (JobId before : after) {
+    if (active_.contains(before)) waits.push_back({.kind = Wait::Kind::order, .job = before});
+  }
   if (const auto taken_by = policy_->capacity_taken_by(occupying())) {
     waits.push_back({.kind = Wait::Kind::capacity, .job = *taken_by});
+  } else if (round_begun_ && !round_.empty()) {
+    waits.push_back({.kind = Wait::Kind::capacity, .job = *round_.begin()});
   }
   if (waits.empty()) {
     for (const Aged& a : aged_jobs()) waits.push_back({.kind = Wait::Kind::order, .job = a.job});

@@ -146,7 +146,10 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   const PassingOrders orders = graph_->try_to_admit(candidates, verdict.regions);
   if (tries_together(question, orders.obstacles.empty())) return;
   if (orders.obstacles.empty()) {
-    if (!leaves_a_sequence(question.jobs)) return;
+    if (!leaves_a_sequence(question.jobs)) {
+      if (!open_) (void)tries_together(question, false);
+      return;
+    }
     sequence_.admitted(question.jobs);
     graph_->admit(candidates, orders);
     admit_coordinated(question.jobs, orders);

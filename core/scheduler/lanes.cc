@@ -123,9 +123,21 @@ SafeSequence::Outlook Scheduler::outlook_after(const std::vector<JobId>& jobs) {
 
 bool Scheduler::waits_for_sequence(JobId job) {
   const auto outlook = outlook_after({job});
-  if (!outlook.first) return false;
-  put_off(records_.at(job), {Wait{.kind = Wait::Kind::order, .job = *outlook.first}});
-  return true;
+  if (outlook.first) wait_in_turn(records_.at(job), *outlook.first);
+  return outlook.first.has_value();
+}
+
+// Not the backlog: it could go, or soon could, but for those that have to come before it.
+void Scheduler::wait_in_turn(Record& record, JobId first) {
+  if (record.job.state == JobState::backlogged) {
+    set_state(record, JobState::queued);
+    record.job.backlogged_at.reset();
+    changed(record);
+  }
+  record.judged_at = version_;
+  record.found = {Wait{.kind = Wait::Kind::order, .job = first}};
+  if (!record.ages_from) record.ages_from = now_;
+  set_waits(record, record.found);
 }
 
 // Whether the jobs go; else they wait, or what has to be known is asked.
@@ -133,8 +145,10 @@ bool Scheduler::leaves_a_sequence(const std::vector<JobId>& jobs) {
   const auto outlook = outlook_after(jobs);
   if (!outlook.unknown.empty()) {
     ask(jobs, Purpose::start);
+  } else if (outlook.first && jobs.size() > 1) {
+    put_off(records_.at(jobs.front()), records_.at(jobs.front()).found);  // not so
   } else if (outlook.first) {
-    put_off(records_.at(jobs.front()), {Wait{.kind = Wait::Kind::order, .job = *outlook.first}});
+    wait_in_turn(records_.at(jobs.front()), *outlook.first);
   } else {
     return true;
   }

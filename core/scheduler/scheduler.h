@@ -99,9 +99,10 @@ class Scheduler {
   // would move arms out of its way (policies that coordinate). Nothing: that is the last word.
   [[nodiscard]] std::optional<Question> together(const Question& hypothetical,
                                                  const Verdict& verdict) const;
-  // What keeps a job with this motion from being judged now: its arms' queues and stops, capacity,
-  // an aged job.
-  [[nodiscard]] std::vector<Wait> waits_before(const Trajectory& trajectory) const;
+  // What keeps a job with this motion that comes `after` these from being judged now: its arms'
+  // queues and stops, jobs that it comes after, capacity, an aged job.
+  [[nodiscard]] std::vector<Wait> waits_before(const Trajectory& trajectory,
+                                               const std::vector<JobId>& after) const;
 
   [[nodiscard]] const Policy& policy() const { return *policy_; }
   [[nodiscard]] const Job* find(JobId job) const;   // null: unknown or forgotten
@@ -278,6 +279,7 @@ class Scheduler {
   void renew_lanes();
   [[nodiscard]] SafeSequence::Outlook outlook_after(const std::vector<JobId>& jobs);
   [[nodiscard]] bool waits_for_sequence(JobId job);
+  void wait_in_turn(Record& record, JobId first);
   [[nodiscard]] bool leaves_a_sequence(const std::vector<JobId>& jobs);
   void add_passages(Question& question, std::vector<Passage> unknown);
   void learn(const OpenQuestion& question, const Verdict& verdict);

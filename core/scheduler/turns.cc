@@ -222,12 +222,12 @@ std::optional<JobId> Scheduler::held_back_by(const Record& record,
 // Every job of a ring is told of it now; what becomes of the ring is decided in a later step, so
 // that it is seen by clients whatever that is.
 void Scheduler::name_deadlocks() {
-  // Orders of submission alone make no ring; and only the first job of an arm is judged.
+  // Orders alone make no ring: all follow one sequence. And only the first job of an arm is judged.
   const bool in_the_way = std::ranges::any_of(order_, [this](const auto& queue) {
     if (queue.empty()) return false;
     const Record& record = records_.at(queue.front());
     return std::ranges::any_of(found_in_the_way(record), [&](const Wait& wait) {
-      return has_to_move_first(record, wait).has_value();
+      return wait.kind != Wait::Kind::order && has_to_move_first(record, wait).has_value();
     });
   });
   if (!in_the_way) return;

@@ -82,7 +82,9 @@ std::vector<JobRequest> chain(const CellPtr& cell, std::uint64_t seed) {
       simulation.tick();
       state = executive.job(accepted->key)->state;
     }
-    if (state == JobState::backlogged) EXPECT_TRUE(executive.cancel(accepted->key));
+    if (state == JobState::backlogged) {
+      EXPECT_TRUE(executive.cancel(accepted->key));
+    }
     if (state != JobState::succeeded) continue;
     stands[arm] = to;
     jobs.push_back(job);

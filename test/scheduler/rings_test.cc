@@ -56,9 +56,9 @@ TEST(Deadlock, OfTwoThatStandOnTheirPathsIsNamedToo) {
   const JobId b = bench.submit(move({1}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
   bench.answer_free(at(2ms));
-  for (JobId job : {a, b}) bench.progressed(job, 100ms, at(105ms));
-  bench.step(Stop{{ArmId{0}, ArmId{1}}, "operator"}, at(106ms));
-  for (JobId job : {a, b}) bench.stopped(job, 200ms, at(300ms));
+  for (JobId job : {a, b}) bench.progressed(job, 1ms, at(5ms));
+  bench.step(Stop{{ArmId{0}, ArmId{1}}, "operator"}, at(6ms));
+  for (JobId job : {a, b}) bench.stopped(job, 2ms, at(10ms));
   bench.step(Resume{{ArmId{0}, ArmId{1}}}, at(1s));
   ASSERT_EQ(bench.question->candidates.size(), 2U);
   bench.answer_conflict(at(1001ms), Conflict::With::motion, b);
