@@ -17,11 +17,16 @@ Eigen::VectorXd part_of(const Arm& arm, const Configuration& q) {
   return part;
 }
 
-void put(const Trajectory& trajectory, const Eigen::VectorXd& position, Configuration& q) {
-  for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
-    q[static_cast<Eigen::Index>(trajectory.joints()[j].index())] =
-        position[static_cast<Eigen::Index>(j)];
+// The same of a position of the trajectory's joints, which names all of the arm's.
+Eigen::VectorXd part_of(const Arm& arm, const Trajectory& trajectory,
+                        const Eigen::VectorXd& position) {
+  Eigen::VectorXd part(static_cast<Eigen::Index>(arm.joints.size()));
+  const auto& joints = trajectory.joints();
+  for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+    part[static_cast<Eigen::Index>(j)] =
+        position[std::ranges::find(joints, arm.joints[j]) - joints.begin()];
   }
+  return part;
 }
 
 bool waits_in_queue(const Job& job) {
@@ -47,12 +52,11 @@ Configuration Scheduler::predicted_rest() const {
 
 WaitingLeg Scheduler::leg_of(const Job& job) {
   WaitingLeg leg{.job = job.id, .arms = job.trajectory->arms(), .from = {}, .to = {}};
-  Configuration starts = rest_, ends = rest_;
-  put(*job.trajectory, job.trajectory->start(), starts);
-  put(*job.trajectory, job.trajectory->goal(), ends);
+  const Trajectory& motion = *job.trajectory;
   for (ArmId arm : leg.arms) {
-    leg.from.push_back(places_.of(arm, part_of(cell_->arm(arm), starts)));
-    leg.to.push_back(places_.of(arm, part_of(cell_->arm(arm), ends)));
+    const Arm& moved = cell_->arm(arm);
+    leg.from.push_back(places_.of(arm, part_of(moved, motion, motion.start())));
+    leg.to.push_back(places_.of(arm, part_of(moved, motion, motion.goal())));
   }
   return leg;
 }

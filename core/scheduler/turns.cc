@@ -55,9 +55,8 @@ std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wa
   }
   if (!first) return std::nullopt;
   const Record& other = records_.at(*first);
-  const bool both_held =
-      record.job.state == JobState::holding && other.job.state == JobState::holding &&
-      held_together_tried_ != version_;
+  const bool both_held = record.job.state == JobState::holding &&
+                         other.job.state == JobState::holding && held_together_tried_ != version_;
   return stands(other) && !both_held ? first : std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-// The same with Pandas: random poses near home, from one to the next, of which the run one by one
+// The same with Pandas: random poses around home, from one to the next, of which the run one by one
 // succeeds (jobs for which it does not are left out). ARMLOOM_SEEDS=100 runs so many of each cell.
 #include <gtest/gtest.h>
 
@@ -41,14 +41,14 @@ struct Recorder final : Observer {
   std::vector<RecordedState> states;
 };
 
-// A motion of this arm to somewhere near its home.
+// A motion of this arm to somewhere around its home.
 JobRequest somewhere(const Cell& cell, ArmId id, const Eigen::VectorXd& from, Random& random,
                      Eigen::VectorXd& to) {
   const Arm& arm = cell.arm(id);
   JobRequest job{.key = "", .name = "", .trajectory = {}};
   for (;;) {
     to = arm.home;
-    for (double& q : to) q += random.uniform(-0.8, 0.8);
+    for (double& q : to) q += random.uniform(-1.3, 1.3);
     const auto line = joint_line(cell, arm.joints, from, to);
     if (!line) continue;  // outside of a limit
     for (JointId joint : arm.joints) job.trajectory.joint_names.push_back(cell.joint(joint).name);
