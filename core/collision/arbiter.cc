@@ -65,10 +65,14 @@ class Arbiter::Impl {
   [[nodiscard]] const PlanningScenePtr& scene() const { return store_.scene(); }
 
   Verdict judge(const Question& question) {
-    if (std::holds_alternative<TimedDiscrete>(question.method)) {
-      return armloom::judge(question, checker_);
-    }
     const Cell& cell = store_.scene()->cell();
+    if (std::holds_alternative<TimedDiscrete>(question.method)) {
+      verdict_ = armloom::judge(question, checker_);
+      freedom_ = {.swept = true};
+      if (!question.passages.empty()) store_.begin_question();
+      answer_passages(question);
+      return std::move(verdict_);
+    }
     if (static_cast<std::size_t>(question.rest.size()) != cell.joints.size()) {
       throw std::invalid_argument("Arbiter: rest must have one entry per joint of the cell");
     }
@@ -78,6 +82,7 @@ class Arbiter::Impl {
     store_.begin_question();
     if (std::holds_alternative<Coordinated>(question.method)) {
       coordinate(question);
+      answer_passages(question);
       return std::move(verdict_);
     }
     gather(question);
@@ -92,6 +97,7 @@ class Arbiter::Impl {
       verdict_.clearance_bound_m.reset();
       if (question.find_earliest) find_earliest(candidates - parts_.begin());
     }
+    answer_passages(question);
     return std::move(verdict_);
   }
 
@@ -163,10 +169,55 @@ class Arbiter::Impl {
     }
     PairRegionSearch search(store_, question);
     verdict_.regions = search.find();
-    verdict_.rests_in_the_way = search.rests_in_the_way();
     verdict_.evaluations += search.evaluations();
     verdict_.clearance_bound_m = std::min(*verdict_.clearance_bound_m, search.least_limit_m());
     verdict_.exhausted = search.exhausted();
+  }
+
+  void answer_passages(const Question& question) {
+    for (const PassageQuestion& passage : question.passages) {
+      verdict_.passages.push_back(answer(question, passage));
+    }
+  }
+
+  [[nodiscard]] PassageAnswer answer(const Question& question, const PassageQuestion& passage) {
+    const auto& arms = passage.motion.trajectory->arms();
+    if (std::ranges::all_of(arms, [&](ArmId a) { return store_.out_of_reach(a, passage.arm); })) {
+      return PassageAnswer::apart;
+    }
+    Configuration rest = question.rest;
+    const auto& joints = store_.scene()->cell().arm(passage.arm).joints;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      rest[static_cast<Eigen::Index>(joints[j].index())] =
+          passage.rest[static_cast<Eigen::Index>(j)];
+    }
+    bool free = true;
+    if (std::holds_alternative<Coordinated>(question.method)) {
+      PairRegionSearch search(store_, question);
+      free = search.passes(passage.motion, passage.arm, rest);
+      verdict_.evaluations += search.evaluations();
+    } else {
+      const Mover other{passage.arm, nullptr,
+                        &store_.motion(nullptr, passage.arm, rest, freedom_.tracking_error)};
+      free = std::ranges::all_of(
+          arms, [&](ArmId arm) { return is_free(part_of(question, passage.motion, arm), other); });
+    }
+    return free ? PassageAnswer::free : PassageAnswer::blocked;
+  }
+
+  [[nodiscard]] bool is_free(const Mover& own, const Mover& other) {
+    if (store_.out_of_reach(own.arm, other.arm)) return true;
+    const bool turned = other.arm < own.arm;
+    const Mover& a = turned ? other : own;
+    const Mover& b = turned ? own : other;
+    const MotionStore::Diagram diagram = store_.pair(*a.entry, *b.entry);
+    if (diagram.pairs->empty()) return true;
+    const Region region = region_of(a, b);
+    const double longest_s = std::max(region.duration_a, region.duration_b);
+    const auto budget = static_cast<std::uint64_t>(kBudget * std::max(1.0, longest_s / 10.0));
+    const CoordinationDiagram::Answer answer = diagram.cells->ask(region, budget);
+    verdict_.evaluations += answer.evaluations;
+    return answer.free;
   }
 
   // Arms of candidates, of others, and those at rest, in this order.

@@ -110,60 +110,10 @@ std::vector<PairRegions> PairRegionSearch::find() {
   return found;
 }
 
-// By ArmId: moved by a candidate, or in reach of an arm that is.
-std::vector<bool> PairRegionSearch::meets_candidates() const {
-  std::vector<bool> meets(store_.scene()->cell().arms.size(), false);
-  for (const Motion& candidate : question_.candidates) {
-    for (const ArmId own : candidate.trajectory->arms()) {
-      for (std::uint32_t arm = 0; arm < meets.size(); ++arm) {
-        meets[arm] = meets[arm] || ArmId{arm} == own || !store_.out_of_reach(own, ArmId{arm});
-      }
-    }
-  }
-  return meets;
-}
-
-std::vector<RestInTheWay> PairRegionSearch::rests_in_the_way() {
-  struct Rest {
-    ArmId arm;
-    std::optional<JobId> after;
-    Configuration q;
-  };
-  std::vector<Rest> rests;
-  Configuration last = question_.rest;
-  for (const Motion& motion : question_.others) {
-    put(*motion.trajectory, motion.trajectory->duration(), last);
-  }
-  if (question_.later.empty()) return {};
-  const std::vector<bool> meets = meets_candidates();
-  for (std::uint32_t arm = 0; arm < meets.size(); ++arm) {
-    if (!meets[arm]) continue;
-    Configuration q = last;
-    rests.push_back({ArmId{arm}, std::nullopt, q});
-    for (const Motion& motion : question_.later) {
-      if (!moves(motion, ArmId{arm})) continue;
-      put(*motion.trajectory, motion.trajectory->duration(), q);
-      rests.push_back({ArmId{arm}, motion.job, q});
-    }
-  }
-  std::vector<RestInTheWay> in_the_way;
+bool PairRegionSearch::passes(const Motion& motion, ArmId arm, const Configuration& rest) {
   std::vector<PairRegions> found;
-  for (Motion motion : question_.later) {
-    if (std::ranges::none_of(motion.trajectory->arms(),
-                             [&](ArmId arm) { return meets[arm.index()]; })) {
-      continue;
-    }
-    motion.progress = Duration{};
-    motion.to_come = true;
-    const Side side = side_of(motion);
-    for (const Rest& rest : rests) {
-      if (moves(motion, rest.arm)) continue;
-      found.clear();
-      compare(side, resting(rest.arm, rest.q), found);
-      if (!found.empty()) in_the_way.push_back({motion.job, rest.arm, rest.after});
-    }
-  }
-  return in_the_way;
+  compare(side_of(motion), resting(arm, rest), found);
+  return found.empty();
 }
 
 void PairRegionSearch::compare(const Side& a, const Side& b, std::vector<PairRegions>& found) {

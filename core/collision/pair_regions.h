@@ -31,9 +31,8 @@ class PairRegionSearch {
   // By candidate; for each, others, candidates named behind it, arms at rest. Pairs that are free
   // everywhere are left out.
   [[nodiscard]] std::vector<PairRegions> find();
-  // Of Question::later: against every arm that it does not move, where that stands at the end of
-  // what is named and at the goals of later ones. Among arms that can meet a candidate's.
-  [[nodiscard]] std::vector<RestInTheWay> rests_in_the_way();
+  // Whether a motion is free everywhere beside an arm at rest there (whole cell).
+  [[nodiscard]] bool passes(const Motion& motion, ArmId arm, const Configuration& rest);
   // The smallest distance that a pair of bodies was held to: the cell's clearance_m, or less of
   // those that part.
   [[nodiscard]] double least_limit_m() const { return least_limit_m_; }
@@ -72,7 +71,6 @@ class PairRegionSearch {
 
   [[nodiscard]] Side side_of(const Motion& motion);
   [[nodiscard]] Side resting(ArmId arm, const Configuration& rest);
-  [[nodiscard]] std::vector<bool> meets_candidates() const;
   [[nodiscard]] std::vector<Side> standing_beside(const Motion& candidate);
   void compare(const Side& a, const Side& b, std::vector<PairRegions>& found);
   void add_layer(const Side& a, MotionStore::Entry& arm_a, const Side& b,

@@ -49,6 +49,14 @@ struct Coordinated {  // no times at all: in which states of each pair it is not
 };
 using CheckMethod = std::variant<TimedDiscrete, Certified, Swept, Coordinated>;
 
+// Does this motion find its way free, from its progress on, while an arm that it does not move
+// rests there?
+struct PassageQuestion {
+  Motion motion;
+  ArmId arm;
+  Eigen::VectorXd rest;  // of the arm's joints, in its order
+};
+
 // "May these candidates start together at the question's instant, beside everything else?"
 // Plain data: complete, self-contained, safe to hand to another thread.
 struct Question {
@@ -58,9 +66,7 @@ struct Question {
   std::vector<Motion> others;      // every motion that holds a reservation
   Configuration rest;              // where every joint that is in none of these motions stands
   CheckMethod method;
-  // Coordinated: motions that wait, candidates among them, in order per arm: which rests will be in
-  // their way? (Verdict::rests_in_the_way)
-  std::vector<Motion> later = {};
+  std::vector<PassageQuestion> passages = {};  // asked besides, whatever becomes of the candidates
   bool find_earliest = false;  // not free: how much later would it be? (not for TimedDiscrete)
   // How many times the usual budget of evaluations an answer may cost (not for TimedDiscrete).
   std::uint64_t effort = 1;

@@ -29,11 +29,11 @@ struct Conflict {
   Duration other_time;             // trajectory time of the other job; zero where there is none
 };
 
-// An arm at rest in the way of a motion that is still to be admitted.
-struct RestInTheWay {
-  JobId job;  // whose way
-  ArmId arm;  // which arm: where it will stand when all that is admitted has ended,
-  std::optional<JobId> after;  // or at the goal of this one of Question::later
+// To a PassageQuestion. What is not decided within the budget is blocked.
+enum class PassageAnswer {
+  free,
+  blocked,
+  apart,  // and so it is wherever both arms are
 };
 
 // The answer to a Question, with its evidence.
@@ -52,7 +52,7 @@ struct Verdict {
   // Coordinated, and no conflict: every pair of a candidate and another motion or an arm at rest
   // that is not free everywhere.
   std::vector<PairRegions> regions = {};
-  std::vector<RestInTheWay> rests_in_the_way = {};  // Coordinated: of the motions to come later
+  std::vector<PassageAnswer> passages = {};  // as in Question::passages; empty: all are free
   // Not all was decided, as the budget of evaluations ended: a larger Question::effort may find
   // more free.
   bool exhausted = false;

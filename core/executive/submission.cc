@@ -268,7 +268,9 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
   auto prepared = prepare(std::move(request), ahead);
   if (!prepared) return done(failure(std::move(prepared.error())));
   CheckView view{.kind = Verdict::Kind::conflict, .scene_version = scene_version_};
-  for (const Wait& wait : scheduler_.waits_before(*prepared->trajectory)) {
+  std::vector<JobId> after;
+  for (const std::string& before : prepared->after) after.push_back(ids_.at(before));
+  for (const Wait& wait : scheduler_.waits_before(*prepared->trajectory, after)) {
     view.conflicts.push_back(view_of(wait, *cell_, *this));
   }
   if (!view.conflicts.empty()) return done(std::move(view));

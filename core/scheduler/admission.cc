@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 #include "core/base/told.h"
@@ -227,11 +228,14 @@ std::optional<JobId> Scheduler::next_candidate() const {
 
 // ---- The question ----
 
-void Scheduler::ask_next() {
-  if (open_) return;
+// Whether jobs have been put off instead.
+bool Scheduler::ask_next() {
+  if (open_) return false;
+  renew_lanes();
   const bool braking =
       std::ranges::any_of(past_queue_, [this](JobId id) { return records_.at(id).job.stopping; });
-  if (braking && !graph_) return;
+  if (braking && !graph_) return false;
+  bool put_off = false;
   if (auto recheck = next_recheck(); !recheck.empty()) {
     ask(std::move(recheck), Purpose::recheck);
   } else if (const auto opens = next_aside_in_a_ring()) {
@@ -241,11 +245,18 @@ void Scheduler::ask_next() {
     ask(std::move(held), Purpose::start);
   } else if (const auto ahead = next_to_move_forward()) {
     ask({*ahead}, Purpose::forward);
-  } else if (const auto candidate = next_candidate()) {
-    ask({*candidate}, Purpose::start);
-  } else if (const auto aside = next_aside()) {
-    ask_aside(*aside);
+  } else {
+    auto candidate = next_candidate();
+    for (; candidate && waits_for_sequence(*candidate); candidate = next_candidate()) {
+      put_off = true;
+    }
+    if (candidate) {
+      ask({*candidate}, Purpose::start);
+    } else if (const auto aside = next_aside()) {
+      ask_aside(*aside);
+    }
   }
+  return put_off;
 }
 
 Question Scheduler::hypothetical(TrajectoryPtr trajectory, TimePoint start_at) const {
@@ -260,7 +271,8 @@ Question Scheduler::hypothetical(TrajectoryPtr trajectory, TimePoint start_at) c
   return question;
 }
 
-std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory) const {
+std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory,
+                                          const std::vector<JobId>& after) const {
   std::vector<Wait> waits;
   for (ArmId arm : trajectory.arms()) {
     const auto& queue = order_[arm.index()];
@@ -271,8 +283,13 @@ std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory) const {
       waits.push_back({.kind = Wait::Kind::stop, .arm = arm, .detail = *cause});
     }
   }
+  for (JobId before : after) {
+    if (active_.contains(before)) waits.push_back({.kind = Wait::Kind::order, .job = before});
+  }
   if (const auto taken_by = policy_->capacity_taken_by(occupying())) {
     waits.push_back({.kind = Wait::Kind::capacity, .job = *taken_by});
+  } else if (round_begun_ && !round_.empty()) {
+    waits.push_back({.kind = Wait::Kind::capacity, .job = *round_.begin()});
   }
   if (waits.empty()) {
     for (const Aged& a : aged_jobs()) waits.push_back({.kind = Wait::Kind::order, .job = a.job});
@@ -323,10 +340,14 @@ void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
     question.candidates.push_back(Motion{id, record.job.trajectory, progress});
   }
   add_others(question, jobs);
-  std::vector<JobId> later;
-  if (graph_ && purpose == Purpose::start && !graph_->holds(jobs.front())) later = work_to_come();
-  for (JobId id : later) question.later.push_back(motion_now(records_.at(id)));
-  open_ = OpenQuestion{version_, now_, start_at, std::move(jobs), purpose, {}, std::move(later)};
+  std::vector<Passage> unknown;
+  if (purpose == Purpose::start) {
+    auto outlook = outlook_after(jobs);
+    unknown = std::move(outlook.unknown);
+    std::ranges::move(outlook.ahead, std::back_inserter(unknown));
+  }
+  open_ = OpenQuestion{version_, now_, start_at, std::move(jobs), purpose};
+  add_passages(question, std::move(unknown));
   effects_.push_back(Judge{std::move(question)});
 }
 
@@ -336,6 +357,7 @@ void Scheduler::on(const Judged& input) {
   if (!open_ || open_->version != input.verdict.version) return;
   const OpenQuestion question = std::move(*open_);
   open_.reset();
+  learn(question, input.verdict);
   if (question.version != version_) {
     if (question.jobs.size() > 1) held_together_tried_ = 0;
     return;  // stale: settle() asks again
@@ -361,6 +383,8 @@ void Scheduler::on(const Judged& input) {
   } else if (question.purpose == Purpose::forward || (!free && !recheck && later)) {
     admit_ahead(first, input.verdict, question);
   } else if (free) {
+    if (!leaves_a_sequence(question.jobs)) return;
+    sequence_.admitted(question.jobs);
     ++version_;
     for (JobId id : question.jobs) admit(records_.at(id), question.start_at);
   } else if (question.jobs.size() == 1) {
@@ -418,6 +442,10 @@ void Scheduler::admit_ahead(Record& record, const Verdict& verdict, const OpenQu
   if (!free && !verdict.earliest_start) return;  // forward: it keeps its start
   const TimePoint start_at = question.start_at + (free ? Duration{} : *verdict.earliest_start);
   if (forward && start_at > *job.scheduled_at - kForwardMin) return;
+  if (!forward) {
+    if (!leaves_a_sequence(question.jobs)) return;
+    sequence_.admitted(question.jobs);
+  }
   std::vector<Wait> waits;
   for (const Conflict& conflict : verdict.conflicts) waits.push_back(wait_for(conflict));
   ++version_;
@@ -451,6 +479,9 @@ void Scheduler::refuse(Record& record, const Verdict& verdict, bool recheck) {
               format("%s come within %.4g m of each other at %.3f s of the trajectory", "",
                      conflict.proximity.clearance_m, to_seconds(conflict.own_time)));
       return;
+    }
+    if (conflict.with == Conflict::With::rest && conflict.proximity.arm_b) {
+      learn_in_the_way(job.id, *conflict.proximity.arm_b);
     }
     waits.push_back(wait_for(conflict));
     if (verdict.kind == Verdict::Kind::undecided) waits.back().detail = kUndecided;

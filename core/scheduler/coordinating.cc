@@ -16,8 +16,6 @@ constexpr Duration kHorizon = std::chrono::milliseconds(250);
 constexpr Duration kGrantStep = std::chrono::milliseconds(80);
 // So many jobs that wait are tried as one at most, lest a decision take long.
 constexpr std::size_t kTogetherMax = 16;
-// So many jobs of an arm are looked ahead to.
-constexpr std::size_t kWorkPerArm = 2;
 // Nearer than this to its limit, a motion has come to it.
 constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
@@ -147,15 +145,22 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   for (JobId id : question.jobs) candidates.push_back(coordinated(records_.at(id)));
   graph_->set_work_behind(std::move(work_behind));
   const PassingOrders orders = graph_->try_to_admit(candidates, verdict.regions);
-  if (leads_astray(verdict, question, orders)) return;
+  if (tries_together(question, orders.obstacles.empty())) return;
   if (orders.obstacles.empty()) {
+    if (!leaves_a_sequence(question.jobs)) {
+      if (!open_) (void)tries_together(question, false);
+      return;
+    }
+    sequence_.admitted(question.jobs);
     graph_->admit(candidates, orders);
     admit_coordinated(question.jobs, orders);
     return;
   }
   std::vector<Wait> waits;
   for (const Obstacle& obstacle : orders.obstacles) {
-    if (obstacle.candidate == first.job.id) waits.push_back(wait_for(obstacle));
+    if (obstacle.candidate != first.job.id) continue;
+    if (obstacle.arm) learn_in_the_way(first.job.id, *obstacle.arm);
+    waits.push_back(wait_for(obstacle));
   }
   if (question.jobs.size() == 1 || !waits.empty()) first.found = std::move(waits);
   const std::vector<JobId> group = with_next_jobs(question.jobs, orders.in_the_way);
@@ -166,66 +171,34 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   }
 }
 
-// What could go now may come to rest where others then wait for ever. If work that could all be
-// done could not be after it, it waits for what has to go first. If there is no order for all that
-// waits, one by one, they are tried as one; where that fails too, it goes alone. Whether the
-// candidate does not go now.
-bool Scheduler::leads_astray(const Verdict& verdict, const OpenQuestion& question,
-                             const PassingOrders& orders) {
-  const bool tried = ahead_ && ahead_->version == version_;
-  if (!orders.obstacles.empty()) {
-    if (!tried || ahead_->alone.empty()) return false;
-    ask(std::exchange(ahead_->alone, {}), Purpose::start);
+// For some of what waits there is no order one by one, whether these go or not: all are tried as
+// one; where that fails too, these go alone. Whether something else is asked now.
+bool Scheduler::tries_together(const OpenQuestion& question, bool can_go) {
+  const bool tried = together_ && together_->version == version_;
+  if (!can_go) {
+    if (!tried || together_->alone.empty()) return false;
+    ask(std::exchange(together_->alone, {}), Purpose::start);
     return true;
   }
   if (tried) return false;
-  if (work_to_come() != question.later) {  // others have come meanwhile
+  const auto outlook = outlook_after(question.jobs);
+  if (!outlook.ahead.empty()) {  // others have come meanwhile
     ask(question.jobs, Purpose::start);
     return true;
   }
-  if (verdict.rests_in_the_way.empty()) return false;
-  const std::vector<WaitingWork> waiting = work_among(question.later, verdict.rests_in_the_way);
-  if (order_of_work(waiting, verdict.rests_in_the_way, question.jobs)) return false;
-  Record& first = records_.at(question.jobs.front());
-  const auto order = order_of_work(waiting, verdict.rests_in_the_way, {});
-  if (order && order->front() != first.job.id) {
-    put_off(first, {Wait{.kind = Wait::Kind::order, .job = order->front()}});
-    return true;
-  }
-  std::vector<JobId> all = with_all_that_wait(question.jobs, kTogetherMax);
+  if (outlook.all) return false;
+  std::vector<JobId> all = with_all_that_wait(question.jobs);
   if (all.size() == question.jobs.size() || all.size() > kTogetherMax) return false;
-  ahead_ = LookAhead{version_, question.jobs};
+  together_ = Together{version_, question.jobs};
   ask(std::move(all), Purpose::start);
   return true;
 }
 
-// Those of the jobs that rests are about: of arms that are in the way, or whose way it is.
-std::vector<WaitingWork> Scheduler::work_among(const std::vector<JobId>& jobs,
-                                               const std::vector<RestInTheWay>& rests) const {
-  std::vector<bool> concerned(order_.size(), false);
-  for (const RestInTheWay& rest : rests) {
-    concerned[rest.arm.index()] = true;
-    for (ArmId arm : records_.at(rest.job).job.trajectory->arms()) concerned[arm.index()] = true;
-  }
-  std::vector<WaitingWork> work;
-  for (JobId id : jobs) {
-    const auto& arms = records_.at(id).job.trajectory->arms();
-    if (std::ranges::any_of(arms, [&](ArmId arm) { return concerned[arm.index()]; })) {
-      work.push_back({id, arms});
-    }
-  }
-  return work;
-}
-
-// The next jobs of each arm, so far as nothing else has to happen before them.
-std::vector<JobId> Scheduler::work_to_come() const { return with_all_that_wait({}, kWorkPerArm); }
-
 // Of each arm's jobs that are not admitted or in the group the first ones.
-std::set<JobId> Scheduler::first_of_arms(const std::vector<JobId>& group,
-                                         std::size_t per_arm) const {
+std::set<JobId> Scheduler::first_of_arms(const std::vector<JobId>& group) const {
   std::set<JobId> jobs;
   for (const auto& queue : order_) {
-    std::size_t left = per_arm;
+    std::size_t left = kTogetherMax;
     for (auto id = queue.begin(); id != queue.end() && left > 0; ++id) {
       if (graph_->holds(*id) || std::ranges::find(group, *id) != group.end()) continue;
       jobs.insert(*id);
@@ -237,11 +210,10 @@ std::set<JobId> Scheduler::first_of_arms(const std::vector<JobId>& group,
 
 // At most so many of an arm, each after those before it; without what comes after other jobs or is
 // stopped, and without what is behind that on its arms.
-std::vector<JobId> Scheduler::with_all_that_wait(const std::vector<JobId>& group,
-                                                 std::size_t per_arm) const {
+std::vector<JobId> Scheduler::with_all_that_wait(const std::vector<JobId>& group) const {
   std::vector<JobId> all = group;
-  std::vector<std::size_t> left(order_.size(), per_arm);
-  for (JobId id : in_turn(first_of_arms(group, per_arm))) {
+  std::vector<std::size_t> left(order_.size(), kTogetherMax);
+  for (JobId id : in_turn(first_of_arms(group))) {
     const Record& record = records_.at(id);
     const auto& arms = record.job.trajectory->arms();
     const bool room = std::ranges::all_of(arms, [&](ArmId arm) { return left[arm.index()] > 0; });
@@ -297,28 +269,7 @@ std::vector<JobId> Scheduler::with_next_jobs(const std::vector<JobId>& group,
 // It could go when those before it on its arms have gone.
 bool Scheduler::may_follow(const Record& record) const {
   return waiting(record) && record.job.after.empty() && !lets_another_pass(record) &&
-         !stop_of(record) && begins_where_left(record);
-}
-
-// A job before it may have been canceled: then it will never begin, and clears no way.
-bool Scheduler::begins_where_left(const Record& record) const {
-  const Trajectory& own = *record.job.trajectory;
-  for (std::size_t j = 0; j < own.joints().size(); ++j) {
-    const JointId joint = own.joints()[j];
-    double left = rest_[static_cast<Eigen::Index>(joint.index())];
-    for (ArmId arm : own.arms()) {
-      for (JobId before : order_[arm.index()]) {
-        if (before == record.job.id) break;
-        const Trajectory& motion = *records_.at(before).job.trajectory;
-        const auto found = std::ranges::find(motion.joints(), joint);
-        if (found == motion.joints().end()) continue;
-        left = motion.goal()[found - motion.joints().begin()];
-      }
-    }
-    const double begins = own.start()[static_cast<Eigen::Index>(j)];
-    if (std::abs(begins - left) > cell_->execution.start_tolerance_rad) return false;
-  }
-  return true;
+         !stop_of(record) && sequence_.follows_on(record.job.id);
 }
 
 // ---- Authority ----

@@ -24,12 +24,15 @@ Scheduler::Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configu
       order_(cell_->arms.size()),
       stopped_(cell_->arms.size()),
       came_by_(cell_->arms.size()),
+      rests_at_(cell_->arms.size()),
+      sequence_(cell_->execution.start_tolerance_rad),
       allowance_(kAllowanceMin) {
   if (policy_ && policy_->coordinates()) graph_.emplace(cell_->arms.size());
   if (!policy_) throw std::invalid_argument("Scheduler: no policy");
   if (rest_.size() != static_cast<Eigen::Index>(cell_->joints.size())) {
     throw std::invalid_argument("Scheduler: rest has another size than the cell has joints");
   }
+  for (std::uint32_t arm = 0; arm < rests_at_.size(); ++arm) rest_where_it_stands(ArmId{arm});
 }
 
 std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
@@ -60,23 +63,14 @@ void Scheduler::settle() {
   settle_deadlocks();
   dispatch_due();
   fail_impossible_starts();
-  form_round();
-  explain_waits();
-  name_deadlocks();
-  ask_next();
-  ask_for_wake();
-}
-
-Configuration Scheduler::predicted_rest() const {
-  Configuration q = rest_;
-  for (JobId id : in_turn(active_)) {
-    const Trajectory& trajectory = *records_.at(id).job.trajectory;
-    for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
-      q[static_cast<Eigen::Index>(trajectory.joints()[j].index())] =
-          trajectory.goal()[static_cast<Eigen::Index>(j)];
-    }
+  bool put_off = true;
+  while (put_off) {  // until a question is open, or nothing is left to be asked
+    form_round();
+    explain_waits();
+    name_deadlocks();
+    put_off = ask_next();
   }
-  return q;
+  ask_for_wake();
 }
 
 const Job* Scheduler::find(JobId job) const {
@@ -107,13 +101,15 @@ void Scheduler::on(const Submit& input) {
   if (!records_.empty() && input.job <= records_.rbegin()->first) {
     throw std::invalid_argument("Submit: ids must grow");
   }
-  Record record{.job = Job{.id = input.job,
-                           .trajectory = input.trajectory,
-                           .priority = input.priority,
-                           .backlog_timeout = input.backlog_timeout,
-                           .after = input.after,
-                           .own = input.own,
-                           .submitted_at = now_}};
+  Job job{.id = input.job,
+          .trajectory = input.trajectory,
+          .priority = input.priority,
+          .backlog_timeout = input.backlog_timeout,
+          .after = input.after,
+          .own = input.own,
+          .submitted_at = now_};
+  WaitingLeg leg = leg_of(job);
+  Record record{.job = std::move(job), .leg = std::move(leg)};
   const bool known = input.helps && records_.contains(*input.helps);
   record.helps = known ? records_.at(*input.helps).helps : input.job;
   record.before = input.before;
@@ -127,6 +123,11 @@ void Scheduler::on(const Submit& input) {
   unexplained_.insert(input.job);
   ++priorities_[input.priority];
   for (JobId before : input.after) followers_[before].push_back(input.job);
+  if (input.before) lanes_changed_ = true;
+  if (!lanes_changed_) {
+    record.leg.after = input.after;
+    sequence_.append(record.leg);
+  }
   changed(records_.emplace(input.job, std::move(record)).first->second);
   if (input.before) take_place(input.job, *input.before);
 }
@@ -229,6 +230,7 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
   job.late = false;
   job.pausing = false;
   for (ArmId arm : job.trajectory->arms()) {
+    rest_where_it_stands(arm);
     const bool alone = job.trajectory->arms().size() == 1;
     came_by_[arm.index()] = alone ? job.trajectory : nullptr;
   }
@@ -236,6 +238,7 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
   if (report.kind == MotionReport::Kind::finished) {
     const Duration planned = job.trajectory->duration() - record.plan_progress;
     if (now_ - record.plan_at < planned - kForwardMin) freed_at_ = version_;
+    rest_at_goal(record);
     end(record, JobState::succeeded, Reason::completed, "");
     effects_.push_back(Release{job.id});
     return;
@@ -316,6 +319,7 @@ void Scheduler::brake(Record& record, AfterStop then) {
 
 void Scheduler::on(const Stop& input) {
   ++version_;  // an answer that is under way shall start nothing on these arms
+  lanes_changed_ = true;
   for (ArmId arm : input.arms) {
     if (!stopped_[arm.index()]) stopped_[arm.index()] = input.cause;
     if (!order_[arm.index()].empty()) {
@@ -334,9 +338,13 @@ void Scheduler::on(const Stop& input) {
 void Scheduler::on(const Resume& input) {
   for (ArmId arm : input.arms) stopped_[arm.index()].reset();
   ++version_;
+  lanes_changed_ = true;
 }
 
-void Scheduler::on(const SceneChanged&) { disturbed_at_ = ++version_; }
+void Scheduler::on(const SceneChanged&) {
+  disturbed_at_ = ++version_;
+  sequence_.forget_passages();
+}
 
 void Scheduler::on(const Interrupt&) {
   const std::vector<JobId> ids(active_.begin(), active_.end());
@@ -353,7 +361,8 @@ void Scheduler::on(const Wake&) {}
 
 void Scheduler::set_state(Record& record, JobState state) {
   const JobId id = record.job.id;
-  record.job.state = state;
+  const JobState before = std::exchange(record.job.state, state);
+  follow_lanes(record.job, before);
   if (state == JobState::queued || is_terminal(state)) {
     past_queue_.erase(id);
   } else {

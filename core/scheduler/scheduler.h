@@ -16,7 +16,7 @@
 #include "core/scheduler/job.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/precedence_graph.h"
-#include "core/scheduler/safe_state.h"
+#include "core/scheduler/safe_sequence.h"
 
 namespace armloom {
 
@@ -99,9 +99,10 @@ class Scheduler {
   // would move arms out of its way (policies that coordinate). Nothing: that is the last word.
   [[nodiscard]] std::optional<Question> together(const Question& hypothetical,
                                                  const Verdict& verdict) const;
-  // What keeps a job with this motion from being judged now: its arms' queues and stops, capacity,
-  // an aged job.
-  [[nodiscard]] std::vector<Wait> waits_before(const Trajectory& trajectory) const;
+  // What keeps a job with this motion that comes `after` these from being judged now: its arms'
+  // queues and stops, jobs that it comes after, capacity, an aged job.
+  [[nodiscard]] std::vector<Wait> waits_before(const Trajectory& trajectory,
+                                               const std::vector<JobId>& after) const;
 
   [[nodiscard]] const Policy& policy() const { return *policy_; }
   [[nodiscard]] const Job* find(JobId job) const;   // null: unknown or forgotten
@@ -121,6 +122,7 @@ class Scheduler {
   };
   struct Record {
     Job job;
+    WaitingLeg leg;
     AfterStop after_stop = AfterStop::hold;
     Reason fail_reason = Reason::overrun;  // with AfterStop::fail
     std::string fail_detail;
@@ -177,11 +179,11 @@ class Scheduler {
     std::vector<JobId> jobs;
     Purpose purpose;
     std::optional<Aside> aside = {};
-    std::vector<JobId> later = {};  // Question::later
+    std::vector<Passage> passages = {};  // Question::passages
   };
 
   // coordinated: everything that waits is tried as one; if that fails, these alone.
-  struct LookAhead {
+  struct Together {
     Version version;
     std::vector<JobId> alone;
   };
@@ -217,7 +219,7 @@ class Scheduler {
 
   // admission.cc: who may be judged, what is asked, what the answer means
   void form_round();
-  void ask_next();
+  [[nodiscard]] bool ask_next();
   [[nodiscard]] bool may_be_judged(const Record& record,
                                    const std::vector<const Job*>& occupying) const;
   [[nodiscard]] std::optional<Wait> stop_of(const Record& record) const;
@@ -272,6 +274,20 @@ class Scheduler {
   [[nodiscard]] static bool waiting(const Record& record);
   void set_waits(Record& record, std::vector<Wait> waits);
 
+  // lanes.cc
+  [[nodiscard]] WaitingLeg leg_of(const Job& job);
+  void rest_where_it_stands(ArmId arm);
+  void rest_at_goal(const Record& record);
+  void follow_lanes(const Job& job, JobState before);
+  void renew_lanes();
+  [[nodiscard]] SafeSequence::Outlook outlook_after(const std::vector<JobId>& jobs);
+  [[nodiscard]] bool waits_for_sequence(JobId job);
+  void wait_in_turn(Record& record, JobId first);
+  [[nodiscard]] bool leaves_a_sequence(const std::vector<JobId>& jobs);
+  void add_passages(Question& question, std::vector<Passage> unknown);
+  void learn(const OpenQuestion& question, const Verdict& verdict);
+  void learn_in_the_way(JobId job, ArmId arm);
+
   // moving_aside.cc
   [[nodiscard]] std::optional<Aside> next_aside() const;
   [[nodiscard]] std::optional<Aside> next_aside_in_a_ring() const;
@@ -289,20 +305,13 @@ class Scheduler {
   [[nodiscard]] CoordinatedMotion coordinated(const Record& record) const;
   [[nodiscard]] PassingOrders orders_for(const Question& hypothetical,
                                          const Verdict& verdict) const;
-  [[nodiscard]] bool leads_astray(const Verdict& verdict, const OpenQuestion& question,
-                                  const PassingOrders& orders);
-  [[nodiscard]] std::vector<JobId> work_to_come() const;
-  [[nodiscard]] std::vector<WaitingWork> work_among(const std::vector<JobId>& jobs,
-                                                    const std::vector<RestInTheWay>& rests) const;
-  [[nodiscard]] std::vector<JobId> with_all_that_wait(const std::vector<JobId>& group,
-                                                      std::size_t per_arm) const;
-  [[nodiscard]] std::set<JobId> first_of_arms(const std::vector<JobId>& group,
-                                              std::size_t per_arm) const;
+  [[nodiscard]] bool tries_together(const OpenQuestion& question, bool can_go);
+  [[nodiscard]] std::vector<JobId> with_all_that_wait(const std::vector<JobId>& group) const;
+  [[nodiscard]] std::set<JobId> first_of_arms(const std::vector<JobId>& group) const;
   void admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders);
   [[nodiscard]] std::vector<JobId> with_next_jobs(const std::vector<JobId>& group,
                                                   const std::vector<ArmId>& in_the_way) const;
   [[nodiscard]] bool may_follow(const Record& record) const;
-  [[nodiscard]] bool begins_where_left(const Record& record) const;
   void dispatch_ready();
   void dispatch_if_ready(Record& record);
   void extend_authority(JobId moved);
@@ -325,6 +334,10 @@ class Scheduler {
   std::vector<std::deque<JobId>> order_;             // per arm: active jobs, first goes first
   std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
   std::vector<TrajectoryPtr> came_by_;  // per arm: the motion on which it came to rest; or null
+  Places places_;
+  std::vector<PlacePtr> rests_at_;  // per arm: where it rests, or came from
+  SafeSequence sequence_;           // of all that waits in the queue
+  bool lanes_changed_ = true;       // otherwise than the sequence knows
   Version version_ = 1;
   Version disturbed_at_ = 0;         // the last time an arm came to rest off its plan
   Version freed_at_ = 0;             // the last time a motion ended otherwise than planned
@@ -334,7 +347,7 @@ class Scheduler {
   bool round_begun_ = false;
   std::vector<NamedRing> rings_;  // told in an earlier step
   std::optional<OpenQuestion> open_;
-  std::optional<LookAhead> ahead_;
+  std::optional<Together> together_;
   std::optional<PrecedenceGraph> graph_;  // policies that coordinate
   std::optional<TimePoint> wake_at_;
 

@@ -38,8 +38,12 @@ bool Scheduler::lets_another_pass(const Record& record) const {
 }
 
 // What is undecided counts as a conflict: it stays so while nothing moves. But two that are held
-// may go on together though neither can alone.
+// may go on together though neither can alone, until that has been tried.
 std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wait& wait) const {
+  if (wait.kind == Wait::Kind::order) {  // it shall be done before, lest it never can be
+    const bool still = active_.contains(*wait.job) && stands(records_.at(*wait.job));
+    return still ? wait.job : std::nullopt;
+  }
   const bool of_job = wait.kind == Wait::Kind::job;
   if (!of_job && wait.kind != Wait::Kind::arm) return std::nullopt;
   if (of_job && !active_.contains(*wait.job)) return std::nullopt;
@@ -51,8 +55,8 @@ std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wa
   }
   if (!first) return std::nullopt;
   const Record& other = records_.at(*first);
-  const bool both_held =
-      record.job.state == JobState::holding && other.job.state == JobState::holding;
+  const bool both_held = record.job.state == JobState::holding &&
+                         other.job.state == JobState::holding && held_together_tried_ != version_;
   return stands(other) && !both_held ? first : std::nullopt;
 }
 
@@ -217,12 +221,12 @@ std::optional<JobId> Scheduler::held_back_by(const Record& record,
 // Every job of a ring is told of it now; what becomes of the ring is decided in a later step, so
 // that it is seen by clients whatever that is.
 void Scheduler::name_deadlocks() {
-  // Orders of submission alone make no ring; and only the first job of an arm is judged.
+  // Orders alone make no ring: all follow one sequence. And only the first job of an arm is judged.
   const bool in_the_way = std::ranges::any_of(order_, [this](const auto& queue) {
     if (queue.empty()) return false;
     const Record& record = records_.at(queue.front());
     return std::ranges::any_of(found_in_the_way(record), [&](const Wait& wait) {
-      return has_to_move_first(record, wait).has_value();
+      return wait.kind != Wait::Kind::order && has_to_move_first(record, wait).has_value();
     });
   });
   if (!in_the_way) return;
@@ -300,6 +304,7 @@ void Scheduler::resolve(const Ring& ring) {
     Record& record = records_.at(id);
     if (lets_another_pass(record) && std::ranges::find(ring, *record.lets_pass) != ring.end()) {
       record.lets_pass.reset();
+      lanes_changed_ = true;
       return;
     }
   }

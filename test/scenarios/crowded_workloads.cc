@@ -6,29 +6,16 @@
 #include <optional>
 #include <stdexcept>
 
-#include "test/scenarios/random_faults.h"
+#include "test/scenarios/disc_room.h"
 
 namespace armloom {
 namespace {
 
 using namespace std::chrono_literals;
-using Place = Eigen::Vector2d;
-using Way = std::vector<Place>;
-
-constexpr int kTries = 2000;
-
-double distance_to_leg(const Place& point, const Place& from, const Place& to) {
-  const Place along = to - from;
-  const double squared = along.squaredNorm();
-  const double share =
-      squared == 0.0 ? 0.0 : std::clamp((point - from).dot(along) / squared, 0.0, 1.0);
-  return (from + share * along - point).norm();
-}
-
 // Builds one workload; gives up with nullopt where chance leads nowhere.
-class Maker {
+class Maker : private DiscRoom {
  public:
-  Maker(Crowd crowd, std::uint64_t seed) : random_(seed) {
+  Maker(Crowd crowd, std::uint64_t seed) : DiscRoom(seed) {
     made_.crowd = crowd;
     made_.seed = seed;
   }
@@ -59,66 +46,10 @@ class Maker {
   }
 
  private:
-  [[nodiscard]] Place anywhere() {
-    return {random_.uniform(-half_m_, half_m_), random_.uniform(-half_m_, half_m_)};
-  }
-  [[nodiscard]] bool is_free(const Place& place, std::size_t but) const {
-    for (std::size_t i = 0; i < stands_.size(); ++i) {
-      if (i != but && (stands_[i] - place).norm() < kKeptOneByOne_m) return false;
-    }
-    return true;
-  }
-  [[nodiscard]] bool is_free(const Way& way, std::size_t arm) const {
-    for (std::size_t leg = 1; leg < way.size(); ++leg) {
-      for (std::size_t i = 0; i < stands_.size(); ++i) {
-        if (i != arm && distance_to_leg(stands_[i], way[leg - 1], way[leg]) < kKeptOneByOne_m) {
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-  bool stand_at_random(std::size_t count) {
-    for (int tries = 0; stands_.size() < count; ++tries) {
-      if (tries == kTries) return false;
-      const Place place = anywhere();
-      if (is_free(place, stands_.size())) stands_.push_back(place);
-    }
-    made_.homes = stands_;
-    return true;
-  }
-  std::optional<Place> somewhere_free(std::size_t arm) {
-    for (int tries = 0; tries < kTries; ++tries) {
-      const Place place = anywhere();
-      if (is_free(place, arm) && (place - stands_[arm]).norm() > 0.3) return place;
-    }
-    return std::nullopt;
-  }
-
-  // Straight if that is free, else over one or two random places.
-  std::optional<Way> way(std::size_t arm, const Place& to) {
-    Way found{stands_[arm], to};
-    for (int tries = 0; tries < kTries; ++tries) {
-      if (is_free(found, arm)) return found;
-      found = {stands_[arm], anywhere()};
-      if (tries > kTries / 4) found.push_back(anywhere());
-      found.push_back(to);
-    }
-    return std::nullopt;
-  }
-
-  [[nodiscard]] DiscMotion motion(std::size_t arm, Way way, double speed_m_s) const {
-    DiscMotion motion{arm, std::move(way), {0.0}};
-    for (std::size_t leg = 1; leg < motion.way.size(); ++leg) {
-      const double length = (motion.way[leg] - motion.way[leg - 1]).norm();
-      motion.times_s.push_back(motion.times_s.back() + std::max(0.4, length / speed_m_s));
-    }
-    return motion;
-  }
   bool go(std::size_t arm, const Place& to, bool of_a_client = true) {
     auto found = way(arm, to);
     if (!found) return false;
-    made_.solution.push_back({motion(arm, std::move(*found), random_.uniform(0.25, 0.7))});
+    made_.solution.push_back({disc_motion(arm, std::move(*found), random_.uniform(0.25, 0.7))});
     made_.solution.back().back().of_a_client = of_a_client;
     stands_[arm] = to;
     return true;
@@ -166,7 +97,7 @@ class Maker {
         const Place left(-along.y(), along.x());
         way.insert(way.begin() + 1, stands_[arm] + 0.5 * along + 0.4 * left);
       }
-      group.push_back(motion(arm, std::move(way), speed_m_s));
+      group.push_back(disc_motion(arm, std::move(way), speed_m_s));
     }
     made_.solution.push_back(std::move(group));
     for (std::size_t arm = 0; arm < count; ++arm) stands_[arm] = goals[arm];
@@ -182,6 +113,7 @@ class Maker {
     const std::size_t arms = 2 + random_.index(3);
     half_m_ = random_.uniform(0.3, 0.45) + 0.06 * static_cast<double>(arms);
     if (!stand_at_random(arms)) return false;
+    made_.homes = stands_;
     std::vector<std::size_t> turns;
     for (std::size_t arm = 0; arm < arms; ++arm) {
       turns.insert(turns.end(), 2 + random_.index(2), arm);
@@ -200,6 +132,7 @@ class Maker {
     half_m_ = random_.uniform(0.6, 0.8);
     const std::size_t arms = 2 + random_.index(3);
     if (!stand_at_random(arms)) return false;
+    made_.homes = stands_;
     const auto there = somewhere_free(0);
     if (!there || !go(0, *there)) return false;
     if (!go(0, made_.homes[0], false)) return false;
@@ -219,11 +152,6 @@ class Maker {
     return true;
   }
 
-  template <class T>
-  void shuffle(std::vector<T>& list) {
-    for (std::size_t i = list.size(); i > 1; --i) std::swap(list[i - 1], list[random_.index(i)]);
-  }
-
   void submit() {
     std::vector<DiscMotion> motions;
     for (const auto& group : made_.solution) {
@@ -234,12 +162,12 @@ class Maker {
     if (made_.crowd == Crowd::parked) {
       const double after_s = motions.front().duration_s() + 1.0;
       for (const DiscMotion& one : motions) {
-        made_.submitted.push_back({made_.submitted.empty() ? 0.0 : after_s, one});
+        made_.submitted.push_back({made_.submitted.empty() ? 0.0 : after_s, one, {}});
       }
     } else if (random_.chance(0.3)) {
       double at_s = 0.0;
       for (const DiscMotion& one : motions) {
-        made_.submitted.push_back({at_s, one});
+        made_.submitted.push_back({at_s, one, {}});
         at_s += random_.uniform(0.0, 1.5);
       }
     } else {
@@ -248,15 +176,12 @@ class Maker {
       shuffle(turns);
       for (const std::size_t arm : turns) {
         const auto next = std::ranges::find(motions, arm, &DiscMotion::arm);
-        made_.submitted.push_back({0.0, *next});
+        made_.submitted.push_back({0.0, *next, {}});
         motions.erase(next);
       }
     }
   }
 
-  Random random_;
-  double half_m_ = 0.8;  // of the square in which all places are
-  std::vector<Place> stands_;
   CrowdedWorkload made_;
 };
 
@@ -321,6 +246,7 @@ std::vector<TimedJob> CrowdedWorkload::jobs() const {
       job.trajectory.points.push_back(
           {{place.x(), place.y()}, {0.0, 0.0}, {0.0, 0.0}, one.motion.times_s[i]});
     }
+    for (const std::size_t before : one.after) job.after.push_back(jobs[before].job.key);
     jobs.push_back({at(from_seconds(one.at_s)), std::move(job)});
   }
   return jobs;

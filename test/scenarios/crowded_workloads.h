@@ -50,6 +50,7 @@ struct CrowdedWorkload {
   struct Submitted {
     double at_s;
     DiscMotion motion;
+    std::vector<std::size_t> after;  // indices of those that have to succeed before it
   };
   std::vector<Submitted> submitted;
 

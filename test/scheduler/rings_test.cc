@@ -49,6 +49,29 @@ TEST(Deadlock, TheJobThatCameLastFailsAndTheOtherWaitsForItsArm) {
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
 }
 
+// Stopped beside each other on their ways, so that neither can go on, alone or together.
+TEST(Deadlock, OfTwoThatStandOnTheirPathsIsNamedToo) {
+  Bench bench(2, "certified");
+  const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  const JobId b = bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.answer_free(at(2ms));
+  for (JobId job : {a, b}) bench.progressed(job, 1ms, at(5ms));
+  bench.step(Stop{{ArmId{0}, ArmId{1}}, "operator"}, at(6ms));
+  for (JobId job : {a, b}) bench.stopped(job, 2ms, at(10ms));
+  bench.step(Resume{{ArmId{0}, ArmId{1}}}, at(1s));
+  ASSERT_EQ(bench.question->candidates.size(), 2U);
+  bench.answer_conflict(at(1001ms), Conflict::With::motion, b);
+  bench.answer_conflict(at(1002ms), Conflict::With::rest, {}, ArmId{1});
+  EXPECT_THAT(bench.job(a).ring, IsEmpty()) << "the other one may be able to go";
+  bench.answer_conflict(at(1003ms), Conflict::With::rest, {}, ArmId{0});
+  EXPECT_THAT(bench.job(a).ring, ElementsAre(a, b));
+  bench.step(Wake{}, at(1004ms));
+  EXPECT_EQ(bench.job(b).reason, Reason::deadlock);
+  bench.answer_free(at(1005ms));
+  EXPECT_EQ(bench.state(a), JobState::scheduled);
+}
+
 TEST(Deadlock, ACanceledJobOpensTheRing) {
   Swap bench;
   bench.step(Cancel{bench.a}, at(3ms));

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "core/base/ids.h"
+
+namespace armloom {
+
+// Where an arm rests. While one is held, whoever else asks for the same place is given that one:
+// compare pointers. Ids are never given again.
+struct Place {
+  std::uint64_t id;
+  ArmId arm;
+  Eigen::VectorXd q;  // of the arm's joints, in its order (rad, m)
+};
+using PlacePtr = std::shared_ptr<const Place>;
+
+// Gives places. Two that differ by no more than rounding are one, mostly.
+class Places {
+ public:
+  [[nodiscard]] PlacePtr of(ArmId arm, const Eigen::VectorXd& q);
+
+ private:
+  using Key = std::vector<std::int64_t>;
+  void drop_unused();
+
+  std::map<Key, std::weak_ptr<const Place>> known_;
+  std::size_t dropped_at_ = 64;  // when there are so many
+  std::uint64_t last_ = 0;
+};
+
+}  // namespace armloom

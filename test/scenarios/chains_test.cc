@@ -1,0 +1,140 @@
+// What can be done in turn is done: jobs from pose to pose, of which the run one by one in the
+// order of submission succeeds, all succeed under every policy, whether or not arms without a job
+// may be moved aside, and nothing ever touches. ARMLOOM_SEEDS=300 runs so many loads of each.
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "core/executive/known_policies.h"
+#include "core/model/build_cell.h"
+#include "test/scenarios/chain_workloads.h"
+#include "test/scenarios/random_faults.h"
+#include "test/scenarios/seeds.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t kLoads = 10;
+
+CrowdedWorkload load_of(std::uint64_t seed) {
+  const std::size_t jobs = seed % 30 == 0 ? 500 : seed % 10 == 0 ? 150 : 8 + seed * 7 % 41;
+  return make_chain(2 + seed % 3, jobs, seed % 2 == 0, seed);
+}
+
+// The smallest distance between any two discs, as measured at every tick.
+struct Closest final : Observer {
+  void on_event(const Event&) override {}
+  void on_state(const StateFrame&) override {}
+  void on_tick(TimePoint, const Configuration& measured) override {
+    for (Eigen::Index i = 0; i < measured.size(); i += 2) {
+      for (Eigen::Index j = 0; j < i; j += 2) {
+        smallest_m = std::min(
+            smallest_m, (measured.segment<2>(i) - measured.segment<2>(j)).norm() - kDiscDistance_m);
+      }
+    }
+  }
+  double smallest_m = 1e9;
+};
+
+CellPtr cell_of(const CrowdedWorkload& load, const std::string& on_idle_blocker) {
+  CellDescription description = load.cell();
+  description.scheduling.on_idle_blocker = on_idle_blocker;
+  description.scheduling.backlog_timeout = 100000s;  // ends nobody: a job that hangs is seen
+  return *build_cell(description);
+}
+
+TEST(Chains, SucceedOneByOneInTheOrderOfSubmission) {
+  for (std::uint64_t seed = 1; seed <= seed_count(kLoads); ++seed) {
+    const CrowdedWorkload load = load_of(seed);
+    Closest closest;
+    auto created = Simulation::create(cell_of(load, "report"),
+                                      ExecutiveOptions{.policy = "sequential"}, closest);
+    ASSERT_TRUE(created);
+    Simulation& simulation = **created;
+    simulation.tick();
+    for (TimedJob& timed : load.jobs()) {
+      const std::string key = timed.job.key;
+      ASSERT_TRUE(simulation.executive().submit(std::move(timed.job))) << "seed " << seed;
+      while (!simulation.executive().all_ended() && simulation.now() < at(100000s)) {
+        simulation.tick();
+      }
+      const JobView job = *simulation.executive().job(key);
+      ASSERT_EQ(job.state, JobState::succeeded) << "seed " << seed << ": " << told(job);
+    }
+  }
+}
+
+struct Way {
+  std::string policy;
+  std::string on_idle_blocker;
+};
+
+class ChainsUnder : public ::testing::TestWithParam<Way> {};
+
+TEST_P(ChainsUnder, AllSucceedAndNeverTouch) {
+  const auto& [policy, on_idle_blocker] = GetParam();
+  std::size_t jobs = 0, succeeded = 0, whole = 0, own = 0;
+  double makespan_s = 0.0, one_by_one_s = 0.0;
+  Judging judging;
+  const char* only = std::getenv("ARMLOOM_ONLY");
+  for (std::uint64_t seed = 1; seed <= seed_count(kLoads); ++seed) {
+    if (only != nullptr && std::to_string(seed) != only) continue;
+    const CrowdedWorkload load = load_of(seed);
+    double load_s = 0.0;
+    for (const auto& one : load.submitted) load_s += one.motion.duration_s();
+    Closest closest;
+    const auto result = simulate(cell_of(load, on_idle_blocker),
+                                 ExecutiveOptions{.policy = policy, .waiting_max = 1000},
+                                 load.jobs(), at(from_seconds(3.0 * load_s + 100.0)), closest);
+    ASSERT_TRUE(result);
+    std::size_t ended_well = 0;
+    std::string first_other;
+    for (const JobView& job : result->jobs) {
+      if (job.key.starts_with("aside")) {
+        ++own;
+        continue;
+      }
+      const bool well = job.state == JobState::succeeded;
+      if (well) ++ended_well;
+      if (!well && first_other.empty()) first_other = told(job);
+      if (std::getenv("ARMLOOM_TOLD") != nullptr) {
+        std::cout << (job.started_at ? to_seconds(*job.started_at) : -1.0) << ".."
+                  << (job.ended_at ? to_seconds(*job.ended_at) : -1.0) << " " << told(job) << "\n";
+      }
+    }
+    EXPECT_TRUE(result->all_ended) << "seed " << seed << ": jobs hang";
+    EXPECT_EQ(ended_well, load.submitted.size())
+        << "seed " << seed << ", " << load.homes.size() << " arms: " << first_other;
+    EXPECT_GT(closest.smallest_m, 0.0) << "seed " << seed;
+    jobs += load.submitted.size();
+    succeeded += ended_well;
+    whole += ended_well == load.submitted.size() ? 1 : 0;
+    makespan_s += to_seconds(result->figures.last_end);
+    one_by_one_s += load_s;
+    judging.judgements += result->judging.judgements;
+    judging.evaluations += result->judging.evaluations;
+    judging.wall += result->judging.wall;
+  }
+  std::cout << policy << ", " << on_idle_blocker << ": " << succeeded << " of " << jobs << " jobs, "
+            << whole << " of " << seed_count(kLoads) << " loads whole, " << own
+            << " of the server's own; " << makespan_s << " s where one by one take " << one_by_one_s
+            << " s; " << judging.judgements << " judgements, " << judging.evaluations
+            << " evaluations, " << to_seconds(judging.wall) << " s of them" << std::endl;
+}
+
+std::vector<Way> ways() {
+  std::vector<Way> ways;
+  for (const std::string& policy : known_policies()) {
+    for (const char* on_idle_blocker : {"park", "report"})
+      ways.push_back({policy, on_idle_blocker});
+  }
+  return ways;
+}
+INSTANTIATE_TEST_SUITE_P(Policies, ChainsUnder, ::testing::ValuesIn(ways()), [](const auto& one) {
+  return one.param.policy + "_" + one.param.on_idle_blocker;
+});
+
+}  // namespace
+}  // namespace armloom

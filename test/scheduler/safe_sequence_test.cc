@@ -1,0 +1,244 @@
+#include "core/scheduler/safe_sequence.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <set>
+
+namespace armloom {
+namespace {
+
+using Jobs = std::vector<JobId>;
+
+// Arms on a line whose places are numbers; which legs do not pass which places is told by hand.
+class Lanes {
+ public:
+  explicit Lanes(std::size_t arms) : stands_(arms, 0.0), ends_(arms, 0.0) {}
+
+  // To the end of the arms' lanes, each of which goes to `to`.
+  JobId leg(std::vector<std::uint32_t> arms, double to, Jobs after = {}) {
+    WaitingLeg leg{.job = JobId{++last_}, .arms = {}, .from = {}, .to = {}, .after = after};
+    for (std::uint32_t arm : arms) {
+      leg.arms.emplace_back(arm);
+      leg.from.push_back(place(arm, ends_[arm]));
+      leg.to.push_back(place(arm, ends_[arm] = to));
+    }
+    legs_.push_back(leg);
+    if (renewed_) sequence.append(leg);
+    return leg.job;
+  }
+  void blocked(JobId leg, std::uint32_t arm, double at) {
+    blocked_.insert({leg, place(arm, at)->id});
+  }
+
+  SafeSequence::Outlook after(const Jobs& group) {
+    if (!renewed_) renew();
+    for (;;) {
+      auto outlook = sequence.after(group);
+      std::vector<Passage> unknown = outlook.unknown;
+      unknown.insert(unknown.end(), outlook.ahead.begin(), outlook.ahead.end());
+      if (unknown.empty()) return outlook;
+      for (const Passage& passage : unknown) {
+        const bool asked_twice = !known_.insert({passage.leg, passage.place->id}).second;
+        if (asked_twice) continue;
+        ++asked;
+        sequence.learn(passage, passes(passage.leg, passage.place));
+      }
+    }
+  }
+  void admit(const Jobs& group) {
+    (void)after(group);
+    sequence.admitted(group);
+    for (JobId job : group) go(job);
+  }
+  // Whether this leg, the first of its lanes, finds its way free now.
+  [[nodiscard]] bool passes_now(JobId job) {
+    const WaitingLeg& leg = of(job);
+    for (std::uint32_t arm = 0; arm < stands_.size(); ++arm) {
+      const bool own = std::ranges::find(leg.arms, ArmId{arm}) != leg.arms.end();
+      if (!own && !passes(job, place(arm, stands_[arm]))) return false;
+    }
+    return true;
+  }
+  // The first ones of their lanes whose predecessors are done.
+  [[nodiscard]] Jobs heads() const {
+    Jobs heads;
+    std::set<ArmId> taken;
+    std::set<JobId> waiting;
+    for (const WaitingLeg& leg : legs_) {
+      bool first = true;
+      for (ArmId arm : leg.arms) first = taken.insert(arm).second && first;
+      for (JobId before : leg.after) first = first && !waiting.contains(before);
+      if (first) heads.push_back(leg.job);
+      waiting.insert(leg.job);
+    }
+    return heads;
+  }
+  [[nodiscard]] double end_of(std::uint32_t arm) const { return ends_[arm]; }
+  [[nodiscard]] bool done() const { return legs_.empty(); }
+
+  SafeSequence sequence{0.01};
+  std::size_t asked = 0;
+
+ private:
+  PlacePtr place(std::uint32_t arm, double at) {
+    return kept_.emplace_back(places_.of(ArmId{arm}, Eigen::VectorXd::Constant(1, at)));
+  }
+  [[nodiscard]] const WaitingLeg& of(JobId job) const {
+    return *std::ranges::find(legs_, job, &WaitingLeg::job);
+  }
+  [[nodiscard]] bool passes(JobId leg, const PlacePtr& place) const {
+    return !blocked_.contains({leg, place->id});
+  }
+  void renew() {
+    std::vector<PlacePtr> stands;
+    for (std::uint32_t arm = 0; arm < stands_.size(); ++arm)
+      stands.push_back(place(arm, stands_[arm]));
+    sequence.renew(stands, legs_);
+    renewed_ = true;
+  }
+  void go(JobId job) {
+    for (const PlacePtr& to : of(job).to) stands_[to->arm.index()] = to->q[0];
+    std::erase_if(legs_, [job](const WaitingLeg& leg) { return leg.job == job; });
+  }
+
+  Places places_;
+  std::vector<PlacePtr> kept_;  // so that places keep their ids
+  std::vector<double> stands_, ends_;
+  std::vector<WaitingLeg> legs_;
+  std::set<std::pair<JobId, std::uint64_t>> blocked_, known_;
+  std::uint64_t last_ = 0;
+  bool renewed_ = false;
+};
+
+constexpr std::uint32_t kA = 0, kB = 1, kC = 2;
+
+TEST(SafeSequence, AnyLegMayGoWhereNobodyRestsInTheWay) {
+  Lanes lanes(2);
+  const JobId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
+  EXPECT_FALSE(lanes.after({a}).first);
+  EXPECT_FALSE(lanes.after({b}).first);
+}
+
+TEST(SafeSequence, WhoseGoalIsInTheWayWaits) {
+  Lanes lanes(2);
+  const JobId b = lanes.leg({kB}, 1.0), a = lanes.leg({kA}, 1.0);
+  lanes.blocked(b, kA, 1.0);
+  EXPECT_EQ(lanes.after({a}).first, b);
+  EXPECT_FALSE(lanes.after({b}).first);
+}
+
+TEST(SafeSequence, AnotherOrderThanThatOfSubmissionIsFound) {
+  Lanes lanes(2);
+  const JobId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
+  lanes.blocked(b, kA, 1.0);
+  EXPECT_EQ(lanes.after({a}).first, b);
+  EXPECT_TRUE(lanes.after({b}).all);
+}
+
+TEST(SafeSequence, OfASwapNobodyIsWaitedFor) {
+  Lanes lanes(2);
+  const JobId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
+  lanes.blocked(a, kB, 0.0);
+  lanes.blocked(b, kA, 0.0);
+  lanes.blocked(b, kA, 1.0);
+  lanes.blocked(a, kB, 1.0);
+  const auto outlook = lanes.after({a});
+  EXPECT_FALSE(outlook.first);
+  EXPECT_FALSE(outlook.all);
+  EXPECT_TRUE(lanes.after({a, b}).all);
+}
+
+TEST(SafeSequence, ANextLegThatLeavesTheGoalOpensTheWay) {
+  Lanes lanes(2);
+  const JobId a1 = lanes.leg({kA}, 1.0), a2 = lanes.leg({kA}, 2.0), b = lanes.leg({kB}, 1.0);
+  lanes.blocked(b, kA, 1.0);
+  EXPECT_FALSE(lanes.after({a1}).first);
+  lanes.blocked(a2, kB, 1.0);
+  lanes.admit({a1});
+  EXPECT_EQ(lanes.after({a2}).first, std::nullopt);
+}
+
+TEST(SafeSequence, ALegOfTwoArmsGoesWhenItIsFirstOnBoth) {
+  Lanes lanes(3);
+  lanes.leg({kA}, 1.0);
+  const JobId both = lanes.leg({kA, kB}, 2.0), c = lanes.leg({kC}, 1.0);
+  lanes.blocked(both, kC, 1.0);
+  EXPECT_EQ(lanes.after({c}).first, both);
+}
+
+TEST(SafeSequence, WhatComesAfterALegDoesNotGoBefore) {
+  Lanes lanes(3);
+  const JobId a = lanes.leg({kA}, 1.0);
+  const JobId b = lanes.leg({kB}, 1.0, {a});
+  const JobId c = lanes.leg({kC}, 1.0);
+  lanes.blocked(a, kC, 1.0);
+  lanes.blocked(b, kC, 0.0);
+  EXPECT_EQ(lanes.after({c}).first, a) << "b would open nothing: it comes after a";
+}
+
+TEST(SafeSequence, WhereArmsReturnToWhereTheyCameFromNothingIsAsked) {
+  Lanes lanes(2);
+  for (int n = 0; n < 100; ++n) lanes.leg({kA}, 0.0);
+  const JobId b = lanes.leg({kB}, 0.0);
+  EXPECT_FALSE(lanes.after({b}).first);
+  EXPECT_EQ(lanes.asked, SafeSequence::kKnownAhead);
+}
+
+TEST(SafeSequence, AfterACancelWhatBeginsElsewhereIsInNoSequence) {
+  Lanes lanes(2);
+  const JobId a1 = lanes.leg({kA}, 1.0), a2 = lanes.leg({kA}, 2.0), b = lanes.leg({kB}, 1.0);
+  EXPECT_FALSE(lanes.after({b}).first);
+  EXPECT_TRUE(lanes.sequence.follows_on(a2));
+  EXPECT_FALSE(lanes.sequence.remove(a1)) << "renew() is called for";
+}
+
+// Whatever is admitted while a sequence remains, all comes to its end.
+TEST(SafeSequence, WhatCanBeDoneInTurnIsDoneWhateverIsDoneInBetween) {
+  std::size_t waits = 0, ahead = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto below = [&](std::uint64_t n) { return static_cast<std::uint32_t>(random() % n); };
+    const std::uint32_t arms = 2 + below(3);
+    Lanes lanes(arms);
+    // Each leg passes where all stand in the order of submission; else it may be blocked.
+    std::vector<double> stands(arms, 0.0);
+    Jobs all;
+    for (std::size_t n = 0; n < 8 + seed % 60; ++n) {
+      std::vector<std::uint32_t> own{below(arms)};
+      if (below(8) == 0 && below(arms) != own[0]) own.push_back((own[0] + 1) % arms);
+      Jobs after;
+      if (!all.empty() && below(4) == 0) after.push_back(all[below(all.size())]);
+      const JobId job = lanes.leg(own, below(6), after);
+      for (std::uint32_t arm = 0; arm < arms; ++arm) {
+        for (int at = 0; at < 6; ++at) {
+          const bool is_own = std::ranges::find(own, arm) != own.end();
+          if (!is_own && at != stands[arm] && below(3) == 0) lanes.blocked(job, arm, at);
+        }
+      }
+      all.push_back(job);
+      for (std::uint32_t arm : own) stands[arm] = lanes.end_of(arm);
+    }
+    while (!lanes.done()) {
+      Jobs go;
+      for (JobId head : lanes.heads()) {
+        if (!lanes.passes_now(head)) continue;
+        if (lanes.after({head}).first) {
+          ++waits;
+        } else {
+          go.push_back(head);
+        }
+      }
+      ASSERT_FALSE(go.empty()) << "seed " << seed << ": nothing can go any more";
+      const JobId chosen = go[below(go.size())];
+      if (chosen != go.front()) ++ahead;
+      lanes.admit({chosen});
+    }
+  }
+  EXPECT_GT(waits, 300U);
+  EXPECT_GT(ahead, 300U);
+}
+
+}  // namespace
+}  // namespace armloom
