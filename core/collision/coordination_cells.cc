@@ -173,29 +173,34 @@ void CoordinationDiagram::decide(int index) {
   cell.state = CellState::free;
   if (undecided.empty()) return;
 
-  // The largest distance that a pair may have, as far as the capsules tell.
-  const auto room = [](const Undecided& u) { return u.distance_m + u.slack_m - u.limit_m; };
-  const auto closest = std::ranges::min_element(undecided, {}, room);
+  // What is in conflict all over the cell makes that of it; what is not clear splits it.
+  const auto passes = [&](Undecided& u) {
+    if (clears(cell, u)) return true;
+    if (u.distance_m + u.moves_m() < u.limit_m) {
+      cell.state = CellState::conflict;
+    } else {
+      choose_split(cell, u);
+    }
+    return false;
+  };
+  // By the capsules, a conflict most likely: unless the one is in a notch of the other.
+  const auto closest = std::ranges::min_element(
+      undecided, {}, [](const Undecided& u) { return u.distance_m + u.slack_m - u.limit_m; });
+  if (closest->distance_m + closest->slack_m < closest->limit_m && !passes(*closest)) return;
+  // The largest distance that a pair may have, as far as the capsules tell: what is inside of them
+  // is not farther from the body than they stand off.
+  const auto room = [](const Undecided& u) {
+    return std::max(u.distance_m, 0.0) + u.slack_m - u.limit_m;
+  };
   const auto worst = std::ranges::min_element(
       undecided, {}, [&](const Undecided& u) { return room(u) - u.moves_m(); });
-  if (room(*closest) < 0.0) {  // a conflict, most likely
-    const bool clear = clears(cell, *closest);
-    if (!clear && closest->distance_m + closest->moves_m() < closest->limit_m) {
-      cell.state = CellState::conflict;
-      return;
-    }
-    choose_split(cell, clear ? *worst : *closest);
-    return;
-  }
   if (room(*worst) < kTowardsShare * worst->moves_m()) {  // no distance would do: none is asked
     choose_split(cell, *worst);
     return;
   }
   std::iter_swap(undecided.begin(), worst);  // mostly it is the one that does not
   for (Undecided& u : undecided) {
-    if (clears(cell, u)) continue;
-    choose_split(cell, u);
-    return;
+    if (!passes(u)) return;
   }
 }
 

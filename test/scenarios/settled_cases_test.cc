@@ -77,7 +77,7 @@ TEST_P(Settled, NotBeforeASlowMotionOrALateStart) {
   cell->submit(slide("y", -1, 1, 3, "two"));
   const auto stops = [&] { return cell->simulation->executive().figures().monitor_stops; };
   while (!cell->simulation->executive().all_ended() && stops() == 0) {
-    ASSERT_FALSE(cell->simulation->settled()) << to_seconds(cell->simulation->now() - at(0s));
+    ASSERT_FALSE(cell->simulation->settled()) << to_seconds(cell->simulation->now() - at(0s)) << int(cell->job("one").state) << int(cell->job("two").state) << cell->log.events.size() << " " << (cell->job("one").waits_on.empty() ? -1 : int(cell->job("one").waits_on[0].kind)) << (cell->job("one").waits_on.empty() ? "" : cell->job("one").waits_on[0].detail);
     cell->simulation->tick();
     ASSERT_LT(cell->simulation->now(), at(60s));
   }
