@@ -75,14 +75,12 @@ TEST_P(Settled, NotBeforeASlowMotionOrALateStart) {
   inject(fault("y", ArmFault::Kind::late_start, 0s));
   cell->submit(slide("x", -1, 1, 2, "one"));
   cell->submit(slide("y", -1, 1, 3, "two"));
-  const auto stops = [&] { return cell->simulation->executive().figures().monitor_stops; };
-  while (!cell->simulation->executive().all_ended() && stops() == 0) {
-    ASSERT_FALSE(cell->simulation->settled()) << to_seconds(cell->simulation->now() - at(0s)) << int(cell->job("one").state) << int(cell->job("two").state) << cell->log.events.size() << " " << (cell->job("one").waits_on.empty() ? -1 : int(cell->job("one").waits_on[0].kind)) << (cell->job("one").waits_on.empty() ? "" : cell->job("one").waits_on[0].detail);
+  // Under timed_discrete late arms may block each other: what waits in vain expires.
+  while (!cell->simulation->executive().all_ended()) {
+    ASSERT_FALSE(cell->simulation->settled()) << to_seconds(cell->simulation->now() - at(0s));
     cell->simulation->tick();
-    ASSERT_LT(cell->simulation->now(), at(60s));
+    ASSERT_LT(cell->simulation->now(), at(100s));
   }
-  // Of late arms the paper's rule promises nothing: the monitor stops them, and nobody resumes.
-  EXPECT_EQ(stops() > 0, GetParam() == "timed_discrete");
 }
 
 TEST_P(Settled, ASimulationEndsThenAndNotWhenItsLimitIsOver) {
