@@ -122,7 +122,7 @@ void expect_what_urdfdom_reads(const std::string& path, int links, int shapes) {
 TEST(Urdfdom, AgreesOnEveryModel) {
   expect_what_urdfdom_reads(model_file("panda.urdf"), 13, 78);
   expect_what_urdfdom_reads(model_file("dual_panda.urdf"), 27, 157);
-  expect_what_urdfdom_reads(model_file("ur5e.urdf"), 8, 54);
+  expect_what_urdfdom_reads(model_file("ur5e.urdf"), 8, 41);
   expect_what_urdfdom_reads(data_file("two_arms.urdf"), 11, 4);
 }
 

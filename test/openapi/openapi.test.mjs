@@ -32,6 +32,7 @@ function writeCell() {
     .replaceAll('../models/', path.join(top, 'models') + '/');
   const cell = JSON.parse(text);
   cell.objects.push({name: 'tetrahedron', mesh: 'tetrahedron.obj', xyz: [0, 3, 0]});
+  cell.scheduling.on_idle_blocker = 'report';  // what waits is to go on waiting
   fs.writeFileSync(path.join(folder, 'cell.json'), JSON.stringify(cell));
 }
 
