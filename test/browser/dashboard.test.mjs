@@ -63,7 +63,7 @@ before(async () => {
   page.setDefaultTimeout(kPatience_ms);
   page.on('console', (message) => { if (message.type() === 'error') errors.push(message.text()); });
   page.on('pageerror', (error) => errors.push(String(error)));
-  await page.goto(url);
+  await page.goto(url, { timeout: 60_000 });  // a busy machine draws the first picture slowly
   await page.locator('[data-test=link].open').waitFor();
   await page.waitForFunction(() => window.armloom?.is_drawn());
 }, { timeout: 90_000 });
