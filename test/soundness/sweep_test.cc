@@ -218,7 +218,7 @@ TEST(Sweeps, OfSurfacesAreNeverUndercut) {
       ASSERT_GE(solid_distance(a, X_WA * a.X_PT, b, X_WB * b.X_PT, 1.0), limit_m - kRounding_m);
     }
   }
-  EXPECT_GT(said, 0U);
+  EXPECT_GE(said, 10U);  // a sixth
 }
 
 }  // namespace
