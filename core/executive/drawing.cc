@@ -54,7 +54,7 @@ void Executive::Impl::diagram(const std::string& key_a, const std::string& key_b
       .time = now_, .a = side_of(**a), .b = side_of(**b), .scene_version = scene_version_};
   Drawing drawing{.a = motion_a,
                   .b = motion_b,
-                  .rest = scheduler_.hypothetical(motion_a, now_).rest,
+                  .rest = scheduler_.rest(),
                   .tracking_error = cell_->checking.tracking_error_rad,
                   .resolution = kResolution,
                   .budget = kCells};

@@ -109,8 +109,7 @@ Question question_for(const Plan& plan, const std::vector<std::size_t>& group,
                     .candidates = {},
                     .others = {},
                     .rest = cell.home(),
-                    .method = policy.method(),
-                    .find_earliest = true};
+                    .method = policy.method()};
   for (std::size_t candidate : group) {
     question.candidates.push_back(
         Motion{id_of(candidate), plan.jobs()[candidate].trajectory, Duration{}});
@@ -139,7 +138,8 @@ std::optional<JobId> capacity(const Question& question, const Policy& policy) {
 }
 
 // Beside everything that has begun and whose authority reaches to where it may come next.
-PassingOrders orders_for(const Question& question, const Cell& cell, const Verdict& verdict) {
+PassingOrders orders_for(const Question& question, const Cell& cell, const Policy& policy,
+                         const Verdict& verdict) {
   const auto coordinated = [](const std::vector<Motion>& motions) {
     std::vector<CoordinatedMotion> result;
     for (const Motion& motion : motions) {
@@ -152,8 +152,8 @@ PassingOrders orders_for(const Question& question, const Cell& cell, const Verdi
     return result;
   };
   const std::vector<Duration> no_work(cell.arms.size());
-  return find_passing_orders(coordinated(question.others), {}, coordinated(question.candidates),
-                             verdict.regions, no_work);
+  const auto others = coordinated(question.others), candidates = coordinated(question.candidates);
+  return policy.decide({others, {}, candidates, verdict.regions, no_work});
 }
 
 // Of the arms in the way the first job each that has not begun: it would move them away.
@@ -185,9 +185,8 @@ Verdict weighed(std::size_t index, const std::vector<std::size_t>& begun, const 
     Question question = question_for(plan, group, begun, cell, policy);
     Verdict answer = arbiter.judge(question);
     const auto means = [&] {
-      return policy.coordinates()
-                 ? as_verdict(orders_for(question, cell, answer), group.size(), answer)
-                 : answer;
+      if (answer.kind != Verdict::Kind::free) return answer;
+      return as_verdict(orders_for(question, cell, policy, answer), group.size(), answer);
     };
     Verdict meant = means();
     while (meant.kind != Verdict::Kind::free) {
@@ -197,8 +196,8 @@ Verdict weighed(std::size_t index, const std::vector<std::size_t>& begun, const 
       answer = arbiter.judge(question);
       meant = means();
     }
-    if (meant.kind == Verdict::Kind::free || !policy.coordinates()) return meant;
-    const PassingOrders orders = orders_for(question, cell, answer);
+    if (meant.kind == Verdict::Kind::free || !policy.admits_groups()) return meant;
+    const PassingOrders orders = orders_for(question, cell, policy, answer);
     if (!alone) alone = std::move(meant);
     if (answer.kind != Verdict::Kind::free) return *alone;
     const auto larger = with_next_jobs(group, plan, begun, orders.in_the_way);

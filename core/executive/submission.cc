@@ -274,7 +274,7 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
     view.conflicts.push_back(view_of(wait, *cell_, *this));
   }
   if (!view.conflicts.empty()) return done(std::move(view));
-  judge_together(scheduler_.hypothetical(std::move(prepared->trajectory), now_), std::nullopt,
+  judge_together(scheduler_.hypothetical(std::move(prepared->trajectory)), std::nullopt,
                  [this, view = std::move(view), done = std::move(done)](Verdict verdict) mutable {
                    view.kind = verdict.kind;
                    if (verdict.kind == Verdict::Kind::free) view.earliest_start_s = 0.0;

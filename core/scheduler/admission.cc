@@ -69,15 +69,6 @@ std::vector<const Job*> Scheduler::occupying() const {
   return jobs;
 }
 
-// Where a motion will be at `when` if it goes on as planned; negative: still to start.
-Duration Scheduler::progress_at(const Record& record, TimePoint when) {
-  const Job& job = record.job;
-  const Duration progress = job.state == JobState::scheduled && !job.late
-                                ? record.from_progress + (when - *job.scheduled_at)
-                                : job.progress + (when - job.progress_seen_at);
-  return std::min(progress, job.trajectory->duration());
-}
-
 // ---- Who may be judged ----
 
 std::optional<Wait> Scheduler::stop_of(const Record& record) const {
@@ -178,29 +169,6 @@ std::vector<JobId> Scheduler::next_recheck() const {
   return {};
 }
 
-// After a stop of several arms their motions are tried first as they were: all at once.
-std::vector<JobId> Scheduler::held_together() const {
-  std::vector<JobId> held;
-  if (graph_) return held;  // their order stands
-  if (held_together_tried_ == version_) return held;
-  const std::vector<const Job*> occupied_by = occupying();
-  for (const Job* job : occupied_by) {
-    const bool holding = job->state == JobState::holding;
-    if (holding && may_be_judged(records_.at(job->id), occupied_by)) held.push_back(job->id);
-  }
-  return held.size() >= 2 ? held : std::vector<JobId>{};
-}
-
-std::optional<JobId> Scheduler::next_to_move_forward() const {
-  if (graph_) return std::nullopt;
-  for (JobId id : past_queue_) {
-    const Record& record = records_.at(id);
-    const bool ahead = record.job.state == JobState::scheduled && !record.dispatched;
-    if (ahead && record.forward_tried < freed_at_) return id;
-  }
-  return std::nullopt;
-}
-
 std::optional<JobId> Scheduler::next_candidate() const {
   const Job* best = nullptr;
   const std::map<JobId, int> urgency = urgencies();
@@ -232,19 +200,11 @@ std::optional<JobId> Scheduler::next_candidate() const {
 bool Scheduler::ask_next() {
   if (open_) return false;
   renew_lanes();
-  const bool braking =
-      std::ranges::any_of(past_queue_, [this](JobId id) { return records_.at(id).job.stopping; });
-  if (braking && !graph_) return false;
   bool put_off = false;
   if (auto recheck = next_recheck(); !recheck.empty()) {
     ask(std::move(recheck), Purpose::recheck);
   } else if (const auto opens = next_aside_in_a_ring()) {
     ask_aside(*opens);
-  } else if (auto held = held_together(); !held.empty()) {
-    held_together_tried_ = version_;
-    ask(std::move(held), Purpose::start);
-  } else if (const auto ahead = next_to_move_forward()) {
-    ask({*ahead}, Purpose::forward);
   } else {
     auto candidate = next_candidate();
     for (; candidate && waits_for_sequence(*candidate); candidate = next_candidate()) {
@@ -259,14 +219,13 @@ bool Scheduler::ask_next() {
   return put_off;
 }
 
-Question Scheduler::hypothetical(TrajectoryPtr trajectory, TimePoint start_at) const {
+Question Scheduler::hypothetical(TrajectoryPtr trajectory) const {
   Question question{.version = version_,
-                    .start_at = start_at,
+                    .start_at = now_,
                     .candidates = {Motion{JobId{0}, std::move(trajectory), Duration{}}},
                     .others = {},
                     .rest = rest_,
-                    .method = policy_->method(),
-                    .find_earliest = true};
+                    .method = policy_->method()};
   add_others(question, {});
   return question;
 }
@@ -297,48 +256,15 @@ std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory,
   return waits;
 }
 
-// Every motion that holds a reservation and is none of the candidates.
-void Scheduler::add_others(Question& question, const std::vector<JobId>& candidates) const {
-  if (graph_) return add_coordinated(question, candidates);
-  for (JobId id : past_queue_) {
-    const Record& record = records_.at(id);
-    if (!holds_reservation(record) || std::ranges::find(candidates, id) != candidates.end()) {
-      continue;
-    }
-    const bool begun = record.job.state != JobState::scheduled;
-    question.others.push_back(Motion{.job = id,
-                                     .trajectory = record.job.trajectory,
-                                     .progress = progress_at(record, question.start_at),
-                                     .may_stand = record.job.late,
-                                     .proven = begun ? record.job.progress : record.from_progress});
-  }
-}
-
 void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
-  const bool recheck = purpose == Purpose::recheck;
-  const TimePoint start_at = now_ + allowance_;
-  for (JobId id : past_queue_) {  // late arms of which nothing is heard stand where they are
-    Record& record = records_.at(id);
-    if (has_not_begun(record) && record.job.late) record.job.progress_seen_at = now_;
-  }
   Question question{.version = version_,
-                    .start_at = start_at,
+                    .start_at = now_,
                     .candidates = {},
                     .others = {},
                     .rest = rest_,
-                    .method = recheck ? policy_->recheck_method() : policy_->method(),
-                    .find_earliest = !recheck && jobs.size() == 1 && policy_->schedules_ahead()};
+                    .method = policy_->method()};
   if (purpose == Purpose::start) question.effort = records_.at(jobs.front()).effort;
-  for (JobId id : jobs) {
-    const Record& record = records_.at(id);
-    if (graph_) {
-      question.candidates.push_back(motion_now(record));
-      continue;
-    }
-    const bool under_way = holds_reservation(record) && purpose != Purpose::forward;
-    const Duration progress = under_way ? progress_at(record, start_at) : record.job.progress;
-    question.candidates.push_back(Motion{id, record.job.trajectory, progress});
-  }
+  for (JobId id : jobs) question.candidates.push_back(motion_now(records_.at(id)));
   add_others(question, jobs);
   std::vector<Passage> unknown;
   if (purpose == Purpose::start) {
@@ -346,7 +272,7 @@ void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
     unknown = std::move(outlook.unknown);
     std::ranges::move(outlook.ahead, std::back_inserter(unknown));
   }
-  open_ = OpenQuestion{version_, now_, start_at, std::move(jobs), purpose};
+  open_ = OpenQuestion{version_, std::move(jobs), purpose};
   add_passages(question, std::move(unknown));
   effects_.push_back(Judge{std::move(question)});
 }
@@ -358,55 +284,9 @@ void Scheduler::on(const Judged& input) {
   const OpenQuestion question = std::move(*open_);
   open_.reset();
   learn(question, input.verdict);
-  if (question.version != version_) {
-    if (question.jobs.size() > 1) held_together_tried_ = 0;
-    return;  // stale: settle() asks again
-  }
+  if (question.version != version_) return;  // stale: settle() asks again
   if (question.aside) return answer_aside(input.verdict, *question.aside);
-  if (graph_) return answer_coordinated(input.verdict, question);
-  const bool free = input.verdict.kind == Verdict::Kind::free;
-  const Duration needed = now_ - question.asked_at;
-  const bool recheck = question.purpose == Purpose::recheck;
-  const auto& later = input.verdict.earliest_start;
-  const bool starts = !recheck && (free || later);
-  if (starts && now_ > question.start_at + (free ? Duration{} : *later)) {
-    // The instant that was judged has passed. Ask for a later one.
-    allowance_ = std::min(std::max(3 * needed / 2, 2 * allowance_), kAllowanceMax);
-    if (question.jobs.size() > 1) held_together_tried_ = 0;
-    return;
-  }
-  const Duration enough = std::max(allowance_ / 2, 2 * needed);
-  allowance_ = std::max(kAllowanceMin, std::min(allowance_, enough));
-  Record& first = records_.at(question.jobs.front());
-  if (free && recheck) {
-    first.checked_at = version_;
-  } else if (question.purpose == Purpose::forward || (!free && !recheck && later)) {
-    admit_ahead(first, input.verdict, question);
-  } else if (free) {
-    if (!leaves_a_sequence(question.jobs)) return;
-    sequence_.admitted(question.jobs);
-    ++version_;
-    for (JobId id : question.jobs) admit(records_.at(id), question.start_at);
-  } else if (question.jobs.size() == 1) {
-    if (!recheck && is_asked_again(first, input.verdict)) return;
-    refuse(first, input.verdict, recheck);
-  }  // else: held jobs that cannot go on together are judged one by one
-}
-
-void Scheduler::admit(Record& record, TimePoint start_at) {
-  Job& job = record.job;
-  set_state(record, JobState::scheduled);
-  job.scheduled_at = start_at;
-  job.waits_on.clear();
-  record.after_stop = AfterStop::hold;
-  record.effort = 1;
-  record.judged_at = 0;
-  record.checked_at = version_;
-  record.from_progress = job.progress;
-  expect_end(record, start_at);
-  changed(record);
-  record.dispatched = false;
-  if (start_at <= now_ + std::max(kDispatchAhead, allowance_)) dispatch(record);
+  answer(input.verdict, question);
 }
 
 // Later than this, going on from `start_at`, it may overrun.
@@ -422,37 +302,6 @@ bool Scheduler::overruns(Record& record) const {
   if (!record.overrun_at || now_ < *record.overrun_at || record.job.stopping) return false;
   record.overrun_at = std::max(*record.overrun_at, record.moved_at + kStandstill);
   return now_ >= *record.overrun_at;
-}
-
-void Scheduler::dispatch(Record& record) {
-  record.dispatched = true;
-  record.plan_at = *record.job.scheduled_at;
-  record.plan_progress = record.from_progress;
-  record.job.waits_on.clear();
-  effects_.push_back(Dispatch{record.job.id, *record.job.scheduled_at, record.job.progress,
-                              record.job.trajectory->duration()});
-}
-
-// A later start than now that is free, or one for a scheduled job that is earlier than its own.
-void Scheduler::admit_ahead(Record& record, const Verdict& verdict, const OpenQuestion& question) {
-  Job& job = record.job;
-  const bool forward = question.purpose == Purpose::forward;
-  if (forward) record.forward_tried = version_;
-  const bool free = verdict.kind == Verdict::Kind::free;
-  if (!free && !verdict.earliest_start) return;  // forward: it keeps its start
-  const TimePoint start_at = question.start_at + (free ? Duration{} : *verdict.earliest_start);
-  if (forward && start_at > *job.scheduled_at - kForwardMin) return;
-  if (!forward) {
-    if (!leaves_a_sequence(question.jobs)) return;
-    sequence_.admitted(question.jobs);
-  }
-  std::vector<Wait> waits;
-  for (const Conflict& conflict : verdict.conflicts) waits.push_back(wait_for(conflict));
-  ++version_;
-  admit(record, start_at);
-  if (forward) freed_at_ = version_;  // others may move forward behind it
-  record.forward_tried = version_;
-  if (!record.dispatched) set_waits(record, std::move(waits));
 }
 
 // Where the budget of evaluations has ended it is not put off yet, but judged again with a larger

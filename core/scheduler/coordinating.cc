@@ -54,8 +54,8 @@ CoordinatedMotion Scheduler::coordinated(const Record& record) const {
           .priority = record.job.priority};
 }
 
-void Scheduler::add_coordinated(Question& question, const std::vector<JobId>& candidates) const {
-  for (const CoordinatedMotion& motion : graph_->motions()) {
+void Scheduler::add_others(Question& question, const std::vector<JobId>& candidates) const {
+  for (const CoordinatedMotion& motion : graph_.motions()) {
     if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;
     question.others.push_back(motion_now(records_.at(motion.job)));
   }
@@ -71,18 +71,18 @@ PassingOrders Scheduler::orders_for(const Question& hypothetical, const Verdict&
                                                  .arms = motion.trajectory->arms(),
                                                  .duration = motion.trajectory->duration()});
   }
-  return graph_->try_to_admit(candidates, verdict.regions);
+  return policy_->decide(graph_.question(candidates, verdict.regions));
 }
 
 Verdict Scheduler::meaning(const Question& hypothetical, Verdict verdict) const {
-  if (!graph_) return verdict;
+  if (verdict.kind != Verdict::Kind::free) return verdict;
   const PassingOrders orders = orders_for(hypothetical, verdict);
   return as_verdict(orders, hypothetical.candidates.size(), std::move(verdict));
 }
 
 std::optional<Question> Scheduler::together(const Question& hypothetical,
                                             const Verdict& verdict) const {
-  if (!graph_ || hypothetical.version != version_) return std::nullopt;
+  if (!policy_->admits_groups() || hypothetical.version != version_) return std::nullopt;
   if (verdict.kind != Verdict::Kind::free) return std::nullopt;
   std::vector<JobId> group;
   for (const Motion& motion : hypothetical.candidates) group.push_back(motion.job);
@@ -97,7 +97,7 @@ std::optional<Question> Scheduler::together(const Question& hypothetical,
 
 // ---- The answer ----
 
-void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& question) {
+void Scheduler::answer(const Verdict& verdict, const OpenQuestion& question) {
   Record& first = records_.at(question.jobs.front());
   const bool recheck = question.purpose == Purpose::recheck;
   if (verdict.kind != Verdict::Kind::free) {
@@ -113,7 +113,7 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
     first.checked_at = version_;
     return;
   }
-  if (graph_->holds(first.job.id)) {  // was stopped on its way; its orders stand
+  if (graph_.holds(first.job.id)) {  // was stopped on its way; its orders stand
     std::vector<Wait> waits;
     for (const PairRegions& pair : verdict.regions) {
       if (const auto* arm = std::get_if<ArmId>(&pair.b)) {
@@ -133,9 +133,9 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
   std::vector<CoordinatedMotion> candidates;
   std::vector<Duration> work_behind = work_;
   std::vector<JobId> in_front = question.jobs;
-  for (const CoordinatedMotion& motion : graph_->motions()) {
+  for (const CoordinatedMotion& motion : graph_.motions()) {
     const auto& ages_from = records_.at(motion.job).ages_from;
-    if (ages_from && now_ - *ages_from >= cell_->scheduling.aging) graph_->keep_place(motion.job);
+    if (ages_from && now_ - *ages_from >= cell_->scheduling.aging) graph_.keep_place(motion.job);
     in_front.push_back(motion.job);
   }
   for (JobId id : in_front) {
@@ -143,8 +143,8 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
     for (ArmId arm : trajectory.arms()) work_behind[arm.index()] -= trajectory.duration();
   }
   for (JobId id : question.jobs) candidates.push_back(coordinated(records_.at(id)));
-  graph_->set_work_behind(std::move(work_behind));
-  const PassingOrders orders = graph_->try_to_admit(candidates, verdict.regions);
+  graph_.set_work_behind(std::move(work_behind));
+  const PassingOrders orders = policy_->decide(graph_.question(candidates, verdict.regions));
   if (tries_together(question, orders.obstacles.empty())) return;
   if (orders.obstacles.empty()) {
     if (!leaves_a_sequence(question.jobs)) {
@@ -152,8 +152,8 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
       return;
     }
     sequence_.admitted(question.jobs);
-    graph_->admit(candidates, orders);
-    admit_coordinated(question.jobs, orders);
+    graph_.admit(candidates, orders);
+    admit(question.jobs, orders);
     return;
   }
   std::vector<Wait> waits;
@@ -174,6 +174,7 @@ void Scheduler::answer_coordinated(const Verdict& verdict, const OpenQuestion& q
 // For some of what waits there is no order one by one, whether these go or not: all are tried as
 // one; where that fails too, these go alone. Whether something else is asked now.
 bool Scheduler::tries_together(const OpenQuestion& question, bool can_go) {
+  if (!policy_->admits_groups()) return false;
   const bool tried = together_ && together_->version == version_;
   if (!can_go) {
     if (!tried || together_->alone.empty()) return false;
@@ -200,7 +201,7 @@ std::set<JobId> Scheduler::first_of_arms(const std::vector<JobId>& group) const 
   for (const auto& queue : order_) {
     std::size_t left = kTogetherMax;
     for (auto id = queue.begin(); id != queue.end() && left > 0; ++id) {
-      if (graph_->holds(*id) || std::ranges::find(group, *id) != group.end()) continue;
+      if (graph_.holds(*id) || std::ranges::find(group, *id) != group.end()) continue;
       jobs.insert(*id);
       --left;
     }
@@ -224,9 +225,9 @@ std::vector<JobId> Scheduler::with_all_that_wait(const std::vector<JobId>& group
   return all;
 }
 
-void Scheduler::admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders) {
+void Scheduler::admit(const std::vector<JobId>& jobs, const PassingOrders& orders) {
   ++version_;
-  const std::size_t before = graph_->motions().size() - jobs.size();
+  const std::size_t before = graph_.motions().size() - jobs.size();
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     Record& record = records_.at(jobs[i]);
     Job& job = record.job;
@@ -236,7 +237,7 @@ void Scheduler::admit_coordinated(const std::vector<JobId>& jobs, const PassingO
     record.after_stop = AfterStop::hold;
     record.judged_at = 0;
     record.checked_at = version_;
-    record.from_progress = job.progress;
+    record.effort = 1;
     record.dispatched = false;
     record.horizon = from_seconds(stopping_reach_s(*cell_, *job.trajectory)) +
                      cell_->monitor.reaction + kHorizon;
@@ -249,8 +250,9 @@ void Scheduler::admit_coordinated(const std::vector<JobId>& jobs, const PassingO
 std::vector<JobId> Scheduler::with_next_jobs(const std::vector<JobId>& group,
                                              const std::vector<ArmId>& in_the_way) const {
   std::vector<JobId> larger = group;
+  if (!policy_->admits_groups()) return larger;
   const auto goes = [&](JobId id) {
-    return graph_->holds(id) || std::ranges::find(larger, id) != larger.end();
+    return graph_.holds(id) || std::ranges::find(larger, id) != larger.end();
   };
   for (ArmId arm : in_the_way) {
     const auto& queue = order_[arm.index()];
@@ -285,22 +287,22 @@ void Scheduler::dispatch_ready() {
 }
 
 void Scheduler::explain_pause(Record& record) {
-  if (const auto held = graph_->held_back(record.job.id)) set_waits(record, {wait_for(*held)});
+  if (const auto held = graph_.held_back(record.job.id)) set_waits(record, {wait_for(*held)});
 }
 
 // What keeps an admitted job from going on, or from beginning; nothing: it goes, or is about to.
 std::optional<Wait> Scheduler::held_where_it_stands(const Record& record) const {
-  if (!graph_ || waiting(record) || record.job.stopping) return std::nullopt;
+  if (waiting(record) || record.job.stopping) return std::nullopt;
   const bool not_told = record.job.state == JobState::scheduled && !record.dispatched;
   if (!not_told && !record.job.pausing) return std::nullopt;
-  if (graph_->limit(record.job.id) > record.job.progress + kAtLimit) return std::nullopt;
-  const auto held = graph_->held_back(record.job.id);
+  if (graph_.limit(record.job.id) > record.job.progress + kAtLimit) return std::nullopt;
+  const auto held = graph_.held_back(record.job.id);
   return held ? std::optional(wait_for(*held)) : std::nullopt;
 }
 
 // It moves only after others have moved.
 bool Scheduler::stands(const Record& record) const {
-  const bool behind = record.job.state == JobState::scheduled && graph_ && !at_head(record);
+  const bool behind = record.job.state == JobState::scheduled && !at_head(record);
   return waiting(record) || behind || held_where_it_stands(record).has_value();
 }
 
@@ -309,9 +311,9 @@ void Scheduler::dispatch_if_ready(Record& record) {
   if (!at_head(record)) return;
   if (!job.started_at && start_mismatch(*job.trajectory)) return withdraw(record, AfterStop::hold);
   if (stop_of(record) || record.checked_at < disturbed_at_) return;
-  const Duration limit = graph_->limit(job.id);
+  const Duration limit = graph_.limit(job.id);
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {
-    const auto held = graph_->held_back(job.id);
+    const auto held = graph_.held_back(job.id);
     if (held && held->arm && !job.started_at) return withdraw(record, AfterStop::hold);
     if (job.started_at && !job.pausing) {  // stopped on its way: it pauses there until it may go on
       job.pausing = true;
@@ -322,10 +324,8 @@ void Scheduler::dispatch_if_ready(Record& record) {
   }
   job.pausing = false;
   const Duration authority = std::min(limit, job.progress + record.horizon);
-  graph_->granted(job.id, authority);
+  graph_.granted(job.id, authority);
   record.dispatched = true;
-  record.plan_at = now_;
-  record.plan_progress = record.from_progress = job.progress;
   job.scheduled_at = now_;
   expect_end(record, now_);
   set_waits(record, {});
@@ -336,7 +336,7 @@ void Scheduler::dispatch_if_ready(Record& record) {
 void Scheduler::extend_authority(JobId moved) {
   extend_own_authority(records_.at(moved));
   std::vector<JobId> behind;
-  for (const Precedence& precedence : graph_->precedences()) {
+  for (const Precedence& precedence : graph_.precedences()) {
     if (precedence.first() == moved) behind.push_back(precedence.second());
   }
   for (JobId id : behind) {
@@ -355,11 +355,11 @@ void Scheduler::extend_own_authority(Record& record) {
       (record.job.state == JobState::scheduled || record.job.state == JobState::running);
   if (!in_motion) return;
   const JobId job = record.job.id;
-  const Duration limit = graph_->limit(job);
+  const Duration limit = graph_.limit(job);
   const Duration authority = std::min(limit, record.job.progress + record.horizon);
-  const Duration granted = graph_->find(job)->authority;
+  const Duration granted = graph_.find(job)->authority;
   if (authority <= granted || (authority < granted + kGrantStep && authority < limit)) return;
-  graph_->granted(job, authority);
+  graph_.granted(job, authority);
   effects_.push_back(Grant{job, authority});
 }
 
@@ -367,7 +367,7 @@ void Scheduler::extend_own_authority(Record& record) {
 void Scheduler::see_pauses(Record& record, Duration progress_before) {
   Job& job = record.job;
   if (job.state != JobState::running || job.stopping) return;
-  const Duration limit = graph_->limit(job.id);
+  const Duration limit = graph_.limit(job.id);
   if (limit < job.trajectory->duration() && job.progress + record.horizon >= limit) {
     expect_end(record, now_);
   }
@@ -387,20 +387,20 @@ void Scheduler::see_pauses(Record& record, Duration progress_before) {
 // Its motion is admitted no more: it rests where it is. Nor are those behind it on its arms, which
 // begin where it would have ended.
 void Scheduler::leave_graph(const Record& record) {
-  if (!graph_ || !graph_->holds(record.job.id)) return;
+  if (!graph_.holds(record.job.id)) return;
   std::set<JobId> behind;
   for (ArmId arm : record.job.trajectory->arms()) {
     const auto& queue = order_[arm.index()];
     const auto own = std::ranges::find(queue, record.job.id);
     if (own == queue.end()) continue;
     for (auto next = own + 1; next != queue.end(); ++next) {
-      if (graph_->holds(*next)) behind.insert(*next);
+      if (graph_.holds(*next)) behind.insert(*next);
     }
   }
   for (auto job = behind.rbegin(); job != behind.rend(); ++job) {
-    if (graph_->holds(*job)) withdraw(records_.at(*job), AfterStop::hold);
+    if (graph_.holds(*job)) withdraw(records_.at(*job), AfterStop::hold);
   }
-  graph_->abandon(record.job.id, record.job.progress, record.farthest);
+  graph_.abandon(record.job.id, record.job.progress, record.farthest);
 }
 
 }  // namespace armloom

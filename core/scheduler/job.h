@@ -78,7 +78,6 @@ struct Job {
   Duration progress{};           // trajectory time, last measured
   TimePoint progress_seen_at{};  // when it was measured
   bool pausing = false;          // running, at rest on its way until others have passed
-  bool late = false;             // loses time against its plan: may stand where it is for long
   std::vector<Wait> waits_on;
   // The deadlock that it is part of, this job first: each waits for the next one, the last for the
   // first. Empty: none. Kept by the job that ends for it.

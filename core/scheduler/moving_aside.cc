@@ -113,15 +113,11 @@ std::optional<Scheduler::Aside> Scheduler::untried(const Record& record, ArmId a
 
 // First whether the way itself will be free, then whether the job would find the arm gone.
 void Scheduler::ask_aside(Aside aside) {
-  const TimePoint start_at = now_ + allowance_;
-  Question question = hypothetical(aside.way, start_at);
-  question.find_earliest = false;
+  Question question = hypothetical(aside.way);
   if (aside.is_free) {
     const Record& record = records_.at(aside.way_of);
     const auto& joints = aside.way->joints();
-    question.candidates = {graph_
-                               ? motion_now(record)
-                               : Motion{record.job.id, record.job.trajectory, record.job.progress}};
+    question.candidates = {motion_now(record)};
     for (std::size_t j = 0; j < joints.size(); ++j) {
       question.rest[static_cast<Eigen::Index>(joints[j].index())] =
           aside.way->goal()[static_cast<Eigen::Index>(j)];
@@ -129,7 +125,7 @@ void Scheduler::ask_aside(Aside aside) {
     question.others.clear();
     add_others(question, {aside.way_of});
   }
-  open_ = OpenQuestion{version_, now_, start_at, {aside.way_of}, Purpose::aside, aside};
+  open_ = OpenQuestion{version_, {aside.way_of}, Purpose::aside, aside};
   effects_.push_back(Judge{std::move(question)});
 }
 

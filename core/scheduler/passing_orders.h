@@ -8,24 +8,11 @@
 #include "core/base/time.h"
 #include "core/coordination/conflict_region.h"
 #include "core/coordination/verdict.h"
+#include "core/scheduler/coordinated_motion.h"
 #include "core/scheduler/precedence.h"
 #include "core/scheduler/prediction.h"
 
 namespace armloom {
-
-// A motion that is admitted, or is to be. Of one arm the motions follow each other as they stand in
-// the list that they are given in; each begins where the one before ends.
-struct CoordinatedMotion {
-  JobId job;
-  std::vector<ArmId> arms;
-  Duration duration;
-  Duration progress{};   // as measured
-  Duration authority{};  // granted so far: no way back behind it
-  int priority = 0;
-  bool keeps_its_place = false;  // has been overtaken long enough
-};
-
-[[nodiscard]] bool share_an_arm(const CoordinatedMotion& a, const CoordinatedMotion& b);
 
 // Why a candidate cannot be admitted.
 struct Obstacle {
@@ -37,6 +24,15 @@ struct Obstacle {
   Duration other_time;
 };
 
+// Who is to pass first in the candidates' regions, beside what is admitted?
+struct OrderQuestion {
+  const std::vector<CoordinatedMotion>& admitted;
+  const std::vector<Precedence>& precedences;  // between these
+  const std::vector<CoordinatedMotion>& candidates;
+  const std::vector<PairRegions>& regions;
+  const std::vector<Duration>& work_behind;  // by ArmId: of jobs that are in neither list
+};
+
 // The answer: who passes first in every region, or what stands against it.
 struct PassingOrders {
   std::vector<Precedence> precedences;  // of every region, if admitted; those of before included
@@ -46,19 +42,26 @@ struct PassingOrders {
                                   // open it; ascending
 };
 
-// Finds the passing orders of the candidates' conflict regions under which everything comes to its
-// end, and of these the ones that cost least: the sum over arms of when each has done what is
-// admitted, and when the last one has done its work (what waits behind counted); motions of larger
-// priority before others. Nobody is made to go back: an order is open, or may be turned, as long as
-// the one who would have to wait has no authority in the region.
+// Finds the orders under which everything comes to its end, and of these the ones that cost least:
+// the sum over arms of when each has done what is admitted, and when the last one has done its work
+// (what waits behind counted); motions of larger priority before others. Orders of before are
+// turned where that helps.
 //
 // All assignments are tried for up to kTriedInFull free choices; beyond that, single choices are
 // changed while that helps.
 inline constexpr std::size_t kTriedInFull = 5;
-[[nodiscard]] PassingOrders find_passing_orders(
-    const std::vector<CoordinatedMotion>& admitted, const std::vector<Precedence>& precedences,
-    const std::vector<CoordinatedMotion>& candidates, const std::vector<PairRegions>& regions,
-    const std::vector<Duration>& work_behind);  // by ArmId: of jobs that are in neither list
+[[nodiscard]] PassingOrders cheapest_orders(const OrderQuestion& question);
+
+// Of one candidate: the orders in which all go on by the clock. What is admitted is predicted; the
+// candidate begins so much later than now that it passes each region before or after the other
+// without a stop on its way; it is the least such time, and no more than `latest` where given. From
+// then on the orders count, not the times: it begins when those it lets pass are as far as they
+// were to be then. Orders of before stay.
+[[nodiscard]] PassingOrders orders_in_time(const OrderQuestion& question,
+                                           std::optional<Duration> latest);
+
+// None: the candidates go beside what meets them nowhere.
+[[nodiscard]] PassingOrders orders_apart(const OrderQuestion& question);
 
 // The same as an answer to clients about the first of so many candidates: in conflict with the
 // obstacles, or free to start when it begins.

@@ -10,6 +10,7 @@
 #include "core/coordination/motion.h"
 #include "core/model/cell.h"
 #include "core/scheduler/job.h"
+#include "core/scheduler/passing_orders.h"
 
 namespace armloom {
 
@@ -24,19 +25,18 @@ class Policy {
   // Whether one more job may be judged beside the jobs that are scheduled, running or holding
   // (`occupying`, in order of submission). The job that it has to wait for, or nullopt.
   [[nodiscard]] virtual std::optional<JobId> capacity_taken_by(
-      const std::vector<const Job*>& occupying) const = 0;
+      const std::vector<const Job*>& /*occupying*/) const {
+    return std::nullopt;
+  }
 
-  // How candidates are compared with everything else.
+  // What geometry is asked of candidates.
   [[nodiscard]] virtual CheckMethod method() const = 0;
-  // Whether a job that cannot start now is given the earliest start that is free.
-  [[nodiscard]] virtual bool schedules_ahead() const { return false; }
+  // Who passes first where candidates meet what is admitted, or what stands against it.
+  [[nodiscard]] virtual PassingOrders decide(const OrderQuestion& question) const = 0;
   // Whether jobs go in rounds: one of each arm, and the next when all of these have ended.
   [[nodiscard]] virtual bool in_rounds() const { return false; }
-  // Whether motions go beside each other by the order in which they pass, held by authority over
-  // their progress (precedence_graph.h), instead of by times. method() is Coordinated then.
-  [[nodiscard]] virtual bool coordinates() const { return false; }
-  // How a motion is compared that is under way and was admitted by method().
-  [[nodiscard]] virtual CheckMethod recheck_method() const { return method(); }
+  // Whether a job that cannot go alone is tried together with others that wait.
+  [[nodiscard]] virtual bool admits_groups() const { return false; }
 };
 
 // The policies by name, with the cell's settings. Problem (invalid, "unknown-policy"): the name is

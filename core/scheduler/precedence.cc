@@ -18,7 +18,8 @@ ConflictRegion turned(ConflictRegion region) {
 
 }  // namespace
 
-Precedence::Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first)
+Precedence::Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first,
+                       bool waits_at_start)
     : first_(a_first ? a : b),
       second_(a_first ? b : a),
       region_(a_first ? region : turned(region)) {
@@ -34,6 +35,12 @@ Precedence::Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_fi
     }
   }
   std::ranges::reverse(steps_);
+  if (!waits_at_start || steps_.empty()) return;
+  Duration begins = steps_.front().until - steps_.front().limit;
+  for (const Step& step : steps_) begins = std::max(begins, step.until - step.limit);
+  if (begins <= Duration{}) return;
+  std::erase_if(steps_, [begins](const Step& step) { return step.until <= begins; });
+  steps_.insert(steps_.begin(), {begins, Duration{}});
 }
 
 std::optional<Duration> Precedence::limit(Duration progress_of_first) const {

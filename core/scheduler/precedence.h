@@ -14,8 +14,10 @@ namespace armloom {
 // late either of them is (an action dependency between two plans: Hoenig et al. 2019).
 class Precedence {
  public:
-  // `region` is of motions A and B in this order.
-  Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first);
+  // `region` is of motions A and B in this order. `waits_at_start`: the second does not leave its
+  // start before it can pass without a stop, if from then on both go on by the clock.
+  Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first,
+             bool waits_at_start = false);
 
   [[nodiscard]] JobId first() const { return first_; }
   [[nodiscard]] JobId second() const { return second_; }

@@ -39,11 +39,6 @@ CoordinatedMotion* PrecedenceGraph::motion(JobId job) {
   return const_cast<CoordinatedMotion*>(std::as_const(*this).find(job));
 }
 
-PassingOrders PrecedenceGraph::try_to_admit(const std::vector<CoordinatedMotion>& candidates,
-                                            const std::vector<PairRegions>& regions) const {
-  return find_passing_orders(motions_, precedences_, candidates, regions, work_behind_);
-}
-
 void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
                             const PassingOrders& orders) {
   for (const CoordinatedMotion& candidate : candidates) {

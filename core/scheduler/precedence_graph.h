@@ -33,9 +33,11 @@ class PrecedenceGraph {
   // By ArmId: the work that waits behind; only the choice between orders depends on it.
   void set_work_behind(std::vector<Duration> work) { work_behind_ = std::move(work); }
 
-  // Whether and how the candidates could go beside what is admitted. Changes nothing.
-  [[nodiscard]] PassingOrders try_to_admit(const std::vector<CoordinatedMotion>& candidates,
-                                           const std::vector<PairRegions>& regions) const;
+  // Who is to pass first where the candidates go beside what is admitted? Refers to all three.
+  [[nodiscard]] OrderQuestion question(const std::vector<CoordinatedMotion>& candidates,
+                                       const std::vector<PairRegions>& regions) const {
+    return {motions_, precedences_, candidates, regions, work_behind_};
+  }
   void admit(const std::vector<CoordinatedMotion>& candidates, const PassingOrders& orders);
 
   // What measurement proves; never goes back.

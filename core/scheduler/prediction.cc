@@ -12,11 +12,15 @@ struct Gate {
   Duration until;
 };
 
-// How a motion advances: at `progress` at `time`, from there second by second to the next entry.
-struct Stage {
-  Duration progress;
-  Duration time;
-};
+using Stage = Prediction::Stage;
+
+// Precondition: it comes there.
+Duration time_at(const std::vector<Stage>& stages, Duration progress) {
+  if (progress <= stages.front().progress) return Duration{};
+  const auto after = std::ranges::lower_bound(stages, progress, {}, &Stage::progress);
+  const Stage& from = *(after - 1);
+  return from.time + progress - from.progress;
+}
 
 struct Runner {
   std::vector<Gate> gates;  // by limit
@@ -30,10 +34,7 @@ struct Runner {
     if (stages.empty()) return std::nullopt;
     if (progress <= stages.front().progress) return Duration{};
     const bool known = ended || (next_gate < gates.size() && progress <= gates[next_gate].limit);
-    if (!known) return std::nullopt;
-    const auto after = std::ranges::lower_bound(stages, progress, {}, &Stage::progress);
-    const Stage& from = *(after - 1);
-    return from.time + std::min(progress, duration) - from.progress;
+    return known ? std::optional(time_at(stages, std::min(progress, duration))) : std::nullopt;
   }
 };
 
@@ -67,6 +68,7 @@ class Race {
       if (!runners_[m].ended) prediction.stuck.push_back(m);
     }
     if (!prediction.stuck.empty()) prediction.ring = ring_from(prediction.stuck.front());
+    for (Runner& runner : runners_) prediction.stages.push_back(std::move(runner.stages));
     return prediction;
   }
 
@@ -134,6 +136,13 @@ class Race {
 };
 
 }  // namespace
+
+std::optional<Duration> Prediction::comes_to(std::size_t motion, Duration progress) const {
+  const std::vector<Stage>& way = stages[motion];
+  if (way.empty()) return std::nullopt;
+  if (progress > way.back().progress) return std::nullopt;
+  return time_at(way, progress);
+}
 
 Prediction predict(const std::vector<MotionAhead>& motions,
                    const std::vector<Dependency>& dependencies) {

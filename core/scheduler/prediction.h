@@ -27,11 +27,21 @@ struct Dependency {
 // When everything goes as fast as its trajectory says and waits where it has to. All times count
 // from now.
 struct Prediction {
+  // How a motion advances: at `progress` at `time`, from there second by second to the next entry.
+  struct Stage {
+    Duration progress;
+    Duration time;
+  };
+  std::vector<std::vector<Stage>> stages;  // empty: it never begins
+
   std::vector<Duration> begins;    // leaves its start; zero: has begun
   std::vector<Duration> ends;      // of motions that come to their end
   std::vector<std::size_t> stuck;  // ascending: motions that never do, because they wait in a ring
   std::vector<std::size_t> ring;   // one of these rings: each waits for the next, the last for the
                                    // first
+
+  // When the motion comes to `progress`; nothing: never.
+  [[nodiscard]] std::optional<Duration> comes_to(std::size_t motion, Duration progress) const;
 };
 
 // What a stop on the way and the start after it cost besides the wait.

@@ -26,8 +26,7 @@ Scheduler::Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configu
       came_by_(cell_->arms.size()),
       rests_at_(cell_->arms.size()),
       sequence_(cell_->execution.start_tolerance_rad),
-      allowance_(kAllowanceMin) {
-  if (policy_ && policy_->coordinates()) graph_.emplace(cell_->arms.size());
+      graph_(cell_->arms.size()) {
   if (!policy_) throw std::invalid_argument("Scheduler: no policy");
   if (rest_.size() != static_cast<Eigen::Index>(cell_->joints.size())) {
     throw std::invalid_argument("Scheduler: rest has another size than the cell has joints");
@@ -61,7 +60,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 void Scheduler::settle() {
   expire_and_overrun();
   settle_deadlocks();
-  dispatch_due();
+  dispatch_ready();
   fail_impossible_starts();
   bool put_off = true;
   while (put_off) {  // until a question is open, or nothing is left to be asked
@@ -166,10 +165,8 @@ void Scheduler::on(const MotionReport& input) {
   const Duration before = std::exchange(record.job.progress, input.progress);
   record.job.progress_seen_at = now_;
   if (input.progress > before) record.moved_at = now_;
-  if (graph_) {
-    graph_->progress(record.job.id, input.progress);
-    see_pauses(record, before);
-  }
+  graph_.progress(record.job.id, input.progress);
+  see_pauses(record, before);
   if (input.kind == MotionReport::Kind::progressed) {
     progress(record);
   } else {
@@ -184,37 +181,7 @@ void Scheduler::progress(Record& record) {
     if (!job.started_at) job.started_at = now_;
     changed(record);
   }
-  if (job.stopping) return;
-  if (graph_) {
-    extend_authority(job.id);
-  } else if (loses_time(record)) {
-    falls_behind(record);
-  } else if (job.late && now_ - record.plan_at >= kOnTimeAgain) {
-    plan_from_here(record);
-    job.late = false;
-    ++version_;
-  }
-}
-
-bool Scheduler::loses_time(const Record& record) const {
-  const Duration gained = record.job.progress - record.plan_progress;
-  return now_ - record.plan_at > gained + cell_->checking.delay;
-}
-
-bool Scheduler::has_not_begun(const Record& record) {
-  return record.job.state == JobState::scheduled && record.dispatched && !record.job.stopping;
-}
-
-// Motions beside it were admitted on a plan that it does not keep.
-void Scheduler::falls_behind(Record& record) {
-  plan_from_here(record);
-  record.job.late = true;
-  disturbed_at_ = ++version_;
-}
-
-void Scheduler::plan_from_here(Record& record) {
-  record.plan_at = now_;
-  record.plan_progress = record.job.progress;
+  if (!job.stopping) extend_authority(job.id);
 }
 
 void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
@@ -227,7 +194,6 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
   ++version_;
   record.farthest = report.farthest;
   job.stopping = false;
-  job.late = false;
   job.pausing = false;
   for (ArmId arm : job.trajectory->arms()) {
     rest_where_it_stands(arm);
@@ -236,14 +202,11 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
   }
   record.overrun_at.reset();
   if (report.kind == MotionReport::Kind::finished) {
-    const Duration planned = job.trajectory->duration() - record.plan_progress;
-    if (now_ - record.plan_at < planned - kForwardMin) freed_at_ = version_;
     rest_at_goal(record);
     end(record, JobState::succeeded, Reason::completed, "");
     effects_.push_back(Release{job.id});
     return;
   }
-  if (!graph_) disturbed_at_ = freed_at_ = version_;
   if (report.kind == MotionReport::Kind::faulted) {
     for (ArmId arm : job.trajectory->arms()) stopped_[arm.index()] = "fault: " + report.detail;
     end(record, JobState::failed, Reason::arm_fault, report.detail);
@@ -273,7 +236,6 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
 // A scheduled job whose arms know nothing of it yet: it waits again, or ends.
 void Scheduler::withdraw(Record& record, AfterStop then) {
   ++version_;  // others may have counted on its departure
-  if (!graph_) disturbed_at_ = version_;
   record.job.pausing = false;
   if (then != AfterStop::hold) {
     const bool held = record.job.started_at.has_value();
@@ -325,10 +287,9 @@ void Scheduler::on(const Stop& input) {
     if (!order_[arm.index()].empty()) {
       Record& record = records_.at(order_[arm.index()].front());
       const bool undispatched = record.job.state == JobState::scheduled && !record.dispatched;
-      if (graph_ && undispatched) continue;  // keeps its place between the others
+      if (undispatched) continue;  // keeps its place between the others
       if (holds_reservation(record) && !record.job.stopping) {
         brake(record, AfterStop::hold);
-        freed_at_ = version_;
         set_waits(record, {Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = input.cause}});
       }
     }
@@ -374,7 +335,7 @@ void Scheduler::set_state(Record& record, JobState state) {
 void Scheduler::end(Record& record, JobState state, Reason reason, std::string detail) {
   Job& job = record.job;
   if (state != JobState::succeeded) leave_graph(record);
-  if (graph_ && state == JobState::succeeded) graph_->finish(job.id);
+  if (state == JobState::succeeded) graph_.finish(job.id);
   set_state(record, state);
   job.stopping = false;
   job.ended_at = now_;
@@ -393,7 +354,6 @@ void Scheduler::end(Record& record, JobState state, Reason reason, std::string d
   unexplained_.erase(job.id);
   if (--priorities_.at(job.priority) == 0) priorities_.erase(job.priority);
   ++version_;
-  if (state != JobState::succeeded) freed_at_ = version_;
   changed(record);
   forget_predecessor(job.id, state == JobState::succeeded);
 }
@@ -428,9 +388,6 @@ void Scheduler::expire_and_overrun() {
       record.fail_detail = "has not moved for " + seconds_text(now_ - record.moved_at) +
                            ", and has had its duration by duration_scaling and duration_margin";
       brake(record, AfterStop::fail);
-    } else if (!graph_ && has_not_begun(record) && loses_time(record)) {
-      job.progress_seen_at = now_;  // nothing is heard of an arm that does not move
-      falls_behind(record);
     }
   }
 }
@@ -461,25 +418,6 @@ void Scheduler::give_up(Record& record) {
   effects_.push_back(Release{record.job.id});
 }
 
-// Starts whose time has come. Where something has changed that they have not been judged again for,
-// they wait for that.
-void Scheduler::dispatch_due() {
-  if (graph_) return dispatch_ready();
-  const bool braking =
-      std::ranges::any_of(past_queue_, [this](JobId id) { return records_.at(id).job.stopping; });
-  const std::vector<JobId> ids(past_queue_.begin(), past_queue_.end());
-  for (JobId id : ids) {
-    Record& record = records_.at(id);
-    const bool ahead = record.job.state == JobState::scheduled && !record.dispatched;
-    if (!ahead || now_ < *record.job.scheduled_at - kDispatchAhead) continue;
-    if (braking || record.checked_at < disturbed_at_ || !at_head(record)) {
-      withdraw(record, AfterStop::hold);
-    } else {
-      dispatch(record);
-    }
-  }
-}
-
 void Scheduler::ask_for_wake() {
   std::optional<TimePoint> next;
   const auto consider = [&next](TimePoint when) { next = next ? std::min(*next, when) : when; };
@@ -490,11 +428,6 @@ void Scheduler::ask_for_wake() {
     }
     if (record.overrun_at && !record.job.stopping) consider(*record.overrun_at);
     if (record.in_vain_since) consider(*record.in_vain_since + record.job.backlog_timeout);
-    if (!graph_ && record.job.state == JobState::scheduled && !record.dispatched) {
-      consider(*record.job.scheduled_at - kDispatchAhead);
-    }
-    if (!graph_ && has_not_begun(record))
-      consider(record.plan_at + cell_->checking.delay + Duration(1));
   }
   const bool undecided =
       std::ranges::any_of(rings_, [](const NamedRing& r) { return !r.way_out && !r.opens; });

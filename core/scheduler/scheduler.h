@@ -20,20 +20,6 @@
 
 namespace armloom {
 
-// How far ahead of the present a judgement's instant lies. It starts at the minimum, grows to one
-// and a half times what an answer needed that came after its instant (at least twofold), and is
-// halved by each answer in time, to no less than twice what that one needed.
-inline constexpr Duration kAllowanceMin = std::chrono::milliseconds(3);
-inline constexpr Duration kAllowanceMax = std::chrono::seconds(1);
-
-// A motion is handed to its arms this long before it starts; until then its start can be moved.
-inline constexpr Duration kDispatchAhead = std::chrono::milliseconds(20);
-// A start is moved forward by no less than this.
-inline constexpr Duration kForwardMin = std::chrono::milliseconds(50);
-
-// A late arm that keeps up with the clock for this long is late no more.
-inline constexpr Duration kOnTimeAgain = std::chrono::milliseconds(200);
-
 // A motion that takes longer than execution.duration_scaling and _margin allow overruns only when
 // it has not moved for this long: one that is slow or late comes to its end, and to end it earlier
 // would free nobody's way.
@@ -87,12 +73,14 @@ class Scheduler {
   // ended job is ignored. Effects are to be carried out in order.
   [[nodiscard]] std::vector<Effect> step(const Input& input, TimePoint now);
 
+  // Where every joint stands, as far as it is not in motion; there where it set out.
+  [[nodiscard]] const Configuration& rest() const { return rest_; }
   // Where every joint will stand when all accepted jobs have succeeded: a new job has to begin
   // there.
   [[nodiscard]] Configuration predicted_rest() const;
 
   // What would be asked if this motion were to start at `start_at`; changes nothing.
-  [[nodiscard]] Question hypothetical(TrajectoryPtr trajectory, TimePoint start_at) const;
+  [[nodiscard]] Question hypothetical(TrajectoryPtr trajectory) const;
   // What its answer means for the policy: whether and when the motion could start.
   [[nodiscard]] Verdict meaning(const Question& hypothetical, Verdict verdict) const;
   // The question that would be asked next if that is a conflict, for it together with jobs that
@@ -130,15 +118,11 @@ class Scheduler {
     std::vector<Wait> found;              // with what
     std::optional<TimePoint> ages_from;   // first in conflict, or first without a place
     Version checked_at = 0;               // in motion: the version on which it was last found free
-    Duration from_progress{};             // where the present dispatch begins
     Duration farthest{};                  // MotionReport::farthest of the last rest
     std::optional<TimePoint> overrun_at;  // if it does not move before
     TimePoint moved_at{};                 // last
     std::optional<TimePoint> in_vain_since;  // on its path, for what no job moves
     bool dispatched = false;    // the arms have the motion; else it is scheduled at most
-    Version forward_tried = 0;  // scheduled: the version on which an earlier start was sought
-    Duration plan_progress{};   // progress at plan_at: from there it should advance with the clock
-    TimePoint plan_at{};
     std::map<ArmId, AsidesTried> asides_tried;  // of arms that could make way for it
     Duration horizon{};  // coordinated: how far ahead of its progress its authority may reach
     JobId helps{0};      // Submit::helps, and what that helps; else itself
@@ -161,7 +145,6 @@ class Scheduler {
   enum class Purpose {
     start,    // of a job that waits
     recheck,  // of a motion that is under way or scheduled
-    forward,  // an earlier start of a scheduled job
     aside,    // whether an arm could go aside, and the job then pass
   };
   struct Aside {
@@ -174,8 +157,6 @@ class Scheduler {
   };
   struct OpenQuestion {
     Version version;
-    TimePoint asked_at;
-    TimePoint start_at;
     std::vector<JobId> jobs;
     Purpose purpose;
     std::optional<Aside> aside = {};
@@ -200,10 +181,6 @@ class Scheduler {
   void on(const Interrupt& input);
   void on(const Wake& input);
   void progress(Record& record);
-  [[nodiscard]] bool loses_time(const Record& record) const;
-  [[nodiscard]] static bool has_not_begun(const Record& record);  // though its arms have the motion
-  void falls_behind(Record& record);
-  void plan_from_here(Record& record);
   void forget_predecessor(JobId ended, bool succeeded);
   void brake(Record& record, AfterStop then);
   void withdraw(Record& record, AfterStop then);
@@ -212,7 +189,6 @@ class Scheduler {
   void end(Record& record, JobState state, Reason reason, std::string detail);
   void settle();  // deadlines, waits, the next question, the next wake
   void expire_and_overrun();
-  void dispatch_due();
   void ask_for_wake();
   void leave_graph(const Record& record);
   void changed(const Record& record) { changed_.insert(record.job.id); }
@@ -228,14 +204,9 @@ class Scheduler {
   void fail_impossible_starts();
   [[nodiscard]] std::optional<std::string> start_mismatch(const Trajectory& trajectory) const;
   [[nodiscard]] std::vector<JobId> next_recheck() const;
-  [[nodiscard]] std::vector<JobId> held_together() const;
   [[nodiscard]] std::optional<JobId> next_candidate() const;
-  [[nodiscard]] std::optional<JobId> next_to_move_forward() const;
   void ask(std::vector<JobId> jobs, Purpose purpose);
-  void dispatch(Record& record);
-  void admit_ahead(Record& record, const Verdict& verdict, const OpenQuestion& question);
   void add_others(Question& question, const std::vector<JobId>& candidates) const;
-  void admit(Record& record, TimePoint start_at);
   void expect_end(Record& record, TimePoint start_at) const;
   [[nodiscard]] bool overruns(Record& record) const;
   void see_whether_in_vain(Record& record) const;
@@ -252,8 +223,7 @@ class Scheduler {
   [[nodiscard]] std::optional<Wait> order_of(const Record& record) const;
   [[nodiscard]] std::vector<Wait> found_in_the_way(const Record& record) const;
   [[nodiscard]] WaitsFor waits_for() const;
-  [[nodiscard]] std::optional<JobId> has_to_move_first(const Record& record,
-                                                       const Wait& wait) const;
+  [[nodiscard]] std::optional<JobId> has_to_move_first(const Wait& wait) const;
   [[nodiscard]] std::map<JobId, int> urgencies() const;  // empty: all are the same
   [[nodiscard]] bool is_aged(const Record& record) const;
   [[nodiscard]] bool waits_beyond_turns(const Record& record) const;
@@ -268,7 +238,6 @@ class Scheduler {
   void untell(const Ring& ring);
 
   [[nodiscard]] std::vector<const Job*> occupying() const;  // scheduled, in motion, held
-  [[nodiscard]] static Duration progress_at(const Record& record, TimePoint when);
   [[nodiscard]] bool at_head(const Record& record) const;
   [[nodiscard]] bool holds_reservation(const Record& record) const;
   [[nodiscard]] static bool waiting(const Record& record);
@@ -300,15 +269,14 @@ class Scheduler {
 
   // coordinating.cc: policies that coordinate
   [[nodiscard]] Motion motion_now(const Record& record) const;
-  void add_coordinated(Question& question, const std::vector<JobId>& candidates) const;
-  void answer_coordinated(const Verdict& verdict, const OpenQuestion& question);
+  void answer(const Verdict& verdict, const OpenQuestion& question);
   [[nodiscard]] CoordinatedMotion coordinated(const Record& record) const;
   [[nodiscard]] PassingOrders orders_for(const Question& hypothetical,
                                          const Verdict& verdict) const;
   [[nodiscard]] bool tries_together(const OpenQuestion& question, bool can_go);
   [[nodiscard]] std::vector<JobId> with_all_that_wait(const std::vector<JobId>& group) const;
   [[nodiscard]] std::set<JobId> first_of_arms(const std::vector<JobId>& group) const;
-  void admit_coordinated(const std::vector<JobId>& jobs, const PassingOrders& orders);
+  void admit(const std::vector<JobId>& jobs, const PassingOrders& orders);
   [[nodiscard]] std::vector<JobId> with_next_jobs(const std::vector<JobId>& group,
                                                   const std::vector<ArmId>& in_the_way) const;
   [[nodiscard]] bool may_follow(const Record& record) const;
@@ -340,15 +308,12 @@ class Scheduler {
   bool lanes_changed_ = true;       // otherwise than the sequence knows
   Version version_ = 1;
   Version disturbed_at_ = 0;         // the last time an arm came to rest off its plan
-  Version freed_at_ = 0;             // the last time a motion ended otherwise than planned
-  Version held_together_tried_ = 0;  // the version on which all held jobs were judged as one
-  Duration allowance_;               // how far ahead of now a question's instant lies
   std::set<JobId> round_;            // policies with rounds: the jobs of the present one
   bool round_begun_ = false;
   std::vector<NamedRing> rings_;  // told in an earlier step
   std::optional<OpenQuestion> open_;
   std::optional<Together> together_;
-  std::optional<PrecedenceGraph> graph_;  // policies that coordinate
+  PrecedenceGraph graph_;  // all that is admitted
   std::optional<TimePoint> wake_at_;
 
   TimePoint now_{};              // of the present step

@@ -37,9 +37,8 @@ bool Scheduler::lets_another_pass(const Record& record) const {
          waiting(records_.at(*record.lets_pass));
 }
 
-// What is undecided counts as a conflict: it stays so while nothing moves. But two that are held
-// may go on together though neither can alone, until that has been tried.
-std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wait& wait) const {
+// What is undecided counts as a conflict: it stays so while nothing moves.
+std::optional<JobId> Scheduler::has_to_move_first(const Wait& wait) const {
   if (wait.kind == Wait::Kind::order) {  // it shall be done before, lest it never can be
     const bool still = active_.contains(*wait.job) && stands(records_.at(*wait.job));
     return still ? wait.job : std::nullopt;
@@ -54,10 +53,7 @@ std::optional<JobId> Scheduler::has_to_move_first(const Record& record, const Wa
     first = queue.empty() ? std::nullopt : std::optional(queue.front());
   }
   if (!first) return std::nullopt;
-  const Record& other = records_.at(*first);
-  const bool both_held = record.job.state == JobState::holding &&
-                         other.job.state == JobState::holding && held_together_tried_ != version_;
-  return stands(other) && !both_held ? first : std::nullopt;
+  return stands(records_.at(*first)) ? first : std::nullopt;
 }
 
 // What was found when it was judged last, if that still counts; of what is admitted, what holds it.
@@ -82,7 +78,7 @@ WaitsFor Scheduler::waits_for() const {
     }
     if (lets_another_pass(record)) edges.push_back({id, *record.lets_pass});
     for (const Wait& wait : found_in_the_way(record)) {
-      const auto first = has_to_move_first(record, wait);
+      const auto first = has_to_move_first(wait);
       if (!first) continue;
       if (wait.kind == Wait::Kind::arm) {
         edges.push_back({id, *wait.arm});
@@ -173,7 +169,7 @@ bool Scheduler::waits_beyond_turns(const Record& record) const {
     if (wait.kind != Wait::Kind::arm) return wait.kind == Wait::Kind::object;
     const auto& queue = order_[wait.arm->index()];
     const bool moves = !queue.empty() && !waiting(records_.at(queue.front()));
-    return !moves && !has_to_move_first(record, wait);
+    return !moves && !has_to_move_first(wait);
   });
 }
 
@@ -226,7 +222,7 @@ void Scheduler::name_deadlocks() {
     if (queue.empty()) return false;
     const Record& record = records_.at(queue.front());
     return std::ranges::any_of(found_in_the_way(record), [&](const Wait& wait) {
-      return wait.kind != Wait::Kind::order && has_to_move_first(record, wait).has_value();
+      return wait.kind != Wait::Kind::order && has_to_move_first(wait).has_value();
     });
   });
   if (!in_the_way) return;

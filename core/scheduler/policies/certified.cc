@@ -9,35 +9,22 @@ namespace {
 
 class CertifiedPolicy final : public Policy {
  public:
-  explicit CertifiedPolicy(const CheckingSettings& checking) : checking_(checking) {}
+  explicit CertifiedPolicy(double tracking_error) : tracking_error_(tracking_error) {}
 
   std::string_view name() const override { return "certified"; }
-
-  std::optional<JobId> capacity_taken_by(const std::vector<const Job*>&) const override {
-    return std::nullopt;
+  CheckMethod method() const override { return Coordinated{tracking_error_}; }
+  PassingOrders decide(const OrderQuestion& question) const override {
+    return orders_in_time(question, Duration{});
   }
 
-  CheckMethod method() const override { return certified(checking_); }
-  CheckMethod recheck_method() const override { return certified_under_way(checking_); }
-
  private:
-  CheckingSettings checking_;
+  double tracking_error_;
 };
 
 }  // namespace
 
-CheckMethod certified(const CheckingSettings& checking) {
-  return Certified{checking.delay, true, checking.tracking_error_rad};
-}
-
-// What was admitted may meanwhile have used up its band of delay: without it, a motion that keeps
-// to its plan asks for less than it was granted.
-CheckMethod certified_under_way(const CheckingSettings& checking) {
-  return Certified{Duration{}, true, checking.tracking_error_rad};
-}
-
 std::unique_ptr<const Policy> make_certified(const Cell& cell) {
-  return std::make_unique<CertifiedPolicy>(cell.checking);
+  return std::make_unique<CertifiedPolicy>(cell.checking.tracking_error_rad);
 }
 
 }  // namespace armloom

@@ -11,13 +11,11 @@ class CoordinatedPolicy final : public Policy {
   explicit CoordinatedPolicy(double tracking_error) : tracking_error_(tracking_error) {}
 
   std::string_view name() const override { return "coordinated"; }
-
-  std::optional<JobId> capacity_taken_by(const std::vector<const Job*>&) const override {
-    return std::nullopt;
-  }
-
+  bool admits_groups() const override { return true; }
   CheckMethod method() const override { return Coordinated{tracking_error_}; }
-  bool coordinates() const override { return true; }
+  PassingOrders decide(const OrderQuestion& question) const override {
+    return cheapest_orders(question);
+  }
 
  private:
   double tracking_error_;

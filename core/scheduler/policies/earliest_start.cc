@@ -8,26 +8,22 @@ namespace {
 
 class EarliestStartPolicy final : public Policy {
  public:
-  explicit EarliestStartPolicy(const CheckingSettings& checking) : checking_(checking) {}
+  explicit EarliestStartPolicy(double tracking_error) : tracking_error_(tracking_error) {}
 
   std::string_view name() const override { return "earliest_start"; }
-
-  std::optional<JobId> capacity_taken_by(const std::vector<const Job*>&) const override {
-    return std::nullopt;
+  CheckMethod method() const override { return Coordinated{tracking_error_}; }
+  PassingOrders decide(const OrderQuestion& question) const override {
+    return orders_in_time(question, std::nullopt);
   }
 
-  CheckMethod method() const override { return certified(checking_); }
-  CheckMethod recheck_method() const override { return certified_under_way(checking_); }
-  bool schedules_ahead() const override { return true; }
-
  private:
-  CheckingSettings checking_;
+  double tracking_error_;
 };
 
 }  // namespace
 
 std::unique_ptr<const Policy> make_earliest_start(const Cell& cell) {
-  return std::make_unique<EarliestStartPolicy>(cell.checking);
+  return std::make_unique<EarliestStartPolicy>(cell.checking.tracking_error_rad);
 }
 
 }  // namespace armloom

@@ -8,26 +8,23 @@ namespace {
 
 class LockstepPolicy final : public Policy {
  public:
-  explicit LockstepPolicy(const CheckingSettings& checking) : checking_(checking) {}
+  explicit LockstepPolicy(double tracking_error) : tracking_error_(tracking_error) {}
 
   std::string_view name() const override { return "lockstep"; }
-
-  std::optional<JobId> capacity_taken_by(const std::vector<const Job*>&) const override {
-    return std::nullopt;
+  bool in_rounds() const override { return true; }
+  CheckMethod method() const override { return Coordinated{tracking_error_}; }
+  PassingOrders decide(const OrderQuestion& question) const override {
+    return orders_in_time(question, Duration{});
   }
 
-  CheckMethod method() const override { return certified(checking_); }
-  CheckMethod recheck_method() const override { return certified_under_way(checking_); }
-  bool in_rounds() const override { return true; }
-
  private:
-  CheckingSettings checking_;
+  double tracking_error_;
 };
 
 }  // namespace
 
 std::unique_ptr<const Policy> make_lockstep(const Cell& cell) {
-  return std::make_unique<LockstepPolicy>(cell.checking);
+  return std::make_unique<LockstepPolicy>(cell.checking.tracking_error_rad);
 }
 
 }  // namespace armloom

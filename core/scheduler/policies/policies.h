@@ -14,8 +14,4 @@ namespace armloom {
 [[nodiscard]] std::unique_ptr<const Policy> make_earliest_start(const Cell& cell);
 [[nodiscard]] std::unique_ptr<const Policy> make_coordinated(const Cell& cell);
 
-// The certified question of the cell's settings, for a start and for a motion under way.
-[[nodiscard]] CheckMethod certified(const CheckingSettings& checking);
-[[nodiscard]] CheckMethod certified_under_way(const CheckingSettings& checking);
-
 }  // namespace armloom

@@ -11,12 +11,10 @@ class ReservationPolicy final : public Policy {
   explicit ReservationPolicy(double tracking_error) : tracking_error_(tracking_error) {}
 
   std::string_view name() const override { return "reservation"; }
-
-  std::optional<JobId> capacity_taken_by(const std::vector<const Job*>&) const override {
-    return std::nullopt;
-  }
-
   CheckMethod method() const override { return Swept{tracking_error_}; }
+  PassingOrders decide(const OrderQuestion& question) const override {
+    return orders_apart(question);
+  }
 
  private:
   double tracking_error_;

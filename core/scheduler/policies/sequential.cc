@@ -5,28 +5,28 @@
 namespace armloom {
 namespace {
 
-class Sequential final : public Policy {
+class SequentialPolicy final : public Policy {
  public:
-  explicit Sequential(const CheckingSettings& checking) : checking_(checking) {}
+  explicit SequentialPolicy(double tracking_error) : tracking_error_(tracking_error) {}
 
   std::string_view name() const override { return "sequential"; }
-
   std::optional<JobId> capacity_taken_by(const std::vector<const Job*>& occupying) const override {
     if (occupying.empty()) return std::nullopt;
     return occupying.front()->id;
   }
-
-  CheckMethod method() const override { return certified(checking_); }
-  CheckMethod recheck_method() const override { return certified_under_way(checking_); }
+  CheckMethod method() const override { return Coordinated{tracking_error_}; }
+  PassingOrders decide(const OrderQuestion& question) const override {
+    return orders_apart(question);
+  }
 
  private:
-  CheckingSettings checking_;
+  double tracking_error_;
 };
 
 }  // namespace
 
 std::unique_ptr<const Policy> make_sequential(const Cell& cell) {
-  return std::make_unique<Sequential>(cell.checking);
+  return std::make_unique<SequentialPolicy>(cell.checking.tracking_error_rad);
 }
 
 }  // namespace armloom

@@ -11,12 +11,10 @@ class TimedDiscretePolicy final : public Policy {
   explicit TimedDiscretePolicy(Duration time_step) : time_step_(time_step) {}
 
   std::string_view name() const override { return "timed_discrete"; }
-
-  std::optional<JobId> capacity_taken_by(const std::vector<const Job*>&) const override {
-    return std::nullopt;
-  }
-
   CheckMethod method() const override { return TimedDiscrete{time_step_}; }
+  PassingOrders decide(const OrderQuestion& question) const override {
+    return orders_apart(question);
+  }
 
  private:
   Duration time_step_;

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/time.h"
+
+namespace armloom {
+
+// A motion that is admitted, or is to be. Of one arm the motions follow each other as they stand in
+// the list that they are given in; each begins where the one before ends.
+struct CoordinatedMotion {
+  JobId job;
+  std::vector<ArmId> arms;
+  Duration duration;
+  Duration progress{};   // as measured
+  Duration authority{};  // granted so far: no way back behind it
+  int priority = 0;
+  bool keeps_its_place = false;  // has been overtaken long enough
+
+  // Has passed what ends at `to`; its goal it never passes.
+  [[nodiscard]] bool is_beyond(Duration to) const { return to < progress && to < duration; }
+};
+
+[[nodiscard]] inline bool share_an_arm(const CoordinatedMotion& a, const CoordinatedMotion& b) {
+  return std::ranges::any_of(
+      a.arms, [&](ArmId arm) { return std::ranges::find(b.arms, arm) != b.arms.end(); });
+}
+
+}  // namespace armloom
