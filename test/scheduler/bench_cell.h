@@ -33,6 +33,12 @@ inline TrajectoryPtr move(std::vector<std::uint32_t> arms, double from, double t
   return std::make_shared<const Trajectory>(joints, arm_ids, std::vector<Segment>{segment});
 }
 
+// One conflict region of these boxes (times of the first motion, then of the second), by hand.
+template <typename... Boxes>
+ConflictRegion region(const Boxes&... boxes) {
+  return {{boxes...}, Proximity{.body_a = "a", .body_b = "b", .clearance_m = 0.01}, 1s, 2s};
+}
+
 // Drives a Scheduler by hand and remembers what it asked for.
 class Bench {
  public:
@@ -47,6 +53,7 @@ class Bench {
       if (auto* judge = std::get_if<Judge>(&effect)) question = std::move(judge->question);
       if (auto* wake = std::get_if<WakeAt>(&effect)) wake_at = wake->when;
       if (auto* d = std::get_if<Dispatch>(&effect)) dispatched.push_back(*d);
+      if (auto* g = std::get_if<Grant>(&effect)) granted.push_back(*g);
       if (auto* b = std::get_if<Brake>(&effect)) braked.push_back(b->job);
       if (auto* m = std::get_if<MoveAside>(&effect)) asides.push_back(*m);
       if (auto* r = std::get_if<Release>(&effect)) released.push_back(r->job);
@@ -90,13 +97,11 @@ class Bench {
          now);
   }
 
-  // In conflict with this motion, but for a start `shift` after the question's instant.
-  void answer_later(TimePoint now, JobId other, Duration shift) {
+  // Free, but for these regions.
+  void answer_regions(TimePoint now, std::vector<PairRegions> regions) {
     ASSERT_TRUE(question) << "nothing was asked";
-    ASSERT_TRUE(question->find_earliest);
-    Verdict verdict{Verdict::Kind::conflict, question->version, {}, {}, 1, shift};
-    verdict.conflicts.push_back({Conflict::With::motion, question->candidates.front().job, other,
-                                 Proximity{.body_a = "own", .body_b = "other"}, 100ms, 200ms});
+    Verdict verdict{Verdict::Kind::free, question->version, {}, {}, 1};
+    verdict.regions = std::move(regions);
     question.reset();
     step(Judged{std::move(verdict)}, now);
   }
@@ -134,12 +139,20 @@ class Bench {
 
   JobState state(JobId job) const { return scheduler.find(job)->state; }
   const Job& job(JobId id) const { return *scheduler.find(id); }
+  // How far its arms may go, as they were told last.
+  Duration authority(JobId id) const {
+    Duration told{};
+    for (const Dispatch& d : dispatched) told = d.job == id ? std::max(told, d.authority) : told;
+    for (const Grant& g : granted) told = g.job == id ? std::max(told, g.authority) : told;
+    return told;
+  }
 
   CellPtr cell;
   Scheduler scheduler;
   std::optional<Question> question;
   std::optional<TimePoint> wake_at;
   std::vector<Dispatch> dispatched;
+  std::vector<Grant> granted;
   std::vector<MoveAside> asides;
   std::vector<JobId> braked, released;
   std::map<JobId, int> terminal_events;
