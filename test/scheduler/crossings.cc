@@ -62,25 +62,6 @@ bool touch(const ProgressBox& x, const ProgressBox& y) {
   return x.from_a <= y.to_a && y.from_a <= x.to_a && x.from_b <= y.to_b && y.from_b <= x.to_b;
 }
 
-// What is connected is one region.
-std::vector<ConflictRegion> regions_of(std::vector<ProgressBox> boxes, const Proximity& proximity) {
-  std::vector<ConflictRegion> regions;
-  while (!boxes.empty()) {
-    std::vector<ProgressBox> region{boxes.back()};
-    boxes.pop_back();
-    for (std::size_t i = 0; i < region.size(); ++i) {  // grows
-      for (std::size_t b = boxes.size(); b-- > 0;) {
-        if (!touch(region[i], boxes[b])) continue;
-        region.push_back(boxes[b]);
-        boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(b));
-      }
-    }
-    const ProgressBox& first = region.front();
-    regions.push_back({region, proximity, first.from_a, first.from_b});
-  }
-  return regions;
-}
-
 Proximity proximity_of(ArmId a, ArmId b) {
   return {.body_a = "a", .body_b = "b", .arm_a = a, .arm_b = b, .clearance_m = 0.0};
 }
@@ -101,14 +82,34 @@ bool Crossings::meet(ArmId a, Stretch of_a, ArmId b, Stretch of_b) const {
   });
 }
 
-std::vector<ProgressBox> Crossings::boxes(const Motion& a, const Motion& b) const {
-  std::vector<ProgressBox> boxes;
+// What is connected is one region; the evidence is of one of its boxes.
+std::vector<ConflictRegion> Crossings::regions_of(std::vector<Box> boxes) {
+  std::vector<ConflictRegion> regions;
+  while (!boxes.empty()) {
+    const Box first = boxes.back();
+    boxes.pop_back();
+    std::vector<ProgressBox> region{first};
+    for (std::size_t i = 0; i < region.size(); ++i) {  // grows
+      for (std::size_t b = boxes.size(); b-- > 0;) {
+        if (!touch(region[i], boxes[b])) continue;
+        region.push_back(boxes[b]);
+        boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(b));
+      }
+    }
+    regions.push_back(
+        {std::move(region), proximity_of(first.a, first.b), first.from_a, first.from_b});
+  }
+  return regions;
+}
+
+std::vector<Crossings::Box> Crossings::boxes(const Motion& a, const Motion& b) const {
+  std::vector<Box> boxes;
   const auto add = [&](ArmId arm_a, Stretch of_a, ArmId arm_b, Stretch of_b) {
     if (!moves(a, arm_a) || !moves(b, arm_b)) return;
     const auto span_a = span_in(*a.trajectory, arm_a, of_a);
     const auto span_b = span_in(*b.trajectory, arm_b, of_b);
     if (!span_a || !span_b || span_a->to < a.progress || span_b->to < b.progress) return;
-    boxes.push_back({span_a->from, span_a->to, span_b->from, span_b->to});
+    boxes.push_back({{span_a->from, span_a->to, span_b->from, span_b->to}, arm_a, arm_b});
   };
   for (const Crossing& c : table_) {
     add(c.a, {c.from_a, c.to_a}, c.b, {c.from_b, c.to_b});
@@ -117,12 +118,13 @@ std::vector<ProgressBox> Crossings::boxes(const Motion& a, const Motion& b) cons
   return boxes;
 }
 
-std::vector<ProgressBox> Crossings::boxes(const Motion& a, Standing b) const {
-  std::vector<ProgressBox> boxes;
+std::vector<Crossings::Box> Crossings::boxes(const Motion& a, Standing b) const {
+  std::vector<Box> boxes;
   const auto add = [&](ArmId arm_a, Stretch of_a, ArmId arm_b, Stretch of_b) {
     if (!moves(a, arm_a) || arm_b != b.arm || b.q <= of_b.from || b.q >= of_b.to) return;
     const auto span = span_in(*a.trajectory, arm_a, of_a);
-    if (span && span->to >= a.progress) boxes.push_back({span->from, span->to, {}, {}});
+    if (span && span->to >= a.progress)
+      boxes.push_back({{span->from, span->to, {}, {}}, arm_a, arm_b});
   };
   for (const Crossing& c : table_) {
     add(c.a, {c.from_a, c.to_a}, c.b, {c.from_b, c.to_b});
@@ -141,7 +143,7 @@ bool Crossings::meets_object(const Motion& motion) const {
 
 // Its arms are at the same progress always.
 bool Crossings::meets_itself(const Motion& motion) const {
-  return std::ranges::any_of(boxes(motion, motion), [](const ProgressBox& box) {
+  return std::ranges::any_of(boxes(motion, motion), [](const Box& box) {
     return box.from_a <= box.to_b && box.from_b <= box.to_a;
   });
 }
@@ -196,8 +198,7 @@ void Crossings::coordinate(const Question& question, Verdict& verdict) const {
     if (share_an_arm(a, b)) return;
     auto found = boxes(a, b);
     if (found.empty()) return;
-    const auto near = proximity_of(a.trajectory->arms().front(), b.trajectory->arms().front());
-    verdict.regions.push_back({a.job, b.job, regions_of(std::move(found), near)});
+    verdict.regions.push_back({a.job, b.job, regions_of(std::move(found))});
   };
   for (auto own = question.candidates.begin(); own != question.candidates.end(); ++own) {
     for (const Motion& other : question.others) compare(*own, other);
@@ -205,8 +206,7 @@ void Crossings::coordinate(const Question& question, Verdict& verdict) const {
     for (const Standing& standing : standing_beside(question, *own)) {
       auto found = boxes(*own, standing);
       if (found.empty()) continue;
-      const auto near = proximity_of(own->trajectory->arms().front(), standing.arm);
-      verdict.regions.push_back({own->job, standing.arm, regions_of(std::move(found), near)});
+      verdict.regions.push_back({own->job, standing.arm, regions_of(std::move(found))});
     }
   }
 }
@@ -216,15 +216,14 @@ void Crossings::compare_sweeps(const Question& question, Verdict& verdict) const
     for (const Motion& other : question.others) {
       const auto found = boxes(own, other);
       if (found.empty()) continue;
-      const auto near =
-          proximity_of(own.trajectory->arms().front(), other.trajectory->arms().front());
+      const auto near = proximity_of(found.front().a, found.front().b);
       verdict.conflicts.push_back({Conflict::With::motion, own.job, other.job, near,
                                    found.front().from_a, found.front().from_b});
     }
     for (const Standing& standing : standing_beside(question, own)) {
       const auto found = boxes(own, standing);
       if (found.empty()) continue;
-      const auto near = proximity_of(own.trajectory->arms().front(), standing.arm);
+      const auto near = proximity_of(found.front().a, standing.arm);
       verdict.conflicts.push_back(
           {Conflict::With::rest, own.job, {}, near, found.front().from_a, {}});
     }

@@ -48,8 +48,12 @@ class Crossings {
     ArmId arm;
     double q;
   };
-  [[nodiscard]] std::vector<ProgressBox> boxes(const Motion& a, const Motion& b) const;
-  [[nodiscard]] std::vector<ProgressBox> boxes(const Motion& a, Standing b) const;
+  struct Box : ProgressBox {
+    ArmId a, b;
+  };
+  [[nodiscard]] std::vector<Box> boxes(const Motion& a, const Motion& b) const;
+  [[nodiscard]] std::vector<Box> boxes(const Motion& a, Standing b) const;
+  [[nodiscard]] static std::vector<ConflictRegion> regions_of(std::vector<Box> boxes);
   [[nodiscard]] bool meets_object(const Motion& motion) const;
   [[nodiscard]] bool meets_itself(const Motion& motion) const;
   [[nodiscard]] std::vector<Standing> standing_beside(const Question& question,

@@ -6,6 +6,8 @@
 namespace armloom {
 namespace {
 
+constexpr Duration kTick = std::chrono::milliseconds(2);
+
 Duration scaled(Duration duration, double by) { return from_seconds(to_seconds(duration) * by); }
 
 }  // namespace
@@ -97,6 +99,12 @@ void IdealArms::run(std::size_t events_max) {
 
 void IdealArms::take(const Input& input) {
   step(input, now_);
+  const auto* report = std::get_if<MotionReport>(&input);
+  if (!report || report->kind != MotionReport::Kind::progressed) {
+    for (Moving& arm : moving_) {  // who stands tells it again at its next tick
+      if (arm.report_at == kNever) arm.report_at = now_ + kTick;
+    }
+  }
   while (!asides.empty()) {
     const MoveAside aside = asides.front();
     asides.erase(asides.begin());
@@ -194,9 +202,6 @@ void IdealArms::report(std::size_t index) {
 }
 
 void IdealArms::come_to_rest(const Moving& arm, MotionReport::Kind kind) {
-  for (Moving& other : moving_) {  // who stands tells it again at its next tick
-    if (other.report_at == kNever) other.report_at = now_ + Duration(1);
-  }
   MotionReport told{arm.job, kind, arm.s};
   arm.motion->sample_positions(arm.s, told.rest_position);
   for (std::size_t i = 0; i < arm.motion->arms().size(); ++i) {

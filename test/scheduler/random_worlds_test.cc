@@ -74,8 +74,8 @@ class World {
       for (std::uint32_t b = a + 1; b < arms_; ++b) {
         for (auto n = random_() % 4; n > 0; --n) {
           const double size_a = 0.02 + 0.2 * place(), size_b = 0.02 + 0.2 * place();
-          const double from_a = place() - 0.1, from_b = place() - 0.1;
-          if (from_a <= 0.005 && from_b <= 0.005) continue;
+          const double from_a = place() - 0.095, from_b = place() - 0.095;  // no place on an edge
+          if (from_a <= 0.0 && from_b <= 0.0) continue;
           table.push_back({ArmId{a}, from_a, from_a + size_a, ArmId{b}, from_b, from_b + size_b});
         }
       }
@@ -133,7 +133,7 @@ class World {
       bench_.input(Cancel{active[random_() % active.size()]});
     }
     if (disturbances_.scenes && dice == 4) {
-      const double from = place();
+      const double from = place() + 0.005;
       change_scene({{arm, from, from + 0.1 * place()}});
     }
   }

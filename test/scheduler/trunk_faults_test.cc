@@ -99,5 +99,46 @@ TEST(Resume, DISABLED_OfAJobThatHadNotMovedLetsItLeaveForThoseThatCountOnIt) {
   }
 }
 
+TEST(Lockstep, DISABLED_AJobThatPausesForAnArmLetsThatArmsNextJobJoin) {
+  Bench bench(2, "lockstep");
+  const JobId canceled = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  const JobId pauses = bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(canceled, 500ms, at(501ms));
+  bench.answer_regions(at(502ms),
+                       {{pauses, canceled, {region(ProgressBox{1500ms, 1600ms, 500ms, 1s})}}});
+  ASSERT_EQ(bench.state(pauses), JobState::scheduled);
+  bench.step(Cancel{canceled}, at(503ms));
+  bench.stopped(canceled, 600ms, at(603ms));
+  bench.progressed(pauses, 700ms, at(1s));
+  bench.progressed(pauses, 1500ms, at(2s));
+  bench.progressed(pauses, 1500ms, at(3s));
+  ASSERT_TRUE(bench.job(pauses).pausing);
+  const JobId next = bench.submit(move({0}, bench.scheduler.rest()[0], 0, 2s), at(4s));
+  ASSERT_TRUE(bench.question) << "it would wait for the round, and the round for it";
+  EXPECT_EQ(bench.question->candidates.front().job, next);
+}
+
+// Canceled in b's way, where each of its arms may be the one that is; then one of them goes.
+TEST(Blockades, DISABLED_ATeamThatRestsInTheWayIsThereUntilAllOfItsArmsHaveLeft) {
+  const JobId both{1}, b{2}, next{3};
+  PrecedenceGraph graph(3);
+  const auto admit = [&](const CoordinatedMotion& motion, const std::vector<PairRegions>& regions) {
+    const std::vector<CoordinatedMotion> candidates{motion};
+    const PassingOrders orders = cheapest_orders(graph.question(candidates, regions));
+    ASSERT_TRUE(orders.obstacles.empty());
+    graph.admit(candidates, orders);
+  };
+  admit({.job = both, .arms = {ArmId{0}, ArmId{1}}, .duration = 5s}, {});
+  graph.granted(both, 5s);
+  admit({.job = b, .arms = {ArmId{2}}, .duration = 5s},
+        {{b, both, {region(ProgressBox{2s, 3s, 2s, 3s})}}});
+  graph.progress(both, 2500ms);
+  graph.abandon(both, 2500ms);
+  EXPECT_EQ(graph.limit(b), 2s);
+  admit({.job = next, .arms = {ArmId{0}}, .duration = 5s}, {});
+  EXPECT_EQ(graph.limit(b), 2s) << "arm 1 has not moved";
+}
+
 }  // namespace
 }  // namespace armloom
