@@ -169,7 +169,7 @@ void IdealArms::plan_report(Moving& arm) {
   const TimePoint begins = std::max(now_, arm.moves_from);
   if (arm.s >= arm.authority) {
     const bool known = arm.reported == arm.s && arm.s < arm.motion->duration();
-    arm.report_at = known ? kNever : now_ + arm.habits.feedback_age;
+    arm.report_at = known && arm.seen_to_stand ? kNever : now_ + kTick + arm.habits.feedback_age;
     return;
   }
   const auto tick = std::chrono::milliseconds(40 + random_() % 200);
@@ -194,7 +194,9 @@ void IdealArms::report(std::size_t index) {
   }
   const Duration old = scaled(arm.habits.feedback_age, arm.habits.speed);
   const bool stands = now_ - arm.moved_at >= arm.habits.feedback_age;
+  const Duration before = arm.reported;
   arm.reported = stands ? arm.s : std::max(arm.reported, arm.s - old);
+  arm.seen_to_stand = arm.reported == before;
   const JobId job = arm.job;
   const Duration told = arm.reported;
   plan_report(arm);

@@ -67,6 +67,7 @@ class IdealArms : public Bench {
     TimePoint moved_at;    // last
     TimePoint report_at;
     bool has_stalled = false;
+    bool seen_to_stand = false;  // its last report was no farther than the one before
     bool braking = false;
     Duration rests_at{};
   };
