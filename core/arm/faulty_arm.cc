@@ -33,6 +33,8 @@ void FaultyArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration fro
   creep_s_.reset();
   inner_->start(std::move(trajectory), start_at, from_progress, authority);
   under_way_ = true;
+  told_.phase = Phase::waiting;
+  told_.commanded_progress = told_.measured_progress = from_progress;
 }
 
 void FaultyArm::grant(Duration authority) {
@@ -50,10 +52,20 @@ void FaultyArm::release() {
   inner_->release();
   under_way_ = false;
   giving_up_ = false;
-  phase_ = Phase::idle;
+  phase_ = told_.phase = Phase::idle;
 }
 
 const ArmFeedback& FaultyArm::tick(TimePoint now) {
+  const ArmFeedback& feedback = advance(now);
+  const bool drops = active(ArmFault::Kind::drop_feedback) != nullptr;
+  if (drops && !dropping_) told_ = feedback;
+  dropping_ = drops;
+  if (!drops) return feedback;
+  told_.settled = false;
+  return told_;
+}
+
+const ArmFeedback& FaultyArm::advance(TimePoint now) {
   const Duration period = now - std::exchange(now_, now);
   const bool sound = faults_.empty() && !giving_up_ && allowed_ == granted_;
   if (sound) {

@@ -15,6 +15,7 @@ struct ArmFault {
     stall,       // stays where it is on its path, then goes on
     slow,        // follows its path at `value` (0..1) of its speed
     late_start,  // begins each motion `value` seconds late
+    drop_feedback,  // nothing is heard of it but that it takes commands: what it told last is told
     fault,  // the controller gives up: brakes, and reports a fault; once. It strikes the motion
             // that moves then; an arm that does not move keeps it for its next motion
   };
@@ -46,6 +47,7 @@ class FaultyArm final : public ArmController {
 
  private:
   [[nodiscard]] const ArmFault* active(ArmFault::Kind kind) const;
+  const ArmFeedback& advance(TimePoint now);
   void withhold(Duration period);
   void give_up();
   [[nodiscard]] bool fault_changes() const;
@@ -60,6 +62,8 @@ class FaultyArm final : public ArmController {
   bool giving_up_ = false;
   ArmFeedback::Phase phase_ = ArmFeedback::Phase::idle;  // as told last
   ArmFeedback feedback_;
+  bool dropping_ = false;
+  ArmFeedback told_;  // while it is dropping
 };
 
 }  // namespace armloom

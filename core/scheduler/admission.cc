@@ -118,7 +118,8 @@ void Scheduler::form_round() {
   std::erase_if(round_, [this](JobId id) { return !active_.contains(id); });
   const bool stuck = std::ranges::all_of(round_, [this](JobId id) {
     const Record& record = records_.at(id);
-    return waiting(record) && (record.judged_at == version_ || !at_head(record));
+    const bool tried = waiting(record) && (record.judged_at == version_ || !at_head(record));
+    return tried || held_where_it_stands(record).has_value();
   });
   if (round_.empty()) round_begun_ = false;
   for (JobId id : round_) {

@@ -230,23 +230,33 @@ const Precedence& OpenOrders::precedence(OpenOrder& order) {
   return *made;
 }
 
-Prediction OpenOrders::predicted(std::size_t motions, std::size_t orders) {
-  std::vector<MotionAhead> ahead;
-  for (std::size_t m = 0; m < motions; ++m) {
-    ahead.push_back({motions_[m].progress, motions_[m].duration, chains_.before(m)});
-  }
+Prediction OpenOrders::predicted(std::vector<MotionAhead> motions, std::size_t orders) {
   std::vector<Dependency> dependencies;
   for (std::size_t d = 0; d < orders; ++d) {
     OpenOrder& order = orders_[d];
     dependencies.push_back({order.a_first ? order.a : order.b, order.a_first ? order.b : order.a,
                             &precedence(order)});
   }
-  return predict(ahead, dependencies);
+  return predict(motions, dependencies);
 }
 
-Prediction OpenOrders::predicted() { return predicted(motions_.size(), orders_.size()); }
+// What rests in the way of a motion may be what a candidate takes away.
+Prediction OpenOrders::predicted() {
+  std::vector<MotionAhead> ahead;
+  for (std::size_t m = 0; m < motions_.size(); ++m) {
+    ahead.push_back({motions_[m].progress, motions_[m].duration, chains_.before(m)});
+  }
+  return predicted(std::move(ahead), orders_.size());
+}
 
-Prediction OpenOrders::predicted_before() { return predicted(first_candidate_, decided_); }
+Prediction OpenOrders::predicted_before() {
+  std::vector<MotionAhead> ahead;
+  for (std::size_t m = 0; m < first_candidate_; ++m) {
+    const CoordinatedMotion& motion = motions_[m];
+    ahead.push_back({motion.progress, motion.duration, chains_.before(m), motion.held_at});
+  }
+  return predicted(std::move(ahead), decided_);
+}
 
 // ---- The answers ----
 

@@ -73,7 +73,7 @@ class OpenOrders {
   void collect_choices();
   [[nodiscard]] bool allowed(const OrderChoice& choice, bool a_first) const;
   [[nodiscard]] const Precedence& precedence(OpenOrder& order);
-  [[nodiscard]] Prediction predicted(std::size_t motions, std::size_t orders);
+  [[nodiscard]] Prediction predicted(std::vector<MotionAhead> motions, std::size_t orders);
   void report(std::size_t order);
 
   std::vector<CoordinatedMotion> motions_;

@@ -8,7 +8,7 @@ namespace armloom {
 namespace {
 
 // By its line a motion passes second if it comes to each box after the other one has left it, first
-// if it has left each before the other one comes.
+// if it has left each before the other one goes into it.
 class Line {
  public:
   Line(const OpenOrders& open, Prediction before) : open_(open), before_(std::move(before)) {}
@@ -36,7 +36,7 @@ class Line {
     const View view = seen_from_candidate(order);
     bool first = true, second = true;
     for (const ProgressBox& box : view.order->region.boxes) {
-      const auto comes = before_.comes_to(view.other, view.other_from(box));
+      const auto comes = before_.goes_beyond(view.other, view.other_from(box));
       const auto leaves = before_.comes_to(view.other, view.other_to(box));
       if (comes && start + view.own_to(box) > *comes) first = false;
       if (!leaves || start + view.own_from(box) < *leaves) second = false;

@@ -25,19 +25,20 @@ Precedence::Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_fi
       region_(a_first ? region : turned(region)) {
   std::vector<ProgressBox> boxes = region_.boxes;
   std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);
+  Duration begins{};  // with `first` so far, `second` passes without a stop
   // From the last box back: what still lies ahead of `first` holds `second` at its nearest edge.
   for (const ProgressBox& box : boxes) {
-    if (!steps_.empty() && box.from_b >= steps_.back().limit) continue;
+    begins = std::max(begins, box.to_a - box.from_b);
+    const Duration limit = std::max(Duration{}, box.from_b - kShortOf);
+    if (!steps_.empty() && limit >= steps_.back().limit) continue;
     if (!steps_.empty() && box.to_a == steps_.back().until) {
-      steps_.back().limit = box.from_b;
+      steps_.back().limit = limit;
     } else {
-      steps_.push_back({box.to_a, box.from_b});
+      steps_.push_back({box.to_a, limit});
     }
   }
   std::ranges::reverse(steps_);
   if (!waits_at_start || steps_.empty()) return;
-  Duration begins = steps_.front().until - steps_.front().limit;
-  for (const Step& step : steps_) begins = std::max(begins, step.until - step.limit);
   if (begins <= Duration{}) return;
   std::erase_if(steps_, [begins](const Step& step) { return step.until <= begins; });
   steps_.insert(steps_.begin(), {begins, Duration{}});

@@ -52,6 +52,7 @@ void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
   std::erase_if(precedences_, [this](const Precedence& precedence) {
     return !precedence.limit(find(precedence.first())->progress);
   });
+  tell_holds();
 }
 
 void PrecedenceGraph::progress(JobId job, Duration progress) {
@@ -168,7 +169,7 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& rests, Duration at, 
         if (evidence.proximity.arm_b) evidence.arm = evidence.proximity.arm_b;
         blockade = Blockade{*evidence.arm, other, own_from, own_to, evidence};
       }
-      blockade->limit = std::min(blockade->limit, own_from);
+      blockade->limit = std::min(blockade->limit, std::max(Duration{}, own_from - kShortOf));
       blockade->until = std::max(blockade->until, own_to);
     }
     if (blockade) blockades_.push_back(std::move(*blockade));
@@ -181,6 +182,17 @@ void PrecedenceGraph::erase(JobId job) {
   });
   std::erase_if(blockades_, [job](const Blockade& blockade) { return blockade.job == job; });
   std::erase_if(motions_, [job](const CoordinatedMotion& motion) { return motion.job == job; });
+  tell_holds();
+}
+
+void PrecedenceGraph::tell_holds() {
+  for (CoordinatedMotion& motion : motions_) {
+    motion.held_at.reset();
+    for (const Blockade& blockade : blockades_) {
+      if (blockade.job != motion.job || motion.progress >= blockade.until) continue;
+      motion.held_at = std::min(motion.held_at.value_or(blockade.limit), blockade.limit);
+    }
+  }
 }
 
 }  // namespace armloom

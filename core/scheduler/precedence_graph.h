@@ -70,6 +70,7 @@ class PrecedenceGraph {
   [[nodiscard]] bool waits_for_own_arm(std::size_t index) const;
   void block_others(const CoordinatedMotion& rests, Duration at, Duration farthest);
   void erase(JobId job);
+  void tell_holds();
 
   std::vector<CoordinatedMotion> motions_;  // in order per arm
   std::vector<Precedence> precedences_;

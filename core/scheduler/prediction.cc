@@ -8,7 +8,7 @@ namespace {
 // A place that a motion may not pass before another one has got somewhere.
 struct Gate {
   Duration limit;
-  std::size_t other;
+  std::optional<std::size_t> other;  // nothing: it stays closed
   Duration until;
 };
 
@@ -48,6 +48,9 @@ class Race {
         runners_[dependency.second].gates.push_back({step.limit, dependency.first, step.until});
       }
     }
+    for (std::size_t m = 0; m < motions_.size(); ++m) {
+      if (const auto& at = motions_[m].held_at) runners_[m].gates.push_back({*at, {}, {}});
+    }
     for (Runner& runner : runners_) {
       std::ranges::stable_sort(runner.gates, {}, &Gate::limit);
     }
@@ -68,7 +71,10 @@ class Race {
       if (!runners_[m].ended) prediction.stuck.push_back(m);
     }
     if (!prediction.stuck.empty()) prediction.ring = ring_from(prediction.stuck.front());
-    for (Runner& runner : runners_) prediction.stages.push_back(std::move(runner.stages));
+    for (Runner& runner : runners_) {
+      if (!runner.ended && !runner.stages.empty()) come_to_gate(runner);
+      prediction.stages.push_back(std::move(runner.stages));
+    }
     return prediction;
   }
 
@@ -79,6 +85,12 @@ class Race {
     return first.progress > Duration{} ? Duration{} : waits ? runner.stages[1].time : first.time;
   }
 
+  static void come_to_gate(Runner& runner) {
+    const Stage here = runner.stages.back();
+    const Duration limit = runner.gates[runner.next_gate].limit;
+    if (limit > here.progress) runner.stages.push_back({limit, here.time + limit - here.progress});
+  }
+
   // As far as is known; whether that is any farther.
   bool advance(std::size_t m) {
     Runner& runner = runners_[m];
@@ -86,7 +98,7 @@ class Race {
     if (runner.ended) return false;
     bool moved = false;
     if (runner.stages.empty()) {
-      Duration start = motion.late;
+      Duration start{};
       for (const std::size_t before : motion.after) {
         if (!runners_[before].ended) {
           runner.waits_for = before;
@@ -99,9 +111,11 @@ class Race {
     }
     for (; runner.next_gate < runner.gates.size(); ++runner.next_gate) {
       const Gate& gate = runner.gates[runner.next_gate];
-      const auto opens = runners_[gate.other].comes_to(gate.until, motions_[gate.other].duration);
+      const std::size_t other = gate.other.value_or(m);
+      const auto opens = gate.other ? runners_[other].comes_to(gate.until, motions_[other].duration)
+                                    : std::nullopt;
       if (!opens) {
-        runner.waits_for = gate.other;
+        runner.waits_for = other;
         return moved;
       }
       const Stage here = runner.stages.back();
@@ -142,6 +156,15 @@ std::optional<Duration> Prediction::comes_to(std::size_t motion, Duration progre
   if (way.empty()) return std::nullopt;
   if (progress > way.back().progress) return std::nullopt;
   return time_at(way, progress);
+}
+
+std::optional<Duration> Prediction::goes_beyond(std::size_t motion, Duration progress) const {
+  const std::vector<Stage>& way = stages[motion];
+  const auto after = std::ranges::upper_bound(way, progress, {}, &Stage::progress);
+  if (after == way.end()) return std::nullopt;
+  if (after == way.begin()) return Duration{};
+  const Stage& from = *(after - 1);
+  return from.time + progress - from.progress;
 }
 
 Prediction predict(const std::vector<MotionAhead>& motions,

@@ -14,7 +14,7 @@ struct MotionAhead {
   Duration progress;               // where it is
   Duration duration;               // of its trajectory
   std::vector<std::size_t> after;  // motions of the same arms that end before it begins
-  Duration late{};                 // it cannot go on before this time from now
+  std::optional<Duration> held_at = {};  // goes no farther than this, as things are
 };
 
 // `second` may pass as Precedence says when `first` has got far enough. Indices into the motions.
@@ -32,7 +32,7 @@ struct Prediction {
     Duration progress;
     Duration time;
   };
-  std::vector<std::vector<Stage>> stages;  // empty: it never begins
+  std::vector<std::vector<Stage>> stages;  // up to where it comes; empty: it never begins
 
   std::vector<Duration> begins;    // leaves its start; zero: has begun
   std::vector<Duration> ends;      // of motions that come to their end
@@ -40,8 +40,9 @@ struct Prediction {
   std::vector<std::size_t> ring;   // one of these rings: each waits for the next, the last for the
                                    // first
 
-  // When the motion comes to `progress`; nothing: never.
+  // When the motion comes to `progress`, and when it goes on from there; nothing: never.
   [[nodiscard]] std::optional<Duration> comes_to(std::size_t motion, Duration progress) const;
+  [[nodiscard]] std::optional<Duration> goes_beyond(std::size_t motion, Duration progress) const;
 };
 
 // What a stop on the way and the start after it cost besides the wait.

@@ -24,7 +24,7 @@ void inject(Crossing& cell, FaultRequest fault) {
 
 // x has left the crossing when y comes to it, unless x stalls there.
 TEST(T6, AStalledArmStopsOnlyThoseItEndangers) {
-  Crossing cell(crossing_and_far());
+  Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, 1, 4, "stalls"));
   cell.run_until(at(700ms));
   cell.submit(slide("y", -1, 1, 8, "endangered"));  // at the origin 2.7 s after x
@@ -45,7 +45,7 @@ TEST(T6, AStalledArmStopsOnlyThoseItEndangers) {
 }
 
 TEST(T6, AFaultFailsItsJobAndStopsOnlyThoseItEndangers) {
-  Crossing cell(crossing_and_far());
+  Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, 1, 4, "faults"));
   cell.run_until(at(700ms));
   cell.submit(slide("y", -1, 1, 8, "endangered"));
@@ -88,7 +88,7 @@ TEST(T6, AFaultStrikesWheneverItComes) {
 }
 
 TEST(T6, AnArmThatMovesNoMoreEndsItsJobAndLeavesTheOthersAlone) {
-  Crossing cell(crossing_and_far());
+  Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, -0.5, 2, "overruns"));
   cell.submit(slide("far", -1, 1, 8, "unconcerned"));
   inject(cell, {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1s), .lasting = 1000s});
@@ -101,7 +101,7 @@ TEST(T6, AnArmThatMovesNoMoreEndsItsJobAndLeavesTheOthersAlone) {
 }
 
 TEST(Late, AnArmThatStartsLateTouchesNobody) {
-  Crossing cell(crossing_and_far());
+  Crossing cell(crossing_and_far(), "certified");
   inject(cell, {.arm = "x", .kind = ArmFault::Kind::late_start, .value = 2.0});
   cell.submit(slide("x", -1, 1, 4, "late"));
   cell.run_until(at(1500ms));
@@ -113,7 +113,7 @@ TEST(Late, AnArmThatStartsLateTouchesNobody) {
 }
 
 TEST(Late, ASlowArmIsWaitedForAndNobodyIsCanceled) {
-  Crossing cell(crossing_and_far());
+  Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, 1, 4, "slow"));
   cell.run_until(at(1s));
   cell.submit(slide("y", -1, 1, 8, "waits for it"));
@@ -125,7 +125,7 @@ TEST(Late, ASlowArmIsWaitedForAndNobodyIsCanceled) {
 }
 
 TEST(T7, ACanceledJobBrakesAndItsReservationShrinksToWhereItStands) {
-  Crossing cell(crossing_and_far());
+  Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   cell.submit(slide("far", -1, 1, 4, "other"));
   cell.submit(slide("y", -1, 1, 4, "waits"));
@@ -153,7 +153,7 @@ TEST(Fault, OfAnUnknownArmOrAnUnknownFaultIsAProblem) {
 }
 
 TEST(Fault, CanBeTakenAwayAgain) {
-  Crossing cell(crossing_and_far());
+  Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, -0.5, 2, "stalls"));
   const auto fault =
       cell.simulation->executive().inject({.arm = "x", .kind = ArmFault::Kind::stall});

@@ -26,17 +26,34 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// The arm starts up to 2 s late, runs at 0.3 to 1 of its speed, and stalls three times within
-// `within_s` for up to 3 s each.
+// How far a random run goes. Feedback is held back for up to so long, again and again.
+struct Delays {
+  double late_s = 2.0;
+  double slowest = 0.3;
+  double stall_s = 3.0;
+  double old_s = 0.0;
+};
+inline constexpr Delays kFarBeyond{.late_s = 10.0, .slowest = 0.1, .stall_s = 30.0, .old_s = 0.1};
+
+// The arm starts late, runs slowly, and stalls three times within `within_s`.
 inline void delay_at_random(Executive& executive, const std::string& arm, double within_s,
-                            Random& random) {
+                            Random& random, const Delays& delays = {}) {
   const auto inject = [&](FaultRequest fault) { EXPECT_TRUE(executive.inject(fault)); };
-  inject({.arm = arm, .kind = ArmFault::Kind::late_start, .value = random.uniform(0.0, 2.0)});
-  inject({.arm = arm, .kind = ArmFault::Kind::slow, .value = random.uniform(0.3, 1.0)});
+  inject({.arm = arm, .kind = ArmFault::Kind::late_start, .value = random.uniform(0.0, delays.late_s)});
+  inject({.arm = arm, .kind = ArmFault::Kind::slow, .value = random.uniform(delays.slowest, 1.0)});
   for (int stall = 0; stall < 3; ++stall) {
     const Duration from = from_seconds(random.uniform(0.0, within_s));
-    const Duration lasting = from_seconds(random.uniform(0.1, 3.0));
+    const Duration lasting = from_seconds(random.uniform(0.1, delays.stall_s));
     inject({.arm = arm, .kind = ArmFault::Kind::stall, .at = at(from), .lasting = lasting});
+  }
+  for (double from_s = 0.0; delays.old_s > 0.0 && from_s < 4 * within_s;) {
+    from_s += random.uniform(0.1, 1.0);
+    const Duration lasting = from_seconds(random.uniform(0.0, delays.old_s));
+    inject({.arm = arm,
+            .kind = ArmFault::Kind::drop_feedback,
+            .at = at(from_seconds(from_s)),
+            .lasting = lasting});
+    from_s += delays.old_s;
   }
 }
 

@@ -123,8 +123,7 @@ class TeamsRun {
   TeamsRun(std::uint64_t seed, const std::string& policy)
       : random_(seed),
         description_(world(random_)),
-        watched_(description_),
-        by_times_(policy == "earliest_start" || policy == "certified") {
+        watched_(description_) {
     auto cell = build_cell(description_);
     if (!cell) throw std::runtime_error(cell.error().front().detail);
     auto created = Simulation::create(*cell, ExecutiveOptions{.policy = policy}, watched_);
@@ -329,17 +328,10 @@ class TeamsRun {
         if (stopped_in_vain()) executive().resume_all();
         resumed_at = simulation_->now();
       }
-      if (by_times_ && simulation_->now() > begun_at + 200s) make_sound();
       if (simulation_->now() > std::max(changed_at, watched_.moved_at) + kQuiet) break;
     }
     EXPECT_LT(simulation_->now(), limit) << "never comes to an end";
     note_own_jobs();
-  }
-
-  // Policies that go by times hold a late motion and begin it anew together with others for as long
-  // as its arm starts late.
-  void make_sound() {
-    for (std::uint64_t id = 1; id <= 100; ++id) static_cast<void>(executive().remove_fault(id));
   }
 
   // By the monitor, or by a controller that gave up.
@@ -452,7 +444,6 @@ class TeamsRun {
   std::set<std::string> own_;
   std::map<std::pair<std::string, std::string>, double> goals_;  // of job and arm
   std::size_t read_ = 0;
-  const bool by_times_;
   bool delayed_ = false, commanded_ = false, may_fault_ = false, may_see_objects_ = false;
   bool faulted_ = false;
 };

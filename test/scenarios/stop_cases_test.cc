@@ -43,7 +43,7 @@ TEST(Cancel, BrakesOnThePathAndOthersGoOn) {
 TEST(Cancel, HoldsAMotionThatReliedOnTheOtherLeaving) {
   CellDescription description = crossing_description();
   description.robots[0].arms[0].home = {0.0};
-  Crossing cell(description);
+  Crossing cell(description, "certified");
   cell.submit(slide("x", 0, 1, 4, "leaves"));
   cell.run_until(at(300ms));
   cell.submit(slide("y", -1, 1, 8, "passes"));
