@@ -223,7 +223,6 @@ TEST_P(Worlds, OnScenesThatChangeEveryJobEndsOnce) {
 }
 
 TEST_P(Worlds, WhereArmsGoAsideEveryJobEndsOnce) {
-  if (GetParam() == "lockstep") GTEST_SKIP() << "trunk_faults_test.cc: a pause in a round";
   auto ended = run(200, {.delays = true, .cancels = true, .parks = true}, false);
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
