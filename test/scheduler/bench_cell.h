@@ -14,39 +14,55 @@ namespace armloom {
 
 using namespace std::chrono_literals;
 
-// A quintic from rest to rest of the joints with these indices, all from `from` to `to`.
-inline TrajectoryPtr move(std::vector<std::uint32_t> arms, double from, double to,
-                          Duration duration) {
+// A quintic from rest to rest of the joints with these indices, each from its place to its goal.
+inline TrajectoryPtr move(const std::vector<std::uint32_t>& arms, const std::vector<double>& from,
+                          const std::vector<double>& to, Duration duration) {
   std::vector<JointId> joints;
   std::vector<ArmId> arm_ids;
-  for (std::uint32_t i : arms) {
-    joints.emplace_back(i);
-    arm_ids.emplace_back(i);
-  }
-  const double T = to_seconds(duration), d = to - from;
+  const double T = to_seconds(duration);
   Segment segment{.start = Duration{}, .duration = duration, .coefficients = {}};
   segment.coefficients.setZero(static_cast<Eigen::Index>(arms.size()), 6);
-  for (Eigen::Index j = 0; j < segment.coefficients.rows(); ++j) {
-    segment.coefficients.row(j) << from, 0, 0, 10 * d / (T * T * T), -15 * d / (T * T * T * T),
-        6 * d / (T * T * T * T * T);
+  for (std::size_t j = 0; j < arms.size(); ++j) {
+    joints.emplace_back(arms[j]);
+    arm_ids.emplace_back(arms[j]);
+    const double d = to[j] - from[j];
+    segment.coefficients.row(static_cast<Eigen::Index>(j)) << from[j], 0, 0, 10 * d / (T * T * T),
+        -15 * d / (T * T * T * T), 6 * d / (T * T * T * T * T);
   }
   return std::make_shared<const Trajectory>(joints, arm_ids, std::vector<Segment>{segment});
+}
+
+// The same, all from `from` to `to`.
+inline TrajectoryPtr move(const std::vector<std::uint32_t>& arms, double from, double to,
+                          Duration duration) {
+  return move(arms, std::vector<double>(arms.size(), from), std::vector<double>(arms.size(), to),
+              duration);
+}
+
+// One conflict region of these boxes (times of the first motion, then of the second), by hand.
+template <typename... Boxes>
+ConflictRegion region(const Boxes&... boxes) {
+  return {{boxes...}, Proximity{.body_a = "a", .body_b = "b", .clearance_m = 0.01}, 1s, 2s};
 }
 
 // Drives a Scheduler by hand and remembers what it asked for.
 class Bench {
  public:
+  virtual ~Bench() = default;
   explicit Bench(std::size_t arms, const char* policy = "timed_discrete")
       : Bench(one_joint_arms(arms), policy) {}
-  Bench(CellPtr description, const char* policy)
-      : cell(std::move(description)),
-        scheduler(cell, std::move(*make_policy(policy, *cell)), cell->home()) {}
+  Bench(const CellPtr& description, const char* policy)
+      : Bench(description, std::move(*make_policy(policy, *description))) {}
+  Bench(CellPtr description, std::unique_ptr<const Policy> policy)
+      : cell(std::move(description)), scheduler(cell, std::move(policy), cell->home()) {}
 
   void step(const Input& input, TimePoint now) {
     for (Effect& effect : scheduler.step(input, now)) {
+      heard(effect);
       if (auto* judge = std::get_if<Judge>(&effect)) question = std::move(judge->question);
       if (auto* wake = std::get_if<WakeAt>(&effect)) wake_at = wake->when;
       if (auto* d = std::get_if<Dispatch>(&effect)) dispatched.push_back(*d);
+      if (auto* g = std::get_if<Grant>(&effect)) granted.push_back(*g);
       if (auto* b = std::get_if<Brake>(&effect)) braked.push_back(b->job);
       if (auto* m = std::get_if<MoveAside>(&effect)) asides.push_back(*m);
       if (auto* r = std::get_if<Release>(&effect)) released.push_back(r->job);
@@ -62,7 +78,7 @@ class Bench {
   }
   // The same under the next id.
   JobId submit(Submit submitted, TimePoint now) {
-    submitted.job = JobId{++last_};
+    submitted.job = next_id();
     step(submitted, now);
     return submitted.job;
   }
@@ -90,13 +106,11 @@ class Bench {
          now);
   }
 
-  // In conflict with this motion, but for a start `shift` after the question's instant.
-  void answer_later(TimePoint now, JobId other, Duration shift) {
+  // Free, but for these regions.
+  void answer_regions(TimePoint now, std::vector<PairRegions> regions) {
     ASSERT_TRUE(question) << "nothing was asked";
-    ASSERT_TRUE(question->find_earliest);
-    Verdict verdict{Verdict::Kind::conflict, question->version, {}, {}, 1, shift};
-    verdict.conflicts.push_back({Conflict::With::motion, question->candidates.front().job, other,
-                                 Proximity{.body_a = "own", .body_b = "other"}, 100ms, 200ms});
+    Verdict verdict{Verdict::Kind::free, question->version, {}, {}, 1};
+    verdict.regions = std::move(regions);
     question.reset();
     step(Judged{std::move(verdict)}, now);
   }
@@ -132,19 +146,30 @@ class Bench {
     step(MotionReport{job, MotionReport::Kind::stopped, progress, state.position}, now);
   }
 
+  JobId next_id() { return JobId{++last_}; }
   JobState state(JobId job) const { return scheduler.find(job)->state; }
   const Job& job(JobId id) const { return *scheduler.find(id); }
+  // How far its arms may go, as they were told last.
+  Duration authority(JobId id) const {
+    Duration told{};
+    for (const Dispatch& d : dispatched) told = d.job == id ? std::max(told, d.authority) : told;
+    for (const Grant& g : granted) told = g.job == id ? std::max(told, g.authority) : told;
+    return told;
+  }
 
   CellPtr cell;
   Scheduler scheduler;
   std::optional<Question> question;
   std::optional<TimePoint> wake_at;
   std::vector<Dispatch> dispatched;
+  std::vector<Grant> granted;
   std::vector<MoveAside> asides;
   std::vector<JobId> braked, released;
   std::map<JobId, int> terminal_events;
 
  private:
+  virtual void heard(const Effect& /*effect*/) {}
+
   std::uint64_t last_ = 0;
 };
 

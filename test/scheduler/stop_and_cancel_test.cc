@@ -30,7 +30,7 @@ TEST(Cancel, OfAWaitingJobEndsItAtOnce) {
   EXPECT_EQ(bench.state(first), JobState::queued);
 }
 
-TEST(Cancel, OfAMotionBrakesItAndShrinksItsReservationToWhereItStands) {  // T7
+TEST(Cancel, OfAMotionBrakesItAndDisturbsNoOther) {  // T7
   Running bench(2);
   const auto [first, second] = std::tie(bench.jobs[0], bench.jobs[1]);
   bench.progressed(first, 800ms, at(803ms));
@@ -39,38 +39,50 @@ TEST(Cancel, OfAMotionBrakesItAndShrinksItsReservationToWhereItStands) {  // T7
   EXPECT_THAT(bench.braked, ElementsAre(first));
   EXPECT_TRUE(bench.job(first).stopping);
   EXPECT_EQ(bench.state(first), JobState::running);
-  EXPECT_FALSE(bench.question) << "while it brakes, where it will rest is not known";
-
   bench.stopped(first, 1s, at(1100ms));
   EXPECT_EQ(bench.state(first), JobState::canceled);
   EXPECT_THAT(bench.released, ElementsAre(first));
-  // The other is judged again beside the arm where it now rests, and goes on.
-  ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, second);
-  EXPECT_THAT(bench.question->others, IsEmpty());
-  EXPECT_NEAR(bench.question->rest[0], 0.5, 1e-9);
-  bench.answer_free(at(1101ms));
   EXPECT_EQ(bench.state(second), JobState::running);
   EXPECT_THAT(bench.braked, ElementsAre(first));
-  EXPECT_FALSE(bench.question);
 }
 
-TEST(Cancel, HoldsOnlyWhatTheRestingArmStandsInTheWayOf) {
+TEST(Cancel, LeavesAnArmWhereItStandsForWhatIsJudgedThen) {
   Running bench(3);
-  bench.step(Cancel{bench.jobs[0]}, at(500ms));
-  bench.stopped(bench.jobs[0], 600ms, at(700ms));
-  ASSERT_EQ(bench.question->candidates.front().job, bench.jobs[1]);
-  bench.answer_conflict(at(701ms), Conflict::With::rest, {}, ArmId{0});
-  EXPECT_THAT(bench.braked, ElementsAre(bench.jobs[0], bench.jobs[1]));
-  EXPECT_EQ(bench.state(bench.jobs[1]), JobState::holding);
-  EXPECT_EQ(bench.job(bench.jobs[1]).waits_on.front().arm, ArmId{0});
-  bench.stopped(bench.jobs[1], 800ms, at(900ms));
-  ASSERT_EQ(bench.question->candidates.front().job, bench.jobs[2]);
-  bench.answer_free(at(901ms));
-  EXPECT_EQ(bench.state(bench.jobs[2]), JobState::running);
-  // The held one is tried as a candidate, from where it stands.
-  ASSERT_EQ(bench.question->candidates.front().job, bench.jobs[1]);
-  EXPECT_EQ(bench.question->candidates.front().progress, 800ms);
+  bench.step(Cancel{bench.jobs[0]}, at(803ms));
+  bench.stopped(bench.jobs[0], 1s, at(1100ms));
+  bench.finished(bench.jobs[2], at(2s));
+  bench.submit(move({2}, 1, 0, 2s), at(3s));
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.question->others.size(), 1u) << "it holds nothing any more";
+  EXPECT_NEAR(bench.question->rest[0], 0.5, 1e-9);
+}
+
+// Each of two others was to pass where the first one was; now that stands in the way of one.
+TEST(Cancel, HoldsOnlyWhatTheRestingArmStandsInTheWayOf) {
+  Bench bench(3, "certified");
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(first, 1s, at(1001ms));
+  const JobId behind = bench.submit(move({1}, 0, 1, 2s), at(1002ms));
+  bench.answer_regions(at(1003ms),
+                       {{behind, first, {region(ProgressBox{1500ms, 1800ms, 0ms, 1200ms})}}});
+  const JobId free = bench.submit(move({2}, 0, 1, 2s), at(1002ms + 2ms));
+  bench.answer_regions(at(1005ms),
+                       {{free, first, {region(ProgressBox{1500ms, 1800ms, 1900ms, 1950ms})}}});
+  for (const JobId job : {behind, free}) bench.progressed(job, 0ms, at(1006ms));
+  bench.step(Cancel{first}, at(1007ms));
+  bench.stopped(first, 1100ms, at(1107ms));
+  EXPECT_THAT(bench.braked, ElementsAre(first)) << "nobody brakes for it";
+  bench.progressed(behind, 900ms, at(2s));
+  bench.progressed(behind, 1500ms, at(3s));
+  bench.progressed(behind, 1500ms, at(4s));
+  EXPECT_TRUE(bench.job(behind).pausing);
+  EXPECT_EQ(bench.job(behind).waits_on.front().kind, Wait::Kind::arm);
+  EXPECT_EQ(bench.job(behind).waits_on.front().arm, ArmId{0});
+  EXPECT_EQ(bench.authority(behind), 1500ms);
+  bench.progressed(free, 1500ms, at(4s));
+  EXPECT_GT(bench.authority(free), 1500ms);
+  EXPECT_FALSE(bench.job(free).pausing);
 }
 
 TEST(Cancel, BeforeTheFirstMotionMovesNothing) {
@@ -138,21 +150,45 @@ TEST(Stop, ACancelDuringTheBrakeWins) {
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);
 }
 
-TEST(Resume, TriesHeldMotionsTogetherFirstThenOneByOne) {
-  Running bench(2);
-  bench.step(Stop{{ArmId{0}, ArmId{1}}, "operator"}, at(500ms));
-  bench.stopped(bench.jobs[0], 600ms, at(700ms));
-  bench.stopped(bench.jobs[1], 610ms, at(710ms));
+// Their orders stand: what the answer says of each other's motion is not asked for again.
+TEST(Resume, LetsHeldJobsGoOnOneByOneByTheirOrders) {
+  Bench bench(2, "certified");
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(first, 500ms, at(501ms));
+  const JobId second = bench.submit(move({1}, 0, 1, 2s), at(502ms));
+  bench.answer_regions(at(503ms),
+                       {{second, first, {region(ProgressBox{1s, 1500ms, 0ms, 1200ms})}}});
+  bench.progressed(second, 0ms, at(504ms));
+  bench.step(Stop{{ArmId{0}, ArmId{1}}, "operator"}, at(510ms));
+  bench.stopped(first, 600ms, at(700ms));
+  bench.stopped(second, 100ms, at(710ms));
   bench.step(Resume{{ArmId{0}, ArmId{1}}}, at(1s));
-  ASSERT_EQ(bench.question->candidates.size(), 2u);
-  bench.answer_conflict(at(1001ms), Conflict::With::motion, bench.jobs[1], ArmId{1});
-  ASSERT_TRUE(bench.question);
-  ASSERT_EQ(bench.question->candidates.size(), 1u);
-  EXPECT_EQ(bench.question->candidates.front().job, bench.jobs[0]);
-  EXPECT_THAT(bench.question->others, IsEmpty());
-  bench.answer_free(at(1002ms));
-  EXPECT_EQ(bench.state(bench.jobs[0]), JobState::scheduled);
-  EXPECT_EQ(bench.question->candidates.front().job, bench.jobs[1]);
+  for (const JobId job : {first, second}) {
+    ASSERT_TRUE(bench.question);
+    ASSERT_EQ(bench.question->candidates.size(), 1u);
+    EXPECT_EQ(bench.question->candidates.front().job, job);
+    EXPECT_EQ(bench.question->others.size(), 1u) << "the other one's motion is still admitted";
+    bench.answer_free(at(1001ms));
+    EXPECT_EQ(bench.state(job), JobState::scheduled);
+    EXPECT_EQ(bench.dispatched.back().job, job);
+  }
+  EXPECT_EQ(bench.dispatched.back().from_progress, 100ms);
+  bench.progressed(second, 1s, at(3s));
+  EXPECT_EQ(bench.authority(second), 1s) << "the first one has not passed";
+  bench.progressed(first, 1200ms, at(4s));
+  EXPECT_GT(bench.authority(second), 1s);
+}
+
+TEST(Resume, DoesNotMoveAHeldJobWhereAnArmHasComeToRest) {
+  Running bench(1);
+  bench.step(Stop{{ArmId{0}}, "operator"}, at(500ms));
+  bench.stopped(bench.jobs[0], 600ms, at(700ms));
+  bench.step(Resume{{ArmId{0}}}, at(1s));
+  bench.answer_regions(at(1001ms),
+                       {{bench.jobs[0], ArmId{0}, {region(ProgressBox{1s, 2s, 0s, 0s})}}});
+  EXPECT_EQ(bench.state(bench.jobs[0]), JobState::holding);
+  EXPECT_EQ(bench.job(bench.jobs[0]).waits_on.front().kind, Wait::Kind::arm);
 }
 
 TEST(Interrupt, EndsEveryJobOnce) {
@@ -179,7 +215,12 @@ TEST(Fault, FailsTheJobAndStopsItsArmUntilResumed) {
   EXPECT_EQ(bench.job(bench.jobs[0]).reason, Reason::arm_fault);
   EXPECT_TRUE(bench.scheduler.stopped(ArmId{0}));
   EXPECT_EQ(bench.state(bench.jobs[1]), JobState::running);
-  EXPECT_EQ(bench.question->candidates.front().job, bench.jobs[1]) << "judged beside the rest";
+  const JobId next = bench.submit(move({0}, 0.2, 0, 2s), at(600ms));
+  EXPECT_FALSE(bench.question);
+  EXPECT_EQ(bench.job(next).waits_on.front().kind, Wait::Kind::stop);
+  bench.step(Resume{{ArmId{0}}}, at(700ms));
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.question->candidates.front().job, next);
 }
 
 }  // namespace

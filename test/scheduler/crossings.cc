@@ -1,0 +1,298 @@
+#include "test/scheduler/crossings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace armloom {
+namespace {
+
+constexpr Duration kLarger = std::chrono::microseconds(1);
+constexpr double kTouch = 1e-6;  // rad
+
+bool moves(const Motion& motion, ArmId arm) {
+  const auto& arms = motion.trajectory->arms();
+  return std::ranges::find(arms, arm) != arms.end();
+}
+
+bool share_an_arm(const Motion& a, const Motion& b) {
+  return std::ranges::any_of(a.trajectory->arms(), [&](ArmId arm) { return moves(b, arm); });
+}
+
+Eigen::Index row_of(const Trajectory& motion, ArmId arm) {
+  return std::ranges::find(motion.arms(), arm) - motion.arms().begin();
+}
+
+// Of the quintic from rest to rest: the share of its time at which it has made this share of its
+// way.
+double time_share(double way_share) {
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 45; ++i) {
+    const double t = 0.5 * (low + high);
+    (t * t * t * (10.0 + t * (-15.0 + t * 6.0)) < way_share ? low : high) = t;
+  }
+  return 0.5 * (low + high);
+}
+
+struct Span {
+  Duration from, to;
+};
+
+// When the arm is in the stretch.
+std::optional<Span> span_in(const Trajectory& motion, ArmId arm, Stretch stretch) {
+  const double start = motion.start()[row_of(motion, arm)];
+  const double goal = motion.goal()[row_of(motion, arm)];
+  if (std::max(start, goal) < stretch.from || std::min(start, goal) > stretch.to) {
+    return std::nullopt;
+  }
+  const double T = to_seconds(motion.duration());
+  if (std::abs(goal - start) < 1e-9) return Span{Duration{}, motion.duration()};
+  const double enters = ((goal > start ? stretch.from : stretch.to) - start) / (goal - start);
+  const double leaves = ((goal > start ? stretch.to : stretch.from) - start) / (goal - start);
+  Span span{Duration{}, motion.duration()};
+  if (enters > 0.0)
+    span.from = std::max(Duration{}, from_seconds(T * time_share(enters)) - kLarger);
+  if (leaves < 1.0) {
+    span.to = std::min(motion.duration(), from_seconds(T * time_share(leaves)) + kLarger);
+  }
+  return span;
+}
+
+bool touch(const ProgressBox& x, const ProgressBox& y) {
+  return x.from_a <= y.to_a && y.from_a <= x.to_a && x.from_b <= y.to_b && y.from_b <= x.to_b;
+}
+
+Proximity proximity_of(ArmId a, ArmId b) {
+  return {.body_a = "a", .body_b = "b", .arm_a = a, .arm_b = b, .clearance_m = 0.0};
+}
+
+}  // namespace
+
+double place_of(const Trajectory& motion, ArmId arm, Duration progress) {
+  Eigen::VectorXd position;
+  motion.sample_positions(progress, position);
+  return position[row_of(motion, arm)];
+}
+
+bool Crossings::meet(ArmId a, Stretch of_a, ArmId b, Stretch of_b) const {
+  if (b < a) return meet(b, of_b, a, of_a);
+  return std::ranges::any_of(table_, [&](const Crossing& c) {
+    return c.a == a && c.b == b && of_a.from < c.to_a - kTouch && of_a.to > c.from_a + kTouch &&
+           of_b.from < c.to_b - kTouch && of_b.to > c.from_b + kTouch;
+  });
+}
+
+// What is connected is one region; the evidence is of one of its boxes.
+std::vector<ConflictRegion> Crossings::regions_of(std::vector<Box> boxes) {
+  std::vector<ConflictRegion> regions;
+  while (!boxes.empty()) {
+    const Box first = boxes.back();
+    boxes.pop_back();
+    std::vector<ProgressBox> region{first};
+    for (std::size_t i = 0; i < region.size(); ++i) {  // grows
+      for (std::size_t b = boxes.size(); b-- > 0;) {
+        if (!touch(region[i], boxes[b])) continue;
+        region.push_back(boxes[b]);
+        boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(b));
+      }
+    }
+    regions.push_back(
+        {std::move(region), proximity_of(first.a, first.b), first.from_a, first.from_b});
+  }
+  return regions;
+}
+
+std::vector<Crossings::Box> Crossings::boxes(const Motion& a, const Motion& b) const {
+  std::vector<Box> boxes;
+  const auto add = [&](ArmId arm_a, Stretch of_a, ArmId arm_b, Stretch of_b) {
+    if (!moves(a, arm_a) || !moves(b, arm_b)) return;
+    const auto span_a = span_in(*a.trajectory, arm_a, of_a);
+    const auto span_b = span_in(*b.trajectory, arm_b, of_b);
+    if (!span_a || !span_b || span_a->to < a.progress || span_b->to < b.progress) return;
+    boxes.push_back({{span_a->from, span_a->to, span_b->from, span_b->to}, arm_a, arm_b});
+  };
+  for (const Crossing& c : table_) {
+    add(c.a, {c.from_a, c.to_a}, c.b, {c.from_b, c.to_b});
+    add(c.b, {c.from_b, c.to_b}, c.a, {c.from_a, c.to_a});
+  }
+  return boxes;
+}
+
+std::vector<Crossings::Box> Crossings::boxes(const Motion& a, Standing b) const {
+  std::vector<Box> boxes;
+  const auto add = [&](ArmId arm_a, Stretch of_a, ArmId arm_b, Stretch of_b) {
+    if (!moves(a, arm_a) || arm_b != b.arm || b.q <= of_b.from || b.q >= of_b.to) return;
+    const auto span = span_in(*a.trajectory, arm_a, of_a);
+    if (span && span->to >= a.progress)
+      boxes.push_back({{span->from, span->to, {}, {}}, arm_a, arm_b});
+  };
+  for (const Crossing& c : table_) {
+    add(c.a, {c.from_a, c.to_a}, c.b, {c.from_b, c.to_b});
+    add(c.b, {c.from_b, c.to_b}, c.a, {c.from_a, c.to_a});
+  }
+  return boxes;
+}
+
+bool Crossings::meets_object(const Motion& motion) const {
+  return std::ranges::any_of(objects_, [&](const Object& object) {
+    if (!moves(motion, object.arm)) return false;
+    const auto span = span_in(*motion.trajectory, object.arm, {object.from, object.to});
+    return span && span->to >= motion.progress;
+  });
+}
+
+// Its arms are at the same progress always.
+bool Crossings::meets_itself(const Motion& motion) const {
+  return std::ranges::any_of(boxes(motion, motion), [](const Box& box) {
+    return box.from_a <= box.to_b && box.from_b <= box.to_a;
+  });
+}
+
+bool Crossings::free_beside(const Trajectory& motion, const Configuration& rest) const {
+  const Motion alone{JobId{0}, TrajectoryPtr(TrajectoryPtr{}, &motion), Duration{}};
+  if (meets_object(alone) || meets_itself(alone)) return false;
+  for (Eigen::Index joint = 0; joint < rest.size(); ++joint) {
+    const ArmId arm{static_cast<std::uint32_t>(joint)};
+    if (!moves(alone, arm) && !boxes(alone, Standing{arm, rest[joint]}).empty()) return false;
+  }
+  return true;
+}
+
+// ---- Answers ----
+
+// Each arm that no motion moves rests where it is; of those that a motion moves which shares an
+// arm with the candidate, where that leaves it, or finds it.
+std::vector<Crossings::Standing> Crossings::standing_beside(const Question& question,
+                                                            const Motion& candidate) const {
+  std::vector<const Motion*> in_order;
+  for (const Motion& motion : question.others) in_order.push_back(&motion);
+  for (const Motion& motion : question.candidates) in_order.push_back(&motion);
+  std::ranges::stable_partition(in_order, [](const Motion* motion) { return !motion->to_come; });
+  const auto own = std::ranges::find(in_order, &candidate);
+  std::vector<Standing> standing;
+  for (Eigen::Index joint = 0; joint < question.rest.size(); ++joint) {
+    const ArmId arm{static_cast<std::uint32_t>(joint)};
+    if (moves(candidate, arm)) continue;
+    const Motion* before = nullptr;
+    const Motion* behind = nullptr;
+    for (auto motion = in_order.begin(); motion != in_order.end(); ++motion) {
+      if (!moves(**motion, arm)) continue;
+      if (motion < own) before = *motion;
+      if (motion > own && behind == nullptr) behind = *motion;
+    }
+    if (before != nullptr && !share_an_arm(candidate, *before)) continue;
+    if (behind != nullptr && !share_an_arm(candidate, *behind)) continue;
+    double q = question.rest[joint];
+    if (before != nullptr) {
+      q = place_of(*before->trajectory, arm, before->trajectory->duration());
+    } else if (behind != nullptr) {
+      q = place_of(*behind->trajectory, arm, Duration{});
+    }
+    standing.push_back({arm, q});
+  }
+  return standing;
+}
+
+void Crossings::coordinate(const Question& question, Verdict& verdict) const {
+  const auto compare = [&](const Motion& a, const Motion& b) {
+    if (share_an_arm(a, b)) return;
+    auto found = boxes(a, b);
+    if (found.empty()) return;
+    verdict.regions.push_back({a.job, b.job, regions_of(std::move(found))});
+  };
+  for (auto own = question.candidates.begin(); own != question.candidates.end(); ++own) {
+    for (const Motion& other : question.others) compare(*own, other);
+    for (auto other = own + 1; other != question.candidates.end(); ++other) compare(*own, *other);
+    for (const Standing& standing : standing_beside(question, *own)) {
+      auto found = boxes(*own, standing);
+      if (found.empty()) continue;
+      verdict.regions.push_back({own->job, standing.arm, regions_of(std::move(found))});
+    }
+  }
+}
+
+void Crossings::compare_sweeps(const Question& question, Verdict& verdict) const {
+  for (const Motion& own : question.candidates) {
+    for (const Motion& other : question.others) {
+      const auto found = boxes(own, other);
+      if (found.empty()) continue;
+      const auto near = proximity_of(found.front().a, found.front().b);
+      verdict.conflicts.push_back({Conflict::With::motion, own.job, other.job, near,
+                                   found.front().from_a, found.front().from_b});
+    }
+    for (const Standing& standing : standing_beside(question, own)) {
+      const auto found = boxes(own, standing);
+      if (found.empty()) continue;
+      const auto near = proximity_of(found.front().a, standing.arm);
+      verdict.conflicts.push_back(
+          {Conflict::With::rest, own.job, {}, near, found.front().from_a, {}});
+    }
+  }
+}
+
+void Crossings::compare_instants(const Question& question, Duration step, Verdict& verdict) const {
+  const auto met_at = [&](const Motion& own, Duration t, auto&& place_of_other, ArmId arm) {
+    return std::ranges::any_of(own.trajectory->arms(), [&](ArmId moved) {
+      const double q = place_of(*own.trajectory, moved, own.progress + t);
+      const double other = place_of_other(t);
+      return meet(moved, {q, q}, arm, {other, other});
+    });
+  };
+  for (const Motion& own : question.candidates) {
+    const auto compare = [&](ArmId arm, Duration until, std::optional<JobId> job, auto&& where) {
+      for (Duration t{}; t < until + step; t += step) {
+        if (!met_at(own, t, where, arm)) continue;
+        verdict.conflicts.push_back({job ? Conflict::With::motion : Conflict::With::rest, own.job,
+                                     job, proximity_of(own.trajectory->arms().front(), arm), t, t});
+        return;
+      }
+    };
+    for (const Motion& other : question.others) {
+      for (const ArmId arm : other.trajectory->arms()) {
+        compare(arm, std::max(own.remaining(), other.remaining()), other.job,
+                [&](Duration t) { return place_of(*other.trajectory, arm, other.progress + t); });
+      }
+    }
+    for (const Standing& standing : standing_beside(question, own)) {
+      compare(standing.arm, own.remaining(), {}, [&](Duration) { return standing.q; });
+    }
+  }
+}
+
+PassageAnswer Crossings::answer(const PassageQuestion& passage) const {
+  const bool apart = std::ranges::none_of(table_, [&](const Crossing& c) {
+    return (moves(passage.motion, c.a) && c.b == passage.arm) ||
+           (moves(passage.motion, c.b) && c.a == passage.arm);
+  });
+  if (apart) return PassageAnswer::apart;
+  return boxes(passage.motion, Standing{passage.arm, passage.rest[0]}).empty()
+             ? PassageAnswer::free
+             : PassageAnswer::blocked;
+}
+
+Verdict Crossings::answer(const Question& question) const {
+  Verdict verdict{Verdict::Kind::free, question.version, {}, {}, 1};
+  for (const PassageQuestion& passage : question.passages) {
+    verdict.passages.push_back(answer(passage));
+  }
+  for (const Motion& own : question.candidates) {
+    const auto near = proximity_of(own.trajectory->arms().front(), ArmId{0});
+    if (meets_object(own)) {
+      verdict.conflicts.push_back({Conflict::With::scene, own.job, {}, near, {}, {}});
+    }
+    if (meets_itself(own)) {
+      verdict.conflicts.push_back({Conflict::With::self, own.job, {}, near, {}, {}});
+    }
+  }
+  if (std::holds_alternative<Coordinated>(question.method)) {
+    if (verdict.conflicts.empty()) coordinate(question, verdict);
+  } else if (const auto* timed = std::get_if<TimedDiscrete>(&question.method)) {
+    compare_instants(question, timed->step, verdict);
+  } else {
+    compare_sweeps(question, verdict);
+  }
+  if (!verdict.conflicts.empty()) verdict.kind = Verdict::Kind::conflict;
+  return verdict;
+}
+
+}  // namespace armloom

@@ -1,0 +1,344 @@
+#include "test/scheduler/ideal_arms.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armloom {
+namespace {
+
+constexpr Duration kTick = std::chrono::milliseconds(2);
+
+Duration scaled(Duration duration, double by) { return from_seconds(to_seconds(duration) * by); }
+
+}  // namespace
+
+IdealArms::IdealArms(const CellPtr& description, std::unique_ptr<const Policy> policy,
+                     Crossings table, HabitsOf habits_of, std::uint64_t seed)
+    : Bench(description, std::move(policy)),
+      crossings(std::move(table)),
+      habits_of_(std::move(habits_of)),
+      random_(seed) {
+  const Configuration home = description->home();
+  q_.assign(home.data(), home.data() + home.size());
+}
+
+JobId IdealArms::submit(Submit submitted) {
+  const std::vector<JobId> after = submitted.after;
+  const std::vector<ArmId> arms = submitted.trajectory->arms();
+  const bool own = submitted.own;
+  submitted.job = next_id();
+  after_[submitted.job] = after;
+  if (!own) {
+    for (const ArmId arm : arms) of_arm_[arm].push_back(submitted.job);
+  }
+  take(submitted);
+  return submitted.job;
+}
+
+IdealArms::Moving* IdealArms::find_moving(JobId job) {
+  const auto found = std::ranges::find(moving_, job, &Moving::job);
+  return found == moving_.end() ? nullptr : &*found;
+}
+
+bool IdealArms::moves(JobId job) const {
+  return std::ranges::find(moving_, job, &Moving::job) != moving_.end();
+}
+
+Duration IdealArms::progress(JobId job) const {
+  const auto found = std::ranges::find(moving_, job, &Moving::job);
+  return found == moving_.end() ? this->job(job).progress : found->s;
+}
+
+std::size_t IdealArms::times_released(JobId job) const {
+  return times_released_.contains(job) ? times_released_.at(job) : 0;
+}
+
+std::size_t IdealArms::times_dispatched(JobId job) const {
+  return times_dispatched_.contains(job) ? times_dispatched_.at(job) : 0;
+}
+
+// ---- What happens next ----
+
+bool IdealArms::go_on(TimePoint until) {
+  if (question && answer_at_ == kNever) {
+    answer_at_ = now_ + std::chrono::microseconds(500 + random_() % 8000);
+  }
+  TimePoint next = std::min(answer_at_, wake_at.value_or(kNever));
+  for (const Moving& arm : moving_) next = std::min(next, arm.report_at);
+  const bool comes = next <= until && next != kNever;
+  if (!comes) next = until;
+  if (next == kNever) return false;
+  next = std::max(next, now_);
+  for (Moving& arm : moving_) advance(arm, next);
+  now_ = next;
+  if (!comes) return false;
+  if (now_ >= answer_at_) {
+    answer_at_ = kNever;
+    const Question asked = *std::exchange(question, std::nullopt);
+    take(Judged{crossings.answer(asked)});
+    return true;
+  }
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    if (moving_[i].report_at > now_) continue;
+    report(i);
+    return true;
+  }
+  wake_at.reset();
+  take(Wake{});
+  return true;
+}
+
+void IdealArms::run(std::size_t events_max) {
+  for (std::size_t events = 0; go_on(kNever); ++events) {
+    if (::testing::Test::HasFailure()) return;
+    if (events < events_max) continue;
+    ADD_FAILURE() << "still going on after " << events << " events";
+    return;
+  }
+}
+
+void IdealArms::take(const Input& input) {
+  step(input, now_);
+  const auto* report = std::get_if<MotionReport>(&input);
+  if (!report || report->kind != MotionReport::Kind::progressed) {
+    for (Moving& arm : moving_) {  // who stands tells it again at its next tick
+      if (arm.report_at == kNever) arm.report_at = now_ + kTick;
+    }
+  }
+  while (!asides.empty()) {
+    const MoveAside aside = asides.front();
+    asides.erase(asides.begin());
+    send_aside(aside);
+  }
+  check();
+}
+
+// As the executive does.
+void IdealArms::send_aside(const MoveAside& aside) {
+  const auto waits = [this](JobId id) { return !is_terminal(state(id)); };
+  if (!waits(aside.way_of) || (aside.before && !waits(*aside.before))) return;
+  const Job& helped = job(aside.way_of);
+  Submit way{.job = JobId{0},
+             .trajectory = aside.trajectory,
+             .priority = helped.priority,
+             .backlog_timeout = helped.backlog_timeout,
+             .own = true,
+             .helps = aside.way_of,
+             .before = aside.before};
+  Submit back = way;
+  const JobId goes = submit(std::move(way));
+  if (!aside.before) return;
+  const Trajectory& out = *aside.trajectory;
+  back.trajectory = move({aside.arm.value()}, out.goal()[0], out.start()[0], out.duration());
+  back.after = {goes};
+  back.helps = aside.before;
+  back.lets_pass = aside.way_of;
+  submit(std::move(back));
+}
+
+// ---- The arms ----
+
+void IdealArms::advance(Moving& arm, TimePoint to) const {
+  TimePoint from = std::max(now_, arm.moves_from);
+  const Duration end = arm.braking ? arm.rests_at : arm.authority;
+  while (from < to && arm.s < end) {
+    const bool stalls =
+        !arm.has_stalled && arm.habits.stalls_for > Duration{} && arm.habits.stalls_at > arm.s;
+    const Duration target = stalls ? std::min(end, arm.habits.stalls_at) : end;
+    const TimePoint there = from + scaled(target - arm.s, 1.0 / arm.habits.speed);
+    if (there > to) {
+      arm.s = std::min(target, arm.s + scaled(to - from, arm.habits.speed));
+      arm.moved_at = to;
+      return;
+    }
+    arm.s = target;
+    arm.moved_at = there;
+    from = there;
+    if (!stalls || target < arm.habits.stalls_at) continue;
+    arm.has_stalled = true;
+    arm.moves_from = from = there + arm.habits.stalls_for;
+  }
+}
+
+// After a report, or a word from the scheduler: when it speaks next.
+void IdealArms::plan_report(Moving& arm) {
+  if (arm.braking) {
+    arm.report_at = std::max(now_, arm.report_at);
+    return;
+  }
+  const TimePoint begins = std::max(now_, arm.moves_from);
+  if (arm.s >= arm.authority) {
+    const bool known = arm.reported == arm.s && arm.s < arm.motion->duration();
+    arm.report_at = known && arm.seen_to_stand ? kNever : now_ + kTick + arm.habits.feedback_age;
+    return;
+  }
+  const auto tick = std::chrono::milliseconds(40 + random_() % 200);
+  const Duration way = std::min<Duration>(tick, arm.authority - arm.s);
+  arm.report_at = begins + scaled(way, 1.0 / arm.habits.speed) + Duration(1);
+}
+
+void IdealArms::report(std::size_t index) {
+  Moving& arm = moving_[index];
+  const bool rests = arm.s >= arm.motion->duration();
+  const bool unseen = arm.s > Duration{} && arm.reported == Duration{};
+  if ((arm.braking || rests) && unseen) {  // it is seen to move before it is seen to rest
+    arm.reported = arm.s;
+    take(MotionReport{arm.job, MotionReport::Kind::progressed, arm.reported});
+    return;
+  }
+  if (arm.braking || rests) {
+    const Moving rested = arm;
+    moving_.erase(moving_.begin() + static_cast<std::ptrdiff_t>(index));
+    come_to_rest(rested, rests ? MotionReport::Kind::finished : MotionReport::Kind::stopped);
+    return;
+  }
+  const Duration old = scaled(arm.habits.feedback_age, arm.habits.speed);
+  const bool stands = now_ - arm.moved_at >= arm.habits.feedback_age;
+  const Duration before = arm.reported;
+  arm.reported = stands ? arm.s : std::max(arm.reported, arm.s - old);
+  arm.seen_to_stand = arm.reported == before;
+  const JobId job = arm.job;
+  const Duration told = arm.reported;
+  plan_report(arm);
+  take(MotionReport{job, MotionReport::Kind::progressed, told});
+}
+
+void IdealArms::come_to_rest(const Moving& arm, MotionReport::Kind kind) {
+  MotionReport told{arm.job, kind, arm.s};
+  arm.motion->sample_positions(arm.s, told.rest_position);
+  for (std::size_t i = 0; i < arm.motion->arms().size(); ++i) {
+    q_[arm.motion->arms()[i].index()] = told.rest_position[static_cast<Eigen::Index>(i)];
+  }
+  take(told);
+}
+
+// ---- What the scheduler says ----
+
+void IdealArms::heard(const Effect& effect) {
+  if (const auto* dispatch = std::get_if<Dispatch>(&effect)) on(*dispatch);
+  if (const auto* grant = std::get_if<Grant>(&effect)) on(*grant);
+  if (const auto* brake = std::get_if<Brake>(&effect)) on(*brake);
+  if (const auto* release = std::get_if<Release>(&effect)) {
+    ++times_released_[release->job];
+    EXPECT_FALSE(moves(release->job)) << "released in motion";
+    EXPECT_TRUE(is_terminal(state(release->job)) || !job(release->job).started_at);
+  }
+}
+
+void IdealArms::on(const Dispatch& dispatch) {
+  ++times_dispatched_[dispatch.job];
+  const Job& job = this->job(dispatch.job);
+  for (const ArmId arm : job.trajectory->arms()) {
+    EXPECT_FALSE(scheduler.stopped(arm)) << "a stopped arm is sent";
+    for (const Moving& other : moving_) {
+      const auto& arms = other.motion->arms();
+      EXPECT_EQ(std::ranges::find(arms, arm), arms.end()) << "it moves already";
+    }
+    EXPECT_NEAR(place_of(*job.trajectory, arm, dispatch.from_progress), q_[arm.index()], 1e-6)
+        << "it does not stand there";
+    if (job.own) continue;
+    for (const JobId before : of_arm_[arm]) {
+      if (before == dispatch.job) break;
+      EXPECT_TRUE(is_terminal(state(before))) << "out of the order of its arm";
+    }
+  }
+  for (const JobId before : after_[dispatch.job]) {
+    EXPECT_EQ(state(before), JobState::succeeded) << "before what it comes after";
+  }
+  Habits habits = habits_of_(dispatch.job);
+  if (dispatch.from_progress > Duration{}) habits.stalls_for = {};
+  moving_.push_back({.job = dispatch.job,
+                     .motion = job.trajectory,
+                     .habits = habits,
+                     .s = dispatch.from_progress,
+                     .reported = dispatch.from_progress,
+                     .authority = dispatch.authority,
+                     .moves_from = std::max(now_, dispatch.start_at) + habits.starts_late,
+                     .moved_at = now_,
+                     .report_at = now_});
+  EXPECT_GE(dispatch.authority, dispatch.from_progress);
+  EXPECT_LE(dispatch.authority, job.trajectory->duration());
+  plan_report(moving_.back());
+}
+
+void IdealArms::on(const Grant& grant) {
+  Moving* arm = find_moving(grant.job);
+  ASSERT_NE(arm, nullptr) << "authority for what does not move";
+  EXPECT_FALSE(arm->braking) << "authority for what brakes";
+  EXPECT_GT(grant.authority, arm->authority) << "it shrinks";
+  EXPECT_LE(grant.authority, arm->motion->duration());
+  arm->authority = grant.authority;
+  plan_report(*arm);
+}
+
+void IdealArms::on(const Brake& brake) {
+  Moving* arm = find_moving(brake.job);
+  ASSERT_NE(arm, nullptr) << "what does not move brakes";
+  EXPECT_FALSE(arm->braking) << "it brakes already";
+  arm->braking = true;
+  arm->rests_at =
+      std::min(arm->authority, arm->s + scaled(arm->habits.brakes_for, arm->habits.speed));
+  const Duration begins = std::max(Duration{}, arm->moves_from - now_);
+  if (begins > Duration{} && arm->s == Duration{}) arm->rests_at = Duration{};  // not at all
+  arm->moves_from = now_;
+  arm->report_at = now_ + arm->habits.brakes_for + Duration(1);
+}
+
+// ---- What holds after every step ----
+
+void IdealArms::check() {
+  if (::testing::Test::HasFailure()) return;
+  for (const Moving& arm : moving_) {
+    EXPECT_FALSE(is_terminal(state(arm.job))) << "job " << arm.job.value() << " moves on";
+  }
+  if (scheduler.policy().name() != "timed_discrete") check_authority();
+  check_explained();
+}
+
+// Where the arm may be, and for which job; that is no job where it rests.
+std::pair<Stretch, JobId> IdealArms::stretch_of(ArmId arm) const {
+  for (const Moving& moving : moving_) {
+    const auto& arms = moving.motion->arms();
+    if (std::ranges::find(arms, arm) == arms.end()) continue;
+    const double now = place_of(*moving.motion, arm, moving.reported);
+    const double then = place_of(*moving.motion, arm, moving.authority);
+    return {{std::min(now, then), std::max(now, then)}, moving.job};
+  }
+  return {{q_[arm.index()], q_[arm.index()]}, JobId{0}};
+}
+
+void IdealArms::check_authority() const {
+  for (std::uint32_t a = 0; a < q_.size(); ++a) {
+    for (std::uint32_t b = a + 1; b < q_.size(); ++b) {
+      const auto [of_a, job_a] = stretch_of(ArmId{a});
+      const auto [of_b, job_b] = stretch_of(ArmId{b});
+      if (job_a == job_b && job_a != JobId{0}) continue;
+      EXPECT_FALSE(crossings.meet(ArmId{a}, of_a, ArmId{b}, of_b))
+          << "arm " << a << " (job " << job_a.value() << ") and arm " << b << " (job "
+          << job_b.value() << ") may meet at " << to_seconds(now_.time_since_epoch()) << " s";
+    }
+  }
+}
+
+bool IdealArms::is_first(JobId id) const {
+  const std::vector<JobId> active = scheduler.active();
+  return std::ranges::none_of(active, [&](JobId before) {
+    return before < id && std::ranges::any_of(job(before).trajectory->arms(), [&](ArmId arm) {
+             const auto& arms = job(id).trajectory->arms();
+             return std::ranges::find(arms, arm) != arms.end();
+           });
+  });
+}
+
+void IdealArms::check_explained() const {
+  if (question) return;  // it may be about to go
+  for (const JobId id : scheduler.active()) {
+    const Job& job = this->job(id);
+    const bool behind = job.state == JobState::scheduled && !is_first(id);
+    const bool stands = job.pausing || (!moves(id) && !behind);
+    EXPECT_FALSE(stands && job.waits_on.empty())
+        << "job " << id.value() << " (" << to_string(job.state) << ") does not say why it stands";
+  }
+}
+
+}  // namespace armloom

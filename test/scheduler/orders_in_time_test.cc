@@ -1,0 +1,227 @@
+// Orders as times make them: now or later, at the start; and none.
+#include <gmock/gmock.h>
+
+#include "core/scheduler/motion_chains.h"
+#include "core/scheduler/precedence_graph.h"
+#include "test/scheduler/bench_cell.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr JobId kA{1}, kB{2}, kC{3}, kNext{4};
+
+CoordinatedMotion motion(JobId job, std::uint32_t arm, Duration duration) {
+  return {.job = job, .arms = {ArmId{arm}}, .duration = duration};
+}
+
+struct InTime : ::testing::Test {
+  PrecedenceGraph graph{4};
+
+  PassingOrders decide(const CoordinatedMotion& candidate, const std::vector<PairRegions>& regions,
+                       std::optional<Duration> latest = std::nullopt) const {
+    const std::vector<CoordinatedMotion> candidates{candidate};
+    return orders_in_time(graph.question(candidates, regions), latest);
+  }
+  PassingOrders admit(const CoordinatedMotion& candidate, const std::vector<PairRegions>& regions,
+                      std::optional<Duration> latest = std::nullopt) {
+    PassingOrders orders = decide(candidate, regions, latest);
+    if (orders.obstacles.empty()) graph.admit({candidate}, orders);
+    return orders;
+  }
+};
+
+// B meets A, which is there from 4 to 6 s, from 1 to 2 s of its own way.
+const std::vector<PairRegions> kMeet{{kB, kA, {region(ProgressBox{1s, 2s, 4s, 6s})}}};
+
+TEST_F(InTime, WhoIsThroughByTheClockBeforeTheOtherComesPassesFirst) {
+  admit(motion(kA, 0, 10s), {});
+  const auto orders = admit(motion(kB, 1, 3s), kMeet);
+  ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
+  EXPECT_EQ(orders.precedences.front().first(), kB);
+  EXPECT_THAT(orders.prediction.begins, ElementsAre(0s, 0s));
+  EXPECT_EQ(graph.limit(kA), 4s);
+  EXPECT_EQ(graph.limit(kB), 3s);
+}
+
+TEST_F(InTime, WhoIsNotBeginsSoMuchLaterThatItPassesSecondWithoutAStop) {
+  admit(motion(kA, 0, 10s), {});
+  graph.progress(kA, 3s);  // is there in 1 s, gone in 3 s
+  const auto orders = admit(motion(kB, 1, 3s), kMeet);
+  ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
+  EXPECT_EQ(orders.precedences.front().first(), kA);
+  EXPECT_EQ(orders.prediction.begins.back(), 2s) << "and 1 s to the place";
+  EXPECT_EQ(orders.prediction.ends.back(), 5s) << "without a stop";
+}
+
+TEST_F(InTime, FromThenOnItWaitsForWhatHasHappenedAndNotForTheClock) {
+  admit(motion(kA, 0, 10s), {});
+  graph.progress(kA, 3s);
+  admit(motion(kB, 1, 3s), kMeet);
+  graph.progress(kA, 5s - 1ms);  // however long that took
+  EXPECT_EQ(graph.limit(kB), 0s);
+  EXPECT_EQ(graph.held_back(kB)->by, kA);
+  graph.progress(kA, 5s);
+  EXPECT_EQ(graph.limit(kB), 1s) << "off, and to the place where A still is";
+  graph.progress(kA, 6s);
+  EXPECT_EQ(graph.limit(kB), 3s);
+}
+
+TEST_F(InTime, NothingLaterThanLatestIsTaken) {
+  admit(motion(kA, 0, 10s), {});
+  graph.progress(kA, 3s);
+  EXPECT_THAT(decide(motion(kB, 1, 3s), kMeet, 2s).obstacles, ::testing::IsEmpty());
+  for (const Duration latest : {Duration{}, Duration(2s) - Duration(1)}) {
+    const auto refused = decide(motion(kB, 1, 3s), kMeet, latest);
+    ASSERT_EQ(refused.obstacles.size(), 1u);
+    EXPECT_EQ(refused.obstacles[0].candidate, kB);
+    EXPECT_EQ(refused.obstacles[0].other, kA);
+  }
+}
+
+// With `latest` zero both motions go now: the second comes there when the first has just gone.
+TEST_F(InTime, WhoComesLaterAnywayGoesNow) {
+  admit(motion(kA, 0, 10s), {});
+  const auto orders =
+      admit(motion(kB, 1, 10s), {{kB, kA, {region(ProgressBox{6s, 7s, 4s, 6s})}}}, Duration{});
+  ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
+  EXPECT_EQ(graph.limit(kB), 6s) << "it leaves its start at once";
+}
+
+TEST_F(InTime, TheLeastShiftThatPassesAllRegionsIsTaken) {
+  admit(motion(kA, 0, 10s), {});
+  admit(motion(kC, 2, 10s), {});
+  // Between A, which is there from 2 to 3 s, and C, from 6 to 8 s: 1 s of B fits from 3 s on.
+  const auto orders = admit(
+      motion(kB, 1, 2s),
+      {{kB, kA, {region(ProgressBox{500ms, 1500ms, 2s, 3s})}},
+       {kB,
+        kC,
+        {region(ProgressBox{500ms, 1500ms, 1s, 2s}), region(ProgressBox{500ms, 1500ms, 6s, 8s})}}});
+  ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
+  EXPECT_EQ(orders.prediction.begins.back(), 2500ms);
+  EXPECT_EQ(graph.limit(kC), 6s) << "behind B";
+  EXPECT_EQ(graph.limit(kA), 10s) << "before B";
+  EXPECT_EQ(graph.limit(kB), 0s);
+  graph.progress(kA, 2500ms);
+  EXPECT_EQ(graph.limit(kB), 0s) << "C has not gone from its first place";
+  graph.progress(kC, 2s);
+  EXPECT_EQ(graph.limit(kB), 500ms);
+}
+
+TEST_F(InTime, AStartIsCountedByThatOfWhoWaitsForAnother) {
+  admit(motion(kA, 0, 4s), {});
+  admit(motion(kB, 1, 2s), {{kB, kA, {region(ProgressBox{0s, 1s, 3s, 4s - 1ms})}}});
+  ASSERT_EQ(graph.limit(kB), 2s) << "through before A comes";
+  // C meets B's goal from its start on, and B ends there: it passes before B comes.
+  const auto orders =
+      admit(motion(kC, 2, 1s), {{kC, kB, {region(ProgressBox{0s, 500ms, 1s, 2s})}}});
+  ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
+  EXPECT_EQ(graph.limit(kB), 1s);
+}
+
+TEST_F(InTime, WhoEndsInTheWayIsAnObstacleAndItsArmIsNamed) {
+  admit(motion(kA, 0, 5s), {});
+  const auto refused =
+      decide(motion(kB, 1, 3s), {{kB, kA, {region(ProgressBox{1s, 2s, 500ms, 5s})}}});
+  ASSERT_EQ(refused.obstacles.size(), 1u);
+  EXPECT_EQ(refused.obstacles[0].other, kA);
+  EXPECT_THAT(refused.in_the_way, ElementsAre(ArmId{0}));
+}
+
+TEST_F(InTime, OrdersOfBeforeStay) {
+  admit(motion(kA, 0, 10s), {});
+  admit(motion(kB, 1, 3s), kMeet);
+  const auto orders =
+      admit(motion(kC, 2, 3s), {{kC, kB, {region(ProgressBox{1s, 2s, 2500ms, 2800ms})}}});
+  ASSERT_EQ(orders.precedences.size(), 2u);
+  EXPECT_EQ(orders.precedences.front().first(), kB);
+  EXPECT_EQ(orders.precedences.front().second(), kA);
+}
+
+TEST_F(InTime, AnArmAtRestInTheWayIsAnObstacleAtOnce) {
+  const auto refused =
+      decide(motion(kA, 0, 5s), {{kA, ArmId{2}, {region(ProgressBox{2s, 3s, 0s, 0s})}}});
+  ASSERT_EQ(refused.obstacles.size(), 1u);
+  EXPECT_EQ(refused.obstacles[0].arm, ArmId{2});
+}
+
+// ---- Gates at the start ----
+
+TEST(Precedence, ThatWaitsAtItsStartLeavesItWhenItWillPassWithoutAStop) {
+  const ConflictRegion two =
+      region(ProgressBox{1s, 4s, 2s, 3s}, ProgressBox{4s, 7s, 4s, 5s});  // 2 s, then 3 s ahead
+  const Precedence order(kA, kB, two, true, true);
+  EXPECT_EQ(order.limit(0s), 0s);
+  EXPECT_EQ(order.limit(3s - 1ns), 0s);
+  EXPECT_EQ(order.limit(3s), 2s) << "off: 1 s before A has left what is 2 s away";
+  EXPECT_EQ(order.limit(4s), 4s);
+  EXPECT_EQ(order.limit(7s), std::nullopt);
+}
+
+TEST(Precedence, ThatComesLaterAnywayDoesNotWaitAtItsStart) {
+  const ConflictRegion late = region(ProgressBox{1s, 2s, 3s, 4s});
+  const Precedence order(kA, kB, late, true, true);
+  EXPECT_EQ(order.limit(0s), 3s);
+}
+
+// ---- No orders ----
+
+TEST_F(InTime, ApartGoesOnlyWhatMeetsNothing) {
+  graph.admit({motion(kA, 0, 10s)}, {});
+  const std::vector<CoordinatedMotion> b{motion(kB, 1, 3s)}, c{motion(kC, 2, 3s)};
+  const std::vector<PairRegions> none;
+  const auto refused = orders_apart(graph.question(b, kMeet));
+  ASSERT_EQ(refused.obstacles.size(), 1u);
+  EXPECT_EQ(refused.obstacles[0].other, kA);
+  EXPECT_THAT(orders_apart(graph.question(c, none)).obstacles, ::testing::IsEmpty());
+  graph.progress(kA, 6s + 1ns);
+  EXPECT_THAT(orders_apart(graph.question(b, kMeet)).obstacles, ::testing::IsEmpty()) << "passed";
+}
+
+// ---- The parts ----
+
+TEST(Prediction, KnowsWhenAMotionComesSomewhere) {
+  const Precedence order(kA, kB, region(ProgressBox{1s, 3s, 2s, 4s}), true);
+  const Prediction p = predict({{1s, 5s, {}}, {0s, 5s, {}}, {0s, 2s, {0}}}, {{0, 1, &order}});
+  EXPECT_EQ(p.comes_to(0, 500ms), Duration{}) << "has been there";
+  EXPECT_EQ(p.comes_to(0, 3s), Duration(2s));
+  EXPECT_EQ(p.comes_to(1, 2s), Duration(2s)) << "as A leaves: no wait";
+  EXPECT_EQ(p.comes_to(2, 1s), Duration(5s)) << "behind A on its arm";
+  EXPECT_EQ(p.comes_to(0, 6s), std::nullopt) << "beyond its end";
+}
+
+TEST(Prediction, KnowsThatWhatIsStuckNeverComes) {
+  const Precedence ab(kA, kB, region(ProgressBox{2s, 3s, 1s, 4s}), true);
+  const Precedence ba(kB, kA, region(ProgressBox{2s, 3s, 1s, 4s}), true);
+  const Prediction p =
+      predict({{0s, 5s, {}}, {0s, 5s, {}}, {0s, 1s, {0}}}, {{0, 1, &ab}, {1, 0, &ba}});
+  EXPECT_THAT(p.stuck, ElementsAre(0u, 1u, 2u));
+  EXPECT_EQ(p.comes_to(2, 0s), std::nullopt) << "it never begins";
+}
+
+TEST(MotionChains, FollowEachOtherOnTheArmsThatTheyShare) {
+  const CoordinatedMotion team{.job = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
+  const MotionChains chains({motion(kA, 0, 1s), motion(kB, 1, 1s), team, motion(kNext, 0, 1s)});
+  EXPECT_THAT(chains.before(0), ElementsAre());
+  EXPECT_THAT(chains.before(2), ElementsAre(0u, 1u));
+  EXPECT_THAT(chains.before(3), ElementsAre(2u));
+  for (const std::size_t first : {0u, 1u}) {
+    EXPECT_TRUE(chains.stands(first));
+    EXPECT_TRUE(chains.moves_on(first));
+  }
+  EXPECT_FALSE(chains.stands(2));
+  EXPECT_FALSE(chains.moves_on(2)) << "one of its arms stays";
+  EXPECT_FALSE(chains.moves_on(3));
+}
+
+TEST(MotionChains, OfATeamStandAsLongAsOneOfItsArmsIsThere) {
+  const CoordinatedMotion team{.job = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
+  const MotionChains chains({motion(kA, 0, 1s), team});
+  EXPECT_TRUE(chains.stands(1));
+  EXPECT_TRUE(chains.moves_on(0));
+}
+
+}  // namespace
+}  // namespace armloom

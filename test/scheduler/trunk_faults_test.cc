@@ -1,0 +1,144 @@
+// Faults that random worlds found; each is enabled with its mend.
+#include <gmock/gmock.h>
+
+#include "test/scheduler/bench_cell.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::ElementsAre;
+
+// x stands in b's way at its end, and y, next of its arm, takes it away: both go with b.
+TEST(Admission, DISABLED_WhatIsAdmittedBehindAJobOfItsArmSaysThatItWaitsForIt) {
+  Bench bench(2, "coordinated");
+  const JobId x = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  const JobId y = bench.submit(move({0}, 1, 0, 2s), at(2ms));
+  const JobId b = bench.submit(move({1}, 0, 1, 2s), at(2ms));
+  bench.progressed(x, 1900ms, at(3ms));
+  const PairRegions at_goal{b, x, {region(ProgressBox{1s, 1200ms, 1900ms, 2s})}};
+  bench.answer_regions(at(4ms), {at_goal});
+  ASSERT_EQ(bench.question->candidates.size(), 2u);
+  bench.answer_regions(at(5ms), {at_goal, {b, y, {region(ProgressBox{1s, 1200ms, 0s, 200ms})}}});
+  ASSERT_EQ(bench.state(y), JobState::scheduled);
+  ASSERT_EQ(bench.job(y).waits_on.size(), 1u);
+  EXPECT_EQ(bench.job(y).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(y).waits_on.front().job, x);
+}
+
+// The last report before the end is from before the region.
+TEST(Authority, DISABLED_GrowsWhenTheOneThatPassesFirstComesToItsEnd) {
+  Bench bench(2, "certified");
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(first, 500ms, at(501ms));
+  const JobId second = bench.submit(move({1}, 0, 1, 2s), at(502ms));
+  bench.answer_regions(at(503ms),
+                       {{second, first, {region(ProgressBox{1500ms, 1600ms, 1700ms, 1800ms})}}});
+  bench.progressed(second, 500ms, at(1s));
+  bench.progressed(second, 1s, at(2s));
+  bench.progressed(second, 1500ms, at(3s));
+  ASSERT_EQ(bench.authority(second), 1500ms);
+  bench.finished(first, at(4s));
+  EXPECT_GT(bench.authority(second), 1500ms) << "nothing is in its way any more";
+}
+
+// Stopped before the first report of its progress.
+TEST(Stop, DISABLED_OfAJobThatIsOnItsWayUnseenHoldsItThere) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.step(Stop{{ArmId{0}}, "operator"}, at(300ms));
+  bench.stopped(job, 400ms, at(500ms));
+  EXPECT_EQ(bench.state(job), JobState::holding);
+  bench.step(Resume{{ArmId{0}}}, at(1s));
+  EXPECT_EQ(bench.state(job), JobState::holding) << bench.job(job).detail;
+  bench.answer_free(at(1001ms));
+  EXPECT_EQ(bench.dispatched.back().from_progress, 400ms);
+}
+
+// What waits for an arm that no job moves is asked about as well; that cannot go, x can.
+TEST(Admission, DISABLED_AJobThatCanGoAloneIsNotPutOffForOneThatCannotGoWithIt) {
+  Bench bench(3, "coordinated");
+  const JobId blocked = bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  bench.answer_regions(at(1ms), {{blocked, ArmId{2}, {region(ProgressBox{1s, 2s, 0s, 0s})}}});
+  const JobId x = bench.submit(move({0}, 0, 1, 2s), at(2ms));
+  while (bench.question && bench.question->candidates.size() == 1) bench.answer_free(at(3ms));
+  ASSERT_TRUE(bench.question) << "both are asked about as one";
+  ASSERT_EQ(bench.question->candidates.front().job, x);
+  bench.answer_conflict(at(4ms), Conflict::With::scene);
+  ASSERT_TRUE(bench.question) << "x alone";
+  bench.answer_free(at(5ms));
+  EXPECT_EQ(bench.state(x), JobState::scheduled);
+}
+
+// `waits` was admitted to pass after `leaves` has left its start; that is stopped before it moves.
+TEST(Resume, DISABLED_OfAJobThatHadNotMovedLetsItLeaveForThoseThatCountOnIt) {
+  for (const char* policy : {"lockstep", "certified", "earliest_start"}) {
+    Bench bench(2, policy);
+    const JobId leaves = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+    const JobId waits = bench.submit(move({1}, 0, 1, 4s), at(0ms));
+    bench.answer_free(at(1ms));
+    const ConflictRegion at_start = region(ProgressBox{0s, 1s, 2s, 3s});
+    const PairRegions of_waits{waits, leaves, {region(ProgressBox{2s, 3s, 0s, 1s})}};
+    bench.answer_regions(at(2ms), {of_waits});
+    ASSERT_EQ(bench.state(waits), JobState::scheduled) << policy;
+    bench.progressed(waits, 900ms, at(1s));
+    bench.step(Stop{{ArmId{0}, ArmId{1}}, "operator"}, at(1500ms));
+    bench.stopped(leaves, 0ms, at(1501ms));
+    bench.stopped(waits, 1500ms, at(1600ms));
+    bench.step(Resume{{ArmId{0}, ArmId{1}}}, at(3s));
+    for (int i = 0; i < 4 && bench.question; ++i) {
+      const bool of_it = bench.question->candidates.front().job == leaves;
+      bench.answer_regions(at(3001ms), of_it ? std::vector<PairRegions>{{leaves, waits, {at_start}}}
+                                             : std::vector<PairRegions>{});
+    }
+    EXPECT_EQ(bench.state(leaves), JobState::scheduled) << policy;
+    EXPECT_EQ(bench.authority(waits) > 2s, false) << policy;
+    EXPECT_EQ(bench.dispatched.back().job, leaves) << policy;
+  }
+}
+
+TEST(Lockstep, DISABLED_AJobThatPausesForAnArmLetsThatArmsNextJobJoin) {
+  Bench bench(2, "lockstep");
+  const JobId canceled = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  const JobId pauses = bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(canceled, 500ms, at(501ms));
+  bench.answer_regions(at(502ms),
+                       {{pauses, canceled, {region(ProgressBox{1500ms, 1600ms, 500ms, 1s})}}});
+  ASSERT_EQ(bench.state(pauses), JobState::scheduled);
+  bench.step(Cancel{canceled}, at(503ms));
+  bench.stopped(canceled, 600ms, at(603ms));
+  bench.progressed(pauses, 700ms, at(1s));
+  bench.progressed(pauses, 1500ms, at(2s));
+  bench.progressed(pauses, 1500ms, at(3s));
+  ASSERT_TRUE(bench.job(pauses).pausing);
+  const JobId next = bench.submit(move({0}, bench.scheduler.rest()[0], 0, 2s), at(4s));
+  ASSERT_TRUE(bench.question) << "it would wait for the round, and the round for it";
+  EXPECT_EQ(bench.question->candidates.front().job, next);
+}
+
+// Canceled in b's way, where each of its arms may be the one that is; then one of them goes.
+TEST(Blockades, DISABLED_ATeamThatRestsInTheWayIsThereUntilAllOfItsArmsHaveLeft) {
+  const JobId both{1}, b{2}, next{3};
+  PrecedenceGraph graph(3);
+  const auto admit = [&](const CoordinatedMotion& motion, const std::vector<PairRegions>& regions) {
+    const std::vector<CoordinatedMotion> candidates{motion};
+    const PassingOrders orders = cheapest_orders(graph.question(candidates, regions));
+    ASSERT_TRUE(orders.obstacles.empty());
+    graph.admit(candidates, orders);
+  };
+  admit({.job = both, .arms = {ArmId{0}, ArmId{1}}, .duration = 5s}, {});
+  graph.granted(both, 5s);
+  admit({.job = b, .arms = {ArmId{2}}, .duration = 5s},
+        {{b, both, {region(ProgressBox{2s, 3s, 2s, 3s})}}});
+  graph.progress(both, 2500ms);
+  graph.abandon(both, 2500ms);
+  EXPECT_EQ(graph.limit(b), 2s);
+  admit({.job = next, .arms = {ArmId{0}}, .duration = 5s}, {});
+  EXPECT_EQ(graph.limit(b), 2s) << "arm 1 has not moved";
+}
+
+}  // namespace
+}  // namespace armloom
