@@ -80,6 +80,7 @@ void Scheduler::answer(const Verdict& verdict, const OpenQuestion& question) {
   const bool recheck = question.purpose == Purpose::recheck;
   if (verdict.kind != Verdict::Kind::free) {
     if (!recheck && is_asked_again(first, verdict)) return;
+    if (!recheck && question.jobs.size() > 1 && tries_together(question, false)) return;
     if (question.jobs.size() == 1) {
       refuse(first, verdict, recheck);
     } else {
@@ -259,7 +260,11 @@ void Scheduler::dispatch_ready() {
   const std::vector<JobId> ids(past_queue_.begin(), past_queue_.end());
   for (JobId id : ids) {
     Record& record = records_.at(id);
-    if (record.job.state == JobState::scheduled && !record.dispatched) dispatch_if_ready(record);
+    if (record.job.state == JobState::scheduled && !record.dispatched) {
+      dispatch_if_ready(record);
+    } else {
+      extend_own_authority(record);
+    }
     if (record.job.pausing) explain_pause(record);
   }
 }
