@@ -15,6 +15,7 @@
 #include "core/executive/views.h"
 #include "core/monitor/monitor.h"
 #include "core/scheduler/scheduler.h"
+#include "core/scheduler/trial.h"
 
 namespace armloom {
 
@@ -106,8 +107,8 @@ class Executive::Impl final : public JobNames {
   Result<Prepared> prepare(JobRequest request, Ahead& ahead) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   JobView accept(Prepared prepared);
-  void judge_together(Question question, std::optional<Verdict> alone,
-                      std::function<void(Verdict)> done);
+  void walk(std::shared_ptr<Trial> trial, std::function<void(Result<CheckView>)> done);
+  [[nodiscard]] Submit submission(JobId id, Prepared prepared) const;
   void make_way(MoveAside aside);
   void remember_way_back(const MoveAside& aside);
   [[nodiscard]] Ahead ahead_now() const;

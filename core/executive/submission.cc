@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/base/told.h"
-#include "core/coordination/effort.h"
 #include "core/executive/executive_impl.h"
 #include "core/trajectory/joint_line.h"
 
@@ -179,24 +178,28 @@ JobView Executive::Impl::accept(Prepared prepared) {
   }
   const JobId id{next_job_++};
   const std::string key = prepared.key.empty() ? free_key(id) : std::move(prepared.key);
+  ids_.emplace(key, id);
+  labels_.emplace(id, Label{key, std::move(prepared.name)});
+  ++active_;
+  step(submission(id, std::move(prepared)));
+  return view_of(*scheduler_.find(id), *cell_, *this);
+}
+
+Submit Executive::Impl::submission(JobId id, Prepared prepared) const {
   std::vector<JobId> after;
   for (const std::string& before : prepared.after) {
     const JobId job = ids_.at(before);
     if (!is_terminal(scheduler_.find(job)->state)) after.push_back(job);
   }
-  ids_.emplace(key, id);
-  labels_.emplace(id, Label{key, std::move(prepared.name)});
-  ++active_;
-  step(Submit{.job = id,
-              .trajectory = std::move(prepared.trajectory),
-              .priority = prepared.priority,
-              .backlog_timeout = prepared.backlog_timeout,
-              .after = std::move(after),
-              .own = prepared.own,
-              .helps = prepared.helps,
-              .before = prepared.before,
-              .lets_pass = prepared.lets_pass});
-  return view_of(*scheduler_.find(id), *cell_, *this);
+  return {.job = id,
+          .trajectory = std::move(prepared.trajectory),
+          .priority = prepared.priority,
+          .backlog_timeout = prepared.backlog_timeout,
+          .after = std::move(after),
+          .own = prepared.own,
+          .helps = prepared.helps,
+          .before = prepared.before,
+          .lets_pass = prepared.lets_pass};
 }
 
 void Executive::Impl::make_way(MoveAside aside) {
@@ -267,49 +270,41 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
   Ahead ahead = ahead_now();
   auto prepared = prepare(std::move(request), ahead);
   if (!prepared) return done(failure(std::move(prepared.error())));
-  CheckView view{.kind = Verdict::Kind::conflict, .scene_version = scene_version_};
-  std::vector<JobId> after;
-  for (const std::string& before : prepared->after) after.push_back(ids_.at(before));
-  for (const Wait& wait : scheduler_.waits_before(*prepared->trajectory, after)) {
-    view.conflicts.push_back(view_of(wait, *cell_, *this));
+  std::vector<Submit> jobs;
+  std::uint64_t next = next_job_;
+  for (TrajectoryPtr& back : prepared->returns) {
+    jobs.push_back({.job = JobId{next++},
+                    .trajectory = std::move(back),
+                    .priority = prepared->priority,
+                    .backlog_timeout = cell_->scheduling.backlog_timeout,
+                    .own = true});
   }
-  if (!view.conflicts.empty()) return done(std::move(view));
-  judge_together(scheduler_.hypothetical(std::move(prepared->trajectory)), std::nullopt,
-                 [this, view = std::move(view), done = std::move(done)](Verdict verdict) mutable {
-                   view.kind = verdict.kind;
-                   if (verdict.kind == Verdict::Kind::free) view.earliest_start_s = 0.0;
-                   if (verdict.earliest_start) {
-                     view.earliest_start_s = to_seconds(*verdict.earliest_start);
-                   }
-                   view.clearance_bound_m = verdict.clearance_bound_m;
-                   view.evaluations = verdict.evaluations;
-                   for (const Conflict& conflict : verdict.conflicts) {
-                     view.conflicts.push_back(view_of(wait_for(conflict), *cell_, *this));
-                   }
-                   done(std::move(view));
-                 });
+  jobs.push_back(submission(JobId{next}, std::move(*prepared)));
+  walk(std::make_shared<Trial>(scheduler_, jobs, now_), std::move(done));
 }
 
-// As admission would: in conflict by itself, it is tried together with others. `alone` is what was
-// said of it by itself.
-void Executive::Impl::judge_together(Question question, std::optional<Verdict> alone,
-                                     std::function<void(Verdict)> done) {
-  judges_.ask(
-      question, scene_,
-      [this, question, alone = std::move(alone), done = std::move(done)](Verdict answer) mutable {
-        Verdict meant = scheduler_.meaning(question, answer);
-        if (meant.kind == Verdict::Kind::free) return done(std::move(meant));
-        if (const auto effort = larger_effort(answer, question.effort)) {
-          question.effort = *effort;
-          return judge_together(std::move(question), std::move(alone), std::move(done));
-        }
-        if (!alone) alone = std::move(meant);
-        if (auto larger = scheduler_.together(question, answer)) {
-          judge_together(std::move(*larger), std::move(alone), std::move(done));
-        } else {
-          done(std::move(*alone));
-        }
-      });
+// As admission would, in this instant.
+void Executive::Impl::walk(std::shared_ptr<Trial> trial,
+                           std::function<void(Result<CheckView>)> done) {
+  if (auto question = trial->next()) {
+    judges_.ask(std::move(*question), scene_,
+                [this, trial, done = std::move(done)](Verdict verdict) mutable {
+                  trial->answer(std::move(verdict));
+                  walk(std::move(trial), std::move(done));
+                });
+    return;
+  }
+  const Trial::Outcome outcome = trial->outcome();
+  CheckView view{.kind = outcome.kind, .scene_version = scene_version_};
+  if (outcome.starts_in) view.earliest_start_s = to_seconds(*outcome.starts_in);
+  view.clearance_bound_m = outcome.clearance_bound_m;
+  view.evaluations = outcome.evaluations;
+  for (Wait wait : outcome.waits) {
+    const bool is_known = wait.job && scheduler_.find(*wait.job) != nullptr;
+    if (wait.job && !is_known) wait.job.reset();  // its arm's own way back, or forgotten meanwhile
+    view.conflicts.push_back(view_of(wait, *cell_, *this));
+  }
+  done(std::move(view));
 }
 
 Result<JobView> Executive::Impl::cancel(const std::string& key) {

@@ -220,43 +220,6 @@ bool Scheduler::ask_next() {
   return put_off;
 }
 
-Question Scheduler::hypothetical(TrajectoryPtr trajectory) const {
-  Question question{.version = version_,
-                    .start_at = now_,
-                    .candidates = {Motion{JobId{0}, std::move(trajectory), Duration{}}},
-                    .others = {},
-                    .rest = rest_,
-                    .method = policy_->method()};
-  add_others(question, {});
-  return question;
-}
-
-std::vector<Wait> Scheduler::waits_before(const Trajectory& trajectory,
-                                          const std::vector<JobId>& after) const {
-  std::vector<Wait> waits;
-  for (ArmId arm : trajectory.arms()) {
-    const auto& queue = order_[arm.index()];
-    if (!queue.empty()) {
-      waits.push_back({.kind = Wait::Kind::order, .job = queue.back(), .arm = arm});
-    }
-    if (const auto& cause = stopped_[arm.index()]) {
-      waits.push_back({.kind = Wait::Kind::stop, .arm = arm, .detail = *cause});
-    }
-  }
-  for (JobId before : after) {
-    if (active_.contains(before)) waits.push_back({.kind = Wait::Kind::order, .job = before});
-  }
-  if (const auto taken_by = policy_->capacity_taken_by(occupying())) {
-    waits.push_back({.kind = Wait::Kind::capacity, .job = *taken_by});
-  } else if (round_begun_ && !round_.empty()) {
-    waits.push_back({.kind = Wait::Kind::capacity, .job = *round_.begin()});
-  }
-  if (waits.empty()) {
-    for (const Aged& a : aged_jobs()) waits.push_back({.kind = Wait::Kind::order, .job = a.job});
-  }
-  return waits;
-}
-
 void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
   Question question{.version = version_,
                     .start_at = now_,

@@ -61,38 +61,16 @@ void Scheduler::add_others(Question& question, const std::vector<JobId>& candida
   }
 }
 
-PassingOrders Scheduler::orders_for(const Question& hypothetical, const Verdict& verdict) const {
-  std::vector<CoordinatedMotion> candidates;
-  for (const Motion& motion : hypothetical.candidates) {
-    const auto known = records_.find(motion.job);
-    candidates.push_back(known != records_.end()
-                             ? coordinated(known->second)
-                             : CoordinatedMotion{.job = motion.job,
-                                                 .arms = motion.trajectory->arms(),
-                                                 .duration = motion.trajectory->duration()});
-  }
-  return policy_->decide(graph_.question(candidates, verdict.regions));
-}
-
-Verdict Scheduler::meaning(const Question& hypothetical, Verdict verdict) const {
-  if (verdict.kind != Verdict::Kind::free) return verdict;
-  const PassingOrders orders = orders_for(hypothetical, verdict);
-  return as_verdict(orders, hypothetical.candidates.size(), std::move(verdict));
-}
-
-std::optional<Question> Scheduler::together(const Question& hypothetical,
-                                            const Verdict& verdict) const {
-  if (!policy_->admits_groups() || hypothetical.version != version_) return std::nullopt;
-  if (verdict.kind != Verdict::Kind::free) return std::nullopt;
-  std::vector<JobId> group;
-  for (const Motion& motion : hypothetical.candidates) group.push_back(motion.job);
-  const auto larger = with_next_jobs(group, orders_for(hypothetical, verdict).in_the_way);
-  if (larger.size() == group.size()) return std::nullopt;
-  Question question = hypothetical;
-  for (std::size_t i = group.size(); i < larger.size(); ++i) {
-    question.candidates.push_back(motion_now(records_.at(larger[i])));
-  }
-  return question;
+std::optional<Duration> Scheduler::earliest_start(const Question& question,
+                                                  const Verdict& verdict) const {
+  if (verdict.kind != Verdict::Kind::free || question.version != version_) return std::nullopt;
+  if (question.candidates.size() != 1) return std::nullopt;
+  const std::vector<CoordinatedMotion> candidate{
+      coordinated(records_.at(question.candidates.front().job))};
+  const PassingOrders orders =
+      orders_in_time(graph_.question(candidate, verdict.regions), std::nullopt);
+  if (!orders.obstacles.empty()) return std::nullopt;
+  return orders.prediction.begins.back();
 }
 
 // ---- The answer ----
@@ -102,6 +80,7 @@ void Scheduler::answer(const Verdict& verdict, const OpenQuestion& question) {
   const bool recheck = question.purpose == Purpose::recheck;
   if (verdict.kind != Verdict::Kind::free) {
     if (!recheck && is_asked_again(first, verdict)) return;
+    if (!recheck && question.jobs.size() > 1 && tries_together(question, false)) return;
     if (question.jobs.size() == 1) {
       refuse(first, verdict, recheck);
     } else {
@@ -281,7 +260,11 @@ void Scheduler::dispatch_ready() {
   const std::vector<JobId> ids(past_queue_.begin(), past_queue_.end());
   for (JobId id : ids) {
     Record& record = records_.at(id);
-    if (record.job.state == JobState::scheduled && !record.dispatched) dispatch_if_ready(record);
+    if (record.job.state == JobState::scheduled && !record.dispatched) {
+      dispatch_if_ready(record);
+    } else {
+      extend_own_authority(record);
+    }
     if (record.job.pausing) explain_pause(record);
   }
 }

@@ -111,9 +111,20 @@ std::optional<Scheduler::Aside> Scheduler::untried(const Record& record, ArmId a
   return std::nullopt;
 }
 
+Question Scheduler::about_way(TrajectoryPtr way) const {
+  Question question{.version = version_,
+                    .start_at = now_,
+                    .candidates = {Motion{JobId{0}, std::move(way), Duration{}}},
+                    .others = {},
+                    .rest = rest_,
+                    .method = policy_->method()};
+  add_others(question, {});
+  return question;
+}
+
 // First whether the way itself will be free, then whether the job would find the arm gone.
 void Scheduler::ask_aside(Aside aside) {
-  Question question = hypothetical(aside.way);
+  Question question = about_way(aside.way);
   if (aside.is_free) {
     const Record& record = records_.at(aside.way_of);
     const auto& joints = aside.way->joints();

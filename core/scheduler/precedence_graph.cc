@@ -43,9 +43,8 @@ void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
                             const PassingOrders& orders) {
   for (const CoordinatedMotion& candidate : candidates) {
     // Its regions say from now on what its arms are in the way of.
-    std::erase_if(blockades_, [&](const Blockade& blockade) {
-      return std::ranges::find(candidate.arms, blockade.arm) != candidate.arms.end();
-    });
+    for (Blockade& blockade : blockades_) blockade.leave(candidate.arms);
+    std::erase_if(blockades_, [](const Blockade& blockade) { return blockade.arms.empty(); });
     motions_.push_back(candidate);
   }
   precedences_ = orders.precedences;
@@ -60,6 +59,13 @@ void PrecedenceGraph::progress(JobId job, Duration progress) {
   if (found == nullptr) return;
   found->progress = std::max(found->progress, progress);
   found->authority = std::max(found->authority, found->progress);
+}
+
+void PrecedenceGraph::Blockade::leave(const std::vector<ArmId>& left) {
+  std::erase_if(arms, [&](ArmId arm) { return std::ranges::find(left, arm) != left.end(); });
+  if (!arms.empty() && std::ranges::find(arms, *evidence.arm) == arms.end()) {
+    evidence.arm = arms.front();
+  }
 }
 
 bool PrecedenceGraph::waits_for_own_arm(std::size_t index) const {
@@ -167,7 +173,7 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& rests, Duration at, 
                           first ? region.time_b : region.time_a,
                           first ? region.time_a : region.time_b};
         if (evidence.proximity.arm_b) evidence.arm = evidence.proximity.arm_b;
-        blockade = Blockade{*evidence.arm, other, own_from, own_to, evidence};
+        blockade = Blockade{rests.arms, other, own_from, own_to, evidence};
       }
       blockade->limit = std::min(blockade->limit, std::max(Duration{}, own_from - kShortOf));
       blockade->until = std::max(blockade->until, own_to);

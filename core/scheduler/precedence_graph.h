@@ -58,13 +58,15 @@ class PrecedenceGraph {
   void abandon(JobId job, Duration rests_at, Duration farthest = {});
 
  private:
-  // An arm that rests in the way of an admitted motion.
+  // Arms that came to rest on one motion in the way of an admitted one: until all have left.
   struct Blockade {
-    ArmId arm;
+    std::vector<ArmId> arms;
     JobId job;
     Duration limit;
     Duration until;  // beyond it the motion has passed
-    HeldBack evidence;
+    HeldBack evidence;  // names one of these arms
+
+    void leave(const std::vector<ArmId>& left);
   };
   [[nodiscard]] CoordinatedMotion* motion(JobId job);
   [[nodiscard]] bool waits_for_own_arm(std::size_t index) const;

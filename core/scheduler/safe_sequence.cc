@@ -8,6 +8,22 @@
 namespace armloom {
 // ---- What waits ----
 
+SafeSequence::SafeSequence(const SafeSequence& other)
+    : tolerance_(other.tolerance_),
+      stands_(other.stands_),
+      ends_(other.ends_),
+      sequence_(other.sequence_),
+      unplaced_(other.unplaced_),
+      unplaced_legs_(other.unplaced_legs_),
+      apart_(other.apart_),
+      tried_(other.tried_),
+      asked_(other.asked_) {
+  for (Legs* legs : {&sequence_, &unplaced_}) {
+    for (auto leg = legs->begin(); leg != legs->end(); ++leg) index_.emplace(leg->job, leg);
+  }
+  for (const Leg* leg : other.found_) found_.push_back(&*index_.at(leg->job));
+}
+
 void SafeSequence::move(State& state, const Leg& leg) {
   for (std::size_t i = 0; i < leg.arms.size(); ++i) state[leg.arms[i].index()] = leg.to[i];
 }

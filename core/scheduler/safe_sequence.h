@@ -45,6 +45,10 @@ class SafeSequence {
  public:
   // Legs that begin no farther than this from where their arms will stand follow on.
   explicit SafeSequence(double start_tolerance) : tolerance_(start_tolerance) {}
+  SafeSequence(const SafeSequence& other);
+  SafeSequence(SafeSequence&&) = default;
+  SafeSequence& operator=(SafeSequence&&) = default;
+  ~SafeSequence() = default;
 
   inline static constexpr std::size_t kKnownAhead = 16;
   inline static constexpr std::size_t kUnknownMax = 128;  // passages that are asked at once

@@ -192,6 +192,8 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
         report.rest_position[static_cast<Eigen::Index>(j)];
   }
   ++version_;
+  const bool moved = std::max(job.progress, report.farthest) > Duration{};
+  if (moved && !job.started_at) job.started_at = now_;  // unseen
   record.farthest = report.farthest;
   job.stopping = false;
   job.pausing = false;
@@ -220,13 +222,14 @@ void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
         record.fail_detail);
     effects_.push_back(Release{job.id});
   } else if (!job.started_at) {
-    // Stopped before it moved: it waits in the queue again, as if it had not been admitted.
-    leave_graph(record);
-    set_state(record, JobState::queued);
-    job.scheduled_at.reset();
     record.dispatched = false;
     effects_.push_back(Release{job.id});
     changed(record);
+    if (stop_of(record)) return;  // keeps its place between the others
+    // It waits in the queue again, as if it had not been admitted.
+    leave_graph(record);
+    set_state(record, JobState::queued);
+    job.scheduled_at.reset();
   } else {
     set_state(record, JobState::holding);
     changed(record);

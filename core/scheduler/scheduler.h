@@ -79,20 +79,14 @@ class Scheduler {
   // there.
   [[nodiscard]] Configuration predicted_rest() const;
 
-  // What would be asked if this motion were to start at `start_at`; changes nothing.
-  [[nodiscard]] Question hypothetical(TrajectoryPtr trajectory) const;
-  // What its answer means for the policy: whether and when the motion could start.
-  [[nodiscard]] Verdict meaning(const Question& hypothetical, Verdict verdict) const;
-  // The question that would be asked next if that is a conflict, for it together with jobs that
-  // would move arms out of its way (policies that coordinate). Nothing: that is the last word.
-  [[nodiscard]] std::optional<Question> together(const Question& hypothetical,
-                                                 const Verdict& verdict) const;
-  // What keeps a job with this motion that comes `after` these from being judged now: its arms'
-  // queues and stops, jobs that it comes after, capacity, an aged job.
-  [[nodiscard]] std::vector<Wait> waits_before(const Trajectory& trajectory,
-                                               const std::vector<JobId>& after) const;
-
   [[nodiscard]] const Policy& policy() const { return *policy_; }
+  // For a Trial. What is open is asked anew.
+  void forget_question() { open_.reset(); }
+  // By the clock, of the one candidate of a question that is open: when it could begin beside what
+  // is admitted, from now. Nothing: not, as things stand.
+  [[nodiscard]] std::optional<Duration> earliest_start(const Question& question,
+                                                       const Verdict& verdict) const;
+
   [[nodiscard]] const Job* find(JobId job) const;   // null: unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
   [[nodiscard]] bool stopped(ArmId arm) const;
@@ -262,6 +256,7 @@ class Scheduler {
   [[nodiscard]] std::optional<Aside> next_aside_in_a_ring() const;
   [[nodiscard]] std::optional<Aside> aside_in(const Ring& ring) const;
   [[nodiscard]] std::optional<Aside> untried(const Record& record, ArmId arm) const;
+  [[nodiscard]] Question about_way(TrajectoryPtr way) const;
   void ask_aside(Aside aside);
   void answer_aside(const Verdict& verdict, Aside aside);
   [[nodiscard]] bool lets_through(const Verdict& verdict, const Aside& aside) const;
@@ -271,8 +266,6 @@ class Scheduler {
   [[nodiscard]] Motion motion_now(const Record& record) const;
   void answer(const Verdict& verdict, const OpenQuestion& question);
   [[nodiscard]] CoordinatedMotion coordinated(const Record& record) const;
-  [[nodiscard]] PassingOrders orders_for(const Question& hypothetical,
-                                         const Verdict& verdict) const;
   [[nodiscard]] bool tries_together(const OpenQuestion& question, bool can_go);
   [[nodiscard]] std::vector<JobId> with_all_that_wait(const std::vector<JobId>& group) const;
   [[nodiscard]] std::set<JobId> first_of_arms(const std::vector<JobId>& group) const;
@@ -290,7 +283,7 @@ class Scheduler {
   void see_pauses(Record& record, Duration progress_before);
 
   CellPtr cell_;
-  std::unique_ptr<const Policy> policy_;
+  std::shared_ptr<const Policy> policy_;
   Configuration rest_;
   std::map<JobId, Record> records_;
   std::set<JobId> active_;

@@ -115,6 +115,8 @@ void Scheduler::explain_waits() {
   for (JobId id : jobs) {
     Record& record = records_.at(id);
     std::optional<Wait> wait = order_of(record);
+    const bool stands_behind = record.job.state == JobState::scheduled && !record.dispatched;
+    if (stands_behind && wait) set_waits(record, {std::move(*wait)});
     if (!waiting(record)) continue;
     if (!wait && !record.job.after.empty()) {
       wait = Wait{.kind = Wait::Kind::order, .job = record.job.after.front()};

@@ -207,7 +207,7 @@ TEST_P(Worlds, WhatIsStoppedGoesOn) {
   EXPECT_GT(run(200, {.pauses = true}, !is_timed())[JobState::succeeded], 1000);
 }
 
-TEST_P(Worlds, DISABLED_WhatIsStoppedLateGoesOn) {  // trunk_faults_test.cc
+TEST_P(Worlds, WhatIsStoppedLateGoesOn) {  // trunk_faults_test.cc
   EXPECT_GT(run(200, {.delays = true, .pauses = true}, !is_timed())[JobState::succeeded], 1000);
 }
 

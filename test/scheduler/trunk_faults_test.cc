@@ -9,7 +9,7 @@ namespace {
 using ::testing::ElementsAre;
 
 // x stands in b's way at its end, and y, next of its arm, takes it away: both go with b.
-TEST(Admission, DISABLED_WhatIsAdmittedBehindAJobOfItsArmSaysThatItWaitsForIt) {
+TEST(Admission, WhatIsAdmittedBehindAJobOfItsArmSaysThatItWaitsForIt) {
   Bench bench(2, "coordinated");
   const JobId x = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -27,7 +27,7 @@ TEST(Admission, DISABLED_WhatIsAdmittedBehindAJobOfItsArmSaysThatItWaitsForIt) {
 }
 
 // The last report before the end is from before the region.
-TEST(Authority, DISABLED_GrowsWhenTheOneThatPassesFirstComesToItsEnd) {
+TEST(Authority, GrowsWhenTheOneThatPassesFirstComesToItsEnd) {
   Bench bench(2, "certified");
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -44,7 +44,7 @@ TEST(Authority, DISABLED_GrowsWhenTheOneThatPassesFirstComesToItsEnd) {
 }
 
 // Stopped before the first report of its progress.
-TEST(Stop, DISABLED_OfAJobThatIsOnItsWayUnseenHoldsItThere) {
+TEST(Stop, OfAJobThatIsOnItsWayUnseenHoldsItThere) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -58,7 +58,7 @@ TEST(Stop, DISABLED_OfAJobThatIsOnItsWayUnseenHoldsItThere) {
 }
 
 // What waits for an arm that no job moves is asked about as well; that cannot go, x can.
-TEST(Admission, DISABLED_AJobThatCanGoAloneIsNotPutOffForOneThatCannotGoWithIt) {
+TEST(Admission, AJobThatCanGoAloneIsNotPutOffForOneThatCannotGoWithIt) {
   Bench bench(3, "coordinated");
   const JobId blocked = bench.submit(move({1}, 0, 1, 2s), at(0ms));
   bench.answer_regions(at(1ms), {{blocked, ArmId{2}, {region(ProgressBox{1s, 2s, 0s, 0s})}}});
@@ -120,7 +120,7 @@ TEST(Lockstep, AJobThatPausesForAnArmLetsThatArmsNextJobJoin) {
 }
 
 // Canceled in b's way, where each of its arms may be the one that is; then one of them goes.
-TEST(Blockades, DISABLED_ATeamThatRestsInTheWayIsThereUntilAllOfItsArmsHaveLeft) {
+TEST(Blockades, ATeamThatRestsInTheWayIsThereUntilAllOfItsArmsHaveLeft) {
   const JobId both{1}, b{2}, next{3};
   PrecedenceGraph graph(3);
   const auto admit = [&](const CoordinatedMotion& motion, const std::vector<PairRegions>& regions) {

@@ -1,0 +1,66 @@
+#include "core/scheduler/trial.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace armloom {
+
+Trial::Trial(Scheduler scheduler, const std::vector<Submit>& jobs, TimePoint now)
+    : scheduler_(std::move(scheduler)), job_(jobs.back().job), now_(now) {
+  scheduler_.forget_question();
+  for (const Submit& job : jobs) step(job);
+}
+
+void Trial::step(const Input& input) {
+  for (Effect& effect : scheduler_.step(input, now_)) {
+    if (auto* judge = std::get_if<Judge>(&effect)) open_ = std::move(judge->question);
+  }
+  const auto& told = scheduler_.find(job_);
+  if (told != nullptr && !told->waits_on.empty()) waits_ = told->waits_on;
+}
+
+bool Trial::is_decided() const {
+  const JobState state = scheduler_.find(job_)->state;
+  return (state != JobState::queued && state != JobState::backlogged) ||
+         judgements_ >= kJudgementsMax;
+}
+
+std::optional<Question> Trial::next() const {
+  return is_decided() ? std::nullopt : open_;
+}
+
+void Trial::answer(Verdict verdict) {
+  const Question question = std::move(*open_);
+  open_.reset();
+  ++judgements_;
+  const bool of_it = std::ranges::find(question.candidates, job_, &Motion::job) !=
+                     question.candidates.end();
+  if (of_it) {
+    evaluations_ += verdict.evaluations;
+    by_clock_ = scheduler_.earliest_start(question, verdict);
+    last_ = verdict;
+    last_->regions.clear();
+  }
+  step(Judged{std::move(verdict)});
+}
+
+Trial::Outcome Trial::outcome() const {
+  const Job& job = *scheduler_.find(job_);
+  Outcome outcome{.kind = Verdict::Kind::conflict, .evaluations = evaluations_};
+  if (job.state == JobState::scheduled || job.state == JobState::running) {
+    outcome.kind = Verdict::Kind::free;
+    outcome.starts_in = std::max(Duration{}, *job.scheduled_at - now_);
+    if (last_) outcome.clearance_bound_m = last_->clearance_bound_m;
+    return outcome;
+  }
+  outcome.starts_in = by_clock_;
+  outcome.waits = waits_;
+  if (is_terminal(job.state) && last_) {
+    outcome.waits.clear();
+    for (const Conflict& conflict : last_->conflicts) outcome.waits.push_back(wait_for(conflict));
+  }
+  if (last_ && last_->kind == Verdict::Kind::undecided) outcome.kind = Verdict::Kind::undecided;
+  return outcome;
+}
+
+}  // namespace armloom
