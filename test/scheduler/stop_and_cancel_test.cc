@@ -128,17 +128,19 @@ TEST(Stop, OfOneArmLeavesTheOthersTheirs) {
   EXPECT_EQ(bench.state(bench.jobs[1]), JobState::running);
 }
 
-TEST(Stop, BeforeTheFirstMotionPutsTheJobBackInTheQueue) {
+TEST(Stop, BeforeTheFirstMotionLeavesTheJobItsPlaceAmongTheAdmitted) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
   bench.step(Stop{{ArmId{0}}, "operator"}, at(2ms));
   bench.stopped(job, 0ms, at(3ms));
-  EXPECT_EQ(bench.state(job), JobState::queued);
+  EXPECT_EQ(bench.state(job), JobState::scheduled);
+  EXPECT_THAT(bench.released, ElementsAre(job));
   EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::stop);
   bench.step(Resume{{ArmId{0}}}, at(1s));
-  bench.answer_free(at(1001ms));
-  EXPECT_EQ(bench.state(job), JobState::scheduled);
+  ASSERT_EQ(bench.dispatched.size(), 2u);
+  EXPECT_EQ(bench.dispatched.back().job, job);
+  EXPECT_EQ(bench.dispatched.back().from_progress, 0ms);
 }
 
 TEST(Stop, ACancelDuringTheBrakeWins) {

@@ -1,12 +1,12 @@
-// Faults that random worlds found; each is enabled with its mend.
+// Faults that random worlds found, as small as they can be told.
 #include <gmock/gmock.h>
+
+#include <algorithm>
 
 #include "test/scheduler/bench_cell.h"
 
 namespace armloom {
 namespace {
-
-using ::testing::ElementsAre;
 
 // x stands in b's way at its end, and y, next of its arm, takes it away: both go with b.
 TEST(Admission, WhatIsAdmittedBehindAJobOfItsArmSaysThatItWaitsForIt) {
@@ -95,7 +95,8 @@ TEST(Resume, OfAJobThatHadNotMovedLetsItLeaveForThoseThatCountOnIt) {
     }
     EXPECT_EQ(bench.state(leaves), JobState::scheduled) << policy;
     EXPECT_EQ(bench.authority(waits) > 2s, false) << policy;
-    EXPECT_EQ(bench.dispatched.back().job, leaves) << policy;
+    const auto again = [leaves](const Dispatch& d) { return d.job == leaves; };
+    EXPECT_EQ(std::ranges::count_if(bench.dispatched, again), 2) << policy;
   }
 }
 
