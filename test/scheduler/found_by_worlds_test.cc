@@ -43,6 +43,24 @@ TEST(Authority, GrowsWhenTheOneThatPassesFirstComesToItsEnd) {
   EXPECT_GT(bench.authority(second), 1500ms) << "nothing is in its way any more";
 }
 
+// Without a word of its own: it stands, and has told that before.
+TEST(Authority, GrowsInTheStepInWhichTheOneThatPassesFirstHasLeft) {
+  Bench bench(2, "certified");
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(first, 500ms, at(501ms));
+  const JobId second = bench.submit(move({1}, 0, 1, 2s), at(502ms));
+  bench.answer_regions(at(503ms),
+                       {{second, first, {region(ProgressBox{1500ms, 1600ms, 1300ms, 1400ms})}}});
+  bench.progressed(second, 500ms, at(1s));
+  bench.progressed(second, 1s, at(2s));
+  ASSERT_LE(bench.authority(second), 1500ms);
+  bench.progressed(first, 1399ms, at(3s));
+  ASSERT_LE(bench.authority(second), 1500ms);
+  bench.progressed(first, 1400ms, at(4s));
+  EXPECT_GT(bench.authority(second), 1500ms);
+}
+
 // Stopped before the first report of its progress.
 TEST(Stop, OfAJobThatIsOnItsWayUnseenHoldsItThere) {
   Bench bench(1);
