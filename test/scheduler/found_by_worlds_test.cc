@@ -53,11 +53,11 @@ TEST(Authority, GrowsInTheStepInWhichTheOneThatPassesFirstHasLeft) {
   bench.answer_regions(at(503ms),
                        {{second, first, {region(ProgressBox{1500ms, 1600ms, 1300ms, 1400ms})}}});
   bench.progressed(second, 500ms, at(1s));
-  bench.progressed(second, 1s, at(2s));
+  bench.progressed(second, 1s, at(1500ms));
   ASSERT_LE(bench.authority(second), 1500ms);
-  bench.progressed(first, 1399ms, at(3s));
+  bench.progressed(first, 1399ms, at(1600ms));
   ASSERT_LE(bench.authority(second), 1500ms);
-  bench.progressed(first, 1400ms, at(4s));
+  bench.progressed(first, 1400ms, at(1601ms));
   EXPECT_GT(bench.authority(second), 1500ms);
 }
 
