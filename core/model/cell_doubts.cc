@@ -43,8 +43,9 @@ void warn_of_lags(const CellDescription& description, Findings& findings) {
                    "/robots/" + std::to_string(r) + "/controller/lag_s",
                    "robot " + robot.name + ": lag_s is " + text_of(lag_s) +
                        ", more than checking delay_s of " + text_of(delay_s) +
-                       ": its arms follow later than motions are certified for, so the monitor "
-                       "slows or stops them and others; delay_s has to be at least lag_s",
+                       ": its arms follow late, and whoever passes after one of them waits that "
+                       "much longer, as motions go by measured progress; give a smaller lag_s, or a "
+                       "delay_s of at least lag_s if that is meant",
                    lag_s});
   }
 }
