@@ -23,12 +23,13 @@ struct NearPair {
 
 // Asks one scene about single configurations of the whole cell. Holds the scratch: one per worker
 // thread, not thread-safe. FCL that throws counts as contact (clearance 0). Distances are never
-// larger than the true ones, nor smaller by more than 2e-7 m but in rare cases (exact_distance.h).
-// What an arm holds is one of its links in all that follows.
-// Configurations have one entry per joint of the cell (throws std::invalid_argument otherwise), arm
-// masks one per arm.
-// A `clearance_m` asked for is what arms keep from each other and from the scene; an arm is held to
-// its share of that from itself (PairLimits::scaled).
+// larger than the true ones, nor smaller by more than 2e-7 m but in rare cases (exact_distance.h)
+// and for closed meshes that are farther apart than kSurfaceWithin_m: these may be told the
+// distance of their convex pieces, or that one (part_distance.h). What an arm holds is one of its
+// links in all that follows. Configurations have one entry per joint of the cell (throws
+// std::invalid_argument otherwise), arm masks one per arm. A `clearance_m` asked for is what arms
+// keep from each other and from the scene; an arm is held to its share of that from itself
+// (PairLimits::scaled).
 class CollisionChecker {
  public:
   explicit CollisionChecker(PlanningScenePtr scene);
@@ -50,7 +51,7 @@ class CollisionChecker {
   [[nodiscard]] std::vector<Proximity> all_closer_than(const Configuration& q, double clearance_m);
 
   // The closest pair of each two arms, and of each arm with all that stands still (its mount left
-  // out), exact when below `horizon_m`; pairs farther apart are left out.
+  // out), as exact as said above when below `horizon_m`; pairs farther apart are left out.
   [[nodiscard]] std::vector<Proximity> closest_apart(const Configuration& q, double horizon_m);
 
   // Every pair closer than `clearance_m` that involves a link of one of the arms in `of` and a link

@@ -122,6 +122,7 @@ void add_part(PlanningScene::Bodies& scene, Part part, const std::vector<PlacedS
   if (shapes.empty()) return;
   part.bodies_begin = scene.bodies.size();
   std::vector<Body> bodies = make_bodies(shapes);
+  part.has_pieces = std::ranges::any_of(bodies, &Body::is_piece);
   LinkCapsules fitted = fit_capsules(bodies);
   part.capsules = std::move(fitted.capsules);
   part.capsule_excess_m = fitted.excess_m;

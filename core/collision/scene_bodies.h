@@ -36,6 +36,7 @@ struct Part {
   std::size_t bodies_end = 0;
   Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // centre and radius of its bounding sphere
   double radius_m = 0.0;
+  bool has_pieces = false;            // of a closed mesh, among its bodies
   bool lone_box = false;              // its only body is a box: a sphere says little about a table
   std::vector<LinkCapsule> capsules;  // one or two, in P; each body lies in one (link_capsules.h)
   double capsule_excess_m = 0.0;      // how far they stand off the bodies
