@@ -218,6 +218,7 @@ void copy_settings(const CellDescription& description, Cell& cell) {
   cell.name = description.name;
   cell.clearance_m = description.clearance_m;
   cell.self_clearance_m = std::min(description.self_clearance_m, description.clearance_m);
+  cell.mount_clearance_m = description.mount_clearance_m;
   cell.checking = description.checking;
   cell.scheduling = description.scheduling;
   cell.monitor = description.monitor;

@@ -31,8 +31,18 @@ bool Cell::is_mount(LinkId link, ArmId arm) const {
       links, [&](const Link& carried) { return carried.parent == link && carried.arm == arm; });
 }
 
-bool Cell::is_own(LinkId link, ArmId arm) const {
-  return this->link(link).arm == arm || is_mount(link, arm);
+bool Cell::is_own(LinkId a, LinkId b) const {
+  if (link(a).arm == link(b).arm) return link(a).arm.has_value();
+  if (!link(a).arm) return is_own(b, a);
+  if (link(b).arm) return false;
+  // The one joint between them hangs on b.
+  int movable = 0;
+  for (LinkId at = a; link(at).parent; at = *link(at).parent) {
+    const bool moves = link(at).driver.has_value();
+    movable += moves ? 1 : 0;
+    if (link(at).parent == b) return moves && movable == 1;
+  }
+  return false;
 }
 
 Configuration Cell::home() const {

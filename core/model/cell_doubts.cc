@@ -60,15 +60,29 @@ class MeshDoubts {
     const auto* mesh = std::get_if<Mesh>(&shape);
     if (mesh == nullptr || mesh->data == nullptr) return;
     if (!told_.insert(mesh->path).second) return;
-    if (is_flat(*mesh->data))
-      warn("flat-mesh", place, whose + ": mesh " + mesh->path + " is flat: it has no inside",
+    const std::string named = whose + ": mesh " + mesh->path;
+    if (is_flat(*mesh->data)) {
+      warn("flat-mesh", place, named + " is flat: it has no inside", mesh->path);
+    } else if (const std::size_t open = mesh->data->open_edges; open > 0) {
+      warn(
+          "open-mesh", place,
+          named + " does not close: " + std::to_string(open) +
+              " edges border one triangle only (holes; or was the file cut off?). What it encloses "
+              "is not known, so its convex hull is checked: notches and hollows count as filled",
+          mesh->path);
+    } else if (mesh->data->both_sides) {
+      warn("two-sided-mesh", place,
+           named +
+               " has faces from both sides, and others on their edges: what it encloses is not "
+               "known, so its convex pieces are checked: notches and hollows may count as filled",
            mesh->path);
+    }
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& vertex : mesh->data->vertices) box.extend(vertex);
     const double size_m = box.sizes().maxCoeff();
     if (of_link && size_m > kHuge_m) {
       warn("huge-mesh", place,
-           whose + ": mesh " + mesh->path + " is " + text_of(size_m) +
+           named + " is " + text_of(size_m) +
                " m long, hardly meant (millimetres? then the URDF's mesh needs "
                "scale=\"0.001 0.001 0.001\"); it fills the cell",
            mesh->path);

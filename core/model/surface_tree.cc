@@ -205,15 +205,18 @@ void find_components(SurfaceTree& tree) {
 
 }  // namespace
 
-bool is_closed(const std::vector<Triangle>& triangles) {
+std::size_t open_edges(const std::vector<Triangle>& triangles) {
   const std::vector<Edge> edges = sorted_edges(triangles, false);
+  std::size_t open = 0;
   for (auto at = edges.begin(); at != edges.end();) {
     const auto end = std::find_if(at, edges.end(), [&](const Edge& e) { return e != *at; });
-    if ((end - at) % 2 != 0) return false;
+    open += static_cast<std::size_t>(end - at) % 2;
     at = end;
   }
-  return true;
+  return open;
 }
+
+bool is_closed(const std::vector<Triangle>& triangles) { return open_edges(triangles) == 0; }
 
 SurfaceTreePtr make_surface_tree(std::vector<Eigen::Vector3d> vertices,
                                  std::vector<Triangle> triangles) {

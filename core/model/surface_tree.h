@@ -11,7 +11,8 @@ namespace armloom {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Every edge borders an even number of triangles: the surface has no rim.
+// How many edges border an odd number of triangles. None: the surface has no rim, it closes.
+[[nodiscard]] std::size_t open_edges(const std::vector<Triangle>& triangles);
 [[nodiscard]] bool is_closed(const std::vector<Triangle>& triangles);
 
 // The triangles of a surface in a tree of boxes, for distances that ask few of them. Everything is

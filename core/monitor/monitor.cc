@@ -52,7 +52,7 @@ std::vector<MonitorFinding> Monitor::observe(const std::vector<Proximity>& too_c
                                                              : MonitorFinding::Kind::clearance,
                         .time = now,
                         .proximity = proximity,
-                        .limit_m = settings_.stop_clearance_m,
+                        .limit_m = proximity.limit_m,
                         .stops = std::move(stops)});
   }
   known_ = std::move(still_known);

@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "server/codec/cell_codec.h"
 #include "server/codec/cell_format.h"
@@ -71,6 +72,8 @@ void write_settings(JsonWriter& out, const Cell& cell) {
   CellDescription settings;
   settings.clearance_m = cell.clearance_m;
   settings.self_clearance_m = cell.self_clearance_m;
+  settings.mount_clearance_m =
+      std::min(cell.mount_clearance_m.value_or(cell.clearance_m), cell.clearance_m);
   settings.checking = cell.checking;
   settings.scheduling = cell.scheduling;
   settings.monitor = cell.monitor;

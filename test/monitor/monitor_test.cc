@@ -24,7 +24,8 @@ Proximity hands(double clearance_m) {
           .arm_a = kLeft,
           .arm_b = kRight,
           .object_b = false,
-          .clearance_m = clearance_m};
+          .clearance_m = clearance_m,
+          .limit_m = 0.01};
 }
 Proximity hand_and_table(double clearance_m) {
   return {.body_a = "right_hand",
@@ -32,7 +33,8 @@ Proximity hand_and_table(double clearance_m) {
           .arm_a = kRight,
           .arm_b = std::nullopt,
           .object_b = true,
-          .clearance_m = clearance_m};
+          .clearance_m = clearance_m,
+          .limit_m = 0.01};
 }
 Monitor monitor() { return Monitor(MonitorSettings{.stop_clearance_m = 0.01}); }
 
