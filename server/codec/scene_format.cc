@@ -44,25 +44,37 @@ Shape shape_of_words(const ShapeWords& words) {
   return Box{words.box.value_or(Eigen::Vector3d::Zero())};
 }
 
+std::vector<PartPtr<ShapeWords>> primitives() {
+  return {
+      field("box", &ShapeWords::box, vector3(kLength), "A box: its full side lengths, in metres."),
+      field("cylinder", &ShapeWords::cylinder, numbers<2>(kLength),
+            "A cylinder along z: radius and full length, in metres."),
+      field("sphere", &ShapeWords::sphere, numbers<1>(kLength), "A sphere: radius, in metres."),
+  };
+}
+
 PartPtr<Shape> shape_part() {
-  return std::make_shared<SpeltPart<Shape, ShapeWords>>(
-      std::vector<PartPtr<ShapeWords>>{
-          field("box", &ShapeWords::box, vector3(kLength),
-                "A box: its full side lengths, in metres."),
-          field("cylinder", &ShapeWords::cylinder, numbers<2>(kLength),
-                "A cylinder along z: radius and full length, in metres."),
-          field("sphere", &ShapeWords::sphere, numbers<1>(kLength), "A sphere: radius, in metres."),
-          field("mesh", &ShapeWords::mesh, path(),
-                "A mesh (STL, OBJ, DAE): a file; in every check convex pieces that contain it."),
-          field("scale", &ShapeWords::scale, vector3(kAnyNumber),
-                "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1}),
-          exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"}),
-          only_with<ShapeWords>("mesh", "scale"),
-      },
-      shape_in_words, shape_of_words);
+  std::vector<PartPtr<ShapeWords>> parts = primitives();
+  parts.insert(
+      parts.end(),
+      {field("mesh", &ShapeWords::mesh, path(),
+             "A mesh (STL, OBJ, DAE): a file; in every check convex pieces that contain it."),
+       field("scale", &ShapeWords::scale, vector3(kAnyNumber),
+             "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1}),
+       exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"}),
+       only_with<ShapeWords>("mesh", "scale")});
+  return std::make_shared<SpeltPart<Shape, ShapeWords>>(std::move(parts), shape_in_words,
+                                                        shape_of_words);
 }
 
 }  // namespace
+
+PartPtr<Shape> primitive_part() {
+  std::vector<PartPtr<ShapeWords>> parts = primitives();
+  parts.push_back(exactly_one<ShapeWords>({"box", "cylinder", "sphere"}));
+  return std::make_shared<SpeltPart<Shape, ShapeWords>>(std::move(parts), shape_in_words,
+                                                        shape_of_words);
+}
 
 PartPtr<Eigen::Isometry3d> pose_part() {
   return std::make_shared<SpeltPart<Eigen::Isometry3d, PoseWords>>(

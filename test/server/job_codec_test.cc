@@ -1,9 +1,8 @@
-#include "server/codec/job_codec.h"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "server/messages/job_request.h"
 #include "test/server/panda_jobs.h"
 
 namespace armloom {
