@@ -32,6 +32,14 @@ bool is_name(std::string_view name) {
          std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
 }
 
+void slow_down(TrajectoryRequest& trajectory, double factor) {
+  for (WaypointRequest& point : trajectory.points) {
+    point.time_from_start_s /= factor;
+    for (double& velocity : point.velocities) velocity *= factor;
+    for (double& acceleration : point.accelerations) acceleration *= factor * factor;
+  }
+}
+
 FormatPtr<std::string> name_format() {
   return text(TextRule{is_name,
                        "bad-name",
@@ -113,6 +121,15 @@ FormatPtr<JobRequest> job_request_format() {
                "\"steps\" are not served by this version; give one \"trajectory\""}),
           unless("steps", required("trajectory", &Request::trajectory, trajectory_request_format(),
                                    "The motion")),
+          // Read after the trajectory, which it stretches.
+          std::make_shared<MemberPart<Request, double>>(
+              MemberText{
+                  "velocity_scaling_factor",
+                  "As MoveIt's: the share of its speed at which the trajectory is run. It is "
+                  "stretched in time before anything is checked",
+                  Need::optional, Schema(1)},
+              number({0.001, 1.0}), [](const Request&) { return std::optional<double>(); },
+              [](Request& request, double factor) { slow_down(request.trajectory, factor); }),
       }));
   return format;
 }
