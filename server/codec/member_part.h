@@ -142,7 +142,7 @@ template <class T, class Where, class M>
                 std::move(format));
 }
 
-// A part that is read and described, and never written.
+// A part that is read, described as what may come in, and never written.
 template <class T>
 class ReadOnlyPart final : public Part<T> {
  public:
@@ -150,7 +150,7 @@ class ReadOnlyPart final : public Part<T> {
   void list_keys(std::vector<std::string_view>& keys) const override { part_->list_keys(keys); }
   void read(const JsonNode& object, T& out) const override { part_->read(object, out); }
   void describe(Schema& object, const T& defaults, Way way) const override {
-    part_->describe(object, defaults, way);
+    if (way == Way::in) part_->describe(object, defaults, way);
   }
   void map_paths(nlohmann::json& object, const PathMap& map) const override {
     part_->map_paths(object, map);

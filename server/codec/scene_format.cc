@@ -15,6 +15,7 @@ namespace {
 constexpr Range kLength{0.0, 1000.0, true};  // m
 constexpr Range kPosition{-1000.0, 1000.0};  // m
 constexpr Range kAngle{-100.0, 100.0};       // rad
+constexpr Range kAngleDegrees{-3600.0, 3600.0};
 
 struct ShapeWords {
   std::optional<Eigen::Vector3d> box;
@@ -82,6 +83,9 @@ PartPtr<Eigen::Isometry3d> pose_part() {
           field("xyz", &PoseWords::xyz_m, vector3(kPosition), "Position in metres."),
           field("rpy", &PoseWords::rpy_rad, vector3(kAngle),
                 "Roll, pitch, yaw about fixed axes, in rad, as in a URDF."),
+          read_only(field("rpy_deg", &PoseWords::rpy_deg, vector3(kAngleDegrees),
+                          "The same in degrees: instead of rpy.")),
+          read_only(at_most_one<PoseWords>({"rpy", "rpy_deg"})),
       },
       pose_in_words, pose_of_words);
 }

@@ -173,6 +173,18 @@ TEST(CellCodec, WritesTheCellAsTheDashboardNeedsIt) {
   EXPECT_EQ(out["scheduling"]["backlog_timeout_s"], 60.0);
 }
 
+TEST(CellCodec, ReadsAnglesInDegreesToo) {
+  json cell = two_pandas();
+  cell["robots"][0]["base"] = {{"xyz", {0, 0, 0}}, {"rpy_deg", {0, 90, 180}}};
+  const auto read = read_cell_text(cell.dump(), kConfig);
+  ASSERT_TRUE(read) << read.error().front().detail;
+  cell["robots"][0]["base"] = {{"xyz", {0, 0, 0}}, {"rpy", {0, M_PI / 2, M_PI}}};
+  const auto same = read_cell_text(cell.dump(), kConfig);
+  EXPECT_TRUE(read->robots[0].X_WB.isApprox(same->robots[0].X_WB, 1e-12));
+  cell["robots"][0]["base"]["rpy_deg"] = {0, 90, 180};
+  EXPECT_EQ(read_cell_text(cell.dump(), kConfig).error().front().slug, "more-than-one");
+}
+
 TEST(CellCodec, WritesAPoseWithoutMinusZero) {
   json cell = two_pandas();
   cell["robots"][0]["base"]["rpy"] = {-0.0, 0.0, -0.0};
