@@ -106,7 +106,10 @@ class AnythingFormat final : public Format<Anything> {
   }
   void write(JsonWriter& out, const Anything&) const override { out.value(nullptr); }
   Schema schema(Way) const override {
-    return type_.empty() ? Schema::object() : Schema{{"type", type_}};
+    Schema schema = Schema::object();
+    if (!type_.empty()) schema["type"] = type_;
+    if (type_ == "array") schema["items"] = Schema::object();
+    return schema;
   }
 
  private:

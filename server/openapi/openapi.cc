@@ -129,7 +129,7 @@ Schema responses_of(const Route& route) {
 
 Schema operation_of(const Route& route) {
   Schema operation{{"operationId", route.id}, {"tags", {route.tag}}, {"summary", route.summary}};
-  if (!route.text.empty()) operation["description"] = route.text;
+  operation["description"] = route.text.empty() ? route.summary : route.text;
   if (Schema parameters = parameters_of(route); !parameters.empty()) {
     operation["parameters"] = std::move(parameters);
   }
@@ -175,6 +175,7 @@ const Schema& openapi_document() {
     Schema whole{{"openapi", "3.1.0"},
                  {"info", header()},
                  {"servers", Schema::array({{{"url", "/"}}})},
+                 {"security", Schema::array()},  // whoever reaches it may use it
                  {"tags", tags()}};
     whole["paths"] = refer_to_names(paths(), kSchemas, schemas);
     const Schema responses = refer_to_names(refusals(), kSchemas, schemas);
