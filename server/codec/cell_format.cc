@@ -96,9 +96,9 @@ PartPtr<CellDescription> make_settings_part() {
 
 }  // namespace
 
-const Part<CellDescription>& settings_part() {
+PartPtr<CellDescription> settings_part() {
   static const PartPtr<CellDescription> part = make_settings_part();
-  return *part;
+  return part;
 }
 
 const Format<CellDescription>& cell_format() {
@@ -107,13 +107,13 @@ const Format<CellDescription>& cell_format() {
       ignored<Description>("$schema", path(),
                            "This schema: editors check and complete the file by it."),
       required("name", &Description::name, name(), "The cell's name."),
-      required("robots", &Description::robots, list(robot_format(), 1),
+      required("robots", &Description::robots, list(robot_format(), {.fewest = 1}),
                "The robots with their arms."),
       field("objects", &Description::objects, list(scene_object_format()),
             "The scene at start: tables, fixtures, fences."),
       field("allowed_collisions", &Description::allowed_collisions, list(pair_of(name())),
             "Pairs that may touch: two links, or a link and an object; links with their prefix."),
-      make_settings_part(),
+      settings_part(),
   });
   return *format;
 }

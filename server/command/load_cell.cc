@@ -4,8 +4,8 @@
 #include "core/executive/executive.h"
 #include "core/model/build_cell.h"
 #include "server/codec/cell_codec.h"
-#include "server/codec/problem_codec.h"
 #include "server/command/command.h"
+#include "server/messages/problem.h"
 #include "server/recording/recording.h"
 
 namespace armloom {

@@ -1,4 +1,4 @@
-#include "server/codec/mesh_address.h"
+#include "server/messages/mesh_address.h"
 
 #include <cctype>
 #include <cstdint>
@@ -17,6 +17,8 @@ std::string mesh_name(const std::string& path) {
   return digits + extension;
 }
 
-std::string mesh_address(const std::string& path) { return kMeshFolder + mesh_name(path); }
+std::string mesh_address(const std::string& path) {
+  return kApiPrefix + (kMeshFolder + mesh_name(path));
+}
 
 }  // namespace armloom

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,8 +7,14 @@
 #include "core/base/problem.h"
 #include "core/executive/executive.h"
 #include "core/executive/simulation.h"
+#include "server/codec/format.h"
 
 namespace armloom {
+
+// The body of POST /jobs.
+[[nodiscard]] FormatPtr<JobRequest> job_request_format();
+// A client's id for a job: what may stand in a URL.
+[[nodiscard]] FormatPtr<std::string> job_id_format();
 
 // A client's id for a job: 1..128 characters of [A-Za-z0-9._-], so that it can stand in a URL.
 inline constexpr std::size_t kJobKeyMax = 128;
@@ -18,12 +23,12 @@ inline constexpr std::size_t kJobNameMax = 256;
 inline constexpr std::size_t kAfterMax = 100;   // predecessors of one job
 inline constexpr std::size_t kBatchMax = 1000;  // jobs of one batch
 
-// The body of POST /jobs: its shape only; limits, names and times are validate()'s. `prefix` stands
-// in front of every pointer. All faults are returned, at most JsonNode::kFaultsMax.
+// The body of POST /jobs: its shape only; limits, names and times are validate()'s. All
+// faults are returned, at most JsonNode::kFaultsMax.
 // ROS's `header` and `effort` are read over; `on_timeout` and `retime` may say what is done anyway
 // ("abort", false), anything else in them is refused. The trajectory may stand one level deeper, as
 // MoveIt has it ("trajectory": {"joint_trajectory": {...}}).
-[[nodiscard]] Result<JobRequest> read_job(const nlohmann::json& body, std::string_view prefix = "");
+[[nodiscard]] Result<JobRequest> read_job(const nlohmann::json& body);
 
 // The same from text.
 [[nodiscard]] Result<JobRequest> read_job_text(std::string_view text);
@@ -38,6 +43,7 @@ struct BatchRequest {
   bool atomic = true;
   std::vector<Entry> jobs;
 };
+[[nodiscard]] FormatPtr<BatchRequest> batch_request_format();
 [[nodiscard]] Result<BatchRequest> read_batch_text(std::string_view text);
 
 // A jobs file: an array of {"at": seconds, "job": {...}}, in any order of time.
