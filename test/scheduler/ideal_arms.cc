@@ -99,12 +99,6 @@ void IdealArms::run(std::size_t events_max) {
 
 void IdealArms::take(const Input& input) {
   step(input, now_);
-  const auto* report = std::get_if<MotionReport>(&input);
-  if (!report || report->kind != MotionReport::Kind::progressed) {
-    for (Moving& arm : moving_) {  // who stands tells it again at its next tick
-      if (arm.report_at == kNever) arm.report_at = now_ + kTick;
-    }
-  }
   while (!asides.empty()) {
     const MoveAside aside = asides.front();
     asides.erase(asides.begin());
@@ -180,12 +174,6 @@ void IdealArms::plan_report(Moving& arm) {
 void IdealArms::report(std::size_t index) {
   Moving& arm = moving_[index];
   const bool rests = arm.s >= arm.motion->duration();
-  const bool unseen = arm.s > Duration{} && arm.reported == Duration{};
-  if ((arm.braking || rests) && unseen) {  // it is seen to move before it is seen to rest
-    arm.reported = arm.s;
-    take(MotionReport{arm.job, MotionReport::Kind::progressed, arm.reported});
-    return;
-  }
   if (arm.braking || rests) {
     const Moving rested = arm;
     moving_.erase(moving_.begin() + static_cast<std::ptrdiff_t>(index));
@@ -320,22 +308,11 @@ void IdealArms::check_authority() const {
   }
 }
 
-bool IdealArms::is_first(JobId id) const {
-  const std::vector<JobId> active = scheduler.active();
-  return std::ranges::none_of(active, [&](JobId before) {
-    return before < id && std::ranges::any_of(job(before).trajectory->arms(), [&](ArmId arm) {
-             const auto& arms = job(id).trajectory->arms();
-             return std::ranges::find(arms, arm) != arms.end();
-           });
-  });
-}
-
 void IdealArms::check_explained() const {
   if (question) return;  // it may be about to go
   for (const JobId id : scheduler.active()) {
     const Job& job = this->job(id);
-    const bool behind = job.state == JobState::scheduled && !is_first(id);
-    const bool stands = job.pausing || (!moves(id) && !behind);
+    const bool stands = job.pausing || !moves(id);
     EXPECT_FALSE(stands && job.waits_on.empty())
         << "job " << id.value() << " (" << to_string(job.state) << ") does not say why it stands";
   }

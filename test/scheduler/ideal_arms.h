@@ -86,7 +86,6 @@ class IdealArms : public Bench {
   void check();
   void check_authority() const;
   void check_explained() const;
-  [[nodiscard]] bool is_first(JobId id) const;  // of all its arms
   [[nodiscard]] Moving* find_moving(JobId job);
   [[nodiscard]] std::pair<Stretch, JobId> stretch_of(ArmId arm) const;
 

@@ -22,17 +22,17 @@ CoordinatedMotion motion(JobId job, std::uint32_t arm, Duration duration) {
 TEST(Precedence, HoldsTheSecondAtTheNearestBoxThatTheFirstHasNotLeft) {
   const Precedence order(kA, kB, region({{1s, 2s, 4s, 6s}, {2s, 3s, 3s, 5s}, {3s, 4s, 5s, 7s}}),
                          true);
-  EXPECT_EQ(order.limit(0s), 3s);
-  EXPECT_EQ(order.limit(2900ms), 3s);
-  EXPECT_EQ(order.limit(3s), 5s);
-  EXPECT_EQ(order.limit(3999ms), 5s);
+  EXPECT_EQ(order.limit(0s), 3s - kShortOf);
+  EXPECT_EQ(order.limit(2900ms), 3s - kShortOf);
+  EXPECT_EQ(order.limit(3s), 5s - kShortOf);
+  EXPECT_EQ(order.limit(3999ms), 5s - kShortOf);
   EXPECT_EQ(order.limit(4s), std::nullopt);
 }
 
 TEST(Precedence, TurnedRoundHasTheOtherOnesTimes) {
   const Precedence order(kA, kB, region({{1s, 2s, 4s, 6s}}), false);
   EXPECT_EQ(order.first(), kB);
-  EXPECT_EQ(order.limit(5s), 1s);
+  EXPECT_EQ(order.limit(5s), 1s - kShortOf);
   EXPECT_EQ(order.limit(6s), std::nullopt);
   EXPECT_EQ(order.region().proximity.body_a, "b");
   EXPECT_EQ(order.region().time_a, 2s);
@@ -42,11 +42,11 @@ TEST(Prediction, AWaitCostsTheTimeUntilTheFirstHasLeftAndAPause) {
   const Precedence order(kA, kB, region({{1s, 3s, 2s, 4s}}), true);
   const auto ends = predict({{0s, 5s, {}}, {0s, 5s, {}}}, {{0, 1, &order}}).ends;
   EXPECT_EQ(ends[0], 5s);
-  EXPECT_EQ(ends[1], 5s + 1s + kPauseLoss);
+  EXPECT_EQ(ends[1], 5s + 1s + kShortOf + kPauseLoss);
 }
 
 TEST(Prediction, WhoComesLaterAnywayDoesNotWait) {
-  const Precedence order(kA, kB, region({{1s, 2s, 2s, 4s}}), true);
+  const Precedence order(kA, kB, region({{1s, 2s - kShortOf, 2s, 4s}}), true);
   EXPECT_EQ(predict({{0s, 5s, {}}, {0s, 5s, {}}}, {{0, 1, &order}}).ends[1], 5s);
 }
 
@@ -80,7 +80,7 @@ TEST_F(Graph, ACandidatePassesFirstWhereThatCostsLess) {
   // B is through before A comes near: to wait for A would cost 7 s.
   admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
   EXPECT_EQ(graph.limit(kB), 3s);
-  EXPECT_EQ(graph.limit(kA), 6s);
+  EXPECT_EQ(graph.limit(kA), 6s - kShortOf);
   graph.progress(kB, 2s);
   EXPECT_EQ(graph.limit(kA), 10s);
 }
@@ -90,7 +90,7 @@ TEST_F(Graph, NobodyIsPassedWhereItHasAuthority) {
   graph.granted(kA, 7s);
   admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
   EXPECT_EQ(graph.limit(kA), 10s);
-  EXPECT_EQ(graph.limit(kB), 1s);
+  EXPECT_EQ(graph.limit(kB), 1s - kShortOf);
   EXPECT_EQ(graph.held_back(kB)->by, kA);
   EXPECT_EQ(graph.held_back(kB)->proximity.body_a, "a");
 }
@@ -99,7 +99,7 @@ TEST_F(Graph, AGoalInTheOthersWayIsPassedBeforeItIsReached) {
   admit({motion(kA, 0, 5s)}, {});
   const auto orders = admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}});
   ASSERT_TRUE(orders.obstacles.empty());
-  EXPECT_EQ(graph.limit(kA), 4s);
+  EXPECT_EQ(graph.limit(kA), 4s - kShortOf);
   EXPECT_EQ(graph.limit(kB), 5s);
 }
 
@@ -117,8 +117,8 @@ const std::vector<PairRegions> kSwap{
 TEST_F(Graph, ASwapSucceedsWhereThereIsRoomToPass) {
   const auto orders = admit({motion(kA, 0, 5s), motion(kB, 1, 5s)}, kSwap);
   ASSERT_TRUE(orders.obstacles.empty());
-  EXPECT_EQ(graph.limit(kA), 4s);
-  EXPECT_EQ(graph.limit(kB), 3s);
+  EXPECT_EQ(graph.limit(kA), 4s - kShortOf);
+  EXPECT_EQ(graph.limit(kB), 3s - kShortOf);
 }
 
 TEST_F(Graph, ASwapWithoutRoomIsARing) {
@@ -139,10 +139,10 @@ TEST_F(Graph, WhoLetsTheFirstMotionComeToRestLetsTheNextOneLeave) {
       admit({motion(kB, 1, 5s), motion(kNext, 0, 4s)},
             {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 1s}})}}});
   ASSERT_TRUE(orders.obstacles.empty());
-  EXPECT_EQ(graph.limit(kB), 2s);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
   graph.progress(kA, 5s);
   graph.finish(kA);
-  EXPECT_EQ(graph.limit(kB), 2s) << "the arm still rests there";
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf) << "the arm still rests there";
   graph.progress(kNext, 1s);
   EXPECT_EQ(graph.limit(kB), 5s);
 }
@@ -154,11 +154,11 @@ TEST_F(Graph, AnAbandonedMotionBlocksWhatWouldPassItsRestAndNothingElse) {
   admit({motion(kC, 2, 5s)}, {{kC, kA, {region({{2s, 3s, 3s, 4s}})}}});
   graph.progress(kA, 2s);
   graph.abandon(kA, 2s);
-  EXPECT_EQ(graph.limit(kB), 2s);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
   EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0});
   EXPECT_EQ(graph.limit(kC), 5s);
   admit({motion(kNext, 0, 1s)}, {{kNext, kB, {region({{0s, 500ms, 2s, 3s}})}}});
-  EXPECT_EQ(graph.limit(kB), 2s);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
   graph.progress(kNext, 500ms);
   EXPECT_EQ(graph.limit(kB), 5s);
 }
@@ -171,7 +171,7 @@ TEST_F(Graph, CancellingTheNextMotionKeepsTheGoalBeforeItBlocked) {
   graph.abandon(kNext, 0s);
   graph.progress(kA, 5s);
   graph.finish(kA);
-  EXPECT_EQ(graph.limit(kB), 2s);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
   EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0});
 }
 
@@ -184,7 +184,7 @@ TEST_F(Graph, LargerPriorityPassesFirstWhateverItCostsOthers) {
   CoordinatedMotion more = motion(kC, 2, 3s);
   more.priority = 2;
   admit({more}, {{kC, kB, {region({{1s, 2s, 500ms, 9s}})}}});
-  EXPECT_EQ(graph.limit(kB), 500ms);
+  EXPECT_EQ(graph.limit(kB), 500ms - kShortOf);
 }
 
 TEST_F(Graph, WhoKeepsItsPlaceIsNotOvertaken) {
@@ -192,7 +192,7 @@ TEST_F(Graph, WhoKeepsItsPlaceIsNotOvertaken) {
   graph.keep_place(kA);
   admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
   EXPECT_EQ(graph.limit(kA), 10s);
-  EXPECT_EQ(graph.limit(kB), 1s);
+  EXPECT_EQ(graph.limit(kB), 1s - kShortOf);
 }
 
 // B was to wait until Next has taken the arm from A's goal. What comes after that is no matter.
@@ -209,7 +209,7 @@ TEST_F(Graph, WhoIsAbandonedBlocksOnlyThePlacesThatItWasToLeave) {
     graph.progress(kA, 5s);
     graph.finish(kA);
     graph.progress(kNext, 2s);
-    EXPECT_EQ(graph.limit(kB), abandoned == kC ? 5s : 2s);
+    EXPECT_EQ(graph.limit(kB), abandoned == kC ? 5s : 2s - kShortOf);
   }
 }
 
@@ -217,10 +217,10 @@ TEST_F(Graph, WhoIsAbandonedBlocksOnlyThePlacesThatItWasToLeave) {
 TEST_F(Graph, WhoPassesFirstIsNotBlockedByAGoalThatTheOtherHasNotReached) {
   admit({motion(kA, 0, 20s)}, {});
   admit({motion(kB, 1, 5s), motion(kNext, 0, 5s)}, {{kB, kA, {region({{2s, 3s, 18s, 20s}})}}});
-  ASSERT_EQ(graph.limit(kA), 18s);
+  ASSERT_EQ(graph.limit(kA), 18s - kShortOf);
   graph.abandon(kNext, 0s);
   EXPECT_EQ(graph.limit(kB), 5s);
-  EXPECT_EQ(graph.limit(kA), 18s);
+  EXPECT_EQ(graph.limit(kA), 18s - kShortOf);
 }
 
 // ---- Motions of several arms ----
@@ -236,7 +236,7 @@ TEST_F(Graph, AnArmThatRestsFartherThanItsSiblingIsInTheWayToo) {
   admit({motion(kB, 2, 5s)}, {{kB, kA, {region({{2s, 3s, 2s, 3s}})}}});
   graph.progress(kA, 1980ms);
   graph.abandon(kA, 1980ms, 2040ms);
-  EXPECT_EQ(graph.limit(kB), 2s);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
 }
 
 // A ends in B's way, and what takes its arm away takes B's too: after B.

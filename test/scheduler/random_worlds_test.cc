@@ -207,7 +207,7 @@ TEST_P(Worlds, WhatIsStoppedGoesOn) {
   EXPECT_GT(run(200, {.pauses = true}, !is_timed())[JobState::succeeded], 1000);
 }
 
-TEST_P(Worlds, WhatIsStoppedLateGoesOn) {  // trunk_faults_test.cc
+TEST_P(Worlds, WhatIsStoppedLateGoesOn) {
   EXPECT_GT(run(200, {.delays = true, .pauses = true}, !is_timed())[JobState::succeeded], 1000);
 }
 
@@ -217,13 +217,11 @@ TEST_P(Worlds, WhateverIsCanceledEveryJobEndsOnce) {
 }
 
 TEST_P(Worlds, OnScenesThatChangeEveryJobEndsOnce) {
-  if (GetParam() == "coordinated") GTEST_SKIP() << "trunk_faults_test.cc: put off for another";
   auto ended = run(200, {.delays = true, .stops = true, .cancels = true, .scenes = true}, false);
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
 TEST_P(Worlds, WhereArmsGoAsideEveryJobEndsOnce) {
-  if (GetParam() == "lockstep") GTEST_SKIP() << "trunk_faults_test.cc: a pause in a round";
   auto ended = run(200, {.delays = true, .cancels = true, .parks = true}, false);
   EXPECT_GT(ended[JobState::succeeded], 500);
 }

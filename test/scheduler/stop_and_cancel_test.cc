@@ -79,10 +79,58 @@ TEST(Cancel, HoldsOnlyWhatTheRestingArmStandsInTheWayOf) {
   EXPECT_TRUE(bench.job(behind).pausing);
   EXPECT_EQ(bench.job(behind).waits_on.front().kind, Wait::Kind::arm);
   EXPECT_EQ(bench.job(behind).waits_on.front().arm, ArmId{0});
-  EXPECT_EQ(bench.authority(behind), 1500ms);
+  EXPECT_EQ(bench.authority(behind), 1500ms - kShortOf);
   bench.progressed(free, 1500ms, at(4s));
   EXPECT_GT(bench.authority(free), 1500ms);
   EXPECT_FALSE(bench.job(free).pausing);
+}
+
+// Where only another one's decision would let it go on.
+TEST(Cancel, ThatLeavesAnArmInTheWayForGoodEndsWhoWaitsForItOnItsPath) {
+  Bench bench(2, "certified");
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(first, 1s, at(1001ms));
+  const JobId behind = bench.submit(move({1}, 0, 1, 2s), at(1002ms), 20s);
+  bench.answer_regions(at(1003ms),
+                       {{behind, first, {region(ProgressBox{1500ms, 1800ms, 0ms, 1200ms})}}});
+  bench.progressed(behind, 0ms, at(1006ms));
+  bench.step(Cancel{first}, at(1007ms));
+  bench.stopped(first, 1100ms, at(1107ms));
+  bench.progressed(behind, 900ms, at(2s));
+  for (Duration t = 3s; t < 24s; t += 1s) bench.progressed(behind, 1500ms - kShortOf, at(t));
+  ASSERT_TRUE(bench.job(behind).pausing);
+  bench.step(Wake{}, at(24s) - 1ns);
+  EXPECT_THAT(bench.braked, ElementsAre(first));
+  bench.step(Wake{}, at(24s));
+  EXPECT_THAT(bench.braked, ElementsAre(first, behind)) << "it has stood there since 4 s";
+  bench.stopped(behind, 1450ms, at(24100ms));
+  EXPECT_EQ(bench.state(behind), JobState::expired);
+  EXPECT_EQ(bench.job(behind).reason, Reason::backlog_timeout);
+  EXPECT_EQ(bench.job(behind).detail, "waited 20 s on its path");
+}
+
+// x, y and z take their arm out of b's way only together: all are admitted with b.
+TEST(Cancel, TakesWhatIsAdmittedBehindTheJobOutOfTheAdmittedAtOnce) {
+  Bench bench(2, "coordinated");
+  const JobId x = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  const JobId y = bench.submit(move({0}, 1, 0.5, 2s), at(2ms));
+  const JobId z = bench.submit(move({0}, 0.5, 0, 2s), at(2ms));
+  const JobId b = bench.submit(move({1}, 0, 1, 2s), at(2ms));
+  bench.progressed(x, 1900ms, at(3ms));
+  std::vector<PairRegions> regions{{b, x, {region(ProgressBox{1s, 1200ms, 1900ms, 2s})}}};
+  bench.answer_regions(at(4ms), regions);
+  regions.push_back({b, y, {region(ProgressBox{1s, 1200ms, 0s, 2s})}});
+  bench.answer_regions(at(5ms), regions);
+  ASSERT_EQ(bench.question->candidates.size(), 3u);
+  regions.push_back({b, z, {region(ProgressBox{1s, 1200ms, 0s, 200ms})}});
+  bench.answer_regions(at(6ms), regions);
+  ASSERT_EQ(bench.state(z), JobState::scheduled);
+  bench.step(Cancel{y}, at(7ms));
+  EXPECT_EQ(bench.state(y), JobState::canceled);
+  EXPECT_EQ(bench.state(z), JobState::queued) << "it begins where y would have ended";
+  EXPECT_EQ(bench.state(b), JobState::scheduled);
 }
 
 TEST(Cancel, BeforeTheFirstMotionMovesNothing) {
@@ -128,17 +176,19 @@ TEST(Stop, OfOneArmLeavesTheOthersTheirs) {
   EXPECT_EQ(bench.state(bench.jobs[1]), JobState::running);
 }
 
-TEST(Stop, BeforeTheFirstMotionPutsTheJobBackInTheQueue) {
+TEST(Stop, BeforeTheFirstMotionLeavesTheJobItsPlaceAmongTheAdmitted) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
   bench.step(Stop{{ArmId{0}}, "operator"}, at(2ms));
   bench.stopped(job, 0ms, at(3ms));
-  EXPECT_EQ(bench.state(job), JobState::queued);
+  EXPECT_EQ(bench.state(job), JobState::scheduled);
+  EXPECT_THAT(bench.released, ElementsAre(job));
   EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::stop);
   bench.step(Resume{{ArmId{0}}}, at(1s));
-  bench.answer_free(at(1001ms));
-  EXPECT_EQ(bench.state(job), JobState::scheduled);
+  ASSERT_EQ(bench.dispatched.size(), 2u);
+  EXPECT_EQ(bench.dispatched.back().job, job);
+  EXPECT_EQ(bench.dispatched.back().from_progress, 0ms);
 }
 
 TEST(Stop, ACancelDuringTheBrakeWins) {
@@ -146,6 +196,15 @@ TEST(Stop, ACancelDuringTheBrakeWins) {
   bench.step(Stop{{ArmId{0}}, "operator"}, at(500ms));
   bench.step(Cancel{bench.jobs[0]}, at(510ms));
   EXPECT_THAT(bench.braked, ElementsAre(bench.jobs[0])) << "it brakes once";
+  bench.stopped(bench.jobs[0], 600ms, at(700ms));
+  EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);
+}
+
+TEST(Stop, ACancelOutlivesAConflictWithANewSceneDuringTheBrake) {
+  Running bench(1);
+  bench.step(Cancel{bench.jobs[0]}, at(500ms));
+  bench.step(SceneChanged{}, at(510ms));
+  if (bench.question) bench.answer_conflict(at(511ms), Conflict::With::scene);
   bench.stopped(bench.jobs[0], 600ms, at(700ms));
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);
 }
@@ -175,7 +234,7 @@ TEST(Resume, LetsHeldJobsGoOnOneByOneByTheirOrders) {
   }
   EXPECT_EQ(bench.dispatched.back().from_progress, 100ms);
   bench.progressed(second, 1s, at(3s));
-  EXPECT_EQ(bench.authority(second), 1s) << "the first one has not passed";
+  EXPECT_EQ(bench.authority(second), 1s - kShortOf) << "the first one has not passed";
   bench.progressed(first, 1200ms, at(4s));
   EXPECT_GT(bench.authority(second), 1s);
 }

@@ -1,12 +1,12 @@
-// Faults that random worlds found; each is enabled with its mend.
+// Faults that random worlds found, as small as they can be told.
 #include <gmock/gmock.h>
+
+#include <algorithm>
 
 #include "test/scheduler/bench_cell.h"
 
 namespace armloom {
 namespace {
-
-using ::testing::ElementsAre;
 
 // x stands in b's way at its end, and y, next of its arm, takes it away: both go with b.
 TEST(Admission, WhatIsAdmittedBehindAJobOfItsArmSaysThatItWaitsForIt) {
@@ -38,9 +38,27 @@ TEST(Authority, GrowsWhenTheOneThatPassesFirstComesToItsEnd) {
   bench.progressed(second, 500ms, at(1s));
   bench.progressed(second, 1s, at(2s));
   bench.progressed(second, 1500ms, at(3s));
-  ASSERT_EQ(bench.authority(second), 1500ms);
+  ASSERT_LE(bench.authority(second), 1500ms);
   bench.finished(first, at(4s));
   EXPECT_GT(bench.authority(second), 1500ms) << "nothing is in its way any more";
+}
+
+// Without a word of its own: it stands, and has told that before.
+TEST(Authority, GrowsInTheStepInWhichTheOneThatPassesFirstHasLeft) {
+  Bench bench(2, "certified");
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(first, 500ms, at(501ms));
+  const JobId second = bench.submit(move({1}, 0, 1, 2s), at(502ms));
+  bench.answer_regions(at(503ms),
+                       {{second, first, {region(ProgressBox{1500ms, 1600ms, 1300ms, 1400ms})}}});
+  bench.progressed(second, 500ms, at(1s));
+  bench.progressed(second, 1s, at(2s));
+  ASSERT_LE(bench.authority(second), 1500ms);
+  bench.progressed(first, 1399ms, at(3s));
+  ASSERT_LE(bench.authority(second), 1500ms);
+  bench.progressed(first, 1400ms, at(4s));
+  EXPECT_GT(bench.authority(second), 1500ms);
 }
 
 // Stopped before the first report of its progress.
@@ -95,7 +113,8 @@ TEST(Resume, OfAJobThatHadNotMovedLetsItLeaveForThoseThatCountOnIt) {
     }
     EXPECT_EQ(bench.state(leaves), JobState::scheduled) << policy;
     EXPECT_EQ(bench.authority(waits) > 2s, false) << policy;
-    EXPECT_EQ(bench.dispatched.back().job, leaves) << policy;
+    const auto again = [leaves](const Dispatch& d) { return d.job == leaves; };
+    EXPECT_EQ(std::ranges::count_if(bench.dispatched, again), 2) << policy;
   }
 }
 
@@ -135,9 +154,9 @@ TEST(Blockades, ATeamThatRestsInTheWayIsThereUntilAllOfItsArmsHaveLeft) {
         {{b, both, {region(ProgressBox{2s, 3s, 2s, 3s})}}});
   graph.progress(both, 2500ms);
   graph.abandon(both, 2500ms);
-  EXPECT_EQ(graph.limit(b), 2s);
+  EXPECT_LE(graph.limit(b), 2s);
   admit({.job = next, .arms = {ArmId{0}}, .duration = 5s}, {});
-  EXPECT_EQ(graph.limit(b), 2s) << "arm 1 has not moved";
+  EXPECT_LE(graph.limit(b), 2s) << "arm 1 has not moved";
 }
 
 }  // namespace
