@@ -27,8 +27,15 @@ std::optional<LinkId> Cell::find_link(std::string_view link_name) const {
 
 bool Cell::is_mount(LinkId link, ArmId arm) const {
   if (this->link(link).arm) return false;
-  return std::ranges::any_of(
-      links, [&](const Link& carried) { return carried.parent == link && carried.arm == arm; });
+  const auto stands_on_it = [&](const Link& carried) {
+    if (carried.arm != arm || !carried.parent || this->link(*carried.parent).arm) return false;
+    for (auto below = carried.parent; below; below = this->link(*below).parent) {
+      if (*below == link) return true;
+      if (!this->link(*below).shapes.empty() || this->link(*below).driver) return false;
+    }
+    return false;
+  };
+  return std::ranges::any_of(links, stands_on_it);
 }
 
 bool Cell::is_own(LinkId link, ArmId arm) const {

@@ -123,6 +123,7 @@ struct Cell {
   [[nodiscard]] std::optional<LinkId> find_link(std::string_view link_name) const;
 
   // A link that stands still and carries a link that the arm moves: what the arm is mounted on.
+  // Links without a shape (mounting frames) hand that down to what they are fixed to.
   [[nodiscard]] bool is_mount(LinkId link, ArmId arm) const;
   // The arm itself: what it moves, and its mount. What neither this nor another arm moves is scene
   // to it, whatever file it comes from: it keeps clearance_m from that, and self_clearance_m from

@@ -28,6 +28,12 @@ class SrdfReader {
   RobotSemantics read(const std::set<std::string>& used_groups) {
     RobotSemantics semantics;
     check_name();
+    XmlPlace(file_ + ": robot", findings_)
+        .only_children(
+            srdf_,
+            {"group", "disable_collisions", "disable_default_collisions", "enable_collisions"},
+            {"group_state", "end_effector", "virtual_joint", "passive_joint", "joint_property",
+             "link_sphere_approximation"});
     const std::set<std::string> virtual_joints = read_virtual_joints();
     semantics.groups = read_groups(srdf_, file_, tree_, virtual_joints, used_groups, findings_);
     for_each("group_state",
