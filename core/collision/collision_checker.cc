@@ -154,13 +154,15 @@ std::optional<Proximity> CollisionChecker::first_closer_than(const Configuration
   return std::nullopt;
 }
 
-std::vector<Proximity> CollisionChecker::all_closer_than(const Configuration& q,
-                                                         double clearance_m) {
+std::vector<TooClose> CollisionChecker::all_closer_than(const Configuration& q,
+                                                        double clearance_m) {
   scratch_->move_to(q);
-  std::vector<Proximity> found;
+  std::vector<TooClose> found;
   for (const Group& group : scratch_->bodies.groups) {
     const double limit_m = scratch_->limit_of(group, clearance_m);
-    if (const auto pair = scratch_->closest(group, limit_m)) found.push_back(describe(*pair));
+    if (const auto pair = scratch_->closest(group, limit_m)) {
+      found.push_back({describe(*pair), limit_m});
+    }
   }
   return found;
 }

@@ -47,7 +47,7 @@ class CollisionChecker {
 
   // Every pair (allowed ones left out) closer than `clearance_m`, as above: the closest of each
   // pair of arms, of each arm with the objects and static links, and of each arm with itself.
-  [[nodiscard]] std::vector<Proximity> all_closer_than(const Configuration& q, double clearance_m);
+  [[nodiscard]] std::vector<TooClose> all_closer_than(const Configuration& q, double clearance_m);
 
   // The closest pair of each two arms, and of each arm with all that stands still (its mount left
   // out), exact when below `horizon_m`; pairs farther apart are left out.

@@ -21,6 +21,12 @@ struct Proximity {
   bool held_b = false;         // body_b is an object that arm_b holds
 };
 
+// A pair that is closer than it should be.
+struct TooClose {
+  Proximity proximity;
+  double limit_m;  // what it should have been at least: less of an arm from itself and its mount
+};
+
 // The same evidence as the second body sees it.
 [[nodiscard]] inline Proximity turned_around(Proximity proximity) {
   std::swap(proximity.body_a, proximity.body_b);

@@ -55,7 +55,6 @@ Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr s
       observer_(observer),
       faulty_(pointers(arms)),
       motions_(cell, controllers(std::move(arms)), cell->home()),
-      monitor_(cell->monitor),
       checker_(scene_),
       near_(monitored(scene_)),
       monitor_period_(from_seconds(1.0 / cell->monitor.rate_hz)),
@@ -151,7 +150,7 @@ void Executive::Impl::watch() {
     std::vector<bool> moving;
     for (ArmId arm : all_arms()) moving.push_back(motions_.moving(arm));
     const Configuration* state[] = {&q};
-    std::vector<Proximity> too_close;
+    std::vector<TooClose> too_close;
     if (near_.too_close(state) != 0) {
       too_close = checker_.all_closer_than(q, cell_->monitor.stop_clearance_m);
     }

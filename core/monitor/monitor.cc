@@ -30,13 +30,11 @@ std::vector<ArmId> moving_arms(const Proximity& proximity, const std::vector<boo
 
 }  // namespace
 
-Monitor::Monitor(MonitorSettings settings) : settings_(std::move(settings)) {}
-
-std::vector<MonitorFinding> Monitor::observe(const std::vector<Proximity>& too_close,
+std::vector<MonitorFinding> Monitor::observe(const std::vector<TooClose>& too_close,
                                              const std::vector<bool>& moving, TimePoint now) {
   std::vector<MonitorFinding> findings;
   std::map<Pair, double> still_known;  // what is no longer too close is forgotten
-  for (const Proximity& proximity : too_close) {
+  for (const auto& [proximity, limit_m] : too_close) {
     Pair key = key_of(proximity);
     std::vector<ArmId> stops = moving_arms(proximity, moving);
     const auto before = known_.find(key);
@@ -52,7 +50,7 @@ std::vector<MonitorFinding> Monitor::observe(const std::vector<Proximity>& too_c
                                                              : MonitorFinding::Kind::clearance,
                         .time = now,
                         .proximity = proximity,
-                        .limit_m = settings_.stop_clearance_m,
+                        .limit_m = limit_m,
                         .stops = std::move(stops)});
   }
   known_ = std::move(still_known);

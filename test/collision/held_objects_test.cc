@@ -234,10 +234,10 @@ TEST(HeldObject, StaysWhenObjectsChangeAndLeavesThemAlone) {
   q << 0.0, kPi / 2;
   const auto near = checker.all_closer_than(q, 0.02);
   ASSERT_EQ(near.size(), 1U);
-  EXPECT_EQ(near[0].body_a, "rod");
-  EXPECT_EQ(near[0].body_b, "post");
-  EXPECT_TRUE(near[0].held_a);
-  EXPECT_TRUE(near[0].object_b);
+  EXPECT_EQ(near[0].proximity.body_a, "rod");
+  EXPECT_EQ(near[0].proximity.body_b, "post");
+  EXPECT_TRUE(near[0].proximity.held_a);
+  EXPECT_TRUE(near[0].proximity.object_b);
 
   const PlanningScenePtr empty_handed = holding(with_post, {});
   EXPECT_FALSE(empty_handed->holds_as(*with_post));

@@ -175,6 +175,30 @@ TEST(SceneLinks, AreNotTheArmsOwnMountButThatOfAnotherArm) {
   EXPECT_EQ(others, 2);
 }
 
+// base frame -> wall: what the frame is fixed to carries the arm, until the frame has a shape.
+TEST(SceneLinks, AMountingFrameWithoutAShapeHandsItsRoleDown) {
+  Cell cell = *walled(As::link);
+  const LinkId frame = *cell.find_link("a_base");
+  const LinkId wall = *cell.find_link("wall");
+  Link& base = cell.links[frame.index()];
+  base.parent = wall;
+  base.X_PJ = small::at_xyz(0, -0.45, 0);
+  const auto too_close = [&](double gap_m) {
+    const CellPtr shared = small::shared(cell);
+    const Configuration q = tip_from_wall(*shared, gap_m);
+    const Configuration* state[] = {&q};
+    return StateCheck(scene_of(shared)).too_close(state) != 0;
+  };
+  EXPECT_TRUE(cell.is_mount(frame, kA));
+  EXPECT_FALSE(cell.is_mount(wall, kA));
+  EXPECT_TRUE(too_close(0.0199));
+  base.shapes.clear();
+  EXPECT_TRUE(cell.is_mount(wall, kA));
+  EXPECT_FALSE(cell.is_mount(wall, kB));
+  EXPECT_FALSE(too_close(0.0051));
+  EXPECT_TRUE(too_close(0.0049));
+}
+
 // A pair that parts is held to less: the verdict does not claim more.
 TEST(ClearanceBound, IsNoMoreThanWhatEveryPairWasHeldTo) {
   for (const As as : {As::link, As::object}) {
