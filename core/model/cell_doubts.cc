@@ -1,6 +1,12 @@
 #include "core/model/cell_doubts.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "core/model/mesh.h"
 
@@ -49,6 +55,31 @@ void warn_of_lags(const CellDescription& description, Findings& findings) {
   }
 }
 
+void warn_of_noise(const CellDescription& description, Findings& findings) {
+  const double error_rad = description.checking.tracking_error_rad;
+  for (std::size_t r = 0; r < description.robots.size(); ++r) {
+    const RobotDescription& robot = description.robots[r];
+    const double noise_rad = robot.controller.noise_rad;
+    if (noise_rad <= error_rad) continue;
+    findings.warn({ProblemKind::invalid, "noise-above-error",
+                   "/robots/" + std::to_string(r) + "/controller/noise_rad",
+                   "robot " + robot.name + ": noise_rad is " + text_of(noise_rad) +
+                       ", more than checking tracking_error_rad of " + text_of(error_rad) +
+                       ": its arms are measured farther from their paths than motions are "
+                       "certified for; tracking_error_rad has to cover the noise",
+                   noise_rad});
+  }
+}
+
+std::size_t open_edges(const std::vector<Triangle>& triangles) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> borders;
+  for (const Triangle& t : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) ++borders[std::minmax(t[i], t[(i + 1) % 3])];
+  }
+  return static_cast<std::size_t>(
+      std::ranges::count_if(borders, [](const auto& edge) { return edge.second % 2 != 0; }));
+}
+
 class MeshDoubts {
  public:
   explicit MeshDoubts(Findings& findings) : findings_(findings) {}
@@ -59,7 +90,9 @@ class MeshDoubts {
     const auto* mesh = std::get_if<Mesh>(&shape);
     if (mesh == nullptr || mesh->data == nullptr) return;
     if (!told_.insert(mesh->path).second) return;
-    if (is_flat(*mesh->data))
+    const bool flat = is_flat(*mesh->data);
+    if (!flat && mesh->data->surface == nullptr) note_open(*mesh);
+    if (flat)
       warn("flat-mesh", place, whose + ": mesh " + mesh->path + " is flat: it has no inside",
            mesh->path);
     Eigen::AlignedBox3d box;
@@ -74,7 +107,27 @@ class MeshDoubts {
     }
   }
 
+  // All in one: meshes for collision are often of such a kind.
+  void tell_open() {
+    if (open_ == 0) return;
+    warn("open-mesh", "",
+         std::to_string(open_) + (open_ == 1 ? " mesh does" : " meshes do") +
+             " not close, so convex pieces around the triangles stand for what is inside (are the "
+             "files whole?): " +
+             open_files_ + (open_ > kListed ? ", ..." : ""),
+         open_files_);
+  }
+
  private:
+  static constexpr std::size_t kListed = 8;
+
+  void note_open(const Mesh& mesh) {
+    if (++open_ > kListed) return;
+    open_files_ += (open_files_.empty() ? "" : ", ") +
+                   std::filesystem::path(mesh.path).filename().string() + " (" +
+                   std::to_string(open_edges(mesh.data->triangles)) + " open edges)";
+  }
+
   void warn(const char* slug, const std::string& place, const std::string& sentence,
             const std::string& value) {
     findings_.warn({ProblemKind::invalid, slug, place, sentence, value});
@@ -82,6 +135,8 @@ class MeshDoubts {
 
   Findings& findings_;
   std::set<std::string> told_;
+  std::size_t open_ = 0;
+  std::string open_files_;
 };
 
 }  // namespace
@@ -89,6 +144,7 @@ class MeshDoubts {
 void warn_of_doubts(const CellDescription& description, const Cell& cell, Findings& findings) {
   warn_of_brakes(description, cell, findings);
   warn_of_lags(description, findings);
+  warn_of_noise(description, findings);
   MeshDoubts meshes(findings);
   for (const Link& link : cell.links) {
     for (const PlacedShape& placed : link.shapes)
@@ -98,6 +154,7 @@ void warn_of_doubts(const CellDescription& description, const Cell& cell, Findin
     meshes.look_at(cell.objects[o].shape, "/objects/" + std::to_string(o) + "/mesh",
                    "object " + cell.objects[o].name, false);
   }
+  meshes.tell_open();
 }
 
 }  // namespace armloom

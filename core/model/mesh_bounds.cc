@@ -9,6 +9,15 @@ namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
+constexpr std::size_t kStlHeader = 84;
+
+// 0 of files that end before.
+std::uint32_t count_in_stl_header(std::string_view bytes) {
+  std::uint32_t count = 0;
+  if (bytes.size() >= kStlHeader) std::memcpy(&count, bytes.data() + 80, sizeof count);
+  return count;
+}
+
 std::size_t words_in(std::string_view text) {
   std::size_t words = 0;
   bool in_word = false;
@@ -22,14 +31,15 @@ std::size_t words_in(std::string_view text) {
 
 }  // namespace
 
+bool is_text_stl(std::string_view bytes) {
+  std::size_t begin = 0;
+  while (begin < bytes.size() && is_space(bytes[begin])) ++begin;
+  return bytes.substr(begin).starts_with("solid") &&
+         bytes.size() != kStlHeader + std::size_t{50} * count_in_stl_header(bytes);
+}
+
 std::size_t most_triangles_of_stl(std::string_view bytes) {
-  constexpr std::size_t kHeader = 84;
-  if (bytes.size() >= kHeader) {
-    std::uint32_t count = 0;
-    std::memcpy(&count, bytes.data() + 80, sizeof count);
-    if (bytes.size() == kHeader + std::size_t{50} * count || !bytes.starts_with("solid"))
-      return count;
-  }
+  if (!is_text_stl(bytes)) return count_in_stl_header(bytes);
   std::size_t corners = 0;
   for (auto at = bytes.find("vertex"); at != bytes.npos; at = bytes.find("vertex", at + 6))
     ++corners;

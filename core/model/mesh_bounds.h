@@ -5,6 +5,10 @@
 
 namespace armloom {
 
+// Whether an STL is text. Binary ones may begin with "solid" too, but then have the size that their
+// header says.
+[[nodiscard]] bool is_text_stl(std::string_view bytes);
+
 // How many triangles the file cannot have more than, by counting and without building anything, so
 // that a file that would fill the memory is known before it is read.
 //   STL   binary: what the header says (80 bytes, the number, 50 bytes for each); text: a third of

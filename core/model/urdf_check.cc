@@ -74,7 +74,11 @@ std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes
     return "fixed";
   }
   if (!type.empty())
-    place.report("unknown-joint-type", "joint type '" + type + "' is not known", type);
+    place.report(
+        "unknown-joint-type",
+        "joint type '" + type +
+            "' is not known (revolute, continuous, prismatic, fixed, floating, planar are)",
+        type);
   // As what its limits would fit, so that all else of it is told.
   const auto* limit = joint.FirstChildElement("limit");
   if (limit == nullptr) return "continuous";
@@ -118,6 +122,30 @@ std::string place_of(const XMLElement& element, const std::string& file) {
   return place + "at line " + std::to_string(element.GetLineNum());
 }
 
+// Links and joints count directly below <robot> only: in another element they would vanish.
+void refuse_what_holds_links(const XMLElement& robot, const std::string& file, Findings& findings) {
+  const auto has_part = [](const XMLElement& element) {
+    const auto* link = element.FirstChildElement("link");
+    const auto* joint = element.FirstChildElement("joint");
+    return (link != nullptr && link->FirstChildElement() != nullptr) ||
+           (joint != nullptr && joint->FirstChildElement("child") != nullptr) ||
+           std::string_view(element.Name()) == "collision" ||
+           element.FirstChildElement("collision") != nullptr;
+  };
+  for (const auto* child = robot.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    const std::string tag = child->Name();
+    if (tag == "link" || tag == "joint" || tag == "gazebo") continue;
+    if (tag.find(':') != std::string::npos || !has_part(*child)) continue;
+    XmlPlace(file + ": robot", findings)
+        .report("misplaced",
+                "line " + std::to_string(child->GetLineNum()) + ": <" + tag +
+                    "> holds a part of the robot, which would be left out: <link> and <joint> "
+                    "stand directly below <robot>, and <collision> in a <link>",
+                tag);
+  }
+}
+
 }  // namespace
 
 UrdfNotes check_urdf_elements(const XMLElement& robot, const std::string& file,
@@ -126,6 +154,7 @@ UrdfNotes check_urdf_elements(const XMLElement& robot, const std::string& file,
       .only_children(robot, {"link", "joint"},
                      {"material", "transmission", "gazebo", "ros2_control", "sensor", "mujoco",
                       "plugin", "loop_joint", "verbose"});
+  refuse_what_holds_links(robot, file, findings);
   UrdfNotes notes;
   std::set<std::pair<std::string, std::string>> known;
   for (const auto* child = robot.FirstChildElement(); child != nullptr;

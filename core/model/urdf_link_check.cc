@@ -119,7 +119,10 @@ void check_link(const XMLElement& link, const XmlPlace& place, const MeshFolders
   for (const auto* child = link.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
     const std::string_view tag = child->Name();
-    if (tag == "visual") check_visual(*child, seen, unused);
+    if (tag == "visual") {
+      check_visual(*child, seen, unused);
+      if (const char* name = link.Attribute("name")) notes.seen.insert(name);
+    }
     if (tag != "collision") continue;
     XMLElement& copy = *to.InsertNewChildElement("collision");
     if (!copy_collision(*child, place, folders, notes, copy)) to.DeleteChild(&copy);

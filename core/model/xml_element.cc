@@ -137,7 +137,7 @@ const tinyxml2::XMLElement* XmlPlace::only_child(const tinyxml2::XMLElement& ele
     if (presence == Presence::required)
       report("missing", std::string("<") + child + "> is missing");
   } else if (first->NextSiblingElement(child) != nullptr) {
-    report("duplicate", std::string("more than one <") + child + ">");
+    report("duplicate", std::string("more than one <") + child + ">, of which the first counts");
   }
   return first;
 }

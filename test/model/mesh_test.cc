@@ -161,6 +161,43 @@ TEST_F(MeshFile, SaysWhyItCannotBeRead) {
   says(refusal("short.stl", small::stl_bytes(box_).substr(0, 200)), "mesh-unreadable", "stl");
 }
 
+// assimp would take the half of it.
+TEST_F(MeshFile, RefusesATextStlThatWasCutOffOrHasOtherWords) {
+  const std::string text = small::stl_text(box_);
+  const auto detail = [&](std::string broken) { return refusal("text.stl", broken).detail; };
+  EXPECT_THAT(detail(text.substr(0, text.rfind("endsolid"))),
+              HasSubstr("after 12 facets it ends without endsolid: it was cut off"));
+  EXPECT_THAT(detail(text.substr(0, text.size() / 2)), HasSubstr("it was cut off"));
+  const std::size_t second = text.find("facet normal", text.find("endfacet") + 8);
+  EXPECT_THAT(detail(std::string(text).replace(second, 5, "facte")),
+              HasSubstr("after 1 facets it has 'facte' where 'facet' should be"));
+  EXPECT_THAT(detail(text + text.substr(12)), HasSubstr("outside of a solid"));
+  EXPECT_THAT(detail(std::string(84, 'x')), HasSubstr("it is no STL, or was cut off"));
+  const auto two = load_mesh(folder_.write("two.stl", text + text), Eigen::Vector3d::Ones(),
+                             "", "robot a");
+  EXPECT_TRUE(two) << two.error()[0].detail;
+}
+
+// Both sides of each face, as CAD programs write them: the inside is inside all the same.
+TEST_F(MeshFile, OfDoubledFacesIsTheSolidOnce) {
+  const auto surface_of = [&](const small::Surface& surface) {
+    const auto mesh = load_mesh(folder_.write("double.stl", small::stl_text(surface)),
+                                Eigen::Vector3d::Ones(), "", "robot a");
+    return mesh ? (*mesh)->triangles.size() : 0;
+  };
+  const auto doubled = [](small::Surface surface) {
+    const std::vector<Triangle> once = surface.triangles;
+    for (const Triangle& t : once) surface.triangles.push_back({t[0], t[2], t[1]});
+    return surface;
+  };
+  EXPECT_EQ(surface_of(doubled(box_)), 12u);
+  EXPECT_EQ(surface_of(small::joined(doubled(box_), small::box_surface({5, 5, 5}, {6, 6, 6}))),
+            24u);
+  small::Surface sheet = box_;  // a bin of sheet metal, open at one side
+  sheet.triangles.resize(10);
+  EXPECT_EQ(surface_of(doubled(sheet)), 20u);
+}
+
 TEST_F(MeshFile, NamesTheVertexThatIsNotFinite) {
   small::Surface bad = box_;
   bad.vertices[3].y() = std::nan("");

@@ -111,6 +111,9 @@ INSTANTIATE_TEST_SUITE_P(
     Others, SrdfOddity,
     testing::Values(
         Mistake{
+            "type=\"fixed\"", "type=\"planar\"", "twin.srdf: virtual_joint at line 3",
+            "the robot's base is planar by it; here it stands where \"base\" of the cell has it"},
+        Mistake{
             "link1=\"r2\"", "link1=\"r9\"", "twin.srdf: disable_collisions",
             "1 of 1 name links that are not in two_arms.urdf (r9 at line 16); they are left out, "
             "and the links that were meant stay checked"},

@@ -188,6 +188,15 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<limit lower=\"-1\" upper=\"1\" effort=\"50\" velocity=\"1.5\"/>",
                 "<limit lower=\"-1\" upper=\"1\" effort=\"50\" velocity=\"1.5\"/><limits/>",
                 "twin.urdf: joint r_last", "<limits> is not known; did you mean <limit>?"},
+        Mistake{"<origin xyz=\"0 0 0.3\" rpy=\"0 0 -0.785\"/>",
+                "<origin xyz=\"0 0 0.3\" quat_xyzw=\"0 0 0 1\"/>", "twin.urdf: joint l_wrist",
+                "origin quat_xyzw is not read here; give the rotation as rpy"},
+        Mistake{"<link name=\"r1\"/>",
+                "<link name=\"r1\"/><model><link name=\"shelf\"><collision/></link></model>",
+                "twin.urdf: robot",
+                "line 46: <model> holds a part of the robot, which would be left out"},
+        Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><collision/>", "twin.urdf: robot",
+                "line 46: <collision> holds a part of the robot, which would be left out"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><Link name=\"table\"/>",
                 "twin.urdf: robot", "line 46: <Link> is not known; did you mean <link>?"}));
 
@@ -239,8 +248,21 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><world_frame/>", "twin.urdf: robot",
                 "line 46: <world_frame> is not known here and is left out"},
         Mistake{"<origin xyz=\"0 0 0.3\" rpy=\"0 0 -0.785\"/>",
-                "<origin xyz=\"0 0 0.3\" quat_xyzw=\"0 0 0 1\"/>", "twin.urdf: joint l_wrist",
-                "origin attribute quat_xyzw is not known here and is left out"},
+                "<origin xyz=\"0 0 0.3\" frame=\"world\"/>", "twin.urdf: joint l_wrist",
+                "origin attribute frame is not known here and is left out"},
+        Mistake{"rpy=\"0 0 -0.785\"", "rpy=\"0 0 -45\"", "twin.urdf: joint l_wrist",
+                "origin rpy holds -45, more than a turn: angles are in rad (degrees?)"},
+        Mistake{
+            "<link name=\"r1\"/>",
+            "<link name=\"r1\"><visual><geometry><sphere radius=\"1\"/></geometry></visual>"
+            "</link>",
+            "twin.urdf: links",
+            "r1 have a <visual> and no <collision>: they are seen in the dashboard, and nothing "
+            "keeps away from them"},
+        Mistake{"<link name=\"r3\"><collision><geometry><sphere radius=\"0.03\"/></geometry>"
+                "</collision></link>",
+                "<link name=\"r3\"/>", "twin.urdf: arm right",
+                "none of its links has a <collision>: nothing that it does can be a conflict"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"><gravity>0</gravity></link>",
                 "twin.urdf: link r1", "<gravity> is not known here and is left out"},
         Mistake{"<link name=\"r1\"/>",
