@@ -43,6 +43,29 @@ bool crosses(const Eigen::Vector3d& p, const Eigen::Vector3d& ray, const Eigen::
   return v >= 0.0 && u + v <= 1.0 && ac.dot(across) / det > 0.0;
 }
 
+// FCL's distances are garbage (1e-322 m) where a triangle is only a segment or a point: it becomes
+// one of kSliver_m, on vertices of its own.
+void make_proper(Triangle& t, std::vector<Eigen::Vector3d>& vertices) {
+  constexpr double kSliver_m = 1e-6;
+  const auto edge = [&](std::size_t i) -> Eigen::Vector3d {
+    return vertices[t[(i + 1) % 3]] - vertices[t[i]];
+  };
+  std::size_t longest = 0;
+  for (const std::size_t i : {1U, 2U}) {
+    if (edge(i).norm() > edge(longest).norm()) longest = i;
+  }
+  const Eigen::Vector3d along = edge(longest);
+  const double length_m = along.norm();
+  if (edge(0).cross(edge(1)).norm() > kSliver_m * length_m) return;
+  const Eigen::Vector3d u = length_m > 0.0 ? (along / length_m).eval() : Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d from = vertices[t[longest]];
+  const Eigen::Vector3d to = from + std::max(length_m, kSliver_m) * u;
+  t = {t[longest], static_cast<std::uint32_t>(vertices.size()),
+       static_cast<std::uint32_t>(vertices.size() + 1)};
+  vertices.push_back(to);
+  vertices.push_back((from + to) / 2 + kSliver_m * u.unitOrthogonal());
+}
+
 }  // namespace
 
 AuditedMesh::AuditedMesh(const MeshData& mesh) : vertices_(mesh.vertices) {
@@ -75,12 +98,16 @@ AuditedMesh::AuditedMesh(const MeshData& mesh) : vertices_(mesh.vertices) {
 
 std::shared_ptr<fcl::CollisionGeometryd> AuditedMesh::make_geometry() const {
   auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  std::vector<Eigen::Vector3d> vertices = vertices_;
   std::vector<fcl::Triangle> triangles;
   for (const Piece& piece : pieces_) {
-    for (const Triangle& t : piece.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+    for (Triangle t : piece.triangles) {
+      make_proper(t, vertices);
+      triangles.emplace_back(t[0], t[1], t[2]);
+    }
   }
-  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices_.size()));
-  model->addSubModel(vertices_, triangles);
+  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
+  model->addSubModel(vertices, triangles);
   model->endModel();
   model->computeLocalAABB();
   return model;
