@@ -28,7 +28,7 @@ class StandingJoints {
     std::string line;
     for (const auto& [joint, arms] : arms_above_) {
       if (arms.size() > 1) continue;  // refuse_shared_joints tells of it
-      list(joint, names, line);
+      list(joint, names, line, std::string::npos);
     }
     if (!names.empty()) {
       findings_.in_cell("standing-joint", robot_.pointer,
@@ -62,7 +62,7 @@ class StandingJoints {
     }
     std::string names;
     std::string line;
-    for (const JointId joint : others) list(joint, names, line);
+    for (const JointId joint : others) list(joint, names, line, kLongest);
     if (names.empty()) return;
     findings_.warn({ProblemKind::invalid, "standing-joint", robot_.pointer,
                     "robot " + robot_.description->name + ": " + names +
@@ -96,8 +96,12 @@ class StandingJoints {
     }
   }
 
-  void list(JointId id, std::string& names, std::string& line) const {
+  void list(JointId id, std::string& names, std::string& line, std::size_t longest) const {
     const std::string name = cell_.joint(id).name.substr(robot_.description->prefix.size());
+    if (names.size() > longest) {
+      if (!names.ends_with("...")) names += ", ...";
+      return;
+    }
     names += (names.empty() ? "joint " : ", ") + name;
     line += (line.empty() ? "\"" : ", \"") + name + "\": 0";
   }
@@ -107,6 +111,8 @@ class StandingJoints {
                ? "add to the robot \"fixed\": {" + line + "}, with its value"
                : "add to the robot's \"fixed\" " + line + ", with its value";
   }
+
+  static constexpr std::size_t kLongest = 200;
 
   const RobotBuild& robot_;
   const Cell& cell_;

@@ -34,6 +34,8 @@ std::string why_malformed(const tinyxml2::XMLDocument& document, const std::stri
   if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED)
     return "elements are nested too deeply";
   if (text.find("<!DOCTYPE") != std::string::npos) return "a DOCTYPE is not allowed";
+  if (document.ErrorID() == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT)
+    return "the XML is malformed: the element that begins here is not closed by its own name";
   return std::string("the XML is malformed (") + document.ErrorName() + ")";
 }
 
