@@ -284,6 +284,7 @@ Result<CellPtr> build_cell(const CellDescription& description, Problems& warning
   // With a robot missing its links' names would all seem unknown.
   if (complete) allow_pairs_of_cell(description, *cell, findings);
   warn_of_doubts(description, *cell, findings);
+  if (complete && findings.count() == 0) warn_of_large_mounts(*cell, findings);
 
   warnings = findings.take_warnings();
   if (findings.count() > 0) return failure(findings.take());

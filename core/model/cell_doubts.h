@@ -11,4 +11,8 @@ namespace armloom {
 // far as it could be.
 void warn_of_doubts(const CellDescription& description, const Cell& cell, Findings& findings);
 
+// Warns of mounts (Cell::is_mount) that reach far: such a link may hold a table, too, from which the
+// arm would keep no more than from itself.
+void warn_of_large_mounts(const Cell& cell, Findings& findings);
+
 }  // namespace armloom

@@ -295,6 +295,17 @@ TEST(Warnings, NameMeshesThatDoNotClose) {
                 "is inside (are the files whole?): bin.stl (3 open edges)"));
 }
 
+TEST(Warnings, NameAMountThatMayBeATable) {
+  const ScratchFolder folder;
+  CellDescription cell = two_arms_description();
+  cell.robots[0].urdf =
+      folder.write("twin.urdf", file_with(data_file("two_arms.urdf"), "<origin xyz=\"0 0 1\"/>",
+                                          "<origin xyz=\"0 1.5 1\"/>"));
+  EXPECT_THAT(warnings_of(cell),
+              HasSubstr("link t_post carries arm left and reaches 1.36 m from its first joint: the "
+                        "arm keeps self_clearance_m (0.005 m) from all of it"));
+}
+
 TEST(Warnings, AreNoneForTheCellsOfTheRepository) {
   EXPECT_EQ(warnings_of(two_arms_description()), "");
   EXPECT_EQ(warnings_of(two_pandas_description()), "");
