@@ -53,9 +53,12 @@ int run(int argc, char** argv) {
   add_cell(*validate_command, validated_file);
 
   bool markdown = false;
+  bool openapi = false;
   CLI::App* schema_command =
       app.add_subcommand("schema", "print the JSON schema of cell files, as editors use it");
   schema_command->add_flag("--markdown", markdown, "the reference for people instead");
+  schema_command->add_flag("--openapi", openapi, "the description of the HTTP interface instead")
+      ->excludes("--markdown");
 
   ImportOptions importing;
   CLI::App* import_command =
@@ -126,7 +129,7 @@ int run(int argc, char** argv) {
   }
   if (serve_command->parsed()) return serve(serving);
   if (validate_command->parsed()) return validate_cell(validated_file);
-  if (schema_command->parsed()) return print_cell_schema(markdown);
+  if (schema_command->parsed()) return openapi ? print_openapi() : print_cell_schema(markdown);
   if (import_command->parsed()) return import_robots(importing);
   if (check_command->parsed()) return check_jobs_file(checking);
   if (simulate_command->parsed()) return simulate_jobs(simulating);

@@ -5,7 +5,7 @@
 
 #include "core/executive/real_time_loop.h"
 #include "server/api/api.h"
-#include "server/codec/views.h"
+#include "server/codec/stream_id.h"
 #include "server/http/http_server.h"
 #include "server/http/static_files.h"
 #include "server/hub/broadcast.h"
@@ -14,7 +14,8 @@ namespace armloom {
 
 class Service::Impl {
  public:
-  explicit Impl(ServiceOptions options) : options_(std::move(options)), files_(options_.web) {}
+  explicit Impl(ServiceOptions options)
+      : options_(std::move(options)), files_(options_.web, refusal_response) {}
 
   std::optional<Problems> start(const CellPtr& cell, const Recording::Source& source) {
     auto http = HttpServer::listen(options_.address, options_.port, options_.connections_max);
@@ -53,9 +54,7 @@ class Service::Impl {
     site.handle = [this](const Request& request, Respond respond) {
       router_.dispatch(request, std::move(respond));
     };
-    site.feed_path = "/api/v1/ws";
-    site.events_path = "/api/v1/events";
-    site.stream = stream_;
+    site.refuse = refusal_response;
     const bool everywhere = options_.address == "0.0.0.0" || options_.address == "::";
     site.hosts = HostRule{options_.allowed_hosts, everywhere};
     site.keep_alive = options_.keep_alive;
@@ -66,9 +65,6 @@ class Service::Impl {
       });
     };
     site.end = [this] { hub_.end(); };
-    site.subscribe = [this](const Target& target, std::function<void(FeedPtr)> then) {
-      api_->subscribe(target, std::move(then));
-    };
     http_->run(std::move(site), until_signal);
   }
 
@@ -80,9 +76,8 @@ class Service::Impl {
  private:
   Response answer_file(const Request& request) const {
     if (!request.target.path.starts_with("/api/")) return files_.answer(request);
-    return problem_response(
-        {Problem{ProblemKind::not_found, "not-found", "request target",
-                 "nothing is served at " + request.target.path, request.target.path}});
+    return refusal_response({404, "not-found", "nothing is served at " + request.target.path,
+                             "request target", request.target.path});
   }
 
   // Destroyed from below: first the loop's threads end, last the sockets.
@@ -91,7 +86,7 @@ class Service::Impl {
   const std::string stream_ = random_stream();
   std::optional<WallClock> clock_;
   Hub hub_;
-  Router router_;
+  Router router_{refusal_response};
   std::unique_ptr<Recording> recording_;
   std::unique_ptr<HttpServer> http_;
   std::unique_ptr<Broadcast> broadcast_;

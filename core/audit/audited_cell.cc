@@ -1,9 +1,5 @@
 #include "core/audit/audited_cell.h"
 
-#include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
@@ -15,30 +11,12 @@
 namespace armloom {
 namespace {
 
-// FCL's GJK may end early and claim too much (up to 0.8 mm was measured at its default tolerance):
-// nothing is concluded for later states from closer than this, and contact is asked for by itself.
+// Nothing is concluded for later states from closer than this.
 constexpr double kDoubt_m = 1e-3;
-constexpr double kGjkTolerance = 1e-12;
 // FCL takes milliseconds for the distance of meshes, unless it may pass over what is farther than
 // some bound. What is asked for beyond the distance that matters saves as much travel until the
 // pair must be looked at again.
 constexpr double kLookAhead_m = 0.05;
-
-std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Shape& shape) {
-  if (const auto* box = std::get_if<Box>(&shape)) return std::make_shared<fcl::Boxd>(box->size_m);
-  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
-    return std::make_shared<fcl::Cylinderd>(cylinder->radius_m, cylinder->length_m);
-  }
-  return std::make_shared<fcl::Sphered>(std::get<Sphere>(shape).radius_m);
-}
-
-double radius_of(const Shape& shape) {
-  if (const auto* box = std::get_if<Box>(&shape)) return 0.5 * box->size_m.norm();
-  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
-    return std::hypot(cylinder->radius_m, 0.5 * cylinder->length_m);
-  }
-  return std::get<Sphere>(shape).radius_m;
-}
 
 bool lacks_mesh(const std::vector<PlacedShape>& shapes) {
   return std::any_of(shapes.begin(), shapes.end(), [](const PlacedShape& placed) {
@@ -55,32 +33,37 @@ bool may_touch(const Cell& cell, const AuditedSolid& a, const AuditedSolid& b) {
 
 bool one_arm_only(const Cell& cell, const AuditedSolid& a, const AuditedSolid& b) {
   if (!a.link || !b.link) return false;
-  return a.arm ? cell.is_own(*b.link, *a.arm) : cell.is_own(*a.link, *b.arm);
+  return cell.is_own(*a.link, *b.link);
 }
 
 using Element = AuditedSolid::Element;
 
-// Surfaces that do not touch: whether one of x's pieces lies inside of y.
-bool lies_inside(const Element& x, const Element& y) {
-  if (y.mesh == nullptr) return false;  // FCL's primitive shapes are solid
-  const Eigen::Isometry3d X_YX = y.object.getTransform().inverse() * x.object.getTransform();
-  if (x.mesh == nullptr) return y.mesh->encloses(X_YX.translation());
-  const std::vector<Eigen::Vector3d>& points = x.mesh->representatives();
-  return std::any_of(points.begin(), points.end(),
-                     [&](const Eigen::Vector3d& p) { return y.mesh->encloses(X_YX * p); });
+bool encloses(const Element& y, const Eigen::Vector3d& p_Y) {
+  return y.mesh != nullptr ? y.mesh->encloses(p_Y) : y.primitive->contains(p_Y);
 }
 
-// min(distance, most_m)
-double distance_of(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b, double most_m) {
-  fcl::DistanceRequestd request;
-  request.distance_tolerance = kGjkTolerance;
-  fcl::DistanceResultd result(most_m);
-  const double distance = fcl::distance(&a, &b, request, result);
-  if (!(distance > 0.0)) return 0.0;
-  if (distance > kDoubt_m) return distance;
-  fcl::CollisionRequestd collision_request;
-  fcl::CollisionResultd collision;
-  return fcl::collide(&a, &b, collision_request, collision) > 0 ? 0.0 : distance;
+// Surfaces that do not touch: whether one of x's pieces lies inside of y.
+bool lies_inside(const Element& x, const Element& y) {
+  const Eigen::Isometry3d X_YX = y.surface.getTransform().inverse() * x.surface.getTransform();
+  if (x.mesh == nullptr) return encloses(y, X_YX.translation());
+  const std::vector<Eigen::Vector3d>& points = x.mesh->representatives();
+  return std::any_of(points.begin(), points.end(),
+                     [&](const Eigen::Vector3d& p) { return encloses(y, X_YX * p); });
+}
+
+// min(distance, most_m); zero in contact.
+double distance_of(const Element& x, const Element& y, double most_m) {
+  if (x.primitive != nullptr && y.primitive != nullptr) {
+    const auto proven = AuditedPrimitive::proven_distance(*x.primitive, x.surface.getTransform(),
+                                                          *y.primitive, y.surface.getTransform());
+    if (proven) return std::min(*proven, most_m);
+  }
+  const double round_m = x.round_m + y.round_m;
+  fcl::DistanceResultd result(most_m + round_m);
+  const double distance =
+      fcl::distance(&x.surface, &y.surface, fcl::DistanceRequestd(), result) - round_m;
+  if (!(distance > 0.0) || lies_inside(x, y) || lies_inside(y, x)) return 0.0;
+  return std::min(distance, most_m);
 }
 
 }  // namespace
@@ -134,14 +117,23 @@ void AuditedCell::add(AuditedSolid solid, const std::vector<PlacedShape>& shapes
 }
 
 AuditedSolid::Element AuditedCell::make_element(const PlacedShape& placed) {
-  const auto* mesh = std::get_if<Mesh>(&placed.shape);
-  if (mesh == nullptr) {
-    return {fcl::CollisionObjectd(geometry_of(placed.shape)), placed.X_LS, radius_of(placed.shape),
+  if (const auto* mesh = std::get_if<Mesh>(&placed.shape)) {
+    auto audited = std::make_shared<const AuditedMesh>(*mesh->data);
+    const Eigen::Isometry3d X_LC = placed.X_LS * Eigen::Translation3d(audited->p_SC());
+    return {fcl::CollisionObjectd(audited->make_surface()),
+            X_LC,
+            audited->radius_m(),
+            0.0,
+            audited,
             nullptr};
   }
-  auto audited = std::make_shared<const AuditedMesh>(*mesh->data);
-  const Eigen::Isometry3d X_LC = placed.X_LS * Eigen::Translation3d(audited->p_SC());
-  return {fcl::CollisionObjectd(audited->make_geometry()), X_LC, audited->radius_m(), audited};
+  auto audited = std::make_shared<const AuditedPrimitive>(placed.shape);
+  return {fcl::CollisionObjectd(audited->make_surface()),
+          placed.X_LS,
+          audited->radius_m(),
+          audited->round_m(),
+          nullptr,
+          audited};
 }
 
 void AuditedCell::move_to(const Cell& cell, const Configuration& q) {
@@ -169,7 +161,7 @@ double AuditedCell::at_least(const AuditedPair& pair) const {
 void AuditedCell::place_elements(AuditedSolid& solid) const {
   if (solid.elements_placed) return;
   for (AuditedSolid::Element& element : solid.elements) {
-    element.object.setTransform(solid.X_WL * element.X_LS);
+    element.surface.setTransform(solid.X_WL * element.X_LS);
   }
   solid.elements_placed = true;
 }
@@ -182,11 +174,10 @@ double AuditedCell::look(AuditedPair& pair, double matters_m) {
   double smallest = matters_m + kLookAhead_m;
   for (const AuditedSolid::Element& x : a.elements) {
     for (const AuditedSolid::Element& y : b.elements) {
-      const double centers = (x.object.getTranslation() - y.object.getTranslation()).norm();
+      const double centers = (x.surface.getTranslation() - y.surface.getTranslation()).norm();
       if (centers - x.radius_m - y.radius_m >= smallest) continue;
       try {
-        smallest = std::min(smallest, distance_of(x.object, y.object, smallest));
-        if (lies_inside(x, y) || lies_inside(y, x)) smallest = 0.0;
+        smallest = std::min(smallest, distance_of(x, y, smallest));
       } catch (const std::exception&) {
         smallest = 0.0;
       }

@@ -1,12 +1,11 @@
 #include "core/audit/audited_mesh.h"
 
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/math/bv/OBBRSS.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <map>
 #include <numeric>
+
+#include "core/audit/triangle_model.h"
 
 namespace armloom {
 namespace {
@@ -73,17 +72,12 @@ AuditedMesh::AuditedMesh(const MeshData& mesh) : vertices_(mesh.vertices) {
   }
 }
 
-std::shared_ptr<fcl::CollisionGeometryd> AuditedMesh::make_geometry() const {
-  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  std::vector<fcl::Triangle> triangles;
+std::shared_ptr<fcl::CollisionGeometryd> AuditedMesh::make_surface() const {
+  TriangleModel model{vertices_, {}};
   for (const Piece& piece : pieces_) {
-    for (const Triangle& t : piece.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+    model.triangles.insert(model.triangles.end(), piece.triangles.begin(), piece.triangles.end());
   }
-  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices_.size()));
-  model->addSubModel(vertices_, triangles);
-  model->endModel();
-  model->computeLocalAABB();
-  return model;
+  return model.made();
 }
 
 bool AuditedMesh::crosses_odd(const Piece& piece, const Eigen::Vector3d& p,

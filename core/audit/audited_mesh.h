@@ -18,7 +18,7 @@ class AuditedMesh {
 
   [[nodiscard]] const Eigen::Vector3d& p_SC() const { return p_SC_; }  // C in the shape's frame
   [[nodiscard]] double radius_m() const { return radius_m_; }          // about C
-  [[nodiscard]] std::shared_ptr<fcl::CollisionGeometryd> make_geometry() const;
+  [[nodiscard]] std::shared_ptr<fcl::CollisionGeometryd> make_surface() const;
 
   // One vertex of each connected piece of the surface: a piece that touches nothing is inside of
   // another surface if this vertex is. Of the kMaxRepresentatives largest pieces, should a file be

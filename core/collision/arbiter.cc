@@ -78,7 +78,7 @@ class Arbiter::Impl {
     }
     freedom_ = freedom_of(question.method, cell);
     budget_ = kBudget * question.effort;
-    verdict_ = {Verdict::Kind::free, question.version, {}, cell.clearance_m, 0, {}};
+    verdict_ = {Verdict::Kind::free, question.version, {}, least_asked_m(question), 0, {}};
     store_.begin_question();
     if (std::holds_alternative<Coordinated>(question.method)) {
       coordinate(question);
@@ -145,6 +145,23 @@ class Arbiter::Impl {
       }
     }
     cells = joined(std::move(cells), diagram);
+  }
+
+  // Of every pair of a candidate with another arm or what stands still.
+  [[nodiscard]] double least_asked_m(const Question& question) const {
+    const PlanningScene::Bodies& bodies = store_.scene()->bodies();
+    double least_m = bodies.cell->clearance_m;
+    for (const PairGroup& group : bodies.groups) {
+      if (group.kind != PairGroup::Kind::mount) continue;
+      for (const Motion& motion : question.candidates) {
+        if (std::ranges::find(motion.trajectory->arms(), group.arm) ==
+            motion.trajectory->arms().end()) {
+          continue;
+        }
+        least_m = std::min(least_m, group.limit_m(PairLimits::of(*bodies.cell)));
+      }
+    }
+    return least_m;
   }
 
   static bool is_candidate(const Question& question, const Motion* motion) {

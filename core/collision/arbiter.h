@@ -17,11 +17,11 @@ namespace armloom {
 //
 // Certified and Swept: candidates against themselves, what stands still, each other and every other
 // motion or resting arm; each arm's motion bounds (motion_tube.h), the cell's clearance_m
-// (self_clearance_m of an arm from itself, its mount included) and the tracking error are kept in
-// every state that the question's regions hold (region.h): the band of `lag` behind each plan, and
-// ahead of it the reaction time and stopping_reach_s() of each motion; a motion that may stand,
-// anywhere between where it is and its plan. Swept: the whole rectangle of what remains of both.
-// Conflicts name the first state in time with each counterpart, found to within
+// (self_clearance_m of an arm from itself, mount_clearance_m from its mount) and the tracking error
+// are kept in every state that the question's regions hold (region.h): the band of `lag` behind
+// each plan, and ahead of it the reaction time and stopping_reach_s() of each motion; a motion that
+// may stand, anywhere between where it is and its plan. Swept: the whole rectangle of what remains
+// of both. Conflicts name the first state in time with each counterpart, found to within
 // CoordinationDiagram::kFirst_s; `undecided`: nothing is proven either way, the conflicts are the
 // cells that could not be decided. `clearance_bound_m` of a free verdict: what is proven to be kept
 // between different arms and the scene, so the smallest limit that such a pair was held to.

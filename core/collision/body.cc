@@ -56,7 +56,7 @@ void add_plain_bodies(const PlacedShape& placed, std::vector<Body>& bodies) {
   }
   if (!mesh->data->surface) return;
   const auto solid = std::make_shared<const Solid>(
-      Solid{mesh->data->surface, placed.X_LS, 0.0, inner_balls(*mesh->data->surface)});
+      Solid{mesh->data->surface, placed.X_LS, 0.0, InnerBalls(inner_balls(*mesh->data->surface))});
   for (std::size_t i = first; i < bodies.size(); ++i) {
     bodies[i].solid = solid;
     bodies[i].is_piece = true;

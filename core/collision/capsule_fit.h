@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/collision/ball.h"
+
 namespace armloom {
 
 // All points within radius_m of the segment from A to B (a ball when they are one), in the frame P
@@ -15,17 +17,11 @@ struct LinkCapsule {
   [[nodiscard]] double volume_m3() const;
 };
 
-// A convex shape is spanned by balls (corners: radius 0), and lies in a capsule when they do.
-struct Ball {
-  Eigen::Vector3d center;
-  double radius_m = 0.0;
-};
-
 // Distance of a point from the capsule's segment; exactly 0 at its ends.
 [[nodiscard]] double distance_to_axis(const LinkCapsule& capsule, const Eigen::Vector3d& p);
 
-// Whether the ball lies in the capsule, with rounding on the safe side: a no may be wrong by some
-// 1e-15 of the coordinates, a yes never.
+// Whether the ball lies in the capsule (a convex shape spanned by balls does when they do), with
+// rounding on the safe side: a no may be wrong by some 1e-15 of the coordinates, a yes never.
 [[nodiscard]] bool contains(const LinkCapsule& capsule, const Ball& ball);
 
 // A capsule around the balls that is small in volume: the best of the start directions and the

@@ -1,11 +1,13 @@
 #include "core/collision/check_home.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include "core/collision/collision_checker.h"
+#include "core/model/findings.h"
 
 namespace armloom {
 namespace {
@@ -29,12 +31,22 @@ Problems check_home(const PlanningScenePtr& scene) {
   for (const NearPair& pair : near) {
     const Proximity proximity = checker.describe(pair);
     const bool self = checker.is_self(pair.pair);
+    const bool mount = checker.is_mount(pair.pair) && cell.mount_clearance_m;
     char figures[120];
     std::snprintf(figures, sizeof figures, ": %.4f m apart at home, %s is %.4f",
-                  proximity.clearance_m, self ? "self_clearance_m" : "clearance_m",
-                  self ? cell.self_clearance_m : cell.clearance_m);
+                  proximity.clearance_m,
+                  self    ? "self_clearance_m"
+                  : mount ? "mount_clearance_m"
+                          : "clearance_m",
+                  proximity.limit_m);
+    std::string remedy;
+    if (checker.is_mount(pair.pair) && proximity.clearance_m > 0.0) {
+      remedy = " (" + proximity.body_b + " carries the arm: where it passes this link so closely " +
+               "by design, and not a table, add \"mount_clearance_m\": " +
+               text_of(std::floor(proximity.clearance_m * 1000.0) / 1000.0) + " to the cell)";
+    }
     problems.push_back({ProblemKind::invalid, "home-conflict", home_pointer(cell, *proximity.arm_a),
-                        proximity.body_a + " and " + proximity.body_b + figures,
+                        proximity.body_a + " and " + proximity.body_b + figures + remedy,
                         proximity.clearance_m});
   }
   return problems;

@@ -112,10 +112,11 @@ struct CollisionChecker::Scratch {
   // limit to go on with.
   template <class Visit>
   void scan(const Group& group, double limit_m, const Visit& visit) {
+    const double asked_m = limit_m;
     if (far_apart(group, limit_m)) return;
     for (std::size_t i = group.pairs_begin; i < group.pairs_end; ++i) {
       const double d = distance(bodies.pairs[i], limit_m);
-      if (d < limit_m) limit_m = visit(NearPair{PairId{static_cast<std::uint32_t>(i)}, d});
+      if (d < limit_m) limit_m = visit({PairId{static_cast<std::uint32_t>(i)}, d, asked_m});
     }
   }
 
@@ -170,7 +171,14 @@ std::vector<Proximity> CollisionChecker::closest_apart(const Configuration& q, d
   std::vector<Proximity> found;
   for (const Group& group : scratch_->bodies.groups) {
     if (group.kind == Group::Kind::self) continue;
-    if (const auto pair = scratch_->closest(group, horizon_m)) found.push_back(describe(*pair));
+    // The mount is one of the things that stand still, whose group comes just before.
+    const bool goes_on = group.kind == Group::Kind::mount && !found.empty() &&
+                         !found.back().arm_b && found.back().arm_a == group.arm;
+    const double limit_m = goes_on ? found.back().clearance_m : horizon_m;
+    const auto pair = scratch_->closest(group, limit_m);
+    if (!pair) continue;
+    if (goes_on) found.pop_back();
+    found.push_back(describe(*pair));
   }
   return found;
 }
@@ -200,11 +208,17 @@ Proximity CollisionChecker::describe(const NearPair& near) const {
   const PartPair& pair = scratch_->bodies.pairs[near.pair.index()];
   const Part& a = scratch_->bodies.parts[pair.a];
   const Part& b = scratch_->bodies.parts[pair.b];
-  return proximity_of(a, b, near.clearance_m);
+  Proximity proximity = proximity_of(a, b, near.clearance_m);
+  proximity.limit_m = near.limit_m;
+  return proximity;
 }
 
 bool CollisionChecker::is_self(PairId pair) const {
   return scratch_->bodies.group_of(pair).kind == Group::Kind::self;
+}
+
+bool CollisionChecker::is_mount(PairId pair) const {
+  return scratch_->bodies.group_of(pair).kind == Group::Kind::mount;
 }
 
 }  // namespace armloom

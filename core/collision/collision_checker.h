@@ -19,16 +19,18 @@ using PairId = Id<struct PairTag>;
 struct NearPair {
   PairId pair;
   double clearance_m;
+  double limit_m;  // what was asked of it
 };
 
 // Asks one scene about single configurations of the whole cell. Holds the scratch: one per worker
 // thread, not thread-safe. FCL that throws counts as contact (clearance 0). Distances are never
-// larger than the true ones, nor smaller by more than 2e-7 m but in rare cases (exact_distance.h).
-// What an arm holds is one of its links in all that follows.
-// Configurations have one entry per joint of the cell (throws std::invalid_argument otherwise), arm
-// masks one per arm.
-// A `clearance_m` asked for is what arms keep from each other and from the scene; an arm is held to
-// its share of that from itself (PairLimits::scaled).
+// larger than the true ones, nor smaller by more than 2e-7 m but in rare cases (exact_distance.h)
+// and for closed meshes that are farther apart than kSurfaceWithin_m: these may be told the
+// distance of their convex pieces, or that one (part_distance.h). What an arm holds is one of its
+// links in all that follows. Configurations have one entry per joint of the cell (throws
+// std::invalid_argument otherwise), arm masks one per arm. A `clearance_m` asked for is what arms
+// keep from each other and from the scene; an arm is held to its shares of that from itself and
+// its mount (PairLimits::scaled).
 class CollisionChecker {
  public:
   explicit CollisionChecker(PlanningScenePtr scene);
@@ -49,8 +51,9 @@ class CollisionChecker {
   // pair of arms, of each arm with the objects and static links, and of each arm with itself.
   [[nodiscard]] std::vector<Proximity> all_closer_than(const Configuration& q, double clearance_m);
 
-  // The closest pair of each two arms, and of each arm with all that stands still (its mount left
-  // out), exact when below `horizon_m`; pairs farther apart are left out.
+  // The closest pair of each two arms, and of each arm with all that stands still (but for what
+  // its first joint alone moves, with its mount), as exact as said above when below `horizon_m`;
+  // pairs farther apart are left out.
   [[nodiscard]] std::vector<Proximity> closest_apart(const Configuration& q, double horizon_m);
 
   // Every pair closer than `clearance_m` that involves a link of one of the arms in `of` and a link
@@ -66,6 +69,8 @@ class CollisionChecker {
   [[nodiscard]] Proximity describe(const NearPair& near) const;
   // Both bodies are one arm's own (Cell::is_own), or held by it.
   [[nodiscard]] bool is_self(PairId pair) const;
+  // An arm and its mount, and not its own.
+  [[nodiscard]] bool is_mount(PairId pair) const;
 
  private:
   struct Scratch;

@@ -11,6 +11,7 @@
 namespace armloom {
 namespace {
 
+using Eigen::Array4f;
 using Eigen::Vector3d;
 
 // Nothing about them is special: no face of a robot is made along one.
@@ -63,17 +64,19 @@ Hit hit_of(const Vector3d& n, const std::array<Vector3d, 3>& t) {
   return rise > 0.0 ? Hit::from_behind : Hit::from_front;
 }
 
-// Whether the ray may meet the box: the slabs of its axes, a little wider than they are.
-bool may_meet(const SurfaceTree::Node& box, const Vector3d& p, const Vector3d& inverse) {
-  double from = 0.0;
-  double to = std::numeric_limits<double>::infinity();
+// Which of the boxes the ray may meet: the slabs of their axes, wider than rounding may make them.
+// `slack_m`: that of a float of the numbers at hand.
+Eigen::Array<bool, 4, 1> may_meet(const SurfaceTree::Node& node, const Vector3d& p,
+                                  const Vector3d& inverse, float slack_m) {
+  Array4f from = Array4f::Zero();
+  Array4f to = Array4f::Constant(std::numeric_limits<float>::infinity());
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<Eigen::Index>(k);
-    const double middle = (static_cast<double>(box.center[k]) - p[axis]) * inverse[axis];
-    const double half = static_cast<double>(box.half[k]) * std::abs(inverse[axis]);
-    const double slack = 1e-9 * (std::abs(middle) + half);
-    from = std::max(from, middle - half - slack);
-    to = std::min(to, middle + half + slack);
+    const auto per_m = static_cast<float>(inverse[axis]);
+    const Array4f middle = (node.center[k] - static_cast<float>(p[axis])) * per_m;
+    const Array4f half = (node.half[k] + slack_m) * std::abs(per_m);
+    from = from.max(middle - half);
+    to = to.min(middle + half);
   }
   return from <= to;
 }
@@ -91,32 +94,41 @@ struct Crossings {
   bool doubtful = false;
 };
 
+// False: it is not certain whether the ray crosses the triangle, or too many are crossed.
+bool add_crossing(const SurfaceTree& tree, std::uint32_t triangle, const Vector3d& p,
+                  const Vector3d& n, Crossings& crossings) {
+  const Triangle& t = tree.triangles[triangle];
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;  // no area to be crossed
+  auto corners = tree.corners(triangle);
+  for (Vector3d& corner : corners) corner -= p;
+  const Hit hit = hit_of(n, corners);
+  if (hit == Hit::no) return true;
+  if (hit == Hit::doubtful || crossings.count == kMost) return false;
+  crossings.all[crossings.count++] = {tree.component_of[triangle], triangle,
+                                      hit == Hit::from_behind ? 1 : -1};
+  return true;
+}
+
 Crossings cross(const SurfaceTree& tree, const Vector3d& p, const Vector3d& n) {
   Crossings crossings;
   const Vector3d inverse = n.cwiseInverse();
+  const float slack_m =
+      16.0F * std::numeric_limits<float>::epsilon() * static_cast<float>(tree.reach_m + p.norm());
   std::array<std::uint32_t, kDepth> stack;
   std::size_t open = 0;
-  stack[open++] = 0;
+  stack[open++] = tree.root.below;
   while (open > 0) {
     const SurfaceTree::Node& node = tree.nodes[stack[--open]];
-    if (!may_meet(node, p, inverse)) continue;
-    if (!node.leaf) {
-      stack[open++] = node.first;
-      stack[open++] = node.first + 1;
-      continue;
+    const auto met = may_meet(node, p, inverse, slack_m);
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!met[static_cast<Eigen::Index>(i)]) continue;
+      if (!node.leaf[i]) {
+        stack[open++] = node.below[i];
+      } else if (!add_crossing(tree, node.below[i], p, n, crossings)) {
+        crossings.doubtful = true;
+        return crossings;
+      }
     }
-    const Triangle& t = tree.triangles[node.first];
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // no area to be crossed
-    auto corners = tree.corners(node.first);
-    for (Vector3d& corner : corners) corner -= p;
-    const Hit hit = hit_of(n, corners);
-    if (hit == Hit::no) continue;
-    if (hit == Hit::doubtful || crossings.count == kMost) {
-      crossings.doubtful = true;
-      return crossings;
-    }
-    crossings.all[crossings.count++] = {tree.component_of[node.first], node.first,
-                                        hit == Hit::from_behind ? 1 : -1};
   }
   return crossings;
 }

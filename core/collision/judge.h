@@ -9,9 +9,10 @@ namespace armloom {
 // Answers a Question by the paper's discrete check: all candidates and all others are put where
 // they are at equal instants, every `method.step` from the question's instant until the last of
 // them has come to rest (both ends included), and each combined state is checked with the cell's
-// clearance_m (an arm from itself: self_clearance_m): candidates against everything (not others
-// among themselves). So a rest before, between and after motions counts, and the others'
-// *remaining* motion is what is compared. Between the instants nothing is promised.
+// clearance_m (an arm from itself: self_clearance_m, from its mount: mount_clearance_m): candidates
+// against everything (not others among themselves). So a rest before, between and after motions
+// counts, and the others' *remaining* motion is what is compared. Between the instants nothing is
+// promised.
 //
 // A pair that is already too close at the first instant may part: it is no conflict as long as it
 // never comes closer than it was then, until it has cleared. Where the depth of a contact is
@@ -19,10 +20,10 @@ namespace armloom {
 // contact.
 //
 // Counterparts are another job, an arm at rest, an object or a static link (With::scene), and the
-// candidate's own links with its mount (With::self; also the
-// other arms of the same synchronous motion). Stops at the first instant with a conflict and
-// reports every counterpart of that instant, each with its closest pair; two candidates that
-// conflict are reported once, the one that is named first as the candidate.
+// candidate's own links (With::self; also the other arms of the same synchronous motion). Stops at
+// the first instant with a conflict and reports every counterpart of that instant, each with its
+// closest pair; two candidates that conflict are reported once, the one that is named first as the
+// candidate.
 //
 // Motions that may stand (Motion::may_stand) are judged twice: with all of them going on, and with
 // all of them standing where they are from the first instant on.

@@ -1,23 +1,31 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "core/model/cell.h"
 
 namespace armloom {
 
-// What bodies keep from each other (m): an arm from other arms and all that stands still, and from
-// itself (Cell::is_own).
+// What bodies keep from each other (m): an arm from other arms and all that stands still, from
+// itself (Cell::is_own), and from its mount, where at most clearance_m counts.
 struct PairLimits {
   double clearance_m;
   double self_clearance_m;
+  double mount_clearance_m = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] static PairLimits of(const Cell& cell) {
-    return {cell.clearance_m, cell.self_clearance_m};
+    return {cell.clearance_m, cell.self_clearance_m,
+            std::min(cell.mount_clearance_m.value_or(cell.clearance_m), cell.clearance_m)};
   }
-  // Where `clearance_m` takes the place of the cell's, an arm keeps the same share of it from
-  // itself as in the cell.
+  // Where `clearance_m` takes the place of the cell's, an arm keeps the same shares of it from
+  // itself and its mount as in the cell.
   [[nodiscard]] static PairLimits scaled(const Cell& cell, double clearance_m) {
-    const double share = cell.clearance_m > 0.0 ? cell.self_clearance_m / cell.clearance_m : 1.0;
-    return {clearance_m, clearance_m * share};
+    const PairLimits own = of(cell);
+    const auto share = [&](double limit_m) {
+      return own.clearance_m > 0.0 ? clearance_m * (limit_m / own.clearance_m) : clearance_m;
+    };
+    return {clearance_m, share(own.self_clearance_m), share(own.mount_clearance_m)};
   }
 };
 

@@ -63,15 +63,25 @@ double part_distance(const PlanningScene::Bodies& bodies, std::size_t part_a,
                        limit_m);
 }
 
-bool parts_closer_than(const PlanningScene::Bodies& bodies, std::size_t part_a,
-                       const Eigen::Isometry3d& X_WA, std::size_t part_b,
-                       const Eigen::Isometry3d& X_WB, double limit_m) {
-  const auto found = [](const Solid& a, const Eigen::Isometry3d& X_A, const Solid& b,
-                        const Eigen::Isometry3d& X_B, double within_m) {
-    return closer_than(a, X_A, b, X_B, within_m) ? kFound : within_m;
+bool parts_surely_closer_than(const std::vector<Body>& bodies, const PlacedPart& a,
+                              const PlacedPart& b, double limit_m) {
+  for (PartGroups of_a(bodies, a); !of_a.ended(); of_a.next()) {
+    for (PartGroups of_b(bodies, b); !of_b.ended(); of_b.next()) {
+      if (surely_closer_than(of_a.solid(), of_a.X_WT(), of_b.solid(), of_b.X_WT(), limit_m)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool parts_closer_than(const std::vector<Body>& bodies, const PlacedPart& a, const PlacedPart& b,
+                       double limit_m) {
+  const auto found = [](const Solid& of_a, const Eigen::Isometry3d& X_WA, const Solid& of_b,
+                        const Eigen::Isometry3d& X_WB, double within_m) {
+    return closer_than(of_a, X_WA, of_b, X_WB, within_m) ? kFound : within_m;
   };
-  return smallest_distance(bodies.bodies, {bodies.parts[part_a], X_WA},
-                           {bodies.parts[part_b], X_WB}, limit_m, found) < limit_m;
+  return smallest_distance(bodies, a, b, limit_m, found) < limit_m;
 }
 
 }  // namespace armloom

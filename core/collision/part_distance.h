@@ -29,9 +29,12 @@ inline constexpr double kSurfaceWithin_m = 0.05;
                                    const Eigen::Isometry3d& X_WA, std::size_t part_b,
                                    const Eigen::Isometry3d& X_WB, double limit_m);
 
+// Whether balls prove it (surely_closer_than, solid.h): what is soon known.
+[[nodiscard]] bool parts_surely_closer_than(const std::vector<Body>& bodies, const PlacedPart& a,
+                                            const PlacedPart& b, double limit_m);
+
 // Whether part_distance() is below limit_m, found out sooner.
-[[nodiscard]] bool parts_closer_than(const PlanningScene::Bodies& bodies, std::size_t part_a,
-                                     const Eigen::Isometry3d& X_WA, std::size_t part_b,
-                                     const Eigen::Isometry3d& X_WB, double limit_m);
+[[nodiscard]] bool parts_closer_than(const std::vector<Body>& bodies, const PlacedPart& a,
+                                     const PlacedPart& b, double limit_m);
 
 }  // namespace armloom

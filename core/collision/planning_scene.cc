@@ -122,6 +122,7 @@ void add_part(PlanningScene::Bodies& scene, Part part, const std::vector<PlacedS
   if (shapes.empty()) return;
   part.bodies_begin = scene.bodies.size();
   std::vector<Body> bodies = make_bodies(shapes);
+  part.has_pieces = std::ranges::any_of(bodies, &Body::is_piece);
   LinkCapsules fitted = fit_capsules(bodies);
   part.capsules = std::move(fitted.capsules);
   part.capsule_excess_m = fitted.excess_m;
@@ -135,7 +136,7 @@ void add_part(PlanningScene::Bodies& scene, Part part, const std::vector<PlacedS
   scene.parts.push_back(std::move(part));
 }
 
-// A link is one part, as its shapes move as one. Of one that is scene each box is a part, as it
+// A link is one part, as its shapes move as one. Of one that stands still each box is a part, as it
 // would be as an object: a sphere, or a capsule, says little about a table.
 void add_link(PlanningScene::Bodies& scene, LinkId id) {
   const Cell& cell = *scene.cell;
@@ -145,11 +146,7 @@ void add_link(PlanningScene::Bodies& scene, LinkId id) {
   part.link = part.carrier = id;
   part.arm = link.arm;
   part.robot = link.robot;
-  bool scene_only = true;
-  for (std::uint32_t arm = 0; arm < cell.arms.size(); ++arm) {
-    scene_only = scene_only && !cell.is_own(id, ArmId{arm});
-  }
-  if (!scene_only) return add_part(scene, std::move(part), link.shapes);
+  if (link.arm) return add_part(scene, std::move(part), link.shapes);
   std::vector<PlacedShape> others;
   for (const PlacedShape& placed : link.shapes) {
     if (std::holds_alternative<Box>(placed.shape)) {
@@ -208,16 +205,24 @@ void add_pairs(PlanningScene::Bodies& scene) {
   const auto is_mount = [&](const Part& part, ArmId arm) {
     return part.link && cell.is_mount(*part.link, arm);
   };
+  const auto is_own = [&](std::size_t a, const Part& part) {  // held objects are not
+    return scene.parts[a].link && part.link && cell.is_own(*scene.parts[a].link, *part.link);
+  };
   for (std::uint32_t i = 0; i < arm_count; ++i) {
     add_group(scene, {Kind::still, ArmId{i}, std::nullopt},
               [&](std::size_t, const Part& part, std::size_t) {
                 return !part.arm && !is_mount(part, ArmId{i});
               });
+    add_group(scene, {Kind::mount, ArmId{i}, std::nullopt},
+              [&](std::size_t a, const Part& part, std::size_t) {
+                return is_mount(part, ArmId{i}) && !is_own(a, part);
+              });
   }
   for (std::uint32_t i = 0; i < arm_count; ++i) {
     add_group(scene, {Kind::self, ArmId{i}, std::nullopt},
               [&](std::size_t a, const Part& part, std::size_t b) {
-                return (part.arm == ArmId{i} && b > a) || is_mount(part, ArmId{i});
+                return (part.arm == ArmId{i} && b > a) ||
+                       (is_mount(part, ArmId{i}) && is_own(a, part));
               });
   }
 }

@@ -12,10 +12,10 @@
 namespace armloom {
 
 // Everything that a collision query needs and that does not move: the shapes of all links and
-// objects, held ones too, as FCL geometry (each cylinder with two end spheres of its radius merged
-// into the exact capsule, each mesh its convex hull), and the pairs that must be looked at (the
-// allowed-collision matrix, applied). Immutable and shared by all threads; a changed scene is a new
-// one.
+// objects, held ones too (each cylinder with two end spheres of its radius merged into the exact
+// capsule; each mesh its convex pieces or hull as FCL geometry and, where it is closed, its
+// triangles behind them), and the pairs that must be looked at (the allowed-collision matrix,
+// applied). Immutable and shared by all threads; a changed scene is a new one.
 class PlanningScene {
  public:
   // Problems: a mesh whose data is missing (Mesh::data), an object name used twice or unknown in

@@ -22,8 +22,8 @@
 
 namespace armloom {
 
-// A link with shapes, a box of one that is scene, or an object, held or not: what is placed as one,
-// with its bodies.
+// A link with shapes, a box of one that stands still, or an object, held or not: what is placed as
+// one, with its bodies.
 struct Part {
   std::string name;
   std::optional<LinkId> link;     // none: an object
@@ -36,6 +36,7 @@ struct Part {
   std::size_t bodies_end = 0;
   Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // centre and radius of its bounding sphere
   double radius_m = 0.0;
+  bool has_pieces = false;            // of a closed mesh, among its bodies
   bool lone_box = false;              // its only body is a box: a sphere says little about a table
   std::vector<LinkCapsule> capsules;  // one or two, in P; each body lies in one (link_capsules.h)
   double capsule_excess_m = 0.0;      // how far they stand off the bodies
@@ -68,7 +69,8 @@ struct PairGroup {
   enum class Kind {
     arms,   // links of two arms, with what they hold
     still,  // an arm against all that stands still: objects and links, but for its mount
-    self,   // an arm against itself: what it moves and holds, and its mount (Cell::is_own)
+    mount,  // an arm against its mount: scene too, but for the limit (Cell::is_mount)
+    self,   // an arm against itself: what it moves and holds, and what else Cell::is_own
   };
   Kind kind;
   ArmId arm;
@@ -77,13 +79,16 @@ struct PairGroup {
   std::size_t pairs_end = 0;
 
   [[nodiscard]] double limit_m(const PairLimits& limits) const {
-    const bool self = kind == Kind::self;
-    return std::max(self ? limits.self_clearance_m : limits.clearance_m, kTouching_m);
+    const double limit_m = kind == Kind::self ? limits.self_clearance_m
+                           : kind == Kind::mount
+                               ? std::min(limits.mount_clearance_m, limits.clearance_m)
+                               : limits.clearance_m;
+    return std::max(limit_m, kTouching_m);
   }
 };
 
-// Pairs are in the order of their groups: arms by (arm, other), then still, then self by arm; in a
-// group by link, then held object, then object.
+// Pairs are in the order of their groups: arms by (arm, other), then still and mount by arm, then
+// self by arm; in a group by link, then held object, then object.
 struct PlanningScene::Bodies {
   CellPtr cell;
   std::vector<CollisionObject> objects;

@@ -5,7 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/collision/triangle_distance.h"
+#include "core/collision/inner_balls.h"
+#include "core/collision/surface_descent.h"
 #include "core/model/surface_tree.h"
 
 namespace armloom {
@@ -18,13 +19,7 @@ struct Solid {
   SurfaceTreePtr tree;
   Eigen::Isometry3d X_PT = Eigen::Isometry3d::Identity();  // of the tree's frame, in the part's P
   double radius_m = 0.0;
-  // Balls that lie in the solid, in the tree's frame: where those of two solids overlap, these do,
-  // and no triangle is asked. May be none.
-  struct InnerBall {
-    Eigen::Vector3d p_T;
-    double radius_m;
-  };
-  std::vector<InnerBall> inner = {};
+  InnerBalls inner = {};  // that lie in it, in the tree's frame
 };
 using SolidPtr = std::shared_ptr<const Solid>;
 
@@ -40,20 +35,15 @@ using SolidPtr = std::shared_ptr<const Solid>;
 [[nodiscard]] bool closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
                                const Eigen::Isometry3d& X_WB, double limit_m);
 
-// Large ones, at most kInnerBalls; a millisecond.
-inline constexpr std::size_t kInnerBalls = 16;
-[[nodiscard]] std::vector<Solid::InnerBall> inner_balls(const SurfaceTree& tree);
+// Whether balls inside of them prove that they are closer than limit_m: most that overlap deeply.
+[[nodiscard]] bool surely_closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+                                      const Eigen::Isometry3d& X_WB, double limit_m);
 
 // Whether every two triangles (with the radii) that are closer than within_m pass `kept`, and
 // neither solid is inside of the other: `kept` gets both in the world, and the direction from a to
 // b (TriangleGap, in the world). Ends with the first that does not.
-using TrianglesKept = std::function<bool(const TrianglePoints& a, const TrianglePoints& b,
-                                         const Eigen::Vector3d& n_W)>;
 [[nodiscard]] bool all_apart(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
                              const Eigen::Isometry3d& X_WB, double within_m,
                              const TrianglesKept& kept);
-
-// How far a point is from the surface, inside or outside (no radius).
-[[nodiscard]] double distance_to_surface(const SurfaceTree& tree, const Eigen::Vector3d& p_T);
 
 }  // namespace armloom

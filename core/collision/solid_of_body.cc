@@ -66,9 +66,9 @@ SolidPtr solid_of(const Body& body) {
       solid.tree =
           make_surface_tree({{0, 0, -body.half_length_m}, {0, 0, body.half_length_m}}, {{0, 1, 1}});
       solid.radius_m = body.radius_m;
-      for (const double end : {-1.0, 0.0, 1.0}) {
-        solid.inner.push_back({{0, 0, end * body.half_length_m}, body.radius_m});
-      }
+      solid.inner = InnerBalls({{{0, 0, -body.half_length_m}, body.radius_m},
+                                {{0, 0, 0}, body.radius_m},
+                                {{0, 0, body.half_length_m}, body.radius_m}});
       break;
     case BodyKind::cylinder:
       solid.tree = prism_tree(body.radius_m, body.half_length_m);
@@ -80,7 +80,7 @@ SolidPtr solid_of(const Body& body) {
       solid.tree = make_surface_tree(body.hull->hull.vertices, body.hull->hull.faces);
       break;
   }
-  if (solid.inner.empty()) solid.inner = inner_balls(*solid.tree);
+  if (solid.tree->encloses) solid.inner = InnerBalls(inner_balls(*solid.tree));
   return std::make_shared<const Solid>(std::move(solid));
 }
 

@@ -57,6 +57,14 @@ void set_limits(const PlanningScene::Bodies& bodies, const StateCheck::Limits& l
 }  // namespace
 
 struct StateCheck::Scratch {
+  // A pair that the filter leaves open, in one lane.
+  struct Open {
+    PlacedPart a;
+    PlacedPart b;
+    double limit_m;
+    std::size_t lane;
+  };
+
   PlanningScenePtr scene;
   const PlanningScene::Bodies& bodies;
   const filter::Kernel& kernel;
@@ -64,6 +72,7 @@ struct StateCheck::Scratch {
   std::vector<PlacedArm> arms;
   std::vector<Comparison> comparisons;
   std::vector<filter::Hit> hits;
+  std::vector<Open> open;  // of meshes, which take long
 
   Scratch(PlanningScenePtr s, const Limits& limits, const filter::Kernel& k)
       : scene(std::move(s)), bodies(scene->bodies()), kernel(k), still(bodies) {
@@ -114,8 +123,7 @@ struct StateCheck::Scratch {
                              hits.data());
   }
 
-  [[nodiscard]] bool closer_than_limit(const Comparison& c, const NarrowPair& pair,
-                                       std::size_t lane) const {
+  [[nodiscard]] Open placed(const Comparison& c, const NarrowPair& pair, std::size_t lane) const {
     const auto pose = [lane](const LinkagePart& part, const double* frames) {
       return part_pose(part, frames + lane, filter::kLanes);
     };
@@ -124,13 +132,20 @@ struct StateCheck::Scratch {
     const LinkagePart& other = c.still ? still.parts[b] : arms[c.b].linkage.parts()[b];
     const double* frames_b = c.still ? nullptr : arms[c.b].frames.data();
     const Eigen::Isometry3d X_WB = c.still ? other.X_FP : pose(other, frames_b);
-    return parts_closer_than(bodies, a.part, pose(a, arms[c.a].frames.data()), other.part, X_WB,
-                             pair.limit_m);
+    return {{bodies.parts[a.part], pose(a, arms[c.a].frames.data())},
+            {bodies.parts[other.part], X_WB},
+            pair.limit_m,
+            lane};
   }
 
-  // Lanes in which one of the first `found` hits is too close indeed.
-  unsigned decide(const Comparison& c, const std::vector<NarrowPair>& narrow, int found,
-                  unsigned lanes) {
+  [[nodiscard]] bool closer_than_limit(const Open& o) const {
+    return parts_closer_than(bodies.bodies, o.a, o.b, o.limit_m);
+  }
+
+  // Lanes in which one of the first `found` hits is too close indeed. Meshes that balls do not
+  // settle are left open: most states that are too close have some pair that overlaps deeply.
+  unsigned decide_soon(const Comparison& c, const std::vector<NarrowPair>& narrow, int found,
+                       unsigned lanes) {
     unsigned close = 0;
     for (int h = 0; h < found; ++h) {
       const filter::Hit& hit = hits[static_cast<std::size_t>(h)];
@@ -138,9 +153,27 @@ struct StateCheck::Scratch {
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const unsigned bit = 1U << lane;
         if ((hit.lanes & lanes & ~close & bit) == 0) continue;
-        if (closer_than_limit(c, pair, lane)) close |= bit;
+        const Open o = placed(c, pair, lane);
+        const bool meshes = o.a.part.has_pieces || o.b.part.has_pieces;
+        if (meshes ? parts_surely_closer_than(bodies.bodies, o.a, o.b, o.limit_m)
+                   : closer_than_limit(o)) {
+          close |= bit;
+        } else if (meshes) {
+          open.push_back(o);
+        }
       }
     }
+    return close;
+  }
+
+  // Of all that was left open, the lanes that are too close indeed.
+  unsigned decide_open(unsigned lanes) {
+    unsigned close = 0;
+    for (const Open& o : open) {
+      const unsigned bit = 1U << o.lane;
+      if ((lanes & ~close & bit) != 0 && closer_than_limit(o)) close |= bit;
+    }
+    open.clear();
     return close;
   }
 };
@@ -161,14 +194,14 @@ unsigned StateCheck::too_close(std::span<const Configuration* const> states) {
   for (const Comparison& c : s.comparisons) {
     const unsigned lanes = all & ~close;
     if (lanes == 0) break;
-    close |= s.decide(c, c.pairs.narrow, s.near_pairs(c, lanes), lanes);
+    close |= s.decide_soon(c, c.pairs.narrow, s.near_pairs(c, lanes), lanes);
     if (c.pairs.boxes.empty()) continue;
     const int found =
         s.kernel.near_boxes(s.arms[c.a].side(), c.pairs.boxes.data(),
                             static_cast<int>(c.pairs.boxes.size()), lanes, s.hits.data());
-    close |= s.decide(c, c.pairs.narrow_boxes, found, lanes & ~close);
+    close |= s.decide_soon(c, c.pairs.narrow_boxes, found, lanes & ~close);
   }
-  return close;
+  return close | s.decide_open(all & ~close);
 }
 
 unsigned StateCheck::open_by_capsules(std::span<const Configuration* const> states) {

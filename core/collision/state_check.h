@@ -12,7 +12,8 @@ namespace armloom {
 
 // Decides combined states of the whole cell, up to eight at once: does every pair of parts keep its
 // limit? Capsules answer for nearly all pairs; for those that they leave open, and only for these,
-// the exact distance does. Holds the scratch: one per worker thread, not thread-safe.
+// the exact distance does, of meshes where balls inside of them do not prove it first. Holds the
+// scratch: one per worker thread, not thread-safe.
 class StateCheck {
  public:
   using Limits = PairLimits;
@@ -25,7 +26,7 @@ class StateCheck {
   StateCheck& operator=(StateCheck&&) noexcept;
 
   // One bit for each state, the first one lowest: some pair is closer than its limit. Decided
-  // exactly (exact_distance.h: never a wrong "clear"). Preconditions: 1 to filter::kLanes states,
+  // exactly (part_distance.h: never a wrong "clear"). Preconditions: 1 to filter::kLanes states,
   // each with one entry per joint of the cell.
   [[nodiscard]] unsigned too_close(std::span<const Configuration* const> states);
   // What the capsules alone say of arms against each other and themselves: bits of states that are

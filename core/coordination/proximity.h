@@ -19,6 +19,7 @@ struct Proximity {
   double clearance_m = 0.0;    // distance; zero or less in contact
   bool held_a = false;         // body_a is an object that arm_a holds
   bool held_b = false;         // body_b is an object that arm_b holds
+  double limit_m = 0.0;        // what they should have kept, where they were asked for that
 };
 
 // The same evidence as the second body sees it.

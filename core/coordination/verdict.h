@@ -19,7 +19,7 @@ struct Conflict {
     motion,  // another job's motion, or its rest after its end
     rest,    // an arm at rest that no job will move
     scene,   // an object, or a link that stands still
-    self,    // the candidate's own links, or its mount
+    self,    // the candidate's own links (Cell::is_own)
   };
   With with;
   JobId candidate;                 // whose motion
@@ -42,7 +42,9 @@ struct Verdict {
   Kind kind;
   Version version;                  // of the question
   std::vector<Conflict> conflicts;  // the first one found with each counterpart; empty when free
-  // What is proven to be kept between arms, and by arms from the scene; absent: nothing is proven.
+  // What is proven to be kept between arms, and by arms from the scene, their mounts among it: no
+  // more than was asked of any such pair (of what is an arm's own, Cell::is_own, it says nothing).
+  // Absent: nothing is proven.
   std::optional<double> clearance_bound_m;
   std::uint64_t evaluations = 0;  // combined states looked at
   // Not free, and asked for: the candidates could start this much after the question's instant, and

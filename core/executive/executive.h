@@ -79,8 +79,8 @@ struct RunFigures {
   TimePoint last_end{};
   std::vector<Duration> busy;  // per arm: time in motion
   Duration together{};         // time in which at least two arms were in motion
-  // Smallest that the monitor saw between arms, and of arms from what stands still (each its mount
-  // left out); +inf: never near.
+  // Smallest that the monitor saw between arms, and of arms from what stands still
+  // (CollisionChecker::closest_apart); +inf: never near.
   double min_clearance_m;
   double between_arms_m;  // the smallest of two arms alone; +inf: never near
   std::uint64_t monitor_stops = 0;

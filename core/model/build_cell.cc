@@ -208,6 +208,8 @@ void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
     add_arms(robot, cell, findings);
     assign_to_arms(robot, cell);
     refuse_shared_joints(robot, cell, findings);
+    tell_standing_joints(robot, cell, findings);
+    warn_of_seen_only(robot, cell, findings);
     settle_limits(robot, cell, findings);
     settle_homes(robot, cell, findings);
   }
@@ -218,6 +220,7 @@ void copy_settings(const CellDescription& description, Cell& cell) {
   cell.name = description.name;
   cell.clearance_m = description.clearance_m;
   cell.self_clearance_m = std::min(description.self_clearance_m, description.clearance_m);
+  cell.mount_clearance_m = description.mount_clearance_m;
   cell.checking = description.checking;
   cell.scheduling = description.scheduling;
   cell.monitor = description.monitor;

@@ -109,7 +109,8 @@ struct Cell {
   std::set<std::pair<LinkId, std::string>> allowed_link_objects;
 
   double clearance_m = 0.02;
-  double self_clearance_m = 0.005;  // of what is_own(); at most clearance_m
+  double self_clearance_m = 0.005;          // of what is_own(); at most clearance_m
+  std::optional<double> mount_clearance_m;  // of an arm from its mount; absent: clearance_m
   CheckingSettings checking;
   SchedulingSettings scheduling;
   MonitorSettings monitor;
@@ -122,12 +123,17 @@ struct Cell {
   [[nodiscard]] std::optional<JointId> find_joint(std::string_view joint_name) const;
   [[nodiscard]] std::optional<LinkId> find_link(std::string_view link_name) const;
 
-  // A link that stands still and carries a link that the arm moves: what the arm is mounted on.
+  // A link that stands still and carries a link that the arm moves: what the arm is mounted on. It
+  // may be the arm's own pedestal, or a table that the URDF makes its base: no file tells them
+  // apart. So it is scene, for all but what the arm's first joint alone moves (is_own): that turns
+  // on the mount and never gets away from it. The rest of the arm reaches over the mount as over a
+  // table, and owes it mount_clearance_m: clearance_m unless the cell says otherwise, as it may for
+  // robots that fold on their own body. (Neighbours that touch are disabled by the SRDF.)
+  // Links without a shape (mounting frames) hand that down to what they are fixed to.
   [[nodiscard]] bool is_mount(LinkId link, ArmId arm) const;
-  // The arm itself: what it moves, and its mount. What neither this nor another arm moves is scene
-  // to it, whatever file it comes from: it keeps clearance_m from that, and self_clearance_m from
-  // what is its own.
-  [[nodiscard]] bool is_own(LinkId link, ArmId arm) const;
+  // Two links of one arm, or one that the arm's first joint alone moves and the arm's mount: they
+  // pass each other closely by design and keep self_clearance_m.
+  [[nodiscard]] bool is_own(LinkId a, LinkId b) const;
 
   // Every arm at its home; joints of no arm and gripper joints at zero, clamped to their limits.
   [[nodiscard]] Configuration home() const;

@@ -118,6 +118,8 @@ void check_settings(const CellDescription& d, Findings& findings) {
   require(d.clearance_m >= 0.0, d.clearance_m, "/clearance_m", "0 m or more", findings);
   require(d.self_clearance_m >= 0.0, d.self_clearance_m, "/self_clearance_m", "0 m or more",
           findings);
+  const double mount_m = d.mount_clearance_m.value_or(0.0);
+  require(mount_m >= 0.0, mount_m, "/mount_clearance_m", "0 m or more", findings);
 
   const auto positive = [&](Duration time, const char* pointer) {
     require(time > Duration::zero(), to_seconds(time), pointer, "greater than 0 s", findings);

@@ -94,8 +94,10 @@ struct CellDescription {
   std::vector<ObjectDescription> objects;
   std::vector<std::pair<std::string, std::string>> allowed_collisions;  // link or object names
   double clearance_m = 0.02;
-  // Of an arm's own links and its mount, which pass each other closely by design.
+  // Of an arm's own links, which pass each other closely by design.
   double self_clearance_m = 0.005;
+  // Of an arm from the link that it is mounted on (Cell::is_mount); absent: clearance_m.
+  std::optional<double> mount_clearance_m;
   CheckingSettings checking;
   SchedulingSettings scheduling;
   MonitorSettings monitor;

@@ -43,9 +43,26 @@ void warn_of_lags(const CellDescription& description, Findings& findings) {
                    "/robots/" + std::to_string(r) + "/controller/lag_s",
                    "robot " + robot.name + ": lag_s is " + text_of(lag_s) +
                        ", more than checking delay_s of " + text_of(delay_s) +
-                       ": its arms follow later than motions are certified for, so the monitor "
-                       "slows or stops them and others; delay_s has to be at least lag_s",
+                       ": its arms follow late, and whoever passes after one of them waits that "
+                       "much longer, as motions go by measured progress; give a smaller lag_s, or a "
+                       "delay_s of at least lag_s if that is meant",
                    lag_s});
+  }
+}
+
+void warn_of_noise(const CellDescription& description, Findings& findings) {
+  const double error_rad = description.checking.tracking_error_rad;
+  for (std::size_t r = 0; r < description.robots.size(); ++r) {
+    const RobotDescription& robot = description.robots[r];
+    const double noise_rad = robot.controller.noise_rad;
+    if (noise_rad <= error_rad) continue;
+    findings.warn({ProblemKind::invalid, "noise-above-error",
+                   "/robots/" + std::to_string(r) + "/controller/noise_rad",
+                   "robot " + robot.name + ": noise_rad is " + text_of(noise_rad) +
+                       ", more than checking tracking_error_rad of " + text_of(error_rad) +
+                       ": its arms are measured farther from their paths than motions are "
+                       "certified for; tracking_error_rad has to cover the noise",
+                   noise_rad});
   }
 }
 
@@ -59,15 +76,29 @@ class MeshDoubts {
     const auto* mesh = std::get_if<Mesh>(&shape);
     if (mesh == nullptr || mesh->data == nullptr) return;
     if (!told_.insert(mesh->path).second) return;
-    if (is_flat(*mesh->data))
-      warn("flat-mesh", place, whose + ": mesh " + mesh->path + " is flat: it has no inside",
+    const std::string named = whose + ": mesh " + mesh->path;
+    if (is_flat(*mesh->data)) {
+      warn("flat-mesh", place, named + " is flat: it has no inside", mesh->path);
+    } else if (const std::size_t open = mesh->data->open_edges; open > 0) {
+      warn(
+          "open-mesh", place,
+          named + " does not close: " + std::to_string(open) +
+              " edges border one triangle only (holes; or was the file cut off?). What it encloses "
+              "is not known, so its convex hull is checked: notches and hollows count as filled",
+          mesh->path);
+    } else if (mesh->data->both_sides) {
+      warn("two-sided-mesh", place,
+           named +
+               " has faces from both sides, and others on their edges: what it encloses is not "
+               "known, so its convex pieces are checked: notches and hollows may count as filled",
            mesh->path);
+    }
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& vertex : mesh->data->vertices) box.extend(vertex);
     const double size_m = box.sizes().maxCoeff();
     if (of_link && size_m > kHuge_m) {
       warn("huge-mesh", place,
-           whose + ": mesh " + mesh->path + " is " + text_of(size_m) +
+           named + " is " + text_of(size_m) +
                " m long, hardly meant (millimetres? then the URDF's mesh needs "
                "scale=\"0.001 0.001 0.001\"); it fills the cell",
            mesh->path);
@@ -89,6 +120,7 @@ class MeshDoubts {
 void warn_of_doubts(const CellDescription& description, const Cell& cell, Findings& findings) {
   warn_of_brakes(description, cell, findings);
   warn_of_lags(description, findings);
+  warn_of_noise(description, findings);
   MeshDoubts meshes(findings);
   for (const Link& link : cell.links) {
     for (const PlacedShape& placed : link.shapes)

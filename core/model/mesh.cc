@@ -22,7 +22,9 @@
 #include "core/model/convex_pieces.h"
 #include "core/model/dae_essence.h"
 #include "core/model/findings.h"
-#include "core/model/mesh_bounds.h"
+#include "core/model/obj_text.h"
+#include "core/model/one_sided.h"
+#include "core/model/stl_text.h"
 
 namespace armloom {
 namespace {
@@ -246,45 +248,46 @@ Checked<void> check_extent(const MeshData& mesh) {
                 point);
 }
 
-// ".5" is a number, but assimp's OBJ reader counts only words that begin with a digit or sign: a
-// zero in front of the point. It also passes over lines that begin with a blank.
-std::string as_assimp_reads_obj(const std::string& obj) {
-  std::string text;
-  text.reserve(obj.size() + obj.size() / 8);
-  bool line_begins = true;
-  bool vertex_line = false;
-  for (const char c : obj) {
-    const bool blank = c == ' ' || c == '\t';
-    if (line_begins && blank) continue;
-    if (line_begins) vertex_line = c == 'v';
-    line_begins = c == '\n';
-    const bool word_begins = !text.empty() && (text.back() == ' ' || text.back() == '\t');
-    if (vertex_line && c == '.' && word_begins) text += '0';
-    text += c;
+// What assimp may read: all that the file says of its surface, and nothing else.
+struct MeshText {
+  std::string bytes;
+  std::size_t triangles;  // of a DAE: at most
+};
+
+Checked<MeshText> unchecked_size(std::string bytes, MeshFormat format) {
+  const auto unreadable = [](const std::string& why) {
+    return refuse(ProblemKind::malformed, "mesh-unreadable",
+                  why + " (copy the file, or export it, again)");
+  };
+  if (format == MeshFormat::dae) {
+    auto essence = read_dae_essence(bytes);
+    if (!essence) return unreadable(essence.error());
+    return MeshText{std::move(essence->text), essence->triangles};
   }
-  return text;
+  if (format == MeshFormat::obj) {
+    auto obj = read_obj(bytes);
+    if (!obj) return unreadable(obj.error());
+    return MeshText{std::move(obj->text), obj->triangles};
+  }
+  auto stl = read_stl(std::move(bytes));
+  if (!stl) return unreadable(stl.error());
+  const std::size_t triangles = triangles_of_stl(*stl);
+  return MeshText{*std::move(stl), triangles};
 }
 
-// The bytes as assimp may read them: a DAE is cut down, and none has too many triangles.
-Checked<std::string> checked_bytes(const std::string& path, MeshFormat format) {
+Checked<MeshText> checked_text(const std::string& path, MeshFormat format) {
   auto bytes = read_bytes(path);
-  if (!bytes) return bytes;
-  std::size_t most = 0;
-  if (format == MeshFormat::dae) {
-    auto essence = read_dae_essence(*bytes);
-    if (!essence) return refuse(ProblemKind::malformed, "mesh-unreadable", essence.error());
-    most = essence->triangles;
-    bytes = std::move(essence->text);
-  } else {
-    most =
-        format == MeshFormat::stl ? most_triangles_of_stl(*bytes) : most_triangles_of_obj(*bytes);
-    if (format == MeshFormat::obj) bytes = as_assimp_reads_obj(*bytes);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto text = unchecked_size(*std::move(bytes), format);
+  if (!text) return text;
+  if (text->triangles == 0) {
+    return refuse(ProblemKind::invalid, "mesh-empty", "it holds no triangle");
   }
-  if (most <= kMaxMeshTriangles) return bytes;
+  if (text->triangles <= kMaxMeshTriangles) return text;
   return refuse(ProblemKind::too_large, "mesh-too-large",
-                "it has " + std::to_string(most) + " triangles, at most " +
+                "it has " + std::to_string(text->triangles) + " triangles, at most " +
                     std::to_string(kMaxMeshTriangles) + " are read",
-                static_cast<double>(most));
+                static_cast<double>(text->triangles));
 }
 
 Checked<MeshPtr> load(const std::string& path, const Eigen::Vector3d& scale) {
@@ -293,18 +296,29 @@ Checked<MeshPtr> load(const std::string& path, const Eigen::Vector3d& scale) {
     return refuse(ProblemKind::unsupported, "mesh-format", "only .stl, .obj and .dae are read",
                   fs::path(path).extension().string());
   }
-  const auto bytes = checked_bytes(path, *format);
-  if (!bytes) return tl::unexpected(bytes.error());
-  auto mesh = import(*bytes, *format, scale);
+  const auto text = checked_text(path, *format);
+  if (!text) return tl::unexpected(text.error());
+  auto mesh = import(text->bytes, *format, scale);
   if (!mesh) return tl::unexpected(mesh.error());
+  if (*format != MeshFormat::dae && mesh->triangles.size() != text->triangles) {
+    return refuse(ProblemKind::unsupported, "mesh-unreadable",
+                  "its faces are " + std::to_string(text->triangles) + " triangles, but only " +
+                      std::to_string(mesh->triangles.size()) +
+                      " could be made of them: export it as triangles",
+                  static_cast<double>(mesh->triangles.size()));
+  }
   if (const auto sound = check_vertices(*mesh); !sound) return tl::unexpected(sound.error());
   if (const auto extent = check_extent(*mesh); !extent) return tl::unexpected(extent.error());
   auto hull = convex_hull(mesh->vertices);
   if (!hull)
     return refuse(ProblemKind::invalid, "mesh-hull", "it has no convex hull: " + hull.error());
   mesh->hull = *std::move(hull);
+  auto sides = one_sided(mesh->triangles);
+  mesh->both_sides = !sides;
+  if (sides) mesh->triangles = *std::move(sides);
+  mesh->open_edges = open_edges(mesh->triangles);
   mesh->pieces = convex_pieces(*mesh);
-  if (is_closed(mesh->triangles)) {
+  if (mesh->open_edges == 0 && !mesh->both_sides) {
     mesh->surface = make_surface_tree(mesh->vertices, mesh->triangles);
   }
   return std::make_shared<const MeshData>(*std::move(mesh));

@@ -29,6 +29,11 @@ struct Share {
 constexpr double kShare = 1.0 / 16.0;  // of the surface's extent: larger triangles are shared out
 constexpr double kRounding = 1e-12;    // of the same: shares are larger by that than they are
 
+constexpr float kNoBox_m = -1e18F;  // half an extent of none: it is far from everything
+
+const SurfaceTree::Box kNoBox{Eigen::Vector3f::Zero(), Eigen::Vector3f::Constant(kNoBox_m), 0,
+                              true};
+
 class Builder {
  public:
   explicit Builder(SurfaceTree& tree) : tree_(tree) {
@@ -44,9 +49,8 @@ class Builder {
   }
 
   void build() {
-    tree_.nodes.reserve(2 * shares_.size() - 1);
-    tree_.nodes.emplace_back();
-    split(0, 0, shares_.size());
+    tree_.nodes.reserve(shares_.size());
+    tree_.root = box_of(0, shares_.size());
   }
 
  private:
@@ -87,14 +91,38 @@ class Builder {
     return kept;
   }
 
-  // Its depth is the logarithm of the number of shares.
-  void split(std::uint32_t node, std::size_t begin, std::size_t end) {
-    bound(tree_.nodes[node], begin, end);
-    if (end - begin == 1) {
-      tree_.nodes[node].leaf = true;
-      tree_.nodes[node].first = shares_[begin].triangle;
-      return;
+  // The depth is the logarithm of the number of shares.
+  SurfaceTree::Box box_of(std::size_t begin, std::size_t end) {
+    SurfaceTree::Box box = bound(begin, end);
+    box.leaf = end - begin == 1;
+    box.below = box.leaf ? shares_[begin].triangle : add_node(begin, end);
+    return box;
+  }
+
+  std::uint32_t add_node(std::size_t begin, std::size_t end) {
+    const auto index = static_cast<std::uint32_t>(tree_.nodes.size());
+    tree_.nodes.emplace_back();
+    const std::size_t middle = halve(begin, end);
+    const std::array<std::size_t, 5> limits{begin, halve(begin, middle), middle, halve(middle, end),
+                                            end};
+    SurfaceTree::Node node;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const bool none = limits[i] == limits[i + 1];
+      const SurfaceTree::Box box = none ? kNoBox : box_of(limits[i], limits[i + 1]);
+      const auto k = static_cast<Eigen::Index>(i);
+      for (std::size_t j = 0; j < 3; ++j) {
+        node.center[j][k] = box.center[static_cast<Eigen::Index>(j)];
+        node.half[j][k] = box.half[static_cast<Eigen::Index>(j)];
+      }
+      node.below[i] = box.below;
+      node.leaf[i] = box.leaf;
     }
+    tree_.nodes[index] = node;
+    return index;
+  }
+
+  // Where the upper half begins. One share is its own upper half.
+  std::size_t halve(std::size_t begin, std::size_t end) {
     Eigen::AlignedBox3d middles;
     for (std::size_t i = begin; i < end; ++i) middles.extend(shares_[i].box.center());
     Eigen::Index axis = 0;
@@ -105,23 +133,18 @@ class Builder {
       return std::pair(s.box.center()[axis], s.triangle) <
              std::pair(t.box.center()[axis], t.triangle);
     });
-    const auto first = static_cast<std::uint32_t>(tree_.nodes.size());
-    tree_.nodes[node].leaf = false;
-    tree_.nodes[node].first = first;
-    tree_.nodes.resize(tree_.nodes.size() + 2);
-    split(first, begin, half);
-    split(first + 1, half, end);
+    return half;
   }
 
-  void bound(SurfaceTree::Node& node, std::size_t begin, std::size_t end) const {
-    Eigen::AlignedBox3d box;
-    for (std::size_t i = begin; i < end; ++i) box.extend(shares_[i].box);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto axis = static_cast<Eigen::Index>(k);
-      node.center[k] = static_cast<float>(box.center()[axis]);
-      const auto middle = static_cast<double>(node.center[k]);
-      node.half[k] = rounded_up(std::max(box.max()[axis] - middle, middle - box.min()[axis]));
-    }
+  [[nodiscard]] SurfaceTree::Box bound(std::size_t begin, std::size_t end) const {
+    Eigen::AlignedBox3d all;
+    for (std::size_t i = begin; i < end; ++i) all.extend(shares_[i].box);
+    SurfaceTree::Box box = kNoBox;
+    box.center = all.center().cast<float>();
+    const Eigen::Vector3d middle = box.center.cast<double>();
+    const Eigen::Vector3d half = (all.max() - middle).cwiseMax(middle - all.min());
+    box.half = half.unaryExpr([](double x) { return rounded_up(x); });
+    return box;
   }
 
   SurfaceTree& tree_;
@@ -182,15 +205,18 @@ void find_components(SurfaceTree& tree) {
 
 }  // namespace
 
-bool is_closed(const std::vector<Triangle>& triangles) {
+std::size_t open_edges(const std::vector<Triangle>& triangles) {
   const std::vector<Edge> edges = sorted_edges(triangles, false);
+  std::size_t open = 0;
   for (auto at = edges.begin(); at != edges.end();) {
     const auto end = std::find_if(at, edges.end(), [&](const Edge& e) { return e != *at; });
-    if ((end - at) % 2 != 0) return false;
+    open += static_cast<std::size_t>(end - at) % 2;
     at = end;
   }
-  return true;
+  return open;
 }
+
+bool is_closed(const std::vector<Triangle>& triangles) { return open_edges(triangles) == 0; }
 
 SurfaceTreePtr make_surface_tree(std::vector<Eigen::Vector3d> vertices,
                                  std::vector<Triangle> triangles) {

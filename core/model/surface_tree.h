@@ -11,7 +11,8 @@ namespace armloom {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Every edge borders an even number of triangles: the surface has no rim.
+// How many edges border an odd number of triangles. None: the surface has no rim, it closes.
+[[nodiscard]] std::size_t open_edges(const std::vector<Triangle>& triangles);
 [[nodiscard]] bool is_closed(const std::vector<Triangle>& triangles);
 
 // The triangles of a surface in a tree of boxes, for distances that ask few of them. Everything is
@@ -19,11 +20,26 @@ using Triangle = std::array<std::uint32_t, 3>;
 // Immutable.
 struct SurfaceTree {
   // A box along the axes of T around all triangles below it, or shares of them.
-  struct Node {
-    std::array<float, 3> center;
-    std::array<float, 3> half;  // rounded up, so that the box holds its triangles
-    std::uint32_t first;  // the first of two children that stand together; of a leaf: its triangle
+  struct Box {
+    Eigen::Vector3f center;
+    Eigen::Vector3f half;  // rounded up, so that the box holds its triangles
+    std::uint32_t below;   // of a leaf its triangle, else a node
     bool leaf;
+  };
+  // Up to four boxes, coordinate by coordinate: four are looked at in one step.
+  struct Node {
+    std::array<Eigen::Array4f, 3> center;
+    std::array<Eigen::Array4f, 3> half;  // of a box that is not there: far below zero
+    std::array<std::uint32_t, 4> below;
+    std::array<bool, 4> leaf;
+
+    [[nodiscard]] Box box(std::size_t i) const {
+      const auto k = static_cast<Eigen::Index>(i);
+      return {{center[0][k], center[1][k], center[2][k]},
+              {half[0][k], half[1][k], half[2][k]},
+              below[i],
+              leaf[i]};
+    }
   };
   // Triangles that hang together by common corners. Of a closed surface each component is closed.
   struct Component {
@@ -33,7 +49,8 @@ struct SurfaceTree {
     bool oriented;
   };
 
-  std::vector<Node> nodes;  // the root first
+  Box root;  // around everything
+  std::vector<Node> nodes;
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> component_of;  // by triangle
@@ -49,9 +66,9 @@ struct SurfaceTree {
 using SurfaceTreePtr = std::shared_ptr<const SurfaceTree>;
 
 // Long triangles are shared out among several leaves first, each with a box around its share.
-// Halved at the median along the longest side until a leaf is one share. Degenerate triangles (a
-// point, a segment) are as good as others. Deterministic; half a second for half a million
-// triangles. Precondition: at least one triangle, all numbers finite.
+// Halved at the median along the longest side, and again, until a leaf is one share. Degenerate
+// triangles (a point, a segment) are as good as others. Deterministic; half a second for half a
+// million triangles. Precondition: at least one triangle, all numbers finite.
 [[nodiscard]] SurfaceTreePtr make_surface_tree(std::vector<Eigen::Vector3d> vertices,
                                                std::vector<Triangle> triangles);
 

@@ -30,8 +30,6 @@ std::vector<ArmId> moving_arms(const Proximity& proximity, const std::vector<boo
 
 }  // namespace
 
-Monitor::Monitor(MonitorSettings settings) : settings_(std::move(settings)) {}
-
 std::vector<MonitorFinding> Monitor::observe(const std::vector<Proximity>& too_close,
                                              const std::vector<bool>& moving, TimePoint now) {
   std::vector<MonitorFinding> findings;
@@ -52,7 +50,7 @@ std::vector<MonitorFinding> Monitor::observe(const std::vector<Proximity>& too_c
                                                              : MonitorFinding::Kind::clearance,
                         .time = now,
                         .proximity = proximity,
-                        .limit_m = settings_.stop_clearance_m,
+                        .limit_m = proximity.limit_m,
                         .stops = std::move(stops)});
   }
   known_ = std::move(still_known);

@@ -28,23 +28,18 @@ inline constexpr Duration kStandstill = std::chrono::seconds(10);
 // What a conflict makes a job wait for.
 [[nodiscard]] Wait wait_for(const Conflict& conflict);
 
-// The pure heart: queue, backlog, reservations, order per arm, stops. A deterministic state machine
-// without threads, clock, sockets or geometry. Admission and reservation are one step: a job that
-// is judged free holds its reservation before step() returns, and no other judgement is open.
+// The pure heart: queue, backlog, lanes and orders, stops. A deterministic state machine without
+// threads, clock, sockets or geometry. Admission and the orders that it makes are one step: a job
+// that is admitted has its place in the precedence graph before step() returns, and no other
+// judgement is open.
 //
-// A reservation is a job that is scheduled, running or braking: its remaining motion and the rest
-// at its goal. Every other arm occupies the place where it rests; a held job at rest is such a
-// rest. Whatever changes reservations or rests gives them a new version: a verdict on an older one
-// is void and asked again, and every waiting job is tried again on the new one.
+// What is admitted, under every policy, is a motion in that graph (precedence_graph.h): it is
+// granted authority as far as the orders let it, and waits at its start or pauses on its way where
+// they do not. The policy chooses the orders; nothing that moves counts on times, so that late arms
+// disturb nobody, and braking ones need not be waited for. Under timed_discrete there are none.
 //
-// A policy that schedules ahead gives a job that cannot start now the earliest start that is free.
-// Such a job holds its reservation from then on; its motion is dispatched just before. When what it
-// waits for ends otherwise than planned, its start moves forward.
-//
-// Under a policy that coordinates, a reservation is a place in the precedence graph instead
-// (precedence_graph.h): motions are granted authority as far as their passing orders let them, and
-// pause on their way. Nothing there counts on times, so that late arms disturb nobody, and braking
-// ones need not be waited for.
+// Whatever changes what is admitted, or where arms rest, makes a new version: a verdict on an older
+// one is void and asked again, and every waiting job is tried again on the new one.
 //
 // Whose turn it is: held jobs first, then the larger priority, where a job that others wait for is
 // as urgent as the most urgent of them, then the earlier. A job that has waited for
@@ -56,11 +51,9 @@ inline constexpr Duration kStandstill = std::chrono::seconds(10);
 // finds it. Then an arm of the ring goes aside and comes back when the other has passed, if the
 // cell says so and there is such a way; else the job that was submitted last fails.
 //
-// An arm that comes to rest off its plan (canceled, stopped, faulted), that loses more than
-// checking.delay against its plan, or a scene that changes may endanger motions that were admitted
-// before: these are judged again, and those in conflict are held until the way is free. An arm that
-// loses time is judged twice: going on, and standing where it is. While an arm is braking nothing
-// is judged: where it will rest is not known yet.
+// An arm that comes to rest off its plan (canceled, faulted) holds those that would pass there where
+// they may be. A scene that changes may endanger motions that were admitted before: these are judged
+// again, and those in conflict are held until the way is free.
 //
 // An arm without a job that rests in a job's way is sent aside, if the cell says so, too. Either is
 // done by jobs of the caller's own (MoveAside).

@@ -1,84 +1,115 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/api/routes.h"
-#include "server/codec/views.h"
+#include "server/api/route.h"
+#include "server/messages/arm.h"
 
 namespace armloom {
 namespace {
 
-using Arguments = Router::Arguments;
+using Arms = std::vector<ArmId>;
 
-void list_arms(const ApiParts& parts, Respond respond) {
+void list_arms(Call call) {
   ask(
-      parts, [](Executive& executive) { return executive.arms(); },
-      [respond](const std::vector<ArmView>& arms) {
-        JsonWriter out;
-        out.begin_object().key("arms").begin_array();
-        for (const ArmView& arm : arms) write(out, arm);
-        out.end_array().end_object();
-        respond(json_response(200, out.take()));
+      call.parts, [](Executive& executive) { return executive.arms(); },
+      [respond = call.respond](const std::vector<ArmView>& arms) {
+        respond(answer(200, arm_list_format(), arms));
       });
 }
 
 // Does change(executive, arms) to one arm, and answers with what it is then.
 template <class Change>
-Router::Answer of_one_arm(const ApiParts& parts, int status, Change change) {
-  return [&parts, status, change](const Request&, const Arguments& arguments, Respond respond) {
-    const auto arm = parts.cell->find_arm(arguments.front());
-    if (!arm) return respond(no_such("arm", arguments.front()));
-    ask(
-        parts,
-        [arm = *arm, change](Executive& executive) {
-          change(executive, std::vector<ArmId>{arm});
-          return executive.arms()[arm.index()];
-        },
-        [respond, status](const ArmView& view) {
-          JsonWriter out;
-          write(out, view);
-          respond(json_response(status, out.take()));
-        });
-  };
+void with_arm(Call& call, int status, Change change) {
+  const auto arm = call.parts.cell->find_arm(call.arguments.front());
+  if (!arm) return call.respond(no_such("arm", call.arguments.front()));
+  ask(
+      call.parts,
+      [arm = *arm, change](Executive& executive) {
+        change(executive, Arms{arm});
+        return executive.arms()[arm.index()];
+      },
+      [respond = call.respond, status](const ArmView& view) {
+        respond(answer(status, arm_format(), view));
+      });
 }
 
-Router::Answer of_all_arms(const ApiParts& parts, bool stops) {
-  return [&parts, stops](const Request&, const Arguments&, Respond respond) {
-    ask(
-        parts,
-        [stops](Executive& executive) {
-          if (stops) {
-            executive.stop_all("operator");
-          } else {
-            executive.resume_all();
-          }
-          return stops;
-        },
-        [respond](bool stopped) {
-          JsonWriter out;
-          out.begin_object().field("stopped", stopped).end_object();
-          respond(json_response(202, out.take()));
-        });
-  };
+void get_arm(Call call) {
+  with_arm(call, 200, [](Executive&, const Arms&) {});
+}
+void stop_arm(Call call) {
+  with_arm(call, 202,
+           [](Executive& executive, const Arms& arms) { executive.stop(arms, "operator"); });
+}
+void resume_arm(Call call) {
+  with_arm(call, 202, [](Executive& executive, const Arms& arms) { executive.resume(arms); });
+}
+
+template <class Change>
+void with_all(Call& call, bool stopped, Change change) {
+  ask(
+      call.parts,
+      [stopped, change](Executive& executive) {
+        change(executive);
+        return Stopped{stopped};
+      },
+      [respond = call.respond](const Stopped& now) {
+        respond(answer(202, stopped_format(), now));
+      });
+}
+void stop_all(Call call) {
+  with_all(call, true, [](Executive& executive) { executive.stop_all("operator"); });
+}
+void resume_all(Call call) {
+  with_all(call, false, [](Executive& executive) { executive.resume_all(); });
+}
+
+Route command(const char* path, const char* id, const char* summary) {
+  return {.method = "POST",
+          .path = api_path(path),
+          .id = id,
+          .tag = "arms",
+          .summary = summary,
+          .who = Who::own};
 }
 
 }  // namespace
 
-void add_arm_routes(Router& router, const ApiParts& parts) {
-  using Arms = std::vector<ArmId>;
-  const std::string api = kApi;
-  router.add("GET", api + "/arms", [&parts](const Request&, const Arguments&, Respond respond) {
-    list_arms(parts, std::move(respond));
-  });
-  router.add("GET", api + "/arms/{}", of_one_arm(parts, 200, [](Executive&, const Arms&) {}));
-  router.add("POST", api + "/arms/{}/stop",
-             of_one_arm(parts, 202, [](Executive& executive, const Arms& arms) {
-               executive.stop(arms, "operator");
-             }));
-  router.add("POST", api + "/arms/{}/resume",
-             of_one_arm(parts, 202,
-                        [](Executive& executive, const Arms& arms) { executive.resume(arms); }));
-  router.add("POST", api + "/stop", of_all_arms(parts, true));
-  router.add("POST", api + "/resume", of_all_arms(parts, false));
+std::vector<Route> arm_routes() {
+  Route stop_one = command("/arms/{name}/stop", "stopArm", "Stop one arm");
+  stop_one.outcomes = {outcome(202, "It brakes on its path and holds", arm_format())};
+  stop_one.refuses = {404};
+  stop_one.run = stop_arm;
+  Route resume_one = command("/arms/{name}/resume", "resumeArm", "Let one arm go on");
+  resume_one.outcomes = {outcome(202, "Its job goes on when that is free", arm_format())};
+  resume_one.refuses = {404};
+  resume_one.run = resume_arm;
+  Route stop = command("/stop", "stopAll", "Stop every arm");
+  stop.outcomes = {outcome(202, "They brake on their paths and hold", stopped_format())};
+  stop.run = stop_all;
+  Route resume = command("/resume", "resumeAll", "Let every arm go on");
+  resume.outcomes = {outcome(202, "Jobs go on when that is free", stopped_format())};
+  resume.run = resume_all;
+  return {
+      {.method = "GET",
+       .path = api_path("/arms"),
+       .id = "listArms",
+       .tag = "arms",
+       .summary = "All arms",
+       .outcomes = {outcome(200, "The arms, measured", arm_list_format())},
+       .run = list_arms},
+      {.method = "GET",
+       .path = api_path("/arms/{name}"),
+       .id = "getArm",
+       .tag = "arms",
+       .summary = "One arm",
+       .outcomes = {outcome(200, "The arm, measured", arm_format())},
+       .refuses = {404},
+       .run = get_arm},
+      stop_one,
+      resume_one,
+      stop,
+      resume,
+  };
 }
 
 }  // namespace armloom

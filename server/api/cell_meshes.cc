@@ -7,13 +7,16 @@
 #include <utility>
 
 #include "core/model/mesh.h"
-#include "server/codec/mesh_address.h"
+#include "server/api/answers.h"
+#include "server/messages/mesh_address.h"
 
 namespace armloom {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kTypes{
     {{".stl", "model/stl"}, {".obj", "model/obj"}, {".dae", "model/vnd.collada+xml"}}};
+
+constexpr const char* kOtherType = "application/octet-stream";
 
 Response not_found(const std::string& name, const std::string& why) {
   return problem_response(
@@ -32,6 +35,13 @@ CellMeshes::CellMeshes(const Cell& cell) {
   }
 }
 
+std::vector<std::string> CellMeshes::content_types() {
+  std::vector<std::string> types;
+  for (const auto& [extension, type] : kTypes) types.emplace_back(type);
+  types.emplace_back(kOtherType);
+  return types;
+}
+
 Response CellMeshes::answer(const std::string& name) const {
   const auto known = paths_.find(name);
   if (known == paths_.end()) return not_found(name, "the cell has no mesh \"" + name + "\"");
@@ -43,6 +53,7 @@ Response CellMeshes::answer(const std::string& name) const {
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!stream) return not_found(name, "the mesh can no longer be read");
   Response response;
+  response.content_type = kOtherType;
   for (const auto& [extension, type] : kTypes) {
     if (name.ends_with(extension)) response.content_type = type;
   }

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/model/cell.h"
 #include "server/http/message.h"
@@ -13,6 +14,9 @@ namespace armloom {
 class CellMeshes {
  public:
   explicit CellMeshes(const Cell& cell);
+
+  // Of what may be served.
+  [[nodiscard]] static std::vector<std::string> content_types();
 
   // 404 for a name that is none of these, and for a file that has gone or grown over kMaxMeshBytes.
   [[nodiscard]] Response answer(const std::string& name) const;

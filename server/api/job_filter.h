@@ -9,6 +9,7 @@
 #include "core/executive/events.h"
 #include "core/model/cell.h"
 #include "server/http/message.h"
+#include "server/messages/job.h"
 
 namespace armloom {
 
@@ -26,10 +27,6 @@ struct JobFilter {
 // Problems (invalid): unknown state, arm; limit or cursor that is no number in range.
 [[nodiscard]] Result<JobFilter> read_job_filter(const Target& target, const Cell& cell);
 
-struct JobPage {
-  std::vector<JobView> jobs;  // newest first
-  std::optional<std::string> next_cursor;
-};
 [[nodiscard]] JobPage select(std::vector<JobView> jobs, const JobFilter& filter);
 
 }  // namespace armloom

@@ -2,46 +2,43 @@
 #include <utility>
 
 #include "server/api/job_filter.h"
-#include "server/api/routes.h"
-#include "server/codec/views.h"
+#include "server/api/route.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/value_formats.h"
+#include "server/messages/job.h"
 
 namespace armloom {
 namespace {
 
-Response job_response(int status, const JobView& job, const WallClock& clock) {
-  JsonWriter out;
-  write(out, job, &clock);
-  return json_response(status, out.take());
-}
-
-void list_jobs(const ApiParts& parts, const Request& request, Respond respond) {
-  const auto filter = read_job_filter(request.target, *parts.cell);
-  if (!filter) return respond(problem_response(filter.error()));
+void list_jobs(Call call) {
+  const ApiParts& parts = call.parts;
+  const auto filter = read_job_filter(call.request.target, *parts.cell);
+  if (!filter) return call.respond(problem_response(filter.error()));
   ask(
       parts, [](Executive& executive) { return executive.snapshot(); },
-      [&parts, respond, filter = *filter](Snapshot& snapshot) {
+      [&parts, respond = call.respond, filter = *filter](Snapshot& snapshot) {
         const JobPage page = select(std::move(snapshot.jobs), filter);
-        JsonWriter out;
-        out.begin_object().key("jobs").begin_array();
-        for (const JobView& job : page.jobs) write(out, job, &parts.clock);
-        out.end_array().field("next_cursor", page.next_cursor).end_object();
-        respond(json_response(200, out.take()));
+        respond(answer(200, job_page_format(), page, &parts.clock));
       });
 }
 
-void get_job(const ApiParts& parts, const std::string& key, Respond respond) {
+void get_job(Call call) {
+  const ApiParts& parts = call.parts;
+  const std::string& key = call.arguments.front();
   ask(
       parts, [key](Executive& executive) { return executive.job(key); },
-      [&parts, respond, key](const std::optional<JobView>& job) {
-        respond(job ? job_response(200, *job, parts.clock) : no_such("job", key));
+      [&parts, respond = call.respond, key](const std::optional<JobView>& job) {
+        respond(job ? answer(200, job_format(), *job, &parts.clock) : no_such("job", key));
       });
 }
 
-void cancel_job(const ApiParts& parts, const std::string& key, Respond respond) {
+void cancel_job(Call call) {
+  const ApiParts& parts = call.parts;
   ask(
-      parts, [key](Executive& executive) { return executive.cancel(key); },
-      [&parts, respond](const Result<JobView>& job) {
-        respond(job ? job_response(202, *job, parts.clock) : problem_response(job.error()));
+      parts, [key = call.arguments.front()](Executive& executive) { return executive.cancel(key); },
+      [&parts, respond = call.respond](const Result<JobView>& job) {
+        respond(job ? answer(202, job_format(), *job, &parts.clock)
+                    : problem_response(job.error()));
       });
 }
 
@@ -53,78 +50,96 @@ Result<std::string> read_with(const Target& target) {
                          "name the other job: ?with=<id>"});
 }
 
-void get_diagram(const ApiParts& parts, const Request& request, const std::string& key,
-                 Respond respond) {
-  const auto with = read_with(request.target);
-  if (!with) return respond(problem_response(with.error()));
-  parts.loop.post([&parts, key, with = *with, respond = std::move(respond)](Executive& executive) {
+void get_diagram(Call call) {
+  const auto with = read_with(call.request.target);
+  if (!with) return call.respond(problem_response(with.error()));
+  const ApiParts& parts = call.parts;
+  parts.loop.post([&parts, key = call.arguments.front(), with = *with,
+                   respond = std::move(call.respond)](Executive& executive) {
     executive.diagram(key, with, [&parts, respond](Result<DiagramView> result) {
       parts.post([respond, result = std::move(result)] {
-        if (!result) return respond(problem_response(result.error()));
-        JsonWriter out;
-        write(out, *result);
-        respond(json_response(200, out.take()));
+        respond(result ? answer(200, diagram_format(), *result) : problem_response(result.error()));
       });
     });
   });
 }
 
-void write_jobs(JsonWriter& out, const std::vector<JobView>& jobs,
-                const std::vector<std::string>& keys, const WallClock& clock) {
-  out.begin_array();
+std::vector<JobView> with_keys(const std::vector<JobView>& jobs,
+                               const std::vector<std::string>& keys) {
+  std::vector<JobView> found;
   for (const std::string& key : keys) {
     const auto job = std::ranges::find(jobs, key, &JobView::key);
-    if (job != jobs.end()) write(out, *job, &clock);
+    if (job != jobs.end()) found.push_back(*job);
   }
-  out.end_array();
+  return found;
 }
 
-void get_queue(const ApiParts& parts, Respond respond) {
+void get_queue(Call call) {
+  const ApiParts& parts = call.parts;
   ask(
       parts, [](Executive& executive) { return executive.snapshot(0); },
-      [&parts, respond](const Snapshot& snapshot) {
-        const QueueView& queue = snapshot.queue;
-        JsonWriter out;
-        out.begin_object().field("policy", queue.policy).field("stopped", queue.stopped);
-        const std::pair<const char*, const std::vector<std::string>*> lists[] = {
-            {"queued", &queue.queued},
-            {"backlog", &queue.backlog},
-            {"scheduled", &queue.scheduled},
-            {"running", &queue.running}};
-        for (const auto& [name, keys] : lists) {
-          out.key(name);
-          write_jobs(out, snapshot.jobs, *keys, parts.clock);
-        }
-        out.end_object();
-        respond(json_response(200, out.take()));
+      [&parts, respond = call.respond](const Snapshot& snapshot) {
+        const QueueView& ids = snapshot.queue;
+        const QueueJobs queue{ids.policy,
+                              ids.stopped,
+                              with_keys(snapshot.jobs, ids.queued),
+                              with_keys(snapshot.jobs, ids.backlog),
+                              with_keys(snapshot.jobs, ids.scheduled),
+                              with_keys(snapshot.jobs, ids.running)};
+        respond(answer(200, queue_format(), queue, &parts.clock));
       });
+}
+
+Route of_one(const char* method, const char* path, const char* id, const char* summary) {
+  return {.method = method, .path = api_path(path), .id = id, .tag = "jobs", .summary = summary};
 }
 
 }  // namespace
 
-void add_job_routes(Router& router, const ApiParts& parts) {
-  using Arguments = Router::Arguments;
-  const std::string jobs = kApi + std::string("/jobs");
-  router.add("GET", jobs,
-             [&parts](const Request& request, const Arguments&, Respond respond) {
-               list_jobs(parts, request, std::move(respond));
-             },
-             {"state", "arm", "limit", "cursor"});
-  router.add("GET", jobs + "/{}", [&parts](const Request&, const Arguments& a, Respond respond) {
-    get_job(parts, a.front(), std::move(respond));
-  });
-  router.add("GET", jobs + "/{}/diagram",
-             [&parts](const Request& request, const Arguments& a, Respond respond) {
-               get_diagram(parts, request, a.front(), std::move(respond));
-             },
-             {"with"});
-  router.add("DELETE", jobs + "/{}", [&parts](const Request&, const Arguments& a, Respond respond) {
-    cancel_job(parts, a.front(), std::move(respond));
-  });
-  router.add("GET", kApi + std::string("/queue"),
-             [&parts](const Request&, const Arguments&, Respond respond) {
-               get_queue(parts, std::move(respond));
-             });
+std::vector<Route> job_routes() {
+  const Schema text{{"type", "string"}};
+  Route list = of_one("GET", "/jobs", "listJobs", "List jobs, newest first");
+  list.parameters = {{"state", "In this state", job_state_format()->schema(Way::in)},
+                     {"arm", "That move this arm", text},
+                     {"limit", "At most so many, 100 unless given",
+                      formats::integer(1, JobFilter::kLimitMax)->schema(Way::in)},
+                     {"cursor", "next_cursor of the page before", text}};
+  list.outcomes = {outcome(200, "A page of jobs", job_page_format())};
+  list.refuses = {422};
+  list.run = list_jobs;
+
+  Route get = of_one("GET", "/jobs/{id}", "getJob", "One job");
+  get.outcomes = {outcome(200, "The job", job_format())};
+  get.refuses = {404};
+  get.run = get_job;
+
+  Route cancel = of_one("DELETE", "/jobs/{id}", "cancelJob", "Cancel a job");
+  cancel.text =
+      "An arm in motion brakes on its path; the others go on. 409 when the job has ended.";
+  cancel.outcomes = {
+      outcome(202, "Canceled, or \"stopping\" until its arm is at rest", job_format())};
+  cancel.refuses = {404, 409};
+  cancel.who = Who::own;
+  cancel.run = cancel_job;
+
+  Route diagram =
+      of_one("GET", "/jobs/{id}/diagram", "getDiagram", "The coordination diagram of two jobs");
+  diagram.text =
+      "What the motions of two jobs do to each other, wherever each is on its own way: rectangles "
+      "of trajectory time of A (the job of the path) and B (`with`) that are certified free, in "
+      "conflict, or undecided, down to 5 ms where that takes no more than 64,000 cells. Jobs that "
+      "have ended are drawn while they are known. 422 when both are the same job, or move only the "
+      "same arm.";
+  diagram.parameters = {{"with", "The other job", text, true}};
+  diagram.outcomes = {outcome(200, "The diagram", diagram_format())};
+  diagram.refuses = {404, 422};
+  diagram.run = get_diagram;
+
+  Route queue = of_one("GET", "/queue", "getQueue", "What waits, and why, and what runs");
+  queue.outcomes = {
+      outcome(200, "Queue, backlog with reasons, scheduled, running", queue_format())};
+  queue.run = get_queue;
+  return {list, get, cancel, diagram, queue};
 }
 
 }  // namespace armloom

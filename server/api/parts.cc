@@ -4,7 +4,6 @@
 #include <sstream>
 
 namespace armloom {
-
 namespace {
 
 std::string small(std::string text) {
@@ -41,12 +40,6 @@ Result<void> check_content_type(const Request& request) {
                        "the body must come as it is (identity)", encoding);
   }
   return {};
-}
-
-Response no_such(const char* what, const std::string& name) {
-  return problem_response(
-      {Problem{ProblemKind::not_found, std::string("no-such-") + what, "request target",
-               std::string("there is no ") + what + " \"" + name + "\"", name}});
 }
 
 }  // namespace armloom

@@ -8,8 +8,8 @@
 
 #include "core/executive/real_time_loop.h"
 #include "core/model/cell.h"
+#include "server/api/answers.h"
 #include "server/codec/wall_clock.h"
-#include "server/http/message.h"
 #include "server/hub/hub.h"
 #include "server/recording/recording.h"
 
@@ -47,8 +47,5 @@ auto read_body(const Request& request, Read read) -> decltype(read(std::string_v
   if (auto json = check_content_type(request); !json) return failure(std::move(json.error()));
   return read(std::string_view(request.body));
 }
-
-// There is no `what` ("arm") of that name.
-[[nodiscard]] Response no_such(const char* what, const std::string& name);
 
 }  // namespace armloom

@@ -1,13 +1,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/api/routes.h"
-#include "server/codec/cell_codec.h"
+#include "server/api/route.h"
+#include "server/messages/scene.h"
 
 namespace armloom {
 namespace {
-
-using Arguments = Router::Arguments;
 
 constexpr std::size_t kObjectsMax =
     1000;  // that clients may set into the scene, the cell's included
@@ -41,83 +39,98 @@ Result<Changed> put(Executive& executive, const CollisionObject& object) {
   return Changed{executive.scene_version(), false};
 }
 
-void get_scene(const ApiParts& parts, Respond respond) {
+void get_scene(Call call) {
   ask(
-      parts,
+      call.parts,
       [](Executive& executive) {
         return SceneView{executive.scene_version(), executive.objects()};
       },
-      [respond](const SceneView& scene) {
-        JsonWriter out;
-        out.begin_object().field("version", scene.version).key("objects");
-        write_objects(out, scene.objects);
-        out.end_object();
-        respond(json_response(200, out.take()));
+      [respond = call.respond](const SceneView& scene) {
+        respond(answer(200, scene_format(), scene));
       });
 }
 
-// change: add or put, on the strand.
+// change: add or put, on the strand. `name`: of the path, if it has one.
 template <class Change>
-void set_object(const ApiParts& parts, CollisionObject object, Change change, Respond respond) {
-  const auto shared = std::make_shared<const CollisionObject>(std::move(object));
+void set_object(Call& call, const std::optional<std::string>& name, Change change) {
+  auto object =
+      read_body(call.request, [&](std::string_view text) { return read_object_text(text, name); });
+  if (!object) return call.respond(problem_response(object.error()));
+  const auto shared = std::make_shared<const CollisionObject>(std::move(*object));
   ask(
-      parts, [shared, change](Executive& executive) { return change(executive, *shared); },
-      [respond, shared](const Result<Changed>& changed) {
+      call.parts, [shared, change](Executive& executive) { return change(executive, *shared); },
+      [respond = call.respond, shared](const Result<Changed>& changed) {
         if (!changed) return respond(problem_response(changed.error()));
-        JsonWriter out;
-        out.begin_object().field("version", changed->version).key("object");
-        write_object(out, *shared);
-        out.end_object();
-        Response response = json_response(changed->created ? 201 : 200, out.take());
-        if (changed->created) {
-          response.headers.emplace_back("Location",
-                                        "/api/v1/scene/objects/" + url_segment(shared->name));
-        }
-        respond(std::move(response));
+        const SceneChange now{changed->version, *shared};
+        if (!changed->created) return respond(answer(200, scene_change_format(), now));
+        respond(located(answer(201, scene_change_format(), now),
+                        "/scene/objects/" + url_segment(shared->name)));
       });
 }
 
-void delete_object(const ApiParts& parts, const std::string& name, Respond respond) {
+void post_object(Call call) { set_object(call, std::nullopt, add); }
+void put_object(Call call) { set_object(call, call.arguments.front(), put); }
+
+void delete_object(Call call) {
   ask(
-      parts,
-      [name](Executive& executive) -> Result<std::uint64_t> {
+      call.parts,
+      [name = call.arguments.front()](Executive& executive) -> Result<std::uint64_t> {
         if (auto done = executive.remove_object(name); !done) return failure(done.error());
         return executive.scene_version();
       },
-      [respond](const Result<std::uint64_t>& version) {
-        if (!version) return respond(problem_response(version.error()));
-        JsonWriter out;
-        out.begin_object().field("version", *version).end_object();
-        respond(json_response(200, out.take()));
+      [respond = call.respond](const Result<std::uint64_t>& version) {
+        respond(version ? answer(200, scene_version_format(), *version)
+                        : problem_response(version.error()));
       });
 }
 
 }  // namespace
 
-void add_scene_routes(Router& router, const ApiParts& parts) {
-  const std::string scene = kApi + std::string("/scene");
-  router.add("GET", scene, [&parts](const Request&, const Arguments&, Respond respond) {
-    get_scene(parts, std::move(respond));
-  });
-  router.add("POST", scene + "/objects",
-             [&parts](const Request& request, const Arguments&, Respond respond) {
-               auto object = read_body(
-                   request, [](std::string_view text) { return read_object_text(text, {}); });
-               if (!object) return respond(problem_response(object.error()));
-               set_object(parts, std::move(*object), add, std::move(respond));
-             });
-  router.add("PUT", scene + "/objects/{}",
-             [&parts](const Request& request, const Arguments& arguments, Respond respond) {
-               auto object = read_body(request, [&](std::string_view text) {
-                 return read_object_text(text, arguments.front());
-               });
-               if (!object) return respond(problem_response(object.error()));
-               set_object(parts, std::move(*object), put, std::move(respond));
-             });
-  router.add("DELETE", scene + "/objects/{}",
-             [&parts](const Request&, const Arguments& arguments, Respond respond) {
-               delete_object(parts, arguments.front(), std::move(respond));
-             });
+std::vector<Route> scene_routes() {
+  const std::string objects = api_path("/scene/objects");
+  return {
+      {.method = "GET",
+       .path = api_path("/scene"),
+       .id = "getScene",
+       .tag = "scene",
+       .summary = "The objects of the scene",
+       .outcomes = {outcome(200, "Objects and version", scene_format())},
+       .run = get_scene},
+      {.method = "POST",
+       .path = objects,
+       .id = "addObject",
+       .tag = "scene",
+       .summary = "Add an object",
+       .text = "409 when the name is in use, or the object would stand in an arm.",
+       .reads = body(object_request_format(),
+                     {{"rod", R"({"name": "rod", "cylinder": [0.015, 0.5], "xyz": [0, 0.9, 0.4], )"
+                              R"("rpy": [0, 0, 0]})"}}),
+       .outcomes = {created(201, "Added; every motion is judged again", scene_change_format())},
+       .refuses = {409, 422},
+       .who = Who::own,
+       .run = post_object},
+      {.method = "PUT",
+       .path = objects + "/{name}",
+       .id = "putObject",
+       .tag = "scene",
+       .summary = "Create or replace an object",
+       .reads = body(named_object_request_format(),
+                     {{"box", R"({"box": [0.1, 0.1, 0.1], "xyz": [0, 0.9, 0.2]})"}}),
+       .outcomes = {outcome(200, "Replaced", scene_change_format()),
+                    created(201, "Created", scene_change_format())},
+       .refuses = {409, 422},
+       .who = Who::own,
+       .run = put_object},
+      {.method = "DELETE",
+       .path = objects + "/{name}",
+       .id = "removeObject",
+       .tag = "scene",
+       .summary = "Remove an object",
+       .outcomes = {outcome(200, "Removed", scene_version_format())},
+       .refuses = {404},
+       .who = Who::own,
+       .run = delete_object},
+  };
 }
 
 }  // namespace armloom

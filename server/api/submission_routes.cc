@@ -1,60 +1,38 @@
 #include <utility>
 
-#include "server/api/routes.h"
-#include "server/codec/job_codec.h"
-#include "server/codec/problem_codec.h"
-#include "server/codec/views.h"
+#include "server/api/examples.h"
+#include "server/api/route.h"
+#include "server/messages/job.h"
+#include "server/messages/job_request.h"
 
 namespace armloom {
 namespace {
 
-void post_job(const ApiParts& parts, const Request& request, Respond respond) {
-  auto job = read_body(request, read_job_text);
-  if (!job) return respond(problem_response(job.error()));
+void post_job(Call call) {
+  auto job = read_body(call.request, read_job_text);
+  if (!job) return call.respond(problem_response(job.error()));
+  const ApiParts& parts = call.parts;
   const auto body =
-      std::make_shared<const std::string>(parts.recording != nullptr ? request.body : "");
+      std::make_shared<const std::string>(parts.recording != nullptr ? call.request.body : "");
   ask(
       parts,
       [job = std::make_shared<JobRequest>(std::move(*job))](Executive& executive) {
         return executive.submit(std::move(*job));
       },
-      [&parts, respond, body](const Result<JobView>& accepted) {
+      [&parts, respond = call.respond, body](const Result<JobView>& accepted) {
         if (!accepted) return respond(problem_response(accepted.error()));
         if (parts.recording != nullptr) parts.recording->job(accepted->submitted_at, *body);
-        JsonWriter out;
-        write(out, *accepted, &parts.clock);
-        Response response = json_response(202, out.take());
-        response.headers.emplace_back("Location", "/api/v1/jobs/" + accepted->key);
-        respond(std::move(response));
+        respond(
+            located(answer(202, job_format(), *accepted, &parts.clock), "/jobs/" + accepted->key));
       });
-}
-
-// {"status": 202, "job": {...}} or {"status": 422, "problem": {...}}
-void write_result(JsonWriter& out, const Result<JobView>& result, const WallClock& clock) {
-  out.begin_object();
-  if (result) {
-    out.field("status", 202).key("job");
-    write(out, *result, &clock);
-  } else {
-    out.field("status", status_of(result.error().front().kind));
-    out.key("problem").raw(problem_json(result.error()));
-  }
-  out.end_object();
 }
 
 Response batch_response(const BatchRequest& batch, const std::vector<Result<JobView>>& results,
                         const WallClock& clock) {
-  JsonWriter out;
-  out.begin_object().key(batch.atomic ? "jobs" : "results").begin_array();
-  for (const Result<JobView>& result : results) {
-    if (batch.atomic) {
-      write(out, result.value(), &clock);
-    } else {
-      write_result(out, result, clock);
-    }
-  }
-  out.end_array().end_object();
-  return json_response(batch.atomic ? 202 : 207, out.take());
+  if (!batch.atomic) return answer(207, batch_results_format(), results, &clock);
+  std::vector<JobView> jobs;
+  for (const Result<JobView>& result : results) jobs.push_back(result.value());
+  return answer(202, batch_accepted_format(), jobs, &clock);
 }
 
 // What could be read goes to the executive at once; then every job has its answer, in its place.
@@ -77,13 +55,14 @@ Result<std::vector<Result<JobView>>> submit(Executive& executive, const BatchReq
   return results;
 }
 
-void post_batch(const ApiParts& parts, const Request& request, Respond respond) {
-  auto read = read_body(request, read_batch_text);
-  if (!read) return respond(problem_response(read.error()));
+void post_batch(Call call) {
+  auto read = read_body(call.request, read_batch_text);
+  if (!read) return call.respond(problem_response(read.error()));
   const auto batch = std::make_shared<const BatchRequest>(std::move(*read));
+  const ApiParts& parts = call.parts;
   ask(
       parts, [batch](Executive& executive) { return submit(executive, *batch); },
-      [&parts, respond, batch](const Result<std::vector<Result<JobView>>>& results) {
+      [&parts, respond = call.respond, batch](const Result<std::vector<Result<JobView>>>& results) {
         if (!results) return respond(problem_response(results.error()));
         for (std::size_t i = 0; parts.recording != nullptr && i < results->size(); ++i) {
           if (const auto& job = (*results)[i]) {
@@ -94,17 +73,15 @@ void post_batch(const ApiParts& parts, const Request& request, Respond respond) 
       });
 }
 
-void post_check(const ApiParts& parts, const Request& request, Respond respond) {
-  auto read = read_body(request, read_job_text);
-  if (!read) return respond(problem_response(read.error()));
+void post_check(Call call) {
+  auto read = read_body(call.request, read_job_text);
+  if (!read) return call.respond(problem_response(read.error()));
   const auto job = std::make_shared<JobRequest>(std::move(*read));
-  parts.loop.post([&parts, job, respond = std::move(respond)](Executive& executive) {
+  const ApiParts& parts = call.parts;
+  parts.loop.post([&parts, job, respond = std::move(call.respond)](Executive& executive) {
     executive.check(std::move(*job), [&parts, respond](Result<CheckView> result) {
       parts.post([respond, result = std::move(result)] {
-        if (!result) return respond(problem_response(result.error()));
-        JsonWriter out;
-        write(out, *result);
-        respond(json_response(200, out.take()));
+        respond(result ? answer(200, verdict_format(), *result) : problem_response(result.error()));
       });
     });
   });
@@ -112,17 +89,50 @@ void post_check(const ApiParts& parts, const Request& request, Respond respond) 
 
 }  // namespace
 
-void add_submission_routes(Router& router, const ApiParts& parts) {
-  using Arguments = Router::Arguments;
-  using Verb = void (*)(const ApiParts&, const Request&, Respond);
-  const std::pair<const char*, Verb> verbs[] = {
-      {"/jobs", post_job}, {"/batches", post_batch}, {"/check", post_check}};
-  for (const auto& [path, verb] : verbs) {
-    router.add("POST", kApi + std::string(path),
-               [&parts, verb = verb](const Request& request, const Arguments&, Respond respond) {
-                 verb(parts, request, std::move(respond));
-               });
-  }
+std::vector<Route> submission_routes() {
+  const std::string head = R"("id": "reach", "name": "reach into the middle", "priority": 0, )"
+                           R"("backlog_timeout_s": 60, )";
+  return {
+      {.method = "POST",
+       .path = api_path("/jobs"),
+       .id = "submitJob",
+       .tag = "jobs",
+       .summary = "Submit a job",
+       .text = "Refused (422) when it can never run: limits, names, shape, or it does not begin "
+               "where its arm will stand. An id in use: 409.",
+       .reads = body(job_request_format(),
+                     {{"reach", example_job(head, "left")}, {"moveit", example_moveit_job()}}),
+       .outcomes = {created(202, "Accepted; it may still wait in the backlog", job_format())},
+       .refuses = {409, 422},
+       .who = Who::own,
+       .run = post_job},
+      {.method = "POST",
+       .path = api_path("/batches"),
+       .id = "submitBatch",
+       .tag = "jobs",
+       .summary = "Submit several jobs at once",
+       .text = "Atomic (the default): all are accepted or none, and the problem's pointers begin "
+               "with /jobs/<index>. A job may come `after` an earlier one of the batch.",
+       .reads = body(batch_request_format(), {{"both", example_batch()}}),
+       .outcomes = {outcome(202, "All were accepted", batch_accepted_format()),
+                    outcome(207, "With \"atomic\": false, an answer for each",
+                            batch_results_format())},
+       .refuses = {409, 422},
+       .who = Who::own,
+       .run = post_batch},
+      {.method = "POST",
+       .path = api_path("/check"),
+       .id = "checkJob",
+       .tag = "jobs",
+       .summary = "Judge a job without submitting it",
+       .text = "As if it were to start now, beside everything that holds a reservation. Nothing "
+               "changes.",
+       .reads = body(job_request_format(), {{"reach", example_job("", "left")}}),
+       .outcomes = {outcome(200, "What the admission code says", verdict_format())},
+       .refuses = {409, 422},
+       .who = Who::own,
+       .run = post_check},
+  };
 }
 
 }  // namespace armloom

@@ -1,14 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/base/problem.h"
-#include "core/model/cell.h"
 #include "core/model/cell_description.h"
-#include "server/codec/json_writer.h"
 
 namespace armloom {
 
@@ -28,19 +25,5 @@ namespace armloom {
 [[nodiscard]] std::string relocate_cell_text(std::string_view text,
                                              const std::filesystem::path& from,
                                              const std::filesystem::path& to);
-
-// The answer to GET /cell, with URDF and SRDF texts, and for each robot the addresses of the meshes
-// that its URDF names ("meshes", by the name there). `policy` and `speed` are those in force.
-[[nodiscard]] std::string cell_json(const Cell& cell, std::string_view policy, double speed);
-
-// The body of POST and PUT /scene/objects: an object as in a cell file, but no mesh: a client names
-// no file of the server. `name`: of the URL, which one in the body has to agree with.
-inline constexpr std::size_t kObjectNameMax = 128;
-[[nodiscard]] Result<CollisionObject> read_object_text(std::string_view text,
-                                                       const std::optional<std::string>& name);
-
-void write_object(JsonWriter& out, const CollisionObject& object);
-// An array of objects of the planning scene.
-void write_objects(JsonWriter& out, const std::vector<CollisionObject>& objects);
 
 }  // namespace armloom

@@ -23,8 +23,8 @@ FormatPtr<CheckingSettings> checking_format() {
       field("tracking_error_rad", &Checking::tracking_error_rad, number(kZeroToOne),
             "How far each joint may be off its path: every proof covers it."),
       field("delay_s", &Checking::delay, seconds(kTime),
-            "How far a motion may be behind its plan: every proof covers it. At least the "
-            "controllers' lag_s."),
+            "How far a motion is expected to be behind its plan: controllers with a larger lag_s are "
+            "warned of. Motions go by measured progress, so nothing that is certified depends on it."),
       field("limit_tolerance", &Checking::limit_tolerance, number(kZeroToOne),
             "Share by which a trajectory may exceed a limit of velocity, acceleration or jerk "
             "between its waypoints."),
@@ -78,7 +78,12 @@ PartPtr<CellDescription> make_settings_part() {
       field("clearance_m", &Description::clearance_m, number(kZeroToOne),
             "What every admitted motion keeps from other arms and the scene."),
       field("self_clearance_m", &Description::self_clearance_m, number(kZeroToOne),
-            "What an arm's own links keep from each other; at most clearance_m counts."),
+            "What an arm's own links keep from each other, and from the link that carries the arm "
+            "those that its first joint alone moves; at most clearance_m counts."),
+      field("mount_clearance_m", &Description::mount_clearance_m, number(kZeroToOne),
+            "What all other links of an arm keep from the link that carries it: clearance_m unless "
+            "given, as that link may be a table; at most clearance_m counts. Less (0.005) where an "
+            "arm folds on its own base or works beside its own body."),
       field("checking", &Description::checking, checking_format(),
             "What the checks of motions allow for."),
       field("scheduling", &Description::scheduling, scheduling_format(), "Which job goes when."),
@@ -91,9 +96,9 @@ PartPtr<CellDescription> make_settings_part() {
 
 }  // namespace
 
-const Part<CellDescription>& settings_part() {
+PartPtr<CellDescription> settings_part() {
   static const PartPtr<CellDescription> part = make_settings_part();
-  return *part;
+  return part;
 }
 
 const Format<CellDescription>& cell_format() {
@@ -102,13 +107,13 @@ const Format<CellDescription>& cell_format() {
       ignored<Description>("$schema", path(),
                            "This schema: editors check and complete the file by it."),
       required("name", &Description::name, name(), "The cell's name."),
-      required("robots", &Description::robots, list(robot_format(), 1),
+      required("robots", &Description::robots, list(robot_format(), {.fewest = 1}),
                "The robots with their arms."),
       field("objects", &Description::objects, list(scene_object_format()),
             "The scene at start: tables, fixtures, fences."),
       field("allowed_collisions", &Description::allowed_collisions, list(pair_of(name())),
             "Pairs that may touch: two links, or a link and an object; links with their prefix."),
-      make_settings_part(),
+      settings_part(),
   });
   return *format;
 }

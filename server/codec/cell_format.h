@@ -13,6 +13,6 @@ namespace armloom {
 
 // The part that is written on its own, in GET /cell: clearances, checking, scheduling, monitor,
 // execution, as members of one object.
-[[nodiscard]] const formats::Part<CellDescription>& settings_part();
+[[nodiscard]] formats::PartPtr<CellDescription> settings_part();
 
 }  // namespace armloom

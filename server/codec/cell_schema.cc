@@ -12,7 +12,7 @@ const Schema& cell_schema() {
                  {"description",
                   "The robots of a cell, their arms, the scene and the settings. JSON, in which // "
                   "and /* */ comments are allowed."}};
-    whole.update(cell_format().schema());
+    whole.update(cell_format().schema(Way::in));
     return whole;
   }();
   return schema;

@@ -13,6 +13,10 @@ namespace armloom {
 // JSON Schema (draft 2020-12); keys keep the order in which they are described.
 using Schema = nlohmann::ordered_json;
 
+// Whose JSON a schema describes: what may come in, or what the server says. What is said has every
+// member that a default would stand for.
+enum class Way { in, out };
+
 // What becomes of each path in a text.
 using PathMap = std::function<std::string(const std::string&)>;
 
@@ -28,7 +32,7 @@ class Format {
   // `out` is of no use.
   virtual void read(const JsonNode& node, T& out) const = 0;
   virtual void write(JsonWriter& out, const T& value) const = 0;
-  [[nodiscard]] virtual Schema schema() const = 0;
+  [[nodiscard]] virtual Schema schema(Way way) const = 0;
   // Replaces the paths in a JSON value that is to be read as this format. What does not fit the
   // format stays as it is: the reader will say so.
   virtual void map_paths(nlohmann::json& value, const PathMap& map) const {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "server/codec/wall_clock.h"
+
 namespace armloom {
 namespace {
 
@@ -104,6 +106,10 @@ JsonWriter& JsonWriter::value(double number) {
 JsonWriter& JsonWriter::rounded(double number, int decimals) {
   const double scale = std::pow(10.0, decimals);
   return value(std::round(number * scale) / scale);
+}
+
+JsonWriter& JsonWriter::wall_time(std::optional<TimePoint> time) {
+  return time ? value(clock_->at(*time)) : value(nullptr);
 }
 
 JsonWriter& JsonWriter::raw(std::string_view json) {

@@ -13,6 +13,8 @@
 
 namespace armloom {
 
+class WallClock;
+
 // Writes JSON text front to back, keys in the order in which they are given, without spaces.
 // Numbers are written in the shortest form that reads back the same; numbers that JSON does not
 // have (NaN, infinities) become null, -0 becomes 0, bytes that are not UTF-8 become U+FFFD: the
@@ -20,6 +22,10 @@ namespace armloom {
 // value.
 class JsonWriter {
  public:
+  JsonWriter() = default;
+  // Knows the wall time of cell times. `clock` outlives the writer; null: it knows none.
+  explicit JsonWriter(const WallClock* clock) : clock_(clock) {}
+
   JsonWriter& begin_object() { return open('{'); }
   JsonWriter& end_object() { return close('}'); }
   JsonWriter& begin_array() { return open('['); }
@@ -56,6 +62,9 @@ class JsonWriter {
   }
   // Rounded to `decimals` (0..9) places: short, for poses that are only looked at.
   JsonWriter& rounded(double number, int decimals);
+  // Keys that end in _at are only written where wall time is known: not in a simulated run.
+  [[nodiscard]] bool knows_wall_time() const { return clock_ != nullptr; }
+  JsonWriter& wall_time(std::optional<TimePoint> time);  // absent: null
   // Text that is JSON already.
   JsonWriter& raw(std::string_view json);
 
@@ -73,6 +82,7 @@ class JsonWriter {
   JsonWriter& close(char bracket);
   void separate();
 
+  const WallClock* clock_ = nullptr;
   std::string out_;
   bool comma_ = false;  // something stands before, on this level
 };

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,28 +11,40 @@
 
 namespace armloom::formats {
 
+// How many elements a list may have. One with more than `most` is not read at all: the fault
+// "too-many-<what>" counts them as `noun`.
+struct ListSize {
+  std::size_t fewest = 0;
+  std::optional<std::size_t> most = {};
+  std::string noun = "elements";
+  std::string what = noun;
+};
+[[nodiscard]] bool is_readable(const JsonNode& array, const ListSize& size);
+void check_fewest(const JsonNode& array, const ListSize& size);
+void describe_size(Schema& schema, const ListSize& size);
+
 // A JSON array of elements that all have one format.
 template <class T>
 class ListFormat final : public Format<std::vector<T>> {
  public:
-  ListFormat(FormatPtr<T> element, std::size_t fewest)
-      : element_(std::move(element)), fewest_(fewest) {}
+  ListFormat(FormatPtr<T> element, ListSize size)
+      : element_(std::move(element)), size_(std::move(size)) {}
 
   void read(const JsonNode& node, std::vector<T>& out) const override {
     out.clear();
+    if (!node.array() || !is_readable(node, size_)) return;
+    out.reserve(node.raw().size());
     node.each([&](const JsonNode& element) { element_->read(element, out.emplace_back()); });
-    if (!node.raw().is_array() || node.raw().size() >= fewest_) return;
-    node.invalid("too-few", "at least " + (fewest_ == 1 ? "one" : std::to_string(fewest_)) +
-                                " is expected here, found " + std::to_string(node.raw().size()));
+    check_fewest(node, size_);
   }
   void write(JsonWriter& out, const std::vector<T>& list) const override {
     out.begin_array();
     for (const T& element : list) element_->write(out, element);
     out.end_array();
   }
-  Schema schema() const override {
-    Schema schema{{"type", "array"}, {"items", element_->schema()}};
-    if (fewest_ > 0) schema["minItems"] = fewest_;
+  Schema schema(Way way) const override {
+    Schema schema{{"type", "array"}, {"items", element_->schema(way)}};
+    describe_size(schema, size_);
     return schema;
   }
   void map_paths(nlohmann::json& value, const PathMap& map) const override {
@@ -41,12 +54,12 @@ class ListFormat final : public Format<std::vector<T>> {
 
  private:
   FormatPtr<T> element_;
-  std::size_t fewest_;
+  ListSize size_;
 };
 
 template <class T>
-[[nodiscard]] FormatPtr<std::vector<T>> list(FormatPtr<T> element, std::size_t fewest = 0) {
-  return std::make_shared<ListFormat<T>>(std::move(element), fewest);
+[[nodiscard]] FormatPtr<std::vector<T>> list(FormatPtr<T> element, ListSize size = {}) {
+  return std::make_shared<ListFormat<T>>(std::move(element), std::move(size));
 }
 
 // A JSON object whose keys are names of the user's: {"torso_lift_joint": 0.1}.
@@ -67,8 +80,8 @@ class DictionaryFormat final : public Format<std::map<std::string, T>> {
     }
     out.end_object();
   }
-  Schema schema() const override {
-    return {{"type", "object"}, {"additionalProperties", member_->schema()}};
+  Schema schema(Way way) const override {
+    return {{"type", "object"}, {"additionalProperties", member_->schema(way)}};
   }
   void map_paths(nlohmann::json& value, const PathMap& map) const override {
     if (!value.is_object()) return;
@@ -108,8 +121,8 @@ class PairFormat final : public Format<std::pair<T, T>> {
     element_->write(out, pair.second);
     out.end_array();
   }
-  Schema schema() const override {
-    return {{"type", "array"}, {"items", element_->schema()}, {"minItems", 2}, {"maxItems", 2}};
+  Schema schema(Way way) const override {
+    return {{"type", "array"}, {"items", element_->schema(way)}, {"minItems", 2}, {"maxItems", 2}};
   }
 
  private:

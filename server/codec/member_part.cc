@@ -11,10 +11,13 @@ bool is_telling(const Schema& fallback) {
 }  // namespace
 
 void describe_member(Schema& object, const MemberText& member, Schema schema,
-                     const std::optional<Schema>& fallback) {
-  schema["description"] = member.text;
-  if (member.need == Need::required) {
+                     const std::optional<Schema>& fallback, Way way) {
+  if (!member.text.empty()) schema["description"] = member.text;
+  const bool always_told = way == Way::out && fallback;
+  if (member.need == Need::required || always_told) {
     object["required"].push_back(member.key);
+  } else if (way == Way::out) {
+    // It is said, or it is not there.
   } else if (member.stated) {
     schema["default"] = *member.stated;
   } else if (fallback && is_telling(*fallback)) {

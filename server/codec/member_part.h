@@ -26,7 +26,7 @@ class Part {
   }
   // Adds to the schema of the object: "properties", "required". What `defaults` holds is what an
   // absent member means.
-  virtual void describe(Schema& object, const T& defaults) const = 0;
+  virtual void describe(Schema& object, const T& defaults, Way way) const = 0;
   virtual void map_paths(nlohmann::json& object, const PathMap& map) const {
     static_cast<void>(object);
     static_cast<void>(map);
@@ -46,8 +46,9 @@ struct MemberText {
   std::optional<Schema> stated;  // default, where the value itself has none
 };
 
+// `fallback`: what an absent one means; none: it is then simply not there.
 void describe_member(Schema& object, const MemberText& member, Schema schema,
-                     const std::optional<Schema>& fallback);
+                     const std::optional<Schema>& fallback, Way way);
 
 // A value to read into; Eigen leaves its own as they come.
 template <class M>
@@ -91,10 +92,10 @@ class MemberPart final : public Part<T> {
     out.key(text_.key);
     format_->write(out, *member);
   }
-  void describe(Schema& object, const T& defaults) const override {
+  void describe(Schema& object, const T& defaults, Way way) const override {
     const std::optional<M> fallback = get_(defaults);
-    describe_member(object, text_, format_->schema(),
-                    fallback ? std::optional(as_json(*format_, *fallback)) : std::nullopt);
+    describe_member(object, text_, format_->schema(way),
+                    fallback ? std::optional(as_json(*format_, *fallback)) : std::nullopt, way);
   }
   void map_paths(nlohmann::json& object, const PathMap& map) const override {
     if (const auto it = object.find(text_.key); it != object.end()) format_->map_paths(*it, map);
@@ -141,15 +142,15 @@ template <class T, class Where, class M>
                 std::move(format));
 }
 
-// A part that is read and described, and never written.
+// A part that is read, described as what may come in, and never written.
 template <class T>
 class ReadOnlyPart final : public Part<T> {
  public:
   explicit ReadOnlyPart(PartPtr<T> part) : part_(std::move(part)) {}
   void list_keys(std::vector<std::string_view>& keys) const override { part_->list_keys(keys); }
   void read(const JsonNode& object, T& out) const override { part_->read(object, out); }
-  void describe(Schema& object, const T& defaults) const override {
-    part_->describe(object, defaults);
+  void describe(Schema& object, const T& defaults, Way way) const override {
+    if (way == Way::in) part_->describe(object, defaults, way);
   }
   void map_paths(nlohmann::json& object, const PathMap& map) const override {
     part_->map_paths(object, map);

@@ -56,4 +56,20 @@ void describe_companion(Schema& object, const std::string& key, const std::strin
   object["dependentRequired"][key] = Schema::array({companion});
 }
 
+void check_not_served(const JsonNode& object, const NotServed& rule) {
+  object.optional(rule.key, [&](const JsonNode& node) {
+    if (!rule.but_for) return node.invalid(rule.slug, rule.sentence);
+    std::string text;
+    bool flag = false;
+    const bool readable = rule.but_for->is_string() ? node.read(text) : node.read(flag);
+    if (readable && node.raw() != *rule.but_for) node.invalid(rule.slug, rule.sentence);
+  });
+}
+
+void describe_not_served(Schema& object, const NotServed& rule, Way way) {
+  if (!rule.but_for) return;
+  describe_member(object, {rule.key, rule.text, Need::optional, {}}, {{"const", *rule.but_for}},
+                  std::nullopt, way);
+}
+
 }  // namespace armloom::formats

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +24,7 @@ class CountRule final : public Part<T> {
   CountRule(HowMany how_many, std::vector<std::string> keys)
       : how_many_(how_many), keys_(std::move(keys)) {}
   void read(const JsonNode& object, T&) const override { check_count(object, how_many_, keys_); }
-  void describe(Schema& object, const T&) const override {
+  void describe(Schema& object, const T&, Way) const override {
     describe_count(object, how_many_, keys_);
   }
 
@@ -49,7 +50,7 @@ class CompanionRule final : public Part<T> {
   void read(const JsonNode& object, T&) const override {
     check_companion(object, key_, companion_);
   }
-  void describe(Schema& object, const T&) const override {
+  void describe(Schema& object, const T&, Way) const override {
     describe_companion(object, key_, companion_);
   }
 
@@ -60,6 +61,58 @@ class CompanionRule final : public Part<T> {
 template <class T>
 [[nodiscard]] PartPtr<T> only_with(std::string companion, std::string key) {
   return std::make_shared<CompanionRule<T>>(std::move(key), std::move(companion));
+}
+
+// The part, where the object has no member of that name.
+template <class T>
+class UnlessPart final : public Part<T> {
+ public:
+  UnlessPart(std::string key, PartPtr<T> part) : key_(std::move(key)), part_(std::move(part)) {}
+  void list_keys(std::vector<std::string_view>& keys) const override { part_->list_keys(keys); }
+  void read(const JsonNode& object, T& out) const override {
+    if (!object.has(key_)) part_->read(object, out);
+  }
+  void write(JsonWriter& out, const T& value) const override { part_->write(out, value); }
+  void describe(Schema& object, const T& defaults, Way way) const override {
+    part_->describe(object, defaults, way);
+  }
+
+ private:
+  std::string key_;
+  PartPtr<T> part_;
+};
+template <class T>
+[[nodiscard]] PartPtr<T> unless(std::string key, PartPtr<T> part) {
+  return std::make_shared<UnlessPart<T>>(std::move(key), std::move(part));
+}
+
+// A member that clients may know of and that is not served: at all, or but for one value, which is
+// what is done anyway. Everything else is the fault `slug` with `sentence`.
+struct NotServed {
+  std::string key;
+  std::string slug;
+  std::string sentence;
+  std::optional<nlohmann::json> but_for = {};
+  std::string text = "";  // for the schema, which does not know the member when nothing is served
+};
+void check_not_served(const JsonNode& object, const NotServed& rule);
+void describe_not_served(Schema& object, const NotServed& rule, Way way);
+template <class T>
+class NotServedPart final : public Part<T> {
+ public:
+  explicit NotServedPart(NotServed rule) : rule_(std::move(rule)) {}
+  void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back(rule_.key); }
+  void read(const JsonNode& object, T&) const override { check_not_served(object, rule_); }
+  void describe(Schema& object, const T&, Way way) const override {
+    describe_not_served(object, rule_, way);
+  }
+
+ private:
+  NotServed rule_;
+};
+template <class T>
+[[nodiscard]] PartPtr<T> not_served(NotServed rule) {
+  return std::make_shared<NotServedPart<T>>(std::move(rule));
 }
 
 }  // namespace armloom::formats

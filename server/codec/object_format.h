@@ -26,10 +26,10 @@ class ObjectFormat final : public Format<T> {
     parts_.write(out, value);
     out.end_object();
   }
-  Schema schema() const override {
+  Schema schema(Way way) const override {
     Schema object{{"type", "object"}, {"additionalProperties", false}};
     object["properties"] = Schema::object();
-    parts_.describe(object, T{});
+    parts_.describe(object, T{}, way);
     return object;
   }
   void map_paths(nlohmann::json& value, const PathMap& map) const override {

@@ -23,8 +23,8 @@ class Parts final : public Part<T> {
   void write(JsonWriter& out, const T& value) const override {
     for (const auto& part : parts_) part->write(out, value);
   }
-  void describe(Schema& object, const T& defaults) const override {
-    for (const auto& part : parts_) part->describe(object, defaults);
+  void describe(Schema& object, const T& defaults, Way way) const override {
+    for (const auto& part : parts_) part->describe(object, defaults, way);
   }
   void map_paths(nlohmann::json& object, const PathMap& map) const override {
     for (const auto& part : parts_) part->map_paths(object, map);
@@ -48,7 +48,9 @@ class SpeltPart final : public Part<T> {
     out = mean_(words);
   }
   void write(JsonWriter& out, const T& value) const override { parts_.write(out, spell_(value)); }
-  void describe(Schema& object, const T&) const override { parts_.describe(object, Words{}); }
+  void describe(Schema& object, const T&, Way way) const override {
+    parts_.describe(object, Words{}, way);
+  }
   void map_paths(nlohmann::json& object, const PathMap& map) const override {
     parts_.map_paths(object, map);
   }
@@ -68,8 +70,8 @@ class InlinePart final : public Part<T> {
   void list_keys(std::vector<std::string_view>& keys) const override { part_->list_keys(keys); }
   void read(const JsonNode& object, T& out) const override { part_->read(object, out.*where_); }
   void write(JsonWriter& out, const T& value) const override { part_->write(out, value.*where_); }
-  void describe(Schema& object, const T& defaults) const override {
-    part_->describe(object, defaults.*where_);
+  void describe(Schema& object, const T& defaults, Way way) const override {
+    part_->describe(object, defaults.*where_, way);
   }
   void map_paths(nlohmann::json& object, const PathMap& map) const override {
     part_->map_paths(object, map);

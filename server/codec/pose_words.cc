@@ -5,8 +5,10 @@
 namespace armloom {
 
 Eigen::Isometry3d pose_of_words(const PoseWords& words) {
+  const Eigen::Vector3d rpy_rad =
+      words.rpy_deg ? Eigen::Vector3d(*words.rpy_deg * (EIGEN_PI / 180.0)) : words.rpy_rad;
   const auto about = [&](int axis) {
-    return Eigen::AngleAxisd(words.rpy_rad[axis], Eigen::Vector3d::Unit(axis));
+    return Eigen::AngleAxisd(rpy_rad[axis], Eigen::Vector3d::Unit(axis));
   };
   return Eigen::Translation3d(words.xyz_m) * about(2) * about(1) * about(0);
 }

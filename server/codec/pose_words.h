@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 
 namespace armloom {
 
@@ -8,6 +9,7 @@ namespace armloom {
 struct PoseWords {
   Eigen::Vector3d xyz_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d rpy_rad = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector3d> rpy_deg = {};  // in its place
 };
 
 [[nodiscard]] Eigen::Isometry3d pose_of_words(const PoseWords& words);

@@ -71,8 +71,8 @@ class HomeFormat final : public Format<Home> {
     if (home.state.empty()) return values_->write(out, home.values);
     state_->write(out, home.state);
   }
-  Schema schema() const override {
-    return {{"anyOf", Schema::array({values_->schema(), state_->schema()})}};
+  Schema schema(Way way) const override {
+    return {{"anyOf", Schema::array({values_->schema(way), state_->schema(way)})}};
   }
 
  private:
@@ -142,7 +142,7 @@ FormatPtr<RobotDescription> robot_format() {
       field("fixed", &Robot::fixed, dictionary(number(kHeld)),
             "Joints that are held at a value (rad, m), as a torso under two arms: without the "
             "prefix. No job moves them."),
-      required("arms", &Robot::arms, list(arm_format(), 1), "The robot's arms."),
+      required("arms", &Robot::arms, list(arm_format(), {.fewest = 1}), "The robot's arms."),
       field("controller", &Robot::controller, controller_format(), "What moves the robot."),
   });
 }

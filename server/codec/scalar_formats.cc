@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/codec/value_formats.h"
+
 namespace armloom::formats {
 namespace {
 
@@ -48,7 +50,7 @@ class NumberFormat final : public Format<double> {
   explicit NumberFormat(Range range) : range_(range) {}
   void read(const JsonNode& node, double& out) const override { read_within(node, range_, out); }
   void write(JsonWriter& out, const double& number) const override { out.value(number); }
-  Schema schema() const override { return schema_of(range_); }
+  Schema schema(Way) const override { return schema_of(range_); }
 
  private:
   Range range_;
@@ -62,7 +64,7 @@ class SecondsFormat final : public Format<Duration> {
     if (read_within(node, range_, seconds)) out = from_seconds(seconds);
   }
   void write(JsonWriter& out, const Duration& time) const override { out.value(time); }
-  Schema schema() const override { return schema_of(range_); }
+  Schema schema(Way) const override { return schema_of(range_); }
 
  private:
   Range range_;
@@ -72,7 +74,7 @@ class TextFormat : public Format<std::string> {
  public:
   void read(const JsonNode& node, std::string& out) const override { node.read(out); }
   void write(JsonWriter& out, const std::string& text) const override { out.value(text); }
-  Schema schema() const override { return {{"type", "string"}}; }
+  Schema schema(Way) const override { return {{"type", "string"}}; }
 };
 
 class NameFormat : public TextFormat {
@@ -82,7 +84,7 @@ class NameFormat : public TextFormat {
     if (node.read(out) && out.empty())
       node.invalid("empty-" + what_, "a " + what_ + " is expected, found nothing");
   }
-  Schema schema() const override { return {{"type", "string"}, {"minLength", 1}}; }
+  Schema schema(Way) const override { return {{"type", "string"}, {"minLength", 1}}; }
 
  private:
   std::string what_;
@@ -103,13 +105,9 @@ class OneOfFormat final : public TextFormat {
   explicit OneOfFormat(std::vector<std::string> names) : names_(std::move(names)) {}
   void read(const JsonNode& node, std::string& out) const override {
     if (!node.read(out) || std::ranges::find(names_, out) != names_.end()) return;
-    std::string known;
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      known += (i == 0 ? "\"" : i + 1 == names_.size() ? " or \"" : ", \"") + names_[i] + "\"";
-    }
-    node.invalid("unknown-choice", "it is \"" + out + "\", expected " + known);
+    refuse_choice(node, out, names_);
   }
-  Schema schema() const override { return {{"type", "string"}, {"enum", names_}}; }
+  Schema schema(Way) const override { return {{"type", "string"}, {"enum", names_}}; }
 
  private:
   std::vector<std::string> names_;
@@ -137,7 +135,7 @@ class NumbersFormat final : public Format<Numbers> {
     for (const double number : numbers) out.value(number);
     out.end_array();
   }
-  Schema schema() const override {
+  Schema schema(Way) const override {
     return {
         {"type", "array"}, {"items", schema_of(range_)}, {"minItems", size}, {"maxItems", size}};
   }

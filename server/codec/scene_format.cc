@@ -15,6 +15,7 @@ namespace {
 constexpr Range kLength{0.0, 1000.0, true};  // m
 constexpr Range kPosition{-1000.0, 1000.0};  // m
 constexpr Range kAngle{-100.0, 100.0};       // rad
+constexpr Range kAngleDegrees{-3600.0, 3600.0};
 
 struct ShapeWords {
   std::optional<Eigen::Vector3d> box;
@@ -44,25 +45,37 @@ Shape shape_of_words(const ShapeWords& words) {
   return Box{words.box.value_or(Eigen::Vector3d::Zero())};
 }
 
+std::vector<PartPtr<ShapeWords>> primitives() {
+  return {
+      field("box", &ShapeWords::box, vector3(kLength), "A box: its full side lengths, in metres."),
+      field("cylinder", &ShapeWords::cylinder, numbers<2>(kLength),
+            "A cylinder along z: radius and full length, in metres."),
+      field("sphere", &ShapeWords::sphere, numbers<1>(kLength), "A sphere: radius, in metres."),
+  };
+}
+
 PartPtr<Shape> shape_part() {
-  return std::make_shared<SpeltPart<Shape, ShapeWords>>(
-      std::vector<PartPtr<ShapeWords>>{
-          field("box", &ShapeWords::box, vector3(kLength),
-                "A box: its full side lengths, in metres."),
-          field("cylinder", &ShapeWords::cylinder, numbers<2>(kLength),
-                "A cylinder along z: radius and full length, in metres."),
-          field("sphere", &ShapeWords::sphere, numbers<1>(kLength), "A sphere: radius, in metres."),
-          field("mesh", &ShapeWords::mesh, path(),
-                "A mesh (STL, OBJ, DAE): a file; in every check convex pieces that contain it."),
-          field("scale", &ShapeWords::scale, vector3(kAnyNumber),
-                "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1}),
-          exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"}),
-          only_with<ShapeWords>("mesh", "scale"),
-      },
-      shape_in_words, shape_of_words);
+  std::vector<PartPtr<ShapeWords>> parts = primitives();
+  parts.insert(
+      parts.end(),
+      {field("mesh", &ShapeWords::mesh, path(),
+             "A mesh (STL, OBJ, DAE): a file; in every check convex pieces that contain it."),
+       field("scale", &ShapeWords::scale, vector3(kAnyNumber),
+             "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1}),
+       exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"}),
+       only_with<ShapeWords>("mesh", "scale")});
+  return std::make_shared<SpeltPart<Shape, ShapeWords>>(std::move(parts), shape_in_words,
+                                                        shape_of_words);
 }
 
 }  // namespace
+
+PartPtr<Shape> primitive_part() {
+  std::vector<PartPtr<ShapeWords>> parts = primitives();
+  parts.push_back(exactly_one<ShapeWords>({"box", "cylinder", "sphere"}));
+  return std::make_shared<SpeltPart<Shape, ShapeWords>>(std::move(parts), shape_in_words,
+                                                        shape_of_words);
+}
 
 PartPtr<Eigen::Isometry3d> pose_part() {
   return std::make_shared<SpeltPart<Eigen::Isometry3d, PoseWords>>(
@@ -70,6 +83,9 @@ PartPtr<Eigen::Isometry3d> pose_part() {
           field("xyz", &PoseWords::xyz_m, vector3(kPosition), "Position in metres."),
           field("rpy", &PoseWords::rpy_rad, vector3(kAngle),
                 "Roll, pitch, yaw about fixed axes, in rad, as in a URDF."),
+          read_only(field("rpy_deg", &PoseWords::rpy_deg, vector3(kAngleDegrees),
+                          "The same in degrees: instead of rpy.")),
+          read_only(at_most_one<PoseWords>({"rpy", "rpy_deg"})),
       },
       pose_in_words, pose_of_words);
 }

@@ -12,6 +12,8 @@ namespace armloom {
 
 // Members xyz and rpy.
 [[nodiscard]] formats::PartPtr<Eigen::Isometry3d> pose_part();
+// A box, a cylinder or a sphere: exactly one of these members.
+[[nodiscard]] formats::PartPtr<Shape> primitive_part();
 // An object of the scene: a name, a shape, a pose.
 [[nodiscard]] FormatPtr<ObjectDescription> scene_object_format();
 

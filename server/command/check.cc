@@ -1,10 +1,10 @@
 #include <iostream>
 
 #include "core/executive/dry_run.h"
-#include "server/codec/job_codec.h"
 #include "server/codec/json_writer.h"
-#include "server/codec/views.h"
 #include "server/command/command.h"
+#include "server/messages/job.h"
+#include "server/messages/job_request.h"
 #include "server/recording/recording.h"
 
 namespace armloom {
@@ -29,7 +29,7 @@ int check_jobs_file(const CheckOptions& options) {
   for (const CheckedJob& job : *checked) {
     JsonWriter out;
     out.begin_object().field("id", job.key);
-    write_fields(out, job.verdict);
+    verdict_part().write(out, job.verdict);
     out.end_object();
     std::cout << out.text() << '\n';
   }

@@ -33,6 +33,8 @@ int validate_cell(const std::string& cell_file);
 
 // What a cell file may hold: its JSON schema, or the reference for people (config/README.md).
 int print_cell_schema(bool markdown);
+// The description of the HTTP interface (/openapi.json).
+int print_openapi();
 
 // A cell file from a robot's URDF and SRDF, on stdout or in a file; what was chosen and what is
 // wrong with it on stderr. Exit 0: it loads.

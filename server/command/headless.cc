@@ -5,8 +5,8 @@
 #include <set>
 
 #include "core/trajectory/validate.h"
-#include "server/codec/job_codec.h"
 #include "server/command/command.h"
+#include "server/messages/job_request.h"
 #include "server/recording/recording.h"
 
 namespace armloom {

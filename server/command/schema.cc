@@ -2,11 +2,17 @@
 
 #include "server/codec/cell_schema.h"
 #include "server/command/command.h"
+#include "server/openapi/openapi.h"
 
 namespace armloom {
 
 int print_cell_schema(bool markdown) {
   std::cout << (markdown ? cell_reference_text() : cell_schema_text()) << std::flush;
+  return kExitDone;
+}
+
+int print_openapi() {
+  std::cout << openapi_text() << std::flush;
   return kExitDone;
 }
 

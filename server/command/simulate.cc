@@ -3,11 +3,12 @@
 #include <set>
 
 #include "core/executive/simulation.h"
-#include "server/codec/fault_codec.h"
 #include "server/codec/json_writer.h"
-#include "server/codec/views.h"
+#include "server/codec/stream_id.h"
 #include "server/command/command.h"
 #include "server/command/headless.h"
+#include "server/messages/events.h"
+#include "server/messages/fault.h"
 #include "server/recording/recording.h"
 
 namespace armloom {

@@ -7,6 +7,7 @@
 
 #include "core/audit/audit.h"
 #include "core/executive/shape_report.h"
+#include "core/model/findings.h"
 #include "server/command/command.h"
 
 namespace armloom {
@@ -67,8 +68,11 @@ void print_arm(const Cell& cell, const Arm& arm) {
 }
 
 void print_settings(const Cell& cell) {
+  const double mount_m = cell.mount_clearance_m.value_or(cell.clearance_m);
   std::cout << "clearance " << cell.clearance_m << " m, " << cell.self_clearance_m
-            << " m of an arm from itself and its mount\n"
+            << " m of an arm from itself"
+            << (mount_m < cell.clearance_m ? ", " + text_of(mount_m) + " m from its mount" : "")
+            << '\n'
             << "checking: time step " << to_seconds(cell.checking.time_step)
             << " s, tracking error " << cell.checking.tracking_error_rad << " rad, delay "
             << to_seconds(cell.checking.delay) << " s, limit tolerance "

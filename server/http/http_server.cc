@@ -85,10 +85,13 @@ class HttpServer::Impl {
   }
 
   asio::awaitable<void> refuse(tcp::socket socket) {
-    Response full = http_problem(
-        503, "too-many-connections",
-        std::to_string(connections_max_) + " connections are open, more are not served at once");
-    full.headers.emplace_back("Retry-After", "1");
+    Response full = site_.refuse(
+        {503,
+         "too-many-connections",
+         std::to_string(connections_max_) + " connections are open, more are not served at once",
+         std::nullopt,
+         std::nullopt,
+         {{"Retry-After", "1"}}});
     ++refusing_;
     co_await refuse_connection(std::move(socket), std::move(full));
     --refusing_;

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 
-#include "server/codec/json_writer.h"
-#include "server/codec/problem_codec.h"
-
 namespace armloom {
 namespace {
 
@@ -95,23 +92,6 @@ std::optional<Problem> unknown_parameter(const Target& target,
   return std::nullopt;
 }
 
-std::optional<Problem> feed_query_fault(const Target& target, bool with_poses) {
-  std::vector<std::string> known{"stream", "since"};
-  if (with_poses) known.emplace_back("poses");
-  if (auto unknown = unknown_parameter(target, known)) return unknown;
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  const auto since = target.parameter("since");
-  if (since && (since->empty() || !std::ranges::all_of(*since, is_digit))) {
-    return bad_parameter("since", *since,
-                         "since is the number of an event, found \"" + *since + "\"");
-  }
-  const auto poses = target.parameter("poses");
-  if (poses && *poses != "0" && *poses != "1") {
-    return bad_parameter("poses", *poses, "poses is 0 or 1, found \"" + *poses + "\"");
-  }
-  return std::nullopt;
-}
-
 std::string url_segment(std::string_view text) {
   static constexpr char kHex[] = "0123456789ABCDEF";
   std::string out;
@@ -127,29 +107,10 @@ std::string url_segment(std::string_view text) {
   return out;
 }
 
-Response json_response(int status, std::string body) {
-  return Response{status, "application/json", std::move(body), {{"Cache-Control", "no-store"}}};
-}
-
-Response problem_response(const Problems& problems) {
-  return Response{status_of(problems.front().kind),
-                  "application/problem+json",
-                  problem_json(problems),
-                  {{"Cache-Control", "no-store"}}};
-}
-
-Response http_problem(int status, std::string_view slug, std::string_view detail,
-                      const std::optional<std::string>& value) {
-  std::string title(slug);
-  for (char& c : title) {
-    if (c == '-') c = ' ';
-  }
-  JsonWriter out;
-  out.begin_object().field("type", "urn:armloom:problem:" + std::string(slug));
-  out.field("title", title).field("status", status).field("detail", detail);
-  if (value) out.field("value", *value);
-  out.end_object();
-  return Response{status, "application/problem+json", out.take(), {{"Cache-Control", "no-store"}}};
+Refusal refusal_of(int status, const Problem& problem) {
+  const auto* value = std::get_if<std::string>(&problem.value);
+  return Refusal{status, problem.slug, problem.detail, problem.pointer,
+                 value != nullptr ? std::optional(*value) : std::nullopt};
 }
 
 }  // namespace armloom

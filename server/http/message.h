@@ -33,37 +33,31 @@ struct Target {
 [[nodiscard]] std::optional<Problem> unknown_parameter(const Target& target,
                                                        const std::vector<std::string>& known);
 
-// What cannot be right in the query of a reader of the event stream: an unknown parameter, a
-// `since` that is no number, `poses` other than 0 or 1 (which only the events_path has).
-[[nodiscard]] std::optional<Problem> feed_query_fault(const Target& target, bool with_poses);
-
 // `text` as one segment of a path: everything but unreserved characters percent-encoded.
 [[nodiscard]] std::string url_segment(std::string_view text);
+
+// Why a request is refused. Plain data: how it is told is the site's.
+struct Refusal {
+  int status;
+  std::string slug;    // stable name for programs
+  std::string detail;  // one sentence
+  std::optional<std::string> pointer = {};
+  std::optional<std::string> value = {};  // what was found
+  std::vector<std::pair<std::string, std::string>> headers = {};
+};
+[[nodiscard]] Refusal refusal_of(int status, const Problem& problem);
 
 // A whole request, framing checked. Plain data: handlers know nothing of sockets.
 struct Request {
   std::string method;  // "GET"; a HEAD comes as GET, its answer loses the body later
   Target target;
-  std::optional<std::string> content_type;
-  std::optional<std::string> content_encoding;
-  std::string body;
+  std::optional<std::string> content_type = {};
+  std::optional<std::string> content_encoding = {};
+  std::optional<std::string> last_event_id = {};  // of a reader of events who comes back
+  std::optional<Refusal> foreign = {};  // why whoever asks may only read; absent: may command
+  bool upgrade = false;                 // wants a WebSocket
+  std::string body = {};
 };
-
-struct Response {
-  int status = 200;
-  std::string content_type = "application/json";
-  std::string body;
-  std::vector<std::pair<std::string, std::string>> headers;
-};
-[[nodiscard]] Response json_response(int status, std::string body);
-[[nodiscard]] Response problem_response(const Problems& problems);
-// A problem of HTTP itself (405, 426, 431, ...), which has no ProblemKind; with what was found, if
-// that is one thing.
-[[nodiscard]] Response http_problem(int status, std::string_view slug, std::string_view detail,
-                                    const std::optional<std::string>& value = {});
-
-// To be called exactly once, on the server's thread.
-using Respond = std::function<void(Response)>;
 
 // Why a reader of the event stream is sent away.
 struct Farewell {
@@ -89,6 +83,25 @@ class Feed {
 };
 using FeedPtr = std::shared_ptr<Feed>;
 
+// A feed as the answer to a request: on a WebSocket (status 101), or as Server-Sent Events.
+struct EventStream {
+  FeedPtr feed;
+  std::string id;      // stands before the number of each event: "<id>:<seq>"
+  bool frames = true;  // messages without a number, too
+};
+
+struct Response {
+  int status = 200;
+  std::string content_type = "application/json";
+  std::string body = {};
+  std::vector<std::pair<std::string, std::string>> headers = {};
+  std::optional<EventStream> events = {};
+};
+
+// To be called exactly once, on the server's thread.
+using Respond = std::function<void(Response)>;
+using WriteRefusal = std::function<Response(const Refusal&)>;
+
 // By which names the server may be commanded: a page whose name an attacker lets point here is of
 // the same origin to a browser, and only its Host tells. IP addresses and localhost always may.
 struct HostRule {
@@ -96,19 +109,15 @@ struct HostRule {
   bool any_plain = false;          // and every name without a dot: no site on the internet has one
 };
 
-// What the listener serves. All functions are called on the server's thread; the first two answer
-// through their callback, at once or later. Request and target are only valid during the call.
+// What the listener serves. All functions are called on the server's thread; `handle` answers
+// through its callback, at once or later. The request is only valid during the call.
 struct Site {
   std::function<void(const Request&, Respond)> handle;
-  // `?stream=&since=` resume; else the feed begins with a snapshot.
-  std::function<void(const Target&, std::function<void(FeedPtr)>)> subscribe;
+  WriteRefusal refuse;  // what is wrong with HTTP itself: framing, limits, targets
   // The server is asked to end: bring everything to rest, then call `done` (from any thread).
   std::function<void(std::function<void()> done)> wind_down;
-  std::function<void()> end;  // the server ends: every feed says farewell
-  std::string feed_path;      // WebSocket upgrades are accepted here and nowhere else
-  std::string events_path;    // the same feed as Server-Sent Events
-  std::string stream;         // stands in the ids of those events
-  HostRule hosts;             // by which names commands may come
+  std::function<void()> end;                     // the server ends: every feed says farewell
+  HostRule hosts;                                // by which names commands may come
   std::chrono::milliseconds keep_alive{15'000};  // no event for so long: a comment line is sent
   std::chrono::milliseconds send_time{30'000};   // that one such event may take; then it is cut
 };

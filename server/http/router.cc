@@ -22,7 +22,7 @@ std::optional<Router::Arguments> match(const std::vector<std::string>& pattern,
   if (pattern.size() != path.size()) return std::nullopt;
   Router::Arguments arguments;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    if (pattern[i] == "{}" && !path[i].empty()) {
+    if (pattern[i].starts_with('{') && !path[i].empty()) {
       arguments.push_back(path[i]);
     } else if (pattern[i] != path[i]) {
       return std::nullopt;
@@ -33,47 +33,46 @@ std::optional<Router::Arguments> match(const std::vector<std::string>& pattern,
 
 }  // namespace
 
-void Router::add(std::string method, std::string_view pattern, Answer answer,
+void Router::add(std::string method, std::string_view pattern, Who who, Answer answer,
                  std::vector<std::string> parameters) {
-  routes_.push_back(
-      Route{std::move(method), segments_of(pattern), std::move(answer), std::move(parameters)});
+  routes_.push_back(Route{std::move(method), segments_of(pattern), who, std::move(answer),
+                          std::move(parameters)});
 }
 
-std::vector<std::string> Router::routes() const {
-  std::vector<std::string> names;
+std::string Router::allowed_at(const std::vector<std::string>& path) const {
+  std::string allow;
   for (const Route& route : routes_) {
-    std::string name = route.method + " ";
-    for (const std::string& segment : route.segments) name += "/" + segment;
-    names.push_back(std::move(name));
+    if (!match(route.segments, path)) continue;
+    allow += (allow.empty() ? "" : ", ") + route.method + (route.method == "GET" ? ", HEAD" : "");
   }
-  return names;
+  return allow;
 }
 
 void Router::dispatch(const Request& request, Respond respond) const {
   const std::vector<std::string> path = segments_of(request.target.path);
-  std::string allow;
   for (const Route& route : routes_) {
+    if (route.method != request.method) continue;
     const auto arguments = match(route.segments, path);
     if (!arguments) continue;
-    if (route.method == request.method) {
-      if (auto unknown = unknown_parameter(request.target, route.parameters)) {
-        return respond(problem_response({std::move(*unknown)}));
-      }
-      return route.answer(request, *arguments, respond);
+    if (route.who == Who::own && request.foreign) return respond(refuse_(*request.foreign));
+    if (const auto unknown = unknown_parameter(request.target, route.parameters)) {
+      return respond(refuse_(refusal_of(400, *unknown)));
     }
-    allow += (allow.empty() ? "" : ", ") + route.method + (route.method == "GET" ? ", HEAD" : "");
+    return route.answer(request, *arguments, respond);
   }
+  if (request.foreign && request.method != "GET") return respond(refuse_(*request.foreign));
+  const std::string allow = allowed_at(path);
   if (!allow.empty()) {
-    Response refused =
-        http_problem(405, "method-not-allowed",
-                     request.method + " is not served here; allowed: " + allow, request.method);
-    refused.headers.emplace_back("Allow", allow);
-    return respond(std::move(refused));
+    return respond(refuse_({405,
+                            "method-not-allowed",
+                            request.method + " is not served here; allowed: " + allow,
+                            std::nullopt,
+                            request.method,
+                            {{"Allow", allow}}}));
   }
   if (otherwise_) return otherwise_(request, {}, respond);
-  respond(problem_response(
-      {Problem{ProblemKind::not_found, "not-found", "request target",
-               "nothing is served at " + request.target.path, request.target.path}}));
+  respond(refuse_({404, "not-found", "nothing is served at " + request.target.path,
+                   "request target", request.target.path}));
 }
 
 }  // namespace armloom

@@ -47,60 +47,46 @@ FramingFields framing_of(const RequestMessage& message) {
 }
 
 // What must be refused before the body is read; the connection ends with it.
-std::optional<Response> header_refusal(const RequestMessage& message) {
+std::optional<Refusal> header_refusal(const RequestMessage& message) {
   if (const auto fault = framing_fault(framing_of(message))) {
-    return http_problem(400, "bad-request", fault->detail, fault->value);
+    return Refusal{400, "bad-request", fault->detail, std::nullopt, fault->value};
   }
   const auto expect = message.find(http::field::expect);
   if (expect != message.end() && !beast::iequals(expect->value(), "100-continue")) {
-    return http_problem(417, "expectation-failed", "the only Expect served is 100-continue",
-                        std::string(expect->value()));
+    return Refusal{417, "expectation-failed", "the only Expect served is 100-continue",
+                   std::nullopt, std::string(expect->value())};
   }
   return std::nullopt;
 }
 
-// A browser names the page that asks: other sites may read, but not change anything, nor listen.
-// Nor may a page whose own name was made to point here; to a browser it is of the same origin.
-std::optional<Response> origin_refusal(const RequestMessage& message, const Site& site,
-                                       bool upgrade) {
-  const bool safe = message.method() == http::verb::get || message.method() == http::verb::head;
-  if (safe && !upgrade) return std::nullopt;
+// Why whoever asks may only read. A browser names the page that asks: other sites may not change
+// anything, nor listen. Nor may a page whose own name was made to point here; to a browser it is of
+// the same origin.
+std::optional<Refusal> foreign_asker(const RequestMessage& message, const HostRule& hosts) {
   const auto authority = message.find(http::field::host);
   const std::string host = authority == message.end() ? "" : host_of(view(authority->value()));
-  if (authority != message.end() && !may_command(host, site.hosts)) {
-    return http_problem(403, "foreign-host",
-                        "commands may come to an IP address, to localhost and to the names given "
-                        "with --allow-host, not to \"" +
-                            host + "\"",
-                        host);
+  if (authority != message.end() && !may_command(host, hosts)) {
+    return Refusal{403, "foreign-host",
+                   "commands may come to an IP address, to localhost and to the names given with "
+                   "--allow-host, not to \"" +
+                       host + "\"",
+                   std::nullopt, host};
   }
   const auto origin = message.find(http::field::origin);
   if (origin == message.end()) return std::nullopt;
   if (same_origin(view(origin->value()), view(message[http::field::host]))) return std::nullopt;
-  return http_problem(403, "foreign-origin", "pages of another site may not command this server",
-                      std::string(origin->value()));
+  return Refusal{403, "foreign-origin", "pages of another site may not command this server",
+                 std::nullopt, std::string(origin->value())};
 }
 
-// A query that no reader of the event stream can mean.
-std::optional<Response> feed_refusal(const Target& target, const Site& site) {
-  if (target.path != site.feed_path && target.path != site.events_path) return std::nullopt;
-  auto fault = feed_query_fault(target, target.path == site.events_path);
-  if (!fault) return std::nullopt;
-  return problem_response({std::move(*fault)});
-}
-
-Response response_to_error(ErrorCode ec) {
+Refusal refusal_of_error(ErrorCode ec) {
   if (ec == http::error::body_limit) {
-    return problem_response({Problem{ProblemKind::too_large,
-                                     "body-too-large",
-                                     "request body",
-                                     "a body may have at most 8 MiB",
-                                     {}}});
+    return {413, "body-too-large", "a body may have at most 8 MiB", "request body"};
   }
   if (ec == http::error::header_limit) {
-    return http_problem(431, "header-too-large", "the header may have at most 16 KiB");
+    return {431, "header-too-large", "the header may have at most 16 KiB"};
   }
-  return http_problem(400, "bad-request", "this is not HTTP/1.1: " + ec.message());
+  return {400, "bad-request", "this is not HTTP/1.1: " + ec.message()};
 }
 
 // One connection, with what its requests share.
@@ -156,29 +142,27 @@ asio::awaitable<Response> answer(const Site& site, const Request& request) {
   ErrorCode ignored;
   if (!pending->response) co_await pending->arrived.async_wait(into(ignored));
   if (pending->response) co_return std::move(*pending->response);
-  co_return http_problem(503, "no-answer", "the server did not answer in time");
+  co_return site.refuse({503, "no-answer", "the server did not answer in time"});
 }
 
-asio::awaitable<Response> respond_to(const Site& site, RequestMessage& message) {
+std::optional<std::string> field(const RequestMessage& message, beast::string_view name) {
+  const auto it = message.find(name);
+  return it == message.end() ? std::nullopt : std::optional(std::string(it->value()));
+}
+
+asio::awaitable<Response> respond_to(const Site& site, RequestMessage& message, bool upgrade) {
   auto target = parse_target(view(message.target()));
-  if (!target) co_return problem_response(target.error());
-  if (auto refused = origin_refusal(message, site, false)) co_return std::move(*refused);
-  if (auto refused = feed_refusal(*target, site)) co_return std::move(*refused);
+  if (!target) co_return site.refuse(refusal_of(400, target.error().front()));
   Request request;
   request.method =
       message.method() == http::verb::head ? "GET" : std::string(message.method_string());
   request.target = std::move(*target);
-  if (const auto type = message.find(http::field::content_type); type != message.end()) {
-    request.content_type = std::string(type->value());
-  }
-  const auto encoding = message.find(http::field::content_encoding);
-  if (encoding != message.end()) request.content_encoding = std::string(encoding->value());
+  request.content_type = field(message, "Content-Type");
+  request.content_encoding = field(message, "Content-Encoding");
+  request.last_event_id = field(message, "Last-Event-ID");
+  request.foreign = foreign_asker(message, site.hosts);
+  request.upgrade = upgrade;
   request.body = std::move(message.body());
-  if (request.target.path == site.feed_path && request.method == "GET") {
-    Response refused = http_problem(426, "upgrade-required", "this is a WebSocket");
-    refused.headers.emplace_back("Upgrade", "websocket");
-    co_return refused;
-  }
   co_return co_await answer(site, request);
 }
 
@@ -211,27 +195,16 @@ bool is_silent_end(ErrorCode ec) {
          ec == http::error::end_of_stream || ec == http::error::partial_message;
 }
 
-bool wants_feed(const RequestMessage& message, const Site& site) {
-  if (!beast::websocket::is_upgrade(message) || message.has_content_length()) return false;
-  const std::string_view target = view(message.target());
-  return target.substr(0, target.find('?')) == site.feed_path;
+// Whether the request, its header read, wants to go on as a WebSocket: it has no body.
+bool is_handshake(const RequestParser& parser) {
+  return beast::websocket::is_upgrade(parser.get()) && !parser.get().has_content_length() &&
+         parser.is_done();
 }
 
-bool wants_events(const RequestMessage& message, const Site& site) {
-  const std::string_view target = view(message.target());
-  return message.method() == http::verb::get &&
-         target.substr(0, target.find('?')) == site.events_path;
-}
-
-// Answers with the event stream until it ends, and the connection with it.
-asio::awaitable<bool> serve_events(Connection& connection, const RequestMessage& message,
-                                   const Site& site) {
-  auto target = parse_target(view(message.target()));
-  if (!target || feed_refusal(*target, site)) co_return false;
-  const auto last_event = message.find("Last-Event-ID");
-  if (last_event != message.end()) resume_after(view(last_event->value()), *target);
-  co_await serve_event_stream(std::move(connection.stream), std::move(*target), site);
-  co_return true;
+asio::awaitable<void> refuse(Connection& connection, Response why) {
+  ErrorCode ec;
+  co_await send(connection, std::move(why), 11, false, false, ec);
+  if (!ec) co_await linger(connection);
 }
 
 // One request and its answer. Whether another may follow on the connection.
@@ -240,36 +213,31 @@ asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
   RequestParser parser;
   parser.body_limit(kBodyMax);
   parser.header_limit(static_cast<std::uint32_t>(kHeaderMax));
-  std::optional<Response> refusal;
+  std::optional<Refusal> refusal;
   co_await read_header(connection, parser, ec);
   if (!ec) refusal = header_refusal(parser.get());
-  if (!ec && !refusal && wants_feed(parser.get(), site)) {
-    refusal = origin_refusal(parser.get(), site, true);
-    auto target = parse_target(view(parser.get().target()));
-    if (!refusal && target) refusal = feed_refusal(*target, site);
-    if (!refusal && target) {
-      co_await serve_websocket(std::move(connection.stream), parser.release(), std::move(*target),
-                               site);
-      co_return false;
-    }
-  }
-  if (!ec && !refusal) co_await read_body(connection, parser, ec);
+  const bool upgrade = !ec && !refusal && is_handshake(parser);
+  if (!ec && !refusal && !upgrade) co_await read_body(connection, parser, ec);
   if (ec && is_silent_end(ec)) co_return false;
-  if (ec) refusal = response_to_error(ec);
+  if (ec) refusal = refusal_of_error(ec);
   if (refusal) {
-    ErrorCode ignored;
-    co_await send(connection, std::move(*refusal), 11, false, false, ignored);
-    co_await linger(connection);
+    co_await refuse(connection, site.refuse(*refusal));
     co_return false;
   }
   RequestMessage message = parser.release();
-  if (wants_events(message, site) && co_await serve_events(connection, message, site)) {
-    co_return false;
-  }
-  const bool keep_alive = message.keep_alive();
+  const bool keep_alive = message.keep_alive() && !upgrade;
   const bool without_body = message.method() == http::verb::head;
   const unsigned version = message.version();
-  Response response = co_await respond_to(site, message);
+  Response response = co_await respond_to(site, message, upgrade);
+  if (response.events && response.status == 101) {
+    co_await serve_websocket(std::move(connection.stream), std::move(message),
+                             std::move(*response.events));
+    co_return false;
+  }
+  if (response.events && !without_body) {
+    co_await serve_event_stream(std::move(connection.stream), std::move(*response.events), site);
+    co_return false;
+  }
   co_await send(connection, std::move(response), version, keep_alive, without_body, ec);
   if (!ec && !keep_alive) co_await linger(connection);
   co_return !ec && keep_alive;
@@ -287,9 +255,7 @@ asio::awaitable<void> serve_connection(tcp::socket socket, const Site& site) {
 
 asio::awaitable<void> refuse_connection(tcp::socket socket, Response why) {
   Connection connection(std::move(socket));
-  ErrorCode ec;
-  co_await send(connection, std::move(why), 11, false, false, ec);
-  if (!ec) co_await linger(connection);
+  co_await refuse(connection, std::move(why));
 }
 
 }  // namespace armloom

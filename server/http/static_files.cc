@@ -60,21 +60,22 @@ fs::path file_inside(const fs::path& folder, const fs::path& relative) {
 
 Response StaticFiles::answer(const Request& request) const {
   if (request.method != "GET") {
-    Response refused =
-        http_problem(405, "method-not-allowed", "files can only be read", request.method);
-    refused.headers.emplace_back("Allow", "GET, HEAD");
-    return refused;
+    return refuse_({405,
+                    "method-not-allowed",
+                    "files can only be read",
+                    std::nullopt,
+                    request.method,
+                    {{"Allow", "GET, HEAD"}}});
   }
   const std::string& path = request.target.path;
   const fs::path file = file_inside(folder_, path == "/" ? "index.html" : path.substr(1));
   std::ifstream in(file, std::ios::binary);
   if (file.empty() || !in) {
     const bool no_dashboard = path == "/";
-    return problem_response(
-        {Problem{ProblemKind::not_found, "not-found", "request target",
-                 no_dashboard ? "the dashboard is not built; ./server/run builds it"
-                              : "nothing is served at " + path,
-                 path}});
+    return refuse_({404, "not-found",
+                    no_dashboard ? "the dashboard is not built; ./server/run builds it"
+                                 : "nothing is served at " + path,
+                    "request target", path});
   }
   Response response;
   response.content_type = type_of(file);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <utility>
 
 #include "server/http/message.h"
 
@@ -13,11 +14,13 @@ namespace armloom {
 class StaticFiles {
  public:
   // A folder that does not exist (yet) is looked for again at each request.
-  explicit StaticFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  StaticFiles(std::filesystem::path folder, WriteRefusal refuse)
+      : folder_(std::move(folder)), refuse_(std::move(refuse)) {}
   [[nodiscard]] Response answer(const Request& request) const;
 
  private:
   std::filesystem::path folder_;
+  WriteRefusal refuse_;
 };
 
 }  // namespace armloom

@@ -9,11 +9,10 @@
 
 namespace armloom {
 
-// Accepts the upgrade, subscribes and sends what the feed has until either side ends it. What the
-// client sends is read and ignored. A feed that says farewell is closed with that reason.
+// Accepts the upgrade and sends what the feed has until either side ends it. What the client sends
+// is read and ignored. A feed that says farewell is closed with that reason.
 asio::awaitable<void> serve_websocket(
     boost::beast::tcp_stream stream,
-    boost::beast::http::request<boost::beast::http::string_body> upgrade, Target target,
-    const Site& site);
+    boost::beast::http::request<boost::beast::http::string_body> upgrade, EventStream events);
 
 }  // namespace armloom

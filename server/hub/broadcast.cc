@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/codec/views.h"
+#include "server/messages/events.h"
 
 namespace armloom {
 

@@ -1,35 +1,194 @@
 #include "server/openapi/openapi.h"
 
+#include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 
-#include "server/codec/cell_schema.h"
+#include "server/api/route.h"
+#include "server/codec/schema_names.h"
+#include "server/codec/value_formats.h"
+#include "server/messages/events.h"
+#include "server/messages/problem.h"
 
 namespace armloom {
 namespace {
 
-Response page(const char* content_type, std::string_view text) {
-  return Response{200, content_type, std::string(text), {{"Cache-Control", "no-cache"}}};
+constexpr const char* kSchemas = "#/components/schemas/";
+
+// What may be refused: by status, the name of the response and what it means.
+struct RefusalText {
+  const char* name;
+  const char* text;
+};
+const std::map<int, RefusalText>& refusal_texts() {
+  static const std::map<int, RefusalText> texts{
+      {400, {"BadRequest", "The request, its target or its JSON cannot be read"}},
+      {403,
+       {"ForeignOrigin",
+        "A page of another site may not command this server, nor may a Host that is neither an IP "
+        "address nor localhost nor given with --allow-host"}},
+      {404, {"NotFound", "There is no such thing"}},
+      {409, {"Conflict", "It contradicts the present state"}},
+      {413, {"TooLarge", "Over a stated bound: 8 MiB, 10,000 waypoints"}},
+      {415, {"WrongMediaType", "The body must be application/json"}},
+      {417, {"ExpectationFailed", "The only Expect served is 100-continue"}},
+      {422,
+       {"Unprocessable",
+        "It can be read but can never be right: the place and the value found are named"}},
+      {426, {"UpgradeRequired", "Not a WebSocket handshake"}},
+      {431, {"HeaderTooLarge", "A header of more than 16 KiB"}},
+      {503,
+       {"Unavailable",
+        "Right, but not now: the queue is full, the server ends, or too many connections are "
+        "open"}}};
+  return texts;
+}
+
+Schema header() {
+  return {
+      {"title", "Armloom"},
+      {"version", "1"},
+      {"summary", "An execution server for robot cells in which several arms share one workspace."},
+      {"description",
+       "Clients post joint trajectories; each one starts the moment it is safe beside "
+       "everything that is already moving, or waits in the backlog with the reason.\n\nLengths "
+       "are in m, angles in rad, times in s (keys end in `_s`, cell time) or RFC 3339 (`_at`, "
+       "wall time). Every path also answers HEAD where it answers GET, and 405 with `Allow` "
+       "otherwise. Errors are RFC 9457 problem documents that name the place and the value "
+       "found."},
+      {"license", {{"name", "BSD-3-Clause"}, {"identifier", "BSD-3-Clause"}}}};
+}
+
+Schema tags() {
+  const std::pair<const char*, const char*> all[] = {
+      {"jobs", "Trajectories to be executed"},
+      {"arms", "Where they are; stop and resume"},
+      {"scene", "Objects that may be in the way"},
+      {"events", "Everything that happens, live"},
+      {"cell", "What the cell consists of"},
+      {"simulation", "Speed and faults of simulated arms"},
+      {"service", "The server itself"}};
+  Schema list = Schema::array();
+  for (const auto& [name, text] : all) list.push_back({{"name", name}, {"description", text}});
+  return list;
+}
+
+Schema parameters_of(const Route& route) {
+  Schema list = Schema::array();
+  std::size_t open = 0;
+  while ((open = route.path.find('{', open)) != std::string::npos) {
+    const std::size_t close = route.path.find('}', open);
+    list.push_back({{"name", route.path.substr(open + 1, close - open - 1)},
+                    {"in", "path"},
+                    {"required", true},
+                    {"schema", {{"type", "string"}}}});
+    open = close;
+  }
+  for (const Parameter& parameter : route.parameters) {
+    Schema one{{"name", parameter.name}, {"in", parameter.in}, {"description", parameter.text}};
+    if (parameter.required) one["required"] = true;
+    one["schema"] = parameter.schema;
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+Schema body_of(const Body& body) {
+  Schema examples = Schema::object();
+  for (const auto& [name, text] : body.examples) examples[name]["value"] = Schema::parse(text);
+  return {{"required", true},
+          {"content", {{"application/json", {{"schema", body.schema}, {"examples", examples}}}}}};
+}
+
+Schema outcome_of(const Outcome& outcome) {
+  Schema response{{"description", outcome.text}};
+  for (const auto& [type, schema] : outcome.content) response["content"][type]["schema"] = schema;
+  if (outcome.has_location) {
+    response["headers"]["Location"] = {{"description", "Where it can be read"},
+                                       {"schema", {{"type", "string"}}}};
+  }
+  return response;
+}
+
+Schema responses_of(const Route& route) {
+  std::map<int, Schema> by_status;
+  for (const Outcome& outcome : route.outcomes) by_status[outcome.status] = outcome_of(outcome);
+  std::vector<int> refused = common_refusals(route);
+  refused.insert(refused.end(), route.refuses.begin(), route.refuses.end());
+  for (const int status : refused) {
+    by_status[status] = {
+        {"$ref", std::string("#/components/responses/") + refusal_texts().at(status).name}};
+  }
+  Schema responses = Schema::object();
+  for (auto& [status, response] : by_status) {
+    responses[std::to_string(status)] = std::move(response);
+  }
+  return responses;
+}
+
+Schema operation_of(const Route& route) {
+  Schema operation{{"operationId", route.id}, {"tags", {route.tag}}, {"summary", route.summary}};
+  operation["description"] = route.text.empty() ? route.summary : route.text;
+  if (Schema parameters = parameters_of(route); !parameters.empty()) {
+    operation["parameters"] = std::move(parameters);
+  }
+  if (route.reads) operation["requestBody"] = body_of(*route.reads);
+  operation["responses"] = responses_of(route);
+  return operation;
+}
+
+Schema paths() {
+  Schema paths = Schema::object();
+  for (const Route& route : all_routes()) {
+    std::string method = route.method;
+    std::ranges::transform(method, method.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    paths[route.path][method] = operation_of(route);
+  }
+  return paths;
+}
+
+Schema refusals() {
+  Schema responses = Schema::object();
+  for (const auto& [status, refusal] : refusal_texts()) {
+    responses[refusal.name] = {
+        {"description", refusal.text},
+        {"content",
+         {{"application/problem+json", {{"schema", problem_format()->schema(Way::out)}}}}}};
+  }
+  return responses;
+}
+
+// How readers tell messages apart.
+void add_discriminator(Schema& message) {
+  Schema mapping = Schema::object();
+  for (const auto& [type, name] : message_types()) mapping[type] = kSchemas + name;
+  message["discriminator"] = {{"propertyName", "type"}, {"mapping", std::move(mapping)}};
 }
 
 }  // namespace
 
-void add_openapi_routes(Router& router) {
-  router.add("GET", "/openapi.json", [](const Request&, const Router::Arguments&, Respond respond) {
-    respond(page("application/json", openapi_json()));
-  });
-  router.add("GET", "/cell.schema.json",
-             [](const Request&, const Router::Arguments&, Respond respond) {
-               respond(page("application/schema+json", cell_schema_text()));
-             });
-  router.add("GET", "/docs", [](const Request&, const Router::Arguments&, Respond respond) {
-    Response response = page("text/html; charset=utf-8", docs_html());
-    response.headers.emplace_back(
-        "Content-Security-Policy",
-        "default-src 'none'; connect-src 'self'; script-src 'unsafe-inline'; "
-        "style-src 'unsafe-inline'; img-src data:");
-    respond(std::move(response));
-  });
+const Schema& openapi_document() {
+  static const Schema document = [] {
+    Schema schemas = Schema::object();
+    Schema whole{{"openapi", "3.1.0"},
+                 {"info", header()},
+                 {"servers", Schema::array({{{"url", "/"}}})},
+                 {"security", Schema::array()},  // whoever reaches it may use it
+                 {"tags", tags()}};
+    whole["paths"] = refer_to_names(paths(), kSchemas, schemas);
+    const Schema responses = refer_to_names(refusals(), kSchemas, schemas);
+    add_discriminator(schemas["Message"]);
+    whole["components"] = {{"schemas", std::move(schemas)}, {"responses", responses}};
+    return whole;
+  }();
+  return document;
+}
+
+const std::string& openapi_text() {
+  static const std::string text = openapi_document().dump(2) + "\n";
+  return text;
 }
 
 }  // namespace armloom

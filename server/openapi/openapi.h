@@ -1,18 +1,18 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
-#include "server/http/router.h"
+#include "server/codec/format.h"
 
 namespace armloom {
 
-// The description of the whole interface (OpenAPI 3.1) and a page that renders it, both built into
-// the program from the files beside this one. test/openapi holds the description against a running
-// server: every route, every answer, every message.
-[[nodiscard]] std::string_view openapi_json();
-[[nodiscard]] std::string_view docs_html();
+// The description of the whole interface (OpenAPI 3.1): made from the routes (api/route.h) and the
+// formats of the messages that they name. test/openapi holds it against a running server.
+[[nodiscard]] const Schema& openapi_document();
+[[nodiscard]] const std::string& openapi_text();
 
-// GET /openapi.json, GET /cell.schema.json, GET /docs
-void add_openapi_routes(Router& router);
+// The page that renders it, built into the program from the file beside this one.
+[[nodiscard]] std::string_view docs_html();
 
 }  // namespace armloom

@@ -136,10 +136,7 @@ test('the diagram of two jobs that cross is red where they conflict', { timeout:
     const rest = q.map(() => 0);
     const point = (positions, sec) => ({ positions, velocities: rest, accelerations: rest, time_from_start: { sec, nanosec: 0 } });
     const points = [point(q, 0), point(kMiddle, seconds), point(q, 2 * seconds)];
-    await page.evaluate(async (body) => {
-      const answer = await fetch('/api/v1/jobs', { method: 'POST', headers: { 'content-type': 'application/json' }, body });
-      if (answer.status !== 202) throw new Error(await answer.text());
-    }, JSON.stringify({ id, trajectory: { joint_names: names, points } }));
+    await post({ id, trajectory: { joint_names: names, points } });
   };
   await reach('cross-left', 'left', 10);
   await page.locator('[data-test=list-running] [data-test="job-cross-left"]').waitFor();
@@ -198,6 +195,38 @@ test('a refused job shows the place of the fault in the form', { timeout: 30_000
   await page.screenshot(path_for('refused'));
 });
 
+// Two programs that never rest take both cores, arms move and are drawn in software: the view gives way.
+test('stop answers within a second on a busy machine', { timeout: 120_000 }, async () => {
+  const { names, q } = await left_arm();
+  const others = [1, 2].map(() => spawn(process.execPath, ['-e', 'for (;;);']));
+  try {
+    await post({ ...swing_job('busy-there', names, q, 0.5, 30) });
+    await page.locator('[data-test=list-running] [data-test="job-busy-there"]').waitFor({ timeout: 40_000 });
+    // The view has seen some slow drawings.
+    await page.waitForFunction((from) => window.armloom.pictures() >= from + 6, await page.evaluate(() => window.armloom.pictures()), { timeout: 60_000 });
+    const button = await page.getByRole('button', { name: 'Stop', exact: true }).boundingBox();
+    // From the click as the browser got it to the mark on the page, in the browser's own time.
+    const answered = page.evaluate(() => new Promise((done) => {
+      let clicked_ms = 0;
+      window.addEventListener('click', (event) => { clicked_ms = event.timeStamp; }, { capture: true, once: true });
+      new MutationObserver((changes, observer) => {
+        if (!document.querySelector('[data-test=stopped]')) return;
+        observer.disconnect();
+        done(performance.now() - clicked_ms);
+      }).observe(document.body, { childList: true, subtree: true });
+    }));
+    await page.mouse.click(button.x + button.width / 2, button.y + button.height / 2);
+    const took_ms = await answered;
+    console.log(`Stop answered in ${took_ms.toFixed(0)} ms, the view drawn at ${await page.evaluate(() => JSON.stringify(window.armloom.level()))}`);
+    assert.ok(took_ms < 1000, `Stop answered in ${took_ms.toFixed(0)} ms`);
+  } finally {
+    for (const other of others) other.kill('SIGKILL');
+  }
+  await ask_status('DELETE', '/jobs/busy-there');
+  await page.getByRole('button', { name: 'Resume', exact: true }).click();
+  await page.locator('[data-test=list-finished] [data-test="job-busy-there"]').waitFor();
+});
+
 test('stop holds the cell and resume frees it', { timeout: 30_000 }, async () => {
   await page.getByRole('button', { name: 'Stop', exact: true }).click();
   await page.locator('[data-test=stopped]').waitFor();
@@ -222,6 +251,14 @@ async function send(job) {
   await page.locator('[data-test=job-text]').fill(JSON.stringify(job, null, 1));
   await page.locator('[data-test=send]').click();
 }
+
+const post = (job) => page.evaluate(async (body) => {
+  const answer = await fetch('/api/v1/jobs', { method: 'POST', headers: { 'content-type': 'application/json' }, body });
+  if (answer.status !== 202) throw new Error(await answer.text());
+}, JSON.stringify(job));
+
+const ask_status = (method, path) =>
+  page.evaluate(async ([method, path]) => (await fetch(`/api/v1${path}`, { method })).status, [method, path]);
 
 /** Asks the server for a change of the scene, and waits until the page knows so many objects. */
 async function ask(method, path, body, count) {

@@ -4,9 +4,10 @@
 
 namespace armloom::small {
 
-enum class As { object, link };
+enum class As { object, link, mount };
 
-// Two arms of two joints in one plane, and a wall beside them; the mount of the first has a shape.
+// Two arms of two joints in one plane, and a wall beside them: an object, a link, or the link that
+// carries the first arm, whose mount has a shape of its own too.
 inline CellPtr walled(As as) {
   Cell cell;
   const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
@@ -18,12 +19,16 @@ inline CellPtr walled(As as) {
     Link link = static_link("wall", RobotId{0}, X_WT);
     add_shape(link, wall, Eigen::Isometry3d::Identity());
     add_link(cell, link);
-  } else {
+  } else if (as == As::object) {
     cell.objects.push_back({"wall", wall, X_WT});
   }
   add_robot(cell, "a", at_xyz(0, 0, 0), {kZ, kZ}, 0.3, 0.03);
   const LinkId base = *cell.find_link("a_base");
   add_shape(cell.links[base.index()], Cylinder{0.02, 0.3}, at_xyz(0, 0, -0.2));
+  if (as == As::mount) {
+    add_shape(cell.links[base.index()], wall, X_WT);
+    cell.links[base.index()].name = "wall";
+  }
   add_robot(cell, "b", at_xyz(1.1, 0, 0), {kZ, kZ}, 0.3, 0.03);
   for (Link& link : cell.links) link.robot = RobotId{0};  // one URDF for both
   for (Arm& arm : cell.arms) arm.robot = RobotId{0};

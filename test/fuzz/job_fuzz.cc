@@ -6,8 +6,8 @@
 #include "core/model/build_cell.h"
 #include "core/trajectory/validate.h"
 #include "server/codec/cell_codec.h"
-#include "server/codec/fault_codec.h"
-#include "server/codec/job_codec.h"
+#include "server/messages/fault.h"
+#include "server/messages/job_request.h"
 #include "test/fuzz/problems.h"
 
 // The bodies of POST /jobs, /batches, /sim/faults and a jobs file: shape, then validate() of each

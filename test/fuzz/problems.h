@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/problem.h"
-#include "server/codec/problem_codec.h"
+#include "server/messages/problem.h"
 #include "test/fuzz/fuzz.h"
 
 namespace armloom::fuzz {

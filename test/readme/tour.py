@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Executes the README's examples as they stand: "Your own robot", where that robot's files are
+"""Executes the examples of the README and of the server's as they stand: "Your own robot", where that robot's files are
 there, and those with curl, comparing what comes back.
 
     test/readme/tour.py ARMLOOM
@@ -24,9 +24,9 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 MARK = "==== end of block ===="
 
 
-def blocks(readme):
-    """The (commands, expected values) of the tour and of the rest of the API, in order."""
-    tour = readme.split("## A tour with curl")[1].split("\n## Cells and robots")[0]
+def blocks(readme, heading):
+    """The (commands, expected values) of a section, in order."""
+    tour = readme.split(f"## {heading}\n")[1].split("\n## ")[0]
     found = re.findall(r"```sh\n(.*?)```\n```json\n(.*?)```", tour, re.S)
     return [(commands, list(values(expected))) for commands, expected in found]
 
@@ -131,9 +131,10 @@ def main():
         if probe.returncode == 0:
             os.execvpe("unshare", inside, dict(os.environ, ARMLOOM_TOUR_INSIDE="1"))
     readme = (TOP / "README.md").read_text()
-    tour = blocks(readme)
+    api = (TOP / "server/README.md").read_text()
+    tour = blocks(readme, "A tour with curl") + blocks(api, "The API")
     if len(tour) < 13:
-        sys.exit(f"only {len(tour)} blocks found in the README")
+        sys.exit(f"only {len(tour)} blocks found in the READMEs")
     failed = own_robot(readme, sys.argv[1])
     server = subprocess.Popen([sys.argv[1], "serve", "--cell", TOP / "config/two_pandas.json"],
                               stdout=subprocess.DEVNULL)

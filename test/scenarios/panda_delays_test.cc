@@ -9,7 +9,7 @@
 #include "core/audit/audit.h"
 #include "core/model/build_cell.h"
 #include "server/codec/cell_codec.h"
-#include "server/codec/job_codec.h"
+#include "server/messages/job_request.h"
 #include "test/scenarios/random_faults.h"
 #include "test/scenarios/seeds.h"
 

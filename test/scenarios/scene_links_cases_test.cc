@@ -1,4 +1,5 @@
-// A wall as a link of the arms' URDF and as an object of the cell: the same stops and figures.
+// A wall as a link of the arms' URDF, as the link that carries one, and as an object of the cell:
+// the same stops and figures.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,6 +59,9 @@ struct WalledRun {
   RunFigures figures{};
 };
 
+// Where the wall carries the arm, its pedestal is of the same link.
+std::string named(const std::string& body) { return body == "a_base" ? "wall" : body; }
+
 void expect_same(const WalledRun& link, const WalledRun& object) {
   EXPECT_EQ(link.job.state, object.job.state);
   EXPECT_EQ(link.figures.monitor_stops, object.figures.monitor_stops);
@@ -66,6 +70,7 @@ void expect_same(const WalledRun& link, const WalledRun& object) {
   for (std::size_t i = 0; i < link.seen.found.size(); ++i) {
     EXPECT_EQ(link.seen.found[i].finding.time, object.seen.found[i].finding.time);
     EXPECT_EQ(link.seen.found[i].stopped, object.seen.found[i].stopped);
+    EXPECT_EQ(link.seen.found[i].finding.limit_m, object.seen.found[i].finding.limit_m);
     EXPECT_EQ(link.seen.found[i].finding.proximity.body_b,
               object.seen.found[i].finding.proximity.body_b);
   }
@@ -75,48 +80,55 @@ void expect_same(const WalledRun& link, const WalledRun& object) {
     const auto& b = object.seen.frames[i].clearance;
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) {
-      EXPECT_EQ(a[k].body_b, b[k].body_b);
+      EXPECT_EQ(named(a[k].body_b), named(b[k].body_b));
       EXPECT_DOUBLE_EQ(a[k].clearance_m, b[k].clearance_m);
     }
   }
 }
 
 TEST(SceneLinks, StopTheArmWhereTheSameObjectDoes) {
-  const WalledRun link(As::link, 0.005, "timed_discrete");
-  const WalledRun object(As::object, 0.005, "timed_discrete");
-  expect_same(link, object);
-  ASSERT_FALSE(link.seen.found.empty());  // again while it comes closer as it brakes
-  EXPECT_EQ(link.seen.found[0].finding.proximity.body_b, "wall");
-  EXPECT_EQ(link.seen.found[0].stopped, std::vector<std::string>{"a"});
-  EXPECT_EQ(link.figures.monitor_stops, link.seen.found.size());
-  EXPECT_LT(link.figures.min_clearance_m, 0.01);
+  for (const As as : {As::link, As::mount}) {
+    const WalledRun link(as, 0.005, "timed_discrete");
+    const WalledRun object(As::object, 0.005, "timed_discrete");
+    expect_same(link, object);
+    ASSERT_FALSE(link.seen.found.empty());  // again while it comes closer as it brakes
+    EXPECT_EQ(link.seen.found[0].finding.proximity.body_b, "wall");
+    EXPECT_EQ(link.seen.found[0].finding.limit_m, 0.01);
+    EXPECT_EQ(link.seen.found[0].stopped, std::vector<std::string>{"a"});
+    EXPECT_EQ(link.figures.monitor_stops, link.seen.found.size());
+    EXPECT_LT(link.figures.min_clearance_m, 0.01);
+  }
 }
 
 TEST(SceneLinks, CountInTheFiguresOfARunAndInStateFrames) {
-  const WalledRun link(As::link, 0.025, "certified");
-  const WalledRun object(As::object, 0.025, "certified");
-  expect_same(link, object);
-  EXPECT_EQ(link.job.state, JobState::succeeded);
-  EXPECT_NEAR(link.figures.min_clearance_m, 0.025, 0.001);
-  double closest_m = 1.0;
-  for (const StateFrame& frame : link.seen.frames) {
-    for (const Proximity& near : frame.clearance) {
-      if (near.body_b == "wall") closest_m = std::min(closest_m, near.clearance_m);
+  for (const As as : {As::link, As::mount}) {
+    const WalledRun link(as, 0.025, "certified");
+    const WalledRun object(As::object, 0.025, "certified");
+    expect_same(link, object);
+    EXPECT_EQ(link.job.state, JobState::succeeded);
+    EXPECT_NEAR(link.figures.min_clearance_m, 0.025, 0.001);
+    double closest_m = 1.0;
+    for (const StateFrame& frame : link.seen.frames) {
+      for (const Proximity& near : frame.clearance) {
+        if (named(near.body_b) == "wall") closest_m = std::min(closest_m, near.clearance_m);
+      }
     }
+    EXPECT_DOUBLE_EQ(closest_m, link.figures.min_clearance_m);
   }
-  EXPECT_DOUBLE_EQ(closest_m, link.figures.min_clearance_m);
 }
 
 TEST(SceneLinks, AreWaitedForAsTheSameObjectIs) {
   for (const std::string policy : {"certified", "reservation", "coordinated", "earliest_start"}) {
-    const WalledRun link(As::link, 0.0094, policy);
-    const WalledRun object(As::object, 0.0094, policy);
-    expect_same(link, object);
-    EXPECT_EQ(link.job.state, JobState::backlogged) << policy;
-    ASSERT_EQ(link.job.waits_on.size(), 1U) << policy;
-    EXPECT_EQ(link.job.waits_on[0].kind, Wait::Kind::object) << policy;
-    EXPECT_EQ(link.job.waits_on[0].links, object.job.waits_on[0].links) << policy;
-    EXPECT_EQ(link.job.waits_on[0].links[1], "wall") << policy;
+    for (const As as : {As::link, As::mount}) {
+      const WalledRun link(as, 0.0094, policy);
+      const WalledRun object(As::object, 0.0094, policy);
+      expect_same(link, object);
+      EXPECT_EQ(link.job.state, JobState::backlogged) << policy;
+      ASSERT_EQ(link.job.waits_on.size(), 1U) << policy;
+      EXPECT_EQ(link.job.waits_on[0].kind, Wait::Kind::object) << policy;
+      EXPECT_EQ(link.job.waits_on[0].links, object.job.waits_on[0].links) << policy;
+      EXPECT_EQ(link.job.waits_on[0].links[1], "wall") << policy;
+    }
   }
 }
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/model/build_cell.h"
+#include "server/codec/read_text.h"
+#include "server/messages/cell.h"
 #include "server/recording/recording.h"
 
 namespace armloom {
@@ -156,7 +158,7 @@ TEST(CellCodec, WritesTheCellAsTheDashboardNeedsIt) {
   ASSERT_TRUE(description);
   const auto cell = build_cell(*description);
   ASSERT_TRUE(cell);
-  const json out = json::parse(cell_json(**cell, "sequential", 2.0));
+  const json out = json::parse(text_of(*cell_view_format(), view_of(**cell, "sequential", 2.0)));
   EXPECT_EQ(out["name"], "two_pandas");
   EXPECT_EQ(out["policy"], "sequential");
   EXPECT_EQ(out["speed"], 2.0);
@@ -171,12 +173,25 @@ TEST(CellCodec, WritesTheCellAsTheDashboardNeedsIt) {
   EXPECT_EQ(out["scheduling"]["backlog_timeout_s"], 60.0);
 }
 
+TEST(CellCodec, ReadsAnglesInDegreesToo) {
+  json cell = two_pandas();
+  cell["robots"][0]["base"] = {{"xyz", {0, 0, 0}}, {"rpy_deg", {0, 90, 180}}};
+  const auto read = read_cell_text(cell.dump(), kConfig);
+  ASSERT_TRUE(read) << read.error().front().detail;
+  cell["robots"][0]["base"] = {{"xyz", {0, 0, 0}}, {"rpy", {0, M_PI / 2, M_PI}}};
+  const auto same = read_cell_text(cell.dump(), kConfig);
+  EXPECT_TRUE(read->robots[0].X_WB.isApprox(same->robots[0].X_WB, 1e-12));
+  cell["robots"][0]["base"]["rpy_deg"] = {0, 90, 180};
+  EXPECT_EQ(read_cell_text(cell.dump(), kConfig).error().front().slug, "more-than-one");
+}
+
 TEST(CellCodec, WritesAPoseWithoutMinusZero) {
   json cell = two_pandas();
   cell["robots"][0]["base"]["rpy"] = {-0.0, 0.0, -0.0};
   const auto description = read_cell_text(cell.dump(), kConfig);
   ASSERT_TRUE(description);
-  const std::string out = cell_json(**build_cell(*description), "sequential", 1.0);
+  const CellPtr built = *build_cell(*description);
+  const std::string out = text_of(*cell_view_format(), view_of(*built, "sequential", 1.0));
   EXPECT_NE(out.find("\"rpy\":[0,0,0]"), out.npos);
   for (const char* minus_zero : {"[-0,", "[-0]", ",-0,", ",-0]", ":-0,", ":-0}"}) {
     EXPECT_EQ(out.find(minus_zero), out.npos) << minus_zero;

@@ -1,9 +1,8 @@
-#include "server/codec/job_codec.h"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "server/messages/job_request.h"
 #include "test/server/panda_jobs.h"
 
 namespace armloom {
@@ -107,6 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadField{"TimeoutIsNegative", "/backlog_timeout_s", "-1", kInvalid, "not within"},
         BadField{"AfterIsText", "/after", "\"x\"", kMalformed, "an array"},
         BadField{"AfterHoldsNoId", "/after", "[\"x\", \"a b\"]", kInvalid, "128", "/after/1"},
+        BadField{"FasterThanPlanned", "/velocity_scaling_factor", "2", kInvalid, "0.001..1"},
         BadField{"StepsAreNotServed", "/steps", "[]", kInvalid, "not served"},
         BadField{"RetimeIsNotServed", "/retime", "true", kInvalid, "parameterisation"}),
     [](const auto& tested) { return tested.param.name; });
@@ -119,6 +119,20 @@ TEST(JobCodec, ReadsPredecessors) {
   EXPECT_EQ(job->after, (std::vector<std::string>{"place-6", "x"}));
   body["after"] = std::vector<std::string>(101, "x");
   EXPECT_EQ(read_job(body).error().front().kind, ProblemKind::too_large);
+}
+
+TEST(JobCodec, RunsATrajectoryAtAShareOfItsSpeed) {
+  json body = test::move("left", test::kHome, test::kMiddle);
+  const TrajectoryRequest whole = read_job(body).value().trajectory;
+  body["velocity_scaling_factor"] = 0.5;
+  const TrajectoryRequest half = read_job(body).value().trajectory;
+  ASSERT_EQ(half.points.size(), whole.points.size());
+  for (std::size_t i = 0; i < whole.points.size(); ++i) {
+    EXPECT_EQ(half.points[i].positions, whole.points[i].positions);
+    EXPECT_EQ(half.points[i].time_from_start_s, 2 * whole.points[i].time_from_start_s);
+    EXPECT_EQ(half.points[i].velocities[1], whole.points[i].velocities[1] / 2);
+    EXPECT_EQ(half.points[i].accelerations[1], whole.points[i].accelerations[1] / 4);
+  }
 }
 
 TEST(JobCodec, ReadsMoveItsNestingAndPointsIntoIt) {

@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "server/codec/mesh_address.h"
+#include "server/messages/mesh_address.h"
 #include "test/model/small_meshes.h"
 #include "test/server/running_server.h"
 

@@ -1,11 +1,13 @@
-#include "server/codec/views.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "server/codec/problem_codec.h"
+#include "server/codec/read_text.h"
+#include "server/codec/stream_id.h"
+#include "server/messages/events.h"
+#include "server/messages/job.h"
+#include "server/messages/problem.h"
 
 namespace armloom {
 namespace {
@@ -56,10 +58,8 @@ TEST(WallClock, GivesUpItsOldestAnchors) {
 }
 
 TEST(Views, AJobThatWaitsSaysForWhat) {
-  JsonWriter out;
   const WallClock clock(std::chrono::system_clock::time_point{}, 2.0);
-  write(out, waiting_job(), &clock);
-  const json job = json::parse(out.text());
+  const json job = json::parse(text_of(*job_format(), waiting_job(), &clock));
   EXPECT_EQ(job["id"], "b");
   EXPECT_EQ(job["state"], "backlogged");
   EXPECT_EQ(job["submitted_s"], 1.5);
@@ -77,9 +77,7 @@ TEST(Views, AJobThatWaitsSaysForWhat) {
 TEST(Views, AJobOfADeadlockTellsItsRing) {
   JobView job = waiting_job();
   job.ring = {"b", "a"};
-  JsonWriter out;
-  write(out, job, nullptr);
-  EXPECT_EQ(json::parse(out.text())["ring"], json({"b", "a"}));
+  EXPECT_EQ(json::parse(text_of(*job_format(), job))["ring"], json({"b", "a"}));
 }
 
 TEST(Views, AnEndedJobSaysWhy) {
@@ -88,9 +86,7 @@ TEST(Views, AnEndedJobSaysWhy) {
   job.state = JobState::expired;
   job.reason = Reason::backlog_timeout;
   job.detail = "waited 60 s";
-  JsonWriter out;
-  write(out, job, nullptr);
-  const json result = json::parse(out.text());
+  const json result = json::parse(text_of(*job_format(), job));
   EXPECT_EQ(result["result"], json({{"reason", "backlog_timeout"}, {"detail", "waited 60 s"}}));
   EXPECT_FALSE(result.contains("submitted_at"));
 }

@@ -5,9 +5,12 @@
 #include <cstdio>
 #include <random>
 
+#include "core/collision/collision_checker.h"
 #include "core/collision/enclosure.h"
 #include "core/collision/solid.h"
+#include "core/collision/state_check.h"
 #include "core/collision/triangle_distance.h"
+#include "test/collision/small_cell.h"
 #include "test/soundness/concave_meshes.h"
 #include "test/soundness/surface_check.h"
 
@@ -79,6 +82,86 @@ TEST(Surfaces, AreCloserThanALimitWhenTheirDistanceIs) {
     }
   }
   EXPECT_GE(closer, 500);
+}
+
+// What balls inside of two solids say at once.
+TEST(InnerBalls, ProveOnlyWhatIsSoAndMostOfWhatOverlaps) {
+  std::mt19937_64 random(55);
+  const Eigen::Isometry3d X_WA = Eigen::Isometry3d::Identity();
+  std::size_t proven = 0;
+  std::size_t wrongly = 0;
+  std::size_t overlaps = 0;
+  for (int i = 0; i < 100; ++i) {
+    const auto solid = [&](double size_m) {
+      const SurfaceTreePtr surface = concave_mesh({size_m, i % 2 * 0.2, false}, random)->surface;
+      return Solid{surface, X_WA, 0.0, InnerBalls(inner_balls(*surface))};
+    };
+    const Solid a = solid(0.3);
+    const Solid b = solid(0.3);
+    for (int k = 0; k < 60; ++k) {
+      Eigen::Isometry3d X_WB = X_WA;
+      X_WB.linear() = Eigen::Quaterniond(between(random, -1, 1), between(random, -1, 1),
+                                         between(random, -1, 1), between(random, -1, 1))
+                          .normalized()
+                          .toRotationMatrix();
+      X_WB.translation() = Eigen::Vector3d(between(random, -0.4, 0.4), between(random, -0.2, 0.2),
+                                           between(random, -0.2, 0.2));
+      const double limit_m = k % 3 == 0 ? 1e-9 : 0.02;
+      const bool closer = solid_distance({a.tree}, X_WA, {b.tree}, X_WB, limit_m) < limit_m;
+      const bool by_balls = surely_closer_than(a, X_WA, b, X_WB, limit_m);
+      overlaps += closer ? 1 : 0;
+      proven += by_balls ? 1 : 0;
+      wrongly += by_balls && !closer ? 1 : 0;
+    }
+  }
+  std::printf("%zu of %zu proven by balls\n", proven, overlaps);
+  EXPECT_EQ(wrongly, 0U);
+  EXPECT_GE(overlaps, 1'000U);
+  EXPECT_GE(proven, overlaps / 3);
+}
+
+// Eight states at once, balls first, against the distances of all pairs.
+TEST(Surfaces, DecideWholeStatesAsTheirDistancesDo) {
+  std::mt19937_64 random(56);
+  std::size_t close = 0;
+  std::size_t clear = 0;
+  for (int i = 0; i < 10; ++i) {
+    Cell made;
+    made.clearance_m = 0.02;
+    made.self_clearance_m = 0.005;
+    const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+    small::add_robot(made, "a", small::at_xyz(0, 0, 0), {z, Eigen::Vector3d::UnitY(), z}, 0.3,
+                     0.03);
+    small::add_robot(made, "b", small::at_xyz(0.45, 0, 0), {z, Eigen::Vector3d::UnitY(), z}, 0.3,
+                     0.03);
+    for (Link& link : made.links) {
+      if (!link.arm) continue;
+      const MeshPtr mesh = concave_mesh({0.25, 0.1, false}, random);
+      link.shapes.assign(
+          1, {Mesh{"by hand", Eigen::Vector3d::Ones(), mesh}, small::at_xyz(0.15, 0, 0)});
+    }
+    const CellPtr cell = small::shared(made);
+    const PlanningScenePtr scene = PlanningScene::build(cell).value();
+    StateCheck check(scene);
+    CollisionChecker checker(scene);
+    for (int k = 0; k < 25; ++k) {
+      std::vector<Configuration> states(8, Configuration::Zero(6));
+      std::vector<const Configuration*> eight;
+      for (Configuration& q : states) {
+        for (double& angle : q) angle = between(random, -2.5, 2.5);
+        eight.push_back(&q);
+      }
+      const unsigned too_close = check.too_close(eight);
+      for (std::size_t lane = 0; lane < states.size(); ++lane) {
+        const bool by_pairs =
+            checker.first_closer_than(states[lane], cell->clearance_m, {true, true}).has_value();
+        ASSERT_EQ((too_close >> lane & 1U) != 0, by_pairs) << "cell " << i << ", states " << k;
+        ++(by_pairs ? close : clear);
+      }
+    }
+  }
+  EXPECT_GE(close, 150U);
+  EXPECT_GE(clear, 150U);
 }
 
 // By samples of both, which are never closer than they are.

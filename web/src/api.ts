@@ -77,5 +77,5 @@ function read_problem(text: string, response: Response): Problem {
 }
 
 function own_problem(title: string, detail: string): Problem {
-  return { title, status: 0, detail, pointer: null, value: undefined, errors: [] };
+  return { type: 'about:blank', title, status: 0, detail };
 }

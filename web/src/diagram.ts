@@ -1,7 +1,7 @@
 // What a coordination diagram says about two jobs from where they are now. Pure: times in seconds of
 // each one's own trajectory, A across and B up.
 
-import type { CellState, Diagram, DiagramLayer, Job, WaitsOn } from './messages';
+import { pair_of, type CellState, type Diagram, type DiagramLayer, type Job, type WaitsOn } from './messages';
 import { millimetres, short_id } from './wording';
 
 export interface Point { a_s: number; b_s: number }
@@ -28,6 +28,19 @@ export function first_met(way: readonly Point[], layer: DiagramLayer): Meeting |
   return first_of('conflict', way, layer) ?? first_of('undecided', way, layer);
 }
 
+// A diagram has thousands of cells, most of them free, and is looked at again some times a second.
+const sorted = new WeakMap<DiagramLayer, Map<CellState, DiagramLayer['cells'][number][]>>();
+
+function cells_in(state: CellState, layer: DiagramLayer): DiagramLayer['cells'][number][] {
+  let by_state = sorted.get(layer);
+  if (!by_state) {
+    by_state = new Map<CellState, DiagramLayer['cells'][number][]>([['free', []], ['conflict', []], ['undecided', []]]);
+    for (const cell of layer.cells) by_state.get(cell.state)?.push(cell);
+    sorted.set(layer, by_state);
+  }
+  return by_state.get(state) ?? [];
+}
+
 function first_of(state: CellState, way: readonly Point[], layer: DiagramLayer): Meeting | null {
   let passed_s = 0;
   for (let i = 1; i < way.length; i += 1) {
@@ -36,8 +49,7 @@ function first_of(state: CellState, way: readonly Point[], layer: DiagramLayer):
     if (!from || !to) break;
     const length_s = Math.max(to.a_s - from.a_s, to.b_s - from.b_s);
     let met: Meeting | null = null;
-    for (const cell of layer.cells) {
-      if (cell.state !== state) continue;
+    for (const cell of cells_in(state, layer)) {
       const enters = entry(from, to, cell.a_s, cell.b_s);
       if (enters === null || (met && passed_s + enters * length_s >= met.in_s)) continue;
       met = {
@@ -93,7 +105,7 @@ export function evidence_of(a: Job | null, b: Job | null): Evidence | null {
 
 export function evidence_in_words(evidence: Evidence, diagram: Diagram): string {
   const { links, clearance_m } = evidence.wait;
-  const [own, other] = links ?? ['one arm', 'the other'];
+  const [own, other] = pair_of(links) ?? ['one arm', 'the other'];
   const how = clearance_m === null || clearance_m <= 0
     ? `${own} would touch ${other}`
     : `${own} would come within ${millimetres(clearance_m)} of ${other}`;

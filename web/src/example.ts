@@ -4,7 +4,7 @@
 // velocity 1.875 d/T, acceleration 5.7735 d/T² (10/√3) and jerk 60 d/T³; T is chosen so that each
 // stays below half of its limit.
 
-import type { Arm, CellJoint } from './messages';
+import { range_of, type Arm, type CellJoint } from './messages';
 
 const kSwing_rad = 0.35;
 const kShareOfLimit = 0.5;
@@ -59,8 +59,9 @@ export function example_job(arm: Arm, q: readonly number[], joints: readonly Cel
 }
 
 function swing(from: number, joint: CellJoint): number {
-  const room_up = joint.upper - from;
-  const room_down = from - joint.lower;
+  const [lower, upper] = range_of(joint);
+  const room_up = upper - from;
+  const room_down = from - lower;
   const size = Math.min(joint.unit === 'm' ? 0.02 : kSwing_rad, 0.8 * Math.max(room_up, room_down, 0));
   return room_up >= size / 0.8 ? size : -size;
 }

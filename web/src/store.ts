@@ -1,7 +1,8 @@
 // All that the page knows, in one place. Messages and replies go in through the methods; views read
-// the fields and are told once per change. Pose frames (30 a second) have listeners of their own, so
-// that panels are not drawn again for each of them.
+// the fields, and three signals tell when to look again: `changes`, once per change; `frames`, with
+// each pose (30 a second); `beats`, some times a second while poses come in.
 
+import { signal, untracked, type ReadonlySignal } from '@preact/signals';
 import type { Link } from './connection';
 import type { Arm, Cell, Clearance, Job, JobState, Message, QueueData, SceneObject, StateMessage } from './messages';
 import { monitor_in_words } from './wording';
@@ -20,6 +21,7 @@ const kListOfState: Record<JobState, JobList> = {
   running: 'running', holding: 'running', scheduled: 'scheduled', queued: 'queued', backlogged: 'backlog',
   succeeded: 'finished', canceled: 'finished', expired: 'finished', failed: 'finished', interrupted: 'finished',
 };
+const kBeat_ms = 160;
 const kMaxFinished = 200;
 const kMaxNotices = 100;
 
@@ -46,17 +48,28 @@ export class Store {
   private jobs_ = new Map<string, Heard>();
   private order_ = new Map<string, number>();
   private next_key_ = 1;
-  private change_listeners_ = new Set<() => void>();
-  private frame_listeners_ = new Set<() => void>();
+  private readonly changes_ = signal(0);
+  private readonly frames_ = signal(0);
+  private readonly beats_ = signal(0);
+  private beaten_at_ms_ = -Infinity;
 
+  constructor(private readonly now_ms_: () => number = () => performance.now()) {}
+
+  get changes(): ReadonlySignal<number> { return this.changes_; }
+  get frames(): ReadonlySignal<number> { return this.frames_; }
+  get beats(): ReadonlySignal<number> { return this.beats_; }
+
+  /** For what draws itself. The answer ends it. */
   on_change(listener: () => void): () => void {
-    this.change_listeners_.add(listener);
-    return () => this.change_listeners_.delete(listener);
+    return from_now(this.changes_, listener);
   }
 
   on_frame(listener: () => void): () => void {
-    this.frame_listeners_.add(listener);
-    return () => this.frame_listeners_.delete(listener);
+    return from_now(this.frames_, listener);
+  }
+
+  on_beat(listener: () => void): () => void {
+    return from_now(this.beats_, listener);
   }
 
   take(message: Message): void {
@@ -196,7 +209,11 @@ export class Store {
     this.t_s = frame.t_s;
     Object.assign(this.q, frame.q);
     this.clearance = frame.clearance;
-    for (const listener of this.frame_listeners_) listener();
+    this.frames_.value += 1;
+    const now_ms = this.now_ms_();
+    if (now_ms - this.beaten_at_ms_ < kBeat_ms) return;
+    this.beaten_at_ms_ = now_ms;
+    this.beats_.value += 1;
   }
 
   private set_order(queue: QueueData | null): void {
@@ -221,6 +238,15 @@ export class Store {
   }
 
   private changed(): void {
-    for (const listener of this.change_listeners_) listener();
+    this.changes_.value += 1;
   }
+}
+
+/** A signal tells its value at once, too, which a listener here has seen. */
+function from_now(changes: ReadonlySignal<number>, listener: () => void): () => void {
+  let first = true;
+  return changes.subscribe(() => {
+    if (!first) untracked(listener);
+    first = false;
+  });
 }

@@ -1,7 +1,7 @@
 // What the page says about jobs, in words. Pure functions from the contract's data to sentences.
 
 import type { Link } from './connection';
-import type { Clearance, Job, MonitorData, WaitsOn } from './messages';
+import { pair_of, type Clearance, type Job, type MonitorData, type WaitsOn } from './messages';
 
 /** An id short enough for a list: a long machine-made one is cut, a name that a client chose stays. */
 export function short_id(id: string): string {
@@ -53,14 +53,15 @@ export function wait_in_words(w: WaitsOn): string {
 
 function subject(w: WaitsOn): string {
   if (w.kind === 'arm') return w.arm ? `arm ${w.arm}` : 'an arm at rest';
-  if (w.kind === 'object') return w.id ?? w.links?.[1] ?? 'an object';
+  if (w.kind === 'object') return w.id ?? w.links[1] ?? 'an object';
   const owner = w.arm ? ` of ${w.arm}` : '';
   return w.id ? `job ${short_id(w.id)}${owner}` : `another job${owner}`;
 }
 
 function approach(w: WaitsOn): string {
-  if (!w.links) return '';
-  const [own, other] = w.links;
+  const links = pair_of(w.links);
+  if (!links) return '';
+  const [own, other] = links;
   // The job has not begun: the time counts from its own start, whenever that will be.
   const when = w.own_time_s === null ? '' : `, ${w.own_time_s.toFixed(2)} s into its motion`;
   if (w.clearance_m === null || w.clearance_m <= 0) return `${own} would touch ${other}${when}`;
@@ -114,18 +115,12 @@ export function result_in_words(job: Job): string {
   if (!job.result) return '';
   // What the state says by itself is not said again.
   const said = kSaidByState.has(job.result.reason) ? '' : job.result.reason.replaceAll('_', ' ');
-  return [said, job.result.detail ?? ''].filter((part) => part !== '').join(': ');
+  return [said, job.result.detail].filter((part) => part !== '').join(': ');
 }
 
 export function monitor_in_words(event: MonitorData): string {
-  const [a, b] = event.links ?? [event.arms[0] ?? 'an arm', event.arms[1] ?? 'the scene'];
-  const limit = event.limit_m === null ? '' : ` (limit ${millimetres(event.limit_m)})`;
-  const near = event.clearance_m === null ? '' : ` ${millimetres(event.clearance_m)} apart`;
+  const [a, b] = event.links;
   const stopped = event.stopped.length ? `; stopped ${event.stopped.join(' and ')}` : '';
-  switch (event.kind) {
-    case 'contact': return `${a} touches ${b}${stopped}`;
-    case 'clearance': return `${a} and ${b}${near}${limit}${stopped}`;
-    case 'deviation': return `${event.arms.join(' and ')} left the commanded path${stopped}`;
-    default: return `${event.kind.replaceAll('_', ' ')}: ${event.arms.join(' and ')}${near}${limit}${stopped}`;
-  }
+  if (event.kind === 'contact') return `${a} touches ${b}${stopped}`;
+  return `${a} and ${b} ${millimetres(event.clearance_m)} apart (limit ${millimetres(event.limit_m)})${stopped}`;
 }

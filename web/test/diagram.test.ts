@@ -31,13 +31,13 @@ const met_from = (a_s: number, b_s: number, cells?: Cells) => first_met(plan_fro
 describe('a diagram', () => {
   it('is read with its cells', () => {
     expect(layer().cells[2]).toEqual({ state: 'undecided', a_s: [2, 4], b_s: [0.5, 1] });
-    expect(diagram().a).toEqual({ id: 'left', duration_s: 4, progress_s: 1 });
+    expect(diagram().a).toMatchObject({ id: 'left', duration_s: 4, progress_s: 1 });
   });
   it('is refused with the place of what is wrong in it', () => {
     const wrong = parse_diagram(diagram_json([['perhaps', 0, 1, 0, 1]]));
-    expect(!wrong.ok && wrong.fault).toMatch(/^\/layers\/0\/cells\/0\/state: expected one of free/);
+    expect(!wrong.ok && wrong.fault).toMatch(/^\/layers\/0\/cells\/0\/state: .*"free"/);
     const bent = parse_diagram(diagram_json([], { layers: [{ arms: ['left', 'right'], cells: [{ state: 'free', a_s: [1], b_s: [0, 1] }] }] }));
-    expect(!bent.ok && bent.fault).toMatch(/^\/layers\/0\/cells\/0\/a_s: expected two numbers/);
+    expect(!bent.ok && bent.fault).toMatch(/^\/layers\/0\/cells\/0\/a_s: .*too few items/);
   });
   it('is asked for by both ids, whatever characters they hold', async () => {
     let asked = '';

@@ -10,7 +10,7 @@ function arm() {
 }
 
 function joint(name: string, over: Partial<CellJoint> = {}): CellJoint {
-  return { name, arm: 'left', lower: -2.9, upper: 2.9, velocity_max: 2, acceleration_max: 4, jerk_max: 7500, unit: 'rad', ...over };
+  return { name, arm: 'left', lower: -2.9, upper: 2.9, velocity_max: 2, acceleration_max: 4, jerk_max: 7500, brake: 8, unit: 'rad', ...over };
 }
 
 const joints = [joint('left_panda_joint1'), joint('left_panda_joint2', { lower: -1.3 })];

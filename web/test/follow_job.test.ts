@@ -59,7 +59,7 @@ describe('the details of a job', () => {
     answers({ progress: 0.5 });
     await a_second_passes();
     expect(asked).toEqual(['a', 'a']);
-    expect(store.job('a')?.raw).toMatchObject({ progress: 0.5 });
+    expect(store.job('a')).toMatchObject({ progress: 0.5 });
   });
 
   it('are not fetched once the job has ended', async () => {
@@ -86,7 +86,7 @@ describe('the details of a job', () => {
     await settled();
     expect(asked).toEqual([]);
     store.set_link({ status: 'open' });
-    answer = { ok: false, problem: { title: 'x', status: 503, detail: null, pointer: null, value: undefined, errors: [] } };
+    answer = { ok: false, problem: { type: 'urn:x', title: 'x', status: 503, detail: '' } };
     await a_second_passes();
     answers({ progress: 0.7 });
     await a_second_passes();

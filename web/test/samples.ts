@@ -12,8 +12,9 @@ export function arm_json(name: string, over: object = {}): Record<string, unknow
 
 export function job_json(id: string, over: object = {}): Record<string, unknown> {
   return {
-    id, name: null, state: 'queued', arms: ['left'], priority: 0,
-    submitted_s: 1, started_s: null, ended_s: null, submitted_at: '2026-01-01T00:00:00Z',
+    id, name: '', state: 'queued', arms: ['left'], priority: 0,
+    submitted_s: 1, scheduled_s: null, started_s: null, ended_s: null,
+    submitted_at: '2026-01-01T00:00:00.000Z', scheduled_at: null, started_at: null, ended_at: null,
     progress: 0, duration_s: 4, stopping: false, waits_on: [], ring: [], result: null, ...over,
   };
 }
@@ -33,6 +34,7 @@ export function snapshot(seq: number, over: object = {}, envelope_over: object =
   const data = {
     cell: 'two_pandas', policy: 'timed_discrete', speed: 1, stopped: false,
     arms: [arm_json('left'), arm_json('right')], jobs: [],
+    queue: { stopped: false, queued: [], backlog: [], scheduled: [], running: [] },
     objects: [{ name: 'table', box: [2, 2, 0.1], xyz: [0, 0, 0.05], rpy: [0, 0, 0] }], ...over,
   };
   return envelope('snapshot', seq, data, envelope_over);

@@ -104,7 +104,7 @@ describe('the store', () => {
     take(envelope('job', 10, job_json('a', { state: 'running', started_s: 10 })));
     take(frame(12, {}));
     store.refresh_job(fetched({ state: 'running', started_s: 10, progress: 0.6 }));
-    expect(store.job('a')?.raw).toMatchObject({ progress: 0.6 });
+    expect(store.job('a')).toMatchObject({ progress: 0.6 });
     take(frame(13, {}));
     expect(store.progress(store.job('a')!)).toBeCloseTo(0.85);
   });

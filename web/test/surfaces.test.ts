@@ -71,7 +71,7 @@ describe('a surface', () => {
 describe('an object with a mesh', () => {
   const object = {
     name: 'part', xyz: [1, 0, 0] as [number, number, number], rpy: [0, 0, 0] as [number, number, number],
-    shape: { kind: 'mesh' as const, address: '/api/a.obj', scale: [2, 1, -1] as [number, number, number] },
+    mesh: '/api/a.obj', scale: [2, 1, -1] as [number, number, number],
   };
 
   it('is drawn scaled, and faces outward when it is mirrored', () => {

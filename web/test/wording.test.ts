@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { parse_message, type Job, type WaitsOn } from '../src/messages';
+import { parse_message, type Job, type MonitorData, type WaitsOn } from '../src/messages';
 import {
   clearance_in_words, clock, figure_in_words, found_in_words, millimetres, monitor_in_words, reason_in_words,
   result_in_words, seconds, short_id, why_mute,
@@ -16,7 +16,7 @@ function reason(...waits: (object & Partial<WaitsOn>)[]): string {
   return reason_in_words(job({ state: 'backlogged', waits_on: waits.map(wait_json) }));
 }
 
-const kBare = { links: null, own_time_s: null, clearance_m: null };
+const kBare: Partial<WaitsOn> = { links: [], own_time_s: null, clearance_m: null };
 
 describe('the reason why a job waits', () => {
   it('names the other job, the links, how close and when', () => {
@@ -77,7 +77,6 @@ describe('the figure of a job', () => {
   it('is a word while no time is known', () => {
     expect(figure({ state: 'holding', started_s: 1 })).toBe('holding');
     expect(figure({ state: 'running', started_s: 1, stopping: true })).toBe('stopping');
-    expect(figure({ state: 'queued', submitted_s: null })).toBe('');
   });
 });
 
@@ -90,7 +89,7 @@ describe('what was found at the place of a fault', () => {
 
 describe('a clearance', () => {
   it('names what it was measured between', () => {
-    const named = (arms: string[]) => clearance_in_words({ arms, m: 0.1, links: null });
+    const named = (arms: [string] | [string, string]) => clearance_in_words({ arms, m: 0.1, links: ['a', 'b'] });
     expect([named(['left', 'right']), named(['left'])]).toEqual(['arm to arm', 'arm to object']);
   });
 });
@@ -105,7 +104,7 @@ describe('the buttons', () => {
 
 describe('a monitor event', () => {
   it('says which links, how close, and who was stopped', () => {
-    const event = { kind: 'clearance', arms: ['left', 'right'], links: ['a', 'b'] as [string, string], clearance_m: 0.0091, limit_m: 0.01, stopped: ['left', 'right'] };
+    const event: MonitorData = { kind: 'clearance', arms: ['left', 'right'], links: ['a', 'b'], clearance_m: 0.0091, limit_m: 0.01, stopped: ['left', 'right'] };
     expect(monitor_in_words(event)).toBe('a and b 9.1 mm apart (limit 10 mm); stopped left and right');
   });
 });

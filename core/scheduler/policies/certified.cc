@@ -1,7 +1,7 @@
 // The paper's rule, answered for every instant and with proof: a job starts beside the running ones
-// when nothing comes closer than the cell's clearance, though each motion may lag behind its plan
-// by checking.delay_s, leave its path by checking.tracking_error_rad, and have to stop at any time.
-// Else it goes to the backlog and is tried again when what holds reservations has changed.
+// when by the clock it passes each of their conflict regions before or after them without a stop.
+// Then that is the order, however late anybody is. Else it goes to the backlog and is tried again
+// when what is admitted has changed.
 #include "core/scheduler/policies/policies.h"
 
 namespace armloom {

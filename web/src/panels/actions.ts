@@ -1,6 +1,6 @@
 // What a click may ask of the server, with the answer shown where it concerns everyone.
 
-import { signal_of, type Signal } from './signal';
+import { signal } from '@preact/signals';
 import type { Api, Answer } from '../api';
 import type { Timers } from '../connection';
 import { follow_job } from '../follow_job';
@@ -15,9 +15,9 @@ export type Drawer =
   | { show: 'diagram'; a: string; b: string };
 
 export class Actions {
-  readonly drawer: Signal<Drawer> = signal_of<Drawer>({ show: 'nothing' });
+  readonly drawer = signal<Drawer>({ show: 'nothing' });
   /** The last thing that the server refused, until it is put away. */
-  readonly refusal: Signal<string | null> = signal_of<string | null>(null);
+  readonly refusal = signal<string | null>(null);
 
   constructor(
     readonly api: Api, private readonly store_: Store, private readonly timers_: Timers,
@@ -43,8 +43,7 @@ export class Actions {
 
   private async ask(what: string, answer: Promise<Answer<unknown>>): Promise<boolean> {
     const got = await answer;
-    if (got.ok) this.refusal.set(null);
-    else this.refusal.set(`${what} was refused: ${got.problem.detail ?? got.problem.title}`);
+    this.refusal.value = got.ok ? null : `${what} was refused: ${got.problem.detail ?? got.problem.title}`;
     return got.ok;
   }
 }

@@ -1,7 +1,7 @@
 // One card per arm: state, what it does, how far it is; its joints on demand.
 
 import { useState } from 'preact/hooks';
-import type { Arm, CellJoint } from '../messages';
+import { range_of, type Arm, type CellJoint } from '../messages';
 import { arm_colour, kStateColours } from '../palette';
 import type { Store } from '../store';
 import { short_id } from '../wording';
@@ -36,7 +36,7 @@ function ArmCard({ arm, store, open }: { arm: Arm; store: Store; open: boolean }
         <span class="pill">{arm.state}</span>
       </div>
       <div class="line dim">
-        <span class="grow ellipsis">{job ? job.name ?? short_id(job.id) : arm.job ? short_id(arm.job) : 'no job'}</span>
+        <span class="grow ellipsis">{job ? job.name || short_id(job.id) : arm.job ? short_id(arm.job) : 'no job'}</span>
         <span class="mono">{job ? `${Math.round(100 * progress)} %` : ''}</span>
       </div>
       <Bar share={progress} />
@@ -51,19 +51,17 @@ function Joints({ arm, store }: { arm: Arm; store: Store }) {
   return (
     <div class="joints" data-test={`joints-${arm.name}`}>
       {arm.joints.map((name, i) => <Joint key={name} name={name} n={i + 1} value={q[i] ?? 0} limits={limits.get(name)} />)}
-      {arm.deviation_rad !== null && (
-        <div class="line dim small"><span class="grow">off path</span><span class="mono">{arm.deviation_rad.toFixed(4)} rad</span></div>
-      )}
+      <div class="line dim small"><span class="grow">off path</span><span class="mono">{arm.deviation_rad.toFixed(4)} rad</span></div>
     </div>
   );
 }
 
 function Joint({ name, n, value, limits }: { name: string; n: number; value: number; limits: CellJoint | undefined }) {
-  const span = limits && Number.isFinite(limits.upper - limits.lower) ? limits.upper - limits.lower : 2 * Math.PI;
-  const lower = limits && Number.isFinite(limits.lower) ? limits.lower : -Math.PI;
-  const share = Math.min(1, Math.max(0, (value - lower) / span));
+  const [lower, upper] = limits ? range_of(limits) : [-Infinity, Infinity];
+  const span = Number.isFinite(upper - lower) ? upper - lower : 2 * Math.PI;
+  const share = Math.min(1, Math.max(0, (value - (Number.isFinite(lower) ? lower : -Math.PI)) / span));
   return (
-    <div class="joint" title={limits ? `${name}: ${limits.lower} … ${limits.upper} ${limits.unit}` : name}>
+    <div class="joint" title={limits ? `${name}: ${lower} … ${upper} ${limits.unit}` : name}>
       <span>{n}</span>
       <span class="gauge"><span style={{ left: `${100 * share}%` }} /></span>
       <span class="mono">{value.toFixed(3)}</span>

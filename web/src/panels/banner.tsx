@@ -3,18 +3,17 @@
 import { useEffect, useState } from 'preact/hooks';
 import type { Store } from '../store';
 import type { Actions } from './actions';
-import { use_signal } from './signal';
 import { use_store } from './use_store';
 
 export function Banner({ store, actions }: { store: Store; actions: Actions }) {
   use_store(store);
-  const refusal = use_signal(actions.refusal);
+  const refusal = actions.refusal.value;
   if (store.link.status === 'lost') return <Lost store={store} actions={actions} />;
   if (refusal) {
     return (
       <div class="banner error" role="alert">
         <span>{refusal}</span>
-        <button onClick={() => actions.refusal.set(null)}>Dismiss</button>
+        <button onClick={() => { actions.refusal.value = null; }}>Dismiss</button>
       </div>
     );
   }

@@ -6,7 +6,6 @@ import { CellView } from '../view/cell_view';
 import { clearance_in_words, millimetres } from '../wording';
 import type { Actions } from './actions';
 import { DrawerPanel } from './drawer';
-import { use_signal } from './signal';
 import { use_store } from './use_store';
 
 interface Props { store: Store; actions: Actions; on_view(view: CellView): void }
@@ -16,7 +15,7 @@ export function CellPanel({ store, actions, on_view }: Props) {
   const panel = useRef<HTMLDivElement>(null);
   const shown = useRef<CellView | null>(null);
   use_store(store);
-  const drawer = use_signal(actions.drawer);
+  const drawer = actions.drawer.value;
   useEffect(() => {
     if (!host.current) return;
     const view = new CellView(host.current, store);
@@ -38,7 +37,7 @@ export function CellPanel({ store, actions, on_view }: Props) {
     <div ref={panel} class={`cell${store.stopped ? ' stopped' : ''}`}>
       <div class="view" ref={host} />
       {drawer.show === 'nothing' && (
-        <button class="primary new-job" data-test="new-job" onClick={() => actions.drawer.set({ show: 'new' })}>New job</button>
+        <button class="primary new-job" data-test="new-job" onClick={() => { actions.drawer.value = { show: 'new' }; }}>New job</button>
       )}
       <DrawerPanel store={store} actions={actions} />
       <ClearanceFigure store={store} />
@@ -56,7 +55,7 @@ function ClearanceFigure({ store }: { store: Store }) {
   return (
     <div class={`clearance ${level}`} title="The smallest clearance that the monitor measures now">
       <span class="dim">{clearance_in_words(nearest)}</span> <b class="mono">{millimetres(nearest.m)}</b>
-      {nearest.links && <div class="small dim">{nearest.links[0]} – {nearest.links[1]}</div>}
+      <div class="small dim">{nearest.links[0]} – {nearest.links[1]}</div>
     </div>
   );
 }

@@ -55,8 +55,8 @@ export function DiagramPanel({ a, b, store, actions }: Props) {
     <>
       <h2>Diagram</h2>
       <div class="pair">
-        <Pick what="Across" id={a} store={store} on_pick={(id) => actions.drawer.set({ show: 'diagram', a: id, b })} />
-        <Pick what="Up" id={b} store={store} on_pick={(id) => actions.drawer.set({ show: 'diagram', a, b: id })} />
+        <Pick what="Across" id={a} store={store} on_pick={(id) => { actions.drawer.value = { show: 'diagram', a: id, b }; }} />
+        <Pick what="Up" id={b} store={store} on_pick={(id) => { actions.drawer.value = { show: 'diagram', a, b: id }; }} />
       </div>
       {fetched.kind === 'refused' && <Refused problem={fetched.problem} />}
       {diagram && diagram.layers.length > 1 && (
@@ -123,7 +123,7 @@ function Drawn({ diagram, layer: index, jobs, store }: DrawnProps) {
   useEffect(() => {
     if (!host.current) return;
     const picture = new DiagramPicture(host.current, () => scene.current());
-    const off = [store.on_frame(() => picture.draw()), store.on_change(() => picture.draw())];
+    const off = [store.on_beat(() => picture.draw()), store.on_change(() => picture.draw())];
     return () => {
       for (const f of off) f();
       picture.close();

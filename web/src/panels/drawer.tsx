@@ -8,16 +8,15 @@ import { clock, reason_in_words, result_in_words, short_id, why_mute } from '../
 import type { Actions } from './actions';
 import { DiagramPanel, partner_of } from './diagram';
 import { Refused } from './refused';
-import { use_signal } from './signal';
 import { use_store } from './use_store';
 
 interface Props { store: Store; actions: Actions }
 
 export function DrawerPanel({ store, actions }: Props) {
-  const drawer = use_signal(actions.drawer);
+  const drawer = actions.drawer.value;
   useEffect(() => {
     const close_on_escape = (event: KeyboardEvent) => {
-      if (event.key === 'Escape') actions.drawer.set({ show: 'nothing' });
+      if (event.key === 'Escape') actions.drawer.value = { show: 'nothing' };
     };
     window.addEventListener('keydown', close_on_escape);
     return () => window.removeEventListener('keydown', close_on_escape);
@@ -25,7 +24,7 @@ export function DrawerPanel({ store, actions }: Props) {
   if (drawer.show === 'nothing') return null;
   return (
     <aside class={`drawer${drawer.show === 'diagram' ? ' wide' : ''}`}>
-      <button class="close" aria-label="Close" onClick={() => actions.drawer.set({ show: 'nothing' })}>×</button>
+      <button class="close" aria-label="Close" onClick={() => { actions.drawer.value = { show: 'nothing' }; }}>×</button>
       {drawer.show === 'new' && <NewJob store={store} actions={actions} />}
       {drawer.show === 'job' && <JobDetail id={drawer.id} store={store} actions={actions} />}
       {drawer.show === 'diagram' && <DiagramPanel a={drawer.a} b={drawer.b} store={store} actions={actions} />}
@@ -85,7 +84,7 @@ function NewJob({ store, actions }: Props) {
       </div>
       {outcome.kind === 'accepted' && (
         <p class="accepted" role="status" data-test="accepted">
-          Accepted{outcome.id === null ? '.' : <>{' as '}<button class="link" onClick={() => actions.drawer.set({ show: 'job', id: outcome.id ?? '' })}>{outcome.id}</button></>}
+          Accepted{outcome.id === null ? '.' : <>{' as '}<button class="link" onClick={() => { actions.drawer.value = { show: 'job', id: outcome.id ?? '' }; }}>{outcome.id}</button></>}
         </p>
       )}
       {outcome.kind === 'refused' && <Refused problem={outcome.problem} />}
@@ -104,21 +103,21 @@ function JobDetail({ id, store, actions }: Props & { id: string }) {
   const partner = partner_of(job, store);
   return (
     <>
-      <h2 class="ellipsis">{job.name ?? job.id}</h2>
+      <h2 class="ellipsis">{job.name || job.id}</h2>
       <p class="hint"><span class="mono">{job.id}</span> · {job.arms.join(' + ')} · {job.state}</p>
       {words !== '' && <p class="words">{words}</p>}
       <dl class="facts">
         {times.map(([name, t_s]) => <div key={name}><dt>{name}</dt><dd class="mono">{t_s === null ? '–' : clock(t_s)}</dd></div>)}
-        <div><dt>duration</dt><dd class="mono">{job.duration_s === null ? '–' : `${job.duration_s.toFixed(2)} s`}</dd></div>
+        <div><dt>duration</dt><dd class="mono">{job.duration_s.toFixed(2)} s</dd></div>
       </dl>
       {partner && (
         <div class="line">
-          <button class="small" data-test="show-diagram" onClick={() => actions.drawer.set({ show: 'diagram', a: partner.id, b: job.id })}>
+          <button class="small" data-test="show-diagram" onClick={() => { actions.drawer.value = { show: 'diagram', a: partner.id, b: job.id }; }}>
             Diagram beside {short_id(partner.id)}
           </button>
         </div>
       )}
-      <pre class="mono" data-test="raw">{pretty(job.raw)}</pre>
+      <pre class="mono" data-test="raw">{pretty(job)}</pre>
     </>
   );
 }

@@ -6,7 +6,6 @@ import type { JobList, Store } from '../store';
 import { figure_in_words, reason_in_words, result_in_words, short_id, why_mute } from '../wording';
 import type { Actions } from './actions';
 import { Bar } from './arms';
-import { use_signal } from './signal';
 import { use_store } from './use_store';
 
 const kShownFinished = 60;
@@ -41,9 +40,9 @@ function List({ title, list, none, store, actions }: Props & { title: string; li
 }
 
 function Row({ job, store, actions }: Props & { job: Job }) {
-  const drawer = use_signal(actions.drawer);
+  const drawer = actions.drawer.value;
   const selected = (drawer.show === 'job' && drawer.id === job.id) || (drawer.show === 'diagram' && drawer.b === job.id);
-  const open = () => actions.drawer.set(drawer.show === 'job' && selected ? { show: 'nothing' } : { show: 'job', id: job.id });
+  const open = () => { actions.drawer.value = drawer.show === 'job' && selected ? { show: 'nothing' } : { show: 'job', id: job.id }; };
   const blocker = job.waits_on.find((wait) => wait.kind === 'job' && wait.id !== null)?.id ?? null;
   const all_arms = [...store.arms.keys()];
   const ended = store.is_terminal(job);
@@ -56,8 +55,8 @@ function Row({ job, store, actions }: Props & { job: Job }) {
       <button class="open" onClick={open} title={`Details of ${job.id}`}>
         <span class="line">
           {job.arms.map((arm) => <span key={arm} class="tag" style={{ '--arm': arm_colour(all_arms, arm) }}>{arm}</span>)}
-          <span class="ellipsis">{job.name ?? short_id(job.id)}</span>
-          {job.name !== null && <span class="id ellipsis">{short_id(job.id)}</span>}
+          <span class="ellipsis">{job.name || short_id(job.id)}</span>
+          {job.name !== '' && <span class="id ellipsis">{short_id(job.id)}</span>}
           <span class="grow" />
           <Figure job={job} store={store} />
         </span>
@@ -66,7 +65,7 @@ function Row({ job, store, actions }: Props & { job: Job }) {
       </button>
       {blocker !== null && (
         <button class="why" data-test="why" title={`Show where ${job.id} and ${blocker} conflict`}
-          onClick={() => actions.drawer.set({ show: 'diagram', a: blocker, b: job.id })}>
+          onClick={() => { actions.drawer.value = { show: 'diagram', a: blocker, b: job.id }; }}>
           <Words job={job} />
         </button>
       )}

@@ -4,7 +4,7 @@ import type { Problem } from '../messages';
 import { found_in_words } from '../wording';
 
 export function Refused({ problem }: { problem: Problem }) {
-  const faults = problem.errors.length ? problem.errors : [problem];
+  const faults: Partial<Problem>[] = problem.errors ?? [problem];
   return (
     <div class="refused" role="alert" data-test="problem">
       <b>{problem.title}{problem.status ? ` (${problem.status})` : ''}</b>

@@ -135,7 +135,7 @@ function draw_bar(g: CanvasRenderingContext2D, job: Job, left: number, top: numb
   g.textBaseline = 'middle';
   g.fillStyle = live ? '#0b1016' : '#dce2ea';
   // The longest name that fits whole; a cut one says nothing.
-  const label = [job.name ?? '', short_id(job.id)].find((text) => text !== '' && g.measureText(text).width < wide - 10);
+  const label = [job.name, short_id(job.id)].find((text) => text !== '' && g.measureText(text).width < wide - 10);
   if (label) g.fillText(label, left + 5, top + height / 2 + 0.5);
 }
 

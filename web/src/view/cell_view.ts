@@ -4,6 +4,7 @@ import * as THREE from 'three';
 import type { Arm, Cell, SceneObject } from '../messages';
 import { arm_colour, kStateColours } from '../palette';
 import type { Store } from '../store';
+import type { Level } from './pace';
 import { RobotModel } from './robot';
 import { dispose, object_mesh } from './shapes';
 import { Stage } from './stage';
@@ -46,6 +47,14 @@ export class CellView {
   /** Kept once all that changed until now has been drawn. */
   drawn(): Promise<void> {
     return this.stage_.drawn();
+  }
+
+  /** How many pictures have been drawn, and how finely the next one will be. */
+  pictures(): number {
+    return this.stage_.pictures;
+  }
+  level(): Level {
+    return this.stage_.level;
   }
 
   /** For tests and debugging: a robot is drawn or not. */
@@ -118,7 +127,7 @@ export class CellView {
 
   private show_objects(objects: SceneObject[]): void {
     this.shown_objects_ = objects;
-    const addresses = objects.flatMap(({ shape }) => (shape?.kind === 'mesh' ? [shape.address] : []));
+    const addresses = objects.flatMap(({ mesh }) => mesh ?? []);
     if (addresses.length === 0) return this.add_objects(objects, new Map());
     void this.shelf_.load(addresses).then((surfaces) => {
       if (this.shown_objects_ === objects) this.add_objects(objects, surfaces);
@@ -129,7 +138,7 @@ export class CellView {
     dispose(this.objects_);
     this.objects_.clear();
     for (const object of objects) {
-      const surface = object.shape?.kind === 'mesh' ? surfaces.get(object.shape.address) : null;
+      const surface = object.mesh === undefined ? null : surfaces.get(object.mesh);
       const mesh = object_mesh(object, surface ?? null);
       if (mesh) this.objects_.add(mesh);
     }

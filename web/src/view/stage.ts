@@ -1,18 +1,19 @@
 // The stage of the 3D view: renderer, camera, lights, floor, and drawing on demand.
 //
-// The world is z up, metres. Nothing is drawn unless `invalidate` was called, at most 30 times a
-// second, and so seldom that drawing leaves half of the time free: without a graphics card (a panel
-// PC at the cell, a browser test) a frame may take a tenth of a second of all cores.
+// The world is z up, metres. Nothing is drawn unless `invalidate` was called, and then as often and as
+// finely as Pace says: without a graphics card (a panel PC at the cell, a browser test), or on a busy
+// machine, a frame may take a tenth of a second of all cores and more.
 // A fence behind each frame's commands tells how long it really took. Without a card edges are not
 // smoothed either, unless the page's address ends in `?fine` (for pictures of the page).
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { kLevels, Pace, type Level } from './pace';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
 const kFog = 0x0f1319;
-const kLeastFrame_ms = 1000 / 31;
+const kShadows = 0.7;
 // A drawing is waited for so long before the next one is asked for: on a busy machine drawings that are
 // asked for before the last one is done pile up, and the page answers no click until all are drawn.
 const kLongestFrame_ms = 10_000;
@@ -34,12 +35,19 @@ export class Stage {
   private drawn_at_ms_ = 0;
   private next_at_ms_ = 0;
   private fence_: WebGLSync | null = null;
+  private readonly pace_ = new Pace();
+  private readonly full_ratio_: number;
+  private readonly key_light_: THREE.DirectionalLight;
+  private pictures_ = 0;
+  private shapes_moved_ = true;  // since shadows were drawn
+  private shown_: Level | undefined = kLevels[0];
   private readonly waiting_: (() => void)[] = [];
 
   constructor(private readonly host_: HTMLElement) {
     const fine = wants_fine_picture() || !renders_in_software();
     this.renderer_ = new THREE.WebGLRenderer({ antialias: fine, alpha: true, powerPreference: 'low-power' });
-    this.renderer_.setPixelRatio(fine ? Math.min(2, window.devicePixelRatio) : 1);
+    this.full_ratio_ = fine ? Math.min(2, window.devicePixelRatio) : 1;
+    this.renderer_.setPixelRatio(this.full_ratio_);
     this.renderer_.toneMapping = THREE.ACESFilmicToneMapping;
     this.renderer_.toneMappingExposure = 1.2;
     this.renderer_.shadowMap.enabled = true;
@@ -48,7 +56,7 @@ export class Stage {
     host_.prepend(this.renderer_.domElement);
 
     this.scene.fog = new THREE.Fog(kFog, 5, 14);
-    add_lights(this.scene);
+    this.key_light_ = add_lights(this.scene);
     add_floor(this.scene);
 
     this.controls_ = new OrbitControls(this.camera, this.renderer_.domElement);
@@ -59,6 +67,13 @@ export class Stage {
     this.controls_.addEventListener('change', () => this.invalidate());
     new ResizeObserver(() => this.resize()).observe(host_);
     this.resize();
+  }
+
+  get pictures(): number {
+    return this.pictures_;
+  }
+  get level(): Level {
+    return this.pace_.level;
   }
 
   get canvas(): HTMLCanvasElement {
@@ -89,7 +104,7 @@ export class Stage {
 
   /** Asks for a drawing; `shapes_moved` also renews the shadows. */
   invalidate(shapes_moved = false): void {
-    if (shapes_moved) this.renderer_.shadowMap.needsUpdate = true;
+    this.shapes_moved_ ||= shapes_moved;
     if (this.frame_ !== null) return;
     const draw = (now_ms: number) => {
       if (!this.may_draw(now_ms)) {
@@ -102,7 +117,7 @@ export class Stage {
     this.frame_ = requestAnimationFrame(draw);
   }
 
-  /** Kept after the next drawing, which it asks for. */
+  /** Kept after the next drawing, which it asks for; that one leaves nothing out. */
   drawn(): Promise<void> {
     return new Promise((done) => {
       this.waiting_.push(done);
@@ -125,19 +140,33 @@ export class Stage {
       if (!done && took_ms < kLongestFrame_ms) return false;
       gl.deleteSync(this.fence_);
       this.fence_ = null;
-      this.next_at_ms_ = this.drawn_at_ms_ + Math.max(kLeastFrame_ms - 1, 2 * took_ms);
+      this.next_at_ms_ = this.drawn_at_ms_ + this.pace_.took(took_ms);
     }
     return now_ms >= this.next_at_ms_;
   }
 
   private draw(now_ms: number): void {
     this.drawn_at_ms_ = now_ms;
+    this.pictures_ += 1;
+    this.show_level(this.waiting_.length > 0 ? kLevels[0] : this.pace_.level);
+    if (this.shapes_moved_ && this.shown_?.shadows) {
+      this.renderer_.shadowMap.needsUpdate = true;
+      this.shapes_moved_ = false;
+    }
     this.renderer_.render(this.scene, this.camera);
     this.after_draw();
     const gl = this.renderer_.getContext() as WebGL2RenderingContext;
     this.fence_ = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
     for (const tell of this.waiting_.splice(0)) tell();
+  }
+
+  private show_level(level: Level | undefined): void {
+    if (!level || level === this.shown_) return;
+    this.shown_ = level;
+    this.renderer_.setPixelRatio(this.full_ratio_ * level.resolution);
+    // Left as they are, and not shown: to take them out would compile every material again.
+    this.key_light_.shadow.intensity = level.shadows ? kShadows : 0;
   }
 
   private resize(): void {
@@ -179,7 +208,8 @@ function renders_in_software(): boolean {
   return /swiftshader|llvmpipe|softpipe|basic render/i.test(renderer);
 }
 
-function add_lights(scene: THREE.Scene): void {
+/** Answers the one that throws shadows. */
+function add_lights(scene: THREE.Scene): THREE.DirectionalLight {
   scene.add(new THREE.HemisphereLight(0xe6edf7, 0x39404c, 1.7));
   const key = new THREE.DirectionalLight(0xfff6ea, 1.9);
   key.position.set(1.1, -1.7, 4.2);
@@ -187,12 +217,13 @@ function add_lights(scene: THREE.Scene): void {
   key.shadow.mapSize.set(1024, 1024);
   key.shadow.radius = 5;
   key.shadow.normalBias = 0.02;
-  key.shadow.intensity = 0.7;
+  key.shadow.intensity = kShadows;
   const reach_m = 1.7;
   Object.assign(key.shadow.camera, { left: -reach_m, right: reach_m, top: reach_m, bottom: -reach_m, near: 0.5, far: 9 });
   const rim = new THREE.DirectionalLight(0xa9c8f5, 0.7);
   rim.position.set(-2.5, 2.5, 1.6);
   scene.add(key, rim);
+  return key;
 }
 
 function add_floor(scene: THREE.Scene): void {

@@ -1,0 +1,31 @@
+#include "server/api/route.h"
+
+#include <algorithm>
+
+#include "server/messages/mesh_address.h"
+
+namespace armloom {
+
+const std::vector<Route>& all_routes() {
+  static const std::vector<Route> routes = [] {
+    std::vector<Route> all;
+    for (const auto& part :
+         {submission_routes(), job_routes(), arm_routes(), scene_routes(), cell_routes(),
+          simulation_routes(), event_routes(), service_routes()}) {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }();
+  return routes;
+}
+
+std::vector<int> common_refusals(const Route& route) {
+  std::vector<int> statuses{400, 413, 417, 431, 503};
+  if (route.who == Who::own) statuses.push_back(403);
+  if (route.reads) statuses.push_back(415);
+  return statuses;
+}
+
+std::string api_path(const std::string& path) { return kApiPrefix + path; }
+
+}  // namespace armloom

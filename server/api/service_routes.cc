@@ -1,0 +1,71 @@
+#include "server/api/route.h"
+#include "server/codec/cell_schema.h"
+#include "server/messages/arm.h"
+#include "server/openapi/openapi.h"
+
+namespace armloom {
+namespace {
+
+Response page(const char* content_type, std::string_view text) {
+  return Response{200, content_type, std::string(text), {{"Cache-Control", "no-cache"}}};
+}
+
+void get_health(Call call) { call.respond(answer(200, health_format(), Health{})); }
+
+void get_ready(Call call) {
+  ask(
+      call.parts, [](Executive& executive) { return Ready{executive.now()}; },
+      [respond = call.respond](const Ready& ready) {
+        respond(answer(200, ready_format(), ready));
+      });
+}
+
+void get_openapi(Call call) { call.respond(page("application/json", openapi_text())); }
+void get_cell_schema(Call call) {
+  call.respond(page("application/schema+json", cell_schema_text()));
+}
+
+void get_docs(Call call) {
+  Response response = page("text/html; charset=utf-8", docs_html());
+  response.headers.emplace_back(
+      "Content-Security-Policy",
+      "default-src 'none'; connect-src 'self'; script-src 'unsafe-inline'; "
+      "style-src 'unsafe-inline'; img-src data:");
+  call.respond(std::move(response));
+}
+
+Route of_server(const char* path, const char* id, const char* summary, Outcome outcome,
+                void (*run)(Call)) {
+  return {.method = "GET",
+          .path = path,
+          .id = id,
+          .tag = "service",
+          .summary = summary,
+          .outcomes = {std::move(outcome)},
+          .run = run};
+}
+
+}  // namespace
+
+std::vector<Route> service_routes() {
+  const Schema object{{"type", "object"}};
+  const Content html{"text/html", {{"type", "string"}}};
+  Route dashboard = of_server("/", "dashboard", "The dashboard", {200, "A page", {html}}, nullptr);
+  dashboard.refuses = {404};
+  return {
+      of_server("/healthz", "health", "Is the process there?",
+                outcome(200, "It is", health_format()), get_health),
+      of_server("/readyz", "ready", "Does the executive answer?",
+                outcome(200, "It does", ready_format()), get_ready),
+      of_server("/openapi.json", "openapi", "This document",
+                {200, "OpenAPI 3.1", {{"application/json", object}}}, get_openapi),
+      of_server("/cell.schema.json", "cellSchema",
+                "The JSON schema of cell files, as editors use it",
+                {200, "JSON Schema, draft 2020-12", {{"application/schema+json", object}}},
+                get_cell_schema),
+      of_server("/docs", "docs", "This document for people", {200, "A page", {html}}, get_docs),
+      dashboard,
+  };
+}
+
+}  // namespace armloom

@@ -1,0 +1,160 @@
+#include "server/codec/value_formats.h"
+
+#include <limits>
+
+#include "server/codec/scalar_formats.h"
+
+namespace armloom::formats {
+namespace {
+
+class FlagFormat final : public Format<bool> {
+ public:
+  void read(const JsonNode& node, bool& out) const override { node.read(out); }
+  void write(JsonWriter& out, const bool& value) const override { out.value(value); }
+  Schema schema(Way) const override { return {{"type", "boolean"}}; }
+};
+
+class IntegerFormat final : public Format<int> {
+ public:
+  IntegerFormat(int lowest, int highest) : lowest_(lowest), highest_(highest) {}
+  void read(const JsonNode& node, int& out) const override {
+    std::int64_t number = 0;
+    if (node.read_integer(number, lowest_, highest_)) out = static_cast<int>(number);
+  }
+  void write(JsonWriter& out, const int& number) const override { out.value(number); }
+  Schema schema(Way) const override {
+    return {{"type", "integer"}, {"minimum", lowest_}, {"maximum", highest_}};
+  }
+
+ private:
+  int lowest_;
+  int highest_;
+};
+
+class CountFormat final : public Format<std::uint64_t> {
+ public:
+  void read(const JsonNode& node, std::uint64_t& out) const override {
+    std::int64_t number = 0;
+    if (node.read_integer(number, 0, std::numeric_limits<std::int64_t>::max())) {
+      out = static_cast<std::uint64_t>(number);
+    }
+  }
+  void write(JsonWriter& out, const std::uint64_t& number) const override { out.value(number); }
+  Schema schema(Way) const override { return {{"type", "integer"}, {"minimum", 0}}; }
+};
+
+class NumberListFormat final : public Format<std::vector<double>> {
+ public:
+  void read(const JsonNode& node, std::vector<double>& out) const override { node.read(out); }
+  void write(JsonWriter& out, const std::vector<double>& numbers) const override {
+    out.value(numbers);
+  }
+  Schema schema(Way) const override { return {{"type", "array"}, {"items", {{"type", "number"}}}}; }
+};
+
+class CellTimeFormat final : public Format<TimePoint> {
+ public:
+  explicit CellTimeFormat(FormatPtr<Duration> seconds) : seconds_(std::move(seconds)) {}
+  void read(const JsonNode& node, TimePoint& out) const override {
+    Duration since{};
+    seconds_->read(node, since);
+    out = at(since);
+  }
+  void write(JsonWriter& out, const TimePoint& time) const override { out.value(time); }
+  Schema schema(Way way) const override { return seconds_->schema(way); }
+
+ private:
+  FormatPtr<Duration> seconds_;
+};
+
+class TextOrNullFormat final : public Format<std::string> {
+ public:
+  void read(const JsonNode& node, std::string& out) const override {
+    if (node.raw().is_null()) return out.clear();
+    node.read(out);
+  }
+  void write(JsonWriter& out, const std::string& text) const override {
+    if (text.empty()) return void(out.value(nullptr));
+    out.value(text);
+  }
+  Schema schema(Way) const override { return {{"type", {"string", "null"}}}; }
+};
+
+class RuledText final : public Format<std::string> {
+ public:
+  explicit RuledText(TextRule rule) : rule_(std::move(rule)) {}
+  void read(const JsonNode& node, std::string& out) const override {
+    if (node.read(out) && !rule_.holds(out)) node.invalid(rule_.slug, rule_.sentence);
+  }
+  void write(JsonWriter& out, const std::string& text) const override { out.value(text); }
+  Schema schema(Way) const override {
+    Schema schema{{"type", "string"}};
+    schema.update(rule_.said);
+    return schema;
+  }
+
+ private:
+  TextRule rule_;
+};
+
+class AnythingFormat final : public Format<Anything> {
+ public:
+  explicit AnythingFormat(std::string type) : type_(std::move(type)) {}
+  void read(const JsonNode& node, Anything&) const override {
+    if (type_ == "object") (void)node.is_object();
+    if (type_ == "array") (void)node.array();
+  }
+  void write(JsonWriter& out, const Anything&) const override { out.value(nullptr); }
+  Schema schema(Way) const override {
+    Schema schema = Schema::object();
+    if (!type_.empty()) schema["type"] = type_;
+    if (type_ == "array") schema["items"] = Schema::object();
+    return schema;
+  }
+
+ private:
+  std::string type_;
+};
+
+}  // namespace
+
+FormatPtr<bool> flag() { return std::make_shared<FlagFormat>(); }
+FormatPtr<int> integer(int lowest, int highest) {
+  return std::make_shared<IntegerFormat>(lowest, highest);
+}
+FormatPtr<std::uint64_t> count() { return std::make_shared<CountFormat>(); }
+FormatPtr<std::vector<double>> number_list() { return std::make_shared<NumberListFormat>(); }
+FormatPtr<TimePoint> cell_time() { return std::make_shared<CellTimeFormat>(seconds(kAnyNumber)); }
+FormatPtr<TimePoint> cell_time(double highest_s) {
+  return std::make_shared<CellTimeFormat>(seconds({0.0, highest_s}));
+}
+FormatPtr<std::string> text_or_null() { return std::make_shared<TextOrNullFormat>(); }
+FormatPtr<std::string> text(TextRule rule) { return std::make_shared<RuledText>(std::move(rule)); }
+FormatPtr<Anything> anything(std::string type) {
+  return std::make_shared<AnythingFormat>(std::move(type));
+}
+
+Schema or_null(Schema schema) {
+  if (schema.contains("type") && schema["type"].is_string() && !schema.contains("properties") &&
+      !schema.contains("enum")) {
+    schema["type"] = Schema{schema["type"], "null"};
+    return schema;
+  }
+  return {{"oneOf", Schema::array({std::move(schema), {{"type", "null"}}})}};
+}
+
+void refuse_choice(const JsonNode& node, const std::string& found,
+                   const std::vector<std::string>& known) {
+  std::string names;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    names += (i == 0 ? "\"" : i + 1 == known.size() ? " or \"" : ", \"") + known[i] + "\"";
+  }
+  node.invalid("unknown-choice", "it is \"" + found + "\", expected " + names);
+}
+
+Schema named_schema(const std::string& name, const std::string& text, Schema schema) {
+  if (!text.empty()) schema["description"] = text;
+  return {{"$name", name}, {"$of", std::move(schema)}};
+}
+
+}  // namespace armloom::formats

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "server/http/asio.h"
+#include "server/http/message.h"
+
+namespace armloom {
+
+// What carries a feed to its reader: a WebSocket, or Server-Sent Events. On the server's thread.
+class StreamCarrier {
+ public:
+  virtual ~StreamCarrier() = default;
+  [[nodiscard]] virtual asio::any_io_executor executor() = 0;
+  // Reads over what the reader sends, until it has gone.
+  virtual asio::awaitable<void> read_until_closed() = 0;
+  virtual asio::awaitable<void> send(const Feed::Message& message, ErrorCode& ec) = 0;
+  // Nothing was sent for the time that carry() was given.
+  virtual asio::awaitable<void> keep_alive(ErrorCode& ec) = 0;
+  virtual asio::awaitable<void> say_farewell(const Farewell& farewell, ErrorCode& ec) = 0;
+  virtual void close() = 0;
+};
+
+// Sends what the feed has until either side ends it. `keep_alive`: max(): the carrier sees for
+// itself whether its reader is still there.
+asio::awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier,
+                            std::chrono::milliseconds keep_alive);
+
+}  // namespace armloom

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "core/executive/events.h"
+#include "server/codec/format.h"
+
+namespace armloom {
+
+// Arms and the server's own state, as they are told.
+[[nodiscard]] FormatPtr<ArmView> arm_format();
+[[nodiscard]] FormatPtr<std::vector<ArmView>> arm_list_format();
+
+// The answer to POST /stop and /resume.
+struct Stopped {
+  bool stopped;
+};
+[[nodiscard]] FormatPtr<Stopped> stopped_format();
+
+// The answers to GET /healthz and /readyz.
+struct Health {};
+[[nodiscard]] FormatPtr<Health> health_format();
+struct Ready {
+  TimePoint now;
+};
+[[nodiscard]] FormatPtr<Ready> ready_format();
+
+}  // namespace armloom

@@ -1,0 +1,165 @@
+#include "server/messages/cell.h"
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "server/codec/cell_format.h"
+#include "server/codec/list_formats.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/scene_format.h"
+#include "server/codec/told_part.h"
+#include "server/codec/value_formats.h"
+#include "server/messages/mesh_address.h"
+#include "server/messages/scene.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+std::vector<double> numbers_of(const Eigen::VectorXd& numbers) {
+  return {numbers.begin(), numbers.end()};
+}
+
+std::map<std::string, std::vector<double>> named_states(const CellArmView& view) {
+  std::map<std::string, std::vector<double>> states;
+  for (const auto& [name, q] : view.arm->named_states) states.emplace(name, numbers_of(q));
+  return states;
+}
+
+FormatPtr<CellArmView> arm_view_format() {
+  using View = CellArmView;
+  return named(
+      "CellArm", "",
+      object<View>({
+          told(
+              "name", [](const View& view) { return view.arm->name; }, text()),
+          told(
+              "group", [](const View& view) { return view.arm->group; }, text(), "Of the SRDF"),
+          told("joints", &View::joints, list(text())),
+          told("gripper_joints", &View::gripper_joints, list(text())),
+          told(
+              "home", [](const View& view) { return numbers_of(view.arm->home); }, number_list()),
+          told("named_states", named_states, dictionary(number_list())),
+      }));
+}
+
+std::map<std::string, std::string> mesh_addresses(const CellRobotView& view) {
+  std::map<std::string, std::string> addresses;
+  for (const auto& [uri, path] : view.robot->mesh_files) addresses.emplace(uri, mesh_address(path));
+  return addresses;
+}
+
+FormatPtr<CellRobotView> robot_view_format() {
+  using View = CellRobotView;
+  return named(
+      "CellRobot", "",
+      object<View>({
+          told(
+              "name", [](const View& view) { return view.robot->name; }, text()),
+          told(
+              "prefix", [](const View& view) { return view.robot->prefix; }, text()),
+          told(
+              "base", [](const View& view) { return view.robot->X_WB; },
+              object<Eigen::Isometry3d>({pose_part()})),
+          told(
+              "urdf", [](const View& view) { return view.robot->urdf_text; }, text(),
+              "XML, names without prefix"),
+          told(
+              "srdf", [](const View& view) { return view.robot->srdf_text; }, text(), "XML"),
+          told("meshes", mesh_addresses, dictionary(text()),
+               "Address of each mesh that the URDF names"),
+          told("arms", &View::arms, list(arm_view_format())),
+      }));
+}
+
+// A limit that the joint does not have is null.
+PartPtr<CellJointView> limit(const char* key, double Joint::*where) {
+  return told(
+      key,
+      [where](const CellJointView& view) {
+        const double limit = view.joint->*where;
+        return std::isfinite(limit) ? std::optional(limit) : std::nullopt;
+      },
+      nullable(number(kAnyNumber)), "null: none");
+}
+PartPtr<CellJointView> bound(const char* key, double Joint::*where) {
+  return told(
+      key, [where](const CellJointView& view) { return view.joint->*where; }, number(kPositive));
+}
+
+FormatPtr<CellJointView> joint_view_format() {
+  using View = CellJointView;
+  return named("CellJoint", "",
+               object<View>({
+                   told(
+                       "name", [](const View& view) { return view.joint->name; }, text()),
+                   told("arm", &View::arm, text_or_null(), "null: of none"),
+                   limit("lower", &Joint::lower),
+                   limit("upper", &Joint::upper),
+                   bound("velocity_max", &Joint::velocity_max),
+                   bound("acceleration_max", &Joint::acceleration_max),
+                   bound("jerk_max", &Joint::jerk_max),
+                   bound("brake", &Joint::brake),
+                   told(
+                       "unit",
+                       [](const View& view) -> std::string {
+                         return view.joint->kind == JointKind::prismatic ? "m" : "rad";
+                       },
+                       one_of({"rad", "m"})),
+               }));
+}
+
+}  // namespace
+
+CellView view_of(const Cell& cell, std::string policy, double speed) {
+  CellView view{&cell, std::move(policy), speed, {}, {}, {}};
+  const auto names = [&](const std::vector<JointId>& ids) {
+    std::vector<std::string> list;
+    for (const JointId id : ids) list.push_back(cell.joint(id).name);
+    return list;
+  };
+  for (const Robot& robot : cell.robots) {
+    CellRobotView& of = view.robots.emplace_back(CellRobotView{&robot, {}});
+    for (const ArmId id : robot.arms) {
+      const Arm& arm = cell.arm(id);
+      of.arms.push_back({&arm, names(arm.joints), names(arm.gripper_joints)});
+    }
+  }
+  for (const Joint& joint : cell.joints) {
+    view.joints.push_back({&joint, joint.arm ? cell.arm(*joint.arm).name : ""});
+  }
+  view.settings.clearance_m = cell.clearance_m;
+  view.settings.self_clearance_m = cell.self_clearance_m;
+  view.settings.mount_clearance_m =
+      std::min(cell.mount_clearance_m.value_or(cell.clearance_m), cell.clearance_m);
+  view.settings.checking = cell.checking;
+  view.settings.scheduling = cell.scheduling;
+  view.settings.monitor = cell.monitor;
+  view.settings.execution = cell.execution;
+  return view;
+}
+
+FormatPtr<CellView> cell_view_format() {
+  using View = CellView;
+  static const auto format =
+      named("Cell", "",
+            object<View>({
+                told(
+                    "name", [](const View& view) { return view.cell->name; }, text()),
+                told("policy", &View::policy, text(), "In force"),
+                told("speed", &View::speed, number(kPositive), "Cell seconds per wall second"),
+                told("robots", &View::robots, list(robot_view_format())),
+                told(
+                    "objects", [](const View& view) { return &view.cell->objects; },
+                    list(object_format())),
+                told("joints", &View::joints, list(joint_view_format())),
+                inlined(&View::settings, settings_part()),
+            }));
+  return format;
+}
+
+}  // namespace armloom

@@ -1,0 +1,78 @@
+#include "server/codec/list_formats.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/told_part.h"
+#include "server/codec/value_formats.h"
+#include "server/messages/job.h"
+#include "server/messages/job_request.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+FormatPtr<DiagramView::Side> side_format() {
+  using Side = DiagramView::Side;
+  return named("DiagramSide", "",
+               object<Side>({
+                   told("id", &Side::job, job_id_format()),
+                   told("state", &Side::state, job_state_format()),
+                   told("duration_s", &Side::duration, seconds(kPositive)),
+                   told("progress_s", &Side::progress, seconds({0.0})),
+               }));
+}
+
+// [from, to]
+PartPtr<DiagramCell> stretch(const char* key, Duration DiagramCell::*from,
+                             Duration DiagramCell::*to) {
+  return told(
+      key, [from, to](const DiagramCell& cell) { return std::pair(cell.*from, cell.*to); },
+      pair_of(seconds({0.0})), "From, to");
+}
+
+FormatPtr<DiagramCell> cell_format() {
+  using State = DiagramCell::State;
+  return named(
+      "DiagramCell", "",
+      object<DiagramCell>({
+          told("state", &DiagramCell::state,
+               choice<State>({{State::free, "free"},
+                              {State::conflict, "conflict"},
+                              {State::undecided, "undecided"}}),
+               "free: the clearance is kept in every state of the cell; conflict: in none; "
+               "undecided: in some, or neither is proven"),
+          stretch("a_s", &DiagramCell::from_a, &DiagramCell::to_a),
+          stretch("b_s", &DiagramCell::from_b, &DiagramCell::to_b),
+      }));
+}
+
+FormatPtr<DiagramView::Layer> layer_format() {
+  using Layer = DiagramView::Layer;
+  return object<Layer>({
+      told(
+          "arms", [](const Layer& layer) { return std::pair(layer.arm_a, layer.arm_b); },
+          pair_of(text()), "Of A, of B"),
+      told("cells", &Layer::cells, list(cell_format(), {.fewest = 1}),
+           "Cover the rectangle of both durations and do not overlap"),
+  });
+}
+
+}  // namespace
+
+FormatPtr<DiagramView> diagram_format() {
+  using View = DiagramView;
+  static const auto format =
+      named("Diagram", "Of two motions. Times in cells, and of progress, are trajectory time.",
+            object<View>({
+                told("t_s", &View::time, cell_time(), "Cell time of state and progress"),
+                told("a", &View::a, side_format()),
+                told("b", &View::b, side_format()),
+                told("layers", &View::layers, list(layer_format(), {.fewest = 1}),
+                     "One for each arm of A and each other arm of B"),
+                told("evaluations", &View::evaluations, count()),
+                told("scene_version", &View::scene_version, count()),
+            }));
+  return format;
+}
+
+}  // namespace armloom

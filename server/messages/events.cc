@@ -1,0 +1,282 @@
+#include "server/messages/events.h"
+
+#include <type_traits>
+#include <variant>
+
+#include "server/codec/list_formats.h"
+#include "server/codec/object_format.h"
+#include "server/codec/read_text.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/told_part.h"
+#include "server/codec/value_formats.h"
+#include "server/messages/arm.h"
+#include "server/messages/job.h"
+#include "server/messages/scene.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+FormatPtr<MonitorEvent> monitor_format() {
+  using Kind = MonitorFinding::Kind;
+  using Told = MonitorEvent;
+  const auto links = [](const Told& event) {
+    return std::pair(event.finding.proximity.body_a, event.finding.proximity.body_b);
+  };
+  return named(
+      "MonitorFinding", "",
+      object<Told>({
+          told(
+              "kind", [](const Told& event) { return event.finding.kind; },
+              choice<Kind>({{Kind::contact, "contact"}, {Kind::clearance, "clearance"}})),
+          told("arms", &Told::arms, list(text())),
+          told("links", links, pair_of(text())),
+          told(
+              "clearance_m", [](const Told& event) { return event.finding.proximity.clearance_m; },
+              number(kAnyNumber), "Found"),
+          told(
+              "limit_m", [](const Told& event) { return event.finding.limit_m; },
+              number(kAnyNumber), "What it should have been"),
+          told("stopped", &Told::stopped, list(text()), "Arms that were told to stop"),
+      }));
+}
+
+FormatPtr<Alert> alert_format() {
+  using Level = Alert::Level;
+  return named(
+      "Alert", "",
+      object<Alert>({
+          told("level", &Alert::level,
+               choice<Level>(
+                   {{Level::info, "info"}, {Level::warning, "warning"}, {Level::error, "error"}})),
+          told("text", &Alert::text, text()),
+      }));
+}
+
+struct SnapshotView {
+  const Snapshot* snapshot;
+  const Cell* cell;
+  double speed;
+  bool gap;
+};
+FormatPtr<SnapshotView> snapshot_format() {
+  using View = SnapshotView;
+  const auto gap = [](const View& view) { return view.gap ? std::optional(true) : std::nullopt; };
+  return named(
+      "Snapshot", "",
+      object<View>({
+          told(
+              "cell", [](const View& view) { return view.cell->name; }, text()),
+          told(
+              "policy", [](const View& view) { return view.snapshot->queue.policy; }, text()),
+          told("speed", &View::speed, number(kPositive)),
+          told(
+              "stopped", [](const View& view) { return view.snapshot->queue.stopped; }, flag()),
+          told(
+              "arms", [](const View& view) { return &view.snapshot->arms; }, list(arm_format())),
+          told(
+              "jobs", [](const View& view) { return &view.snapshot->jobs; }, list(job_format()),
+              "All that have not ended, and the 200 that ended last"),
+          told(
+              "queue", [](const View& view) { return &view.snapshot->queue; }, queue_ids_format()),
+          told(
+              "objects", [](const View& view) { return &view.snapshot->scene.objects; },
+              list(object_format())),
+          told_if("gap", gap, flag(), "Events are missing before this"),
+      }));
+}
+
+template <class T>
+struct Envelope {
+  const std::string* stream;
+  std::uint64_t seq;
+  TimePoint time;
+  const T* data;
+};
+
+// "at": wall time, where the writer knows it.
+template <class T>
+class AtPart final : public Part<Envelope<T>> {
+ public:
+  void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("at"); }
+  void read(const JsonNode&, Envelope<T>&) const override {}
+  void write(JsonWriter& out, const Envelope<T>& envelope) const override {
+    if (out.knows_wall_time()) out.key("at").wall_time(envelope.time);
+  }
+  void describe(Schema& object, const Envelope<T>&, Way way) const override {
+    describe_member(object, {"at", "Wall time", Need::required, {}},
+                    {{"type", "string"}, {"format", "date-time"}}, std::nullopt, way);
+  }
+};
+
+FormatPtr<std::string> stream_format() {
+  return text(
+      TextRule{[](std::string_view) { return true; }, "bad-stream", "", {{"format", "uuid"}}});
+}
+
+template <class T>
+struct EventKind {
+  const char* type;
+  const char* name;  // of the schema
+  FormatPtr<Envelope<T>> format;
+};
+template <class T>
+EventKind<T> event_kind(const char* type, const char* name, FormatPtr<T> data) {
+  using E = Envelope<T>;
+  return {type, name,
+          named(name, "",
+                object<E>({
+                    told(
+                        "stream", [](const E& e) { return e.stream; }, stream_format(),
+                        "Of this run of the server"),
+                    told("seq", &E::seq, count(), "Without holes within a stream"),
+                    constant<E>("type", type),
+                    told("t_s", &E::time, cell_time(), "Cell time"),
+                    std::make_shared<AtPart<T>>(),
+                    told(
+                        "data", [](const E& e) { return e.data; }, std::move(data)),
+                }))};
+}
+
+// The one table of what is told: types, names of schemas, formats.
+struct Kinds {
+  EventKind<SnapshotView> snapshot = event_kind("snapshot", "SnapshotEvent", snapshot_format());
+  EventKind<JobView> job = event_kind("job", "JobEvent", job_format());
+  EventKind<ArmView> arm = event_kind("arm", "ArmEvent", arm_format());
+  EventKind<QueueView> queue = event_kind("queue", "QueueEvent", queue_ids_format());
+  EventKind<SceneView> scene = event_kind("scene", "SceneEvent", scene_format());
+  EventKind<MonitorEvent> monitor = event_kind("monitor", "MonitorEvent", monitor_format());
+  EventKind<Alert> alert = event_kind("alert", "AlertEvent", alert_format());
+
+  template <class Each>
+  void each(Each each) const {
+    each(snapshot), each(job), each(arm), each(queue), each(scene), each(monitor), each(alert);
+  }
+  const auto& of(const JobView&) const { return job; }
+  const auto& of(const ArmView&) const { return arm; }
+  const auto& of(const QueueView&) const { return queue; }
+  const auto& of(const SceneView&) const { return scene; }
+  const auto& of(const MonitorEvent&) const { return monitor; }
+  const auto& of(const Alert&) const { return alert; }
+};
+const Kinds& kinds() {
+  static const Kinds kinds;
+  return kinds;
+}
+
+// Poses are only looked at.
+class Rounded final : public Format<double> {
+ public:
+  void read(const JsonNode&, double&) const override {}
+  void write(JsonWriter& out, const double& number) const override { out.rounded(number, 6); }
+  Schema schema(Way) const override { return {{"type", "number"}}; }
+};
+FormatPtr<double> rounded() { return std::make_shared<Rounded>(); }
+
+struct NearView {
+  const Proximity* proximity;
+  const Cell* cell;
+};
+FormatPtr<NearView> near_format() {
+  using View = NearView;
+  const auto arms = [](const View& near) {
+    std::vector<std::string> names;
+    for (const auto& arm : {near.proximity->arm_a, near.proximity->arm_b}) {
+      if (arm) names.push_back(near.cell->arm(*arm).name);
+    }
+    return names;
+  };
+  const auto links = [](const View& near) {
+    return std::pair(near.proximity->body_a, near.proximity->body_b);
+  };
+  return object<View>({
+      told("arms", arms, list(text(), {.fewest = 1, .most = 2}),
+           "Two, or one and the scene: an object, or a link that no arm moves"),
+      told(
+          "m", [](const View& near) { return near.proximity->clearance_m; }, rounded()),
+      told("links", links, pair_of(text())),
+  });
+}
+
+struct FrameView {
+  const StateFrame* frame;
+  const Cell* cell;
+};
+// {"<joint>": rad}, in the order of the cell.
+class PosesFormat final : public Format<FrameView> {
+ public:
+  void read(const JsonNode&, FrameView&) const override {}
+  void write(JsonWriter& out, const FrameView& view) const override {
+    out.begin_object();
+    for (std::size_t i = 0; i < view.cell->joints.size(); ++i) {
+      out.key(view.cell->joints[i].name);
+      number_->write(out, view.frame->q[static_cast<Eigen::Index>(i)]);
+    }
+    out.end_object();
+  }
+  Schema schema(Way way) const override {
+    return {{"type", "object"}, {"additionalProperties", number_->schema(way)}};
+  }
+
+ private:
+  FormatPtr<double> number_ = rounded();
+};
+
+FormatPtr<FrameView> frame_format() {
+  using View = FrameView;
+  const auto near = [](const View& view) {
+    std::vector<NearView> all;
+    for (const Proximity& proximity : view.frame->clearance) all.push_back({&proximity, view.cell});
+    return all;
+  };
+  static const auto format =
+      named("StateFrame", "Poses, about 30 Hz of wall time; dropped for slow readers.",
+            object<View>({
+                constant<View>("type", "state"),
+                told(
+                    "t_s", [](const View& view) { return view.frame->time; }, cell_time()),
+                told<View>(
+                    "q", [](const View& view) { return &view; }, std::make_shared<PosesFormat>(),
+                    "Every joint of the cell, rad or m"),
+                told("clearance", near, list(near_format())),
+            }));
+  return format;
+}
+
+}  // namespace
+
+std::string event_json(const Event& event, const std::string& stream, const WallClock* clock) {
+  return std::visit(
+      [&](const auto& body) {
+        return text_of(*kinds().of(body).format, {&stream, event.seq, event.time, &body}, clock);
+      },
+      event.body);
+}
+
+std::string snapshot_json(const Snapshot& snapshot, const Cell& cell, const std::string& stream,
+                          double speed, const WallClock& clock, bool gap) {
+  const SnapshotView view{&snapshot, &cell, speed, gap};
+  return text_of(*kinds().snapshot.format, {&stream, snapshot.seq, snapshot.time, &view}, &clock);
+}
+
+std::string state_json(const StateFrame& frame, const Cell& cell) {
+  return text_of(*frame_format(), {&frame, &cell});
+}
+
+std::vector<std::pair<std::string, std::string>> message_types() {
+  std::vector<std::pair<std::string, std::string>> types;
+  kinds().each([&](const auto& kind) { types.emplace_back(kind.type, kind.name); });
+  types.emplace_back("state", "StateFrame");
+  return types;
+}
+
+Schema message_schema() {
+  Schema all = Schema::array();
+  kinds().each([&](const auto& kind) { all.push_back(kind.format->schema(Way::out)); });
+  all.push_back(frame_format()->schema(Way::out));
+  return named_schema("Message", "What WebSocket and SSE carry.", {{"oneOf", std::move(all)}});
+}
+
+}  // namespace armloom

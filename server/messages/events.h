@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/executive/events.h"
+#include "core/model/cell.h"
+#include "server/codec/format.h"
+#include "server/codec/wall_clock.h"
+
+namespace armloom {
+
+// What WebSocket, SSE and recordings carry. `clock` is null in a simulated run: keys ending in
+// `_at`, and `at`, are then absent.
+
+// One envelope {"stream", "seq", "type", "t_s", "at", "data"}.
+[[nodiscard]] std::string event_json(const Event& event, const std::string& stream,
+                                     const WallClock* clock);
+
+// The envelope that a new subscriber gets first. `gap`: events were lost since it was here last.
+[[nodiscard]] std::string snapshot_json(const Snapshot& snapshot, const Cell& cell,
+                                        const std::string& stream, double speed,
+                                        const WallClock& clock, bool gap);
+
+// A pose frame, without stream and seq; positions rounded to 1e-6.
+[[nodiscard]] std::string state_json(const StateFrame& frame, const Cell& cell);
+
+// The schema of all of these, as one; the types by which it tells them apart, with their schemas'
+// names.
+[[nodiscard]] Schema message_schema();
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> message_types();
+
+}  // namespace armloom

@@ -1,0 +1,239 @@
+#include "server/messages/job.h"
+
+#include <memory>
+
+#include "server/codec/list_formats.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/told_part.h"
+#include "server/codec/value_formats.h"
+#include "server/messages/job_request.h"
+#include "server/messages/problem.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+constexpr int kAnyPriority = 1'000'000;
+constexpr Range kShare{0.0, 1.0};
+
+FormatPtr<Reason> reason_format() {
+  return named(
+      "Reason", "A closed list; the README explains each.",
+      choice<Reason>({Reason::completed, Reason::canceled_by_client, Reason::backlog_timeout,
+                      Reason::start_mismatch, Reason::self_collision, Reason::predecessor_failed,
+                      Reason::arm_fault, Reason::overrun, Reason::server_restart, Reason::deadlock},
+                     to_string));
+}
+
+struct JobResult {
+  Reason reason;
+  std::string detail;
+};
+std::optional<JobResult> result_of(const JobView& job) {
+  if (!job.reason) return std::nullopt;
+  return JobResult{*job.reason, job.detail};
+}
+FormatPtr<JobResult> result_format() {
+  return object<JobResult>({
+      told("reason", &JobResult::reason, reason_format()),
+      told("detail", &JobResult::detail, text()),
+  });
+}
+
+std::optional<std::string> detail_of(const WaitView& wait) {
+  return wait.detail.empty() ? std::nullopt : std::optional(wait.detail);
+}
+
+// {"status": 202, "job": {...}} or {"status": 422, "problem": {...}}
+class BatchResultFormat final : public Format<Result<JobView>> {
+ public:
+  void read(const JsonNode&, Result<JobView>&) const override {}
+  void write(JsonWriter& out, const Result<JobView>& result) const override {
+    if (result) return accepted_->write(out, *result);
+    refused_->write(out, result.error());
+  }
+  Schema schema(Way way) const override {
+    Schema accepted = accepted_->schema(way);
+    accepted["properties"]["status"] = {{"const", kAccepted}};
+    return {{"oneOf", Schema::array({std::move(accepted), refused_->schema(way)})}};
+  }
+
+ private:
+  inline static constexpr int kAccepted = 202;
+  FormatPtr<JobView> accepted_ = object<JobView>({
+      told(
+          "status", [](const JobView&) { return kAccepted; }, integer(kAccepted, kAccepted)),
+      told(
+          "job", [](const JobView& job) { return &job; }, job_format()),
+  });
+  FormatPtr<Problems> refused_ = object<Problems>({
+      told(
+          "status", [](const Problems& why) { return status_of(why.front().kind); },
+          integer(400, 599)),
+      told(
+          "problem", [](const Problems& why) { return document_of(why); }, problem_format()),
+  });
+};
+
+template <class T>
+FormatPtr<std::vector<T>> listed(const char* name, const char* key, FormatPtr<T> element) {
+  using List = std::vector<T>;
+  return named(name, "",
+               object<List>({told(
+                   key, [](const List& all) { return &all; }, list(std::move(element)))}));
+}
+
+PartPtr<QueueView> ids(const char* key, std::vector<std::string> QueueView::*where) {
+  return told(key, where, list(text()));
+}
+PartPtr<QueueJobs> jobs(const char* key, std::vector<JobView> QueueJobs::*where,
+                        const char* text = "") {
+  return told(key, where, list(job_format()), text);
+}
+
+PartPtr<CheckView> make_verdict_part() {
+  using View = CheckView;
+  using Kind = Verdict::Kind;
+  return std::make_shared<Parts<View>>(std::vector<PartPtr<View>>{
+      told("verdict", &View::kind,
+           choice<Kind>({{Kind::free, "free"},
+                         {Kind::conflict, "conflict"},
+                         {Kind::undecided, "undecided"}})),
+      told("earliest_start_s", &View::earliest_start_s, nullable(number({0.0})),
+           "From now; 0 when free, null when not known"),
+      told("clearance_bound_m", &View::clearance_bound_m, nullable(number(kAnyNumber)),
+           "What is proven to be kept between arms, and by arms from what stands still: the least "
+           "that any such pair was held to"),
+      told("conflicts", &View::conflicts, list(wait_format())),
+      told("evaluations", &View::evaluations, count()),
+      told("scene_version", &View::scene_version, count()),
+  });
+}
+
+}  // namespace
+
+FormatPtr<JobState> job_state_format() {
+  static const auto format =
+      named("JobState", "The last five are terminal: a job reaches exactly one of them.",
+            choice<JobState>(
+                {JobState::queued, JobState::backlogged, JobState::scheduled, JobState::running,
+                 JobState::holding, JobState::succeeded, JobState::canceled, JobState::expired,
+                 JobState::failed, JobState::interrupted},
+                to_string));
+  return format;
+}
+
+FormatPtr<WaitView> wait_format() {
+  using Kind = Wait::Kind;
+  static const auto format = named(
+      "Wait", "What a job waits for, with the evidence.",
+      object<WaitView>({
+          told("kind", &WaitView::kind,
+               choice<Kind>(
+                   {Kind::job, Kind::arm, Kind::object, Kind::order, Kind::capacity, Kind::stop},
+                   to_string)),
+          told("id", &WaitView::job, text_or_null(), "The other job"),
+          told("arm", &WaitView::arm, text_or_null(), "The other arm"),
+          told("links", &WaitView::links, list(text(), {.most = 2}),
+               "Own link, then the other's, or an object; empty without evidence"),
+          told("own_time_s", &WaitView::own_time_s, nullable(number(kAnyNumber)),
+               "From the start of this trajectory"),
+          told("other_time_s", &WaitView::other_time_s, nullable(number(kAnyNumber)),
+               "From the start of the other's"),
+          told("clearance_m", &WaitView::clearance_m, nullable(number(kAnyNumber)),
+               "Distance found; zero or less in contact"),
+          told_if("detail", detail_of, text(), "Of a stop: its cause"),
+      }));
+  return format;
+}
+
+FormatPtr<JobView> job_format() {
+  using View = JobView;
+  static const auto format = named(
+      "Job", "A job as the server gives it.",
+      object<View>({
+          told("id", &View::key, job_id_format()),
+          told("name", &View::name, text(), "For people; may be empty"),
+          told("state", &View::state, job_state_format()),
+          told("arms", &View::arms, list(text()), "That it moves"),
+          told("priority", &View::priority, integer(-kAnyPriority, kAnyPriority),
+               "Larger goes first"),
+          told_times("submitted", &View::submitted_at, "When it was accepted"),
+          told_times("scheduled", &View::scheduled_at, "When it starts; null: not planned"),
+          told_times("started", &View::started_at, "When it began to move; null: not yet"),
+          told_times("ended", &View::ended_at, "When it ended; null: not yet"),
+          told("progress", &View::progress, number(kShare), "Share of the trajectory's time"),
+          told("duration_s", &View::duration, seconds(kPositive), "Of the trajectory"),
+          told("stopping", &View::stopping, flag(), "Brakes on its path"),
+          told("waits_on", &View::waits_on, list(wait_format()), "Empty when it does not wait"),
+          told("ring", &View::ring, list(text()),
+               "The deadlock that it is part of, itself first: each waits for the next one, the "
+               "last for the first. Else empty"),
+          told("result", result_of, nullable(result_format()), "null until terminal"),
+      }));
+  return format;
+}
+
+FormatPtr<JobPage> job_page_format() {
+  static const auto format = named("JobPage", "",
+                                   object<JobPage>({
+                                       told("jobs", &JobPage::jobs, list(job_format())),
+                                       told("next_cursor", &JobPage::next_cursor, nullable(text()),
+                                            "For ?cursor=; null on the last page"),
+                                   }));
+  return format;
+}
+
+FormatPtr<QueueView> queue_ids_format() {
+  static const auto format =
+      named("QueueIds", "",
+            object<QueueView>({
+                told("stopped", &QueueView::stopped, flag(), "Every arm is stopped"),
+                ids("queued", &QueueView::queued),
+                ids("backlog", &QueueView::backlog),
+                ids("scheduled", &QueueView::scheduled),
+                ids("running", &QueueView::running),
+            }));
+  return format;
+}
+
+FormatPtr<QueueJobs> queue_format() {
+  static const auto format =
+      named("Queue", "",
+            object<QueueJobs>({
+                told("policy", &QueueJobs::policy, text(), "In force"),
+                told("stopped", &QueueJobs::stopped, flag(), "Every arm is stopped"),
+                jobs("queued", &QueueJobs::queued),
+                jobs("backlog", &QueueJobs::backlog),
+                jobs("scheduled", &QueueJobs::scheduled),
+                jobs("running", &QueueJobs::running, "With those that hold"),
+            }));
+  return format;
+}
+
+FormatPtr<std::vector<JobView>> batch_accepted_format() {
+  static const auto format = listed("BatchAccepted", "jobs", job_format());
+  return format;
+}
+
+FormatPtr<std::vector<Result<JobView>>> batch_results_format() {
+  static const auto format =
+      listed<Result<JobView>>("BatchResults", "results", std::make_shared<BatchResultFormat>());
+  return format;
+}
+
+const Part<CheckView>& verdict_part() {
+  static const auto part = make_verdict_part();
+  return *part;
+}
+
+FormatPtr<CheckView> verdict_format() {
+  static const auto format =
+      named("Verdict", "The answer of the admission code to: what if this job came now?",
+            object<CheckView>({make_verdict_part()}));
+  return format;
+}
+
+}  // namespace armloom

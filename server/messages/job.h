@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/executive/events.h"
+#include "core/executive/executive.h"
+#include "server/codec/object_format.h"
+
+namespace armloom {
+
+// Jobs as the server tells them, and what is told of several. Each is described once: its format
+// writes it and gives its schema.
+
+[[nodiscard]] FormatPtr<JobState> job_state_format();
+[[nodiscard]] FormatPtr<WaitView> wait_format();
+[[nodiscard]] FormatPtr<JobView> job_format();
+// Which jobs are in which list, by their ids.
+[[nodiscard]] FormatPtr<QueueView> queue_ids_format();
+
+// The answer to GET /jobs.
+struct JobPage {
+  std::vector<JobView> jobs;  // newest first
+  std::optional<std::string> next_cursor;
+};
+[[nodiscard]] FormatPtr<JobPage> job_page_format();
+
+// The answer to GET /queue.
+struct QueueJobs {
+  std::string policy;
+  bool stopped;
+  std::vector<JobView> queued, backlog, scheduled, running;
+};
+[[nodiscard]] FormatPtr<QueueJobs> queue_format();
+
+// The answers to POST /batches, atomic and not.
+[[nodiscard]] FormatPtr<std::vector<JobView>> batch_accepted_format();
+[[nodiscard]] FormatPtr<std::vector<Result<JobView>>> batch_results_format();
+
+// The answer to "what if"; its members alone, so that others can stand beside them.
+[[nodiscard]] FormatPtr<CheckView> verdict_format();
+[[nodiscard]] const formats::Part<CheckView>& verdict_part();
+
+[[nodiscard]] FormatPtr<DiagramView> diagram_format();
+
+}  // namespace armloom

@@ -1,0 +1,167 @@
+#include "server/messages/job_request.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/codec/list_formats.h"
+#include "server/codec/object_format.h"
+#include "server/codec/read_text.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/value_formats.h"
+#include "server/messages/trajectory_request.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+constexpr double kTimeMax_s = 1e6;  // of anything that a client names in seconds
+constexpr int kPriorityMax = 1'000'000;
+
+bool is_key(std::string_view key) {
+  const bool allowed = std::ranges::all_of(key, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-';
+  });
+  return !key.empty() && key.size() <= kJobKeyMax && allowed && key != "." && key != "..";
+}
+
+bool is_name(std::string_view name) {
+  return name.size() <= kJobNameMax &&
+         std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+}
+
+void slow_down(TrajectoryRequest& trajectory, double factor) {
+  for (WaypointRequest& point : trajectory.points) {
+    point.time_from_start_s /= factor;
+    for (double& velocity : point.velocities) velocity *= factor;
+    for (double& acceleration : point.accelerations) acceleration *= factor * factor;
+  }
+}
+
+FormatPtr<std::string> name_format() {
+  return text(TextRule{is_name,
+                       "bad-name",
+                       "a name is at most 256 bytes without control characters",
+                       {{"maxLength", kJobNameMax}}});
+}
+
+// The jobs of a batch, read after "atomic": alone each has its own answer, with places in its own
+// body.
+class BatchJobs final : public Part<BatchRequest> {
+ public:
+  void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("jobs"); }
+  void read(const JsonNode& object, BatchRequest& batch) const override {
+    object.required("jobs", [&](const JsonNode& n) {
+      if (!n.array() || !is_readable(n, size_)) return;
+      check_fewest(n, size_);
+      n.each([&](const JsonNode& job) { batch.jobs.push_back(entry(job, batch.atomic)); });
+    });
+  }
+  void describe(Schema& object, const BatchRequest&, Way way) const override {
+    describe_member(object, {"jobs", "", Need::required, {}},
+                    list(job_request_format(), size_)->schema(way), std::nullopt, way);
+  }
+
+ private:
+  static BatchRequest::Entry entry(const JsonNode& node, bool atomic) {
+    if (!atomic) return {read_job(node.raw()), node.raw().dump()};
+    JobRequest job;
+    job_request_format()->read(node, job);
+    return {std::move(job), node.raw().dump()};
+  }
+
+  const ListSize size_{.fewest = 1, .most = kBatchMax, .noun = "jobs"};
+};
+
+FormatPtr<std::vector<TimedJob>> jobs_file_format() {
+  static const auto format = list(object<TimedJob>({
+      required("at", &TimedJob::at, cell_time(kTimeMax_s), "When it is submitted, in cell time"),
+      required("job", &TimedJob::job, job_request_format(), "The body of POST /jobs"),
+  }));
+  return format;
+}
+
+}  // namespace
+
+FormatPtr<std::string> job_id_format() {
+  static const auto format =
+      named("JobId", "The client's choice, or the server's.",
+            text(TextRule{is_key,
+                          "bad-id",
+                          "an id is 1 to 128 characters of A-Z a-z 0-9 . _ -",
+                          {{"pattern", "^[A-Za-z0-9._-]{1,128}$"}}}));
+  return format;
+}
+
+FormatPtr<JobRequest> job_request_format() {
+  using Request = JobRequest;
+  static const auto format = named(
+      "JobRequest", "",
+      object<Request>({
+          field("id", &Request::key, job_id_format(), "Absent: the server gives one"),
+          field("name", &Request::name, name_format(), "For people; without control characters"),
+          field("priority", &Request::priority, integer(-kPriorityMax, kPriorityMax),
+                "Larger goes first"),
+          field("backlog_timeout_s", &Request::backlog_timeout, seconds({0.0, kTimeMax_s}),
+                "Default: the cell's"),
+          field("after", &Request::after,
+                list(job_id_format(), {.most = kAfterMax, .noun = "ids", .what = "predecessors"}),
+                "Jobs that have to succeed first"),
+          // Fields of the contract whose other values are still to come.
+          not_served<Request>({"on_timeout", "not-served",
+                               "\"on_timeout\" can only be \"abort\" in this version", "abort",
+                               "What becomes of it then"}),
+          not_served<Request>({"retime", "not-served",
+                               "\"retime\" needs time parameterisation, which this version lacks",
+                               false, "Time parameterisation is not served yet"}),
+          not_served<Request>(
+              {"steps", "not-served",
+               "\"steps\" are not served by this version; give one \"trajectory\""}),
+          unless("steps", required("trajectory", &Request::trajectory, trajectory_request_format(),
+                                   "The motion")),
+          // Read after the trajectory, which it stretches.
+          std::make_shared<MemberPart<Request, double>>(
+              MemberText{
+                  "velocity_scaling_factor",
+                  "As MoveIt's: the share of its speed at which the trajectory is run. It is "
+                  "stretched in time before anything is checked",
+                  Need::optional, Schema(1)},
+              number({0.001, 1.0}), [](const Request&) { return std::optional<double>(); },
+              [](Request& request, double factor) { slow_down(request.trajectory, factor); }),
+      }));
+  return format;
+}
+
+FormatPtr<BatchRequest> batch_request_format() {
+  static const auto format =
+      named("BatchRequest", "",
+            object<BatchRequest>({
+                field("atomic", &BatchRequest::atomic, flag(), "All admitted or none"),
+                std::make_shared<BatchJobs>(),
+            }));
+  return format;
+}
+
+Result<JobRequest> read_job(const nlohmann::json& body) {
+  Problems faults;
+  JobRequest job;
+  job_request_format()->read(JsonNode(body, "", faults), job);
+  if (!faults.empty()) return failure(std::move(faults));
+  return job;
+}
+
+Result<JobRequest> read_job_text(std::string_view text) {
+  return read_text(*job_request_format(), text);
+}
+
+Result<BatchRequest> read_batch_text(std::string_view text) {
+  return read_text(*batch_request_format(), text);
+}
+
+Result<std::vector<TimedJob>> read_jobs_text(std::string_view text) {
+  return read_text(*jobs_file_format(), text);
+}
+
+}  // namespace armloom

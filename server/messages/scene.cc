@@ -1,0 +1,139 @@
+#include "server/messages/scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/codec/list_formats.h"
+#include "server/codec/object_format.h"
+#include "server/codec/read_text.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/scene_format.h"
+#include "server/codec/told_part.h"
+#include "server/codec/value_formats.h"
+#include "server/messages/mesh_address.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+bool is_object_name(std::string_view name) {
+  const bool plain = std::ranges::none_of(name, [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '/' || c == '\\';
+  });
+  return name.size() <= kObjectNameMax && plain && name != "." && name != ".." && !name.empty();
+}
+
+FormatPtr<std::string> object_name_format() {
+  return text(TextRule{is_object_name,
+                       "bad-name",
+                       "a name is 1 to 128 bytes without slashes and control characters, and not . "
+                       "or ..",
+                       {{"minLength", 1}}});
+}
+
+FormatPtr<ObjectDescription> make_request_format(Need name) {
+  return object<ObjectDescription>({
+      member({"name",
+              "At most 128 bytes; no slash, backslash or control character, not . or .., no name "
+              "of a link or robot",
+              name,
+              {}},
+             &ObjectDescription::name, object_name_format()),
+      not_served<ObjectDescription>(
+          {"mesh", "unsupported",
+           "meshes are part of the cell file; over HTTP an object is a box, a cylinder or a "
+           "sphere"}),
+      unless("mesh", inlined(&ObjectDescription::shape, primitive_part())),
+      inlined(&ObjectDescription::X_WO, pose_part()),
+  });
+}
+
+class ObjectFormatOut final : public Format<CollisionObject> {
+ public:
+  void read(const JsonNode&, CollisionObject&) const override {}
+  void write(JsonWriter& out, const CollisionObject& object) const override {
+    ObjectDescription description{object.name, object.shape, object.X_WO};
+    if (auto* mesh = std::get_if<Mesh>(&description.shape)) mesh->path = mesh_address(mesh->path);
+    scene_object_format()->write(out, description);
+  }
+  Schema schema(Way way) const override { return scene_object_format()->schema(way); }
+};
+
+}  // namespace
+
+FormatPtr<ObjectDescription> object_request_format() {
+  static const auto format =
+      named("ObjectRequest",
+            "As in the cell file; exactly one shape, no mesh over HTTP. Pose: default zero.",
+            make_request_format(Need::required));
+  return format;
+}
+
+FormatPtr<ObjectDescription> named_object_request_format() {
+  static const auto format =
+      named("NamedObjectRequest",
+            "As ObjectRequest; the name stands in the path and may be repeated here.",
+            make_request_format(Need::optional));
+  return format;
+}
+
+Result<CollisionObject> read_object_text(std::string_view text,
+                                         const std::optional<std::string>& name) {
+  const auto body = parse_json(text, JsonComments::refused);
+  if (!body) return failure(body.error());
+  Problems faults;
+  const JsonNode node(*body, "", faults);
+  ObjectDescription object;
+  (name ? named_object_request_format() : object_request_format())->read(node, object);
+  if (name && object.name.empty() && !node.has("name")) {
+    // The address is read by the same rule.
+    const nlohmann::json of_address(*name);
+    object_name_format()->read(JsonNode(of_address, "/name", faults), object.name);
+  } else if (name && node.is_object()) {
+    node.optional("name", [&](const JsonNode& n) {
+      if (n.raw().is_string() && n.raw() != *name) {
+        n.invalid("name-differs", "the name differs from \"" + *name + "\" in the address");
+      }
+    });
+  }
+  if (!faults.empty()) return failure(std::move(faults));
+  return CollisionObject{std::move(object.name), object.shape, object.X_WO};
+}
+
+FormatPtr<CollisionObject> object_format() {
+  static const auto format = named<CollisionObject>(
+      "Object", "An object of the scene: exactly one shape. A mesh is told by its address.",
+      std::make_shared<ObjectFormatOut>());
+  return format;
+}
+
+FormatPtr<SceneView> scene_format() {
+  static const auto format =
+      named("Scene", "",
+            object<SceneView>({
+                told("version", &SceneView::version, count(), "Grows with every change"),
+                told("objects", &SceneView::objects, list(object_format())),
+            }));
+  return format;
+}
+
+FormatPtr<SceneChange> scene_change_format() {
+  static const auto format = named("SceneChange", "",
+                                   object<SceneChange>({
+                                       told("version", &SceneChange::version, count()),
+                                       told("object", &SceneChange::object, object_format()),
+                                   }));
+  return format;
+}
+
+FormatPtr<std::uint64_t> scene_version_format() {
+  static const auto format =
+      named("SceneVersion", "",
+            object<std::uint64_t>({told(
+                "version", [](const std::uint64_t& version) { return version; }, count())}));
+  return format;
+}
+
+}  // namespace armloom

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/problem.h"
+#include "core/executive/events.h"
+#include "core/model/cell.h"
+#include "server/codec/format.h"
+
+namespace armloom {
+
+// Objects of the planning scene, as they come and go over HTTP.
+
+// The body of POST /scene/objects, and with a name of the URL, which one in the body has to agree
+// with, of PUT: an object as in a cell file, but no mesh: a client names no file of the server.
+inline constexpr std::size_t kObjectNameMax = 128;
+[[nodiscard]] FormatPtr<ObjectDescription> object_request_format();
+[[nodiscard]] FormatPtr<ObjectDescription> named_object_request_format();
+[[nodiscard]] Result<CollisionObject> read_object_text(std::string_view text,
+                                                       const std::optional<std::string>& name);
+
+// An object as the server tells it: with the address of its mesh, not the file.
+[[nodiscard]] FormatPtr<CollisionObject> object_format();
+[[nodiscard]] FormatPtr<SceneView> scene_format();
+
+// The answers to changes.
+struct SceneChange {
+  std::uint64_t version;
+  CollisionObject object;
+};
+[[nodiscard]] FormatPtr<SceneChange> scene_change_format();
+[[nodiscard]] FormatPtr<std::uint64_t> scene_version_format();
+
+}  // namespace armloom

@@ -1,0 +1,553 @@
+// Written by `npm run contract`: change the descriptions in server/messages, not this file.
+export type paths = Record<string, never>;
+export type webhooks = Record<string, never>;
+export interface components {
+    schemas: {
+        /** @description What WebSocket and SSE carry. */
+        Message: components["schemas"]["SnapshotEvent"] | components["schemas"]["JobEvent"] | components["schemas"]["ArmEvent"] | components["schemas"]["QueueEvent"] | components["schemas"]["SceneEvent"] | components["schemas"]["MonitorEvent"] | components["schemas"]["AlertEvent"] | components["schemas"]["StateFrame"];
+        Cell: {
+            name: string;
+            /** @description In force */
+            policy: string;
+            /** @description Cell seconds per wall second */
+            speed: number;
+            robots: components["schemas"]["CellRobot"][];
+            objects: components["schemas"]["Object"][];
+            joints: components["schemas"]["CellJoint"][];
+            /** @description What every admitted motion keeps from other arms and the scene. */
+            clearance_m: number;
+            /** @description What an arm's own links keep from each other; at most clearance_m counts. */
+            self_clearance_m: number;
+            /** @description What the checks of motions allow for. */
+            checking: {
+                /** @description Time between the instants that the policy timed_discrete compares. */
+                time_step_s: number;
+                /** @description How far each joint may be off its path: every proof covers it. */
+                tracking_error_rad: number;
+                /** @description How far a motion may be behind its plan: every proof covers it. At least the controllers' lag_s. */
+                delay_s: number;
+                /** @description Share by which a trajectory may exceed a limit of velocity, acceleration or jerk between its waypoints. */
+                limit_tolerance: number;
+            };
+            /** @description Which job goes when. */
+            scheduling: {
+                /**
+                 * @description The rule by which jobs start; `armloom compare` shows what each makes of your jobs.
+                 * @enum {string}
+                 */
+                policy: "sequential" | "lockstep" | "reservation" | "timed_discrete" | "certified" | "earliest_start" | "coordinated";
+                /** @description A job that has waited so long in the backlog expires, unless it says otherwise. */
+                backlog_timeout_s: number;
+                /** @description A job that has waited so long is overtaken no more. */
+                aging_s: number;
+                /**
+                 * @description An arm without a job in the way of one, and jobs that wait for each other: park sends an arm aside, report only tells of it.
+                 * @enum {string}
+                 */
+                on_idle_blocker: "report" | "park";
+            };
+            /** @description The watch over the measured state of all arms. */
+            monitor: {
+                /** @description How often the measured state is looked at. */
+                rate_hz: number;
+                /** @description Time from a finding to the first arm that brakes. */
+                reaction_s: number;
+                /** @description Links closer than this stop their arms. At most clearance_m. */
+                stop_clearance_m: number;
+            };
+            /** @description When a motion may begin and when it has failed; the defaults are MoveIt's. */
+            execution: {
+                /** @description How far an arm may stand from where its job begins. */
+                start_tolerance_rad: number;
+                /** @description A motion fails as overrun when it takes longer than this times its duration, plus the margin, and no longer moves. */
+                duration_scaling: number;
+                /** @description The margin of that. */
+                duration_margin_s: number;
+            };
+        };
+        /** @description A job as the server gives it. */
+        Job: {
+            id: components["schemas"]["JobId"];
+            /** @description For people; may be empty */
+            name: string;
+            state: components["schemas"]["JobState"];
+            /** @description That it moves */
+            arms: string[];
+            /** @description Larger goes first */
+            priority: number;
+            /** @description When it was accepted, in cell time */
+            submitted_s: number;
+            /**
+             * Format: date-time
+             * @description The same in wall time
+             */
+            submitted_at: string;
+            /** @description When it starts; null: not planned, in cell time */
+            scheduled_s: number | null;
+            /**
+             * Format: date-time
+             * @description The same in wall time
+             */
+            scheduled_at: string | null;
+            /** @description When it began to move; null: not yet, in cell time */
+            started_s: number | null;
+            /**
+             * Format: date-time
+             * @description The same in wall time
+             */
+            started_at: string | null;
+            /** @description When it ended; null: not yet, in cell time */
+            ended_s: number | null;
+            /**
+             * Format: date-time
+             * @description The same in wall time
+             */
+            ended_at: string | null;
+            /** @description Share of the trajectory's time */
+            progress: number;
+            /** @description Of the trajectory */
+            duration_s: number;
+            /** @description Brakes on its path */
+            stopping: boolean;
+            /** @description Empty when it does not wait */
+            waits_on: components["schemas"]["Wait"][];
+            /** @description The deadlock that it is part of, itself first: each waits for the next one, the last for the first. Else empty */
+            ring: string[];
+            /** @description null until terminal */
+            result: {
+                reason: components["schemas"]["Reason"];
+                detail: string;
+            } | null;
+        };
+        /** @description Of two motions. Times in cells, and of progress, are trajectory time. */
+        Diagram: {
+            /** @description Cell time of state and progress */
+            t_s: number;
+            a: components["schemas"]["DiagramSide"];
+            b: components["schemas"]["DiagramSide"];
+            /** @description One for each arm of A and each other arm of B */
+            layers: {
+                /** @description Of A, of B */
+                arms: [
+                    string,
+                    string
+                ];
+                /** @description Cover the rectangle of both durations and do not overlap */
+                cells: components["schemas"]["DiagramCell"][];
+            }[];
+            evaluations: number;
+            scene_version: number;
+        };
+        /** @description RFC 9457. */
+        Problem: {
+            type: string;
+            title: string;
+            status: number;
+            /** @description One sentence with numbers and units */
+            detail: string;
+            /** @description JSON pointer into the body; else the place in words */
+            pointer?: string;
+            /** @description What was found there */
+            value?: string | number | null;
+            /** @description When several faults were found: all of them, the first one too */
+            errors?: {
+                pointer: string;
+                detail: string;
+                /** @description What was found there */
+                value: string | number | null;
+            }[];
+        };
+        SnapshotEvent: {
+            /**
+             * Format: uuid
+             * @description Of this run of the server
+             */
+            stream: string;
+            /** @description Without holes within a stream */
+            seq: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "snapshot";
+            /** @description Cell time */
+            t_s: number;
+            /**
+             * Format: date-time
+             * @description Wall time
+             */
+            at: string;
+            data: components["schemas"]["Snapshot"];
+        };
+        JobEvent: {
+            /**
+             * Format: uuid
+             * @description Of this run of the server
+             */
+            stream: string;
+            /** @description Without holes within a stream */
+            seq: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "job";
+            /** @description Cell time */
+            t_s: number;
+            /**
+             * Format: date-time
+             * @description Wall time
+             */
+            at: string;
+            data: components["schemas"]["Job"];
+        };
+        ArmEvent: {
+            /**
+             * Format: uuid
+             * @description Of this run of the server
+             */
+            stream: string;
+            /** @description Without holes within a stream */
+            seq: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "arm";
+            /** @description Cell time */
+            t_s: number;
+            /**
+             * Format: date-time
+             * @description Wall time
+             */
+            at: string;
+            data: components["schemas"]["Arm"];
+        };
+        QueueEvent: {
+            /**
+             * Format: uuid
+             * @description Of this run of the server
+             */
+            stream: string;
+            /** @description Without holes within a stream */
+            seq: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "queue";
+            /** @description Cell time */
+            t_s: number;
+            /**
+             * Format: date-time
+             * @description Wall time
+             */
+            at: string;
+            data: components["schemas"]["QueueIds"];
+        };
+        SceneEvent: {
+            /**
+             * Format: uuid
+             * @description Of this run of the server
+             */
+            stream: string;
+            /** @description Without holes within a stream */
+            seq: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "scene";
+            /** @description Cell time */
+            t_s: number;
+            /**
+             * Format: date-time
+             * @description Wall time
+             */
+            at: string;
+            data: components["schemas"]["Scene"];
+        };
+        MonitorEvent: {
+            /**
+             * Format: uuid
+             * @description Of this run of the server
+             */
+            stream: string;
+            /** @description Without holes within a stream */
+            seq: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "monitor";
+            /** @description Cell time */
+            t_s: number;
+            /**
+             * Format: date-time
+             * @description Wall time
+             */
+            at: string;
+            data: components["schemas"]["MonitorFinding"];
+        };
+        AlertEvent: {
+            /**
+             * Format: uuid
+             * @description Of this run of the server
+             */
+            stream: string;
+            /** @description Without holes within a stream */
+            seq: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "alert";
+            /** @description Cell time */
+            t_s: number;
+            /**
+             * Format: date-time
+             * @description Wall time
+             */
+            at: string;
+            data: components["schemas"]["Alert"];
+        };
+        /** @description Poses, about 30 Hz of wall time; dropped for slow readers. */
+        StateFrame: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "state";
+            t_s: number;
+            /** @description Every joint of the cell, rad or m */
+            q: {
+                [key: string]: number;
+            };
+            clearance: {
+                /** @description Two, or one and the scene: an object, or a link that no arm moves */
+                arms: string[];
+                m: number;
+                links: [
+                    string,
+                    string
+                ];
+            }[];
+        };
+        CellRobot: {
+            name: string;
+            prefix: string;
+            base: {
+                /** @description Position in metres. */
+                xyz: [
+                    number,
+                    number,
+                    number
+                ];
+                /** @description Roll, pitch, yaw about fixed axes, in rad, as in a URDF. */
+                rpy: [
+                    number,
+                    number,
+                    number
+                ];
+            };
+            /** @description XML, names without prefix */
+            urdf: string;
+            /** @description XML */
+            srdf: string;
+            /** @description Address of each mesh that the URDF names */
+            meshes: {
+                [key: string]: string;
+            };
+            arms: components["schemas"]["CellArm"][];
+        };
+        /** @description An object of the scene: exactly one shape. A mesh is told by its address. */
+        Object: {
+            /** @description The object's name; unique in the cell, and no link's or robot's name. */
+            name: string;
+            /** @description A box: its full side lengths, in metres. */
+            box?: [
+                number,
+                number,
+                number
+            ];
+            /** @description A cylinder along z: radius and full length, in metres. */
+            cylinder?: [
+                number,
+                number
+            ];
+            /** @description A sphere: radius, in metres. */
+            sphere?: [
+                number
+            ];
+            /** @description A mesh (STL, OBJ, DAE): a file; in every check convex pieces that contain it. */
+            mesh?: string;
+            /** @description Of a mesh: factors along x, y, z of the file's lengths. */
+            scale?: [
+                number,
+                number,
+                number
+            ];
+            /** @description Position in metres. */
+            xyz: [
+                number,
+                number,
+                number
+            ];
+            /** @description Roll, pitch, yaw about fixed axes, in rad, as in a URDF. */
+            rpy: [
+                number,
+                number,
+                number
+            ];
+        } & (unknown | unknown | unknown | unknown);
+        CellJoint: {
+            name: string;
+            /** @description null: of none */
+            arm: string | null;
+            /** @description null: none */
+            lower: number | null;
+            /** @description null: none */
+            upper: number | null;
+            velocity_max: number;
+            acceleration_max: number;
+            jerk_max: number;
+            brake: number;
+            /** @enum {string} */
+            unit: "rad" | "m";
+        };
+        /** @description The client's choice, or the server's. */
+        JobId: string;
+        /**
+         * @description The last five are terminal: a job reaches exactly one of them.
+         * @enum {string}
+         */
+        JobState: "queued" | "backlogged" | "scheduled" | "running" | "holding" | "succeeded" | "canceled" | "expired" | "failed" | "interrupted";
+        /** @description What a job waits for, with the evidence. */
+        Wait: {
+            /** @enum {string} */
+            kind: "job" | "arm" | "object" | "order" | "capacity" | "stop";
+            /** @description The other job */
+            id: string | null;
+            /** @description The other arm */
+            arm: string | null;
+            /** @description Own link, then the other's, or an object; empty without evidence */
+            links: string[];
+            /** @description From the start of this trajectory */
+            own_time_s: number | null;
+            /** @description From the start of the other's */
+            other_time_s: number | null;
+            /** @description Distance found; zero or less in contact */
+            clearance_m: number | null;
+            /** @description Of a stop: its cause */
+            detail?: string;
+        };
+        /**
+         * @description A closed list; the README explains each.
+         * @enum {string}
+         */
+        Reason: "completed" | "canceled_by_client" | "backlog_timeout" | "start_mismatch" | "self_collision" | "predecessor_failed" | "arm_fault" | "overrun" | "server_restart" | "deadlock";
+        DiagramSide: {
+            id: components["schemas"]["JobId"];
+            state: components["schemas"]["JobState"];
+            duration_s: number;
+            progress_s: number;
+        };
+        DiagramCell: {
+            /**
+             * @description free: the clearance is kept in every state of the cell; conflict: in none; undecided: in some, or neither is proven
+             * @enum {string}
+             */
+            state: "free" | "conflict" | "undecided";
+            /** @description From, to */
+            a_s: [
+                number,
+                number
+            ];
+            /** @description From, to */
+            b_s: [
+                number,
+                number
+            ];
+        };
+        Snapshot: {
+            cell: string;
+            policy: string;
+            speed: number;
+            stopped: boolean;
+            arms: components["schemas"]["Arm"][];
+            /** @description All that have not ended, and the 200 that ended last */
+            jobs: components["schemas"]["Job"][];
+            queue: components["schemas"]["QueueIds"];
+            objects: components["schemas"]["Object"][];
+            /** @description Events are missing before this */
+            gap?: boolean;
+        };
+        Arm: {
+            name: string;
+            robot: string;
+            state: components["schemas"]["ArmState"];
+            /** @description In motion or holding */
+            job: string | null;
+            progress: number;
+            joints: string[];
+            /** @description Measured, rad or m */
+            q: number[];
+            home: number[];
+            /** @description Measured distance from its own path, largest joint */
+            deviation_rad: number;
+        };
+        QueueIds: {
+            /** @description Every arm is stopped */
+            stopped: boolean;
+            queued: string[];
+            backlog: string[];
+            scheduled: string[];
+            running: string[];
+        };
+        Scene: {
+            /** @description Grows with every change */
+            version: number;
+            objects: components["schemas"]["Object"][];
+        };
+        MonitorFinding: {
+            /** @enum {string} */
+            kind: "contact" | "clearance";
+            arms: string[];
+            links: [
+                string,
+                string
+            ];
+            /** @description Found */
+            clearance_m: number;
+            /** @description What it should have been */
+            limit_m: number;
+            /** @description Arms that were told to stop */
+            stopped: string[];
+        };
+        Alert: {
+            /** @enum {string} */
+            level: "info" | "warning" | "error";
+            text: string;
+        };
+        CellArm: {
+            name: string;
+            /** @description Of the SRDF */
+            group: string;
+            joints: string[];
+            gripper_joints: string[];
+            home: number[];
+            named_states: {
+                [key: string]: number[];
+            };
+        };
+        /** @enum {string} */
+        ArmState: "idle" | "moving" | "holding" | "stopped" | "fault";
+    };
+    responses: never;
+    parameters: never;
+    requestBodies: never;
+    headers: never;
+    pathItems: never;
+}
+export type $defs = Record<string, never>;
+export type operations = Record<string, never>;
