@@ -22,6 +22,12 @@ struct Disturbances {
   bool parks = false;
 };
 
+std::string waits_text(const Wait& wait) {
+  return std::string(", waits for ") + to_string(wait.kind) +
+         (wait.job ? " " + std::to_string(wait.job->value()) : "") +
+         (wait.arm ? " of arm " + std::to_string(wait.arm->value()) : "");
+}
+
 class World {
  public:
   World(std::uint64_t seed, const std::string& policy, Disturbances disturbances)
@@ -179,7 +185,9 @@ class Worlds : public ::testing::TestWithParam<std::string> {
         const Job& at_end = bench.job(job);
         ++ended[at_end.state];
         EXPECT_TRUE(is_terminal(at_end.state))
-            << "job " << job.value() << " is " << to_string(at_end.state);
+            << "job " << job.value() << " is " << to_string(at_end.state)
+            << (at_end.started_at ? ", has begun" : "")
+            << (at_end.waits_on.empty() ? "" : waits_text(at_end.waits_on.front()));
         EXPECT_TRUE(!all_succeed || at_end.state == JobState::succeeded)
             << "job " << job.value() << " is " << to_string(at_end.state) << ": " << at_end.detail;
         EXPECT_EQ(bench.terminal_events[job], 1);
