@@ -87,6 +87,8 @@ class Plan final : public JobNames {
     });
   }
 
+  [[nodiscard]] bool is_stopped(ArmId) const override { return false; }
+
  private:
   const Cell& cell_;
   Configuration rest_;

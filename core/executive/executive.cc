@@ -55,7 +55,6 @@ Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr s
       observer_(observer),
       faulty_(pointers(arms)),
       motions_(cell, controllers(std::move(arms)), cell->home()),
-      monitor_(cell->monitor),
       checker_(scene_),
       near_(monitored(scene_)),
       monitor_period_(from_seconds(1.0 / cell->monitor.rate_hz)),

@@ -60,6 +60,7 @@ class Executive::Impl final : public JobNames {
   std::string key(JobId job) const override;
   std::string name(JobId job) const override;
   bool has_job(ArmId arm) const override;
+  bool is_stopped(ArmId arm) const override;
 
   void tell(std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, Alert> body);
   std::string names_of(const std::vector<ArmId>& arms) const;  // "left, right"

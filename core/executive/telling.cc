@@ -28,6 +28,8 @@ bool Executive::Impl::has_job(ArmId arm) const {
   });
 }
 
+bool Executive::Impl::is_stopped(ArmId arm) const { return scheduler_.stopped(arm); }
+
 void Executive::Impl::tell_job(JobId job) {
   JobView view = view_of(*scheduler_.find(job), *cell_, *this);
   if (is_terminal(view.state)) count(view);

@@ -1,5 +1,8 @@
 #include "core/executive/views.h"
 
+#include <optional>
+#include <string>
+
 namespace armloom {
 namespace {
 
@@ -7,14 +10,22 @@ constexpr const char* kToPark = "\"on_idle_blocker\": \"park\" in the cell's sch
 constexpr const char* kWaysAside =
     "back along its last motion, home, or to a named pose of its group";
 
-// What would open the way past an arm that no job moves.
-std::string opens(const std::string& arm, const Cell& cell) {
-  const std::string text = "arm " + arm + " has no job: ";
-  if (cell.scheduling.on_idle_blocker != "park") {
-    return text + "one that moves it away would open the way, or " + kToPark +
-           ", which sends it aside";
+// What would open the way past an arm that stays where it is; nothing while its jobs move it.
+std::optional<std::string> opens(ArmId id, const Cell& cell, const JobNames& names) {
+  const std::string arm = "arm " + cell.arm(id).name;
+  const bool stopped = names.is_stopped(id);
+  if (names.has_job(id)) {
+    if (!stopped) return std::nullopt;
+    return arm + " is stopped: resuming it would let its own job move it on";
   }
-  return text + "it goes aside where it has a free way (" + kWaysAside +
+  const std::string begins = arm + (stopped ? " is stopped and has no job: " : " has no job: ");
+  if (cell.scheduling.on_idle_blocker != "park") {
+    return begins + (stopped ? "resuming it, and a job" : "one") +
+           " that moves it away would open the way, or " + kToPark + ", which sends it aside" +
+           (stopped ? " when resumed" : "");
+  }
+  return begins + (stopped ? "when it is resumed " : "") +
+         "it goes aside where it has a free way (" + kWaysAside +
          "), else one that moves it away would open this one";
 }
 
@@ -36,9 +47,9 @@ WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names) {
   WaitView view{.kind = wait.kind, .detail = wait.detail};
   if (wait.job) view.job = names.key(*wait.job);
   if (wait.arm) view.arm = cell.arm(*wait.arm).name;
-  if (wait.kind == Wait::Kind::arm && wait.arm && !names.has_job(*wait.arm)) {
-    view.detail += (view.detail.empty() ? "" : "; ") + opens(view.arm, cell);
-  }
+  const auto opening =
+      wait.kind == Wait::Kind::arm && wait.arm ? opens(*wait.arm, cell, names) : std::nullopt;
+  if (opening) view.detail += (view.detail.empty() ? "" : "; ") + *opening;
   if (wait.proximity) {
     view.links = {wait.proximity->body_a, wait.proximity->body_b};
     view.own_time_s = to_seconds(wait.own_time);

@@ -16,6 +16,8 @@ class JobNames {
   [[nodiscard]] virtual std::string name(JobId job) const = 0;
   // Whether a job that has not ended moves the arm, or will.
   [[nodiscard]] virtual bool has_job(ArmId arm) const = 0;
+  // Whether the arm stays where it is until it is resumed.
+  [[nodiscard]] virtual bool is_stopped(ArmId arm) const = 0;
 };
 
 [[nodiscard]] WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names);

@@ -11,6 +11,17 @@ std::string span_text(const Joint& joint) {
   return "[" + text_of(joint.lower) + ", " + text_of(joint.upper) + "]" + unit;
 }
 
+void warn_if_held_elsewhere(const RobotBuild& robot, const ArmBuild& build, std::size_t index,
+                            double value, Findings& findings) {
+  const TreeLink& link = robot.tree.links[index];
+  if (!link.held || std::abs(*link.held - value) <= 1e-6) return;
+  findings.warn({ProblemKind::invalid, "held-joint", build.pointer + "/home",
+                 "arm " + build.description->name + ": home has joint " + link.joint + " at " +
+                     text_of(value) + ", and \"fixed\" holds it at " + text_of(*link.held) +
+                     ", which counts",
+                 value});
+}
+
 // Adds to `faults` why the state can be no home, and returns its values in the arm's order.
 Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const std::string& name,
                           NamedState& state, const Cell& cell) {
@@ -23,7 +34,12 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
   Eigen::VectorXd values(static_cast<Eigen::Index>(joints.size()));
   Eigen::Index row = 0;
   for (const std::size_t index : arm.group) {
-    if (!robot.joints[index]) continue;  // held
+    if (!robot.joints[index]) {  // held
+      const auto value = state.values.find(index);
+      if (value != state.values.end() && name == arm.description->home_state)
+        warn_if_held_elsewhere(robot, arm, index, value->second, state.faults);
+      continue;
+    }
     const Joint& joint = cell.joint(*robot.joints[index]);
     const std::string& plain = robot.tree.links[index].joint;
     const auto value = state.values.find(index);
@@ -92,7 +108,10 @@ std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBui
     values = home;
   } else if (home.size() == build.group.size()) {
     for (std::size_t j = 0; j < home.size(); ++j) {
-      if (robot.joints[build.group[j]]) values.push_back(home[j]);
+      if (robot.joints[build.group[j]])
+        values.push_back(home[j]);
+      else
+        warn_if_held_elsewhere(robot, build, build.group[j], home[j], findings);
     }
   } else {
     std::string names;

@@ -208,6 +208,8 @@ void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
     add_arms(robot, cell, findings);
     assign_to_arms(robot, cell);
     refuse_shared_joints(robot, cell, findings);
+    tell_standing_joints(robot, cell, findings);
+    warn_of_seen_only(robot, cell, findings);
     settle_limits(robot, cell, findings);
     settle_homes(robot, cell, findings);
   }

@@ -13,6 +13,17 @@ std::optional<Id> find_by_name(const Things& things, std::string_view name) {
   return std::nullopt;
 }
 
+// Whether what the link is carried by stands still and is `mount`, or is fixed to it by links
+// without a shape.
+bool stands_on(const Cell& cell, const Link& carried, LinkId mount) {
+  if (!carried.parent || cell.link(*carried.parent).arm) return false;
+  for (auto below = carried.parent; below; below = cell.link(*below).parent) {
+    if (*below == mount) return true;
+    if (!cell.link(*below).shapes.empty() || cell.link(*below).driver) return false;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<ArmId> Cell::find_arm(std::string_view arm_name) const {
@@ -27,22 +38,22 @@ std::optional<LinkId> Cell::find_link(std::string_view link_name) const {
 
 bool Cell::is_mount(LinkId link, ArmId arm) const {
   if (this->link(link).arm) return false;
-  return std::ranges::any_of(
-      links, [&](const Link& carried) { return carried.parent == link && carried.arm == arm; });
+  return std::ranges::any_of(links, [&](const Link& carried) {
+    return carried.arm == arm && stands_on(*this, carried, link);
+  });
 }
 
 bool Cell::is_own(LinkId a, LinkId b) const {
   if (link(a).arm == link(b).arm) return link(a).arm.has_value();
   if (!link(a).arm) return is_own(b, a);
   if (link(b).arm) return false;
-  // The one joint between them hangs on b.
-  int movable = 0;
-  for (LinkId at = a; link(at).parent; at = *link(at).parent) {
-    const bool moves = link(at).driver.has_value();
-    movable += moves ? 1 : 0;
-    if (link(at).parent == b) return moves && movable == 1;
+  const Link* at = &link(a);
+  int movable = at->driver ? 1 : 0;
+  for (; at->parent && link(*at->parent).arm; movable += at->driver ? 1 : 0) {
+    at = &link(*at->parent);
   }
-  return false;
+  // The one joint between them is the one that stands on b.
+  return at->driver && movable == 1 && stands_on(*this, *at, b);
 }
 
 Configuration Cell::home() const {

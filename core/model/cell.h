@@ -129,6 +129,7 @@ struct Cell {
   // on the mount and never gets away from it. The rest of the arm reaches over the mount as over a
   // table, and owes it mount_clearance_m: clearance_m unless the cell says otherwise, as it may for
   // robots that fold on their own body. (Neighbours that touch are disabled by the SRDF.)
+  // Links without a shape (mounting frames) hand that down to what they are fixed to.
   [[nodiscard]] bool is_mount(LinkId link, ArmId arm) const;
   // Two links of one arm, or one that the arm's first joint alone moves and the arm's mount: they
   // pass each other closely by design and keep self_clearance_m.

@@ -50,6 +50,22 @@ void warn_of_lags(const CellDescription& description, Findings& findings) {
   }
 }
 
+void warn_of_noise(const CellDescription& description, Findings& findings) {
+  const double error_rad = description.checking.tracking_error_rad;
+  for (std::size_t r = 0; r < description.robots.size(); ++r) {
+    const RobotDescription& robot = description.robots[r];
+    const double noise_rad = robot.controller.noise_rad;
+    if (noise_rad <= error_rad) continue;
+    findings.warn({ProblemKind::invalid, "noise-above-error",
+                   "/robots/" + std::to_string(r) + "/controller/noise_rad",
+                   "robot " + robot.name + ": noise_rad is " + text_of(noise_rad) +
+                       ", more than checking tracking_error_rad of " + text_of(error_rad) +
+                       ": its arms are measured farther from their paths than motions are "
+                       "certified for; tracking_error_rad has to cover the noise",
+                   noise_rad});
+  }
+}
+
 class MeshDoubts {
  public:
   explicit MeshDoubts(Findings& findings) : findings_(findings) {}
@@ -104,6 +120,7 @@ class MeshDoubts {
 void warn_of_doubts(const CellDescription& description, const Cell& cell, Findings& findings) {
   warn_of_brakes(description, cell, findings);
   warn_of_lags(description, findings);
+  warn_of_noise(description, findings);
   MeshDoubts meshes(findings);
   for (const Link& link : cell.links) {
     for (const PlacedShape& placed : link.shapes)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <string_view>
 
@@ -59,6 +60,7 @@ class JointReader {
       limits.velocity = positive("max_velocity", "has_velocity_limits");
     if (has("has_acceleration_limits"))
       limits.acceleration = positive("max_acceleration", "has_acceleration_limits");
+    if (has("has_deceleration_limits")) limits.brake = deceleration();
     if (has("has_jerk_limits")) limits.jerk = positive("max_jerk", "has_jerk_limits");
   }
 
@@ -125,6 +127,15 @@ class JointReader {
     report(at_line(file_, node_[key].Mark()), "not-positive",
            std::string(key) + " is " + text_of(*read) + ", it must be greater than 0", *read,
            joint_.faults);
+    return std::nullopt;
+  }
+
+  // MoveIt's Pilz planner has it below zero.
+  std::optional<double> deceleration() {
+    const auto read = number("max_deceleration", "has_deceleration_limits");
+    if (!read || *read != 0.0) return read ? std::optional(std::abs(*read)) : std::nullopt;
+    report(at_line(file_, node_["max_deceleration"].Mark()), "not-positive",
+           "max_deceleration is 0, so nothing could stop", 0.0, joint_.faults);
     return std::nullopt;
   }
 

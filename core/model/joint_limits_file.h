@@ -14,7 +14,7 @@ namespace armloom {
 struct LimitsFile {
   struct Joint {
     std::string place;              // "joint_limits.yaml:12: joint panda_joint1"
-    JointLimitsDescription limits;  // no brake: the file has none
+    JointLimitsDescription limits;  // the brake from max_deceleration
     Findings faults;                // problems if an arm of the cell has the joint
   };
   std::string file;  // file name without folder

@@ -44,6 +44,14 @@ void assign_to_arms(const RobotBuild& robot, Cell& cell);
 // is a problem, which holding the joint solves.
 void refuse_shared_joints(const RobotBuild& robot, const Cell& cell, Findings& findings);
 
+// Joints of no arm stand still. One that would move an arm is a problem, as nobody has said where
+// it stands; others that move shapes, or stand between joints of an arm's group, are warned of.
+void tell_standing_joints(const RobotBuild& robot, const Cell& cell, Findings& findings);
+
+// Warns of what is seen and not checked: links with a visual and without a collision shape, and
+// arms without any shape.
+void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Findings& findings);
+
 // Settles every limit of the robot's joints, from the cell file's `limits` over joint_limits.yaml
 // over the URDF and the defaults. Positions and velocities are never wider than the URDF's. What an
 // arm's own joints need and no file gives is a problem.

@@ -42,6 +42,7 @@ struct TreeLink {
   UrdfLimits limits;
   std::optional<double> held;  // by the cell file's "fixed": rad or m, which X_PJ then contains
   std::vector<PlacedShape> shapes;
+  bool seen = false;  // it has a visual
 
   // A joint with a value of its own: it becomes a Joint of the cell.
   [[nodiscard]] bool is_independent() const { return motion.has_value() && !mimic.has_value(); }

@@ -34,7 +34,7 @@ class GroupReader {
     const auto [entry, first] = groups_.emplace(name, Group{});
     const XmlPlace place = place_of(name, entry->second.faults);
     if (!first) return place.report("duplicate-name", "more than one group has this name", name);
-    place.only_children(element, {"chain", "joint", "link", "group", "passive_joint"});
+    place.only_children(element, {"chain", "joint", "link", "group"}, {"passive_joint"});
     for (const auto* child = element.FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {
       read_member(*child, place, entry->second);

@@ -28,6 +28,12 @@ class SrdfReader {
   RobotSemantics read(const std::set<std::string>& used_groups) {
     RobotSemantics semantics;
     check_name();
+    XmlPlace(file_ + ": robot", findings_)
+        .only_children(
+            srdf_,
+            {"group", "disable_collisions", "disable_default_collisions", "enable_collisions"},
+            {"group_state", "end_effector", "virtual_joint", "passive_joint", "joint_property",
+             "link_sphere_approximation"});
     const std::set<std::string> virtual_joints = read_virtual_joints();
     semantics.groups = read_groups(srdf_, file_, tree_, virtual_joints, used_groups, findings_);
     for_each("group_state",
@@ -68,7 +74,14 @@ class SrdfReader {
   std::set<std::string> read_virtual_joints() const {
     std::set<std::string> names;
     for_each("virtual_joint", [&](const XMLElement& joint) {
-      names.insert(at_line(joint).only_warning("it is left out").name(joint, "name"));
+      const XmlPlace place = at_line(joint);
+      names.insert(place.only_warning("it is left out").name(joint, "name"));
+      const char* type = joint.Attribute("type");
+      if (type == nullptr || std::string_view(type) == "fixed") return;
+      place.warn("moving-base",
+                 std::string("the robot's base is ") + type +
+                     " by it; here it stands where \"base\" of the cell has it",
+                 std::string(type));
     });
     return names;
   }
@@ -120,7 +133,7 @@ class SrdfReader {
                         name);
     }
     const TreeLink& link = tree_.links[found->second];
-    if (!link.is_independent()) return;  // it has no value of its own
+    if (!link.is_independent() && !link.held) return;  // it has no value of its own
     const auto value = XmlPlace(place.text() + ": joint " + name, state.faults)
                            .number(element, "value", Presence::required);
     if (!value) return;

@@ -6,10 +6,7 @@
 #include <string>
 
 #include "core/model/findings.h"
-
-namespace tinyxml2 {
-class XMLElement;
-}
+#include "core/model/xml_element.h"
 
 namespace armloom {
 
@@ -33,6 +30,7 @@ struct UrdfNotes {
   };
   std::map<std::string, Joint> joints;        // each of the mended robot
   std::map<std::string, std::string> meshes;  // name in the file -> path
+  std::set<std::string> seen;                 // links with a visual
   std::set<std::string> loose;                // links that hang on nothing because of what was told
   std::set<std::string> made;  // links and joints that only make the mended robot one tree
   bool patched = false;        // as RobotTree has it
@@ -40,12 +38,16 @@ struct UrdfNotes {
 
 // Checks every <link> and <joint>, tells all that is wrong and writes what is right to `mended`.
 // What the model is made of must be right: names, poses, axes, collision shapes, mimics; each
-// number finite and complete, nothing doubled or missing. What it does not use (visuals, masses,
-// efforts, unknown elements) only warns, and limits are judged by whose joint it is. `file` begins
-// each place.
+// number finite and complete, nothing doubled, missing or misspelt. What it does not use (visuals,
+// masses, efforts, unknown elements) only warns, and limits are judged by whose joint it is. `file`
+// begins each place.
 [[nodiscard]] UrdfNotes check_urdf_elements(const tinyxml2::XMLElement& robot,
                                             const std::string& file, const MeshFolders& folders,
                                             tinyxml2::XMLElement& mended, Findings& findings);
+
+// One <link> of these (urdf_link_check.cc).
+void check_link(const tinyxml2::XMLElement& link, const XmlPlace& place, const MeshFolders& folders,
+                UrdfNotes& notes, tinyxml2::XMLElement& to);
 
 // Joints must connect known links, all links hang in one tree under one root, and a mimic joint
 // follow a movable joint that is no mimic. Where that is not so it is told, and `mended` is

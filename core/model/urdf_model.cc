@@ -113,6 +113,7 @@ RobotTree tree_of(const urdf::ModelInterface& model, UrdfNotes notes) {
         link.shapes.push_back({shape_of(*collision->geometry, notes), pose_of(collision->origin)});
       if (!notes.made.contains(source->name)) {
         link.name = source->name;
+        link.seen = notes.seen.contains(link.name);
         tree.by_link.emplace(link.name, *index);
       }
     }

@@ -100,7 +100,8 @@ class TreeMender {
       else if (!notes_.loose.contains(name))
         roots.insert(name);
     }
-    if (links_.empty()) return report("robot", "missing", "there are no links", "");
+    if (links_.empty())
+      return report("robot", "missing", "there are no links: is it the robot's URDF?", "");
     if (roots.size() > 1)
       return report("robot", "two-roots", "more than one root link: " + listed(roots),
                     listed(roots));

@@ -3,7 +3,9 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <cctype>
 
+#include "core/base/nearest_name.h"
 #include "core/model/xml_numbers.h"
 
 namespace armloom {
@@ -32,6 +34,8 @@ std::string why_malformed(const tinyxml2::XMLDocument& document, const std::stri
   if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED)
     return "elements are nested too deeply";
   if (text.find("<!DOCTYPE") != std::string::npos) return "a DOCTYPE is not allowed";
+  if (document.ErrorID() == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT)
+    return "the XML is malformed: the element that begins here is not closed by its own name";
   return std::string("the XML is malformed (") + document.ErrorName() + ")";
 }
 
@@ -135,21 +139,40 @@ const tinyxml2::XMLElement* XmlPlace::only_child(const tinyxml2::XMLElement& ele
     if (presence == Presence::required)
       report("missing", std::string("<") + child + "> is missing");
   } else if (first->NextSiblingElement(child) != nullptr) {
-    report("duplicate", std::string("more than one <") + child + ">");
+    report("duplicate", std::string("more than one <") + child + ">, of which the first counts");
   }
   return first;
 }
 
-void XmlPlace::only_children(const tinyxml2::XMLElement& element,
-                             std::initializer_list<std::string_view> known) const {
+void XmlPlace::tell_unknown(const std::string& name, int line, const std::string& before,
+                            const std::string& after, Names used, Names unused) const {
+  const auto is_in = [](Names names, std::string_view one) {
+    return std::find(names.begin(), names.end(), one) != names.end();
+  };
+  if (is_in(used, name) || is_in(unused, name) || name.find(':') != std::string::npos) return;
+  std::vector<std::string_view> known(used);
+  known.insert(known.end(), unused.begin(), unused.end());
+  std::string lower_case = name;
+  for (char& c : lower_case) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto meant = nearest_name(lower_case, known);
+  const std::string what = "line " + std::to_string(line) + ": " + before + name + after;
+  const std::string hint =
+      meant ? "; did you mean " + before + std::string(*meant) + after + "?" : "";
+  if (meant && is_in(used, *meant)) return report("misspelt", what + " is not known" + hint, name);
+  warn("unknown-element", what + " is not known here and is left out" + hint, name);
+}
+
+void XmlPlace::only_children(const tinyxml2::XMLElement& element, Names used, Names unused) const {
   for (const auto* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
-    const std::string_view tag = child->Name();
-    // An element of another namespace (drake:..., mujoco:...) is an extension, not a misspelling.
-    if (tag.find(':') != std::string_view::npos) continue;
-    if (std::find(known.begin(), known.end(), tag) != known.end()) continue;
-    warn("unknown-element", "<" + std::string(tag) + "> is not known here and is left out",
-         std::string(tag));
+    tell_unknown(child->Name(), child->GetLineNum(), "<", ">", used, unused);
+  }
+}
+
+void XmlPlace::only_attributes(const tinyxml2::XMLElement& element, Names used) const {
+  for (const auto* one = element.FirstAttribute(); one != nullptr; one = one->Next()) {
+    tell_unknown(one->Name(), one->GetLineNum(), std::string(element.Name()) + " attribute ", "",
+                 used, {});
   }
 }
 

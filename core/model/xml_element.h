@@ -58,11 +58,21 @@ class XmlPlace {
   // second one is reported.
   const tinyxml2::XMLElement* only_child(const tinyxml2::XMLElement& element, const char* child,
                                          Presence presence) const;
-  // Warns of children of other names. A misspelt <colision> would otherwise vanish without a word.
-  void only_children(const tinyxml2::XMLElement& element,
-                     std::initializer_list<std::string_view> known) const;
+  // Names of elements or attributes.
+  using Names = std::initializer_list<std::string_view>;
+
+  // Tells of children of other names. One that most likely is a misspelt name of `used`, which the
+  // model is made of, is reported: <colision> would leave its link without a shape. Others may
+  // stand there without a word (`unused`), or are warned of; those of another namespace
+  // (drake:..., mujoco:...) are extensions.
+  void only_children(const tinyxml2::XMLElement& element, Names used, Names unused) const;
+  // The same of attributes: <origin xzy="..."> would be no shift.
+  void only_attributes(const tinyxml2::XMLElement& element, Names used) const;
 
  private:
+  void tell_unknown(const std::string& name, int line, const std::string& before,
+                    const std::string& after, Names used, Names unused) const;
+
   std::string place_;
   Findings* findings_;
   std::optional<std::string> consequence_;  // given: of a place that only warns

@@ -30,8 +30,6 @@ std::vector<ArmId> moving_arms(const Proximity& proximity, const std::vector<boo
 
 }  // namespace
 
-Monitor::Monitor(MonitorSettings settings) : settings_(std::move(settings)) {}
-
 std::vector<MonitorFinding> Monitor::observe(const std::vector<Proximity>& too_close,
                                              const std::vector<bool>& moving, TimePoint now) {
   std::vector<MonitorFinding> findings;

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "core/base/time.h"
-#include "core/coordination/verdict.h"
-#include "core/model/cell_description.h"
+#include "core/coordination/proximity.h"
 
 namespace armloom {
 
@@ -17,7 +16,7 @@ struct MonitorFinding {
   Kind kind;
   TimePoint time;
   Proximity proximity;       // which links, how close
-  double limit_m;            // what it should have been
+  double limit_m;            // what it should have been: Proximity::limit_m, of this pair
   std::vector<ArmId> stops;  // arms to stop: those of the pair that move
 };
 
@@ -25,9 +24,7 @@ struct MonitorFinding {
 // is handed the pairs that are too close and says what they mean.
 class Monitor {
  public:
-  explicit Monitor(MonitorSettings settings);
-
-  // `too_close`: every pair below stop_clearance_m in the measured state at `now`; `moving`:
+  // `too_close`: every pair below its own limit_m in the measured state at `now`; `moving`:
   // indexed by ArmId. A pair is found once: while it stays below the limit it is found again only
   // if one of its arms moves and it has come closer by more than kCloserBy_m since (so that
   // arms may be moved apart after a stop). A pair of which no arm moves is found without stops.
@@ -36,7 +33,6 @@ class Monitor {
                                                     const std::vector<bool>& moving, TimePoint now);
 
  private:
-  MonitorSettings settings_;
   std::map<std::pair<std::string, std::string>, double> known_;  // pair -> closest so far
 };
 

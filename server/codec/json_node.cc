@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/nearest_name.h"
 #include "server/codec/json_pointer.h"
-#include "server/codec/nearest_name.h"
 
 namespace armloom {
 namespace {

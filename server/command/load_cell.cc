@@ -35,7 +35,9 @@ void add_what_is_independent(const Problems& found, Problems& problems) {
   const Problems faults = problems;
   for (const Problem& problem : found) {
     const bool follows = std::any_of(faults.begin(), faults.end(), [&](const Problem& fault) {
-      return fault.pointer.empty() || fault.pointer.front() != '/' ||
+      // Of text that is no JSON nothing was read.
+      return fault.slug == "malformed-json" || fault.slug == "duplicate-key" ||
+             fault.pointer.empty() || fault.pointer.front() != '/' ||
              is_at_or_below(problem.pointer, fault.pointer) ||
              is_at_or_below(fault.pointer, problem.pointer);
     });

@@ -41,6 +41,24 @@ bool is_above(const RobotTree& tree, const JointSet& above, const JointSet& belo
   });
 }
 
+bool stand_side_by_side(const RobotTree& tree, const JointSet& a, const JointSet& b) {
+  return !share_a_joint(a, b) && !is_above(tree, a, b) && !is_above(tree, b, a);
+}
+
+// Chains that both begin at the base of a torso: it can be held, and each has an arm of its own.
+bool share_a_torso(const RobotTree& tree, const JointSet& a, const JointSet& b) {
+  JointSet shared;
+  JointSet rest_a;
+  JointSet rest_b;
+  for (const std::size_t joint : a) (b.contains(joint) ? shared : rest_a).insert(joint);
+  for (const std::size_t joint : b) {
+    if (!a.contains(joint)) rest_b.insert(joint);
+  }
+  return !rest_a.empty() && !rest_b.empty() && is_above(tree, shared, rest_a) &&
+         is_above(tree, shared, rest_b) && stand_side_by_side(tree, rest_a, rest_b) &&
+         shared.size() <= std::min(rest_a.size(), rest_b.size());
+}
+
 // Which of two candidates goes, and why: nothing when both can be arms.
 struct Loser {
   bool is_first;
@@ -50,6 +68,7 @@ std::optional<Loser> weigh(const RobotTree& tree, const GroupChoice& first, cons
                            const GroupChoice& second, const JointSet& b) {
   if (a == b) return Loser{false, "it holds the same joints as " + first.group};
   if (share_a_joint(a, b)) {
+    if (share_a_torso(tree, a, b)) return std::nullopt;
     if (!holds(a, b) && !holds(b, a)) return Loser{false, "it shares joints with " + first.group};
     const bool first_is_larger = a.size() > b.size();
     const bool smaller_stays = 2 * std::min(a.size(), b.size()) >= std::max(a.size(), b.size());
@@ -71,6 +90,61 @@ std::optional<Loser> weigh(const RobotTree& tree, const GroupChoice& first, cons
 void leave_out(GroupChoice& choice, std::string why) {
   choice.is_arm = false;
   choice.why = std::move(why);
+}
+
+// Candidates that stand side by side, of those that `is_part` names: the largest first.
+template <class IsPart>
+std::vector<const GroupChoice*> side_by_side(const RobotTree& tree, const RobotSemantics& semantics,
+                                             const std::vector<GroupChoice>& choices,
+                                             const IsPart& is_part) {
+  const auto joints_of = [&](const GroupChoice* choice) -> const JointSet& {
+    return semantics.groups.at(choice->group);
+  };
+  std::vector<const GroupChoice*> candidates;
+  for (const GroupChoice& choice : choices) {
+    if (choice.is_arm && is_part(joints_of(&choice))) candidates.push_back(&choice);
+  }
+  std::ranges::stable_sort(candidates, [&](const GroupChoice* a, const GroupChoice* b) {
+    return joints_of(a).size() > joints_of(b).size();
+  });
+  std::vector<const GroupChoice*> parts;
+  for (const GroupChoice* one : candidates) {
+    if (std::ranges::all_of(parts, [&](const GroupChoice* other) {
+          return stand_side_by_side(tree, joints_of(other), joints_of(one));
+        }))
+      parts.push_back(one);
+  }
+  return parts;
+}
+
+std::string listed(const std::vector<const GroupChoice*>& choices) {
+  std::vector<std::string> names;
+  for (const GroupChoice* choice : choices) names.push_back(choice->group);
+  return listed(names);
+}
+
+// What moves two others that are no smaller (a torso), then groups that are two others by their
+// joints: two by two an arm may seem a small part of them.
+void leave_out_unions(const RobotTree& tree, const RobotSemantics& semantics,
+                      std::vector<GroupChoice>& choices) {
+  for (GroupChoice& torso : choices) {
+    const JointSet& joints = semantics.groups.at(torso.group);
+    const auto moved = side_by_side(tree, semantics, choices, [&](const JointSet& part) {
+      return part.size() >= joints.size() && !share_a_joint(joints, part) &&
+             is_above(tree, joints, part);
+    });
+    if (torso.is_arm && moved.size() >= 2) leave_out(torso, "it moves " + listed(moved));
+  }
+  for (GroupChoice& whole : choices) {
+    const JointSet& joints = semantics.groups.at(whole.group);
+    const auto parts = side_by_side(tree, semantics, choices, [&](const JointSet& part) {
+      return part.size() < joints.size() && holds(joints, part);
+    });
+    std::size_t held = 0;
+    for (const GroupChoice* part : parts) held += semantics.groups.at(part->group).size();
+    if (whole.is_arm && parts.size() >= 2 && 2 * held >= joints.size())
+      leave_out(whole, "it is made of " + listed(parts));
+  }
 }
 
 }  // namespace
@@ -115,6 +189,7 @@ std::vector<GroupChoice> choose_arm_groups(const RobotTree& tree, const RobotSem
     }
     choices.push_back(std::move(choice));
   }
+  leave_out_unions(tree, semantics, choices);
   for (std::size_t a = 0; a < choices.size(); ++a) {
     for (std::size_t b = a + 1; b < choices.size() && choices[a].is_arm; ++b) {
       if (!choices[b].is_arm) continue;
@@ -139,10 +214,13 @@ std::vector<GroupChoice> choose_arm_groups(const RobotTree& tree, const RobotSem
 std::set<std::size_t> joints_above_arms(const RobotTree& tree, const RobotSemantics& semantics,
                                         const std::vector<GroupChoice>& choices) {
   JointSet of_arms;
-  for (const GroupChoice& choice : choices) {
-    if (choice.is_arm) of_arms.merge(JointSet(semantics.groups.at(choice.group)));
-  }
   std::set<std::size_t> above;
+  for (const GroupChoice& choice : choices) {
+    if (!choice.is_arm) continue;
+    for (const std::size_t joint : semantics.groups.at(choice.group)) {
+      if (!of_arms.insert(joint).second) above.insert(joint);
+    }
+  }
   for (const std::size_t joint : of_arms) {
     for (auto link = tree.links[joint].parent; link; link = tree.links[*link].parent) {
       // A mimic joint moves with the joint that it follows.

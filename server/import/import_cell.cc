@@ -105,7 +105,7 @@ class CellImport {
     }
     for (const HeldJoint& joint : source.held) {
       remark(pointer + "/fixed",
-             joint.name + " moves arms and is in none of them: held " +
+             joint.name + " moves arms and is no single one's: held " +
                  (joint.state.empty() ? "at zero, or the limit next to it."
                                       : "where the state " + joint.state + " has it."));
     }

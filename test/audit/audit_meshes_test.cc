@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <random>
 
 #include "core/audit/audit.h"
+#include "test/collision/reference_distance.h"
 #include "test/collision/small_cell.h"
 #include "test/model/small_meshes.h"
 
@@ -74,6 +76,43 @@ TEST(AuditMeshes, ABodyWhollyInsideAnotherIsAContactWhicheverIsTheMesh) {
         at_angle(cell_of(cases[i].first, cases[i].second, small::at_xyz(0.4, 0, 0)), 0.1);
     EXPECT_TRUE(report.first_contact.has_value()) << "case " << i;
   }
+}
+
+TEST(AuditMeshes, MeasuresTrianglesThatAreASegmentOrAPoint) {
+  small::Surface wall = small::box_surface({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
+  for (const Triangle& t : {Triangle{0, 0, 1}, Triangle{0, 3, 3}, Triangle{5, 5, 5}})
+    wall.triangles.push_back(t);
+  for (const Shape& shape : {Shape(Sphere{0.05}), Shape(Box{{0.1, 0.1, 0.1}})}) {
+    const AuditReport report =
+        at_angle(cell_of(shape, small::mesh_of(wall), small::at_xyz(0.6, 0, 0)), 0.0);
+    ASSERT_TRUE(report.smallest_clearance.has_value());
+    EXPECT_NEAR(report.smallest_clearance->distance_m, 0.05, 2e-6);
+  }
+}
+
+// FCL's default solver claims up to 13 mm too much here.
+TEST(AuditShapes, MeasuresBoxesThatStandAtOneHeight) {
+  using reference::Convex;
+  const Box arm{{0.5, 0.05, 0.05}};
+  const Box cube{{0.02, 0.02, 0.02}};
+  std::mt19937_64 random(15);
+  std::uniform_real_distribution<double> angle(-0.7, 0.7);
+  int near = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Cell cell = cell_of(arm, cube, small::at_xyz(0.4, 0.08, 0));
+    const double q = angle(random);
+    Convex a{.kind = Convex::Kind::box, .half_size_m = arm.size_m / 2};
+    a.X_WS = Eigen::AngleAxisd(q, kZ) * small::at_xyz(0.4, 0, 0);
+    Convex b{.kind = Convex::Kind::box, .half_size_m = cube.size_m / 2};
+    b.X_WS = small::at_xyz(0.4, 0.08, 0);
+    const reference::Bracket truth = reference::distance(a, b);
+    const AuditReport report = at_angle(cell, q);
+    ASSERT_TRUE(report.smallest_clearance.has_value());
+    EXPECT_LE(report.smallest_clearance->distance_m, truth.upper + 1e-6) << q;
+    EXPECT_GE(report.smallest_clearance->distance_m, truth.lower - 1e-6) << q;
+    near += truth.lower > 0.0 && truth.upper < 0.1 ? 1 : 0;
+  }
+  EXPECT_GT(near, 100);
 }
 
 TEST(AuditMeshes, MeasuresTheSameOverAWholeTurnAsInEachStateAlone) {

@@ -205,10 +205,12 @@ TEST(CollisionChecker, AllNamesTheClosestOfEachCounterpart) {
   EXPECT_EQ(found[0].body_b, "nearer");
   EXPECT_TRUE(found[0].object_b);
   EXPECT_NEAR(found[0].clearance_m, 0.002, 1e-9);
+  EXPECT_EQ(found[0].limit_m, 0.01);
   EXPECT_EQ(found[1].body_a, "left_link1");
   EXPECT_EQ(found[1].body_b, "left_link3");
   EXPECT_EQ(found[1].arm_b, left);
   EXPECT_NE(found[1].arm_a, right);
+  EXPECT_NEAR(found[1].limit_m, 0.0025, 1e-12);  // 5 mm of 20 mm, of which 10 mm stop
 }
 
 TEST(CollisionChecker, HoldsAnArmsOwnLinksToTheirOwnClearance) {
@@ -225,6 +227,7 @@ TEST(CollisionChecker, HoldsAnArmsOwnLinksToTheirOwnClearance) {
   const auto found = stricter.all_closer_than(q, 0.02);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].clearance_m, 0.01, 1e-9);
+  EXPECT_EQ(found[0].limit_m, 0.012);
 }
 
 TEST(CollisionChecker, ForbidsContactEvenWhereNoClearanceIsAsked) {

@@ -220,6 +220,35 @@ TEST(SceneLinks, OfAMountMayBeGivenAClearanceOfTheirOwn) {
   EXPECT_EQ(verdict.clearance_bound_m, 0.008);
 }
 
+// base frame -> wall: what the frame is fixed to carries the arm, until the frame has a shape.
+TEST(SceneLinks, AMountingFrameWithoutAShapeHandsItsRoleDown) {
+  Cell cell = *walled(As::link);
+  cell.mount_clearance_m = 0.008;
+  const LinkId frame = *cell.find_link("a_base");
+  const LinkId first = *cell.find_link("a_link1");
+  const LinkId wall = *cell.find_link("wall");
+  Link& base = cell.links[frame.index()];
+  base.parent = wall;
+  base.X_PJ = small::at_xyz(0, -0.45, 0);
+  const auto too_close = [&](double gap_m) {
+    const CellPtr shared = small::shared(cell);
+    const Configuration q = tip_from_wall(*shared, gap_m);
+    const Configuration* state[] = {&q};
+    return StateCheck(scene_of(shared)).too_close(state) != 0;
+  };
+  EXPECT_TRUE(cell.is_mount(frame, kA));
+  EXPECT_FALSE(cell.is_mount(wall, kA));
+  EXPECT_FALSE(cell.is_own(first, wall));
+  EXPECT_TRUE(too_close(0.0199));
+  base.shapes.clear();
+  EXPECT_TRUE(cell.is_mount(wall, kA));
+  EXPECT_FALSE(cell.is_mount(wall, kB));
+  EXPECT_TRUE(cell.is_own(first, wall));
+  EXPECT_FALSE(cell.is_own(*cell.find_link("a_link2"), wall));
+  EXPECT_FALSE(too_close(0.0081));
+  EXPECT_TRUE(too_close(0.0079));
+}
+
 // A pair that parts is held to less: the verdict does not claim more.
 TEST(ClearanceBound, IsNoMoreThanWhatEveryPairWasHeldTo) {
   for (const As as : {As::link, As::object, As::mount}) {

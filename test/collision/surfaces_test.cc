@@ -140,7 +140,9 @@ TEST(Surface, IsWhatConflictsTellTheDistanceOf) {
 
 TEST(Surface, CertifiesAMotionThatPassesItAndRefusesOneThatScrapes) {
   const Verdict passes = InNotch(0.012).sweep();
-  EXPECT_EQ(passes.kind, Verdict::Kind::free) << passes.evaluations << " " << passes.exhausted << (passes.conflicts.empty() ? 0.0 : passes.conflicts.front().proximity.clearance_m);
+  EXPECT_EQ(passes.kind, Verdict::Kind::free)
+      << passes.evaluations << " " << passes.exhausted
+      << (passes.conflicts.empty() ? 0.0 : passes.conflicts.front().proximity.clearance_m);
   const Verdict scrapes = InNotch(0.005).sweep();
   ASSERT_EQ(scrapes.kind, Verdict::Kind::conflict);
   EXPECT_GT(scrapes.conflicts.front().proximity.clearance_m, 0.005 - 6e-4);

@@ -199,7 +199,85 @@ TEST(Warnings, NameALagThatMotionsAreNotCertifiedFor) {
   cell.robots[0].controller.lag = std::chrono::milliseconds(300);
   EXPECT_THAT(warnings_of(cell),
               HasSubstr("/robots/0/controller/lag_s | robot twin: lag_s is 0.3, more than checking "
-                        "delay_s of 0.1: its arms follow later"));
+                        "delay_s of 0.1: its arms follow late,"));
+}
+
+TEST(JointLimitsFile, GivesTheBrakeAsItsDeceleration) {
+  for (const char* sign : {"-", ""}) {
+    const ScratchFolder folder;
+    const CellPtr cell = build_or_fail(with_limits_file(
+        folder, std::string("joint_limits:\n  l_turn: {has_acceleration_limits: true, "
+                            "max_acceleration: 1, has_deceleration_limits: true, "
+                            "max_deceleration: ") +
+                    sign + "0.5}\n"));
+    EXPECT_EQ(joint_of(*cell, "t_l_turn").brake, 0.5);
+  }
+  const ScratchFolder folder;
+  EXPECT_THAT(problems_of(with_limits_file(folder,
+                                           "joint_limits:\n  l_turn:\n"
+                                           "    has_deceleration_limits: true\n"
+                                           "    max_deceleration: 0\n")),
+              HasSubstr("joint_limits.yaml:4: max_deceleration is 0, so nothing could stop"));
+}
+
+CellDescription with_srdf(const ScratchFolder& folder, const std::string& from,
+                          const std::string& to) {
+  CellDescription cell = two_arms_description();
+  for (ArmDescription& arm : cell.robots[0].arms) arm.home.clear();
+  cell.robots[0].srdf = folder.write("twin.srdf", file_with(data_file("two_arms.srdf"), from, to));
+  return cell;
+}
+
+TEST(StandingJoints, ThatWouldMoveAnArmHaveToBeHeld) {
+  const ScratchFolder folder;
+  CellDescription cell = with_srdf(folder, "<joint name=\"l_turn\"/><joint name=\"l_slide\"/>",
+                                   "<joint name=\"l_turn\"/>");
+  EXPECT_THAT(
+      problems_of(cell),
+      HasSubstr("/robots/0 | robot twin: joint l_slide would move an arm and is in no arm's "
+                "group, so where it stands has to be said: add to the robot \"fixed\": "
+                "{\"l_slide\": 0}, with its value"));
+  cell.robots[0].fixed = {{"l_slide", 0.3}};
+  EXPECT_EQ(problems_of(cell), "");
+}
+
+TEST(StandingJoints, BesideTheArmsAreWarnedOf) {
+  CellDescription cell = two_arms_description();
+  cell.robots[0].arms.pop_back();
+  EXPECT_THAT(warnings_of(cell),
+              HasSubstr("/robots/0 | robot twin: joint r_spin, r_bend in no arm's group, so what "
+                        "hangs there is checked where it stands at 0"));
+}
+
+TEST(StandingJoints, BetweenThoseOfAGroupAreWarnedOf) {
+  const ScratchFolder folder;
+  const CellDescription cell = with_srdf(folder, "<chain base_link=\"post\" tip_link=\"r_tip\"/>",
+                                         "<joint name=\"r_spin\"/><joint name=\"r_last\"/>");
+  EXPECT_THAT(
+      warnings_of(cell),
+      HasSubstr("/robots/0/arms/1/group | arm right: joint r_bend is between joints of group "
+                "'right_arm' and not in it"));
+}
+
+TEST(HeldJoints, CountWhereAHomeSaysOtherwiseWithAWarning) {
+  CellDescription cell = two_arms_description();
+  cell.robots[0].fixed = {{"l_slide", 0.3}};
+  cell.robots[0].arms[0].home = {0.2, -0.5};
+  const char* told = "arm left: home has joint l_slide at 0.2, and \"fixed\" holds it at 0.3";
+  EXPECT_THAT(warnings_of(cell), HasSubstr(told));
+  cell.robots[0].arms[0].home.clear();
+  cell.robots[0].arms[0].home_state = "out";
+  EXPECT_EQ(problems_of(cell), "");
+  EXPECT_THAT(warnings_of(cell), HasSubstr(told));
+  cell.robots[0].fixed = {{"l_slide", 0.2}};
+  EXPECT_EQ(warnings_of(cell), "");
+}
+
+TEST(Warnings, NameNoiseThatMotionsAreNotCertifiedFor) {
+  CellDescription cell = two_arms_description();
+  cell.robots[0].controller.noise_rad = 0.05;
+  EXPECT_THAT(warnings_of(cell), HasSubstr("robot twin: noise_rad is 0.05, more than checking "
+                                           "tracking_error_rad of 0.001"));
 }
 
 TEST(Warnings, AreNoneForTheCellsOfTheRepository) {

@@ -53,6 +53,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "group name=\"right_arm\"><group name=\"right_arm\"/><",
                 "twin.srdf: group right_arm",
                 "twin.srdf: group right_arm: group right_arm holds this group too: a cycle"},
+        Mistake{"<enable_collisions link1=", "<enable_collision link1=", "twin.srdf: robot",
+                "twin.srdf: robot: line 15: <enable_collision> is not known; did you mean "
+                "<enable_collisions>?"},
+        Mistake{"<joint name=\"l_turn\"/>", "<Joint name=\"l_turn\"/>", "twin.srdf: group left_arm",
+                "twin.srdf: group left_arm: line 5: <Joint> is not known; did you mean <joint>?"},
         Mistake{"<?xml version=\"1.0\"?>", "<!DOCTYPE robot>", "twin.srdf:1",
                 "twin.srdf:1: a DOCTYPE or entity declaration is not allowed"}));
 
@@ -76,7 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"<group name=\"left_arm\"/>", "<group name=\"both\"/>",
                             "twin.srdf: group both", "a cycle"},
                     Mistake{"<link name=\"l_finger1\"/>", "<links name=\"l_finger1\"/>",
-                            "twin.srdf: group gripper", "<links> is not known here"},
+                            "twin.srdf: group gripper",
+                            "line 7: <links> is not known; did you mean <link>?"},
                     Mistake{"<group name=\"gripper\">",
                             "<group name=\"both\"/><group name=\"gripper\">",
                             "twin.srdf: group both", "more than one group has this name"},
@@ -104,6 +110,9 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Others, SrdfOddity,
     testing::Values(
+        Mistake{
+            "type=\"fixed\"", "type=\"planar\"", "twin.srdf: virtual_joint at line 3",
+            "the robot's base is planar by it; here it stands where \"base\" of the cell has it"},
         Mistake{
             "link1=\"r2\"", "link1=\"r9\"", "twin.srdf: disable_collisions",
             "1 of 1 name links that are not in two_arms.urdf (r9 at line 16); they are left out, "

@@ -159,6 +159,60 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<robot name=\"two_arms\"", "<robot", "twin.urdf: robot",
                 "robot name is missing"}));
 
+// What is misspelt would vanish without a word: a link without its shape, a joint without its
+// mimic.
+INSTANTIATE_TEST_SUITE_P(
+    Spelling, UrdfMistake,
+    testing::Values(
+        Mistake{"<link name=\"r1\"/>",
+                "<link name=\"r1\"><colision><geometry><sphere radius=\"0.1\"/></geometry>"
+                "</colision></link>",
+                "twin.urdf: link r1",
+                "line 46: <colision> is not known; did you mean <collision>?"},
+        Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"><Collision/></link>",
+                "twin.urdf: link r1", "<Collision> is not known; did you mean <collision>?"},
+        Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"><COLLISIONS/></link>",
+                "twin.urdf: link r1", "<COLLISIONS> is not known; did you mean <collision>?"},
+        Mistake{"<collision><origin xyz=\"0 0 0.5\"", "<collision><orgin xyz=\"0 0 0.5\"",
+                "twin.urdf: link post", "line 12: <orgin> is not known; did you mean <origin>?"},
+        Mistake{"<origin xyz=\"0 0 0.5\"", "<origin xzy=\"0 0 0.5\"", "twin.urdf: link post",
+                "origin attribute xzy is not known; did you mean origin attribute xyz?"},
+        Mistake{"scale=\"0.5 0.5 2\"", "scal=\"0.5 0.5 2\"", "twin.urdf: link l2",
+                "mesh attribute scal is not known; did you mean mesh attribute scale?"},
+        Mistake{"<mimic joint=\"l_grip\"", "<mimick joint=\"l_grip\"",
+                "twin.urdf: joint l_grip_mirror", "<mimick> is not known; did you mean <mimic>?"},
+        Mistake{"multiplier=\"2\"", "multiplyer=\"2\"", "twin.urdf: joint l_grip_mirror",
+                "did you mean mimic attribute multiplier?"},
+        Mistake{"<axis xyz=\"0 0.6 0.8\"", "<axes xyz=\"0 0.6 0.8\"", "twin.urdf: joint l_slide",
+                "<axes> is not known; did you mean <axis>?"},
+        Mistake{"<limit lower=\"-1\" upper=\"1\" effort=\"50\" velocity=\"1.5\"/>",
+                "<limit lower=\"-1\" upper=\"1\" effort=\"50\" velocity=\"1.5\"/><limits/>",
+                "twin.urdf: joint r_last", "<limits> is not known; did you mean <limit>?"},
+        Mistake{"<origin xyz=\"0 0 0.3\" rpy=\"0 0 -0.785\"/>",
+                "<origin xyz=\"0 0 0.3\" quat_xyzw=\"0 0 0 1\"/>", "twin.urdf: joint l_wrist",
+                "origin quat_xyzw is not read here; give the rotation as rpy"},
+        Mistake{"<link name=\"r1\"/>",
+                "<link name=\"r1\"/><model><link name=\"shelf\"><collision/></link></model>",
+                "twin.urdf: robot",
+                "line 46: <model> holds a part of the robot, which would be left out"},
+        Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><collision/>", "twin.urdf: robot",
+                "line 46: <collision> holds a part of the robot, which would be left out"},
+        Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><Link name=\"table\"/>",
+                "twin.urdf: robot", "line 46: <Link> is not known; did you mean <link>?"}));
+
+// Names that other tools give their elements are no misspellings.
+TEST(UrdfElements, OfOtherToolsPassWithoutAWord) {
+  const ScratchFolder folder;
+  const std::string others =
+      "<gazebo reference='r1'><kp>1</kp></gazebo><transmission name='t'><joint name='r_spin'/>"
+      "</transmission><ros2_control name='c'><joint name='r_spin'/></ros2_control>"
+      "<drake:collision_filter_group name='g'/><sensor name='s'/>";
+  const std::string link = "<link name=\"r1\"><drake:colision/><sensor/><contact/></link>";
+  EXPECT_EQ(warnings_of(cell_with_urdf(folder, file_with(data_file("two_arms.urdf"),
+                                                         "<link name=\"r1\"/>", link + others))),
+            "");
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Document, UrdfMistake,
     testing::Values(
@@ -189,8 +243,26 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"size=\"0.4 0.6 0.1\"/></geometry><material",
                 "size=\"0.4 0x10 0.1\"/></geometry><material", "twin.urdf: link base",
                 "box size is '0.4 0x10 0.1', not 3 finite numbers; it is seen in the dashboard"},
-        Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"><colision/></link>", "twin.urdf: link r1",
-                "<colision> is not known here and is left out"},
+        Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"><vizual/></link>", "twin.urdf: link r1",
+                "line 46: <vizual> is not known here and is left out; did you mean <visual>?"},
+        Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><world_frame/>", "twin.urdf: robot",
+                "line 46: <world_frame> is not known here and is left out"},
+        Mistake{"<origin xyz=\"0 0 0.3\" rpy=\"0 0 -0.785\"/>",
+                "<origin xyz=\"0 0 0.3\" frame=\"world\"/>", "twin.urdf: joint l_wrist",
+                "origin attribute frame is not known here and is left out"},
+        Mistake{"rpy=\"0 0 -0.785\"", "rpy=\"0 0 -45\"", "twin.urdf: joint l_wrist",
+                "origin rpy holds -45, more than a turn: angles are in rad (degrees?)"},
+        Mistake{
+            "<link name=\"r1\"/>",
+            "<link name=\"r1\"><visual><geometry><sphere radius=\"1\"/></geometry></visual>"
+            "</link>",
+            "twin.urdf: links",
+            "r1 have a <visual> and no <collision>: they are seen in the dashboard, and nothing "
+            "keeps away from them"},
+        Mistake{"<link name=\"r3\"><collision><geometry><sphere radius=\"0.03\"/></geometry>"
+                "</collision></link>",
+                "<link name=\"r3\"/>", "twin.urdf: arm right",
+                "none of its links has a <collision>: nothing that it does can be a conflict"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"><gravity>0</gravity></link>",
                 "twin.urdf: link r1", "<gravity> is not known here and is left out"},
         Mistake{"<link name=\"r1\"/>",

@@ -123,7 +123,7 @@ TEST(Urdfdom, AgreesOnEveryModel) {
   expect_what_urdfdom_reads(model_file("panda.urdf"), 13, 78);
   expect_what_urdfdom_reads(model_file("dual_panda.urdf"), 27, 157);
   expect_what_urdfdom_reads(model_file("ur5e.urdf"), 8, 41);
-  expect_what_urdfdom_reads(data_file("two_arms.urdf"), 11, 4);
+  expect_what_urdfdom_reads(data_file("two_arms.urdf"), 11, 5);
 }
 
 // What urdfdom alone would refuse, drop or read otherwise.

@@ -193,6 +193,11 @@ TEST_F(WholeMesh, OfASolidWithBothSidesOfEachFaceHasThemOnce) {
     }
   }
   expect_box("mixed.stl", small::stl_text(mixed));
+  const auto beside =
+      load("beside.stl", small::stl_text(small::joined(small::joined(kBox, turned(kBox)),
+                                                       small::box_surface({5, 5, 5}, {6, 6, 6}))));
+  ASSERT_TRUE(beside.has_value());
+  EXPECT_EQ((*beside)->triangles.size(), 24U);
 }
 
 TEST_F(WholeMesh, OfSheetsAndWallsKeepsBothSides) {

@@ -36,7 +36,7 @@ Proximity hand_and_table(double clearance_m) {
           .clearance_m = clearance_m,
           .limit_m = 0.01};
 }
-Monitor monitor() { return Monitor(MonitorSettings{.stop_clearance_m = 0.01}); }
+Monitor monitor() { return {}; }
 
 TEST(Monitor, FindsNothingWhileNothingIsTooClose) {
   Monitor m = monitor();
@@ -73,7 +73,11 @@ TEST(Monitor, StopsOnlyTheArmOfThePairThatMoves) {
 TEST(Monitor, StopsAnArmOnceThatComesTooCloseToItself) {
   Proximity self = hands(0.001);
   self.arm_b = kLeft;
-  EXPECT_THAT(monitor().observe({self}, kBothMove, at(0ms)).at(0).stops, ElementsAre(kLeft));
+  self.limit_m = 0.0025;
+  const auto found = monitor().observe({self}, kBothMove, at(0ms));
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_THAT(found[0].stops, ElementsAre(kLeft));
+  EXPECT_EQ(found[0].limit_m, 0.0025);
 }
 
 TEST(Monitor, ReportsArmsAtRestWithoutStoppingThem) {
@@ -126,8 +130,7 @@ TEST(Monitor, ForgetsAPairThatHasCleared) {
 TEST(Monitor, KnowsAPairInEitherOrder) {
   Monitor m = monitor();
   Proximity turned = hands(0.006);
-  std::swap(turned.body_a, turned.body_b);
-  std::swap(turned.arm_a, turned.arm_b);
+  turned = turned_around(std::move(turned));
   EXPECT_THAT(m.observe({hands(0.006)}, kBothMove, at(0ms)), SizeIs(1));
   EXPECT_THAT(m.observe({turned}, kBothMove, at(10ms)), IsEmpty());
 }

@@ -1,9 +1,11 @@
 """Shoulders that turn without end, without <limit>, in a cell with one arm of them: its velocity is
-the one line that the cell needs. The other arm's joints nobody uses, so they need nothing.
+the one line that the cell needs. The other arm's joints nobody uses, so they need nothing;
+that they stand still is said.
 """
 import small_robots as small
 
 LINE = '"limits": {"left_pan": {"velocity_rad_s": 1}}'
+WARNED = ("joint right_pan, right_bend in no arm's group",)
 TOLD = 'add to the arm "limits": {"left_pan": {"velocity_rad_s": 1}}'
 
 

@@ -103,6 +103,39 @@ TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
             "one");
 }
 
+// What does not move cannot go aside: the reason says what opens the way, and that does.
+TEST_P(Aside, AStoppedArmInTheWayIsToldToNeedAResume) {
+  start("report");
+  cell->simulation->executive().stop({ArmId{0}}, "operator");
+  cell->run_until(at(10s));
+  EXPECT_EQ(cell->job("passes").waits_on.at(0).detail,
+            "arm x is stopped and has no job: resuming it, and a job that moves it away would open "
+            "the way, or \"on_idle_blocker\": \"park\" in the cell's scheduling, which sends it "
+            "aside when resumed");
+
+  cell.emplace(parking("park"), GetParam());
+  cell->submit(slide("x", -1, 0, 2, "in the middle"));
+  cell->run_until(at(3s));
+  cell->simulation->executive().stop({ArmId{0}}, "operator");
+  cell->submit(slide("y", -1, 1, 3, "passes"));
+  cell->run_until(at(10s));
+  EXPECT_EQ(cell->job("passes").state, JobState::backlogged);
+  EXPECT_EQ(cell->job("passes").waits_on.at(0).detail,
+            "arm x is stopped and has no job: when it is resumed it goes aside where it has a free "
+            "way (back along its last motion, home, or to a named pose of its group), else one "
+            "that moves it away would open this one");
+  cell->submit(slide("x", 0, 1, 2, "leaves"));
+  for (const WaitView& wait : cell->job("passes").waits_on) {
+    if (wait.arm != "x" || wait.kind != Wait::Kind::arm) continue;
+    EXPECT_EQ(wait.detail, "arm x is stopped: resuming it would let its own job move it on");
+  }
+  ASSERT_TRUE(cell->simulation->executive().cancel("leaves"));
+  cell->simulation->executive().resume({ArmId{0}});
+  cell->run_to_the_end(at(40s));
+  EXPECT_EQ(cell->job("passes").state, JobState::succeeded);
+  EXPECT_EQ(cell->job("aside-1").state, JobState::succeeded);
+}
+
 TEST(AsideByDefault, ArmsInTheWayGoAside) {
   EXPECT_EQ(CellDescription{}.scheduling.on_idle_blocker, "park");
 }

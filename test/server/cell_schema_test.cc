@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/nearest_name.h"
 #include "server/codec/cell_codec.h"
 #include "server/codec/cell_format.h"
 #include "server/codec/commented_json.h"
 #include "server/codec/json_text.h"
-#include "server/codec/nearest_name.h"
 #include "server/codec/schema_reference.h"
 #include "server/recording/recording.h"
 

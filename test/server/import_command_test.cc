@@ -96,7 +96,7 @@ TEST_F(Import, GuessesWhatNoFileSaysAndHoldsTheTorso) {
   EXPECT_EQ(robot["arms"][0]["limits"], json({{"left_1", {{"velocity_rad_s", 0.5}}}}));
   EXPECT_EQ(robot["arms"][1]["limits"], json({{"right_2", {{"velocity_m_s", 0.05}}}}));
   EXPECT_THAT(made.err, HasSubstr("torso.urdf does not give all limits of left_1"));
-  EXPECT_THAT(made.err, HasSubstr("torso_lift moves arms and is in none of them: held where the "
+  EXPECT_THAT(made.err, HasSubstr("torso_lift moves arms and is no single one's: held where the "
                                   "state home has it."));
   // MoveIt's file says it: nothing to guess.
   const fs::path limits = file("joint_limits.yaml",

@@ -29,9 +29,12 @@ class ArmGroups : public ::testing::Test {
   void SetUp() override {
     tree_ = read_urdf(test::torso_urdf(), "/torso.urdf", {}, findings_);
     ASSERT_TRUE(tree_) << findings_.take().front().detail;
-    semantics_ = read_srdf(test::torso_srdf(), "/torso.srdf", *tree_, {}, findings_);
+    choose(test::torso_srdf());
+  }
+  void choose(const std::string& srdf) {
+    semantics_ = read_srdf(srdf, "/torso.srdf", *tree_, {}, findings_);
     ASSERT_TRUE(semantics_) << findings_.take().front().detail;
-    choices_ = choose_arm_groups(*tree_, *semantics_, read_group_names(test::torso_srdf()));
+    choices_ = choose_arm_groups(*tree_, *semantics_, read_group_names(srdf));
   }
   std::string why(const std::string& group) const {
     for (const GroupChoice& choice : choices_) {
@@ -52,12 +55,43 @@ TEST_F(ArmGroups, AreChainsAndListsOfJointsAndNothingElse) {
   EXPECT_EQ(why("both_arms"), "it is made of left_arm, right_arm");
   EXPECT_EQ(why("left_hand"), "it is an end effector");
   EXPECT_EQ(why("right_hand"), "it is moved by right_arm");
-  EXPECT_EQ(why("torso"), "it moves left_arm");
+  EXPECT_EQ(why("torso"), "it moves left_arm, right_arm, head");
   EXPECT_EQ(why("left_wrist"), "it is a part of left_arm");
   EXPECT_EQ(why("left_arm_and_torso"), "it is left_arm and joints above or below it");
   EXPECT_EQ(why("left_again"), "it holds the same joints as left_arm");
   EXPECT_EQ(why("head"), "it has only 1 joint");
   EXPECT_EQ(why("tool"), "it holds no movable joint");
+}
+
+// By joints, as the groups of many a robot are: no pair of them says that the whole is two arms.
+TEST_F(ArmGroups, AreNotAllOfThemTogetherNorTheTorso) {
+  choose(R"(<robot name="torso_robot">
+    <group name="torso"><joint name="torso_lift"/></group>
+    <group name="all"><chain base_link="base" tip_link="left_3_link"/>
+      <chain base_link="base" tip_link="right_3_link"/><joint name="head_pan"/></group>
+    <group name="l"><chain base_link="torso_lift_link" tip_link="left_3_link"/></group>
+    <group name="r"><chain base_link="torso_lift_link" tip_link="right_3_link"/></group></robot>)");
+  EXPECT_EQ(why("l"), "an arm");
+  EXPECT_EQ(why("r"), "an arm");
+  EXPECT_EQ(why("all"), "it is made of l, r");
+  EXPECT_EQ(why("torso"), "it moves l, r");
+  choose(R"(<robot name="torso_robot">
+    <group name="torso"><joint name="torso_lift"/></group>
+    <group name="l"><joint name="left_3"/></group>
+    <group name="r"><joint name="right_3"/></group></robot>)");
+  EXPECT_EQ(why("torso"), "it moves l, r");
+  EXPECT_EQ(why("r"), "an arm");
+}
+
+TEST_F(ArmGroups, MayBothBeginAtTheBaseOfATorsoThatIsHeldThen) {
+  choose(R"(<robot name="torso_robot">
+    <group name="l"><chain base_link="base" tip_link="left_3_link"/></group>
+    <group name="r"><chain base_link="base" tip_link="right_3_link"/></group></robot>)");
+  EXPECT_EQ(why("l"), "an arm");
+  EXPECT_EQ(why("r"), "an arm");
+  const auto above = joints_above_arms(*tree_, *semantics_, choices_);
+  ASSERT_EQ(above.size(), 1U);
+  EXPECT_EQ(tree_->links[*above.begin()].joint, "torso_lift");
 }
 
 TEST_F(ArmGroups, LeaveTheTorsoAboveThemToBeHeld) {

@@ -1,4 +1,4 @@
-#include "server/codec/nearest_name.h"
+#include "core/base/nearest_name.h"
 
 #include <algorithm>
 #include <vector>
