@@ -199,7 +199,7 @@ TEST(Warnings, NameALagThatMotionsAreNotCertifiedFor) {
   cell.robots[0].controller.lag = std::chrono::milliseconds(300);
   EXPECT_THAT(warnings_of(cell),
               HasSubstr("/robots/0/controller/lag_s | robot twin: lag_s is 0.3, more than checking "
-                        "delay_s of 0.1: its arms follow later"));
+                        "delay_s of 0.1: its arms follow late,"));
 }
 
 TEST(JointLimitsFile, GivesTheBrakeAsItsDeceleration) {
