@@ -33,9 +33,11 @@ void Trial::answer(Verdict verdict) {
   const Question question = std::move(*open_);
   open_.reset();
   ++judgements_;
+  // Not where an arm is asked about that would have gone aside.
+  const bool as_arms_stand = question.rest == scheduler_.rest();
   const bool of_it = std::ranges::find(question.candidates, job_, &Motion::job) !=
                      question.candidates.end();
-  if (of_it) {
+  if (of_it && as_arms_stand) {
     evaluations_ += verdict.evaluations;
     by_clock_ = scheduler_.earliest_start(question, verdict);
     last_ = verdict;

@@ -16,15 +16,17 @@ export interface components {
             joints: components["schemas"]["CellJoint"][];
             /** @description What every admitted motion keeps from other arms and the scene. */
             clearance_m: number;
-            /** @description What an arm's own links keep from each other; at most clearance_m counts. */
+            /** @description What an arm's own links keep from each other, and from the link that carries the arm those that its first joint alone moves; at most clearance_m counts. */
             self_clearance_m: number;
+            /** @description What all other links of an arm keep from the link that carries it: clearance_m unless given, as that link may be a table; at most clearance_m counts. Less (0.005) where an arm folds on its own base or works beside its own body. */
+            mount_clearance_m?: number;
             /** @description What the checks of motions allow for. */
             checking: {
                 /** @description Time between the instants that the policy timed_discrete compares. */
                 time_step_s: number;
                 /** @description How far each joint may be off its path: every proof covers it. */
                 tracking_error_rad: number;
-                /** @description How far a motion may be behind its plan: every proof covers it. At least the controllers' lag_s. */
+                /** @description How far a motion is expected to be behind its plan: controllers with a larger lag_s are warned of. Motions go by measured progress, so nothing that is certified depends on it. */
                 delay_s: number;
                 /** @description Share by which a trajectory may exceed a limit of velocity, acceleration or jerk between its waypoints. */
                 limit_tolerance: number;
