@@ -1,5 +1,6 @@
 #include "core/model/cell_checks.h"
 #include "server/codec/cell_codec.h"
+#include "server/messages/scene.h"
 #include "test/fuzz/problems.h"
 
 // The body of POST /scene/objects, and a cell file: reading it, the checks that need no robot, and
