@@ -12,9 +12,9 @@ namespace armloom {
 // What goes wrong with a simulated arm, and when.
 struct ArmFault {
   enum class Kind {
-    stall,       // stays where it is on its path, then goes on
-    slow,        // follows its path at `value` (0..1) of its speed
-    late_start,  // begins each motion `value` seconds late
+    stall,          // stays where it is on its path, then goes on
+    slow,           // follows its path at `value` (0..1) of its speed
+    late_start,     // begins each motion `value` seconds late
     drop_feedback,  // nothing is heard of it but that it takes commands: what it told last is told
     fault,  // the controller gives up: brakes, and reports a fault; once. It strikes the motion
             // that moves then; an arm that does not move keeps it for its next motion

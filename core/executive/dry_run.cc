@@ -9,6 +9,7 @@
 #include "core/coordination/effort.h"
 #include "core/executive/executive_impl.h"
 #include "core/scheduler/passing_orders.h"
+#include "core/scheduler/waits.h"
 
 namespace armloom {
 namespace {
@@ -156,6 +157,26 @@ PassingOrders orders_for(const Question& question, const Cell& cell, const Polic
   const std::vector<Duration> no_work(cell.arms.size());
   const auto others = coordinated(question.others), candidates = coordinated(question.candidates);
   return policy.decide({others, {}, candidates, verdict.regions, no_work});
+}
+
+// The same as an answer to clients about the first of so many candidates: in conflict with the
+// obstacles, or free to start when it begins.
+Verdict as_verdict(const PassingOrders& orders, std::size_t candidates, Verdict verdict) {
+  if (verdict.kind != Verdict::Kind::free) return verdict;
+  verdict.regions.clear();
+  if (orders.obstacles.empty()) {
+    verdict.earliest_start =
+        *(orders.prediction.begins.end() - static_cast<std::ptrdiff_t>(candidates));
+    return verdict;
+  }
+  verdict.kind = Verdict::Kind::conflict;
+  verdict.clearance_bound_m.reset();
+  for (const Obstacle& obstacle : orders.obstacles) {
+    verdict.conflicts.push_back({obstacle.arm ? Conflict::With::rest : Conflict::With::motion,
+                                 obstacle.candidate, obstacle.other, obstacle.proximity,
+                                 obstacle.own_time, obstacle.other_time});
+  }
+  return verdict;
 }
 
 // Of the arms in the way the first job each that has not begun: it would move them away.

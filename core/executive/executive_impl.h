@@ -32,8 +32,10 @@ class Executive::Impl final : public JobNames {
   // submission.cc
   Result<JobView> submit(JobRequest request);
   Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests, bool atomic);
-  void check(JobRequest request, std::function<void(Result<CheckView>)> done);
   Result<JobView> cancel(const std::string& key);
+
+  // checking.cc
+  void check(JobRequest request, std::function<void(Result<CheckView>)> done);
 
   // drawing.cc
   void diagram(const std::string& key_a, const std::string& key_b,

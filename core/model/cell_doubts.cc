@@ -39,14 +39,15 @@ void warn_of_lags(const CellDescription& description, Findings& findings) {
     const RobotDescription& robot = description.robots[r];
     const double lag_s = to_seconds(robot.controller.lag);
     if (lag_s <= delay_s) continue;
-    findings.warn({ProblemKind::invalid, "lag-above-delay",
-                   "/robots/" + std::to_string(r) + "/controller/lag_s",
-                   "robot " + robot.name + ": lag_s is " + text_of(lag_s) +
-                       ", more than checking delay_s of " + text_of(delay_s) +
-                       ": its arms follow late, and whoever passes after one of them waits that "
-                       "much longer, as motions go by measured progress; give a smaller lag_s, or a "
-                       "delay_s of at least lag_s if that is meant",
-                   lag_s});
+    findings.warn(
+        {ProblemKind::invalid, "lag-above-delay",
+         "/robots/" + std::to_string(r) + "/controller/lag_s",
+         "robot " + robot.name + ": lag_s is " + text_of(lag_s) +
+             ", more than checking delay_s of " + text_of(delay_s) +
+             ": its arms follow late, and whoever passes after one of them waits that "
+             "much longer, as motions go by measured progress; give a smaller lag_s, or a "
+             "delay_s of at least lag_s if that is meant",
+         lag_s});
   }
 }
 

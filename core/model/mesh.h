@@ -40,7 +40,8 @@ inline constexpr double kMaxMeshReach_m = 1000.0;  // of any coordinate
 // (materials, textures). A Problem, with pointer and the sentence's beginning ("robot left") as
 // given, when the file is missing, not regular, unreadable, empty, of another kind, over one of the
 // bounds above (told before much memory is used), without a triangle, one single point, holds a
-// number that is not finite, or anything else that it says of its surface would be left out. Precondition: scale is finite and holds no 0.
+// number that is not finite, or anything else that it says of its surface would be left out.
+// Precondition: scale is finite and holds no 0.
 [[nodiscard]] Result<MeshPtr> load_mesh(const std::string& path, const Eigen::Vector3d& scale,
                                         const std::string& pointer, const std::string& whose);
 

@@ -1,4 +1,4 @@
-// Who may be judged next, what is asked, and what the answer means.
+// Who may be judged next, and what is asked.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/base/told.h"
-#include "core/coordination/effort.h"
 #include "core/scheduler/scheduler.h"
 
 namespace armloom {
@@ -18,27 +17,7 @@ std::string format(const char* text, const std::string& name, double a, double b
   return buffer;
 }
 
-// What a job waits for that is treated as a conflict without being proven one.
-constexpr const char* kUndecided = "undecided within the budget of evaluations";
-// So often is the budget of one job's questions raised.
-constexpr int kRaisedMax = 12;
-
 }  // namespace
-
-Wait wait_for(const Conflict& conflict) {
-  Wait wait{.kind = Wait::Kind::object,
-            .proximity = conflict.proximity,
-            .own_time = conflict.own_time,
-            .other_time = conflict.other_time};
-  wait.arm = conflict.proximity.arm_b;
-  if (conflict.with == Conflict::With::motion) {
-    wait.kind = Wait::Kind::job;
-    wait.job = conflict.other_job;
-  } else if (conflict.with == Conflict::With::rest) {
-    wait.kind = Wait::Kind::arm;
-  }
-  return wait;
-}
 
 bool Scheduler::waiting(const Record& record) {
   const JobState state = record.job.state;
@@ -162,12 +141,12 @@ std::optional<std::string> Scheduler::start_mismatch(const Trajectory& trajector
   return std::nullopt;
 }
 
-std::vector<JobId> Scheduler::next_recheck() const {
+std::optional<JobId> Scheduler::next_recheck() const {
   for (JobId id : past_queue_) {
     const Record& record = records_.at(id);
-    if (holds_reservation(record) && record.checked_at < disturbed_at_) return {id};
+    if (holds_reservation(record) && record.checked_at < disturbed_at_) return id;
   }
-  return {};
+  return std::nullopt;
 }
 
 std::optional<JobId> Scheduler::next_candidate() const {
@@ -202,8 +181,8 @@ bool Scheduler::ask_next() {
   if (open_) return false;
   renew_lanes();
   bool put_off = false;
-  if (auto recheck = next_recheck(); !recheck.empty()) {
-    ask(std::move(recheck), Purpose::recheck);
+  if (const auto recheck = next_recheck()) {
+    ask({*recheck}, Purpose::recheck);
   } else if (const auto opens = next_aside_in_a_ring()) {
     ask_aside(*opens);
   } else {
@@ -218,6 +197,24 @@ bool Scheduler::ask_next() {
     }
   }
   return put_off;
+}
+
+Motion Scheduler::motion_now(const Record& record) const {
+  const auto& arms = record.job.trajectory->arms();
+  const bool to_come = std::ranges::any_of(
+      arms, [&](ArmId arm) { return order_[arm.index()].front() != record.job.id; });
+  return Motion{.job = record.job.id,
+                .trajectory = record.job.trajectory,
+                .progress = record.job.progress,
+                .to_come = to_come};
+}
+
+// Everything else that is admitted.
+void Scheduler::add_others(Question& question, const std::vector<JobId>& candidates) const {
+  for (const CoordinatedMotion& motion : graph_.motions()) {
+    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;
+    question.others.push_back(motion_now(records_.at(motion.job)));
+  }
 }
 
 void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
@@ -239,86 +236,6 @@ void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
   open_ = OpenQuestion{version_, std::move(jobs), purpose};
   add_passages(question, std::move(unknown));
   effects_.push_back(Judge{std::move(question)});
-}
-
-// ---- The answer ----
-
-void Scheduler::on(const Judged& input) {
-  if (!open_ || open_->version != input.verdict.version) return;
-  const OpenQuestion question = std::move(*open_);
-  open_.reset();
-  learn(question, input.verdict);
-  if (question.version != version_) return;  // stale: settle() asks again
-  if (question.aside) return answer_aside(input.verdict, *question.aside);
-  answer(input.verdict, question);
-}
-
-// Later than this, going on from `start_at`, it may overrun.
-void Scheduler::expect_end(Record& record, TimePoint start_at) const {
-  const double remaining_s = to_seconds(record.job.trajectory->duration() - record.job.progress);
-  record.overrun_at = start_at + from_seconds(remaining_s * cell_->execution.duration_scaling) +
-                      cell_->execution.duration_margin;
-  record.moved_at = start_at;
-}
-
-// Its time has passed, and it stands still.
-bool Scheduler::overruns(Record& record) const {
-  if (!record.overrun_at || now_ < *record.overrun_at || record.job.stopping) return false;
-  record.overrun_at = std::max(*record.overrun_at, record.moved_at + kStandstill);
-  return now_ >= *record.overrun_at;
-}
-
-// Where the budget of evaluations has ended it is not put off yet, but judged again with a larger
-// one when its turn comes, behind those that are judged with less. So often at most that a job that
-// cannot be decided takes no time from others each time that something changes.
-bool Scheduler::is_asked_again(Record& record, const Verdict& verdict) const {
-  const auto effort = larger_effort(verdict, record.effort);
-  if (!effort || record.raised >= kRaisedMax) {
-    record.effort = 1;
-    return false;
-  }
-  record.effort = *effort;
-  ++record.raised;
-  return true;
-}
-
-void Scheduler::refuse(Record& record, const Verdict& verdict, bool recheck) {
-  Job& job = record.job;
-  std::vector<Wait> waits;
-  for (const Conflict& conflict : verdict.conflicts) {
-    if (conflict.with == Conflict::With::self && !job.started_at) {
-      end(record, JobState::failed, Reason::self_collision,
-          conflict.proximity.body_a + " and " + conflict.proximity.body_b +
-              format("%s come within %.4g m of each other at %.3f s of the trajectory", "",
-                     conflict.proximity.clearance_m, to_seconds(conflict.own_time)));
-      return;
-    }
-    if (conflict.with == Conflict::With::rest && conflict.proximity.arm_b) {
-      learn_in_the_way(job.id, *conflict.proximity.arm_b);
-    }
-    waits.push_back(wait_for(conflict));
-    if (verdict.kind == Verdict::Kind::undecided) waits.back().detail = kUndecided;
-  }
-  if (recheck) {
-    record.checked_at = version_;
-    brake(record, AfterStop::hold);
-    set_waits(record, std::move(waits));
-  } else {
-    put_off(record, std::move(waits));
-  }
-}
-
-void Scheduler::put_off(Record& record, std::vector<Wait> waits) {
-  Job& job = record.job;
-  record.judged_at = version_;
-  record.found = waits;
-  if (!record.ages_from) record.ages_from = now_;
-  if (job.state == JobState::queued) {
-    set_state(record, JobState::backlogged);
-    if (!job.backlogged_at) job.backlogged_at = now_;
-    changed(record);
-  }
-  set_waits(record, std::move(waits));
 }
 
 }  // namespace armloom

@@ -17,7 +17,8 @@ struct CoordinatedMotion {
   Duration duration;
   Duration progress{};   // as measured
   Duration authority{};  // granted so far: no way back behind it
-  std::optional<Duration> held_at = {};  // an arm rests in its way there, and no motion takes it away
+  std::optional<Duration> held_at =
+      {};  // an arm rests in its way there, and no motion takes it away
   int priority = 0;
   bool keeps_its_place = false;  // has been overtaken long enough
 

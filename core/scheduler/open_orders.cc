@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/scheduler/order_ties.h"
+
 namespace armloom {
 namespace {
 
@@ -14,66 +16,6 @@ std::vector<CoordinatedMotion> both(const std::vector<CoordinatedMotion>& admitt
   all.insert(all.end(), candidates.begin(), candidates.end());
   return all;
 }
-
-bool overlap(Duration from_1, Duration to_1, Duration from_2, Duration to_2) {
-  return from_1 <= to_2 && from_2 <= to_1;
-}
-
-// Whether both regions hold the rest at which one motion of an arm ends and the next one begins,
-// for the same states of the one that passes there. `d_side`: the arm's motion is d's A.
-bool meet_at_rest(const ConflictRegion& d, bool d_side, const ConflictRegion& e, bool e_side,
-                  Duration end) {
-  for (const ProgressBox& last : d.boxes) {
-    if ((d_side ? last.to_a : last.to_b) < end) continue;
-    for (const ProgressBox& first : e.boxes) {
-      if ((e_side ? first.from_a : first.from_b) > Duration{}) continue;
-      if (overlap(d_side ? last.from_b : last.from_a, d_side ? last.to_b : last.to_a,
-                  e_side ? first.from_b : first.from_a, e_side ? first.to_b : first.to_a)) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-// Of each order, those that are decided with it.
-class Ties {
- public:
-  Ties(const std::vector<OpenOrder>& orders, const std::vector<CoordinatedMotion>& motions,
-       const MotionChains& chains)
-      : of_(orders.size()) {
-    for (std::size_t d = 0; d < orders.size(); ++d) {
-      for (std::size_t e = 0; e < orders.size(); ++e) {
-        if (d != e) tie(d, e, orders, motions, chains);
-      }
-    }
-  }
-  [[nodiscard]] const std::vector<Member>& of(std::size_t order) const { return of_[order]; }
-
- private:
-  // If d ends where e begins, in the way of the same other motion.
-  void tie(std::size_t d, std::size_t e, const std::vector<OpenOrder>& orders,
-           const std::vector<CoordinatedMotion>& motions, const MotionChains& chains) {
-    for (const bool d_side : {true, false}) {
-      for (const bool e_side : {true, false}) {
-        const std::size_t ends = d_side ? orders[d].a : orders[d].b;
-        const std::size_t begins = e_side ? orders[e].a : orders[e].b;
-        const std::size_t passes_d = d_side ? orders[d].b : orders[d].a;
-        const std::size_t passes_e = e_side ? orders[e].b : orders[e].a;
-        const auto& before = chains.before(begins);
-        if (passes_d != passes_e || std::ranges::find(before, ends) == before.end()) continue;
-        if (!meet_at_rest(orders[d].region, d_side, orders[e].region, e_side,
-                          motions[ends].duration)) {
-          continue;
-        }
-        of_[d].push_back({e, d_side != e_side});
-        of_[e].push_back({d, d_side != e_side});
-      }
-    }
-  }
-
-  std::vector<std::vector<Member>> of_;
-};
 
 }  // namespace
 
@@ -174,7 +116,7 @@ void OpenOrders::note_in_the_way(std::size_t motion) {
 // ---- Choices ----
 
 void OpenOrders::collect_choices() {
-  const Ties ties(orders_, motions_, chains_);
+  const OrderTies ties(orders_, motions_, chains_);
   std::vector<bool> seen(orders_.size(), false);
   for (std::size_t d = 0; d < orders_.size(); ++d) {
     if (seen[d]) continue;
@@ -234,8 +176,8 @@ Prediction OpenOrders::predicted(std::vector<MotionAhead> motions, std::size_t o
   std::vector<Dependency> dependencies;
   for (std::size_t d = 0; d < orders; ++d) {
     OpenOrder& order = orders_[d];
-    dependencies.push_back({order.a_first ? order.a : order.b, order.a_first ? order.b : order.a,
-                            &precedence(order)});
+    dependencies.push_back(
+        {order.a_first ? order.a : order.b, order.a_first ? order.b : order.a, &precedence(order)});
   }
   return predict(motions, dependencies);
 }

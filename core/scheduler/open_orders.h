@@ -17,8 +17,8 @@ struct OpenOrder {
   ConflictRegion region;  // of a new one, what still lies ahead
   bool a_may = true;
   bool b_may = true;
-  bool prefers_a = true;                                // of two that are as good
-  bool a_first = true;                                  // as it is set
+  bool prefers_a = true;                               // of two that are as good
+  bool a_first = true;                                 // as it is set
   std::array<std::optional<Precedence>, 2> made = {};  // A first, B first; once asked for
 };
 

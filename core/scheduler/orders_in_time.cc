@@ -41,8 +41,8 @@ class Line {
       if (comes && start + view.own_to(box) > *comes) first = false;
       if (!leaves || start + view.own_from(box) < *leaves) second = false;
     }
-    if (first == second) return first ? std::optional(true) : std::nullopt;
-    return first;
+    if (first) return true;
+    return second ? std::optional(false) : std::nullopt;
   }
 
   [[nodiscard]] bool candidate_is_a(std::size_t order) const {

@@ -142,22 +142,4 @@ PassingOrders orders_apart(const OrderQuestion& question) {
   return open.admitted(open.predicted());
 }
 
-Verdict as_verdict(const PassingOrders& orders, std::size_t candidates, Verdict verdict) {
-  if (verdict.kind != Verdict::Kind::free) return verdict;
-  verdict.regions.clear();
-  if (orders.obstacles.empty()) {
-    verdict.earliest_start =
-        *(orders.prediction.begins.end() - static_cast<std::ptrdiff_t>(candidates));
-    return verdict;
-  }
-  verdict.kind = Verdict::Kind::conflict;
-  verdict.clearance_bound_m.reset();
-  for (const Obstacle& obstacle : orders.obstacles) {
-    verdict.conflicts.push_back({obstacle.arm ? Conflict::With::rest : Conflict::With::motion,
-                                 obstacle.candidate, obstacle.other, obstacle.proximity,
-                                 obstacle.own_time, obstacle.other_time});
-  }
-  return verdict;
-}
-
 }  // namespace armloom

@@ -63,9 +63,4 @@ inline constexpr std::size_t kTriedInFull = 5;
 // None: the candidates go beside what meets them nowhere.
 [[nodiscard]] PassingOrders orders_apart(const OrderQuestion& question);
 
-// The same as an answer to clients about the first of so many candidates: in conflict with the
-// obstacles, or free to start when it begins.
-[[nodiscard]] Verdict as_verdict(const PassingOrders& orders, std::size_t candidates,
-                                 Verdict verdict);
-
 }  // namespace armloom

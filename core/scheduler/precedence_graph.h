@@ -63,7 +63,7 @@ class PrecedenceGraph {
     std::vector<ArmId> arms;
     JobId job;
     Duration limit;
-    Duration until;  // beyond it the motion has passed
+    Duration until;     // beyond it the motion has passed
     HeldBack evidence;  // names one of these arms
 
     void leave(const std::vector<ArmId>& left);

@@ -11,9 +11,9 @@ namespace armloom {
 
 // A motion as the prediction sees it.
 struct MotionAhead {
-  Duration progress;               // where it is
-  Duration duration;               // of its trajectory
-  std::vector<std::size_t> after;  // motions of the same arms that end before it begins
+  Duration progress;                     // where it is
+  Duration duration;                     // of its trajectory
+  std::vector<std::size_t> after;        // motions of the same arms that end before it begins
   std::optional<Duration> held_at = {};  // goes no farther than this, as things are
 };
 

@@ -1,21 +1,10 @@
 #include "core/scheduler/scheduler.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
 namespace armloom {
-namespace {
-
-std::string seconds_text(Duration duration) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g s", to_seconds(duration));
-  return text;
-}
-
-}  // namespace
-
 Scheduler::Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configuration rest)
     : cell_(std::move(cell)),
       policy_(std::move(policy)),
@@ -144,20 +133,6 @@ void Scheduler::take_place(JobId job, JobId before) {
   });
 }
 
-void Scheduler::on(const Cancel& input) {
-  const auto it = records_.find(input.job);
-  if (it == records_.end() || is_terminal(it->second.job.state)) return;
-  Record& record = it->second;
-  if (holds_reservation(record)) {
-    brake(record, AfterStop::cancel);
-    return;
-  }
-  const bool held = record.job.state == JobState::holding;
-  end(record, JobState::canceled, Reason::canceled_by_client,
-      held ? "canceled while holding" : "canceled before it moved");
-  if (held) effects_.push_back(Release{input.job});
-}
-
 void Scheduler::on(const MotionReport& input) {
   const auto it = records_.find(input.job);
   if (it == records_.end() || is_terminal(it->second.job.state)) return;
@@ -182,127 +157,6 @@ void Scheduler::progress(Record& record) {
     changed(record);
   }
   if (!job.stopping) extend_authority(job.id);
-}
-
-void Scheduler::come_to_rest(Record& record, const MotionReport& report) {
-  Job& job = record.job;
-  const auto& joints = job.trajectory->joints();
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    rest_[static_cast<Eigen::Index>(joints[j].index())] =
-        report.rest_position[static_cast<Eigen::Index>(j)];
-  }
-  ++version_;
-  const bool moved = std::max(job.progress, report.farthest) > Duration{};
-  if (moved && !job.started_at) job.started_at = now_;  // unseen
-  record.farthest = report.farthest;
-  job.stopping = false;
-  job.pausing = false;
-  for (ArmId arm : job.trajectory->arms()) {
-    rest_where_it_stands(arm);
-    const bool alone = job.trajectory->arms().size() == 1;
-    came_by_[arm.index()] = alone ? job.trajectory : nullptr;
-  }
-  record.overrun_at.reset();
-  if (report.kind == MotionReport::Kind::finished) {
-    rest_at_goal(record);
-    end(record, JobState::succeeded, Reason::completed, "");
-    effects_.push_back(Release{job.id});
-    return;
-  }
-  if (report.kind == MotionReport::Kind::faulted) {
-    for (ArmId arm : job.trajectory->arms()) stopped_[arm.index()] = "fault: " + report.detail;
-    end(record, JobState::failed, Reason::arm_fault, report.detail);
-    effects_.push_back(Release{job.id});
-  } else if (record.after_stop == AfterStop::cancel) {
-    end(record, JobState::canceled, Reason::canceled_by_client, "braked on its path");
-    effects_.push_back(Release{job.id});
-  } else if (record.after_stop == AfterStop::fail) {
-    const bool expires = record.fail_reason == Reason::backlog_timeout;
-    end(record, expires ? JobState::expired : JobState::failed, record.fail_reason,
-        record.fail_detail);
-    effects_.push_back(Release{job.id});
-  } else if (!job.started_at) {
-    record.dispatched = false;
-    effects_.push_back(Release{job.id});
-    changed(record);
-    if (stop_of(record)) return;  // keeps its place between the others
-    // It waits in the queue again, as if it had not been admitted.
-    leave_graph(record);
-    set_state(record, JobState::queued);
-    job.scheduled_at.reset();
-  } else {
-    set_state(record, JobState::holding);
-    changed(record);
-  }
-}
-
-// A scheduled job whose arms know nothing of it yet: it waits again, or ends.
-void Scheduler::withdraw(Record& record, AfterStop then) {
-  ++version_;  // others may have counted on its departure
-  record.job.pausing = false;
-  if (then != AfterStop::hold) {
-    const bool held = record.job.started_at.has_value();
-    if (then == AfterStop::fail) {
-      end(record, JobState::failed, record.fail_reason, record.fail_detail);
-    } else {
-      end(record, JobState::canceled, Reason::canceled_by_client,
-          held ? "canceled while holding" : "canceled before it moved");
-    }
-    if (held) effects_.push_back(Release{record.job.id});
-    return;
-  }
-  leave_graph(record);
-  Job& job = record.job;
-  set_state(record, job.started_at      ? JobState::holding
-                    : job.backlogged_at ? JobState::backlogged
-                                        : JobState::queued);
-  job.scheduled_at.reset();
-  record.overrun_at.reset();
-  record.judged_at = 0;
-  changed(record);
-}
-
-void Scheduler::brake(Record& record, AfterStop then) {
-  if (record.job.state == JobState::scheduled && !record.dispatched) {
-    withdraw(record, then);
-    return;
-  }
-  // A cancel or a failure outlives a later stop; a stop never turns one into a mere hold.
-  const bool first = !record.job.stopping;
-  if (first || record.after_stop == AfterStop::hold) record.after_stop = then;
-  if (first) {
-    record.job.stopping = true;
-    record.overrun_at.reset();
-    ++version_;
-    effects_.push_back(Brake{record.job.id});
-  }
-  if (then == AfterStop::hold && record.after_stop == AfterStop::hold && record.job.started_at) {
-    set_state(record, JobState::holding);
-  }
-  changed(record);
-}
-
-void Scheduler::on(const Stop& input) {
-  ++version_;  // an answer that is under way shall start nothing on these arms
-  lanes_changed_ = true;
-  for (ArmId arm : input.arms) {
-    if (!stopped_[arm.index()]) stopped_[arm.index()] = input.cause;
-    if (!order_[arm.index()].empty()) {
-      Record& record = records_.at(order_[arm.index()].front());
-      const bool undispatched = record.job.state == JobState::scheduled && !record.dispatched;
-      if (undispatched) continue;  // keeps its place between the others
-      if (holds_reservation(record) && !record.job.stopping) {
-        brake(record, AfterStop::hold);
-        set_waits(record, {Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = input.cause}});
-      }
-    }
-  }
-}
-
-void Scheduler::on(const Resume& input) {
-  for (ArmId arm : input.arms) stopped_[arm.index()].reset();
-  ++version_;
-  lanes_changed_ = true;
 }
 
 void Scheduler::on(const SceneChanged&) {
@@ -337,8 +191,11 @@ void Scheduler::set_state(Record& record, JobState state) {
 
 void Scheduler::end(Record& record, JobState state, Reason reason, std::string detail) {
   Job& job = record.job;
-  if (state != JobState::succeeded) leave_graph(record);
-  if (state == JobState::succeeded) graph_.finish(job.id);
+  if (state == JobState::succeeded) {
+    graph_.finish(job.id);
+  } else {
+    leave_graph(record);
+  }
   set_state(record, state);
   job.stopping = false;
   job.ended_at = now_;
@@ -372,71 +229,6 @@ void Scheduler::forget_predecessor(JobId ended, bool succeeded) {
     end(record, JobState::failed, Reason::predecessor_failed,
         "a job that it comes after did not succeed");
   }
-}
-
-void Scheduler::expire_and_overrun() {
-  const std::vector<JobId> ids(past_queue_.begin(), past_queue_.end());
-  for (JobId id : ids) {
-    Record& record = records_.at(id);
-    Job& job = record.job;
-    see_whether_in_vain(record);
-    const bool backlogged = job.state == JobState::backlogged;
-    if (backlogged && now_ >= *job.backlogged_at + job.backlog_timeout) {
-      end(record, JobState::expired, Reason::backlog_timeout,
-          "waited " + seconds_text(job.backlog_timeout) + " in the backlog");
-    } else if (record.in_vain_since && now_ >= *record.in_vain_since + job.backlog_timeout) {
-      give_up(record);
-    } else if (overruns(record)) {
-      record.fail_reason = Reason::overrun;
-      record.fail_detail = "has not moved for " + seconds_text(now_ - record.moved_at) +
-                           ", and has had its duration by duration_scaling and duration_margin";
-      brake(record, AfterStop::fail);
-    }
-  }
-}
-
-// On its path, where only a job of another arm that has none, or another scene, would let it go on.
-void Scheduler::see_whether_in_vain(Record& record) const {
-  const bool held = record.job.state == JobState::holding && waiting(record);
-  if ((!held && !record.job.pausing) || record.job.stopping || stop_of(record)) {
-    record.in_vain_since.reset();
-    return;
-  }
-  if (held && record.judged_at != version_) return;  // not known yet
-  const auto waits = found_in_the_way(record);
-  const bool in_vain = std::ranges::any_of(waits, [this](const Wait& wait) {
-    return wait.kind == Wait::Kind::object ||
-           (wait.kind == Wait::Kind::arm && order_[wait.arm->index()].empty());
-  });
-  if (!in_vain) record.in_vain_since.reset();
-  if (in_vain && !record.in_vain_since) record.in_vain_since = now_;
-}
-
-void Scheduler::give_up(Record& record) {
-  record.in_vain_since.reset();
-  record.fail_reason = Reason::backlog_timeout;
-  record.fail_detail = "waited " + seconds_text(record.job.backlog_timeout) + " on its path";
-  if (holds_reservation(record)) return brake(record, AfterStop::fail);
-  end(record, JobState::expired, record.fail_reason, record.fail_detail);
-  effects_.push_back(Release{record.job.id});
-}
-
-void Scheduler::ask_for_wake() {
-  std::optional<TimePoint> next;
-  const auto consider = [&next](TimePoint when) { next = next ? std::min(*next, when) : when; };
-  for (JobId id : past_queue_) {
-    const Record& record = records_.at(id);
-    if (record.job.state == JobState::backlogged) {
-      consider(*record.job.backlogged_at + record.job.backlog_timeout);
-    }
-    if (record.overrun_at && !record.job.stopping) consider(*record.overrun_at);
-    if (record.in_vain_since) consider(*record.in_vain_since + record.job.backlog_timeout);
-  }
-  const bool undecided =
-      std::ranges::any_of(rings_, [](const NamedRing& r) { return !r.way_out && !r.opens; });
-  if (undecided) consider(now_ + Duration(1));  // a step of its own
-  if (next && next != wake_at_) effects_.push_back(WakeAt{*next});
-  wake_at_ = next;
 }
 
 }  // namespace armloom

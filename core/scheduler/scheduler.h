@@ -25,9 +25,6 @@ namespace armloom {
 // would free nobody's way.
 inline constexpr Duration kStandstill = std::chrono::seconds(10);
 
-// What a conflict makes a job wait for.
-[[nodiscard]] Wait wait_for(const Conflict& conflict);
-
 // The pure heart: queue, backlog, lanes and orders, stops. A deterministic state machine without
 // threads, clock, sockets or geometry. Admission and the orders that it makes are one step: a job
 // that is admitted has its place in the precedence graph before step() returns, and no other
@@ -51,9 +48,9 @@ inline constexpr Duration kStandstill = std::chrono::seconds(10);
 // finds it. Then an arm of the ring goes aside and comes back when the other has passed, if the
 // cell says so and there is such a way; else the job that was submitted last fails.
 //
-// An arm that comes to rest off its plan (canceled, faulted) holds those that would pass there where
-// they may be. A scene that changes may endanger motions that were admitted before: these are judged
-// again, and those in conflict are held until the way is free.
+// An arm that comes to rest off its plan (canceled, faulted) holds those that would pass there
+// where they may be. A scene that changes may endanger motions that were admitted before: these are
+// judged again, and those in conflict are held until the way is free.
 //
 // An arm without a job that rests in a job's way is sent aside, if the cell says so, too. Either is
 // done by jobs of the caller's own (MoveAside).
@@ -109,10 +106,10 @@ class Scheduler {
     std::optional<TimePoint> overrun_at;  // if it does not move before
     TimePoint moved_at{};                 // last
     std::optional<TimePoint> in_vain_since;  // on its path, for what no job moves
-    bool dispatched = false;    // the arms have the motion; else it is scheduled at most
+    bool dispatched = false;  // the arms have the motion; else it is scheduled at most
     std::map<ArmId, AsidesTried> asides_tried;  // of arms that could make way for it
-    Duration horizon{};  // coordinated: how far ahead of its progress its authority may reach
-    JobId helps{0};      // Submit::helps, and what that helps; else itself
+    Duration horizon{};              // how far ahead of its progress its authority may reach
+    JobId helps{0};                  // Submit::helps, and what that helps; else itself
     std::optional<JobId> before;     // Submit::before
     std::optional<JobId> lets_pass;  // Submit::lets_pass
     std::uint64_t effort = 1;        // Question::effort of the next time that it is judged
@@ -150,7 +147,7 @@ class Scheduler {
     std::vector<Passage> passages = {};  // Question::passages
   };
 
-  // coordinated: everything that waits is tried as one; if that fails, these alone.
+  // Policies that admit groups: everything that waits is tried as one; if that fails, these alone.
   struct Together {
     Version version;
     std::vector<JobId> alone;
@@ -159,28 +156,35 @@ class Scheduler {
   // scheduler.cc: what happens to jobs
   void on(const Submit& input);
   void take_place(JobId job, JobId before);
-  void on(const Cancel& input);
   void on(const Judged& input);
   void on(const MotionReport& input);
-  void on(const Stop& input);
-  void on(const Resume& input);
   void on(const SceneChanged& input);
   void on(const Interrupt& input);
   void on(const Wake& input);
   void progress(Record& record);
   void forget_predecessor(JobId ended, bool succeeded);
-  void brake(Record& record, AfterStop then);
-  void withdraw(Record& record, AfterStop then);
-  void come_to_rest(Record& record, const MotionReport& report);
   void set_state(Record& record, JobState state);
   void end(Record& record, JobState state, Reason reason, std::string detail);
   void settle();  // deadlines, waits, the next question, the next wake
-  void expire_and_overrun();
-  void ask_for_wake();
-  void leave_graph(const Record& record);
   void changed(const Record& record) { changed_.insert(record.job.id); }
 
-  // admission.cc: who may be judged, what is asked, what the answer means
+  // stopping.cc
+  void brake(Record& record, AfterStop then);
+  void withdraw(Record& record, AfterStop then);
+  void come_to_rest(Record& record, const MotionReport& report);
+  void on(const Cancel& input);
+  void on(const Stop& input);
+  void on(const Resume& input);
+
+  // deadlines.cc
+  void expire_and_overrun();
+  void see_whether_in_vain(Record& record) const;
+  void give_up(Record& record);
+  void expect_end(Record& record, TimePoint start_at) const;
+  [[nodiscard]] bool overruns(Record& record) const;
+  void ask_for_wake();
+
+  // admission.cc: who may be judged, and what is asked
   void form_round();
   [[nodiscard]] bool ask_next();
   [[nodiscard]] bool may_be_judged(const Record& record,
@@ -190,17 +194,11 @@ class Scheduler {
                                                 const std::vector<const Job*>& occupying) const;
   void fail_impossible_starts();
   [[nodiscard]] std::optional<std::string> start_mismatch(const Trajectory& trajectory) const;
-  [[nodiscard]] std::vector<JobId> next_recheck() const;
+  [[nodiscard]] std::optional<JobId> next_recheck() const;
   [[nodiscard]] std::optional<JobId> next_candidate() const;
   void ask(std::vector<JobId> jobs, Purpose purpose);
+  [[nodiscard]] Motion motion_now(const Record& record) const;
   void add_others(Question& question, const std::vector<JobId>& candidates) const;
-  void expect_end(Record& record, TimePoint start_at) const;
-  [[nodiscard]] bool overruns(Record& record) const;
-  void see_whether_in_vain(Record& record) const;
-  void give_up(Record& record);
-  [[nodiscard]] bool is_asked_again(Record& record, const Verdict& verdict) const;
-  void refuse(Record& record, const Verdict& verdict, bool recheck);
-  void put_off(Record& record, std::vector<Wait> waits);
 
   // turns.cc: whose turn it is among waiting jobs
   // The same jobs, each after those before it.
@@ -217,6 +215,8 @@ class Scheduler {
   [[nodiscard]] std::vector<Aged> aged_jobs() const;  // that hold others back, the oldest first
   [[nodiscard]] std::optional<JobId> held_back_by(const Record& record,
                                                   const std::vector<Aged>& aged) const;
+
+  // rings.cc
   void name_deadlocks();
   void settle_deadlocks();
   [[nodiscard]] bool stands(const NamedRing& named) const;
@@ -255,8 +255,7 @@ class Scheduler {
   [[nodiscard]] bool lets_through(const Verdict& verdict, const Aside& aside) const;
   void move_aside(const Aside& aside);
 
-  // coordinating.cc: policies that coordinate
-  [[nodiscard]] Motion motion_now(const Record& record) const;
+  // answer.cc: what it means
   void answer(const Verdict& verdict, const OpenQuestion& question);
   [[nodiscard]] CoordinatedMotion coordinated(const Record& record) const;
   [[nodiscard]] bool tries_together(const OpenQuestion& question, bool can_go);
@@ -266,6 +265,11 @@ class Scheduler {
   [[nodiscard]] std::vector<JobId> with_next_jobs(const std::vector<JobId>& group,
                                                   const std::vector<ArmId>& in_the_way) const;
   [[nodiscard]] bool may_follow(const Record& record) const;
+  [[nodiscard]] bool is_asked_again(Record& record, const Verdict& verdict) const;
+  void refuse(Record& record, const Verdict& verdict, bool recheck);
+  void put_off(Record& record, std::vector<Wait> waits);
+
+  // authority.cc: how far what is admitted may go
   void dispatch_ready();
   void dispatch_if_ready(Record& record);
   void extend_authority(JobId moved);
@@ -274,6 +278,7 @@ class Scheduler {
   [[nodiscard]] std::optional<Wait> held_where_it_stands(const Record& record) const;
   [[nodiscard]] bool stands(const Record& record) const;
   void see_pauses(Record& record, Duration progress_before);
+  void leave_graph(const Record& record);
 
   CellPtr cell_;
   std::shared_ptr<const Policy> policy_;
@@ -293,8 +298,8 @@ class Scheduler {
   SafeSequence sequence_;           // of all that waits in the queue
   bool lanes_changed_ = true;       // otherwise than the sequence knows
   Version version_ = 1;
-  Version disturbed_at_ = 0;         // the last time an arm came to rest off its plan
-  std::set<JobId> round_;            // policies with rounds: the jobs of the present one
+  Version disturbed_at_ = 0;  // the last time that the scene became another one
+  std::set<JobId> round_;     // policies with rounds: the jobs of the present one
   bool round_begun_ = false;
   std::vector<NamedRing> rings_;  // told in an earlier step
   std::optional<OpenQuestion> open_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/scheduler/waits.h"
+
 namespace armloom {
 
 Trial::Trial(Scheduler scheduler, const std::vector<Submit>& jobs, TimePoint now)
@@ -15,8 +17,8 @@ void Trial::step(const Input& input) {
   for (Effect& effect : scheduler_.step(input, now_)) {
     if (auto* judge = std::get_if<Judge>(&effect)) open_ = std::move(judge->question);
   }
-  const auto& told = scheduler_.find(job_);
-  if (told != nullptr && !told->waits_on.empty()) waits_ = told->waits_on;
+  const Job* job = scheduler_.find(job_);
+  if (job != nullptr && !job->waits_on.empty()) waits_ = job->waits_on;
 }
 
 bool Trial::is_decided() const {
@@ -25,9 +27,7 @@ bool Trial::is_decided() const {
          judgements_ >= kJudgementsMax;
 }
 
-std::optional<Question> Trial::next() const {
-  return is_decided() ? std::nullopt : open_;
-}
+std::optional<Question> Trial::next() const { return is_decided() ? std::nullopt : open_; }
 
 void Trial::answer(Verdict verdict) {
   const Question question = std::move(*open_);
@@ -35,8 +35,8 @@ void Trial::answer(Verdict verdict) {
   ++judgements_;
   // Not where an arm is asked about that would have gone aside.
   const bool as_arms_stand = question.rest == scheduler_.rest();
-  const bool of_it = std::ranges::find(question.candidates, job_, &Motion::job) !=
-                     question.candidates.end();
+  const bool of_it =
+      std::ranges::find(question.candidates, job_, &Motion::job) != question.candidates.end();
   if (of_it && as_arms_stand) {
     evaluations_ += verdict.evaluations;
     by_clock_ = scheduler_.earliest_start(question, verdict);

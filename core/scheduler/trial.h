@@ -43,9 +43,9 @@ class Trial {
   TimePoint now_;
   std::optional<Question> open_;
   int judgements_ = 0;
-  std::optional<Verdict> last_;        // on it alone or with others
-  std::optional<Duration> by_clock_;   // when it could begin, as last found
-  std::vector<Wait> waits_;            // as last told
+  std::optional<Verdict> last_;       // on it alone or with others
+  std::optional<Duration> by_clock_;  // when it could begin, as last found
+  std::vector<Wait> waits_;           // as last told
   std::uint64_t evaluations_ = 0;
 };
 

@@ -22,9 +22,11 @@ FormatPtr<CheckingSettings> checking_format() {
             "Time between the instants that the policy timed_discrete compares."),
       field("tracking_error_rad", &Checking::tracking_error_rad, number(kZeroToOne),
             "How far each joint may be off its path: every proof covers it."),
-      field("delay_s", &Checking::delay, seconds(kTime),
-            "How far a motion is expected to be behind its plan: controllers with a larger lag_s are "
-            "warned of. Motions go by measured progress, so nothing that is certified depends on it."),
+      field(
+          "delay_s", &Checking::delay, seconds(kTime),
+          "How far a motion is expected to be behind its plan: controllers with a larger lag_s are "
+          "warned of. Motions go by measured progress, so nothing that is certified depends on "
+          "it."),
       field("limit_tolerance", &Checking::limit_tolerance, number(kZeroToOne),
             "Share by which a trajectory may exceed a limit of velocity, acceleration or jerk "
             "between its waypoints."),

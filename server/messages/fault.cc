@@ -34,8 +34,8 @@ constexpr std::array<KindRule, 5> kKinds{{{Kind::stall, "stall", 0.0, true},
                                           {Kind::late_start, "late_start", kTimeMax_s, true},
                                           {Kind::drop_feedback, "drop_feedback", 0.0, true},
                                           {Kind::fault, "fault", 0.0, false}}};
-constexpr std::array<const char*, 6> kKindsToCome{
-    "freeze_feedback", "drift", "reject", "runaway", "ignore_stop", "noise"};
+constexpr std::array<const char*, 6> kKindsToCome{"freeze_feedback", "drift",       "reject",
+                                                  "runaway",         "ignore_stop", "noise"};
 
 const KindRule& rule_of(Kind kind) { return *std::ranges::find(kKinds, kind, &KindRule::kind); }
 
@@ -142,7 +142,8 @@ FormatPtr<FaultRequest> fault_request_format() {
       "FaultRequest",
       "A fault of a simulated arm. stall: it stays where it is on its path; slow: it follows it at "
       "a share of its speed; late_start: each motion begins late; drop_feedback: what it told last "
-      "is told again; fault: the controller gives up, once, from at_s on: in the motion that moves then, else as soon as the next one moves.",
+      "is told again; fault: the controller gives up, once, from at_s on: in the motion that moves "
+      "then, else as soon as the next one moves.",
       make_request_format(Need::optional));
   return format;
 }

@@ -1,5 +1,6 @@
-// Arms that start late, run slowly, stall and are heard of late at random: whatever their delays, arms never touch and
-// every job succeeds. The measured distance is known at every tick. ARMLOOM_SEEDS=500 runs more.
+// Arms that start late, run slowly, stall and are heard of late at random: whatever their delays,
+// arms never touch and every job succeeds. The measured distance is known at every tick.
+// ARMLOOM_SEEDS=500 runs more.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/random_faults.h"
@@ -28,7 +29,8 @@ SlidersRun run(std::uint64_t seed, std::size_t arms, const std::string& policy) 
   Executive& executive = simulation.executive();
   simulation.tick();
   for (std::size_t i = 0; i < arms; ++i) {
-    delay_at_random(executive, std::string(1, static_cast<char>('a' + i)), 20.0, random, kFarBeyond);
+    delay_at_random(executive, std::string(1, static_cast<char>('a' + i)), 20.0, random,
+                    kFarBeyond);
   }
   // Back and forth through the crossing, never to rest in it, one after the other or with pauses.
   std::vector<std::string> keys;

@@ -39,7 +39,9 @@ inline constexpr Delays kFarBeyond{.late_s = 10.0, .slowest = 0.1, .stall_s = 30
 inline void delay_at_random(Executive& executive, const std::string& arm, double within_s,
                             Random& random, const Delays& delays = {}) {
   const auto inject = [&](FaultRequest fault) { EXPECT_TRUE(executive.inject(fault)); };
-  inject({.arm = arm, .kind = ArmFault::Kind::late_start, .value = random.uniform(0.0, delays.late_s)});
+  inject({.arm = arm,
+          .kind = ArmFault::Kind::late_start,
+          .value = random.uniform(0.0, delays.late_s)});
   inject({.arm = arm, .kind = ArmFault::Kind::slow, .value = random.uniform(delays.slowest, 1.0)});
   for (int stall = 0; stall < 3; ++stall) {
     const Duration from = from_seconds(random.uniform(0.0, within_s));

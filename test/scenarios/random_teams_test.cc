@@ -121,9 +121,7 @@ struct Tally {
 class TeamsRun {
  public:
   TeamsRun(std::uint64_t seed, const std::string& policy)
-      : random_(seed),
-        description_(world(random_)),
-        watched_(description_) {
+      : random_(seed), description_(world(random_)), watched_(description_) {
     auto cell = build_cell(description_);
     if (!cell) throw std::runtime_error(cell.error().front().detail);
     auto created = Simulation::create(*cell, ExecutiveOptions{.policy = policy}, watched_);

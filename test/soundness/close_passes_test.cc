@@ -10,8 +10,8 @@
 namespace armloom::soundness {
 namespace {
 
-// Two Pandas that have to keep 5 mm only, and keep to their paths exactly. What stays open of joints
-// that are off their paths: open_pairs_test.cc.
+// Two Pandas that have to keep 5 mm only, and keep to their paths exactly. What stays open of
+// joints that are off their paths: open_pairs_test.cc.
 TEST(ClosePasses, AreDecidedWhenTheBudgetIsRaised) {
   Cell cell = *bench::two_pandas();
   cell.clearance_m = 0.005;

@@ -1,6 +1,7 @@
 // The certified rule, and instead of waiting for its blocker's end a job is given the earliest
-// start with which it passes all running and scheduled motions without a stop. Its orders then hold:
-// nothing that comes after it can put it off, and it begins when those before it are far enough.
+// start with which it passes all running and scheduled motions without a stop. Its orders then
+// hold: nothing that comes after it can put it off, and it begins when those before it are far
+// enough.
 #include "core/scheduler/policies/policies.h"
 
 namespace armloom {

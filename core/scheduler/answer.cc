@@ -1,9 +1,12 @@
-// Policies that coordinate: passing orders instead of times, held by authority over progress.
+// What an answer means: these go, with these orders; or more is asked; or they wait.
 #include <algorithm>
-#include <cmath>
+#include <cstdio>
+#include <string>
 #include <utility>
 
+#include "core/coordination/effort.h"
 #include "core/scheduler/scheduler.h"
+#include "core/scheduler/waits.h"
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
@@ -12,37 +15,30 @@ namespace {
 // What an arm may be granted beyond its stopping distance: so long it goes on at full speed without
 // a word from here, and so far others cannot be let pass before it.
 constexpr Duration kHorizon = std::chrono::milliseconds(250);
-// Authority is extended by no less than this, but for the last bit.
-constexpr Duration kGrantStep = std::chrono::milliseconds(80);
 // So many jobs that wait are tried as one at most, lest a decision take long.
 constexpr std::size_t kTogetherMax = 16;
-// Nearer than this to its limit, a motion has come to it.
-constexpr Duration kAtLimit = std::chrono::milliseconds(2);
+// What a job waits for that is treated as a conflict without being proven one.
+constexpr const char* kUndecided = "undecided within the budget of evaluations";
+// So often is the budget of one job's questions raised.
+constexpr int kRaisedMax = 12;
 
-Wait wait_for(const HeldBack& held) {
-  return Wait{.kind = held.by ? Wait::Kind::job : Wait::Kind::arm,
-              .job = held.by,
-              .arm = held.arm ? held.arm : held.proximity.arm_b,
-              .proximity = held.proximity,
-              .own_time = held.own_time,
-              .other_time = held.other_time};
-}
-
-Wait wait_for(const Obstacle& obstacle) {
-  return wait_for(HeldBack{obstacle.other, obstacle.arm, obstacle.proximity, obstacle.own_time,
-                           obstacle.other_time});
+std::string hits_itself(const Conflict& conflict) {
+  char text[128];
+  std::snprintf(text, sizeof text, " come within %.4g m of each other at %.3f s of the trajectory",
+                conflict.proximity.clearance_m, to_seconds(conflict.own_time));
+  return conflict.proximity.body_a + " and " + conflict.proximity.body_b + text;
 }
 
 }  // namespace
 
-Motion Scheduler::motion_now(const Record& record) const {
-  const auto& arms = record.job.trajectory->arms();
-  const bool to_come = std::ranges::any_of(
-      arms, [&](ArmId arm) { return order_[arm.index()].front() != record.job.id; });
-  return Motion{.job = record.job.id,
-                .trajectory = record.job.trajectory,
-                .progress = record.job.progress,
-                .to_come = to_come};
+void Scheduler::on(const Judged& input) {
+  if (!open_ || open_->version != input.verdict.version) return;
+  const OpenQuestion question = std::move(*open_);
+  open_.reset();
+  learn(question, input.verdict);
+  if (question.version != version_) return;  // stale: settle() asks again
+  if (question.aside) return answer_aside(input.verdict, *question.aside);
+  answer(input.verdict, question);
 }
 
 CoordinatedMotion Scheduler::coordinated(const Record& record) const {
@@ -52,13 +48,6 @@ CoordinatedMotion Scheduler::coordinated(const Record& record) const {
           .progress = record.job.progress,
           .authority = record.job.progress,
           .priority = record.job.priority};
-}
-
-void Scheduler::add_others(Question& question, const std::vector<JobId>& candidates) const {
-  for (const CoordinatedMotion& motion : graph_.motions()) {
-    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;
-    question.others.push_back(motion_now(records_.at(motion.job)));
-  }
 }
 
 std::optional<Duration> Scheduler::earliest_start(const Question& question,
@@ -72,8 +61,6 @@ std::optional<Duration> Scheduler::earliest_start(const Question& question,
   if (!orders.obstacles.empty()) return std::nullopt;
   return orders.prediction.begins.back();
 }
-
-// ---- The answer ----
 
 void Scheduler::answer(const Verdict& verdict, const OpenQuestion& question) {
   Record& first = records_.at(question.jobs.front());
@@ -253,137 +240,56 @@ bool Scheduler::may_follow(const Record& record) const {
          !stop_of(record) && sequence_.follows_on(record.job.id);
 }
 
-// ---- Authority ----
+// ---- They wait ----
 
-// What is admitted starts when precedence lets it leave its place.
-void Scheduler::dispatch_ready() {
-  const std::vector<JobId> ids(past_queue_.begin(), past_queue_.end());
-  for (JobId id : ids) {
-    Record& record = records_.at(id);
-    if (record.job.state == JobState::scheduled && !record.dispatched) {
-      dispatch_if_ready(record);
-    } else {
-      extend_own_authority(record);
-    }
-    if (record.job.pausing) explain_pause(record);
+// Where the budget of evaluations has ended it is not put off yet, but judged again with a larger
+// one when its turn comes, behind those that are judged with less. So often at most that a job that
+// cannot be decided takes no time from others each time that something changes.
+bool Scheduler::is_asked_again(Record& record, const Verdict& verdict) const {
+  const auto effort = larger_effort(verdict, record.effort);
+  if (!effort || record.raised >= kRaisedMax) {
+    record.effort = 1;
+    return false;
   }
+  record.effort = *effort;
+  ++record.raised;
+  return true;
 }
 
-void Scheduler::explain_pause(Record& record) {
-  if (const auto held = graph_.held_back(record.job.id)) set_waits(record, {wait_for(*held)});
-}
-
-// What keeps an admitted job from going on, or from beginning; nothing: it goes, or is about to.
-std::optional<Wait> Scheduler::held_where_it_stands(const Record& record) const {
-  if (waiting(record) || record.job.stopping) return std::nullopt;
-  const bool not_told = record.job.state == JobState::scheduled && !record.dispatched;
-  if (!not_told && !record.job.pausing) return std::nullopt;
-  if (graph_.limit(record.job.id) > record.job.progress + kAtLimit) return std::nullopt;
-  const auto held = graph_.held_back(record.job.id);
-  return held ? std::optional(wait_for(*held)) : std::nullopt;
-}
-
-// It moves only after others have moved.
-bool Scheduler::stands(const Record& record) const {
-  const bool behind = record.job.state == JobState::scheduled && !at_head(record);
-  return waiting(record) || behind || held_where_it_stands(record).has_value();
-}
-
-void Scheduler::dispatch_if_ready(Record& record) {
+void Scheduler::refuse(Record& record, const Verdict& verdict, bool recheck) {
   Job& job = record.job;
-  if (!at_head(record)) return;
-  if (!job.started_at && start_mismatch(*job.trajectory)) return withdraw(record, AfterStop::hold);
-  if (stop_of(record) || record.checked_at < disturbed_at_) return;
-  const Duration limit = graph_.limit(job.id);
-  if (limit <= job.progress && job.progress < job.trajectory->duration()) {
-    const auto held = graph_.held_back(job.id);
-    if (held && held->arm && !job.started_at) return withdraw(record, AfterStop::hold);
-    if (job.started_at && !job.pausing) {  // stopped on its way: it pauses there until it may go on
-      job.pausing = true;
-      changed(record);
+  std::vector<Wait> waits;
+  for (const Conflict& conflict : verdict.conflicts) {
+    if (conflict.with == Conflict::With::self && !job.started_at) {
+      end(record, JobState::failed, Reason::self_collision, hits_itself(conflict));
+      return;
     }
-    explain_pause(record);
-    return;
-  }
-  job.pausing = false;
-  const Duration authority = std::min(limit, job.progress + record.horizon);
-  graph_.granted(job.id, authority);
-  record.dispatched = true;
-  job.scheduled_at = now_;
-  expect_end(record, now_);
-  set_waits(record, {});
-  effects_.push_back(Dispatch{job.id, now_, job.progress, authority});
-}
-
-// A motion has moved: it may have made way for others, and may go on itself.
-void Scheduler::extend_authority(JobId moved) {
-  extend_own_authority(records_.at(moved));
-  std::vector<JobId> behind;
-  for (const Precedence& precedence : graph_.precedences()) {
-    if (precedence.first() == moved) behind.push_back(precedence.second());
-  }
-  for (JobId id : behind) {
-    Record& record = records_.at(id);
-    if (record.job.state == JobState::scheduled && !record.dispatched) {
-      dispatch_if_ready(record);
-    } else {
-      extend_own_authority(record);
+    if (conflict.with == Conflict::With::rest && conflict.proximity.arm_b) {
+      learn_in_the_way(job.id, *conflict.proximity.arm_b);
     }
+    waits.push_back(wait_for(conflict));
+    if (verdict.kind == Verdict::Kind::undecided) waits.back().detail = kUndecided;
+  }
+  if (recheck) {
+    record.checked_at = version_;
+    brake(record, AfterStop::hold);
+    set_waits(record, std::move(waits));
+  } else {
+    put_off(record, std::move(waits));
   }
 }
 
-void Scheduler::extend_own_authority(Record& record) {
-  const bool in_motion =
-      record.dispatched && !record.job.stopping &&
-      (record.job.state == JobState::scheduled || record.job.state == JobState::running);
-  if (!in_motion) return;
-  const JobId job = record.job.id;
-  const Duration limit = graph_.limit(job);
-  const Duration authority = std::min(limit, record.job.progress + record.horizon);
-  const Duration granted = graph_.find(job)->authority;
-  if (authority <= granted || (authority < granted + kGrantStep && authority < limit)) return;
-  graph_.granted(job, authority);
-  effects_.push_back(Grant{job, authority});
-}
-
-// At rest at its limit a running motion pauses; what it loses there is no overrun.
-void Scheduler::see_pauses(Record& record, Duration progress_before) {
+void Scheduler::put_off(Record& record, std::vector<Wait> waits) {
   Job& job = record.job;
-  if (job.state != JobState::running || job.stopping) return;
-  const Duration limit = graph_.limit(job.id);
-  if (limit < job.trajectory->duration() && job.progress + record.horizon >= limit) {
-    expect_end(record, now_);
-  }
-  const bool at_limit = limit < job.trajectory->duration() && job.progress + kAtLimit >= limit;
-  if (job.progress > progress_before) {
-    if (!job.pausing) return;
-    job.pausing = false;
-    set_waits(record, {});
-    changed(record);
-  } else if (at_limit && !job.pausing) {
-    job.pausing = true;
-    explain_pause(record);
+  record.judged_at = version_;
+  record.found = waits;
+  if (!record.ages_from) record.ages_from = now_;
+  if (job.state == JobState::queued) {
+    set_state(record, JobState::backlogged);
+    if (!job.backlogged_at) job.backlogged_at = now_;
     changed(record);
   }
-}
-
-// Its motion is admitted no more: it rests where it is. Nor are those behind it on its arms, which
-// begin where it would have ended.
-void Scheduler::leave_graph(const Record& record) {
-  if (!graph_.holds(record.job.id)) return;
-  std::set<JobId> behind;
-  for (ArmId arm : record.job.trajectory->arms()) {
-    const auto& queue = order_[arm.index()];
-    const auto own = std::ranges::find(queue, record.job.id);
-    if (own == queue.end()) continue;
-    for (auto next = own + 1; next != queue.end(); ++next) {
-      if (graph_.holds(*next)) behind.insert(*next);
-    }
-  }
-  for (auto job = behind.rbegin(); job != behind.rend(); ++job) {
-    if (graph_.holds(*job)) withdraw(records_.at(*job), AfterStop::hold);
-  }
-  graph_.abandon(record.job.id, record.job.progress, record.farthest);
+  set_waits(record, std::move(waits));
 }
 
 }  // namespace armloom

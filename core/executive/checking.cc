@@ -1,0 +1,49 @@
+// What would become of a job.
+#include <utility>
+
+#include "core/executive/executive_impl.h"
+
+namespace armloom {
+
+void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
+  Ahead ahead = ahead_now();
+  auto prepared = prepare(std::move(request), ahead);
+  if (!prepared) return done(failure(std::move(prepared.error())));
+  std::vector<Submit> jobs;
+  std::uint64_t next = next_job_;
+  for (TrajectoryPtr& back : prepared->returns) {
+    jobs.push_back({.job = JobId{next++},
+                    .trajectory = std::move(back),
+                    .priority = prepared->priority,
+                    .backlog_timeout = cell_->scheduling.backlog_timeout,
+                    .own = true});
+  }
+  jobs.push_back(submission(JobId{next}, std::move(*prepared)));
+  walk(std::make_shared<Trial>(scheduler_, jobs, now_), std::move(done));
+}
+
+// As admission would, in this instant.
+void Executive::Impl::walk(std::shared_ptr<Trial> trial,
+                           std::function<void(Result<CheckView>)> done) {
+  if (auto question = trial->next()) {
+    judges_.ask(std::move(*question), scene_,
+                [this, trial, done = std::move(done)](Verdict verdict) mutable {
+                  trial->answer(std::move(verdict));
+                  walk(std::move(trial), std::move(done));
+                });
+    return;
+  }
+  const Trial::Outcome outcome = trial->outcome();
+  CheckView view{.kind = outcome.kind, .scene_version = scene_version_};
+  if (outcome.starts_in) view.earliest_start_s = to_seconds(*outcome.starts_in);
+  view.clearance_bound_m = outcome.clearance_bound_m;
+  view.evaluations = outcome.evaluations;
+  for (Wait wait : outcome.waits) {
+    const bool is_known = wait.job && scheduler_.find(*wait.job) != nullptr;
+    if (wait.job && !is_known) wait.job.reset();  // its arm's own way back, or forgotten meanwhile
+    view.conflicts.push_back(view_of(wait, *cell_, *this));
+  }
+  done(std::move(view));
+}
+
+}  // namespace armloom
