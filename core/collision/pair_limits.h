@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <limits>
 
 #include "core/model/cell.h"
@@ -15,8 +14,7 @@ struct PairLimits {
   double mount_clearance_m = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] static PairLimits of(const Cell& cell) {
-    return {cell.clearance_m, cell.self_clearance_m,
-            std::min(cell.mount_clearance_m.value_or(cell.clearance_m), cell.clearance_m)};
+    return {cell.clearance_m, cell.self_clearance_m, cell.mount_limit_m()};
   }
   // Where `clearance_m` takes the place of the cell's, an arm keeps the same shares of it from
   // itself and its mount as in the cell.

@@ -135,6 +135,12 @@ struct Cell {
   // pass each other closely by design and keep self_clearance_m.
   [[nodiscard]] bool is_own(LinkId a, LinkId b) const;
 
+  // What an arm keeps from its mount: never more than from the scene.
+  [[nodiscard]] double mount_limit_m() const {
+    const double limit_m = mount_clearance_m.value_or(clearance_m);
+    return limit_m < clearance_m ? limit_m : clearance_m;
+  }
+
   // Every arm at its home; joints of no arm and gripper joints at zero, clamped to their limits.
   [[nodiscard]] Configuration home() const;
 };

@@ -68,7 +68,7 @@ void print_arm(const Cell& cell, const Arm& arm) {
 }
 
 void print_settings(const Cell& cell) {
-  const double mount_m = cell.mount_clearance_m.value_or(cell.clearance_m);
+  const double mount_m = cell.mount_limit_m();
   std::cout << "clearance " << cell.clearance_m << " m, " << cell.self_clearance_m
             << " m of an arm from itself"
             << (mount_m < cell.clearance_m ? ", " + text_of(mount_m) + " m from its mount" : "")

@@ -134,8 +134,7 @@ CellView view_of(const Cell& cell, std::string policy, double speed) {
   }
   view.settings.clearance_m = cell.clearance_m;
   view.settings.self_clearance_m = cell.self_clearance_m;
-  view.settings.mount_clearance_m =
-      std::min(cell.mount_clearance_m.value_or(cell.clearance_m), cell.clearance_m);
+  view.settings.mount_clearance_m = cell.mount_limit_m();
   view.settings.checking = cell.checking;
   view.settings.scheduling = cell.scheduling;
   view.settings.monitor = cell.monitor;

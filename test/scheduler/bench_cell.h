@@ -173,4 +173,17 @@ class Bench {
   std::uint64_t last_ = 0;
 };
 
+// Under certified: an arm half a second on its way, and another one whose region with it this is.
+struct OneBehindAnother {
+  explicit OneBehindAnother(const ProgressBox& box) {
+    first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+    bench.answer_free(at(1ms));
+    bench.progressed(first, 500ms, at(501ms));
+    second = bench.submit(move({1}, 0, 1, 2s), at(502ms));
+    bench.answer_regions(at(503ms), {{second, first, {region(box)}}});
+  }
+  Bench bench{2, "certified"};
+  JobId first{0}, second{0};
+};
+
 }  // namespace armloom

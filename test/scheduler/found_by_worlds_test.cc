@@ -28,13 +28,9 @@ TEST(Admission, WhatIsAdmittedBehindAJobOfItsArmSaysThatItWaitsForIt) {
 
 // The last report before the end is from before the region.
 TEST(Authority, GrowsWhenTheOneThatPassesFirstComesToItsEnd) {
-  Bench bench(2, "certified");
-  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
-  bench.answer_free(at(1ms));
-  bench.progressed(first, 500ms, at(501ms));
-  const JobId second = bench.submit(move({1}, 0, 1, 2s), at(502ms));
-  bench.answer_regions(at(503ms),
-                       {{second, first, {region(ProgressBox{1500ms, 1600ms, 1700ms, 1800ms})}}});
+  OneBehindAnother two(ProgressBox{1500ms, 1600ms, 1700ms, 1800ms});
+  Bench& bench = two.bench;
+  const JobId first = two.first, second = two.second;
   bench.progressed(second, 500ms, at(1s));
   bench.progressed(second, 1s, at(2s));
   bench.progressed(second, 1500ms, at(3s));
@@ -45,13 +41,9 @@ TEST(Authority, GrowsWhenTheOneThatPassesFirstComesToItsEnd) {
 
 // Without a word of its own: it stands, and has told that before.
 TEST(Authority, GrowsInTheStepInWhichTheOneThatPassesFirstHasLeft) {
-  Bench bench(2, "certified");
-  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
-  bench.answer_free(at(1ms));
-  bench.progressed(first, 500ms, at(501ms));
-  const JobId second = bench.submit(move({1}, 0, 1, 2s), at(502ms));
-  bench.answer_regions(at(503ms),
-                       {{second, first, {region(ProgressBox{1500ms, 1600ms, 1300ms, 1400ms})}}});
+  OneBehindAnother two(ProgressBox{1500ms, 1600ms, 1300ms, 1400ms});
+  Bench& bench = two.bench;
+  const JobId first = two.first, second = two.second;
   bench.progressed(second, 500ms, at(1s));
   bench.progressed(second, 1s, at(1500ms));
   ASSERT_LE(bench.authority(second), 1500ms);

@@ -211,13 +211,9 @@ TEST(Stop, ACancelOutlivesAConflictWithANewSceneDuringTheBrake) {
 
 // Their orders stand: what the answer says of each other's motion is not asked for again.
 TEST(Resume, LetsHeldJobsGoOnOneByOneByTheirOrders) {
-  Bench bench(2, "certified");
-  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
-  bench.answer_free(at(1ms));
-  bench.progressed(first, 500ms, at(501ms));
-  const JobId second = bench.submit(move({1}, 0, 1, 2s), at(502ms));
-  bench.answer_regions(at(503ms),
-                       {{second, first, {region(ProgressBox{1s, 1500ms, 0ms, 1200ms})}}});
+  OneBehindAnother two(ProgressBox{1s, 1500ms, 0ms, 1200ms});
+  Bench& bench = two.bench;
+  const JobId first = two.first, second = two.second;
   bench.progressed(second, 0ms, at(504ms));
   bench.step(Stop{{ArmId{0}, ArmId{1}}, "operator"}, at(510ms));
   bench.stopped(first, 600ms, at(700ms));
