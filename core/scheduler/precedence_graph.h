@@ -29,6 +29,8 @@ class PrecedenceGraph {
   [[nodiscard]] const std::vector<Precedence>& precedences() const { return precedences_; }
   [[nodiscard]] const CoordinatedMotion* find(JobId job) const;
   [[nodiscard]] bool holds(JobId job) const { return find(job) != nullptr; }
+  // Precondition: it holds it.
+  [[nodiscard]] Duration horizon(JobId job) const { return find(job)->horizon; }
 
   // By ArmId: the work that waits behind; only the choice between orders depends on it.
   void set_work_behind(std::vector<Duration> work) { work_behind_ = std::move(work); }

@@ -68,7 +68,7 @@ class Bench {
       if (auto* r = std::get_if<Release>(&effect)) released.push_back(r->job);
       if (auto* c = std::get_if<JobChanged>(&effect)) {
         const Job& job = *scheduler.find(c->job);
-        if (is_terminal(job.state)) ++terminal_events[c->job];
+        if (job.has_ended()) ++terminal_events[c->job];
       }
     }
   }
@@ -147,7 +147,7 @@ class Bench {
   }
 
   JobId next_id() { return JobId{++last_}; }
-  JobState state(JobId job) const { return scheduler.find(job)->state; }
+  JobState state(JobId job) const { return scheduler.find(job)->state(); }
   const Job& job(JobId id) const { return *scheduler.find(id); }
   // How far its arms may go, as they were told last.
   Duration authority(JobId id) const {
