@@ -81,7 +81,8 @@ void Scheduler::ask_for_wake() {
   std::optional<TimePoint> next;
   const auto consider = [&next](TimePoint when) { next = next ? std::min(*next, when) : when; };
   for (JobId id : past_queue_) {
-    const Record& record = records_.at(id);
+    Record& record = records_.at(id);
+    see_whether_in_vain(record);  // as this step leaves it
     if (record.job.state == JobState::backlogged) {
       consider(*record.job.backlogged_at + record.job.backlog_timeout);
     }
