@@ -72,13 +72,16 @@ void Executive::Impl::step(const Input& input) {
   for (const Effect& effect : effects) carry_out(effect);
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
   tell_queue();
-  for (MoveAside& aside : std::exchange(asides_, {})) make_way(std::move(aside));
+  for (const MoveAside& aside : std::exchange(asides_, {})) carry_out(aside);
 }
 
 void Executive::Impl::carry_out(const Effect& effect) {
   if (const auto* judge = std::get_if<Judge>(&effect)) {
-    judges_.ask(judge->question, scene_,
-                [this](Verdict verdict) { step(Judged{std::move(verdict)}); });
+    asked_ = judge->question;
+    judges_.ask(judge->question, scene_, [this](Verdict verdict) {
+      asked_.reset();
+      step(Judged{std::move(verdict)});
+    });
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
     motions_.dispatch(*dispatch, scheduler_.find(dispatch->job)->trajectory);
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {

@@ -21,8 +21,6 @@ class Admission {
   void on(const Judged& input, State& state, WaitCycles& cycles);
 
   [[nodiscard]] bool is_about(JobId job) const;
-  // What is open is asked anew.
-  void forget_question() { open_.reset(); }
 
  private:
   enum class Purpose {

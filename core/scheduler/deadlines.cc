@@ -104,10 +104,12 @@ void expire_and_overrun(State& state) {
   }
 }
 
-std::optional<TimePoint> next_deadline(const State& state) {
+std::optional<TimePoint> next_deadline(State& state) {
   std::optional<TimePoint> next;
   for (JobId id : state.jobs.past_queue()) {
-    const auto deadline = deadline_of(state.jobs.at(id).job);
+    Record& record = state.jobs.at(id);
+    see_whether_in_vain(state, record);
+    const auto deadline = deadline_of(record.job);
     if (deadline) next = next ? std::min(*next, *deadline) : deadline;
   }
   return next;

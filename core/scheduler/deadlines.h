@@ -14,7 +14,8 @@ inline constexpr Duration kStandstill = std::chrono::seconds(10);
 // Ends what has waited in the backlog, or on its path in vain, for longer than its timeout, and
 // motions that overrun.
 void expire_and_overrun(State& state);
-// When something of that may happen next.
-[[nodiscard]] std::optional<TimePoint> next_deadline(const State& state);
+// When something of that may happen next. What waits in vain as this step leaves it is timed from
+// now.
+[[nodiscard]] std::optional<TimePoint> next_deadline(State& state);
 
 }  // namespace armloom

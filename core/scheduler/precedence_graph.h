@@ -63,6 +63,7 @@ class PrecedenceGraph {
   // Arms that came to rest on one motion in the way of an admitted one: until all have left.
   struct Blockade {
     std::vector<ArmId> arms;
+    std::optional<JobId> goal_of;  // they will rest there when this one has come to its end
     JobId job;
     Duration limit;
     Duration until;     // beyond it the motion has passed
@@ -72,7 +73,11 @@ class PrecedenceGraph {
   };
   [[nodiscard]] CoordinatedMotion* motion(JobId job);
   [[nodiscard]] bool waits_for_own_arm(std::size_t index) const;
-  void block_others(const CoordinatedMotion& rests, Duration at, Duration farthest);
+  struct Rest {
+    std::vector<ArmId> arms;
+    Duration at, farthest;  // arms of one motion may rest apart on it
+  };
+  void block_others(const CoordinatedMotion& motion, const Rest& rest);
   void erase(JobId job);
   void tell_holds();
 

@@ -43,8 +43,6 @@ class Scheduler {
   [[nodiscard]] Configuration predicted_rest() const;
 
   [[nodiscard]] const Policy& policy() const { return *state_.policy; }
-  // For a Trial. What is open is asked anew.
-  void forget_question() { admission_.forget_question(); }
   // By the clock, of the one candidate of a question that is open: when it could begin beside what
   // is admitted, from now. Nothing: not, as things stand.
   [[nodiscard]] std::optional<Duration> earliest_start(const Question& question,

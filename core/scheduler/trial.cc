@@ -3,22 +3,37 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/scheduler/making_way.h"
 #include "core/scheduler/waits.h"
 
 namespace armloom {
 
-Trial::Trial(Scheduler scheduler, const std::vector<Submit>& jobs, TimePoint now)
-    : scheduler_(std::move(scheduler)), job_(jobs.back().job), now_(now) {
-  scheduler_.forget_question();
+Trial::Trial(Scheduler scheduler, std::optional<Question> open, const std::vector<Submit>& jobs,
+             TimePoint now)
+    : scheduler_(std::move(scheduler)),
+      job_(jobs.back().job),
+      last_id_(job_.value()),
+      now_(now),
+      open_(std::move(open)) {
   for (const Submit& job : jobs) step(job);
 }
 
 void Trial::step(const Input& input) {
+  std::vector<MoveAside> asides;
   for (Effect& effect : scheduler_.step(input, now_)) {
     if (auto* judge = std::get_if<Judge>(&effect)) open_ = std::move(judge->question);
+    if (auto* aside = std::get_if<MoveAside>(&effect)) asides.push_back(std::move(*aside));
   }
   const Job* job = scheduler_.find(job_);
   if (job != nullptr && !job->waits_on.empty()) waits_ = job->waits_on;
+  for (const MoveAside& aside : asides) {
+    const Duration as_helped = scheduler_.find(aside.way_of)->backlog_timeout;
+    make_way(scheduler_, aside, as_helped, [this](Submit way) {
+      way.job = JobId{++last_id_};
+      step(way);
+      return way.job;
+    });
+  }
 }
 
 bool Trial::is_decided() const {

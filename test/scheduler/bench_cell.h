@@ -147,6 +147,7 @@ class Bench {
   }
 
   JobId next_id() { return JobId{++last_}; }
+  [[nodiscard]] JobId id_of_next() const { return JobId{last_ + 1}; }
   JobState state(JobId job) const { return scheduler.find(job)->state(); }
   const Job& job(JobId id) const { return *scheduler.find(id); }
   // How far its arms may go, as they were told last.
