@@ -42,7 +42,7 @@ inline constexpr Duration kStandstill = std::chrono::seconds(10);
 // as urgent as the most urgent of them, then the earlier. A job that has waited for
 // scheduling.aging since it was first in conflict, or first without a place, holds back every other
 // one but those that have to go before it, unless what it waits for is an arm that no job moves, an
-// object or a stop (README: how long a job can wait).
+// object or a stop (README.md: how long can a job be overtaken).
 //
 // Jobs that wait for each other in a ring can never move: each is told its ring in the step that
 // finds it. Then an arm of the ring goes aside and comes back when the other has passed, if the
