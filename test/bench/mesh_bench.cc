@@ -36,8 +36,7 @@ void closest(benchmark::State& run, const PlanningScenePtr& scene,
   CollisionChecker checker(scene);
   std::size_t next = 0;
   for (auto _ : run) {
-    benchmark::DoNotOptimize(
-        checker.closest_apart(states[next++ % states.size()], horizon_m));
+    benchmark::DoNotOptimize(checker.closest_apart(states[next++ % states.size()], horizon_m));
   }
 }
 

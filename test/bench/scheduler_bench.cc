@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/scheduler/scheduler.h"
-#include "test/scheduler/one_joint_arms.h"
 #include "test/bench/run_benchmarks.h"
+#include "test/scheduler/one_joint_arms.h"
 
 namespace armloom {
 namespace {
