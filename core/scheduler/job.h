@@ -46,7 +46,7 @@ struct Wait {
 };
 [[nodiscard]] const char* to_string(Wait::Kind kind);
 
-// Closed list; the README explains each.
+// Closed list; README.md beside this file explains each.
 enum class Reason {
   completed,
   canceled_by_client,

@@ -13,7 +13,8 @@ namespace armloom {
 // priority, where a job that others wait for is as urgent as the most urgent of them, then the
 // earlier. A job that has waited for scheduling.aging since it was first in conflict, or first
 // without a place, holds back every other one but those that have to go before it, unless what it
-// waits for is an arm that no job moves, an object or a stop. Refers to the state.
+// waits for is an arm that no job moves, an object or a stop (README.md: how long can a job be
+// overtaken). Refers to the state.
 class Turns {
  public:
   explicit Turns(const State& state);

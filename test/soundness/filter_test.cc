@@ -37,10 +37,8 @@ TEST(Filter, OfADualArmRobotIsNeverAboveTheExactDistance) {
   expect_never_too_far(cell_of_file("dual_panda.json"), 2'000);
 }
 
-TEST(Filter, OfTwoFanucsIsNeverAboveTheExactDistance) {
-  const CellPtr cell = cell_of_file("two_fanucs.json");
-  if (!cell) GTEST_SKIP() << "its meshes are not here";
-  expect_never_too_far(cell, 2'000);
+TEST(Filter, OfTwoArmsWithMeshesIsNeverAboveTheExactDistance) {
+  expect_never_too_far(cell_of_file("two_shuttles.json"), 2'000);
 }
 
 TEST(Filter, TakesARoundingMarginOfAtMostTenMicrometres) {

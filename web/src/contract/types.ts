@@ -444,7 +444,7 @@ export interface components {
             detail?: string;
         };
         /**
-         * @description A closed list; the README explains each.
+         * @description A closed list; core/scheduler/README.md explains each.
          * @enum {string}
          */
         Reason: "completed" | "canceled_by_client" | "backlog_timeout" | "start_mismatch" | "self_collision" | "predecessor_failed" | "arm_fault" | "overrun" | "server_restart" | "deadlock";
