@@ -212,12 +212,12 @@ void decision(benchmark::State& state, const std::string& policy) {
   state.counters["questions"] = questions / count;
 }
 
-BENCHMARK_CAPTURE(decision, earliest_start, "earliest_start")
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(decision, coordinated, "coordinated")
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(decision, sequential, "sequential")->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(decision, lockstep, "lockstep")->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(decision, reservation, "reservation")->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(decision, certified, "certified")->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(decision, earliest_start, "earliest_start")->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(decision, coordinated, "coordinated")->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace armloom::bench
