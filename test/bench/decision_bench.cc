@@ -30,15 +30,16 @@ using namespace std::chrono_literals;
 constexpr std::size_t kColumns = 8, kRows = 6;
 constexpr double kSpacing_m = 1.2;
 constexpr double kReach = 0.5;
-constexpr double kShare = 0.5;  // of a random motion, about home
+// Of a random motion, about home: with the half neighbours stay clear, with all of it they cross.
+constexpr double kShare = 0.5, kCrossingShare = 1.0;
 constexpr std::size_t kAdmitted = 45, kRunning = 15, kWaiting = 200;
 constexpr std::size_t kFree[] = {18, 28, 29};  // arms in the middle: theirs are the candidates
 constexpr std::size_t kDecisions = 300;
 
-// The waypoints of `motion`, its deviation from its start shrunk to kShare and begun at home;
+// The waypoints of `motion`, its deviation from its start shrunk to `share` and begun at home;
 // backwards: from its goal to home. None: it leaves its limits.
 std::optional<TrajectoryPtr> from_home(const Cell& cell, ArmId arm, const Trajectory& motion,
-                                       bool backwards) {
+                                       double share, bool backwards) {
   TrajectoryRequest request;
   for (const JointId id : motion.joints()) request.joint_names.push_back(cell.joint(id).name);
   JointState state;
@@ -48,9 +49,9 @@ std::optional<TrajectoryPtr> from_home(const Cell& cell, ArmId arm, const Trajec
     WaypointRequest point{{}, {}, {}, at_s};
     for (Eigen::Index j = 0; j < state.position.size(); ++j) {
       point.positions.push_back(cell.arm(arm).home[j] +
-                                kShare * (state.position[j] - motion.start()[j]));
-      point.velocities.push_back((backwards ? -kShare : kShare) * state.velocity[j]);
-      point.accelerations.push_back(kShare * state.acceleration[j]);
+                                share * (state.position[j] - motion.start()[j]));
+      point.velocities.push_back((backwards ? -share : share) * state.velocity[j]);
+      point.accelerations.push_back(share * state.acceleration[j]);
     }
     request.points.push_back(std::move(point));
   }
@@ -67,8 +68,9 @@ double processor_ms() {
 
 class Hall {
  public:
-  explicit Hall(const std::string& policy)
+  Hall(const std::string& policy, double share)
       : running_(policy == "lockstep" ? 0 : kRunning),
+        share_(share),
         cell_(grid_of_pandas(kColumns, kRows, kSpacing_m)),
         arbiter_(*PlanningScene::build(cell_)),
         chooses_(*PlanningScene::build(cell_)),
@@ -80,7 +82,7 @@ class Hall {
   TrajectoryPtr new_motion(ArmId arm) {
     while (true) {
       const auto random = random_motion(*cell_, arm, ++seed_, kReach);
-      const auto found = from_home(*cell_, arm, *random, false);
+      const auto found = from_home(*cell_, arm, *random, share_, false);
       if (!found || !alone(*found)) continue;
       random_[*found] = random;
       return *found;
@@ -137,7 +139,7 @@ class Hall {
       for (std::uint32_t i = 0; i < out.size() && waiting < kWaiting; ++i) {
         if (!out[i]) continue;
         const bool back = round % 2 == 0;
-        submit(back ? *from_home(*cell_, ArmId{i}, *random_.at(out[i]), true) : out[i]);
+        submit(back ? *from_home(*cell_, ArmId{i}, *random_.at(out[i]), share_, true) : out[i]);
         ++waiting;
       }
     }
@@ -189,6 +191,7 @@ class Hall {
   }
 
   std::size_t running_;
+  double share_;
   CellPtr cell_;
   Arbiter arbiter_;
   Arbiter chooses_;  // knows nothing to the other one's advantage
@@ -200,8 +203,8 @@ class Hall {
   std::uint64_t seed_ = 0;
 };
 
-void decision(benchmark::State& state, const std::string& policy) {
-  Hall hall(policy);
+void decision(benchmark::State& state, const std::string& policy, double share) {
+  Hall hall(policy, share);
   std::vector<double> took_ms;
   double admitted = 0.0, questions = 0.0;
   for (auto _ : state) {
@@ -223,18 +226,19 @@ void decision(benchmark::State& state, const std::string& policy) {
   state.counters["questions"] = questions / count;
 }
 
-BENCHMARK_CAPTURE(decision, sequential, "sequential")->Iterations(1)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(decision, lockstep, "lockstep")->Iterations(1)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(decision, reservation, "reservation")
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(decision, certified, "certified")->Iterations(1)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(decision, earliest_start, "earliest_start")
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(decision, coordinated, "coordinated")
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
+const bool kRegistered = [] {
+  for (const char* policy :
+       {"sequential", "lockstep", "reservation", "certified", "earliest_start", "coordinated"}) {
+    for (const auto& [name, share] :
+         {std::pair("decision/", kShare), {"crossing/", kCrossingShare}}) {
+      benchmark::RegisterBenchmark((std::string(name) + policy).c_str(),
+                                   [policy, share](auto& state) { decision(state, policy, share); })
+          ->Iterations(1)
+          ->Unit(benchmark::kMillisecond);
+    }
+  }
+  return true;
+}();
 
 }  // namespace
 }  // namespace armloom::bench
