@@ -46,7 +46,7 @@ filter::Side CoordinationDiagram::gather(const MotionTube& tube, int Cell::*node
 }
 
 void CoordinationDiagram::evaluate(const Open* open, std::size_t count) {
-  Scratch& s = *scratch_;
+  Scratch& s = *setting_.scratch;
   s.nodes.clear();
   for (std::size_t i = 0; i < count; ++i) s.nodes.push_back(at(open[i].cell).a);
   a_->place(s.nodes);
@@ -131,7 +131,7 @@ bool CoordinationDiagram::keeps_apart(const Cell& cell, const NarrowPair& pair, 
     const auto of_b = arm.ancestors(b.frame);
     common = static_cast<std::size_t>(std::ranges::mismatch(of_a, of_b).in1 - of_a.begin());
   }
-  Scratch& s = *scratch_;
+  Scratch& s = *setting_.scratch;
   s.axes_b.clear();
   a_->axes_of(cell.a, a.frame, common, s.axes_a);
   if (self) a_->axes_of(cell.a, b.frame, common, s.axes_b);
@@ -168,7 +168,7 @@ bool CoordinationDiagram::clears(Cell& cell, Undecided& u) {
 
 // From what the filter has left open to the cell's state.
 void CoordinationDiagram::decide(int index) {
-  std::vector<Undecided>& undecided = scratch_->undecided;
+  std::vector<Undecided>& undecided = setting_.scratch->undecided;
   Cell& cell = at(index);
   cell.state = CellState::free;
   if (undecided.empty()) return;

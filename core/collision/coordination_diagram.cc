@@ -27,38 +27,42 @@ struct CoordinationDiagram::Search {
 
 CoordinationDiagram::CoordinationDiagram(Setting setting, std::shared_ptr<MotionTube> a,
                                          std::shared_ptr<MotionTube> b)
-    : setting_(setting), a_(std::move(a)), b_(std::move(b)), scratch_(std::make_shared<Scratch>()) {
-  cells_.reserve(128);
+    : setting_(std::move(setting)), a_(std::move(a)), b_(std::move(b)) {
   cells_.push_back({MotionTube::root(), MotionTube::root()});
-  Scratch& s = *scratch_;
-  const auto make_room = [](const MotionTube& tube, Gathered& gathered) {
-    const std::size_t size = tube.linkage().capsules().size() * static_cast<std::size_t>(kLanes);
-    gathered.capsules.resize(size * 6);
-    gathered.inflation.resize(size);
-    gathered.ball.resize(4 * static_cast<std::size_t>(kLanes));
+  Scratch& s = *setting_.scratch;
+  const auto make_room = [](auto& of, std::size_t size) {
+    if (of.size() < size) of.resize(size);
   };
-  make_room(*a_, s.a);
-  s.point.a.resize(a_->linkage().frames().size() * 12);
-  s.point.q.resize(a_->linkage().joints().size());
-  s.hits.resize(setting_.pairs->pairs.size() + 1);
-  s.box_hits.resize(setting_.pairs->boxes.size() + 1);
-  if (!b_) return;
-  make_room(*b_, s.b);
-  s.point.b.resize(b_->linkage().frames().size() * 12);
-  s.point.q.resize(std::max(s.point.q.size(), b_->linkage().joints().size()));
+  const auto make_room_for = [&](const MotionTube& tube, Gathered& gathered,
+                                 std::vector<double>& frames) {
+    const std::size_t size = tube.linkage().capsules().size() * static_cast<std::size_t>(kLanes);
+    make_room(gathered.capsules, size * 6);
+    make_room(gathered.inflation, size);
+    make_room(gathered.ball, 4 * static_cast<std::size_t>(kLanes));
+    make_room(frames, tube.linkage().frames().size() * 12);
+    make_room(s.point.q, tube.linkage().joints().size());
+  };
+  make_room_for(*a_, s.a, s.point.a);
+  if (b_) make_room_for(*b_, s.b, s.point.b);
+  make_room(s.hits, setting_.pairs->pairs.size() + 1);
+  make_room(s.box_hits, setting_.pairs->boxes.size() + 1);
+}
+
+std::shared_ptr<CoordinationDiagram::Scratch> CoordinationDiagram::make_scratch() {
+  return std::make_shared<Scratch>();
 }
 
 CoordinationDiagram::CoordinationDiagram(Setting setting, std::shared_ptr<MotionTube> a,
                                          const StillParts& still)
-    : CoordinationDiagram(setting, std::move(a), std::shared_ptr<MotionTube>()) {
+    : CoordinationDiagram(std::move(setting), std::move(a), std::shared_ptr<MotionTube>()) {
   still_ = &still;
 }
 
 CoordinationDiagram::CoordinationDiagram(Setting setting, std::shared_ptr<MotionTube> a)
-    : CoordinationDiagram(setting, std::move(a), std::shared_ptr<MotionTube>()) {}
+    : CoordinationDiagram(std::move(setting), std::move(a), std::shared_ptr<MotionTube>()) {}
 
 CoordinationDiagram CoordinationDiagram::with(Setting setting) const {
-  CoordinationDiagram other(setting, a_, b_);
+  CoordinationDiagram other(std::move(setting), a_, b_);
   other.still_ = still_;
   return other;
 }
@@ -269,7 +273,7 @@ void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
 }
 
 void CoordinationDiagram::place_point(Duration time_a, Duration time_b) {
-  Scratch::Point& point = scratch_->point;
+  Scratch::Point& point = setting_.scratch->point;
   a_->configuration(time_a, point.q.data());
   place_frames(a_->linkage(), point.q.data(), point.a.data());
   if (!b_) return;
@@ -284,7 +288,7 @@ std::vector<CoordinationDiagram::Close> CoordinationDiagram::too_close_at(Durati
   const auto look = [&](const std::vector<NarrowPair>& pairs) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (i > 0 && pairs[i].pair == pairs[i - 1].pair) continue;  // another capsule of the same
-      const Scratch::Point& point = scratch_->point;
+      const Scratch::Point& point = setting_.scratch->point;
       const double distance_m =
           exact(pairs[i], point.a.data(), point.b.data(), 1, pairs[i].limit_m);
       if (distance_m < pairs[i].limit_m) close.push_back({pairs[i].pair, distance_m});
@@ -301,7 +305,7 @@ CoordinationDiagram::Close CoordinationDiagram::closest_at(Duration time_a, Dura
   for (const std::vector<NarrowPair>* pairs :
        {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
     for (const NarrowPair& pair : *pairs) {
-      const Scratch::Point& point = scratch_->point;
+      const Scratch::Point& point = setting_.scratch->point;
       const double distance_m = exact(pair, point.a.data(), point.b.data(), 1, closest.distance_m);
       if (distance_m < closest.distance_m) closest = {pair.pair, distance_m};
     }
@@ -328,7 +332,7 @@ std::optional<CoordinationDiagram::Finding> CoordinationDiagram::on_the_line(con
   if (!at_s) return std::nullopt;
   finding.at_s = *at_s;
   place_point(finding.time_a, finding.time_b);
-  const Scratch::Point& point = scratch_->point;
+  const Scratch::Point& point = setting_.scratch->point;
   finding.distance_m = exact(pair, point.a.data(), point.b.data(), 1, pair.limit_m);
   return finding.distance_m < pair.limit_m ? std::optional(finding) : std::nullopt;
 }

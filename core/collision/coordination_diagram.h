@@ -25,10 +25,14 @@ namespace armloom {
 // Not thread-safe; a tube may be shared by several diagrams of one thread.
 class CoordinationDiagram {
  public:
+  // Of the cell at hand: one may serve all diagrams of a thread.
+  struct Scratch;
+  [[nodiscard]] static std::shared_ptr<Scratch> make_scratch();
   // Scene and pairs must outlive the diagram (they are held by its owner).
   struct Setting {
     const PlanningScene::Bodies* bodies;
     const PairSet* pairs;
+    std::shared_ptr<Scratch> scratch;
   };
   // Of two arms.
   CoordinationDiagram(Setting setting, std::shared_ptr<MotionTube> a,
@@ -186,9 +190,6 @@ class CoordinationDiagram {
     Resolution resolution;
   };
   std::optional<Outlined> outlined_;  // as refine_outline() has completed it
-
-  struct Scratch;
-  std::shared_ptr<Scratch> scratch_;
 };
 
 }  // namespace armloom

@@ -74,7 +74,7 @@ void cross_arm(benchmark::State& run, const Motions& motions, bool must_be_free)
   CoordinationDiagram::Answer answer;
   for (auto _ : run) {
     CoordinationDiagram diagram(
-        {&scene->bodies(), &pairs},
+        {&scene->bodies(), &pairs, CoordinationDiagram::make_scratch()},
         std::make_shared<MotionTube>(left, motions.trajectories[0], motions.rest, 0.0),
         std::make_shared<MotionTube>(right, motions.trajectories[1], motions.rest, 0.0));
     answer = diagram.ask(region, Arbiter::kBudget);
