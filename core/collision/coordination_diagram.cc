@@ -9,9 +9,6 @@ namespace {
 
 constexpr int kLanes = filter::kLanes;
 
-// Wider stretches of a motion are hardly ever free in one: they are halved unseen.
-constexpr Duration kWide = std::chrono::milliseconds(700);
-
 }  // namespace
 
 // One question on its way.
@@ -217,6 +214,18 @@ void CoordinationDiagram::split_if_coarse(int index, Duration resolution) {
   split(index, 1);
 }
 
+// The first of these, as far as the budget goes; returns how many.
+std::uint64_t CoordinationDiagram::evaluate_all(const std::vector<Open>& open,
+                                                std::uint64_t budget) {
+  std::size_t done = 0;
+  while (done < open.size() && done < budget) {
+    const std::size_t count = std::min<std::size_t>(kLanes, open.size() - done);
+    evaluate(open.data() + done, count);
+    done += count;
+  }
+  return done;
+}
+
 std::uint64_t CoordinationDiagram::refine(const Region& region, Duration resolution,
                                           std::uint64_t budget) {
   std::vector<Open> open{{0, {0.0, 0.0}}};
@@ -234,12 +243,8 @@ std::uint64_t CoordinationDiagram::refine(const Region& region, Duration resolut
       if (now.state != CellState::inner) continue;
       for (int c = 0; c < now.child_count(); ++c) open.push_back({now.children + c, {0.0, 0.0}});
     }
-    for (std::size_t done = 0; done < unknown.size(); done += kLanes) {
-      if (looked_at >= budget) return looked_at;
-      const std::size_t count = std::min<std::size_t>(kLanes, unknown.size() - done);
-      evaluate(unknown.data() + done, count);
-      looked_at += count;
-    }
+    looked_at += evaluate_all(unknown, budget - looked_at);
+    if (looked_at >= budget) return looked_at;
     open = unknown;
   }
   return looked_at;

@@ -69,10 +69,10 @@ class CoordinationDiagram {
   // `resolution`, at the cost of about `budget` cells at most; returns how many.
   std::uint64_t refine(const Region& region, Duration resolution, std::uint64_t budget);
 
-  // Refines all of the rectangle of what remains of both motions to `coarse`, and from there on to
-  // `fine` only where what is not free borders on what is, until no border is coarse any more;
-  // cells whose middle is proven to be a conflict are left. At the cost of about `budget` cells at
-  // most; returns how many.
+  // Finds where what is free of the rectangle of what remains of both motions ends: what is not
+  // borders on it, or on where both stand now, in cells no wider than `fine`, or `coarse` where
+  // their middle is proven to be a conflict. What lies behind them is not looked at: no motion gets
+  // there. At the cost of about `budget` cells at most; returns how many.
   struct Resolution {
     Duration coarse;
     Duration fine;
@@ -159,9 +159,12 @@ class CoordinationDiagram {
   void split_if_coarse(int cell, Duration resolution);
   [[nodiscard]] bool wider(const Cell& cell, Duration resolution) const;
   [[nodiscard]] const Found* proven(const Cell& cell) const;
+  std::uint64_t evaluate_all(const std::vector<Open>& open, std::uint64_t budget);
   void evaluate(const Open* open, std::size_t count);
   [[nodiscard]] bool remains(const Cell& cell, Duration now_a, Duration now_b) const;
-  class Raster;
+  template <class Visit>
+  bool leaves_at(const Cell& of, const Visit& visit) const;
+  [[nodiscard]] bool borders_on_free(const Cell& cell) const;
   struct Gathered;
   [[nodiscard]] filter::Side gather(const MotionTube& tube, int Cell::*node, const Open* open,
                                     std::size_t count, Gathered& to);
