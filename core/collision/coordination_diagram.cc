@@ -36,7 +36,11 @@ CoordinationDiagram::CoordinationDiagram(Setting setting, std::shared_ptr<Motion
     make_room(gathered.capsules, size * 6);
     make_room(gathered.inflation, size);
     make_room(gathered.ball, 4 * static_cast<std::size_t>(kLanes));
-    make_room(frames, tube.linkage().frames().size() * 12);
+    make_room(gathered.bends, size);
+    const std::size_t axes = tube.linkage().frames().size();
+    make_room(gathered.axes, axes * 6 * static_cast<std::size_t>(kLanes));
+    make_room(gathered.spans, axes * static_cast<std::size_t>(kLanes));
+    make_room(frames, axes * 12);
     make_room(s.point.q, tube.linkage().joints().size());
   };
   make_room_for(*a_, s.a, s.point.a);

@@ -166,8 +166,15 @@ class CoordinationDiagram {
   bool leaves_at(const Cell& of, const Visit& visit) const;
   [[nodiscard]] bool borders_on_free(const Cell& cell) const;
   struct Gathered;
+  [[nodiscard]] bool together(const MotionTube& tube, int Cell::*node, const Open* open,
+                              std::size_t count) const;
   [[nodiscard]] filter::Side gather(const MotionTube& tube, int Cell::*node, const Open* open,
-                                    std::size_t count, Gathered& to);
+                                    std::size_t count, Gathered& to) const;
+  [[nodiscard]] filter::Joints gather_joints(const MotionTube& tube, const filter::Linkage& linkage,
+                                             int Cell::*node, const Open* open, std::size_t count,
+                                             Gathered& to) const;
+  [[nodiscard]] int left_open(const filter::Side& a, const filter::Side& b, const Open* open,
+                              std::size_t count, int hits);
   void decide(int cell);
   void note(Cell& cell, const Found& found);
   void choose_split(Cell& cell, const Undecided& worst);

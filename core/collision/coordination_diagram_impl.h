@@ -17,6 +17,9 @@ struct CoordinationDiagram::Gathered {
   std::vector<float> capsules;   // [capsule][6][kLanes]
   std::vector<float> inflation;  // [capsule][kLanes]
   std::vector<float> ball;       // [4][kLanes]
+  std::vector<float> axes;       // [frame][6][kLanes]
+  std::vector<float> spans;      // [frame][kLanes]
+  std::vector<float> bends;      // [capsule][kLanes]
 };
 
 // A pair that the filter leaves open in a cell.
