@@ -137,10 +137,10 @@ std::optional<JobId> place_taken(const Question& question, const CellPtr& cell,
   motions.push_back(question.candidates.front());
   std::ranges::sort(motions, {}, &Motion::job);
   for (const Motion& motion : motions) {
-    Record& record = state.jobs.add(
-        {.job = {.id = motion.job, .trajectory = motion.trajectory},
-         .leg = state.arms.leg_of(*cell, motion.job, *motion.trajectory),
-         .helps = motion.job});
+    Record& record =
+        state.jobs.add({.job = {.id = motion.job, .trajectory = motion.trajectory},
+                        .leg = state.arms.leg_of(*cell, motion.job, *motion.trajectory),
+                        .helps = motion.job});
     if (motion.job == question.candidates.front().job) continue;
     state.jobs.enter(record, Admitted{});
     state.jobs.enter(record, Moving{.overrun_at = {}, .moved_at = {}});

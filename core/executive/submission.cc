@@ -147,9 +147,9 @@ void Executive::Impl::find_bad_after(const JobRequest& request, const Ahead& ahe
                           "no job before this one has the id \"" + key + "\"", key});
     } else if (const Job& job = *scheduler_.find(it->second);
                job.has_ended() && job.state() != JobState::succeeded) {
-      problems.push_back({ProblemKind::invalid, "predecessor-failed", pointer,
-                          "job \"" + key + "\" has ended without success: " + to_string(job.state()),
-                          key});
+      problems.push_back(
+          {ProblemKind::invalid, "predecessor-failed", pointer,
+           "job \"" + key + "\" has ended without success: " + to_string(job.state()), key});
     }
   }
 }

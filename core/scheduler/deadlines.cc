@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <string>
 
-#include "core/scheduler/phases.h"
 #include "core/scheduler/gates.h"
+#include "core/scheduler/phases.h"
 
 namespace armloom {
 namespace {

@@ -94,8 +94,8 @@ struct Admitted {
   std::optional<Pause> pause = {};  // it was stopped on its way
 };
 struct Moving {
-  TimePoint overrun_at;  // if it does not move before
-  TimePoint moved_at;    // last
+  TimePoint overrun_at;       // if it does not move before
+  TimePoint moved_at;         // last
   bool is_under_way = false;  // it has been seen to move; until then it is `scheduled`
   std::optional<Pause> pause = {};
 };

@@ -14,11 +14,11 @@ bool leads_to(const JobPhase& from, const JobPhase& to) {
     bool queued, admitted, moving, braking, held, ended;
   };
   static constexpr Allowed kTable[] = {
-      {true, true, false, false, false, true},   // Queued
-      {true, true, true, false, true, true},     // Admitted
-      {false, true, true, true, true, true},     // Moving
-      {true, true, false, true, true, true},     // Braking
-      {false, true, false, false, true, true},   // Held
+      {true, true, false, false, false, true},     // Queued
+      {true, true, true, false, true, true},       // Admitted
+      {false, true, true, true, true, true},       // Moving
+      {true, true, false, true, true, true},       // Braking
+      {false, true, false, false, true, true},     // Held
       {false, false, false, false, false, false},  // Ended
   };
   const Allowed& row = kTable[from.index()];

@@ -71,8 +71,7 @@ void end(State& state, Record& record, JobState how, Reason reason, std::string 
   }
   const JobId ended = record.job.id;
   const JobPhase before = record.job.phase;
-  const auto followers =
-      state.jobs.end(record, {how, reason, std::move(detail), state.now});
+  const auto followers = state.jobs.end(record, {how, reason, std::move(detail), state.now});
   state.lanes.follow(record.job, before);
   ++state.version;
   for (JobId id : followers) {
@@ -161,8 +160,7 @@ void come_to_rest(State& state, Record& record, const MotionReport& report) {
 void cancel(State& state, Record& record) {
   if (record.job.has_authority()) return brake(state, record, {.then = Then::cancel});
   const bool held = record.job.in<Held>() != nullptr;
-  end(state, record, JobState::canceled, Reason::canceled_by_client,
-      canceled_at_rest(record.job));
+  end(state, record, JobState::canceled, Reason::canceled_by_client, canceled_at_rest(record.job));
   if (held) release(state, record.job.id);
 }
 
@@ -175,7 +173,8 @@ void stop_arms(State& state, const Stop& stop) {
     Record& record = state.jobs.at(state.jobs.queue(arm).front());
     if (record.job.in<Moving>() == nullptr) continue;  // undispatched: keeps its place
     brake(state, record, {});
-    state.jobs.set_waits(record, {Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop.cause}});
+    state.jobs.set_waits(record,
+                         {Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop.cause}});
   }
 }
 

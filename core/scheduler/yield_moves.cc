@@ -133,8 +133,8 @@ Question question_about(const State& state, const YieldMove& move) {
 std::optional<bool> lets_through(const State& state, const Verdict& verdict,
                                  const YieldMove& move) {
   const auto& own_queue = state.jobs.queue(move.arm);
-  const bool as_it_was = move.before ? !own_queue.empty() && own_queue.front() == *move.before
-                                     : own_queue.empty();
+  const bool as_it_was =
+      move.before ? !own_queue.empty() && own_queue.front() == *move.before : own_queue.empty();
   if (!as_it_was) return std::nullopt;
   const auto stays = [&](ArmId arm) {
     if (move.is_free) return arm == move.arm;
@@ -152,8 +152,7 @@ std::optional<bool> lets_through(const State& state, const Verdict& verdict,
     const auto* arm = std::get_if<ArmId>(&pair.b);
     if (arm != nullptr) return stays(*arm);
     const bool of_it = !move.is_free && std::get<JobId>(pair.b) == move.way_of;
-    return of_it &&
-           rests_in(pair, state.jobs.at(move.way_of).job.progress, move.way->duration());
+    return of_it && rests_in(pair, state.jobs.at(move.way_of).job.progress, move.way->duration());
   });
 }
 

@@ -35,7 +35,8 @@ class Worlds : public ::testing::TestWithParam<std::string> {
             << (at_end.times.started_at ? ", has begun" : "")
             << (at_end.waits_on.empty() ? "" : waits_text(at_end.waits_on.front()));
         EXPECT_TRUE(!all_succeed || at_end.state() == JobState::succeeded)
-            << "job " << job.value() << " is " << to_string(at_end.state()) << ": " << at_end.detail();
+            << "job " << job.value() << " is " << to_string(at_end.state()) << ": "
+            << at_end.detail();
         EXPECT_EQ(bench.terminal_events[job], 1);
         EXPECT_GE(bench.times_dispatched(job), bench.times_released(job));
         EXPECT_EQ(bench.times_dispatched(job) > 0, bench.times_released(job) > 0);

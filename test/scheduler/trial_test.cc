@@ -106,7 +106,8 @@ class Look {
                              to_string(job.state()) + " and waits for " + text(job.waits_on);
     ASSERT_EQ(says.kind == Verdict::Kind::free, is_free) << what;
     if (is_free) {
-      ASSERT_EQ(says.starts_in, std::max(Duration{}, *job.times.scheduled_at - bench().now())) << what;
+      ASSERT_EQ(says.starts_in, std::max(Duration{}, *job.times.scheduled_at - bench().now()))
+          << what;
       ++(*says.starts_in > Duration{} ? seen_.free_later : seen_.free_now);
     } else if (is_terminal(job.state())) {
       ++seen_.fail;

@@ -11,9 +11,8 @@ namespace {
 
 // Waits for something else of the round, or for an arm that has no job in it.
 bool stands_in_vain(const State& state, const Record& record) {
-  const bool tried =
-      record.job.is_waiting() &&
-      (record.job.judgement().at == state.version || !state.jobs.at_head(record));
+  const bool tried = record.job.is_waiting() &&
+                     (record.job.judgement().at == state.version || !state.jobs.at_head(record));
   return tried || held_where_it_stands(state, record).has_value();
 }
 
