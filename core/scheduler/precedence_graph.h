@@ -49,7 +49,9 @@ class PrecedenceGraph {
   [[nodiscard]] Duration limit(JobId job) const;
   // What holds it at its limit; nothing: it may go to its end, or waits for its own arm.
   [[nodiscard]] std::optional<HeldBack> held_back(JobId job) const;
-  // Told to the arm. Precondition: no more than limit().
+  // Whether all come to their ends by their orders, but for arms that rest in the way.
+  [[nodiscard]] bool is_acyclic() const;
+  // Told to the arm. No more than limit(): else throws std::logic_error.
   void granted(JobId job, Duration authority);
   void keep_place(JobId job);
 

@@ -6,6 +6,7 @@
 
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
+#include "core/scheduler/invariants.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/phases.h"
 #include "core/scheduler/turns.h"
@@ -175,6 +176,10 @@ std::optional<JobId> Scheduler::occupant(ArmId arm) const {
   const bool in_motion =
       head.in<Moving>() != nullptr || head.in<Braking>() != nullptr || head.in<Held>() != nullptr;
   return in_motion ? std::optional(queue.front()) : std::nullopt;
+}
+
+std::optional<std::string> Scheduler::broken_invariant() const {
+  return armloom::broken_invariant(state_);
 }
 
 void Scheduler::forget(JobId ended) {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/scheduler/admission.h"
@@ -52,6 +53,8 @@ class Scheduler {
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
   [[nodiscard]] bool stopped(ArmId arm) const { return state_.arms.is_stopped(arm); }
   [[nodiscard]] std::optional<JobId> occupant(ArmId arm) const;  // in motion or held on this arm
+  // What has to hold after every step (invariants.h) and does not; nothing: all holds.
+  [[nodiscard]] std::optional<std::string> broken_invariant() const;
   // Ended jobs are kept until forgotten, so that the caller can read how they ended.
   void forget(JobId ended);
 
