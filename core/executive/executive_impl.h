@@ -51,6 +51,7 @@ class Executive::Impl final : public JobNames {
 
   // executive.cc
   void step(const Input& input);
+  [[nodiscard]] std::vector<Effect> decided(const Input& input);
   void tick(TimePoint now);
 
   // telling.cc

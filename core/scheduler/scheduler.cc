@@ -46,7 +46,10 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&
                              !state_.jobs.has_changes() && state_.version == version_before &&
                              !(wake_at_ && *wake_at_ <= now);
-  if (!only_progress) settle();
+  if (!only_progress) {
+    settle();
+    if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);
+  }
 
   // What clients see comes first, so that an event is told before its consequences.
   std::vector<Effect> result;
@@ -176,10 +179,6 @@ std::optional<JobId> Scheduler::occupant(ArmId arm) const {
   const bool in_motion =
       head.in<Moving>() != nullptr || head.in<Braking>() != nullptr || head.in<Held>() != nullptr;
   return in_motion ? std::optional(queue.front()) : std::nullopt;
-}
-
-std::optional<std::string> Scheduler::broken_invariant() const {
-  return armloom::broken_invariant(state_);
 }
 
 void Scheduler::forget(JobId ended) {

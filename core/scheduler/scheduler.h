@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/scheduler/admission.h"
@@ -34,7 +33,8 @@ class Scheduler {
   Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configuration rest);
 
   // Time never goes backwards (throws std::invalid_argument). An input that names an unknown or
-  // ended job is ignored. Effects are to be carried out in order.
+  // ended job is ignored. Effects are to be carried out in order. Throws std::logic_error where an
+  // invariant (invariants.h) is broken: then nothing that it says is to be relied on.
   [[nodiscard]] std::vector<Effect> step(const Input& input, TimePoint now);
 
   // Where every joint stands, as far as it is not in motion; there where it set out.
@@ -53,8 +53,8 @@ class Scheduler {
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
   [[nodiscard]] bool stopped(ArmId arm) const { return state_.arms.is_stopped(arm); }
   [[nodiscard]] std::optional<JobId> occupant(ArmId arm) const;  // in motion or held on this arm
-  // What has to hold after every step (invariants.h) and does not; nothing: all holds.
-  [[nodiscard]] std::optional<std::string> broken_invariant() const;
+  // All that is admitted comes to its end by its orders. For tests.
+  [[nodiscard]] bool is_acyclic() const { return state_.graph.is_acyclic(); }
   // Ended jobs are kept until forgotten, so that the caller can read how they ended.
   void forget(JobId ended);
 
