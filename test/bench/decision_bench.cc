@@ -99,9 +99,9 @@ class Hall {
     const double begun_ms = processor_ms();
     const JobId job = submit(motion);
     std::size_t questions = 0;
-    while (scheduler_.find(job)->state == JobState::queued && answer_one()) ++questions;
+    while (scheduler_.find(job)->state() == JobState::queued && answer_one()) ++questions;
     const double took_ms = processor_ms() - begun_ms;
-    const bool admitted = scheduler_.find(job)->state == JobState::scheduled;
+    const bool admitted = scheduler_.find(job)->state() == JobState::scheduled;
     withdraw(job);
     return {took_ms, admitted, questions};
   }
@@ -127,7 +127,7 @@ class Hall {
         const TrajectoryPtr motion = new_motion(ArmId{i});
         const JobId job = submit(motion);
         answer_all();
-        if (scheduler_.find(job)->state != JobState::scheduled) {
+        if (scheduler_.find(job)->state() != JobState::scheduled) {
           withdraw(job);
           continue;
         }
@@ -151,7 +151,7 @@ class Hall {
   void count(JobState state, std::size_t wanted) const {
     const auto jobs = scheduler_.active();
     const auto found =
-        std::ranges::count_if(jobs, [&](JobId id) { return scheduler_.find(id)->state == state; });
+        std::ranges::count_if(jobs, [&](JobId id) { return scheduler_.find(id)->state() == state; });
     if (static_cast<std::size_t>(found) == wanted) return;
     throw std::runtime_error(std::to_string(found) + " jobs are " + to_string(state));
   }
@@ -165,7 +165,7 @@ class Hall {
   void withdraw(JobId job) {
     step(Cancel{job});
     const Job& canceled = *scheduler_.find(job);
-    if (!is_terminal(canceled.state)) {  // its arm had the motion
+    if (!is_terminal(canceled.state())) {  // its arm had the motion
       step(
           MotionReport{job, MotionReport::Kind::stopped, Duration{}, canceled.trajectory->start()});
     }
