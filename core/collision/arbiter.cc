@@ -208,30 +208,29 @@ class Arbiter::Impl {
       rest[static_cast<Eigen::Index>(joints[j].index())] =
           passage.rest[static_cast<Eigen::Index>(j)];
     }
-    bool free = true;
-    if (std::holds_alternative<Coordinated>(question.method)) {
-      PairRegionSearch search(store_, question);
-      free = search.passes(passage.motion, passage.arm, rest);
-      verdict_.evaluations += search.evaluations();
-    } else {
-      const Mover other{passage.arm, nullptr,
-                        &store_.motion(nullptr, passage.arm, rest, freedom_.tracking_error)};
-      free = std::ranges::all_of(
-          arms, [&](ArmId arm) { return is_free(part_of(question, passage.motion, arm), other); });
-    }
+    const Mover other{passage.arm, nullptr,
+                      &store_.motion(nullptr, passage.arm, rest, freedom_.tracking_error)};
+    const bool free = std::ranges::all_of(
+        arms, [&](ArmId arm) { return is_free(part_of(question, passage.motion, arm), other); });
     return free ? PassageAnswer::free : PassageAnswer::blocked;
   }
 
-  [[nodiscard]] bool is_free(const Mover& own, const Mover& other) {
-    if (store_.out_of_reach(own.arm, other.arm)) return true;
-    const bool turned = other.arm < own.arm;
-    const Mover& a = turned ? other : own;
-    const Mover& b = turned ? own : other;
-    const MotionStore::Diagram diagram = store_.pair(*a.entry, *b.entry);
+  // Wherever it is on its way.
+  [[nodiscard]] bool is_free(const Mover& own, const Mover& rest) {
+    if (store_.out_of_reach(own.arm, rest.arm)) return true;
+    const bool turned = rest.arm < own.arm;
+    const MotionStore::Diagram diagram =
+        turned ? store_.pair(*rest.entry, *own.entry) : store_.pair(*own.entry, *rest.entry);
     if (diagram.pairs->empty()) return true;
-    const Region region = region_of(a, b);
-    const double longest_s = std::max(region.duration_a, region.duration_b);
-    const auto budget = static_cast<std::uint64_t>(kBudget * std::max(1.0, longest_s / 10.0));
+    constexpr double kAll = Region::kUnbounded;
+    const double duration = to_seconds(own.entry->tube->duration());
+    const Region region{.lag_a = kAll,
+                        .lag_b = kAll,
+                        .lead_a = kAll,
+                        .lead_b = kAll,
+                        .duration_a = turned ? 0.0 : duration,
+                        .duration_b = turned ? duration : 0.0};
+    const auto budget = static_cast<std::uint64_t>(kBudget * std::max(1.0, duration / 10.0));
     const CoordinationDiagram::Answer answer = diagram.cells->ask(region, budget);
     verdict_.evaluations += answer.evaluations;
     return answer.free;

@@ -74,7 +74,10 @@ std::vector<PairRegionSearch::Side> PairRegionSearch::standing_beside(const Moti
   const auto own = std::ranges::find(in_order_, &candidate);
   for (std::uint32_t a = 0; a < store_.scene()->cell().arms.size(); ++a) {
     const ArmId arm{a};
-    if (moves(candidate, arm)) continue;
+    const auto& own_arms = candidate.trajectory->arms();
+    const bool apart = std::ranges::all_of(
+        own_arms, [&](ArmId own_arm) { return store_.out_of_reach(own_arm, arm); });
+    if (apart || moves(candidate, arm)) continue;
     const Motion* before = nullptr;
     const Motion* behind = nullptr;
     for (auto motion = in_order_.begin(); motion != in_order_.end(); ++motion) {
@@ -108,12 +111,6 @@ std::vector<PairRegions> PairRegionSearch::find() {
     for (const Side& rest : standing_beside(*own->motion)) compare(*own, rest, found);
   }
   return found;
-}
-
-bool PairRegionSearch::passes(const Motion& motion, ArmId arm, const Configuration& rest) {
-  std::vector<PairRegions> found;
-  compare(side_of(motion), resting(arm, rest), found);
-  return found.empty();
 }
 
 void PairRegionSearch::compare(const Side& a, const Side& b, std::vector<PairRegions>& found) {

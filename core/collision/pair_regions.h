@@ -31,8 +31,6 @@ class PairRegionSearch {
   // By candidate; for each, others, candidates named behind it, arms at rest. Pairs that are free
   // everywhere are left out.
   [[nodiscard]] std::vector<PairRegions> find();
-  // Whether a motion is free everywhere beside an arm at rest there (whole cell).
-  [[nodiscard]] bool passes(const Motion& motion, ArmId arm, const Configuration& rest);
   // The smallest distance that a pair of bodies was held to: the cell's clearance_m, or less of
   // those that part.
   [[nodiscard]] double least_limit_m() const { return least_limit_m_; }

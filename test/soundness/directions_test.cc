@@ -1,0 +1,148 @@
+// What the filter says two capsules keep along one direction, against the same capsules moved.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/collision/filter/kernels.h"
+#include "core/collision/linkage.h"
+#include "core/collision/segment_distance.h"
+#include "test/soundness/random_linkage.h"
+
+namespace armloom::soundness {
+namespace {
+
+constexpr int kLanes = filter::kLanes;
+constexpr std::size_t kMoves = 40;
+constexpr double kMargin_m = 2e-6;
+
+// One arm, its joints within their spans, eight times.
+class Arm {
+ public:
+  Arm(std::mt19937_64& random, double span_max) : linkage_(random), view_(linkage_.view()) {
+    for (int j = 0; j < linkage_.joints; ++j) {
+      middle_.push_back(uniform(random, -3.0, 3.0));
+      most_.push_back(random() % 4 == 0 ? 0.0 : uniform(random, 0.0, span_max));
+    }
+    const std::size_t frames = linkage_.frames.size();
+    axes_.resize(frames * 6 * kLanes);
+    frames_.resize(frames * 12 * kLanes);
+    capsules_.resize(linkage_.capsules.size() * 6 * kLanes);
+    bends_.resize(linkage_.capsules.size() * kLanes);
+    suffix_.resize(static_cast<std::size_t>(linkage_.rows) * kLanes);
+    for (const filter::Frame& frame : linkage_.frames) {
+      const double m = most_[static_cast<std::size_t>(frame.joint)] * std::abs(frame.multiplier);
+      spans_.insert(spans_.end(), kLanes, round_up(m));
+    }
+  }
+
+  // Every joint anywhere within its span, mostly at an end of it; in the first lane at rest.
+  void move(std::mt19937_64& random) {
+    std::vector<double> q;
+    for (std::size_t j = 0; j < middle_.size(); ++j) {
+      q.push_back(middle_[j]);
+      for (int lane = 1; lane < kLanes; ++lane) {
+        const double end = random() % 2 == 0 ? most_[j] : -most_[j];
+        q.push_back(middle_[j] + (random() % 4 == 0 ? uniform(random, -1.0, 1.0) : 1.0) * end);
+      }
+    }
+    const filter::Kernel& kernel = filter::best_kernel();
+    kernel.place(view_, q.data(), {frames_.data(), axes_.data(), capsules_.data()});
+    kernel.inflate(view_, axes_.data(), capsules_.data(), spans_.data(), suffix_.data(),
+                   bends_.data());
+  }
+
+  [[nodiscard]] const RandomLinkage& linkage() const { return linkage_; }
+  [[nodiscard]] filter::Side side() const { return {capsules_.data(), suffix_.data(), nullptr}; }
+  [[nodiscard]] filter::Joints joints() const {
+    return {&view_, axes_.data(), spans_.data(), bends_.data()};
+  }
+  [[nodiscard]] CenteredSegment segment(int capsule, int lane) const {
+    CenteredSegment segment;
+    for (int i = 0; i < 3; ++i) {
+      segment.center[i] = static_cast<double>(capsules_[at(capsule, i, lane)]);
+      segment.half[i] = static_cast<double>(capsules_[at(capsule, i + 3, lane)]);
+    }
+    return segment;
+  }
+
+ private:
+  [[nodiscard]] static std::size_t at(int capsule, int row, int lane) {
+    return static_cast<std::size_t>((capsule * 6 + row) * kLanes + lane);
+  }
+  RandomLinkage linkage_;
+  filter::Linkage view_;
+  std::vector<double> middle_, most_, frames_;
+  std::vector<float> axes_, capsules_, suffix_, bends_, spans_;
+};
+
+struct Tally {
+  std::size_t pairs = 0;
+  double closest = 1.0;  // how much more than the limit was kept, as a share of what was lost
+};
+
+// The largest limit that the first lane's capsules are said to keep; none: not even contact.
+double largest_kept(const Arm& a, const Arm& b, int capsule_a, int capsule_b) {
+  const auto kept = [&](double limit_m) {
+    const filter::Pair pair =
+        kernel_pair(capsule_a, a.linkage().capsules[static_cast<std::size_t>(capsule_a)], capsule_b,
+                    b.linkage().capsules[static_cast<std::size_t>(capsule_b)], limit_m, kMargin_m);
+    return filter::best_kernel().keep_apart(a.side(), a.joints(), b.side(), b.joints(), pair, 1U) !=
+           0;
+  };
+  double low = 0.0, high = 4.0;
+  if (!kept(low)) return -1.0;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (kept(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+Tally attack(double span_max, std::size_t rounds) {
+  std::mt19937_64 random(47);
+  Tally tally;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    Arm a(random, span_max), b(random, span_max);
+    a.move(random);
+    b.move(random);
+    const auto capsule_a = static_cast<int>(random() % a.linkage().capsules.size());
+    const auto capsule_b = static_cast<int>(random() % b.linkage().capsules.size());
+    const double limit_m = largest_kept(a, b, capsule_a, capsule_b);
+    if (limit_m < 0.0) continue;
+    ++tally.pairs;
+    const double radii_m =
+        static_cast<double>(a.linkage().capsules[static_cast<std::size_t>(capsule_a)].radius_up +
+                            b.linkage().capsules[static_cast<std::size_t>(capsule_b)].radius_up);
+    const auto distance_m = [&](int lane_a, int lane_b) {
+      return segment_segment_distance(a.segment(capsule_a, lane_a), b.segment(capsule_b, lane_b)) -
+             radii_m;
+    };
+    const double before_m = distance_m(0, 0);
+    double least_m = before_m;
+    for (std::size_t i = 0; i < kMoves; ++i) {
+      a.move(random);
+      b.move(random);
+      for (int lane = 0; lane < kLanes * kLanes; ++lane) {
+        least_m = std::min(least_m, distance_m(lane / kLanes, lane % kLanes));
+      }
+    }
+    EXPECT_GE(least_m, limit_m) << "round " << round;
+    const double lost_m = before_m - limit_m;
+    if (lost_m > 0.01) tally.closest = std::min(tally.closest, (least_m - limit_m) / lost_m);
+  }
+  return tally;
+}
+
+TEST(Directions, KeepCapsulesApartByNoMoreThanTheyDo) {
+  const Tally small = attack(0.05, 3'000);
+  EXPECT_GE(small.pairs, 1'000U);
+  EXPECT_LE(small.closest, 0.1);  // an attack that never comes close would prove nothing
+  const Tally large = attack(0.4, 3'000);
+  EXPECT_GE(large.pairs, 300U);
+  EXPECT_LE(large.closest, 0.4);
+}
+
+}  // namespace
+}  // namespace armloom::soundness
