@@ -7,11 +7,61 @@ namespace armloom {
 
 void IdealArms::check() {
   if (::testing::Test::HasFailure()) return;
-  for (const Moving& arm : moving_) {
-    EXPECT_FALSE(is_terminal(state(arm.job))) << "job " << arm.job.value() << " moves on";
-  }
+  for (const Moving& arm : moving_) check_moving(arm);
+  for (const JobId id : scheduler.active()) check_phase(job(id));
+  check_orders();
   if (scheduler.policy().name() != "timed_discrete") check_authority();
   check_explained();
+}
+
+// Between what was measured and its authority, and with an admitted job alone.
+void IdealArms::check_moving(const Moving& arm) const {
+  const Job& job = this->job(arm.job);
+  const std::string what = "job " + std::to_string(arm.job.value()) + ", " + to_string(job.state);
+  EXPECT_FALSE(is_terminal(job.state)) << what << " moves on";
+  EXPECT_TRUE(job.state == JobState::scheduled || job.state == JobState::running || job.stopping)
+      << what << " moves";
+  EXPECT_EQ(job.progress, arm.reported) << what;
+  EXPECT_LE(arm.reported, arm.s) << what;
+  EXPECT_LE(arm.s, arm.authority) << what;
+  EXPECT_LE(arm.authority, arm.motion->duration()) << what;
+  for (const ArmId moved : arm.motion->arms()) EXPECT_EQ(scheduler.occupant(moved), arm.job);
+}
+
+// What is known of a job is what its state says, and no more.
+void IdealArms::check_phase(const Job& job) const {
+  const std::string what = "job " + std::to_string(job.id.value()) + ", " + to_string(job.state);
+  const bool admitted = job.state == JobState::scheduled || job.state == JobState::running;
+  EXPECT_FALSE(job.ended_at || job.reason) << what << " has ended";
+  EXPECT_TRUE(!admitted || job.scheduled_at) << what;
+  EXPECT_TRUE(job.state != JobState::backlogged || job.backlogged_at) << what;
+  EXPECT_TRUE(job.state != JobState::running || moves(job.id)) << what << " does not move";
+  EXPECT_TRUE(job.state != JobState::holding || job.stopping || !moves(job.id)) << what;
+  EXPECT_TRUE(!job.stopping || moves(job.id)) << what << " brakes";
+  const bool on_its_way = job.state == JobState::running || job.state == JobState::holding;
+  EXPECT_TRUE(!on_its_way || job.started_at) << what << " has not begun";
+  const bool in_queue = job.state == JobState::queued || job.state == JobState::backlogged;
+  EXPECT_FALSE(in_queue && (job.started_at || job.scheduled_at || job.pausing)) << what;
+}
+
+// Of what is admitted and stands, nobody waits for itself in the end.
+void IdealArms::check_orders() const {
+  const auto next = [this](JobId id) -> std::optional<JobId> {
+    const Job& job = this->job(id);
+    const bool admitted = job.state == JobState::scheduled || job.state == JobState::running;
+    const auto moving = std::ranges::find(moving_, id, &Moving::job);
+    const bool may_go_on = moving != moving_.end() && moving->authority > moving->s;
+    const bool stands = admitted && !may_go_on;
+    return stands && !job.waits_on.empty() ? job.waits_on.front().job : std::nullopt;
+  };
+  const std::vector<JobId> active = scheduler.active();
+  for (const JobId id : active) {
+    std::optional<JobId> before = next(id);
+    for (std::size_t n = 0; before && n <= active.size(); ++n) {
+      ASSERT_NE(before, id) << "admitted jobs wait for each other in a ring";
+      before = next(*before);
+    }
+  }
 }
 
 // Where the arm may be, and for which job; that is no job where it rests.
