@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "server/http/message.h"
 #include "test/server/panda_jobs.h"
 #include "test/server/running_server.h"
 
