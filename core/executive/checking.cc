@@ -12,14 +12,11 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
   std::vector<Submit> jobs;
   std::uint64_t next = next_job_;
   for (TrajectoryPtr& back : prepared->returns) {
-    jobs.push_back({.job = JobId{next++},
-                    .trajectory = std::move(back),
-                    .priority = prepared->priority,
-                    .backlog_timeout = cell_->scheduling.backlog_timeout,
-                    .own = true});
+    jobs.push_back(return_of(std::move(back), prepared->priority));
   }
-  jobs.push_back(submission(JobId{next}, std::move(*prepared)));
-  walk(std::make_shared<Trial>(scheduler_, jobs, now_), std::move(done));
+  jobs.push_back(submission(std::move(*prepared)));
+  for (Submit& job : jobs) job.job = JobId{next++};
+  walk(std::make_shared<Trial>(scheduler_, asked_, jobs, now_), std::move(done));
 }
 
 // As admission would, in this instant.

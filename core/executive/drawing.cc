@@ -30,7 +30,7 @@ Result<const Job*> Executive::Impl::known(const std::string& key,
 
 DiagramView::Side Executive::Impl::side_of(const Job& job) const {
   return {.job = key(job.id),
-          .state = job.state,
+          .state = job.state(),
           .duration = job.trajectory->duration(),
           .progress = std::clamp(job.progress, Duration{}, job.trajectory->duration())};
 }

@@ -51,6 +51,7 @@ class Executive::Impl final : public JobNames {
 
   // executive.cc
   void step(const Input& input);
+  [[nodiscard]] std::vector<Effect> decided(const Input& input);
   void tick(TimePoint now);
 
   // telling.cc
@@ -95,11 +96,7 @@ class Executive::Impl final : public JobNames {
     int priority;
     Duration backlog_timeout;
     std::vector<std::string> after;
-    std::vector<TrajectoryPtr> returns;   // of its arms, to where their clients left them
-    bool own = false;                     // Submit::own
-    std::optional<JobId> helps = {};      // Submit::helps
-    std::optional<JobId> before = {};     // Submit::before
-    std::optional<JobId> lets_pass = {};  // Submit::lets_pass
+    std::vector<TrajectoryPtr> returns;  // of its arms, to where their clients left them
   };
   // Where joints will stand, and which keys are taken, when the jobs before it are accepted.
   struct Ahead {
@@ -111,18 +108,20 @@ class Executive::Impl final : public JobNames {
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   JobView accept(Prepared prepared);
   void walk(std::shared_ptr<Trial> trial, std::function<void(Result<CheckView>)> done);
-  [[nodiscard]] Submit submission(JobId id, Prepared prepared) const;
-  void make_way(MoveAside aside);
+  JobId enter(Submit submitted, std::string key, std::string name);
+  [[nodiscard]] Submit submission(Prepared prepared) const;
+  [[nodiscard]] Submit return_of(TrajectoryPtr back, int priority) const;
   void remember_way_back(const MoveAside& aside);
   [[nodiscard]] Ahead ahead_now() const;
   std::vector<TrajectoryPtr> returns_for(const Trajectory& motion, Ahead& ahead) const;
-  Prepared own_job(TrajectoryPtr trajectory, std::string name, int priority);
+  std::string own_key();
   Result<const Job*> known(const std::string& key, const std::string& pointer) const;
   DiagramView::Side side_of(const Job& job) const;
   DiagramView shown(DiagramView view, const Diagram& diagram) const;
   std::string free_key(JobId id) const;
 
   void carry_out(const Effect& effect);
+  void carry_out(const MoveAside& aside);
   void watch();
   void tell_tick();
   static StateCheck monitored(const PlanningScenePtr& scene);
@@ -147,6 +146,7 @@ class Executive::Impl final : public JobNames {
   Configuration watched_;  // the configuration that the monitor looked at last
   std::vector<Proximity> clearance_;
   std::optional<TimePoint> wake_at_;
+  std::optional<Question> asked_;  // and not answered
 
   std::unordered_map<std::string, JobId> ids_;
   std::unordered_map<JobId, Label> labels_;

@@ -6,6 +6,7 @@
 
 #include "core/base/told.h"
 #include "core/executive/executive_impl.h"
+#include "core/scheduler/making_way.h"
 #include "core/trajectory/joint_line.h"
 
 namespace armloom {
@@ -145,10 +146,10 @@ void Executive::Impl::find_bad_after(const JobRequest& request, const Ahead& ahe
       problems.push_back({ProblemKind::invalid, "unknown-job", pointer,
                           "no job before this one has the id \"" + key + "\"", key});
     } else if (const Job& job = *scheduler_.find(it->second);
-               is_terminal(job.state) && job.state != JobState::succeeded) {
-      problems.push_back({ProblemKind::invalid, "predecessor-failed", pointer,
-                          "job \"" + key + "\" has ended without success: " + to_string(job.state),
-                          key});
+               job.has_ended() && job.state() != JobState::succeeded) {
+      problems.push_back(
+          {ProblemKind::invalid, "predecessor-failed", pointer,
+           "job \"" + key + "\" has ended without success: " + to_string(job.state()), key});
     }
   }
 }
@@ -172,60 +173,55 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
 
 JobView Executive::Impl::accept(Prepared prepared) {
   for (TrajectoryPtr& back : prepared.returns) {
-    const std::string arm = cell_->arm(back->arms().front()).name;
-    (void)accept(
-        own_job(std::move(back), arm + " returns to where it was left", prepared.priority));
+    std::string name = cell_->arm(back->arms().front()).name + " returns to where it was left";
+    (void)enter(return_of(std::move(back), prepared.priority), own_key(), std::move(name));
   }
-  const JobId id{next_job_++};
-  const std::string key = prepared.key.empty() ? free_key(id) : std::move(prepared.key);
-  ids_.emplace(key, id);
-  labels_.emplace(id, Label{key, std::move(prepared.name)});
-  ++active_;
-  step(submission(id, std::move(prepared)));
+  std::string key = std::move(prepared.key), name = std::move(prepared.name);
+  const JobId id = enter(submission(std::move(prepared)), std::move(key), std::move(name));
   return view_of(*scheduler_.find(id), *cell_, *this);
 }
 
-Submit Executive::Impl::submission(JobId id, Prepared prepared) const {
+// Under the next id; an empty key: one is given.
+JobId Executive::Impl::enter(Submit submitted, std::string key, std::string name) {
+  const JobId id = submitted.job = JobId{next_job_++};
+  if (key.empty()) key = free_key(id);
+  ids_.emplace(key, id);
+  labels_.emplace(id, Label{std::move(key), std::move(name)});
+  ++active_;
+  step(submitted);
+  return id;
+}
+
+Submit Executive::Impl::submission(Prepared prepared) const {
   std::vector<JobId> after;
   for (const std::string& before : prepared.after) {
     const JobId job = ids_.at(before);
-    if (!is_terminal(scheduler_.find(job)->state)) after.push_back(job);
+    if (!is_terminal(scheduler_.find(job)->state())) after.push_back(job);
   }
-  return {.job = id,
+  return {.job = JobId{0},
           .trajectory = std::move(prepared.trajectory),
           .priority = prepared.priority,
           .backlog_timeout = prepared.backlog_timeout,
-          .after = std::move(after),
-          .own = prepared.own,
-          .helps = prepared.helps,
-          .before = prepared.before,
-          .lets_pass = prepared.lets_pass};
+          .after = std::move(after)};
 }
 
-void Executive::Impl::make_way(MoveAside aside) {
-  const auto waits = [this](JobId id) {
-    const Job* known = scheduler_.find(id);
-    return known != nullptr && !is_terminal(known->state);
-  };
-  if (!waits(aside.way_of) || (aside.before && !waits(*aside.before))) return;
-  const Job& job = *scheduler_.find(aside.way_of);
+// Of an arm that was sent aside, before a job of this priority.
+Submit Executive::Impl::return_of(TrajectoryPtr back, int priority) const {
+  return {.job = JobId{0},
+          .trajectory = std::move(back),
+          .priority = priority,
+          .backlog_timeout = cell_->scheduling.backlog_timeout,
+          .own = true};
+}
+
+void Executive::Impl::carry_out(const MoveAside& aside) {
   const std::string arm = cell_->arm(aside.arm).name;
-  Prepared way = own_job(aside.trajectory, arm + " moves aside for " + key(job.id), job.priority);
-  way.helps = aside.way_of;
-  if (!aside.before) {
-    remember_way_back(aside);
-    (void)accept(std::move(way));
-    return;
-  }
-  way.before = aside.before;
-  const JobView goes = accept(std::move(way));
-  Prepared back =
-      own_job(retraced(*aside.trajectory), arm + " returns to where it stood", job.priority);
-  back.after = {goes.key};
-  back.before = aside.before;
-  back.lets_pass = aside.way_of;
-  back.helps = aside.before;
-  (void)accept(std::move(back));
+  make_way(scheduler_, aside, cell_->scheduling.backlog_timeout, [&](Submit way) {
+    if (!aside.before) remember_way_back(aside);
+    std::string name = way.lets_pass ? arm + " returns to where it stood"
+                                     : arm + " moves aside for " + key(aside.way_of);
+    return enter(std::move(way), own_key(), std::move(name));
+  });
 }
 
 // Where the clients of an arm left it, however often it goes aside.
@@ -241,21 +237,13 @@ void Executive::Impl::remember_way_back(const MoveAside& aside) {
   ways_back_[aside.arm] = std::move(back);
 }
 
-// A job of the server's own.
-Executive::Impl::Prepared Executive::Impl::own_job(TrajectoryPtr trajectory, std::string name,
-                                                   int priority) {
+// Of a job of the server's own.
+std::string Executive::Impl::own_key() {
   std::string own;
   do {
     own = "aside-" + std::to_string(next_aside_++);
   } while (ids_.contains(own));
-  return {.key = std::move(own),
-          .name = std::move(name),
-          .trajectory = std::move(trajectory),
-          .priority = priority,
-          .backlog_timeout = cell_->scheduling.backlog_timeout,
-          .after = {},
-          .returns = {},
-          .own = true};
+  return own;
 }
 
 // "job-17"; where a client has taken that name, "job-17.2", ...
@@ -273,7 +261,7 @@ Result<JobView> Executive::Impl::cancel(const std::string& key) {
                            "there is no job \"" + key + "\"", key});
   }
   const JobId id = it->second;
-  const JobState state = scheduler_.find(id)->state;
+  const JobState state = scheduler_.find(id)->state();
   if (is_terminal(state)) {
     return failure(Problem{ProblemKind::conflict, "job-has-ended", "",
                            "job \"" + key + "\" has ended: " + to_string(state), key});

@@ -28,8 +28,8 @@ Precedence::Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_fi
   Duration begins{};  // with `first` so far, `second` passes without a stop
   // From the last box back: what still lies ahead of `first` holds `second` at its nearest edge.
   for (const ProgressBox& box : boxes) {
-    begins = std::max(begins, box.to_a - box.from_b);
     const Duration limit = std::max(Duration{}, box.from_b - kShortOf);
+    begins = std::max(begins, box.to_a - limit);
     if (!steps_.empty() && limit >= steps_.back().limit) continue;
     if (!steps_.empty() && box.to_a == steps_.back().until) {
       steps_.back().limit = limit;

@@ -1,7 +1,12 @@
 #include "core/scheduler/precedence_graph.h"
 
 #include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <string>
 #include <utility>
+
+#include "core/scheduler/motion_chains.h"
 
 namespace armloom {
 namespace {
@@ -16,16 +21,18 @@ bool rests_in(Duration at, Duration farthest, Duration from, Duration to, Durati
   return after && before && from <= farthest && at <= to;
 }
 
-// Comes right after it on one of its arms.
-bool follows(const std::vector<CoordinatedMotion>& motions, const CoordinatedMotion& next,
-             const CoordinatedMotion& before) {
-  return std::ranges::any_of(next.arms, [&](ArmId arm) {
+// On which arms it comes right after it.
+std::vector<ArmId> follows_on(const std::vector<CoordinatedMotion>& motions,
+                              const CoordinatedMotion& next, const CoordinatedMotion& before) {
+  std::vector<ArmId> arms;
+  std::ranges::copy_if(next.arms, std::back_inserter(arms), [&](ArmId arm) {
     const auto takes = [arm](const CoordinatedMotion& motion) {
       return std::ranges::find(motion.arms, arm) != motion.arms.end();
     };
     return takes(before) && std::none_of(motions.begin() + (&before - motions.data()) + 1,
                                          motions.begin() + (&next - motions.data()), takes);
   });
+  return arms;
 }
 
 }  // namespace
@@ -113,10 +120,29 @@ std::optional<HeldBack> PrecedenceGraph::held_back(JobId job) const {
   return std::nullopt;
 }
 
-void PrecedenceGraph::granted(JobId job, Duration authority) {
-  if (CoordinatedMotion* found = motion(job)) {
-    found->authority = std::max(found->authority, authority);
+bool PrecedenceGraph::is_acyclic() const {
+  const MotionChains chains(motions_);
+  std::vector<MotionAhead> ahead;
+  for (std::size_t m = 0; m < motions_.size(); ++m) {
+    ahead.push_back({motions_[m].progress, motions_[m].duration, chains.before(m)});
   }
+  const auto index = [this](JobId job) {
+    return static_cast<std::size_t>(find(job) - motions_.data());
+  };
+  std::vector<Dependency> dependencies;
+  for (const Precedence& precedence : precedences_) {
+    dependencies.push_back({index(precedence.first()), index(precedence.second()), &precedence});
+  }
+  return predict(ahead, dependencies).stuck.empty();
+}
+
+void PrecedenceGraph::granted(JobId job, Duration authority) {
+  CoordinatedMotion* found = motion(job);
+  if (found == nullptr) return;
+  if (authority > limit(job)) {
+    throw std::logic_error("job " + std::to_string(job.value()) + ": authority beyond its limit");
+  }
+  found->authority = std::max(found->authority, authority);
 }
 
 void PrecedenceGraph::keep_place(JobId job) {
@@ -129,29 +155,38 @@ void PrecedenceGraph::finish(JobId job) {
   const bool moves_on = std::ranges::any_of(motions_, [&](const CoordinatedMotion& motion) {
     return &motion > found && share_an_arm(motion, *found);
   });
-  if (!moves_on) block_others(*found, found->duration, found->duration);
+  if (!moves_on) block_others(*found, {found->arms, found->duration, found->duration});
+  for (Blockade& blockade : blockades_) {
+    if (blockade.goal_of == job) blockade.goal_of.reset();  // there they are
+  }
   erase(job);
 }
 
 void PrecedenceGraph::abandon(JobId job, Duration rests_at, Duration farthest) {
   const CoordinatedMotion* found = find(job);
   if (found == nullptr) return;
-  block_others(*found, rests_at, std::max(rests_at, farthest));
+  std::erase_if(blockades_, [job](const Blockade& blockade) { return blockade.goal_of == job; });
   // Who was to pass after it has left the goal of the one before it would wait in vain. Not who
   // passes before that one comes there.
+  std::vector<ArmId> stand = found->arms;
   for (const CoordinatedMotion& before : motions_) {
     if (&before == found) break;
-    if (follows(motions_, *found, before)) block_others(before, before.duration, before.duration);
+    const std::vector<ArmId> arms = follows_on(motions_, *found, before);
+    if (arms.empty()) continue;
+    std::erase_if(stand, [&](ArmId arm) { return std::ranges::find(arms, arm) != arms.end(); });
+    block_others(before, {arms, before.duration, before.duration});
   }
+  if (!stand.empty()) block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});
   erase(job);
 }
 
 // Whether it rests there now or will.
-void PrecedenceGraph::block_others(const CoordinatedMotion& rests, Duration at, Duration farthest) {
-  const bool is_there = rests.progress >= at;
+void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& rest) {
+  const auto [arms, at, farthest] = rest;
+  const bool is_there = motion.progress >= at;
   for (const Precedence& precedence : precedences_) {
-    const bool first = precedence.first() == rests.job;
-    if (!first && (precedence.second() != rests.job || !is_there)) continue;
+    const bool first = precedence.first() == motion.job;
+    if (!first && (precedence.second() != motion.job || !is_there)) continue;
     const JobId other = first ? precedence.second() : precedence.first();
     const ConflictRegion& region = precedence.region();
     const Duration passed = find(other)->progress;
@@ -166,14 +201,15 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& rests, Duration at, 
                (first ? other_box.from_b : other_box.from_a) <= own_to &&
                own_from <= (first ? other_box.to_b : other_box.to_a);
       });
-      if (own_to <= passed || !rests_in(at, farthest, from, to, rests.duration, seam)) continue;
+      if (own_to <= passed || !rests_in(at, farthest, from, to, motion.duration, seam)) continue;
       if (!blockade) {
-        HeldBack evidence{std::nullopt, rests.arms.front(),
-                          first ? turned_around(region.proximity) : region.proximity,
-                          first ? region.time_b : region.time_a,
-                          first ? region.time_a : region.time_b};
-        if (evidence.proximity.arm_b) evidence.arm = evidence.proximity.arm_b;
-        blockade = Blockade{rests.arms, other, own_from, own_to, evidence};
+        HeldBack evidence{
+            std::nullopt, arms.front(), first ? turned_around(region.proximity) : region.proximity,
+            first ? region.time_b : region.time_a, first ? region.time_a : region.time_b};
+        const auto named = evidence.proximity.arm_b;
+        if (named && std::ranges::find(arms, *named) != arms.end()) evidence.arm = named;
+        const auto goal_of = is_there ? std::nullopt : std::optional(motion.job);
+        blockade = Blockade{arms, goal_of, other, own_from, own_to, evidence};
       }
       blockade->limit = std::min(blockade->limit, std::max(Duration{}, own_from - kShortOf));
       blockade->until = std::max(blockade->until, own_to);

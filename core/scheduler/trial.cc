@@ -3,26 +3,41 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/scheduler/making_way.h"
 #include "core/scheduler/waits.h"
 
 namespace armloom {
 
-Trial::Trial(Scheduler scheduler, const std::vector<Submit>& jobs, TimePoint now)
-    : scheduler_(std::move(scheduler)), job_(jobs.back().job), now_(now) {
-  scheduler_.forget_question();
+Trial::Trial(Scheduler scheduler, std::optional<Question> open, const std::vector<Submit>& jobs,
+             TimePoint now)
+    : scheduler_(std::move(scheduler)),
+      job_(jobs.back().job),
+      last_id_(job_.value()),
+      now_(now),
+      open_(std::move(open)) {
   for (const Submit& job : jobs) step(job);
 }
 
 void Trial::step(const Input& input) {
+  std::vector<MoveAside> asides;
   for (Effect& effect : scheduler_.step(input, now_)) {
     if (auto* judge = std::get_if<Judge>(&effect)) open_ = std::move(judge->question);
+    if (auto* aside = std::get_if<MoveAside>(&effect)) asides.push_back(std::move(*aside));
   }
   const Job* job = scheduler_.find(job_);
   if (job != nullptr && !job->waits_on.empty()) waits_ = job->waits_on;
+  for (const MoveAside& aside : asides) {
+    const Duration as_helped = scheduler_.find(aside.way_of)->backlog_timeout;
+    make_way(scheduler_, aside, as_helped, [this](Submit way) {
+      way.job = JobId{++last_id_};
+      step(way);
+      return way.job;
+    });
+  }
 }
 
 bool Trial::is_decided() const {
-  const JobState state = scheduler_.find(job_)->state;
+  const JobState state = scheduler_.find(job_)->state();
   return (state != JobState::queued && state != JobState::backlogged) ||
          judgements_ >= kJudgementsMax;
 }
@@ -49,15 +64,15 @@ void Trial::answer(Verdict verdict) {
 Trial::Outcome Trial::outcome() const {
   const Job& job = *scheduler_.find(job_);
   Outcome outcome{.kind = Verdict::Kind::conflict, .evaluations = evaluations_};
-  if (job.state == JobState::scheduled || job.state == JobState::running) {
+  if (job.has_authority()) {
     outcome.kind = Verdict::Kind::free;
-    outcome.starts_in = std::max(Duration{}, *job.scheduled_at - now_);
+    outcome.starts_in = std::max(Duration{}, *job.times.scheduled_at - now_);
     if (last_) outcome.clearance_bound_m = last_->clearance_bound_m;
     return outcome;
   }
   outcome.starts_in = by_clock_;
   outcome.waits = waits_;
-  if (is_terminal(job.state) && last_) {
+  if (job.has_ended() && last_) {
     outcome.waits.clear();
     for (const Conflict& conflict : last_->conflicts) outcome.waits.push_back(wait_for(conflict));
   }

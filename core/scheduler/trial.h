@@ -14,8 +14,10 @@ namespace armloom {
 //   for (auto question = trial.next(); question; question = trial.next()) trial.answer(...);
 class Trial {
  public:
-  // The job that is asked about is the last one; the others come before it.
-  Trial(Scheduler scheduler, const std::vector<Submit>& jobs, TimePoint now);
+  // `open`: the scheduler's open question, if there is one. The job that is asked about is the last
+  // one; the others come before it.
+  Trial(Scheduler scheduler, std::optional<Question> open, const std::vector<Submit>& jobs,
+        TimePoint now);
 
   // What has to be answered next; nothing: the outcome is known.
   [[nodiscard]] std::optional<Question> next() const;
@@ -40,6 +42,7 @@ class Trial {
 
   Scheduler scheduler_;
   JobId job_;
+  std::uint64_t last_id_;
   TimePoint now_;
   std::optional<Question> open_;
   int judgements_ = 0;

@@ -39,8 +39,7 @@ class Crowd {
         scheduler_(cell_, std::move(*make_policy(policy, *cell_)), cell_->home()) {
     for (std::uint32_t i = 0; i < kArms; ++i) motions_.push_back(motion_of(ArmId{i}));
     for (std::size_t n = 0; n < waiting; ++n) {
-      const auto arm = static_cast<std::uint32_t>(1 + n % (kArms - 2));
-      submit(ArmId{arm});
+      submit(arm_of(n));
       answer_all();
     }
     run_first();
@@ -50,6 +49,12 @@ class Crowd {
     const JobId job{++last_};
     step(Submit{job, motions_[arm.index()], 0, 3600s});
     return job;
+  }
+  std::vector<JobId> submit_batch(std::size_t count) {
+    benchmark::DoNotOptimize(scheduler_.predicted_rest());
+    std::vector<JobId> jobs;
+    for (std::size_t n = 0; n < count; ++n) jobs.push_back(submit(arm_of(n)));
+    return jobs;
   }
   void answer_all() {
     while (question_) {
@@ -83,6 +88,9 @@ class Crowd {
   void forget(JobId job) { scheduler_.forget(job); }
 
  private:
+  static ArmId arm_of(std::size_t n) {
+    return ArmId{static_cast<std::uint32_t>(1 + n % (kArms - 2))};
+  }
   void step(const Input& input) {
     for (Effect& effect : scheduler_.step(input, now_)) {
       if (auto* judge = std::get_if<Judge>(&effect)) question_ = std::move(judge->question);
@@ -169,6 +177,22 @@ void progressed(benchmark::State& state, const std::string& policy) {
   sized(state);
 }
 
+// A thousand jobs that are accepted as one: where their arms will be is asked once. What they set
+// off is answered, and taken back, beside the clock.
+void batch(benchmark::State& state, const std::string& policy) {
+  Crowd& crowd = crowd_of(policy, static_cast<std::size_t>(state.range(0)));
+  for (auto _ : state) {
+    const auto begun = Clock::now();
+    const std::vector<JobId> jobs = crowd.submit_batch(1000);
+    took(state, begun);
+    crowd.answer_all();
+    for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) {
+      crowd.cancel(*job);
+      crowd.forget(*job);
+    }
+  }
+}
+
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->ArgName("waiting")
       ->Arg(100)
@@ -179,6 +203,13 @@ void sizes(benchmark::internal::Benchmark* bench) {
       ->Complexity(benchmark::oLogN);
 }
 
+void thousand(benchmark::internal::Benchmark* bench) {
+  bench->ArgName("waiting")->Arg(9000)->UseManualTime()->Iterations(10)->Unit(
+      benchmark::kMillisecond);
+}
+
+BENCHMARK_CAPTURE(batch, earliest_start, "earliest_start")->Apply(thousand);
+BENCHMARK_CAPTURE(batch, coordinated, "coordinated")->Apply(thousand);
 BENCHMARK_CAPTURE(submit, earliest_start, "earliest_start")->Apply(sizes);
 BENCHMARK_CAPTURE(submit, coordinated, "coordinated")->Apply(sizes);
 BENCHMARK_CAPTURE(finished, earliest_start, "earliest_start")->Apply(sizes);

@@ -62,7 +62,7 @@ TEST(Stop, OfAJobThatIsOnItsWayUnseenHoldsItThere) {
   bench.stopped(job, 400ms, at(500ms));
   EXPECT_EQ(bench.state(job), JobState::holding);
   bench.step(Resume{{ArmId{0}}}, at(1s));
-  EXPECT_EQ(bench.state(job), JobState::holding) << bench.job(job).detail;
+  EXPECT_EQ(bench.state(job), JobState::holding) << bench.job(job).detail();
   bench.answer_free(at(1001ms));
   EXPECT_EQ(bench.dispatched.back().from_progress, 400ms);
 }
@@ -124,10 +124,31 @@ TEST(Lockstep, AJobThatPausesForAnArmLetsThatArmsNextJobJoin) {
   bench.progressed(pauses, 700ms, at(1s));
   bench.progressed(pauses, 1500ms, at(2s));
   bench.progressed(pauses, 1500ms, at(3s));
-  ASSERT_TRUE(bench.job(pauses).pausing);
+  ASSERT_TRUE(bench.job(pauses).pausing());
   const JobId next = bench.submit(move({0}, bench.scheduler.rest()[0], 0, 2s), at(4s));
   ASSERT_TRUE(bench.question) << "it would wait for the round, and the round for it";
   EXPECT_EQ(bench.question->candidates.front().job, next);
+}
+
+// What comes behind the canceled one ends in the step in which that comes to rest.
+TEST(Cancel, ThatTakesTheLastJobOfAnArmInTheWayIsTimedFromThatStepOn) {
+  OneBehindAnother two(ProgressBox{1500ms, 1800ms, 0ms, 1200ms});
+  Bench& bench = two.bench;
+  bench.submit(move({0}, 1, 0, 2s), at(504ms));
+  bench.progressed(two.second, 900ms, at(2s));
+  bench.progressed(two.second, 1500ms - kShortOf, at(3s));
+  bench.step(Stop{{ArmId{1}}, "operator"}, at(3100ms));
+  bench.stopped(two.second, 1500ms - kShortOf, at(3200ms));
+  bench.step(Resume{{ArmId{1}}}, at(4s));
+  bench.answer_free(at(4s));
+  ASSERT_TRUE(bench.job(two.second).pausing());
+  bench.step(Cancel{two.first}, at(5s));
+  bench.wake_at.reset();
+  bench.stopped(two.first, 1100ms, at(6s));
+  ASSERT_EQ(bench.scheduler.active(), std::vector{two.second});
+  ASSERT_TRUE(bench.wake_at) << "nobody looks at it any more";
+  bench.step(Wake{}, *bench.wake_at);
+  EXPECT_EQ(bench.job(two.second).reason(), Reason::backlog_timeout);
 }
 
 // Canceled in b's way, where each of its arms may be the one that is; then one of them goes.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/scheduler/making_way.h"
+
 namespace armloom {
 namespace {
 
@@ -71,12 +73,7 @@ bool IdealArms::go_on(TimePoint until) {
   for (Moving& arm : moving_) advance(arm, next);
   now_ = next;
   if (!comes) return false;
-  if (now_ >= answer_at_) {
-    answer_at_ = kNever;
-    const Question asked = *std::exchange(question, std::nullopt);
-    take(Judged{crossings.answer(asked)});
-    return true;
-  }
+  if (now_ >= answer_at_) return answer_now();
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     if (moving_[i].report_at > now_) continue;
     report(i);
@@ -84,6 +81,14 @@ bool IdealArms::go_on(TimePoint until) {
   }
   wake_at.reset();
   take(Wake{});
+  return true;
+}
+
+bool IdealArms::answer_now() {
+  answer_at_ = kNever;
+  if (!question) return false;
+  const Question asked = *std::exchange(question, std::nullopt);
+  take(Judged{crossings.answer(asked)});
   return true;
 }
 
@@ -101,32 +106,10 @@ void IdealArms::take(const Input& input) {
   while (!asides.empty()) {
     const MoveAside aside = asides.front();
     asides.erase(asides.begin());
-    send_aside(aside);
+    make_way(scheduler, aside, job(aside.way_of).backlog_timeout,
+             [this](Submit way) { return submit(std::move(way)); });
   }
   check();
-}
-
-// As the executive does.
-void IdealArms::send_aside(const MoveAside& aside) {
-  const auto waits = [this](JobId id) { return !is_terminal(state(id)); };
-  if (!waits(aside.way_of) || (aside.before && !waits(*aside.before))) return;
-  const Job& helped = job(aside.way_of);
-  Submit way{.job = JobId{0},
-             .trajectory = aside.trajectory,
-             .priority = helped.priority,
-             .backlog_timeout = helped.backlog_timeout,
-             .own = true,
-             .helps = aside.way_of,
-             .before = aside.before};
-  Submit back = way;
-  const JobId goes = submit(std::move(way));
-  if (!aside.before) return;
-  const Trajectory& out = *aside.trajectory;
-  back.trajectory = move({aside.arm.value()}, out.goal()[0], out.start()[0], out.duration());
-  back.after = {goes};
-  back.helps = aside.before;
-  back.lets_pass = aside.way_of;
-  submit(std::move(back));
 }
 
 // ---- The arms ----
@@ -208,7 +191,7 @@ void IdealArms::heard(const Effect& effect) {
   if (const auto* release = std::get_if<Release>(&effect)) {
     ++times_released_[release->job];
     EXPECT_FALSE(moves(release->job)) << "released in motion";
-    EXPECT_TRUE(is_terminal(state(release->job)) || !job(release->job).started_at);
+    EXPECT_TRUE(is_terminal(state(release->job)) || !job(release->job).times.started_at);
   }
 }
 

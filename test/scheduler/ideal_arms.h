@@ -46,6 +46,8 @@ class IdealArms : public Bench {
   void run(std::size_t events_max = 200'000);
 
   void input(const Input& input) { take(input); }
+  // Answers the open question in this instant; false: there is none.
+  bool answer_now();
   JobId submit(Submit submitted);
   [[nodiscard]] TimePoint now() const { return now_; }
   [[nodiscard]] double stands_at(ArmId arm) const { return q_[arm.index()]; }
@@ -78,7 +80,6 @@ class IdealArms : public Bench {
   void on(const Grant& grant);
   void on(const Brake& brake);
   void take(const Input& input);
-  void send_aside(const MoveAside& aside);
   void advance(Moving& arm, TimePoint to) const;
   void plan_report(Moving& arm);
   void report(std::size_t index);

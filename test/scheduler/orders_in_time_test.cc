@@ -45,26 +45,24 @@ TEST_F(InTime, WhoIsThroughByTheClockBeforeTheOtherComesPassesFirst) {
   EXPECT_EQ(graph.limit(kB), 3s);
 }
 
-// The clock counts to the place, and the limit is kShortOf before it: so the plan still holds a
-// stop of that length there.
-TEST_F(InTime, WhoIsNotBeginsSoMuchLaterThatItComesToThePlaceWhenItIsFree) {
+TEST_F(InTime, WhoIsNotBeginsSoMuchLaterThatItPassesSecondWithoutAStop) {
   admit(motion(kA, 0, 10s), {});
   graph.progress(kA, 3s);  // is there in 1 s, gone in 3 s
   const auto orders = admit(motion(kB, 1, 3s), kMeet);
   ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
   EXPECT_EQ(orders.precedences.front().first(), kA);
-  EXPECT_EQ(orders.prediction.begins.back(), 2s) << "and 1 s to the place";
-  EXPECT_EQ(orders.prediction.ends.back(), 5s + kShortOf + kPauseLoss);
+  EXPECT_EQ(orders.prediction.begins.back(), 2s + kShortOf) << "and 1 s to short of the place";
+  EXPECT_EQ(orders.prediction.ends.back(), 5s + kShortOf);
 }
 
 TEST_F(InTime, FromThenOnItWaitsForWhatHasHappenedAndNotForTheClock) {
   admit(motion(kA, 0, 10s), {});
   graph.progress(kA, 3s);
   admit(motion(kB, 1, 3s), kMeet);
-  graph.progress(kA, 5s - 1ms);  // however long that took
+  graph.progress(kA, 5s + kShortOf - 1ms);  // however long that took
   EXPECT_EQ(graph.limit(kB), 0s);
   EXPECT_EQ(graph.held_back(kB)->by, kA);
-  graph.progress(kA, 5s);
+  graph.progress(kA, 5s + kShortOf);
   EXPECT_EQ(graph.limit(kB), 1s - kShortOf) << "off, and to the place where A still is";
   graph.progress(kA, 6s);
   EXPECT_EQ(graph.limit(kB), 3s);
@@ -82,13 +80,23 @@ TEST_F(InTime, NothingLaterThanLatestIsTaken) {
   }
 }
 
-// With `latest` zero both motions go now: the second comes there when the first has just gone.
+// With `latest` zero both motions go now: the second comes short of the place when the first has
+// just gone; where it would come to the place then, it waits kShortOf at its start.
 TEST_F(InTime, WhoComesLaterAnywayGoesNow) {
-  admit(motion(kA, 0, 10s), {});
-  const auto orders =
-      admit(motion(kB, 1, 10s), {{kB, kA, {region(ProgressBox{6s, 7s, 4s, 6s})}}}, Duration{});
-  ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
-  EXPECT_EQ(graph.limit(kB), 6s - kShortOf) << "it leaves its start at once";
+  for (const Duration comes : {Duration(6s), 6s + kShortOf}) {
+    graph = PrecedenceGraph(4);
+    admit(motion(kA, 0, 10s), {});
+    const ConflictRegion meet = region(ProgressBox{comes, 7s, 4s, 6s});
+    const auto orders = admit(motion(kB, 1, 10s), {{kB, kA, {meet}}}, Duration{});
+    ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
+    if (comes == 6s) {
+      EXPECT_EQ(graph.limit(kB), 0s);
+      EXPECT_EQ(orders.prediction.begins.back(), kShortOf);
+      graph.progress(kA, kShortOf);
+    }
+    EXPECT_EQ(graph.limit(kB), comes - kShortOf) << "it leaves its start";
+    EXPECT_EQ(orders.prediction.ends.back(), comes == 6s ? 10s + kShortOf : 10s);
+  }
 }
 
 TEST_F(InTime, TheLeastShiftThatPassesAllRegionsIsTaken) {
@@ -102,11 +110,11 @@ TEST_F(InTime, TheLeastShiftThatPassesAllRegionsIsTaken) {
         kC,
         {region(ProgressBox{500ms, 1500ms, 1s, 2s}), region(ProgressBox{500ms, 1500ms, 6s, 8s})}}});
   ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
-  EXPECT_EQ(orders.prediction.begins.back(), 2500ms);
+  EXPECT_EQ(orders.prediction.begins.back(), 2500ms + kShortOf);
   EXPECT_EQ(graph.limit(kC), 6s - kShortOf) << "behind B";
   EXPECT_EQ(graph.limit(kA), 10s) << "before B";
   EXPECT_EQ(graph.limit(kB), 0s);
-  graph.progress(kA, 2500ms);
+  graph.progress(kA, 2500ms + kShortOf);
   EXPECT_EQ(graph.limit(kB), 0s) << "C has not gone from its first place";
   graph.progress(kC, 2s);
   EXPECT_EQ(graph.limit(kB), 500ms - kShortOf);
@@ -156,8 +164,8 @@ TEST(Precedence, ThatWaitsAtItsStartLeavesItWhenItWillPassWithoutAStop) {
       region(ProgressBox{1s, 4s, 2s, 3s}, ProgressBox{4s, 7s, 4s, 5s});  // 2 s, then 3 s ahead
   const Precedence order(kA, kB, two, true, true);
   EXPECT_EQ(order.limit(0s), 0s);
-  EXPECT_EQ(order.limit(3s - 1ns), 0s);
-  EXPECT_EQ(order.limit(3s), 2s - kShortOf) << "off: 1 s before A has left what is 2 s away";
+  EXPECT_EQ(order.limit(3s + kShortOf - 1ns), 0s);
+  EXPECT_EQ(order.limit(3s + kShortOf), 2s - kShortOf) << "off, 1 s before A has left the first";
   EXPECT_EQ(order.limit(4s), 4s - kShortOf);
   EXPECT_EQ(order.limit(7s), std::nullopt);
 }

@@ -213,6 +213,18 @@ TEST_F(Graph, WhoIsAbandonedBlocksOnlyThePlacesThatItWasToLeave) {
   }
 }
 
+// B was to pass when kC has left its start, where Next was to bring the arm: neither comes there.
+TEST_F(Graph, WhoIsAbandonedWithWhatComesBeforeItIsInNobodysWayWhereItWouldHaveBegun) {
+  admit({motion(kA, 0, 5s)}, {});
+  admit({motion(kB, 1, 5s), motion(kNext, 0, 5s), motion(kC, 0, 5s)},
+        {{kB, kNext, {region({{2s, 3s, 4s, 5s}})}}, {kB, kC, {region({{2s, 3s, 0s, 1s}})}}});
+  graph.progress(kB, 1s);
+  graph.granted(kNext, 0s);
+  graph.abandon(kC, 0s);
+  graph.abandon(kNext, 0s);
+  EXPECT_EQ(graph.limit(kB), 5s);
+}
+
 // Nor is it one for who passes before the other comes there at all.
 TEST_F(Graph, WhoPassesFirstIsNotBlockedByAGoalThatTheOtherHasNotReached) {
   admit({motion(kA, 0, 20s)}, {});

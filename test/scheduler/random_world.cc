@@ -1,0 +1,141 @@
+#include "test/scheduler/random_world.h"
+
+namespace armloom {
+
+World::World(std::uint64_t seed, const std::string& policy, Disturbances disturbances)
+    : random_(seed),
+      disturbances_(disturbances),
+      arms_(2 + random_() % 3),
+      bench_(
+          cell(), std::move(*make_policy(policy, *cell())), Crossings(table()),
+          [this](JobId) { return habits(); }, seed) {}
+
+void World::run(const std::function<void()>& look) {
+  const auto count = 4 + random_() % 12;
+  const bool at_once = random_() % 2 == 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (auto job = draw()) submit(std::move(*job));
+    disturb();
+    if (!at_once) bench_.run_until(bench_.now() + up_to(3s));
+    look();
+  }
+  for (int i = 0; i < 6; ++i) {
+    disturb();
+    bench_.run_until(bench_.now() + up_to(10s));
+    look();
+  }
+  resume();
+  if (disturbances_.scenes) change_scene({});
+  bench_.run();
+}
+
+CellPtr World::cell() {
+  if (cell_) return cell_;
+  auto made = std::make_shared<Cell>(
+      *(disturbances_.parks ? one_joint_arms_that_park(arms_) : one_joint_arms(arms_)));
+  made->execution.duration_margin = 1h;  // stalls are none of the scheduler's business here
+  made->execution.start_tolerance_rad = 1e-7;
+  return cell_ = made;
+}
+
+Duration World::up_to(Duration most) {
+  return Duration(static_cast<Duration::rep>(random_() % static_cast<std::uint64_t>(most.count())));
+}
+
+// Of each pair of arms some places; both at home, at 0, they are free.
+std::vector<Crossing> World::table() {
+  std::vector<Crossing> table;
+  for (std::uint32_t a = 0; a < arms_; ++a) {
+    for (std::uint32_t b = a + 1; b < arms_; ++b) {
+      for (auto n = random_() % 4; n > 0; --n) {
+        const double size_a = 0.02 + 0.2 * place(), size_b = 0.02 + 0.2 * place();
+        const double from_a = place() - 0.095, from_b = place() - 0.095;  // no place on an edge
+        if (from_a <= 0.0 && from_b <= 0.0) continue;
+        table.push_back({ArmId{a}, from_a, from_a + size_a, ArmId{b}, from_b, from_b + size_b});
+      }
+    }
+  }
+  return table;
+}
+
+Habits World::habits() {
+  Habits habits{.brakes_for = up_to(200ms)};
+  if (!disturbances_.delays) return habits;
+  if (random_() % 2 == 0) habits.starts_late = up_to(10s);
+  if (random_() % 2 == 0) habits.speed = 0.1 + 0.9 * place();
+  habits.feedback_age = up_to(100ms);
+  if (random_() % 4 == 0) {
+    habits.stalls_at = up_to(2s);
+    habits.stalls_for = up_to(30s);
+  }
+  return habits;
+}
+
+std::optional<Submit> World::draw(bool any) {
+  const Configuration rest = bench_.scheduler.predicted_rest();
+  for (int tries = 0; tries < 30; ++tries) {
+    std::vector<std::uint32_t> arms{static_cast<std::uint32_t>(random_() % arms_)};
+    const auto second = static_cast<std::uint32_t>(random_() % arms_);
+    if (random_() % 6 == 0 && second > arms[0]) arms.push_back(second);
+    std::vector<double> from, to;
+    for (const std::uint32_t arm : arms) {
+      from.push_back(rest[arm]);
+      to.push_back(random_() % 4 == 0 ? 0.0 : place());
+    }
+    if (from == to) continue;
+    const auto motion = move(arms, from, to, 500ms + up_to(4s));
+    if (!any && !bench_.crossings.free_beside(*motion, rest)) continue;
+    Submit job{JobId{0}, motion, static_cast<int>(random_() % 3), 1'000'000s};
+    if (disturbances_.cancels) job.backlog_timeout = 20s + up_to(100s);
+    const auto active = bench_.scheduler.active();
+    if (!active.empty() && random_() % 5 == 0) {
+      job.after.push_back(active[random_() % active.size()]);
+    }
+    return job;
+  }
+  return std::nullopt;
+}
+
+JobId World::submit(Submit job) {
+  jobs.push_back(bench_.submit(std::move(job)));
+  return jobs.back();
+}
+
+void World::disturb() {
+  const auto dice = random_() % 8;
+  const ArmId arm{static_cast<std::uint32_t>(random_() % arms_)};
+  const bool stops = disturbances_.stops || disturbances_.pauses;
+  if (stops && dice == 0) stop(disturbances_.pauses ? all() : std::vector{arm});
+  if (stops && dice < 3 && dice > 0) resume();
+  const auto active = bench_.scheduler.active();
+  if (disturbances_.cancels && dice == 3 && !active.empty()) {
+    bench_.input(Cancel{active[random_() % active.size()]});
+  }
+  if (disturbances_.scenes && dice == 4) {
+    const double from = place() + 0.005;
+    change_scene({{arm, from, from + 0.1 * place()}});
+  }
+}
+
+std::vector<ArmId> World::all() const {
+  std::vector<ArmId> arms;
+  for (std::uint32_t arm = 0; arm < arms_; ++arm) arms.emplace_back(arm);
+  return arms;
+}
+
+void World::stop(const std::vector<ArmId>& arms) {
+  bench_.input(Stop{arms, "operator"});
+  stopped_.insert(arms.begin(), arms.end());
+}
+
+void World::resume() {
+  bench_.input(Resume{{stopped_.begin(), stopped_.end()}});
+  stopped_.clear();
+}
+
+void World::change_scene(std::vector<Object> objects) {
+  bench_.crossings.put(std::move(objects));
+  bench_.input(SceneChanged{});
+}
+
+}  // namespace armloom
