@@ -310,9 +310,9 @@ void expect_much_was_done(const Tally& all, std::uint64_t sequences) {
   ASSERT_GE(sequences, 1U);
   EXPECT_GE(2 * all.accepted, all.submitted);
   EXPECT_GE(all.accepted, 4 * sequences);
-  EXPECT_GE(5 * all.succeeded, sequences);
+  if (sequences < 50) return;               // what follows is seldom
+  EXPECT_GE(4 * all.succeeded, sequences);  // of a sequence five faults, cancels, stops
   EXPECT_GE(2 * all.cancels, sequences);
-  if (sequences < 50) return;  // seldom given
   EXPECT_GE(2 * all.faults, sequences);
   EXPECT_GE(2 * all.changes, sequences);
 }
