@@ -1,12 +1,10 @@
 #!/usr/bin/env python3
 """Straight joint moves as Armloom jobs, and the jobs files of the cells in config/.
 
-    python3 config/joint_moves.py CELL [SCENARIO] > config/CELL_jobs.json
+    python3 config/joint_moves.py CELL > config/CELL_jobs.json
 
 CELL is a name from CELLS below. Its arms go from home to each of their poses and back, all jobs
-submitted at time zero, many of them into the middle that all want. Poses that are names come from
-the file SCENARIO with `home`, `poses` and `clear_from_home`: ../shared/data/scenarios/panda_two.json
-for two_pandas, panda_four.json for four_pandas. The other cells' poses stand here.
+submitted at time zero, many of them into the middle that all want.
 
 A move is the quintic from rest to rest in all joints at once,
     q(t) = q0 + (q1 - q0) (10 u^3 - 15 u^4 + 6 u^5),  u = t / T,
@@ -33,8 +31,7 @@ class Arm(NamedTuple):
     name: str
     robot: Robot
     prefix: str  # of the joints' names
-    poses: dict  # name -> configuration, or None: as in the scenario
-    in_scenario: str = ""  # the scenario's name of this arm
+    poses: dict  # name -> configuration
 
 
 PANDA = Robot([f"panda_joint{i}" for i in range(1, 8)],
@@ -43,30 +40,57 @@ PANDA = Robot([f"panda_joint{i}" for i in range(1, 8)],
 UR5E = Robot(["shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint",
               "wrist_2_joint", "wrist_3_joint"], [math.pi] * 6, [4] * 6,
              [0, -2.3, 2.6, -1.87, -1.5708, 0])
-# A Fanuc M-10iA; its wrist hangs straight down where joint 5 is joint 2 - joint 3 - pi/2.
-FANUC = Robot([f"joint_{i}" for i in range(1, 7)], [3.67, 3.32, 3.67, 6.98, 6.98, 10.47],
-              [3.75] * 6, [0, -0.5, -0.5, 0, -1.57, 0])
-
-
-def named(*poses):
-    return dict.fromkeys(poses)
-
+# Its tool points straight down where joints 2, 3 and 5 add up to pi / 2.
+SHUTTLE = Robot([f"joint_{i}" for i in range(1, 7)], [3.2, 3.0, 3.2, 5.2, 5.2, 7.0], [3.75] * 6,
+                [0, -0.5, 0.5, 0, 1.57, 0])
 
 CELLS = {
+    # Poses and bases as published with the planning environments of mr_planner (panda_two, panda_four); of
+    # these the ones whose straight move from home keeps clear of the other arms at theirs. mr_planner's
+    # panda1 is left, its panda0 right.
     "two_pandas": [
-        Arm("left", PANDA, "left_", named("tiled_up", "twist_right", "tiled_down", "coop_down",
-                                          "mirror", "twist_left"), "panda1"),
-        Arm("right", PANDA, "right_", named("tiled_down", "mirror", "twist_left", "coop_down",
-                                            "coop_up", "twist_right"), "panda0"),
+        Arm("left", PANDA, "left_", {
+            "tiled_up": [0.0, -0.25, 0.0, -1.6, 0.0, 2.7, 0.0],
+            "twist_right": [0.2949, 0.3483, 0.7806, -1.6474, 0.0, 2.094, 0.0],
+            "tiled_down": [0.0, -0.3, 0.0, -2.0, 0.0, 0.8, 0.0],
+            "coop_down": [0.0, -0.5, 0.0, -2.9, 0.0, 2.4, 0.0],
+            "mirror": [-0.25, 0.0, -0.312, -2.0262, 1.2481, 0.7075, 0.0],
+            "twist_left": [-1.4202, 1.0485, 0.284, -1.5, 2.2535, 1.0, 0.0],
+        }),
+        Arm("right", PANDA, "right_", {
+            "tiled_down": [0.0, 0.0, 0.0, -2.6, 0.0, 2.5, 0.0],
+            "mirror": [-0.25, 0.0, -0.312, -2.0231, 1.2481, 0.7015, 0.0],
+            "twist_left": [0.2949, 0.3483, 0.7807, -1.6474, 0.0, 2.082, 0.0],
+            "coop_down": [0.0, -0.5, 0.0, -2.9, 0.0, 2.4, 0.0],
+            "coop_up": [0.0, -0.7, 0.0, -1.8, 0.0, 2.6, 0.0],
+            "twist_right": [-1.4201, 1.0485, 0.2839, -1.5, 2.2535, 1.0, 0.0],
+        }),
     ],
     "four_pandas": [
-        Arm("panda0", PANDA, "panda0_", named("down", "left_and_right",
-                                              "tiled_clean", "up_and_down"), "panda0"),
-        Arm("panda1", PANDA, "panda1_", named("up_and_down", "front",
-                                              "down", "left_and_right"), "panda1"),
-        Arm("panda2", PANDA, "panda2_", named("up_and_down", "left_and_right",
-                                              "tiled_mess", "front"), "panda2"),
-        Arm("panda3", PANDA, "panda3_", named("ready", "back", "up", "front_and_back"), "panda3"),
+        Arm("panda0", PANDA, "panda0_", {
+            "down": [0.0, -0.5, 0.0, -3.0, 0.0, 2.5, 0.0],
+            "left_and_right": [1.0, -1.0, 0.0, -2.3, 0.0, 2.3, 0.0],
+            "tiled_clean": [0.0, 0.4, 0.0, -1.0, 0.0, 1.5, 0.0],
+            "up_and_down": [0.0, -1.0, 0.0, -2.3, 0.0, 2.3, 0.0],
+        }),
+        Arm("panda1", PANDA, "panda1_", {
+            "up_and_down": [0.0, 0.0, -0.4, -2.7, 1.8, 1.2, 0.0],
+            "front": [1.0, -1.0, 0.0, -1.7, 0.0, 1.8, 0.0],
+            "down": [0.0, -0.5, 0.0, -3.0, 0.0, 2.5, 0.0],
+            "left_and_right": [-1.0, 0.0, -0.4, -2.7, 1.8, 1.2, 0.0],
+        }),
+        Arm("panda2", PANDA, "panda2_", {
+            "up_and_down": [0.0, -1.0, 0.0, -2.3, 0.0, 2.3, 0.0],
+            "left_and_right": [1.0, -1.0, 0.0, -2.3, 0.0, 2.3, 0.0],
+            "tiled_mess": [0.2, 0.2, -0.3, -1.3, -0.45, 2.6, 0.0],
+            "front": [-1.0, -0.5, 0.0, -1.5, 0.0, 1.8, 0.0],
+        }),
+        Arm("panda3", PANDA, "panda3_", {
+            "ready": [0.0, -0.5, 0.0, -1.5, 0.0, 1.0, 0.0],
+            "back": [0.5, -0.5, 0.0, -1.5, 0.0, 1.8, 0.0],
+            "up": [0.0, -0.1, 0.0, -0.6, 0.0, 1.8, 0.0],
+            "front_and_back": [1.0, -0.6, 0.0, -2.5, 0.0, 2.3, 0.0],
+        }),
     ],
     # Tool down over the table; both reach beyond the middle between them.
     "panda_and_ur5e": [
@@ -99,18 +123,18 @@ CELLS = {
         }),
     ],
     # Tool down over the table; the two middles are one place.
-    "two_fanucs": [
-        Arm("left", FANUC, "left_", {
-            "middle": [0, 0.3, -0.4, 0, -0.87, 0],
-            "left": [0.5, 0.2, -0.5, 0, -0.87, 1.0],
-            "far": [0, 0.6, -0.2, 0, -0.77, 0],
-            "right": [-0.5, 0.4, -0.4, 0, -0.77, -1.0],
+    "two_shuttles": [
+        Arm("left", SHUTTLE, "left_", {
+            "middle": [0, 0.3, 0.4, 0, 0.87, 0],
+            "left": [0.5, 0.2, 0.5, 0, 0.87, 1.0],
+            "far": [0, 0.6, 0.2, 0, 0.77, 0],
+            "right": [-0.5, 0.4, 0.4, 0, 0.77, -1.0],
         }),
-        Arm("right", FANUC, "right_", {
-            "left": [0.5, 0.2, -0.5, 0, -0.87, 1.0],
-            "middle": [0, 0.3, -0.4, 0, -0.87, 0],
-            "right": [-0.5, 0.4, -0.4, 0, -0.77, -1.0],
-            "far": [0, 0.6, -0.2, 0, -0.77, 0],
+        Arm("right", SHUTTLE, "right_", {
+            "left": [0.5, 0.2, 0.5, 0, 0.87, 1.0],
+            "middle": [0, 0.3, 0.4, 0, 0.87, 0],
+            "right": [-0.5, 0.4, 0.4, 0, 0.77, -1.0],
+            "far": [0, 0.6, 0.2, 0, 0.77, 0],
         }),
     ],
 }
@@ -145,26 +169,12 @@ def quintic(joint_names, q0, q1, T=None):
     return {"joint_names": joint_names, "points": points}
 
 
-def configuration(arm, pose, scenario):
-    """Of a pose in CELLS, or of the scenario's pose of that name."""
-    if arm.poses[pose] is not None:
-        return arm.poses[pose]
-    if scenario is None:
-        sys.exit(f"{pose} of {arm.name} stands in a scenario: name its file")
-    if pose not in scenario["clear_from_home"][arm.in_scenario]:
-        sys.exit(f"{pose} is not in clear_from_home of {arm.in_scenario}")
-    if scenario["home"] != arm.robot.home:
-        sys.exit(f"the scenario's home is {scenario['home']}, not {arm.robot.home}")
-    return scenario["poses"][pose][arm.in_scenario]
-
-
-def jobs(arms, scenario):
+def jobs(arms):
     listed = []
     for arm in arms:
         names = [arm.prefix + joint for joint in arm.robot.joints]
         home = arm.robot.home
-        for n, pose in enumerate(arm.poses, start=1):
-            q = configuration(arm, pose, scenario)
+        for n, (pose, q) in enumerate(arm.poses.items(), start=1):
             T = duration(home, q, arm.robot)
             listed.append((n, 0, f"{arm.name}-{n}-to-{pose}", f"{arm.name}: {pose}",
                            quintic(names, home, q, T)))
@@ -176,14 +186,9 @@ def jobs(arms, scenario):
 
 
 def main():
-    if len(sys.argv) not in (2, 3) or sys.argv[1] not in CELLS:
+    if len(sys.argv) != 2 or sys.argv[1] not in CELLS:
         sys.exit(__doc__)
-    scenario = None
-    if len(sys.argv) == 3:
-        with open(sys.argv[2]) as file:
-            scenario = json.load(file)
-    made = jobs(CELLS[sys.argv[1]], scenario)
-    lines = ",\n".join(json.dumps(job, separators=(",", ":")) for job in made)
+    lines = ",\n".join(json.dumps(job, separators=(",", ":")) for job in jobs(CELLS[sys.argv[1]]))
     print(f"[\n{lines}\n]")
 
 

@@ -59,6 +59,7 @@ class Service::Impl {
     site.hosts = HostRule{options_.allowed_hosts, everywhere};
     site.keep_alive = options_.keep_alive;
     site.send_time = options_.send_time;
+    site.read_time = options_.read_time;
     site.wind_down = [this](std::function<void()> done) {
       loop_->post([done = std::move(done)](Executive& executive) {
         executive.wind_down("the server ends", done);

@@ -28,6 +28,7 @@ struct ServiceOptions {
   std::size_t connections_max = 4096;            // one more is refused with 503
   std::chrono::milliseconds keep_alive{15'000};  // of /events, when there are none
   std::chrono::milliseconds send_time{30'000};   // for one event of /events
+  std::chrono::milliseconds read_time{10'000};   // for a request's header, and for its body
 };
 
 // The server: executive in real time, HTTP, WebSocket, dashboard. One thread for all connections

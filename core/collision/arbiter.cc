@@ -109,8 +109,8 @@ class Arbiter::Impl {
       for (const ArmId arm_b : b->arms()) {
         if (arm_a == arm_b) continue;
         diagram.layers.push_back({arm_a, arm_b, {}});
-        const auto& own = store_.motion(a, arm_a, rest, tracking_error);
-        const auto& other = store_.motion(b, arm_b, rest, tracking_error);
+        auto& own = store_.motion(a, arm_a, rest, tracking_error);
+        auto& other = store_.motion(b, arm_b, rest, tracking_error);
         draw(own, other, resolution, budget, diagram);
       }
     }
@@ -118,7 +118,7 @@ class Arbiter::Impl {
   }
 
  private:
-  void draw(const MotionStore::Entry& own, const MotionStore::Entry& other, Duration resolution,
+  void draw(MotionStore::Entry& own, MotionStore::Entry& other, Duration resolution,
             std::uint64_t budget, Diagram& diagram) {
     std::vector<DiagramCell>& cells = diagram.layers.back().cells;
     if (store_.out_of_reach(own.arm, other.arm)) {

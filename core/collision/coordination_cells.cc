@@ -18,35 +18,92 @@ constexpr double kBothShare = 0.5;
 // mostly: where more than that would have to be nothing, it is not asked.
 constexpr double kTowardsShare = 0.25;
 
+// Of every row.
+void copy_lane(const std::vector<float>& from, std::size_t from_lane, std::vector<float>& to,
+               std::size_t lane) {
+  for (std::size_t row = 0; row < from.size(); row += kLanes)
+    to[row + lane] = from[row + from_lane];
+}
+
 }  // namespace
+
+// Whether the nodes of the cells are a block of the tube, in its order.
+bool CoordinationDiagram::together(const MotionTube& tube, int Cell::*node, const Open* open,
+                                   std::size_t count) const {
+  const auto place = [&](std::size_t lane) {
+    return tube.place_of(cells_[static_cast<std::size_t>(open[lane].cell)].*node);
+  };
+  const MotionTube::Place first = place(0);
+  bool together = first.lane == 0;
+  for (std::size_t lane = 1; together && lane < count; ++lane) {
+    together = place(lane).block == first.block && place(lane).lane == lane;
+  }
+  return together;
+}
 
 // The nodes of the cells as one side: the block itself where they are one.
 filter::Side CoordinationDiagram::gather(const MotionTube& tube, int Cell::*node, const Open* open,
-                                         std::size_t count, Gathered& to) {
-  const MotionTube::Place first = tube.place_of(at(open[0].cell).*node);
-  bool together = first.lane == 0;
-  for (std::size_t lane = 1; together && lane < count; ++lane) {
-    const MotionTube::Place place = tube.place_of(at(open[lane].cell).*node);
-    together = place.block == first.block && place.lane == lane;
+                                         std::size_t count, Gathered& to) const {
+  using Block = MotionTube::Block;
+  if (together(tube, node, open, count)) {
+    const Block& block = *tube.place_of(cells_[static_cast<std::size_t>(open[0].cell)].*node).block;
+    return {block.capsules.data(), block.inflation.data(), block.ball.data()};
   }
-  if (together) {
-    return {first.block->capsules.data(), first.block->inflation.data(), first.block->ball.data()};
-  }
-  const std::size_t capsules = tube.linkage().capsules().size();
-  const auto copy = [](const float* from, float* to_lane, std::size_t rows) {
-    for (std::size_t i = 0; i < rows; ++i) to_lane[i * kLanes] = from[i * kLanes];
-  };
   for (std::size_t lane = 0; lane < count; ++lane) {
-    const MotionTube::Place place = tube.place_of(at(open[lane].cell).*node);
-    copy(place.block->capsules.data() + place.lane, to.capsules.data() + lane, capsules * 6);
-    copy(place.block->inflation.data() + place.lane, to.inflation.data() + lane, capsules);
-    copy(place.block->ball.data() + place.lane, to.ball.data() + lane, 4);
+    const MotionTube::Place place =
+        tube.place_of(cells_[static_cast<std::size_t>(open[lane].cell)].*node);
+    copy_lane(place.block->capsules, place.lane, to.capsules, lane);
+    copy_lane(place.block->inflation, place.lane, to.inflation, lane);
+    copy_lane(place.block->ball, place.lane, to.ball, lane);
   }
   return {to.capsules.data(), to.inflation.data(), to.ball.data()};
 }
 
+filter::Joints CoordinationDiagram::gather_joints(const MotionTube& tube,
+                                                  const filter::Linkage& linkage, int Cell::*node,
+                                                  const Open* open, std::size_t count,
+                                                  Gathered& to) const {
+  using Block = MotionTube::Block;
+  if (together(tube, node, open, count)) {
+    const Block& block = *tube.place_of(cells_[static_cast<std::size_t>(open[0].cell)].*node).block;
+    return {&linkage, block.axes.data(), block.spans.data(), block.bends.data()};
+  }
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    const MotionTube::Place place =
+        tube.place_of(cells_[static_cast<std::size_t>(open[lane].cell)].*node);
+    copy_lane(place.block->axes, place.lane, to.axes, lane);
+    copy_lane(place.block->spans, place.lane, to.spans, lane);
+    copy_lane(place.block->bends, place.lane, to.bends, lane);
+  }
+  return {&linkage, to.axes.data(), to.spans.data(), to.bends.data()};
+}
+
+// Of the pairs that bounds of their motion leave open, those that stay so along the direction that
+// parts them. Returns their number.
+int CoordinationDiagram::left_open(const filter::Side& a, const filter::Side& b, const Open* open,
+                                   std::size_t count, int hits) {
+  if (hits == 0) return 0;
+  Scratch& s = *setting_.scratch;
+  const filter::Linkage linkage_a = a_->linkage().view();
+  const filter::Joints of_a = gather_joints(*a_, linkage_a, &Cell::a, open, count, s.a);
+  const filter::Linkage linkage_b = b_ ? b_->linkage().view() : filter::Linkage{};
+  const filter::Joints of_b =
+      b_ ? gather_joints(*b_, linkage_b, &Cell::b, open, count, s.b) : filter::Joints{};
+  const filter::Kernel& kernel = filter::best_kernel();
+  int left = 0;
+  for (int h = 0; h < hits; ++h) {
+    filter::Hit& hit = s.hits[static_cast<std::size_t>(h)];
+    const filter::Pair& pair = setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)];
+    hit.lanes &= ~kernel.keep_apart(a, of_a, b, of_b, pair, hit.lanes);
+    if (hit.lanes == 0) continue;
+    if (left != h) s.hits[static_cast<std::size_t>(left)] = hit;
+    ++left;
+  }
+  return left;
+}
+
 void CoordinationDiagram::evaluate(const Open* open, std::size_t count) {
-  Scratch& s = *scratch_;
+  Scratch& s = *setting_.scratch;
   s.nodes.clear();
   for (std::size_t i = 0; i < count; ++i) s.nodes.push_back(at(open[i].cell).a);
   a_->place(s.nodes);
@@ -68,6 +125,7 @@ void CoordinationDiagram::evaluate(const Open* open, std::size_t count) {
                               : filter::Side{still_->lanes.data(), still_->at_rest.data(), nullptr};
     pairs = kernel.near_pairs(a, b, set.pairs.data(), static_cast<int>(set.pairs.size()),
                               set.grouped(), lanes, s.hits.data());
+    pairs = left_open(a, b, open, count, pairs);
     boxes = kernel.near_boxes(a, set.boxes.data(), static_cast<int>(set.boxes.size()), lanes,
                               s.box_hits.data());
   }
@@ -131,7 +189,7 @@ bool CoordinationDiagram::keeps_apart(const Cell& cell, const NarrowPair& pair, 
     const auto of_b = arm.ancestors(b.frame);
     common = static_cast<std::size_t>(std::ranges::mismatch(of_a, of_b).in1 - of_a.begin());
   }
-  Scratch& s = *scratch_;
+  Scratch& s = *setting_.scratch;
   s.axes_b.clear();
   a_->axes_of(cell.a, a.frame, common, s.axes_a);
   if (self) a_->axes_of(cell.a, b.frame, common, s.axes_b);
@@ -168,7 +226,7 @@ bool CoordinationDiagram::clears(Cell& cell, Undecided& u) {
 
 // From what the filter has left open to the cell's state.
 void CoordinationDiagram::decide(int index) {
-  std::vector<Undecided>& undecided = scratch_->undecided;
+  std::vector<Undecided>& undecided = setting_.scratch->undecided;
   Cell& cell = at(index);
   cell.state = CellState::free;
   if (undecided.empty()) return;

@@ -9,9 +9,6 @@ namespace {
 
 constexpr int kLanes = filter::kLanes;
 
-// Wider stretches of a motion are hardly ever free in one: they are halved unseen.
-constexpr Duration kWide = std::chrono::milliseconds(700);
-
 }  // namespace
 
 // One question on its way.
@@ -27,38 +24,46 @@ struct CoordinationDiagram::Search {
 
 CoordinationDiagram::CoordinationDiagram(Setting setting, std::shared_ptr<MotionTube> a,
                                          std::shared_ptr<MotionTube> b)
-    : setting_(setting), a_(std::move(a)), b_(std::move(b)), scratch_(std::make_shared<Scratch>()) {
-  cells_.reserve(128);
+    : setting_(std::move(setting)), a_(std::move(a)), b_(std::move(b)) {
   cells_.push_back({MotionTube::root(), MotionTube::root()});
-  Scratch& s = *scratch_;
-  const auto make_room = [](const MotionTube& tube, Gathered& gathered) {
-    const std::size_t size = tube.linkage().capsules().size() * static_cast<std::size_t>(kLanes);
-    gathered.capsules.resize(size * 6);
-    gathered.inflation.resize(size);
-    gathered.ball.resize(4 * static_cast<std::size_t>(kLanes));
+  Scratch& s = *setting_.scratch;
+  const auto make_room = [](auto& of, std::size_t size) {
+    if (of.size() < size) of.resize(size);
   };
-  make_room(*a_, s.a);
-  s.point.a.resize(a_->linkage().frames().size() * 12);
-  s.point.q.resize(a_->linkage().joints().size());
-  s.hits.resize(setting_.pairs->pairs.size() + 1);
-  s.box_hits.resize(setting_.pairs->boxes.size() + 1);
-  if (!b_) return;
-  make_room(*b_, s.b);
-  s.point.b.resize(b_->linkage().frames().size() * 12);
-  s.point.q.resize(std::max(s.point.q.size(), b_->linkage().joints().size()));
+  const auto make_room_for = [&](const MotionTube& tube, Gathered& gathered,
+                                 std::vector<double>& frames) {
+    const std::size_t size = tube.linkage().capsules().size() * static_cast<std::size_t>(kLanes);
+    make_room(gathered.capsules, size * 6);
+    make_room(gathered.inflation, size);
+    make_room(gathered.ball, 4 * static_cast<std::size_t>(kLanes));
+    make_room(gathered.bends, size);
+    const std::size_t axes = tube.linkage().frames().size();
+    make_room(gathered.axes, axes * 6 * static_cast<std::size_t>(kLanes));
+    make_room(gathered.spans, axes * static_cast<std::size_t>(kLanes));
+    make_room(frames, axes * 12);
+    make_room(s.point.q, tube.linkage().joints().size());
+  };
+  make_room_for(*a_, s.a, s.point.a);
+  if (b_) make_room_for(*b_, s.b, s.point.b);
+  make_room(s.hits, setting_.pairs->pairs.size() + 1);
+  make_room(s.box_hits, setting_.pairs->boxes.size() + 1);
+}
+
+std::shared_ptr<CoordinationDiagram::Scratch> CoordinationDiagram::make_scratch() {
+  return std::make_shared<Scratch>();
 }
 
 CoordinationDiagram::CoordinationDiagram(Setting setting, std::shared_ptr<MotionTube> a,
                                          const StillParts& still)
-    : CoordinationDiagram(setting, std::move(a), std::shared_ptr<MotionTube>()) {
+    : CoordinationDiagram(std::move(setting), std::move(a), std::shared_ptr<MotionTube>()) {
   still_ = &still;
 }
 
 CoordinationDiagram::CoordinationDiagram(Setting setting, std::shared_ptr<MotionTube> a)
-    : CoordinationDiagram(setting, std::move(a), std::shared_ptr<MotionTube>()) {}
+    : CoordinationDiagram(std::move(setting), std::move(a), std::shared_ptr<MotionTube>()) {}
 
 CoordinationDiagram CoordinationDiagram::with(Setting setting) const {
-  CoordinationDiagram other(setting, a_, b_);
+  CoordinationDiagram other(std::move(setting), a_, b_);
   other.still_ = still_;
   return other;
 }
@@ -213,6 +218,18 @@ void CoordinationDiagram::split_if_coarse(int index, Duration resolution) {
   split(index, 1);
 }
 
+// The first of these, as far as the budget goes; returns how many.
+std::uint64_t CoordinationDiagram::evaluate_all(const std::vector<Open>& open,
+                                                std::uint64_t budget) {
+  std::size_t done = 0;
+  while (done < open.size() && done < budget) {
+    const std::size_t count = std::min<std::size_t>(kLanes, open.size() - done);
+    evaluate(open.data() + done, count);
+    done += count;
+  }
+  return done;
+}
+
 std::uint64_t CoordinationDiagram::refine(const Region& region, Duration resolution,
                                           std::uint64_t budget) {
   std::vector<Open> open{{0, {0.0, 0.0}}};
@@ -230,12 +247,8 @@ std::uint64_t CoordinationDiagram::refine(const Region& region, Duration resolut
       if (now.state != CellState::inner) continue;
       for (int c = 0; c < now.child_count(); ++c) open.push_back({now.children + c, {0.0, 0.0}});
     }
-    for (std::size_t done = 0; done < unknown.size(); done += kLanes) {
-      if (looked_at >= budget) return looked_at;
-      const std::size_t count = std::min<std::size_t>(kLanes, unknown.size() - done);
-      evaluate(unknown.data() + done, count);
-      looked_at += count;
-    }
+    looked_at += evaluate_all(unknown, budget - looked_at);
+    if (looked_at >= budget) return looked_at;
     open = unknown;
   }
   return looked_at;
@@ -269,7 +282,7 @@ void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
 }
 
 void CoordinationDiagram::place_point(Duration time_a, Duration time_b) {
-  Scratch::Point& point = scratch_->point;
+  Scratch::Point& point = setting_.scratch->point;
   a_->configuration(time_a, point.q.data());
   place_frames(a_->linkage(), point.q.data(), point.a.data());
   if (!b_) return;
@@ -284,7 +297,7 @@ std::vector<CoordinationDiagram::Close> CoordinationDiagram::too_close_at(Durati
   const auto look = [&](const std::vector<NarrowPair>& pairs) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (i > 0 && pairs[i].pair == pairs[i - 1].pair) continue;  // another capsule of the same
-      const Scratch::Point& point = scratch_->point;
+      const Scratch::Point& point = setting_.scratch->point;
       const double distance_m =
           exact(pairs[i], point.a.data(), point.b.data(), 1, pairs[i].limit_m);
       if (distance_m < pairs[i].limit_m) close.push_back({pairs[i].pair, distance_m});
@@ -301,7 +314,7 @@ CoordinationDiagram::Close CoordinationDiagram::closest_at(Duration time_a, Dura
   for (const std::vector<NarrowPair>* pairs :
        {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
     for (const NarrowPair& pair : *pairs) {
-      const Scratch::Point& point = scratch_->point;
+      const Scratch::Point& point = setting_.scratch->point;
       const double distance_m = exact(pair, point.a.data(), point.b.data(), 1, closest.distance_m);
       if (distance_m < closest.distance_m) closest = {pair.pair, distance_m};
     }
@@ -328,7 +341,7 @@ std::optional<CoordinationDiagram::Finding> CoordinationDiagram::on_the_line(con
   if (!at_s) return std::nullopt;
   finding.at_s = *at_s;
   place_point(finding.time_a, finding.time_b);
-  const Scratch::Point& point = scratch_->point;
+  const Scratch::Point& point = setting_.scratch->point;
   finding.distance_m = exact(pair, point.a.data(), point.b.data(), 1, pair.limit_m);
   return finding.distance_m < pair.limit_m ? std::optional(finding) : std::nullopt;
 }

@@ -25,10 +25,14 @@ namespace armloom {
 // Not thread-safe; a tube may be shared by several diagrams of one thread.
 class CoordinationDiagram {
  public:
+  // Of the cell at hand: one may serve all diagrams of a thread.
+  struct Scratch;
+  [[nodiscard]] static std::shared_ptr<Scratch> make_scratch();
   // Scene and pairs must outlive the diagram (they are held by its owner).
   struct Setting {
     const PlanningScene::Bodies* bodies;
     const PairSet* pairs;
+    std::shared_ptr<Scratch> scratch;
   };
   // Of two arms.
   CoordinationDiagram(Setting setting, std::shared_ptr<MotionTube> a,
@@ -65,10 +69,10 @@ class CoordinationDiagram {
   // `resolution`, at the cost of about `budget` cells at most; returns how many.
   std::uint64_t refine(const Region& region, Duration resolution, std::uint64_t budget);
 
-  // Refines all of the rectangle of what remains of both motions to `coarse`, and from there on to
-  // `fine` only where what is not free borders on what is, until no border is coarse any more;
-  // cells whose middle is proven to be a conflict are left. At the cost of about `budget` cells at
-  // most; returns how many.
+  // Finds where what is free of the rectangle of what remains of both motions ends: what is not
+  // borders on it, or on where both stand now, in cells no wider than `fine`, or `coarse` where
+  // their middle is proven to be a conflict. What lies behind them is not looked at: no motion gets
+  // there. At the cost of about `budget` cells at most; returns how many.
   struct Resolution {
     Duration coarse;
     Duration fine;
@@ -155,12 +159,22 @@ class CoordinationDiagram {
   void split_if_coarse(int cell, Duration resolution);
   [[nodiscard]] bool wider(const Cell& cell, Duration resolution) const;
   [[nodiscard]] const Found* proven(const Cell& cell) const;
+  std::uint64_t evaluate_all(const std::vector<Open>& open, std::uint64_t budget);
   void evaluate(const Open* open, std::size_t count);
   [[nodiscard]] bool remains(const Cell& cell, Duration now_a, Duration now_b) const;
-  class Raster;
+  template <class Visit>
+  bool leaves_at(const Cell& of, const Visit& visit) const;
+  [[nodiscard]] bool borders_on_free(const Cell& cell) const;
   struct Gathered;
+  [[nodiscard]] bool together(const MotionTube& tube, int Cell::*node, const Open* open,
+                              std::size_t count) const;
   [[nodiscard]] filter::Side gather(const MotionTube& tube, int Cell::*node, const Open* open,
-                                    std::size_t count, Gathered& to);
+                                    std::size_t count, Gathered& to) const;
+  [[nodiscard]] filter::Joints gather_joints(const MotionTube& tube, const filter::Linkage& linkage,
+                                             int Cell::*node, const Open* open, std::size_t count,
+                                             Gathered& to) const;
+  [[nodiscard]] int left_open(const filter::Side& a, const filter::Side& b, const Open* open,
+                              std::size_t count, int hits);
   void decide(int cell);
   void note(Cell& cell, const Found& found);
   void choose_split(Cell& cell, const Undecided& worst);
@@ -186,9 +200,6 @@ class CoordinationDiagram {
     Resolution resolution;
   };
   std::optional<Outlined> outlined_;  // as refine_outline() has completed it
-
-  struct Scratch;
-  std::shared_ptr<Scratch> scratch_;
 };
 
 }  // namespace armloom

@@ -9,11 +9,17 @@
 // questions, coordination_cells.cc decides batches of cells.
 namespace armloom {
 
+// Wider stretches of a motion are hardly ever free in one: they are halved unseen.
+inline constexpr Duration kWide = std::chrono::milliseconds(700);
+
 // One side of a batch of cells that lie apart.
 struct CoordinationDiagram::Gathered {
   std::vector<float> capsules;   // [capsule][6][kLanes]
   std::vector<float> inflation;  // [capsule][kLanes]
   std::vector<float> ball;       // [4][kLanes]
+  std::vector<float> axes;       // [frame][6][kLanes]
+  std::vector<float> spans;      // [frame][kLanes]
+  std::vector<float> bends;      // [capsule][kLanes]
 };
 
 // A pair that the filter leaves open in a cell.
@@ -43,6 +49,7 @@ struct CoordinationDiagram::Scratch {
   std::vector<MovingAxis> axes_a, axes_b;
   Point point;
   std::vector<int> nodes;
+  std::vector<int> open;  // of a walk through the tree
 };
 
 }  // namespace armloom

@@ -1,75 +1,40 @@
 // Where the free and the other cells of a diagram meet.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/collision/coordination_diagram_impl.h"
 
 namespace armloom {
 
-// Which parts of the diagram are known to be free, in squares of one width on each axis, with a
-// frame of squares around it that are not.
-class CoordinationDiagram::Raster {
- public:
-  // Squares are those of a tree that is halved until they are no wider than `resolution`.
-  Raster(const MotionTube& a, const MotionTube& b, Duration resolution)
-      : a_(a), b_(b), squares_a_(count(a, resolution)), squares_b_(count(b, resolution)) {
-    free_.resize((squares_a_ + 2) * (squares_b_ + 2), 0);
-  }
-
-  void mark_free(const Cell& cell) {
-    const Span a = span(a_, cell.a, squares_a_);
-    const Span b = span(b_, cell.b, squares_b_);
-    for (std::size_t i = a.from; i < a.to; ++i) {
-      std::fill(square(i + 1, b.from + 1), square(i + 1, b.to + 1), std::uint8_t{1});
-    }
-  }
-
-  // Whether any square around the cell is free, corners included.
-  [[nodiscard]] bool borders_on_free(const Cell& cell) {
-    const Span a = span(a_, cell.a, squares_a_);
-    const Span b = span(b_, cell.b, squares_b_);
-    const auto any = [](const std::uint8_t* from, const std::uint8_t* to) {
-      return std::find(from, to, std::uint8_t{1}) != to;
-    };
-    if (any(square(a.from, b.from), square(a.from, b.to + 2))) return true;
-    if (any(square(a.to + 1, b.from), square(a.to + 1, b.to + 2))) return true;
-    for (std::size_t i = a.from + 1; i <= a.to; ++i) {
-      if (*square(i, b.from) != 0 || *square(i, b.to + 1) != 0) return true;
-    }
-    return false;
-  }
-
- private:
-  struct Span {
-    std::size_t from, to;
-  };
-  [[nodiscard]] static std::size_t count(const MotionTube& tube, Duration resolution) {
-    std::size_t squares = 1;
-    for (Duration width = tube.duration(); width > resolution; width /= 2) squares *= 2;
-    return squares;
-  }
-  // Of a node narrower than a square: none, or one.
-  [[nodiscard]] static Span span(const MotionTube& tube, int node, std::size_t squares) {
-    if (tube.duration() == Duration{}) return {0, squares};
-    const double per_second = static_cast<double>(squares) / to_seconds(tube.duration());
-    const auto place = [&](Duration at) {
-      return static_cast<std::size_t>(std::llround(to_seconds(at) * per_second));
-    };
-    return {place(tube.from(node)), place(tube.to(node))};
-  }
-  [[nodiscard]] std::uint8_t* square(std::size_t i, std::size_t j) {
-    return free_.data() + i * (squares_b_ + 2) + j;
-  }
-
-  const MotionTube& a_;
-  const MotionTube& b_;
-  std::size_t squares_a_, squares_b_;
-  std::vector<std::uint8_t> free_;
-};
-
 bool CoordinationDiagram::remains(const Cell& cell, Duration now_a, Duration now_b) const {
   return a_->to(cell.a) >= now_a && b_->to(cell.b) >= now_b;
+}
+
+// Calls visit(leaf) for what touches the cell, corners included, until it says yes: whether it did.
+template <class Visit>
+bool CoordinationDiagram::leaves_at(const Cell& of, const Visit& visit) const {
+  std::vector<int>& open = setting_.scratch->open;
+  open.assign(1, 0);
+  while (!open.empty()) {
+    const int index = open.back();
+    open.pop_back();
+    const Cell& cell = cells_[static_cast<std::size_t>(index)];
+    const bool touch = a_->from(cell.a) <= a_->to(of.a) && a_->to(cell.a) >= a_->from(of.a) &&
+                       b_->from(cell.b) <= b_->to(of.b) && b_->to(cell.b) >= b_->from(of.b);
+    if (!touch) continue;
+    if (cell.state != CellState::inner) {
+      if (visit(index)) return true;
+      continue;
+    }
+    for (int i = 0; i < cell.child_count(); ++i) open.push_back(cell.children + i);
+  }
+  return false;
+}
+
+bool CoordinationDiagram::borders_on_free(const Cell& cell) const {
+  return leaves_at(cell, [this](int other) {
+    return cells_[static_cast<std::size_t>(other)].state == CellState::free;
+  });
 }
 
 std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b,
@@ -89,47 +54,43 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
                       .lead_b = kAll,
                       .duration_a = to_seconds(a_->duration()),
                       .duration_b = to_seconds(b_->duration())};
-  std::uint64_t looked_at = refine(region, resolution.coarse, budget);
-  std::vector<int> coarse, later;
-  const auto consider = [&](int index) {
-    const Cell& cell = at(index);
-    const bool open = cell.state == CellState::mixed && proven(cell) == nullptr;
-    if (open && wider(cell, resolution.fine)) coarse.push_back(index);
+  std::uint64_t looked_at = refine(region, kWide, budget);
+  // A motion that is still to come finds the other one anywhere on its way: hence the edges.
+  const auto may_be_entered = [&](const Cell& cell) {
+    return a_->from(cell.a) <= now_a || b_->from(cell.b) <= now_b || borders_on_free(cell);
   };
+  std::vector<int> border;  // leaves that may be entered from what is free
   for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
-    if (at(i).state == CellState::mixed && remains(at(i), now_a, now_b)) consider(i);
-  }
-  Raster raster(*a_, *b_, resolution.fine);
-  for (const Cell& cell : cells_) {
-    if (cell.state == CellState::free && remains(cell, now_a, now_b)) raster.mark_free(cell);
+    const Cell& cell = at(i);
+    const bool open = cell.state == CellState::mixed || cell.state == CellState::unknown;
+    if (open && remains(cell, now_a, now_b) && may_be_entered(cell)) border.push_back(i);
   }
   std::vector<Open> unknown;
-  while (looked_at < budget) {
+  while (!border.empty() && looked_at < budget) {
+    std::ranges::sort(border);
+    border.erase(std::ranges::unique(border).begin(), border.end());
     unknown.clear();
-    later.clear();
-    for (const int index : coarse) {
-      if (!raster.borders_on_free(at(index))) {
-        later.push_back(index);
-        continue;
-      }
-      split_if_coarse(index, resolution.fine);
+    for (const int index : std::exchange(border, {})) {
+      if (at(index).state == CellState::unknown) unknown.push_back({index, {0.0, 0.0}});
+      split_if_coarse(index, proven(at(index)) != nullptr ? resolution.coarse : resolution.fine);
       const Cell cell = at(index);
-      for (int c = 0; c < cell.child_count(); ++c) {
-        if (remains(at(cell.children + c), now_a, now_b))
-          unknown.push_back({cell.children + c, {0.0, 0.0}});
+      if (cell.state != CellState::inner) continue;
+      for (int child = cell.children; child < cell.children + cell.child_count(); ++child) {
+        if (remains(at(child), now_a, now_b) && may_be_entered(at(child))) {
+          unknown.push_back({child, {0.0, 0.0}});
+        }
       }
     }
-    if (unknown.empty()) break;
-    std::swap(coarse, later);
-    for (std::size_t done = 0; done < unknown.size() && looked_at < budget;
-         done += filter::kLanes) {
-      const std::size_t count = std::min<std::size_t>(filter::kLanes, unknown.size() - done);
-      evaluate(unknown.data() + done, count);
-      looked_at += count;
-    }
-    for (const Open& open : unknown) {
-      if (at(open.cell).state == CellState::free) raster.mark_free(at(open.cell));
-      consider(open.cell);
+    looked_at += evaluate_all(unknown, budget - looked_at);
+    for (const Open& leaf : unknown) {
+      if (at(leaf.cell).state == CellState::mixed) border.push_back(leaf.cell);
+      if (at(leaf.cell).state != CellState::free) continue;
+      leaves_at(at(leaf.cell), [&](int other) {
+        const CellState state = at(other).state;
+        const bool open = state == CellState::mixed || state == CellState::unknown;
+        if (open && remains(at(other), now_a, now_b)) border.push_back(other);
+        return false;
+      });
     }
   }
   if (looked_at < budget) outlined_ = {now_a, now_b, resolution};
@@ -184,12 +145,8 @@ std::uint64_t CoordinationDiagram::look_closer(const std::vector<Area>& areas, D
       }
     }
     cells.clear();
-    for (std::size_t done = 0; done < unknown.size(); done += filter::kLanes) {
-      if (looked_at >= budget) return looked_at;
-      const std::size_t count = std::min<std::size_t>(filter::kLanes, unknown.size() - done);
-      evaluate(unknown.data() + done, count);
-      looked_at += count;
-    }
+    looked_at += evaluate_all(unknown, budget - looked_at);
+    if (looked_at >= budget) return looked_at;
     for (const Open& leaf : std::exchange(unknown, {})) {
       const Cell& cell = at(leaf.cell);
       if (cell.state == CellState::conflict || proven(cell) != nullptr) return looked_at;

@@ -6,7 +6,10 @@
 
 namespace armloom {
 
-MotionStore::MotionStore(PlanningScenePtr scene) : scene_(scene), links_(std::move(scene)) {
+MotionStore::MotionStore(PlanningScenePtr scene)
+    : scene_(scene),
+      links_(std::move(scene)),
+      diagram_scratch_(CoordinationDiagram::make_scratch()) {
   const std::size_t arms = scene_->cell().arms.size();
   for (std::uint32_t a = 0; a < arms; ++a) {
     arms_.push_back(std::make_shared<const ArmGeometry>(scene_->bodies(), ArmId{a}));
@@ -32,19 +35,20 @@ void MotionStore::begin_question() {
   ++question_;
   for (auto& entries : entries_) {
     if (entries.size() <= kKept) continue;
-    std::ranges::sort(entries, std::ranges::greater{},
-                      [](const std::unique_ptr<Entry>& e) { return e->asked_at; });
-    for (std::size_t i = kKept / 2; i < entries.size(); ++i) drop(entries[i]->tube.get());
-    entries.resize(kKept / 2);
+    std::ranges::nth_element(entries, entries.begin() + kKept, std::ranges::greater{},
+                             [](const std::unique_ptr<Entry>& e) { return e->asked_at; });
+    for (std::size_t i = kKept; i < entries.size(); ++i) drop(*entries[i]);
+    entries.resize(kKept);
   }
 }
 
-void MotionStore::drop(const MotionTube* tube) {
-  with_self_.erase(tube);
-  with_still_.erase(tube);
-  std::erase_if(between_, [tube](const auto& entry) {
-    return entry.first.first == tube || entry.first.second == tube;
-  });
+void MotionStore::drop(const Entry& entry) {
+  with_self_.erase(&entry);
+  with_still_.erase(&entry);
+  for (Entry* other : entry.compared) {
+    between_.erase(entry.arm < other->arm ? Key{&entry, other} : Key{other, &entry});
+    std::erase(other->compared, &entry);
+  }
 }
 
 MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId arm,
@@ -92,12 +96,14 @@ const PairSet& MotionStore::cross(ArmId a, ArmId b) {
   return cross_.emplace(std::pair(a, b), std::move(pairs)).first->second;
 }
 
-MotionStore::Diagram MotionStore::pair(const Entry& a, const Entry& b) {
+MotionStore::Diagram MotionStore::pair(Entry& a, Entry& b) {
   const PairSet& pairs = cross(a.arm, b.arm);
-  auto& diagram = between_[{a.tube.get(), b.tube.get()}];
+  auto& diagram = between_[{&a, &b}];
   if (!diagram) {
     diagram = std::make_unique<CoordinationDiagram>(
-        CoordinationDiagram::Setting{&links_->bodies(), &pairs}, a.tube, b.tube);
+        CoordinationDiagram::Setting{&links_->bodies(), &pairs, diagram_scratch_}, a.tube, b.tube);
+    a.compared.push_back(&b);
+    b.compared.push_back(&a);
   }
   return {diagram.get(), &pairs, &links_->bodies()};
 }
@@ -108,26 +114,27 @@ MotionStore::Diagram MotionStore::still(const Entry& a) {
     pairs = std::make_unique<PairSet>(
         still_pairs(scene_->bodies(), arms_[a.arm.index()]->linkage, *still_parts_));
   }
-  auto& diagram = with_still_[a.tube.get()];
+  auto& diagram = with_still_[&a];
   if (!diagram) {
     diagram = std::make_unique<CoordinationDiagram>(
-        CoordinationDiagram::Setting{&scene_->bodies(), pairs.get()}, a.tube, *still_parts_);
+        CoordinationDiagram::Setting{&scene_->bodies(), pairs.get(), diagram_scratch_}, a.tube,
+        *still_parts_);
   }
   return {diagram.get(), pairs.get(), &scene_->bodies()};
 }
 
 MotionStore::Diagram MotionStore::self(const Entry& a) {
   const PairSet& pairs = arms_[a.arm.index()]->self;
-  auto& diagram = with_self_[a.tube.get()];
+  auto& diagram = with_self_[&a];
   if (!diagram) {
     diagram = std::make_unique<CoordinationDiagram>(
-        CoordinationDiagram::Setting{&links_->bodies(), &pairs}, a.tube);
+        CoordinationDiagram::Setting{&links_->bodies(), &pairs, diagram_scratch_}, a.tube);
   }
   return {diagram.get(), &pairs, &links_->bodies()};
 }
 
 CoordinationDiagram MotionStore::with_pairs(const Diagram& like, const PairSet& pairs) const {
-  return like.cells->with({like.bodies, &pairs});
+  return like.cells->with({like.bodies, &pairs, diagram_scratch_});
 }
 
 bool MotionStore::out_of_reach(ArmId a, ArmId b) const {

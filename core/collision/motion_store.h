@@ -34,9 +34,10 @@ class MotionStore {
     std::shared_ptr<MotionTube> tube;
     double stopping_reach_s;
     std::uint64_t asked_at;
+    std::vector<Entry*> compared = {};  // those that it has a diagram with
   };
-  // Entries that no question has named since are dropped when there are more than kKept of an arm.
-  // References hold until the next begin_question().
+  // Of each arm kKept entries are kept, those that questions named last. References hold until the
+  // next begin_question().
   inline static constexpr std::size_t kKept = 64;
   void begin_question();
   [[nodiscard]] Entry& motion(const TrajectoryPtr& trajectory, ArmId arm, const Configuration& rest,
@@ -48,7 +49,7 @@ class MotionStore {
     const PlanningScene::Bodies* bodies;
   };
   // The first one's arm has the smaller id.
-  [[nodiscard]] Diagram pair(const Entry& a, const Entry& b);
+  [[nodiscard]] Diagram pair(Entry& a, Entry& b);
   [[nodiscard]] Diagram still(const Entry& a);
   [[nodiscard]] Diagram self(const Entry& a);
   // The same motions with other limits; nothing of it is kept. `pairs` must outlive it.
@@ -58,21 +59,22 @@ class MotionStore {
   [[nodiscard]] bool out_of_reach(ArmId a, ArmId b) const;
 
  private:
-  using Key = std::pair<const MotionTube*, const MotionTube*>;
+  using Key = std::pair<const Entry*, const Entry*>;
   const PairSet& cross(ArmId a, ArmId b);
-  void drop(const MotionTube* tube);
+  void drop(const Entry& entry);
 
   PlanningScenePtr scene_;
   PlanningScenePtr links_;  // the scene that cross and self pairs were read from
   std::vector<std::shared_ptr<const ArmGeometry>> arms_;
   std::vector<std::shared_ptr<MotionTube::Scratch>> scratch_;  // by arm
+  std::shared_ptr<CoordinationDiagram::Scratch> diagram_scratch_;
   std::map<std::pair<ArmId, ArmId>, PairSet> cross_;
   std::unique_ptr<StillParts> still_parts_;
   std::vector<std::unique_ptr<PairSet>> still_;                  // by arm, made when asked for
   std::vector<std::vector<std::unique_ptr<Entry>>> entries_;     // by arm
   std::map<Key, std::unique_ptr<CoordinationDiagram>> between_;  // of arms
-  std::map<const MotionTube*, std::unique_ptr<CoordinationDiagram>> with_still_;
-  std::map<const MotionTube*, std::unique_ptr<CoordinationDiagram>> with_self_;
+  std::map<const Entry*, std::unique_ptr<CoordinationDiagram>> with_still_;
+  std::map<const Entry*, std::unique_ptr<CoordinationDiagram>> with_self_;
   std::uint64_t question_ = 0;
 };
 

@@ -21,7 +21,6 @@ struct MotionTube::Scratch {
   std::vector<double> q;
   std::vector<float> joint_span;  // [row][kLanes]
   std::vector<float> span;        // [frame][kLanes]
-  std::vector<float> axes;
   std::vector<float> suffix;
   std::vector<int> capsule_rows;  // in Block::inflation
   std::vector<filter::Hit> hits;
@@ -34,7 +33,6 @@ std::shared_ptr<MotionTube::Scratch> MotionTube::make_scratch(const ArmGeometry&
   s->q.resize(lane_size(arm.joints().size()));
   s->joint_span.resize(lane_size(arm.joints().size()));
   s->span.resize(lane_size(arm.frames().size()));
-  s->axes.resize(lane_size(arm.frames().size() * 6));
   s->suffix.resize(lane_size(static_cast<std::size_t>(arm.suffix_rows())));
   s->capsule_rows.resize(arm.capsules().size());
   std::iota(s->capsule_rows.begin(), s->capsule_rows.end(), 0);
@@ -152,9 +150,13 @@ void MotionTube::place_batch(std::span<const int> nodes) {
   block.inflation.resize(lane_size(capsules));
   block.ball.resize(lane_size(4));
   block.frames.resize(lane_size(arm.frames().size() * 12));
+  block.axes.resize(lane_size(arm.frames().size() * 6));
   block.spans = s.span;
-  kernel.place(arm.view(), s.q.data(), {block.frames.data(), s.axes.data(), block.capsules.data()});
-  kernel.inflate(arm.view(), s.axes.data(), block.capsules.data(), s.span.data(), s.suffix.data());
+  block.bends.resize(lane_size(capsules));
+  kernel.place(arm.view(), s.q.data(),
+               {block.frames.data(), block.axes.data(), block.capsules.data()});
+  kernel.inflate(arm.view(), block.axes.data(), block.capsules.data(), s.span.data(),
+                 s.suffix.data(), block.bends.data());
   for (std::size_t c = 0; c < capsules; ++c) {
     const auto row = static_cast<std::size_t>(arm.capsules()[c].suffix_begin);
     std::copy_n(s.suffix.data() + lane_size(row), kLanes, block.inflation.data() + lane_size(c));

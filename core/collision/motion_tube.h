@@ -56,7 +56,9 @@ class MotionTube {
     std::vector<float> inflation;  // [capsule][kLanes]: motion bounds, m
     std::vector<float> ball;       // [4][kLanes], filter::Side::ball
     std::vector<double> frames;    // [frame][12][kLanes]
+    std::vector<float> axes;       // [frame][6][kLanes], filter::Placed::axes
     std::vector<float> spans;      // [frame][kLanes]: how far its joint may be off, rad or m
+    std::vector<float> bends;      // [capsule][kLanes], filter::Joints::bend
   };
   struct Place {
     const Block* block;

@@ -11,6 +11,8 @@ namespace {
 // conflict), coarser ones. A fraction of a second, on a thread that nobody waits for.
 constexpr Duration kResolution = std::chrono::milliseconds(10);
 constexpr std::uint64_t kCells = 24'000;
+// Whoever looks at one asks again and again where its two are by now.
+constexpr std::size_t kDrawnMax = 4;
 
 bool share_no_space(const Trajectory& a, const Trajectory& b) {
   return a.arms().size() == 1 && a.arms() == b.arms();
@@ -28,9 +30,20 @@ Result<const Job*> Executive::Impl::known(const std::string& key,
 
 DiagramView::Side Executive::Impl::side_of(const Job& job) const {
   return {.job = key(job.id),
-          .state = job.state,
+          .state = job.state(),
           .duration = job.trajectory->duration(),
           .progress = std::clamp(job.progress, Duration{}, job.trajectory->duration())};
+}
+
+// The diagram, with what lies ahead of where the two are.
+DiagramView Executive::Impl::shown(DiagramView view, const Diagram& diagram) const {
+  view.evaluations = diagram.evaluations;
+  for (const DiagramLayer& layer : diagram.layers) {
+    view.layers.push_back({cell_->arm(layer.arm_a).name, cell_->arm(layer.arm_b).name, layer.cells,
+                           first_met(layer.cells, view.a.progress, view.b.progress, view.a.duration,
+                                     view.b.duration)});
+  }
+  return view;
 }
 
 void Executive::Impl::diagram(const std::string& key_a, const std::string& key_b,
@@ -52,19 +65,24 @@ void Executive::Impl::diagram(const std::string& key_a, const std::string& key_b
   }
   DiagramView view{
       .time = now_, .a = side_of(**a), .b = side_of(**b), .scene_version = scene_version_};
+  const auto cached = std::ranges::find_if(drawn_, [&](const Drawn& drawn) {
+    return drawn.a == motion_a && drawn.b == motion_b && drawn.scene_version == scene_version_ &&
+           drawn.rest == scheduler_.rest();
+  });
+  if (cached != drawn_.end()) return done(shown(std::move(view), cached->diagram));
   Drawing drawing{.a = motion_a,
                   .b = motion_b,
                   .rest = scheduler_.rest(),
                   .tracking_error = cell_->checking.tracking_error_rad,
                   .resolution = kResolution,
                   .budget = kCells};
-  const auto drawn = [this, view = std::move(view), done](const Diagram& diagram) mutable {
-    view.evaluations = diagram.evaluations;
-    for (const DiagramLayer& layer : diagram.layers) {
-      view.layers.push_back(
-          {cell_->arm(layer.arm_a).name, cell_->arm(layer.arm_b).name, layer.cells});
-    }
-    done(std::move(view));
+  Drawn remembered{motion_a, motion_b, scheduler_.rest(), scene_version_, {}};
+  const auto drawn = [this, view = std::move(view), done,
+                      remembered = std::move(remembered)](Diagram diagram) mutable {
+    remembered.diagram = std::move(diagram);
+    done(shown(std::move(view), remembered.diagram));
+    drawn_.push_front(std::move(remembered));
+    if (drawn_.size() > kDrawnMax) drawn_.pop_back();
   };
   if (judges_.draw(std::move(drawing), scene_, drawn)) return;
   done(failure(Problem{ProblemKind::unavailable, "too-many-diagrams", "",

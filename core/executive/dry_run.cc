@@ -129,15 +129,23 @@ Question question_for(const Plan& plan, const std::vector<std::size_t>& group,
   return question;
 }
 
-std::optional<JobId> capacity(const Question& question, const Policy& policy) {
-  std::vector<Job> jobs;
-  for (const Motion& motion : question.others) {
-    jobs.push_back(
-        Job{.id = motion.job, .trajectory = motion.trajectory, .state = JobState::running});
+// Where one of those that have begun has the candidate's place.
+std::optional<JobId> place_taken(const Question& question, const CellPtr& cell,
+                                 const std::shared_ptr<const Policy>& policy) {
+  State state(cell, policy, question.rest);
+  std::vector<Motion> motions = question.others;
+  motions.push_back(question.candidates.front());
+  std::ranges::sort(motions, {}, &Motion::job);
+  for (const Motion& motion : motions) {
+    Record& record =
+        state.jobs.add({.job = {.id = motion.job, .trajectory = motion.trajectory},
+                        .leg = state.arms.leg_of(*cell, motion.job, *motion.trajectory),
+                        .helps = motion.job});
+    if (motion.job == question.candidates.front().job) continue;
+    state.jobs.enter(record, Admitted{});
+    state.jobs.enter(record, Moving{.overrun_at = {}, .moved_at = {}});
   }
-  std::vector<const Job*> pointers;
-  for (const Job& job : jobs) pointers.push_back(&job);
-  return policy.capacity_taken_by(pointers);
+  return policy->place_taken_by(state, state.jobs.at(question.candidates.front().job));
 }
 
 // Beside everything that has begun and whose authority reaches to where it may come next.
@@ -230,10 +238,13 @@ Verdict weighed(std::size_t index, const std::vector<std::size_t>& begun, const 
 }
 
 CheckView judged(std::size_t index, const std::vector<std::size_t>& begun, const Plan& plan,
-                 const Cell& cell, const Policy& policy, Arbiter& arbiter) {
+                 const CellPtr& cell_ptr, const std::shared_ptr<const Policy>& policy_ptr,
+                 Arbiter& arbiter) {
+  const Cell& cell = *cell_ptr;
+  const Policy& policy = *policy_ptr;
   const Question question = question_for(plan, {index}, begun, cell, policy);
   CheckView view{.kind = Verdict::Kind::conflict, .scene_version = 1};
-  if (const auto taken_by = capacity(question, policy)) {
+  if (const auto taken_by = place_taken(question, cell_ptr, policy_ptr)) {
     const Wait wait{.kind = Wait::Kind::capacity, .job = *taken_by};
     view.conflicts.push_back(view_of(wait, cell, plan));
     return view;
@@ -253,8 +264,9 @@ CheckView judged(std::size_t index, const std::vector<std::size_t>& begun, const
 
 Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& policy_name,
                                            const std::vector<TimedJob>& jobs) {
-  auto policy = make_policy(policy_name.empty() ? cell->scheduling.policy : policy_name, *cell);
-  if (!policy) return failure(std::move(policy.error()));
+  auto made = make_policy(policy_name.empty() ? cell->scheduling.policy : policy_name, *cell);
+  if (!made) return failure(std::move(made.error()));
+  const std::shared_ptr<const Policy> policy = std::move(*made);
   auto scene = PlanningScene::build(cell);
   if (!scene) return failure(std::move(scene.error()));
   Plan plan(*cell);
@@ -272,7 +284,7 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
     const Planned& job = plan.jobs()[index];
     checked[index].key = job.key;
     CheckView& view = checked[index].verdict;
-    view = judged(index, begun, plan, *cell, **policy, arbiter);
+    view = judged(index, begun, plan, cell, policy, arbiter);
     if (view.kind == Verdict::Kind::free && !view.earliest_start_s) {
       view.earliest_start_s = to_seconds(job.starts - job.asked);
     } else if (view.earliest_start_s) {  // counted from where it was judged

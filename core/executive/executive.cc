@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "core/arm/simulated_arm.h"
@@ -68,11 +69,22 @@ Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr s
 // ---- The scheduler and its effects ----
 
 void Executive::Impl::step(const Input& input) {
-  const std::vector<Effect> effects = scheduler_.step(input, now_);
+  const std::vector<Effect> effects = decided(input);
   for (const Effect& effect : effects) carry_out(effect);
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
   tell_queue();
   for (const MoveAside& aside : std::exchange(asides_, {})) carry_out(aside);
+}
+
+// What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
+// their paths, and the process ends.
+std::vector<Effect> Executive::Impl::decided(const Input& input) {
+  try {
+    return scheduler_.step(input, now_);
+  } catch (const std::logic_error&) {
+    motions_.brake_all();
+    throw;
+  }
 }
 
 void Executive::Impl::carry_out(const Effect& effect) {

@@ -12,6 +12,7 @@
 #include "core/collision/judge.h"
 #include "core/coordination/diagram.h"
 #include "core/executive/events.h"
+#include "core/executive/plan_ahead.h"
 #include "core/model/cell.h"
 #include "core/trajectory/validate.h"
 
@@ -109,6 +110,7 @@ struct DiagramView {
     std::string arm_a;
     std::string arm_b;
     std::vector<DiagramCell> cells;
+    std::optional<DiagramMeeting> met;  // from where both are
   };
   TimePoint time;  // when it was asked for
   Side a;

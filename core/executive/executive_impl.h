@@ -51,6 +51,7 @@ class Executive::Impl final : public JobNames {
 
   // executive.cc
   void step(const Input& input);
+  [[nodiscard]] std::vector<Effect> decided(const Input& input);
   void tick(TimePoint now);
 
   // telling.cc
@@ -116,6 +117,7 @@ class Executive::Impl final : public JobNames {
   std::string own_key();
   Result<const Job*> known(const std::string& key, const std::string& pointer) const;
   DiagramView::Side side_of(const Job& job) const;
+  DiagramView shown(DiagramView view, const Diagram& diagram) const;
   std::string free_key(JobId id) const;
 
   void carry_out(const Effect& effect);
@@ -159,6 +161,14 @@ class Executive::Impl final : public JobNames {
   std::vector<ArmState> told_arms_;
   std::vector<std::string> told_arm_jobs_;
   QueueView told_queue_;
+
+  struct Drawn {
+    TrajectoryPtr a, b;
+    Configuration rest;
+    std::uint64_t scene_version;
+    Diagram diagram;
+  };
+  std::deque<Drawn> drawn_;  // the last ones, newest first
 };
 
 }  // namespace armloom

@@ -47,6 +47,10 @@ void Motions::grant(const Grant& grant) {
   for (ArmId arm : motion.trajectory->arms()) controllers_[arm.index()]->grant(grant.authority);
 }
 
+void Motions::brake_all() {
+  for (const auto& controller : controllers_) controller->brake();
+}
+
 void Motions::brake(JobId job) {
   Motion& motion = motions_.at(job);
   motion.braking = true;

@@ -23,6 +23,7 @@ class Motions {
   void dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory);
   void grant(const Grant& grant);
   void brake(JobId job);
+  void brake_all();  // whatever moves
   void release(JobId job);
 
   // One control cycle of every arm. Returns what there is to tell the scheduler, in order of jobs.

@@ -146,10 +146,10 @@ void Executive::Impl::find_bad_after(const JobRequest& request, const Ahead& ahe
       problems.push_back({ProblemKind::invalid, "unknown-job", pointer,
                           "no job before this one has the id \"" + key + "\"", key});
     } else if (const Job& job = *scheduler_.find(it->second);
-               is_terminal(job.state) && job.state != JobState::succeeded) {
-      problems.push_back({ProblemKind::invalid, "predecessor-failed", pointer,
-                          "job \"" + key + "\" has ended without success: " + to_string(job.state),
-                          key});
+               job.has_ended() && job.state() != JobState::succeeded) {
+      problems.push_back(
+          {ProblemKind::invalid, "predecessor-failed", pointer,
+           "job \"" + key + "\" has ended without success: " + to_string(job.state()), key});
     }
   }
 }
@@ -196,7 +196,7 @@ Submit Executive::Impl::submission(Prepared prepared) const {
   std::vector<JobId> after;
   for (const std::string& before : prepared.after) {
     const JobId job = ids_.at(before);
-    if (!is_terminal(scheduler_.find(job)->state)) after.push_back(job);
+    if (!is_terminal(scheduler_.find(job)->state())) after.push_back(job);
   }
   return {.job = JobId{0},
           .trajectory = std::move(prepared.trajectory),
@@ -261,7 +261,7 @@ Result<JobView> Executive::Impl::cancel(const std::string& key) {
                            "there is no job \"" + key + "\"", key});
   }
   const JobId id = it->second;
-  const JobState state = scheduler_.find(id)->state;
+  const JobState state = scheduler_.find(id)->state();
   if (is_terminal(state)) {
     return failure(Problem{ProblemKind::conflict, "job-has-ended", "",
                            "job \"" + key + "\" has ended: " + to_string(state), key});

@@ -79,7 +79,7 @@ QueueView Executive::Impl::queue() const {
   QueueView view{.policy = std::string(scheduler_.policy().name())};
   view.stopped = std::ranges::all_of(all_arms(), [&](ArmId a) { return scheduler_.stopped(a); });
   for (JobId id : scheduler_.active()) {
-    switch (scheduler_.find(id)->state) {
+    switch (scheduler_.find(id)->state()) {
       case JobState::queued:
         view.queued.push_back(key(id));
         break;
@@ -101,7 +101,7 @@ ArmState Executive::Impl::state_of(ArmId arm) const {
   using Phase = ArmFeedback::Phase;
   const Phase phase = motions_.feedback(arm).phase;
   if (phase == Phase::fault) return ArmState::fault;
-  if (const auto job = scheduler_.occupant(arm); job && scheduler_.find(*job)->pausing) {
+  if (const auto job = scheduler_.occupant(arm); job && scheduler_.find(*job)->pausing()) {
     return ArmState::holding;
   }
   if (motions_.moving(arm)) return ArmState::moving;

@@ -63,23 +63,23 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   JobView view{.id = job.id,
                .key = names.key(job.id),
                .name = names.name(job.id),
-               .state = job.pausing ? JobState::holding : job.state,
+               .state = job.pausing() ? JobState::holding : job.state(),
                .priority = job.priority,
                .own = job.own,
-               .submitted_at = job.submitted_at,
-               .scheduled_at = job.scheduled_at,
-               .started_at = job.started_at,
-               .ended_at = job.ended_at,
+               .submitted_at = job.times.submitted_at,
+               .scheduled_at = job.times.scheduled_at,
+               .started_at = job.times.started_at,
+               .ended_at = job.ended_at(),
                .duration = job.trajectory->duration(),
-               .stopping = job.stopping,
-               .reason = job.reason,
-               .detail = job.detail};
+               .stopping = job.stopping(),
+               .reason = job.reason(),
+               .detail = job.detail()};
   view.progress = to_seconds(job.progress) / to_seconds(job.trajectory->duration());
   for (ArmId arm : job.trajectory->arms()) view.arms.push_back(cell.arm(arm).name);
   for (const Wait& wait : job.waits_on) view.waits_on.push_back(view_of(wait, cell, names));
   for (JobId on_it : job.ring) view.ring.push_back(names.key(on_it));
-  if (job.reason == Reason::deadlock) view.detail = deadlock_text(view.ring, cell);
-  if (job.reason == Reason::backlog_timeout) {  // what it waited for in vain
+  if (job.reason() == Reason::deadlock) view.detail = deadlock_text(view.ring, cell);
+  if (job.reason() == Reason::backlog_timeout) {  // what it waited for in vain
     for (const WaitView& wait : view.waits_on) {
       if (wait.kind == Wait::Kind::arm && !wait.detail.empty()) view.detail += "; " + wait.detail;
     }

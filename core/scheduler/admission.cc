@@ -1,241 +1,270 @@
-// Who may be judged next, and what is asked.
+#include "core/scheduler/admission.h"
+
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <utility>
 
-#include "core/base/told.h"
-#include "core/scheduler/scheduler.h"
+#include "core/scheduler/groups.h"
+#include "core/scheduler/motion_questions.h"
+#include "core/scheduler/phases.h"
+#include "core/scheduler/policy.h"
+#include "core/scheduler/putting_off.h"
+#include "core/scheduler/turns.h"
+#include "core/scheduler/waits.h"
+#include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
 namespace {
 
-std::string format(const char* text, const std::string& name, double a, double b) {
-  char buffer[256];
-  std::snprintf(buffer, sizeof buffer, text, name.c_str(), a, b);
-  return buffer;
+// What an arm may be granted beyond its stopping distance: so long it goes on at full speed without
+// a word from here, and so far others cannot be let pass before it.
+constexpr Duration kHorizon = std::chrono::milliseconds(250);
+
+std::optional<JobId> next_recheck(const State& state) {
+  for (JobId id : state.jobs.past_queue()) {
+    const Record& record = state.jobs.at(id);
+    if (record.job.has_authority() && record.checked_at < state.recheck_epoch) return id;
+  }
+  return std::nullopt;
+}
+
+// For some of what waits there may be no order one by one if it goes: then it waits in turn.
+bool waits_for_sequence(State& state, JobId job) {
+  const auto outlook = state.lanes.after({job}, state.jobs, state.arms);
+  if (outlook.first) wait_in_turn(state, state.jobs.at(job), *outlook.first);
+  return outlook.first.has_value();
+}
+
+// It was stopped on its way; its orders stand, if nothing has come to rest there meanwhile.
+void go_on(State& state, Record& record, const Verdict& verdict) {
+  std::vector<Wait> waits;
+  for (const PairRegions& pair : verdict.regions) {
+    const auto* arm = std::get_if<ArmId>(&pair.b);
+    if (arm == nullptr) continue;
+    const ConflictRegion& region = pair.regions.front();
+    waits.push_back(wait_for(Obstacle{record.job.id, std::nullopt, *arm, region.proximity,
+                                      region.time_a, region.time_b}));
+  }
+  if (!waits.empty()) return put_off(state, record, std::move(waits));
+  enter(state, record, Admitted{});
+  record.job.times.scheduled_at = state.now;
+  record.checked_at = ++state.version;
+  state.jobs.changed(record);
+}
+
+// What waits behind all that is admitted, these jobs included, counts for the choice of orders; and
+// who has been overtaken for long is overtaken no more.
+void prepare_graph(State& state, const std::vector<JobId>& jobs) {
+  std::vector<Duration> work_behind = state.jobs.work();
+  std::vector<JobId> in_front = jobs;
+  for (const CoordinatedMotion& motion : state.graph.motions()) {
+    const auto& ages_from = state.jobs.at(motion.job).ages_from;
+    if (ages_from && state.now - *ages_from >= state.cell->scheduling.aging) {
+      state.graph.keep_place(motion.job);
+    }
+    in_front.push_back(motion.job);
+  }
+  for (JobId id : in_front) {
+    const Trajectory& trajectory = *state.jobs.at(id).job.trajectory;
+    for (ArmId arm : trajectory.arms()) work_behind[arm.index()] -= trajectory.duration();
+  }
+  state.graph.set_work_behind(std::move(work_behind));
+}
+
+void admit(State& state, const std::vector<JobId>& jobs, std::vector<CoordinatedMotion> candidates,
+           const PassingOrders& orders) {
+  state.lanes.admitted(jobs);
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const Trajectory& trajectory = *state.jobs.at(jobs[i]).job.trajectory;
+    candidates[i].horizon = from_seconds(stopping_reach_s(*state.cell, trajectory)) +
+                            state.cell->monitor.reaction + kHorizon;
+  }
+  state.graph.admit(candidates, orders);
+  ++state.version;
+  const std::size_t before = state.graph.motions().size() - jobs.size();
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    Record& record = state.jobs.at(jobs[i]);
+    enter(state, record, Admitted{});
+    record.job.times.scheduled_at = state.now + orders.prediction.begins[before + i];
+    record.job.waits_on.clear();
+    record.checked_at = state.version;
+    record.effort = 1;
+    if (!record.ages_from) record.ages_from = state.now;
+    state.jobs.changed(record);
+  }
 }
 
 }  // namespace
 
-bool Scheduler::waiting(const Record& record) {
-  const JobState state = record.job.state;
-  return state == JobState::queued || state == JobState::backlogged ||
-         (state == JobState::holding && !record.job.stopping);
+bool Admission::is_about(JobId job) const {
+  return open_ && std::ranges::find(open_->jobs, job) != open_->jobs.end();
 }
 
-bool Scheduler::holds_reservation(const Record& record) const {
-  const JobState state = record.job.state;
-  return state == JobState::scheduled || state == JobState::running ||
-         (state == JobState::holding && record.job.stopping);
-}
+// ---- What is asked ----
 
-bool Scheduler::at_head(const Record& record) const {
-  return record.job.after.empty() && !lets_another_pass(record) &&
-         std::ranges::all_of(record.job.trajectory->arms(), [&](ArmId arm) {
-           return order_[arm.index()].front() == record.job.id;
-         });
-}
-
-std::vector<const Job*> Scheduler::occupying() const {
-  std::vector<const Job*> jobs;
-  for (JobId id : past_queue_) {
-    const Record& record = records_.at(id);
-    const bool held = record.job.state == JobState::holding;
-    if (held || holds_reservation(record)) jobs.push_back(&record.job);
-  }
-  return jobs;
-}
-
-// ---- Who may be judged ----
-
-std::optional<Wait> Scheduler::stop_of(const Record& record) const {
-  for (ArmId arm : record.job.trajectory->arms()) {
-    const auto& cause = stopped_[arm.index()];
-    if (cause) return Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = *cause};
-  }
-  return std::nullopt;
-}
-
-std::optional<Wait> Scheduler::capacity_of(const Record& record,
-                                           const std::vector<const Job*>& occupying) const {
-  if (policy_->in_rounds() && !round_.contains(record.job.id)) {
-    if (round_.empty()) return std::nullopt;
-    return Wait{.kind = Wait::Kind::capacity, .job = *round_.begin()};
-  }
-  std::optional<JobId> taken_by;
-  if (record.job.state == JobState::holding) {
-    std::vector<const Job*> others = occupying;
-    std::erase(others, &record.job);
-    taken_by = policy_->capacity_taken_by(others);
-  } else {
-    taken_by = policy_->capacity_taken_by(occupying);
-  }
-  if (!taken_by) return std::nullopt;
-  return Wait{.kind = Wait::Kind::capacity, .job = *taken_by};
-}
-
-bool Scheduler::may_be_judged(const Record& record,
-                              const std::vector<const Job*>& occupying) const {
-  return waiting(record) && at_head(record) && !stop_of(record) && !capacity_of(record, occupying);
-}
-
-void Scheduler::set_waits(Record& record, std::vector<Wait> waits) {
-  auto& old = record.job.waits_on;
-  const bool same =
-      std::ranges::equal(old, waits, [](const Wait& a, const Wait& b) { return a.same_cause(b); });
-  old = std::move(waits);
-  if (!same) changed(record);
-}
-
-// A round is over when all of its jobs have ended; until the first of them moves, arms that have no
-// job in it may join. Where those that are left wait for arms that only a next job would move away,
-// these jobs join too.
-void Scheduler::form_round() {
-  if (!policy_->in_rounds()) return;
-  std::erase_if(round_, [this](JobId id) { return !active_.contains(id); });
-  const bool stuck = std::ranges::all_of(round_, [this](JobId id) {
-    const Record& record = records_.at(id);
-    const bool tried = waiting(record) && (record.judged_at == version_ || !at_head(record));
-    return tried || held_where_it_stands(record).has_value();
-  });
-  if (round_.empty()) round_begun_ = false;
-  for (JobId id : round_) {
-    if (records_.at(id).job.started_at) round_begun_ = true;
-  }
-  if (round_begun_ && !stuck) return;
-  for (const auto& queue : order_) {
-    if (queue.empty()) continue;
-    const Record& record = records_.at(queue.front());
-    if (waiting(record) && at_head(record) && !stop_of(record)) round_.insert(queue.front());
-  }
-}
-
-// A job at the head of its arms that cannot begin where they stand will never be able to. The end
-// of a job of several arms gives each of them a new head: hence until there are none.
-void Scheduler::fail_impossible_starts() {
-  for (std::size_t unchanged = 0, arm = 0; unchanged < order_.size();
-       arm = (arm + 1) % order_.size()) {
-    ++unchanged;
-    if (order_[arm].empty()) continue;
-    Record& head = records_.at(order_[arm].front());
-    if (!waiting(head) || head.job.started_at || !at_head(head)) continue;
-    if (auto mismatch = start_mismatch(*head.job.trajectory)) {
-      end(head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));
-      unchanged = 0;
-    }
-  }
-}
-
-std::optional<std::string> Scheduler::start_mismatch(const Trajectory& trajectory) const {
-  for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
-    const JointId joint = trajectory.joints()[j];
-    const double begins = trajectory.start()[static_cast<Eigen::Index>(j)];
-    const double stands = rest_[static_cast<Eigen::Index>(joint.index())];
-    if (std::abs(begins - stands) > cell_->execution.start_tolerance_rad) {
-      return format("%s stands at %.6g, the trajectory begins at %.6g", cell_->joint(joint).name,
-                    told(stands), told(begins));
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<JobId> Scheduler::next_recheck() const {
-  for (JobId id : past_queue_) {
-    const Record& record = records_.at(id);
-    if (holds_reservation(record) && record.checked_at < disturbed_at_) return id;
-  }
-  return std::nullopt;
-}
-
-std::optional<JobId> Scheduler::next_candidate() const {
-  const Job* best = nullptr;
-  const std::map<JobId, int> urgency = urgencies();
-  const std::vector<Aged> aged = aged_jobs();
-  const auto goes_before = [&](const Job& a, const Job& b) {
-    const std::uint64_t a_effort = records_.at(a.id).effort;
-    const std::uint64_t b_effort = records_.at(b.id).effort;
-    if (a_effort != b_effort) return a_effort < b_effort;  // what takes long keeps nobody waiting
-    const bool a_held = a.state == JobState::holding;
-    const bool b_held = b.state == JobState::holding;
-    if (a_held != b_held) return a_held;
-    if (urgency.empty() || urgency.at(a.id) == urgency.at(b.id)) return a.id < b.id;
-    return urgency.at(a.id) > urgency.at(b.id);
-  };
-  const std::vector<const Job*> occupied_by = occupying();
-  for (const auto& queue : order_) {
-    if (queue.empty()) continue;
-    const Record& record = records_.at(queue.front());
-    if (record.judged_at == version_ || !may_be_judged(record, occupied_by)) continue;
-    if (held_back_by(record, aged)) continue;
-    if (!best || goes_before(record.job, *best)) best = &record.job;
-  }
-  return best ? std::optional(best->id) : std::nullopt;
-}
-
-// ---- The question ----
-
-// Whether jobs have been put off instead.
-bool Scheduler::ask_next() {
+bool Admission::ask_next(State& state, const WaitCycles& cycles) {
   if (open_) return false;
-  renew_lanes();
+  state.lanes.renew(state.jobs, state.arms);
   bool put_off = false;
-  if (const auto recheck = next_recheck()) {
-    ask({*recheck}, Purpose::recheck);
-  } else if (const auto opens = next_aside_in_a_ring()) {
-    ask_aside(*opens);
+  if (const auto recheck = next_recheck(state)) {
+    ask(state, {*recheck}, Purpose::recheck);
+  } else if (auto opens = cycles.next_yield(state)) {
+    ask_yield(state, std::move(*opens));
   } else {
-    auto candidate = next_candidate();
-    for (; candidate && waits_for_sequence(*candidate); candidate = next_candidate()) {
+    auto candidate = Turns(state).next();
+    while (candidate && waits_for_sequence(state, *candidate)) {
       put_off = true;
+      candidate = Turns(state).next();
     }
     if (candidate) {
-      ask({*candidate}, Purpose::start);
-    } else if (const auto aside = next_aside()) {
-      ask_aside(*aside);
+      ask(state, {*candidate}, Purpose::start);
+    } else if (auto idle = next_yield(state)) {
+      ask_yield(state, std::move(*idle));
     }
   }
   return put_off;
 }
 
-Motion Scheduler::motion_now(const Record& record) const {
-  const auto& arms = record.job.trajectory->arms();
-  const bool to_come = std::ranges::any_of(
-      arms, [&](ArmId arm) { return order_[arm.index()].front() != record.job.id; });
-  return Motion{.job = record.job.id,
-                .trajectory = record.job.trajectory,
-                .progress = record.job.progress,
-                .to_come = to_come};
-}
-
-// Everything else that is admitted.
-void Scheduler::add_others(Question& question, const std::vector<JobId>& candidates) const {
-  for (const CoordinatedMotion& motion : graph_.motions()) {
-    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;
-    question.others.push_back(motion_now(records_.at(motion.job)));
-  }
-}
-
-void Scheduler::ask(std::vector<JobId> jobs, Purpose purpose) {
-  Question question{.version = version_,
-                    .start_at = now_,
-                    .candidates = {},
-                    .others = {},
-                    .rest = rest_,
-                    .method = policy_->method()};
-  if (purpose == Purpose::start) question.effort = records_.at(jobs.front()).effort;
-  for (JobId id : jobs) question.candidates.push_back(motion_now(records_.at(id)));
-  add_others(question, jobs);
+void Admission::ask(State& state, std::vector<JobId> jobs, Purpose purpose) {
+  Question question = question_now(state, jobs);
   std::vector<Passage> unknown;
   if (purpose == Purpose::start) {
-    auto outlook = outlook_after(jobs);
+    question.effort = state.jobs.at(jobs.front()).effort;
+    auto outlook = state.lanes.after(jobs, state.jobs, state.arms);
     unknown = std::move(outlook.unknown);
     std::ranges::move(outlook.ahead, std::back_inserter(unknown));
+    add_passages(question, unknown, state.jobs);
   }
-  open_ = OpenQuestion{version_, std::move(jobs), purpose};
-  add_passages(question, std::move(unknown));
-  effects_.push_back(Judge{std::move(question)});
+  open_ = OpenQuestion{state.version, std::move(jobs), purpose, {}, std::move(unknown)};
+  state.effects.push_back(Judge{std::move(question)});
+}
+
+void Admission::ask_yield(State& state, YieldMove move) {
+  Question question = question_about(state, move);
+  open_ = OpenQuestion{state.version, {move.way_of}, Purpose::yield, std::move(move)};
+  state.effects.push_back(Judge{std::move(question)});
+}
+
+// ---- What an answer means ----
+
+void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
+  if (!open_ || open_->version != input.verdict.version) return;
+  OpenQuestion question = std::move(*open_);
+  open_.reset();
+  state.lanes.learn(question.passages, input.verdict, state.jobs);
+  if (question.version != state.version) return;  // stale: it is asked again
+  switch (question.purpose) {
+    case Purpose::yield:
+      return answer_yield(state, input.verdict, std::move(*question.yield), cycles);
+    case Purpose::recheck: {
+      Record& record = state.jobs.at(question.jobs.front());
+      record.checked_at = state.version;
+      if (input.verdict.kind != Verdict::Kind::free) hold_back(state, record, input.verdict);
+      return;
+    }
+    case Purpose::start:
+      return answer_start(state, input.verdict, question.jobs);
+  }
+}
+
+void Admission::answer_yield(State& state, const Verdict& verdict, YieldMove move,
+                             WaitCycles& cycles) {
+  const auto passes = lets_through(state, verdict, move);
+  if (!passes) return;
+  if (*passes && !move.is_free) {
+    move.is_free = true;
+    return ask_yield(state, std::move(move));
+  }
+  note_tried(state, move, *passes);
+  if (!*passes) return;
+  state.effects.push_back(MoveAside{move.arm, move.way_of, move.way, move.before});
+  if (move.before) cycles.opens(*move.before);
+}
+
+void Admission::answer_start(State& state, const Verdict& verdict, const std::vector<JobId>& jobs) {
+  Record& first = state.jobs.at(jobs.front());
+  if (verdict.kind == Verdict::Kind::free) {
+    if (state.graph.holds(first.job.id)) return go_on(state, first, verdict);
+    return decide(state, verdict, jobs);
+  }
+  if (is_asked_again(first, verdict)) return;
+  if (jobs.size() == 1) return refuse(state, first, verdict);
+  if (tries_together(state, jobs, false)) return;
+  put_off(state, first, first.job.judgement().found);  // one that was to help it cannot go
+}
+
+void Admission::decide(State& state, const Verdict& verdict, const std::vector<JobId>& jobs) {
+  Record& first = state.jobs.at(jobs.front());
+  prepare_graph(state, jobs);
+  std::vector<CoordinatedMotion> candidates;
+  for (JobId id : jobs) candidates.push_back(as_candidate(state.jobs.at(id).job));
+  const PassingOrders orders =
+      state.policy->decide(state.graph.question(candidates, verdict.regions));
+  const bool can_go = orders.obstacles.empty();
+  if (tries_together(state, jobs, can_go)) return;
+  if (can_go) {
+    if (leaves_a_sequence(state, jobs)) {
+      admit(state, jobs, std::move(candidates), orders);
+    } else if (!open_) {
+      (void)tries_together(state, jobs, false);
+    }
+    return;
+  }
+  std::vector<Wait> waits;
+  for (const Obstacle& obstacle : orders.obstacles) {
+    if (obstacle.candidate != first.job.id) continue;
+    if (obstacle.arm) {
+      state.lanes.learn_in_the_way(first.job.id, *obstacle.arm, state.jobs, state.arms);
+    }
+    waits.push_back(wait_for(obstacle));
+  }
+  if (jobs.size() == 1 || !waits.empty()) note_found(first, std::move(waits));
+  std::vector<JobId> group = with_next_jobs(state, jobs, orders.in_the_way);
+  if (group.size() > jobs.size()) {
+    ask(state, std::move(group), Purpose::start);
+  } else if (!is_asked_again(first, verdict)) {
+    put_off(state, first, first.job.judgement().found);
+  }
+}
+
+// Whether the jobs go; else they wait, or what has to be known is asked.
+bool Admission::leaves_a_sequence(State& state, const std::vector<JobId>& jobs) {
+  const auto outlook = state.lanes.after(jobs, state.jobs, state.arms);
+  Record& first = state.jobs.at(jobs.front());
+  if (!outlook.unknown.empty()) {
+    ask(state, jobs, Purpose::start);
+  } else if (outlook.first && jobs.size() > 1) {
+    put_off(state, first, first.job.judgement().found);  // not so
+  } else if (outlook.first) {
+    wait_in_turn(state, first, *outlook.first);
+  } else {
+    return true;
+  }
+  return false;
+}
+
+// For some of what waits there is no order one by one, whether these go or not: all are tried as
+// one; where that fails too, these go alone. Whether something else is asked now.
+bool Admission::tries_together(State& state, const std::vector<JobId>& jobs, bool can_go) {
+  if (!state.policy->admits_groups()) return false;
+  const bool tried = together_ && together_->version == state.version;
+  if (!can_go) {
+    if (!tried || together_->alone.empty()) return false;
+    ask(state, std::exchange(together_->alone, {}), Purpose::start);
+    return true;
+  }
+  if (tried) return false;
+  const auto outlook = state.lanes.after(jobs, state.jobs, state.arms);
+  if (!outlook.ahead.empty()) {  // others have come meanwhile
+    ask(state, jobs, Purpose::start);
+    return true;
+  }
+  if (outlook.all) return false;
+  std::vector<JobId> all = with_all_that_wait(state, jobs);
+  if (all.size() == jobs.size() || all.size() > kTogetherMax) return false;
+  together_ = Together{state.version, jobs};
+  ask(state, std::move(all), Purpose::start);
+  return true;
 }
 
 }  // namespace armloom

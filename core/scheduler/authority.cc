@@ -1,8 +1,9 @@
-// How far each motion that is admitted may go: orders, held by authority over progress.
+#include "core/scheduler/authority.h"
+
 #include <algorithm>
 #include <utility>
 
-#include "core/scheduler/scheduler.h"
+#include "core/scheduler/phases.h"
 #include "core/scheduler/waits.h"
 
 namespace armloom {
@@ -13,137 +14,120 @@ constexpr Duration kGrantStep = std::chrono::milliseconds(80);
 // Nearer than this to its limit, a motion has come to it.
 constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
-}  // namespace
+void explain_pause(State& state, Record& record) {
+  const auto held = state.graph.held_back(record.job.id);
+  if (held) state.jobs.set_waits(record, {wait_for(*held)});
+}
 
-// What is admitted starts when precedence lets it leave its place.
-void Scheduler::dispatch_ready() {
-  const std::vector<JobId> ids(past_queue_.begin(), past_queue_.end());
-  for (JobId id : ids) {
-    Record& record = records_.at(id);
-    if (record.job.state == JobState::scheduled && !record.dispatched) {
-      dispatch_if_ready(record);
-    } else {
-      extend_own_authority(record);
-    }
-    if (record.job.pausing) explain_pause(record);
+// Later than this, going on from now, it may overrun.
+TimePoint overrun_after(const State& state, const Job& job) {
+  const double remaining_s = to_seconds(job.trajectory->duration() - job.progress);
+  return state.now + from_seconds(remaining_s * state.cell->execution.duration_scaling) +
+         state.cell->execution.duration_margin;
+}
+
+void pause_at_rest(State& state, Record& record) {
+  if (!record.job.has_started() || record.job.pausing()) return;
+  std::get<Admitted>(record.job.phase).pause.emplace();
+  state.jobs.changed(record);
+}
+
+void dispatch_if_ready(State& state, Record& record) {
+  Job& job = record.job;
+  if (!state.jobs.at_head(record)) return;
+  if (!job.has_started() && state.arms.start_mismatch(*state.cell, *job.trajectory)) {
+    return withdraw(state, record, {});
+  }
+  if (state.arms.stop_of(job) || record.checked_at < state.recheck_epoch) return;
+  const Duration limit = state.graph.limit(job.id);
+  if (limit <= job.progress && job.progress < job.trajectory->duration()) {
+    const auto held = state.graph.held_back(job.id);
+    if (held && held->arm && !job.has_started()) return withdraw(state, record, {});
+    pause_at_rest(state, record);  // stopped on its way: it waits there until it may go on
+    explain_pause(state, record);
+    return;
+  }
+  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.id));
+  state.graph.granted(job.id, authority);
+  enter(state, record, Moving{.overrun_at = overrun_after(state, job), .moved_at = state.now});
+  job.times.scheduled_at = state.now;
+  state.jobs.set_waits(record, {});
+  state.effects.push_back(Dispatch{job.id, state.now, job.progress, authority});
+}
+
+void extend_own_authority(State& state, const Record& record) {
+  const Job& job = record.job;
+  if (job.in<Moving>() == nullptr) return;
+  const Duration limit = state.graph.limit(job.id);
+  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.id));
+  const Duration granted = state.graph.find(job.id)->authority;
+  if (authority <= granted || (authority < granted + kGrantStep && authority < limit)) return;
+  state.graph.granted(job.id, authority);
+  state.effects.push_back(Grant{job.id, authority});
+}
+
+void go_on(State& state, Record& record) {
+  if (record.job.in<Admitted>() != nullptr) {
+    dispatch_if_ready(state, record);
+  } else {
+    extend_own_authority(state, record);
   }
 }
 
-void Scheduler::explain_pause(Record& record) {
-  if (const auto held = graph_.held_back(record.job.id)) set_waits(record, {wait_for(*held)});
+}  // namespace
+
+void dispatch_ready(State& state) {
+  const std::vector<JobId> ids(state.jobs.past_queue().begin(), state.jobs.past_queue().end());
+  for (JobId id : ids) {
+    Record& record = state.jobs.at(id);
+    go_on(state, record);
+    if (record.job.pausing()) explain_pause(state, record);
+  }
 }
 
-// What keeps an admitted job from going on, or from beginning; nothing: it goes, or is about to.
-std::optional<Wait> Scheduler::held_where_it_stands(const Record& record) const {
-  if (waiting(record) || record.job.stopping) return std::nullopt;
-  const bool not_told = record.job.state == JobState::scheduled && !record.dispatched;
-  if (!not_told && !record.job.pausing) return std::nullopt;
-  if (graph_.limit(record.job.id) > record.job.progress + kAtLimit) return std::nullopt;
-  const auto held = graph_.held_back(record.job.id);
+void extend_authority(State& state, JobId moved) {
+  extend_own_authority(state, state.jobs.at(moved));
+  std::vector<JobId> behind;
+  for (const Precedence& precedence : state.graph.precedences()) {
+    if (precedence.first() == moved) behind.push_back(precedence.second());
+  }
+  for (JobId id : behind) go_on(state, state.jobs.at(id));
+}
+
+void see_pauses(State& state, Record& record, Duration progress_before) {
+  Job& job = record.job;
+  auto* moving = std::get_if<Moving>(&job.phase);
+  if (moving == nullptr || !moving->is_under_way) return;
+  const Duration limit = state.graph.limit(job.id);
+  const bool is_held = limit < job.trajectory->duration();
+  if (is_held && job.progress + state.graph.horizon(job.id) >= limit) {
+    moving->overrun_at = overrun_after(state, job);
+    moving->moved_at = state.now;
+  }
+  if (job.progress > progress_before) {
+    if (!moving->pause) return;
+    moving->pause.reset();
+    state.jobs.set_waits(record, {});
+    state.jobs.changed(record);
+  } else if (is_held && job.progress + kAtLimit >= limit && !moving->pause) {
+    moving->pause.emplace();
+    explain_pause(state, record);
+    state.jobs.changed(record);
+  }
+}
+
+std::optional<Wait> held_where_it_stands(const State& state, const Record& record) {
+  const Job& job = record.job;
+  const auto* moving = job.in<Moving>();
+  const bool may_stand = job.in<Admitted>() != nullptr || (moving != nullptr && moving->pause);
+  if (!may_stand || state.graph.limit(job.id) > job.progress + kAtLimit) return std::nullopt;
+  const auto held = state.graph.held_back(job.id);
   return held ? std::optional(wait_for(*held)) : std::nullopt;
 }
 
-// It moves only after others have moved.
-bool Scheduler::stands(const Record& record) const {
-  const bool behind = record.job.state == JobState::scheduled && !at_head(record);
-  return waiting(record) || behind || held_where_it_stands(record).has_value();
-}
-
-void Scheduler::dispatch_if_ready(Record& record) {
-  Job& job = record.job;
-  if (!at_head(record)) return;
-  if (!job.started_at && start_mismatch(*job.trajectory)) return withdraw(record, AfterStop::hold);
-  if (stop_of(record) || record.checked_at < disturbed_at_) return;
-  const Duration limit = graph_.limit(job.id);
-  if (limit <= job.progress && job.progress < job.trajectory->duration()) {
-    const auto held = graph_.held_back(job.id);
-    if (held && held->arm && !job.started_at) return withdraw(record, AfterStop::hold);
-    if (job.started_at && !job.pausing) {  // stopped on its way: it pauses there until it may go on
-      job.pausing = true;
-      changed(record);
-    }
-    explain_pause(record);
-    return;
-  }
-  job.pausing = false;
-  const Duration authority = std::min(limit, job.progress + record.horizon);
-  graph_.granted(job.id, authority);
-  record.dispatched = true;
-  job.scheduled_at = now_;
-  expect_end(record, now_);
-  set_waits(record, {});
-  effects_.push_back(Dispatch{job.id, now_, job.progress, authority});
-}
-
-// A motion has moved: it may have made way for others, and may go on itself.
-void Scheduler::extend_authority(JobId moved) {
-  extend_own_authority(records_.at(moved));
-  std::vector<JobId> behind;
-  for (const Precedence& precedence : graph_.precedences()) {
-    if (precedence.first() == moved) behind.push_back(precedence.second());
-  }
-  for (JobId id : behind) {
-    Record& record = records_.at(id);
-    if (record.job.state == JobState::scheduled && !record.dispatched) {
-      dispatch_if_ready(record);
-    } else {
-      extend_own_authority(record);
-    }
-  }
-}
-
-void Scheduler::extend_own_authority(Record& record) {
-  const bool in_motion =
-      record.dispatched && !record.job.stopping &&
-      (record.job.state == JobState::scheduled || record.job.state == JobState::running);
-  if (!in_motion) return;
-  const JobId job = record.job.id;
-  const Duration limit = graph_.limit(job);
-  const Duration authority = std::min(limit, record.job.progress + record.horizon);
-  const Duration granted = graph_.find(job)->authority;
-  if (authority <= granted || (authority < granted + kGrantStep && authority < limit)) return;
-  graph_.granted(job, authority);
-  effects_.push_back(Grant{job, authority});
-}
-
-// At rest at its limit a running motion pauses; what it loses there is no overrun.
-void Scheduler::see_pauses(Record& record, Duration progress_before) {
-  Job& job = record.job;
-  if (job.state != JobState::running || job.stopping) return;
-  const Duration limit = graph_.limit(job.id);
-  if (limit < job.trajectory->duration() && job.progress + record.horizon >= limit) {
-    expect_end(record, now_);
-  }
-  const bool at_limit = limit < job.trajectory->duration() && job.progress + kAtLimit >= limit;
-  if (job.progress > progress_before) {
-    if (!job.pausing) return;
-    job.pausing = false;
-    set_waits(record, {});
-    changed(record);
-  } else if (at_limit && !job.pausing) {
-    job.pausing = true;
-    explain_pause(record);
-    changed(record);
-  }
-}
-
-// Its motion is admitted no more: it rests where it is. Nor are those behind it on its arms, which
-// begin where it would have ended.
-void Scheduler::leave_graph(const Record& record) {
-  if (!graph_.holds(record.job.id)) return;
-  std::set<JobId> behind;
-  for (ArmId arm : record.job.trajectory->arms()) {
-    const auto& queue = order_[arm.index()];
-    const auto own = std::ranges::find(queue, record.job.id);
-    if (own == queue.end()) continue;
-    for (auto next = own + 1; next != queue.end(); ++next) {
-      if (graph_.holds(*next)) behind.insert(*next);
-    }
-  }
-  for (auto job = behind.rbegin(); job != behind.rend(); ++job) {
-    if (graph_.holds(*job)) withdraw(records_.at(*job), AfterStop::hold);
-  }
-  graph_.abandon(record.job.id, record.job.progress, record.farthest);
+bool stands(const State& state, const Record& record) {
+  const bool behind = record.job.in<Admitted>() != nullptr && !state.jobs.at_head(record);
+  return record.job.is_waiting() || behind || held_where_it_stands(state, record).has_value();
 }
 
 }  // namespace armloom

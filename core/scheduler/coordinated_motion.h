@@ -21,6 +21,7 @@ struct CoordinatedMotion {
       {};  // an arm rests in its way there, and no motion takes it away
   int priority = 0;
   bool keeps_its_place = false;  // has been overtaken long enough
+  Duration horizon{};            // how far ahead of its progress its authority may reach
 
   // Has passed what ends at `to`; its goal it never passes.
   [[nodiscard]] bool is_beyond(Duration to) const { return to < progress && to < duration; }

@@ -1,8 +1,11 @@
-// What ends with time: the backlog, waits in vain, motions that stand still.
+#include "core/scheduler/deadlines.h"
+
 #include <algorithm>
 #include <cstdio>
+#include <string>
 
-#include "core/scheduler/scheduler.h"
+#include "core/scheduler/gates.h"
+#include "core/scheduler/phases.h"
 
 namespace armloom {
 namespace {
@@ -13,87 +16,103 @@ std::string seconds_text(Duration duration) {
   return text;
 }
 
-}  // namespace
-
-// Later than this, going on from `start_at`, it may overrun.
-void Scheduler::expect_end(Record& record, TimePoint start_at) const {
-  const double remaining_s = to_seconds(record.job.trajectory->duration() - record.job.progress);
-  record.overrun_at = start_at + from_seconds(remaining_s * cell_->execution.duration_scaling) +
-                      cell_->execution.duration_margin;
-  record.moved_at = start_at;
-}
-
 // Its time has passed, and it stands still.
-bool Scheduler::overruns(Record& record) const {
-  if (!record.overrun_at || now_ < *record.overrun_at || record.job.stopping) return false;
-  record.overrun_at = std::max(*record.overrun_at, record.moved_at + kStandstill);
-  return now_ >= *record.overrun_at;
+bool overruns(Job& job, TimePoint now) {
+  auto* moving = std::get_if<Moving>(&job.phase);
+  if (moving == nullptr || now < moving->overrun_at) return false;
+  moving->overrun_at = std::max(moving->overrun_at, moving->moved_at + kStandstill);
+  return now >= moving->overrun_at;
 }
 
-void Scheduler::expire_and_overrun() {
-  const std::vector<JobId> ids(past_queue_.begin(), past_queue_.end());
-  for (JobId id : ids) {
-    Record& record = records_.at(id);
-    Job& job = record.job;
-    see_whether_in_vain(record);
-    const bool backlogged = job.state == JobState::backlogged;
-    if (backlogged && now_ >= *job.backlogged_at + job.backlog_timeout) {
-      end(record, JobState::expired, Reason::backlog_timeout,
-          "waited " + seconds_text(job.backlog_timeout) + " in the backlog");
-    } else if (record.in_vain_since && now_ >= *record.in_vain_since + job.backlog_timeout) {
-      give_up(record);
-    } else if (overruns(record)) {
-      record.fail_reason = Reason::overrun;
-      record.fail_detail = "has not moved for " + seconds_text(now_ - record.moved_at) +
-                           ", and has had its duration by duration_scaling and duration_margin";
-      brake(record, AfterStop::fail);
-    }
-  }
+// Where it is at rest on its way; else null.
+template <typename JobType>
+auto* pause_of(JobType& job) {
+  auto* held = std::get_if<Held>(&job.phase);
+  auto* pause = held != nullptr ? &held->pause : nullptr;
+  auto* admitted = std::get_if<Admitted>(&job.phase);
+  if (admitted != nullptr && admitted->pause) pause = &*admitted->pause;
+  auto* moving = std::get_if<Moving>(&job.phase);
+  if (moving != nullptr && moving->pause) pause = &*moving->pause;
+  return pause;
 }
 
 // On its path, where only a job of another arm that has none, or another scene, would let it go on.
-void Scheduler::see_whether_in_vain(Record& record) const {
-  const bool held = record.job.state == JobState::holding && waiting(record);
-  if ((!held && !record.job.pausing) || record.job.stopping || stop_of(record)) {
-    record.in_vain_since.reset();
-    return;
-  }
-  if (held && record.judged_at != version_) return;  // not known yet
-  const auto waits = found_in_the_way(record);
-  const bool in_vain = std::ranges::any_of(waits, [this](const Wait& wait) {
+void see_whether_in_vain(const State& state, Record& record) {
+  Pause* pause = pause_of(record.job);
+  if (pause == nullptr) return;
+  if (state.arms.stop_of(record.job)) return pause->in_vain_since.reset();
+  const bool held = record.job.in<Held>() != nullptr;
+  if (held && record.job.judgement().at != state.version) return;  // not known yet
+  const auto waits = found_in_the_way(state, record);
+  const bool in_vain = std::ranges::any_of(waits, [&](const Wait& wait) {
     return wait.kind == Wait::Kind::object ||
-           (wait.kind == Wait::Kind::arm && order_[wait.arm->index()].empty());
+           (wait.kind == Wait::Kind::arm && state.jobs.queue(*wait.arm).empty());
   });
-  if (!in_vain) record.in_vain_since.reset();
-  if (in_vain && !record.in_vain_since) record.in_vain_since = now_;
+  if (!in_vain) pause->in_vain_since.reset();
+  if (in_vain && !pause->in_vain_since) pause->in_vain_since = state.now;
 }
 
-void Scheduler::give_up(Record& record) {
-  record.in_vain_since.reset();
-  record.fail_reason = Reason::backlog_timeout;
-  record.fail_detail = "waited " + seconds_text(record.job.backlog_timeout) + " on its path";
-  if (holds_reservation(record)) return brake(record, AfterStop::fail);
-  end(record, JobState::expired, record.fail_reason, record.fail_detail);
-  effects_.push_back(Release{record.job.id});
-}
-
-void Scheduler::ask_for_wake() {
-  std::optional<TimePoint> next;
-  const auto consider = [&next](TimePoint when) { next = next ? std::min(*next, when) : when; };
-  for (JobId id : past_queue_) {
-    Record& record = records_.at(id);
-    see_whether_in_vain(record);  // as this step leaves it
-    if (record.job.state == JobState::backlogged) {
-      consider(*record.job.backlogged_at + record.job.backlog_timeout);
-    }
-    if (record.overrun_at && !record.job.stopping) consider(*record.overrun_at);
-    if (record.in_vain_since) consider(*record.in_vain_since + record.job.backlog_timeout);
+void give_up(State& state, Record& record) {
+  const std::string detail = "waited " + seconds_text(record.job.backlog_timeout) + " on its path";
+  if (record.job.has_authority()) {
+    return brake(state, record, {AfterStop::Then::fail, Reason::backlog_timeout, detail});
   }
-  const bool undecided =
-      std::ranges::any_of(rings_, [](const NamedRing& r) { return !r.way_out && !r.opens; });
-  if (undecided) consider(now_ + Duration(1));  // a step of its own
-  if (next && next != wake_at_) effects_.push_back(WakeAt{*next});
-  wake_at_ = next;
+  end(state, record, JobState::expired, Reason::backlog_timeout, detail);
+  state.effects.push_back(Release{record.job.id});
+}
+
+void fail_overdue(State& state, Record& record) {
+  const Duration stood = state.now - record.job.in<Moving>()->moved_at;
+  brake(state, record,
+        {AfterStop::Then::fail, Reason::overrun,
+         "has not moved for " + seconds_text(stood) +
+             ", and has had its duration by duration_scaling and duration_margin"});
+}
+
+std::optional<TimePoint> deadline_of(const Job& job) {
+  if (job.state() == JobState::backlogged) return *job.times.backlogged_at + job.backlog_timeout;
+  std::optional<TimePoint> next;
+  if (const auto* moving = job.in<Moving>()) next = moving->overrun_at;
+  const Pause* pause = pause_of(job);
+  if (pause == nullptr || !pause->in_vain_since) return next;
+  const TimePoint given_up = *pause->in_vain_since + job.backlog_timeout;
+  return next ? std::min(*next, given_up) : given_up;
+}
+
+}  // namespace
+
+void expire_and_overrun(State& state) {
+  const std::vector<JobId> ids(state.jobs.past_queue().begin(), state.jobs.past_queue().end());
+  for (JobId id : ids) {
+    Record& record = state.jobs.at(id);
+    Job& job = record.job;
+    if (job.state() == JobState::backlogged) {
+      if (state.now < *job.times.backlogged_at + job.backlog_timeout) continue;
+      end(state, record, JobState::expired, Reason::backlog_timeout,
+          "waited " + seconds_text(job.backlog_timeout) + " in the backlog");
+      continue;
+    }
+    see_whether_in_vain(state, record);
+    const Pause* pause = pause_of(job);
+    const bool in_vain = pause != nullptr && pause->in_vain_since &&
+                         state.now >= *pause->in_vain_since + job.backlog_timeout;
+    if (in_vain) {
+      give_up(state, record);
+    } else if (overruns(job, state.now)) {
+      fail_overdue(state, record);
+    }
+  }
+}
+
+std::optional<TimePoint> next_deadline(State& state) {
+  std::optional<TimePoint> next;
+  for (JobId id : state.jobs.past_queue()) {
+    Record& record = state.jobs.at(id);
+    see_whether_in_vain(state, record);
+    const auto deadline = deadline_of(record.job);
+    if (deadline) next = next ? std::min(*next, *deadline) : deadline;
+  }
+  return next;
 }
 
 }  // namespace armloom

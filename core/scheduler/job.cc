@@ -72,4 +72,42 @@ const char* to_string(Reason reason) {
   return "unknown";
 }
 
+JobState Job::state() const {
+  if (const auto* queued = in<Queued>()) {
+    return queued->in_backlog ? JobState::backlogged : JobState::queued;
+  }
+  if (const auto* ended = in<Ended>()) return ended->state;
+  if (in<Held>() != nullptr) return JobState::holding;
+  if (const auto* braking = in<Braking>()) return braking->state;
+  const auto* moving = in<Moving>();
+  return moving != nullptr && moving->is_under_way ? JobState::running : JobState::scheduled;
+}
+
+bool Job::pausing() const {
+  if (const auto* admitted = in<Admitted>()) return admitted->pause.has_value();
+  if (const auto* moving = in<Moving>()) return moving->pause.has_value();
+  const auto* braking = in<Braking>();
+  return braking != nullptr && braking->paused;
+}
+
+const Judgement& Job::judgement() const {
+  const auto* held = in<Held>();
+  return held != nullptr ? held->judgement : std::get<Queued>(phase).judgement;
+}
+
+std::optional<Reason> Job::reason() const {
+  const auto* ended = in<Ended>();
+  return ended != nullptr ? std::optional(ended->reason) : std::nullopt;
+}
+
+std::string Job::detail() const {
+  const auto* ended = in<Ended>();
+  return ended != nullptr ? ended->detail : std::string();
+}
+
+std::optional<TimePoint> Job::ended_at() const {
+  const auto* ended = in<Ended>();
+  return ended != nullptr ? std::optional(ended->at) : std::nullopt;
+}
+
 }  // namespace armloom

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/base/ids.h"
@@ -12,6 +12,7 @@
 
 namespace armloom {
 
+// A job's state as clients are told it; follows from its phase (below).
 enum class JobState {
   queued,      // not judged yet: just arrived, or behind another job of its arm
   backlogged,  // judged, in conflict: `waits_on` says with what
@@ -45,7 +46,7 @@ struct Wait {
 };
 [[nodiscard]] const char* to_string(Wait::Kind kind);
 
-// Closed list; the README explains each.
+// Closed list; README.md beside this file explains each.
 enum class Reason {
   completed,
   canceled_by_client,
@@ -60,30 +61,109 @@ enum class Reason {
 };
 [[nodiscard]] const char* to_string(Reason reason);
 
+// What a job that waits was found to wait for, when it was judged last.
+struct Judgement {
+  Version at = 0;  // zero: not yet
+  std::vector<Wait> found = {};
+};
+// At rest on its way until others have passed.
+struct Pause {
+  std::optional<TimePoint> in_vain_since = {};  // for what no job moves
+};
+// What becomes of a job when the arms that brake for it have come to rest.
+struct AfterStop {
+  enum class Then { hold, cancel, fail };
+  Then then = Then::hold;
+  Reason reason = Reason::overrun;  // fail
+  std::string detail = {};          // fail
+};
+
+// The phases of a job, each with what it owns. What leads from one to the next (phases.h):
+//
+//   Queued    -> Admitted   with passing orders
+//   Admitted  -> Moving     its arms are told; or back to Queued, Held: it is admitted no more
+//   Moving    -> Braking    canceled, stopped, overdue
+//   Braking   -> Held       stopped on its way; Admitted, Queued: stopped before it moved
+//   Held      -> Admitted   resumed; its orders stand
+//   any       -> Ended
+struct Queued {
+  bool in_backlog = false;  // was in conflict when it was judged
+  Judgement judgement = {};
+};
+struct Admitted {
+  std::optional<Pause> pause = {};  // it was stopped on its way
+};
+struct Moving {
+  TimePoint overrun_at;       // if it does not move before
+  TimePoint moved_at;         // last
+  bool is_under_way = false;  // it has been seen to move; until then it is `scheduled`
+  std::optional<Pause> pause = {};
+};
+struct Braking {
+  AfterStop after;
+  JobState state;       // scheduled, running, holding
+  bool paused = false;  // it stood already
+};
+struct Held {
+  Judgement judgement = {};
+  Pause pause = {};
+};
+struct Ended {
+  JobState state;  // a terminal one
+  Reason reason;
+  std::string detail = {};  // one sentence; deadlock: empty, the ring says it
+  TimePoint at = {};
+};
+using JobPhase = std::variant<Queued, Admitted, Moving, Braking, Held, Ended>;
+
+struct JobTimes {
+  TimePoint submitted_at{};
+  std::optional<TimePoint> backlogged_at;  // the first time
+  std::optional<TimePoint> scheduled_at;
+  std::optional<TimePoint> started_at;  // it has moved
+};
+
 // A job as the scheduler knows it. Read-only for everyone else.
 struct Job {
   JobId id;
   TrajectoryPtr trajectory;
   int priority = 0;
   Duration backlog_timeout{};
-  std::vector<JobId> after;  // those that have not ended yet
-  bool own = false;          // the server's: a move aside
-  JobState state = JobState::queued;
-  bool stopping = false;  // braking: on the way to canceled, holding or failed
-  TimePoint submitted_at{};
-  std::optional<TimePoint> backlogged_at;  // the first time
-  std::optional<TimePoint> scheduled_at;
-  std::optional<TimePoint> started_at;
-  std::optional<TimePoint> ended_at;
+  std::vector<JobId> after = {};  // those that have not ended yet
+  bool own = false;               // the server's: a move aside
+  JobPhase phase = Queued{};
+  JobTimes times = {};
   Duration progress{};           // trajectory time, last measured
   TimePoint progress_seen_at{};  // when it was measured
-  bool pausing = false;          // running, at rest on its way until others have passed
-  std::vector<Wait> waits_on;
+  std::vector<Wait> waits_on = {};
   // The deadlock that it is part of, this job first: each waits for the next one, the last for the
   // first. Empty: none. Kept by the job that ends for it.
-  std::vector<JobId> ring;
-  std::optional<Reason> reason;  // terminal
-  std::string detail;            // terminal: one sentence; deadlock: empty, the ring says it
+  std::vector<JobId> ring = {};
+
+  template <typename P>
+  [[nodiscard]] const P* in() const {
+    return std::get_if<P>(&phase);
+  }
+  [[nodiscard]] JobState state() const;
+  [[nodiscard]] bool has_ended() const { return in<Ended>() != nullptr; }
+  [[nodiscard]] bool has_started() const { return times.started_at.has_value(); }
+  // Braking: on the way to canceled, holding or failed.
+  [[nodiscard]] bool stopping() const { return in<Braking>() != nullptr; }
+  // At rest on its way until others have passed.
+  [[nodiscard]] bool pausing() const;
+  // It will not move before it is judged (again).
+  [[nodiscard]] bool is_waiting() const { return in<Queued>() != nullptr || in<Held>() != nullptr; }
+  // Judged free, and not at rest for good yet.
+  [[nodiscard]] bool has_authority() const {
+    return in<Admitted>() != nullptr || in<Moving>() != nullptr || in<Braking>() != nullptr;
+  }
+  // Precondition: it waits.
+  [[nodiscard]] const Judgement& judgement() const;
+
+  // Of one that has ended.
+  [[nodiscard]] std::optional<Reason> reason() const;
+  [[nodiscard]] std::string detail() const;
+  [[nodiscard]] std::optional<TimePoint> ended_at() const;
 };
 
 }  // namespace armloom

@@ -8,7 +8,7 @@ void make_way(const Scheduler& scheduler, const MoveAside& aside, Duration backl
               const std::function<JobId(Submit)>& submit) {
   const auto goes_on = [&](JobId id) {
     const Job* known = scheduler.find(id);
-    return known != nullptr && !is_terminal(known->state);
+    return known != nullptr && !known->has_ended();
   };
   if (!goes_on(aside.way_of) || (aside.before && !goes_on(*aside.before))) return;
   Submit way{.job = JobId{0},

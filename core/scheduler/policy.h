@@ -9,8 +9,8 @@
 #include "core/base/problem.h"
 #include "core/coordination/motion.h"
 #include "core/model/cell.h"
-#include "core/scheduler/job.h"
 #include "core/scheduler/passing_orders.h"
+#include "core/scheduler/state.h"
 
 namespace armloom {
 
@@ -22,19 +22,20 @@ class Policy {
 
   [[nodiscard]] virtual std::string_view name() const = 0;
 
-  // Whether one more job may be judged beside the jobs that are scheduled, running or holding
-  // (`occupying`, in order of submission). The job that it has to wait for, or nullopt.
-  [[nodiscard]] virtual std::optional<JobId> capacity_taken_by(
-      const std::vector<const Job*>& /*occupying*/) const {
-    return std::nullopt;
-  }
-
   // What geometry is asked of candidates.
   [[nodiscard]] virtual CheckMethod method() const = 0;
   // Who passes first where candidates meet what is admitted, or what stands against it.
   [[nodiscard]] virtual PassingOrders decide(const OrderQuestion& question) const = 0;
-  // Whether jobs go in rounds: one of each arm, and the next when all of these have ended.
-  [[nodiscard]] virtual bool in_rounds() const { return false; }
+
+  // Policies with rounds: the jobs of the present one, which state.round holds as it was.
+  [[nodiscard]] virtual Round next_round(const State& /*state*/) const { return {}; }
+  // The job that this one, which waits, has to wait for before it is judged; or nothing.
+  [[nodiscard]] virtual std::optional<JobId> place_taken_by(const State& /*state*/,
+                                                            const Record& /*job*/) const {
+    return std::nullopt;
+  }
+  // Whether a job that has waited for long holds others back.
+  [[nodiscard]] virtual bool lets_jobs_age() const { return true; }
   // Whether a job that cannot go alone is tried together with others that wait.
   [[nodiscard]] virtual bool admits_groups() const { return false; }
 };

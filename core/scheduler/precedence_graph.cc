@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
+#include <string>
 #include <utility>
+
+#include "core/scheduler/motion_chains.h"
 
 namespace armloom {
 namespace {
@@ -116,10 +120,29 @@ std::optional<HeldBack> PrecedenceGraph::held_back(JobId job) const {
   return std::nullopt;
 }
 
-void PrecedenceGraph::granted(JobId job, Duration authority) {
-  if (CoordinatedMotion* found = motion(job)) {
-    found->authority = std::max(found->authority, authority);
+bool PrecedenceGraph::is_acyclic() const {
+  const MotionChains chains(motions_);
+  std::vector<MotionAhead> ahead;
+  for (std::size_t m = 0; m < motions_.size(); ++m) {
+    ahead.push_back({motions_[m].progress, motions_[m].duration, chains.before(m)});
   }
+  const auto index = [this](JobId job) {
+    return static_cast<std::size_t>(find(job) - motions_.data());
+  };
+  std::vector<Dependency> dependencies;
+  for (const Precedence& precedence : precedences_) {
+    dependencies.push_back({index(precedence.first()), index(precedence.second()), &precedence});
+  }
+  return predict(ahead, dependencies).stuck.empty();
+}
+
+void PrecedenceGraph::granted(JobId job, Duration authority) {
+  CoordinatedMotion* found = motion(job);
+  if (found == nullptr) return;
+  if (authority > limit(job)) {
+    throw std::logic_error("job " + std::to_string(job.value()) + ": authority beyond its limit");
+  }
+  found->authority = std::max(found->authority, authority);
 }
 
 void PrecedenceGraph::keep_place(JobId job) {

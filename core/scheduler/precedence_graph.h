@@ -29,6 +29,8 @@ class PrecedenceGraph {
   [[nodiscard]] const std::vector<Precedence>& precedences() const { return precedences_; }
   [[nodiscard]] const CoordinatedMotion* find(JobId job) const;
   [[nodiscard]] bool holds(JobId job) const { return find(job) != nullptr; }
+  // Precondition: it holds it.
+  [[nodiscard]] Duration horizon(JobId job) const { return find(job)->horizon; }
 
   // By ArmId: the work that waits behind; only the choice between orders depends on it.
   void set_work_behind(std::vector<Duration> work) { work_behind_ = std::move(work); }
@@ -47,7 +49,9 @@ class PrecedenceGraph {
   [[nodiscard]] Duration limit(JobId job) const;
   // What holds it at its limit; nothing: it may go to its end, or waits for its own arm.
   [[nodiscard]] std::optional<HeldBack> held_back(JobId job) const;
-  // Told to the arm. Precondition: no more than limit().
+  // Whether all come to their ends by their orders, but for arms that rest in the way.
+  [[nodiscard]] bool is_acyclic() const;
+  // Told to the arm. No more than limit(): else throws std::logic_error.
   void granted(JobId job, Duration authority);
   void keep_place(JobId job);
 

@@ -37,7 +37,7 @@ void Trial::step(const Input& input) {
 }
 
 bool Trial::is_decided() const {
-  const JobState state = scheduler_.find(job_)->state;
+  const JobState state = scheduler_.find(job_)->state();
   return (state != JobState::queued && state != JobState::backlogged) ||
          judgements_ >= kJudgementsMax;
 }
@@ -64,15 +64,15 @@ void Trial::answer(Verdict verdict) {
 Trial::Outcome Trial::outcome() const {
   const Job& job = *scheduler_.find(job_);
   Outcome outcome{.kind = Verdict::Kind::conflict, .evaluations = evaluations_};
-  if (job.state == JobState::scheduled || job.state == JobState::running) {
+  if (job.has_authority()) {
     outcome.kind = Verdict::Kind::free;
-    outcome.starts_in = std::max(Duration{}, *job.scheduled_at - now_);
+    outcome.starts_in = std::max(Duration{}, *job.times.scheduled_at - now_);
     if (last_) outcome.clearance_bound_m = last_->clearance_bound_m;
     return outcome;
   }
   outcome.starts_in = by_clock_;
   outcome.waits = waits_;
-  if (is_terminal(job.state) && last_) {
+  if (job.has_ended() && last_) {
     outcome.waits.clear();
     for (const Conflict& conflict : last_->conflicts) outcome.waits.push_back(wait_for(conflict));
   }

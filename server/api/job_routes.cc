@@ -42,21 +42,34 @@ void cancel_job(Call call) {
       });
 }
 
-// The other job's id.
-Result<std::string> read_with(const Target& target) {
+struct DiagramQuery {
+  std::string with;  // the other job's id
+  bool cells;
+};
+Result<DiagramQuery> read_diagram_query(const Target& target) {
   const auto with = target.parameter("with");
-  if (with && !with->empty()) return *with;
-  return failure(Problem{ProblemKind::malformed, "missing-parameter", "?with",
-                         "name the other job: ?with=<id>"});
+  const auto cells = target.parameter("cells");
+  if (!with || with->empty()) {
+    return failure(Problem{ProblemKind::malformed, "missing-parameter", "?with",
+                           "name the other job: ?with=<id>"});
+  }
+  if (cells && *cells != "0" && *cells != "1") {
+    return failure(
+        Problem{ProblemKind::malformed, "bad-parameter", "?cells", "cells is 0 or 1", *cells});
+  }
+  return DiagramQuery{*with, cells != "0"};
 }
 
 void get_diagram(Call call) {
-  const auto with = read_with(call.request.target);
-  if (!with) return call.respond(problem_response(with.error()));
+  const auto query = read_diagram_query(call.request.target);
+  if (!query) return call.respond(problem_response(query.error()));
   const ApiParts& parts = call.parts;
-  parts.loop.post([&parts, key = call.arguments.front(), with = *with,
+  parts.loop.post([&parts, key = call.arguments.front(), query = *query,
                    respond = std::move(call.respond)](Executive& executive) {
-    executive.diagram(key, with, [&parts, respond](Result<DiagramView> result) {
+    executive.diagram(key, query.with, [&parts, query, respond](Result<DiagramView> result) {
+      if (result && !query.cells) {
+        for (DiagramView::Layer& layer : result->layers) layer.cells.clear();
+      }
       parts.post([respond, result = std::move(result)] {
         respond(result ? answer(200, diagram_format(), *result) : problem_response(result.error()));
       });
@@ -130,7 +143,10 @@ std::vector<Route> job_routes() {
       "conflict, or undecided, down to 5 ms where that takes no more than 64,000 cells. Jobs that "
       "have ended are drawn while they are known. 422 when both are the same job, or move only the "
       "same arm.";
-  diagram.parameters = {{"with", "The other job", text, true}};
+  diagram.parameters = {{"with", "The other job", text, true},
+                        {"cells",
+                         "0: without them, for who has them and asks what lies ahead by now",
+                         {{"type", "string"}, {"enum", {"0", "1"}}}}};
   diagram.outcomes = {outcome(200, "The diagram", diagram_format())};
   diagram.refuses = {404, 422};
   diagram.run = get_diagram;

@@ -120,6 +120,7 @@ struct Site {
   HostRule hosts;                                // by which names commands may come
   std::chrono::milliseconds keep_alive{15'000};  // no event for so long: a comment line is sent
   std::chrono::milliseconds send_time{30'000};   // that one such event may take; then it is cut
+  std::chrono::milliseconds read_time{10'000};   // for a whole header, and for a whole body
 };
 
 }  // namespace armloom

@@ -168,7 +168,8 @@ asio::awaitable<Response> respond_to(const Site& site, RequestMessage& message, 
 
 // Waits for the next request's first bytes, then reads its header; the time for the header does not
 // begin before.
-asio::awaitable<void> read_header(Connection& connection, RequestParser& parser, ErrorCode& ec) {
+asio::awaitable<void> read_header(Connection& connection, RequestParser& parser,
+                                  std::chrono::milliseconds read_time, ErrorCode& ec) {
   if (connection.buffer.size() == 0) {
     connection.stream.expires_after(kIdleTime);
     const std::size_t size =
@@ -176,12 +177,13 @@ asio::awaitable<void> read_header(Connection& connection, RequestParser& parser,
     connection.buffer.commit(size);
     if (ec) co_return;
   }
-  connection.stream.expires_after(kReadTime);
+  connection.stream.expires_after(read_time);
   co_await http::async_read_header(connection.stream, connection.buffer, parser, into(ec));
 }
 
-asio::awaitable<void> read_body(Connection& connection, RequestParser& parser, ErrorCode& ec) {
-  connection.stream.expires_after(kReadTime);
+asio::awaitable<void> read_body(Connection& connection, RequestParser& parser,
+                                std::chrono::milliseconds read_time, ErrorCode& ec) {
+  connection.stream.expires_after(read_time);
   if (parser.get().count(http::field::expect) > 0 && !parser.is_done()) {
     http::response<http::empty_body> go_on(http::status::continue_, 11);
     co_await http::async_write(connection.stream, go_on, into(ec));
@@ -214,10 +216,10 @@ asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
   parser.body_limit(kBodyMax);
   parser.header_limit(static_cast<std::uint32_t>(kHeaderMax));
   std::optional<Refusal> refusal;
-  co_await read_header(connection, parser, ec);
+  co_await read_header(connection, parser, site.read_time, ec);
   if (!ec) refusal = header_refusal(parser.get());
   const bool upgrade = !ec && !refusal && is_handshake(parser);
-  if (!ec && !refusal && !upgrade) co_await read_body(connection, parser, ec);
+  if (!ec && !refusal && !upgrade) co_await read_body(connection, parser, site.read_time, ec);
   if (ec && is_silent_end(ec)) co_return false;
   if (ec) refusal = refusal_of_error(ec);
   if (refusal) {

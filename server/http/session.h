@@ -7,9 +7,8 @@ namespace armloom {
 
 inline constexpr std::size_t kBodyMax = 8 * 1024 * 1024;  // beyond: 413
 inline constexpr std::size_t kHeaderMax = 16 * 1024;      // beyond: 431
-inline constexpr std::chrono::seconds kReadTime{10};   // for a whole header, and for a whole body
-inline constexpr std::chrono::seconds kIdleTime{60};   // between requests of one connection
-inline constexpr std::chrono::seconds kWriteTime{30};  // for a whole response
+inline constexpr std::chrono::seconds kIdleTime{60};      // between requests of one connection
+inline constexpr std::chrono::seconds kWriteTime{30};     // for a whole response
 
 // Serves one connection until it ends: requests one after the other, or one upgrade to a WebSocket.
 // Runs on the server's thread; `site` outlives it.

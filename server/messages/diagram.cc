@@ -30,15 +30,28 @@ PartPtr<DiagramCell> stretch(const char* key, Duration DiagramCell::*from,
       pair_of(seconds({0.0})), "From, to");
 }
 
-FormatPtr<DiagramCell> cell_format() {
+FormatPtr<DiagramCell::State> cell_state_format() {
   using State = DiagramCell::State;
+  return choice<State>(
+      {{State::free, "free"}, {State::conflict, "conflict"}, {State::undecided, "undecided"}});
+}
+
+FormatPtr<DiagramMeeting> met_format() {
+  using Met = DiagramMeeting;
+  return named("DiagramMeeting", "",
+               object<Met>({
+                   told("state", &Met::state, cell_state_format()),
+                   told("in_s", &Met::after, seconds({0.0}), "After t_s"),
+                   told("a_s", &Met::at_a, seconds({0.0})),
+                   told("b_s", &Met::at_b, seconds({0.0})),
+               }));
+}
+
+FormatPtr<DiagramCell> cell_format() {
   return named(
       "DiagramCell", "",
       object<DiagramCell>({
-          told("state", &DiagramCell::state,
-               choice<State>({{State::free, "free"},
-                              {State::conflict, "conflict"},
-                              {State::undecided, "undecided"}}),
+          told("state", &DiagramCell::state, cell_state_format(),
                "free: the clearance is kept in every state of the cell; conflict: in none; "
                "undecided: in some, or neither is proven"),
           stretch("a_s", &DiagramCell::from_a, &DiagramCell::to_a),
@@ -52,8 +65,14 @@ FormatPtr<DiagramView::Layer> layer_format() {
       told(
           "arms", [](const Layer& layer) { return std::pair(layer.arm_a, layer.arm_b); },
           pair_of(text()), "Of A, of B"),
-      told("cells", &Layer::cells, list(cell_format(), {.fewest = 1}),
-           "Cover the rectangle of both durations and do not overlap"),
+      told_if(
+          "cells", [](const Layer& layer) { return layer.cells.empty() ? nullptr : &layer.cells; },
+          list(cell_format(), {.fewest = 1}),
+          "Cover the rectangle of both durations and do not overlap; not with cells=false"),
+      told("met", &Layer::met, nullable(met_format()),
+           "The first conflict, else the first undecided cell, if both go on from where they are, "
+           "and "
+           "who ends first rests; null: through free cells only"),
   });
 }
 

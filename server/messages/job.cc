@@ -20,7 +20,7 @@ constexpr Range kShare{0.0, 1.0};
 
 FormatPtr<Reason> reason_format() {
   return named(
-      "Reason", "A closed list; the README explains each.",
+      "Reason", "A closed list; core/scheduler/README.md explains each.",
       choice<Reason>({Reason::completed, Reason::canceled_by_client, Reason::backlog_timeout,
                       Reason::start_mismatch, Reason::self_collision, Reason::predecessor_failed,
                       Reason::arm_fault, Reason::overrun, Reason::server_restart, Reason::deadlock},

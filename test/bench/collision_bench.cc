@@ -12,6 +12,7 @@
 #include <string>
 
 #include "test/bench/moveit_way.h"
+#include "test/bench/run_benchmarks.h"
 
 namespace armloom::bench {
 namespace {
@@ -67,7 +68,7 @@ int main(int argc, char** argv) {
     for (const auto& [name, motions] : workloads.motions) tell_distance(name, motions);
     register_moveit_way(workloads);
     register_engine(workloads);
-    benchmark::RunSpecifiedBenchmarks();
+    return run_benchmarks();
   } catch (const std::exception& failed) {
     std::fprintf(stderr, "collision_bench: %s\n", failed.what());
     return 1;

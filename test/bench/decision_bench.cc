@@ -1,7 +1,10 @@
 // The time that a decision takes: from a job's arrival to its admission or refusal, geometry
 // included, on one thread, in a hall of 48 Pandas in which 15 motions run, 30 are admitted and
-// still to begin, and 200 jobs wait. The candidates' motions are new each time.
+// still to begin, and 200 jobs wait. The candidates' motions are new each time. lockstep admits to
+// a round until one of it moves: there, none does yet. sequential admits one at a time: there, all
+// others rest. Processor time.
 #include <benchmark/benchmark.h>
+#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -27,15 +30,16 @@ using namespace std::chrono_literals;
 constexpr std::size_t kColumns = 8, kRows = 6;
 constexpr double kSpacing_m = 1.2;
 constexpr double kReach = 0.5;
-constexpr double kShare = 0.5;  // of a random motion, about home
-constexpr std::size_t kRunning = 15, kScheduled = 30, kWaiting = 200;
+// Of a random motion, about home: with the half neighbours stay clear, with all of it they cross.
+constexpr double kShare = 0.5, kCrossingShare = 1.0;
+constexpr std::size_t kAdmitted = 45, kRunning = 15, kWaiting = 200;
 constexpr std::size_t kFree[] = {18, 28, 29};  // arms in the middle: theirs are the candidates
 constexpr std::size_t kDecisions = 300;
 
-// The waypoints of `motion`, its deviation from its start shrunk to kShare and begun at home;
+// The waypoints of `motion`, its deviation from its start shrunk to `share` and begun at home;
 // backwards: from its goal to home. None: it leaves its limits.
 std::optional<TrajectoryPtr> from_home(const Cell& cell, ArmId arm, const Trajectory& motion,
-                                       bool backwards) {
+                                       double share, bool backwards) {
   TrajectoryRequest request;
   for (const JointId id : motion.joints()) request.joint_names.push_back(cell.joint(id).name);
   JointState state;
@@ -45,9 +49,9 @@ std::optional<TrajectoryPtr> from_home(const Cell& cell, ArmId arm, const Trajec
     WaypointRequest point{{}, {}, {}, at_s};
     for (Eigen::Index j = 0; j < state.position.size(); ++j) {
       point.positions.push_back(cell.arm(arm).home[j] +
-                                kShare * (state.position[j] - motion.start()[j]));
-      point.velocities.push_back((backwards ? -kShare : kShare) * state.velocity[j]);
-      point.accelerations.push_back(kShare * state.acceleration[j]);
+                                share * (state.position[j] - motion.start()[j]));
+      point.velocities.push_back((backwards ? -share : share) * state.velocity[j]);
+      point.accelerations.push_back(share * state.acceleration[j]);
     }
     request.points.push_back(std::move(point));
   }
@@ -56,21 +60,29 @@ std::optional<TrajectoryPtr> from_home(const Cell& cell, ArmId arm, const Trajec
   return *trajectory;
 }
 
+double processor_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
 class Hall {
  public:
-  explicit Hall(const std::string& policy)
-      : cell_(grid_of_pandas(kColumns, kRows, kSpacing_m)),
+  Hall(const std::string& policy, double share)
+      : running_(policy == "lockstep" ? 0 : kRunning),
+        share_(share),
+        cell_(grid_of_pandas(kColumns, kRows, kSpacing_m)),
         arbiter_(*PlanningScene::build(cell_)),
         chooses_(*PlanningScene::build(cell_)),
         scheduler_(cell_, std::move(*make_policy(policy, *cell_)), cell_->home()) {
-    fill();
+    if (policy != "sequential") fill();
   }
 
   // A motion of its own for each call, which the arm can make when it is alone.
   TrajectoryPtr new_motion(ArmId arm) {
     while (true) {
       const auto random = random_motion(*cell_, arm, ++seed_, kReach);
-      const auto found = from_home(*cell_, arm, *random, false);
+      const auto found = from_home(*cell_, arm, *random, share_, false);
       if (!found || !alone(*found)) continue;
       random_[*found] = random;
       return *found;
@@ -79,19 +91,19 @@ class Hall {
 
   // Submit, and whatever is asked and answered until the job is admitted or in the backlog.
   struct Decision {
-    Duration took;
+    double took_ms;
     bool admitted;
     std::size_t questions;
   };
   Decision decide(const TrajectoryPtr& motion) {
-    const auto begun = std::chrono::steady_clock::now();
+    const double begun_ms = processor_ms();
     const JobId job = submit(motion);
     std::size_t questions = 0;
-    while (scheduler_.find(job)->state == JobState::queued && answer_one()) ++questions;
-    const Duration took = std::chrono::steady_clock::now() - begun;
-    const bool admitted = scheduler_.find(job)->state == JobState::scheduled;
+    while (scheduler_.find(job)->state() == JobState::queued && answer_one()) ++questions;
+    const double took_ms = processor_ms() - begun_ms;
+    const bool admitted = scheduler_.find(job)->state() == JobState::scheduled;
     withdraw(job);
-    return {took, admitted, questions};
+    return {took_ms, admitted, questions};
   }
 
  private:
@@ -115,31 +127,31 @@ class Hall {
         const TrajectoryPtr motion = new_motion(ArmId{i});
         const JobId job = submit(motion);
         answer_all();
-        if (scheduler_.find(job)->state != JobState::scheduled) {
+        if (scheduler_.find(job)->state() != JobState::scheduled) {
           withdraw(job);
           continue;
         }
         out[i] = motion;
-        if (admitted++ < kRunning) run(job);
+        if (admitted++ < running_) run(job);
       }
     }
     for (std::size_t round = 0; waiting < kWaiting; ++round) {
       for (std::uint32_t i = 0; i < out.size() && waiting < kWaiting; ++i) {
         if (!out[i]) continue;
         const bool back = round % 2 == 0;
-        submit(back ? *from_home(*cell_, ArmId{i}, *random_.at(out[i]), true) : out[i]);
+        submit(back ? *from_home(*cell_, ArmId{i}, *random_.at(out[i]), share_, true) : out[i]);
         ++waiting;
       }
     }
     answer_all();
-    count(JobState::running, kRunning);
-    count(JobState::scheduled, kScheduled);
+    count(JobState::running, running_);
+    count(JobState::scheduled, kAdmitted - running_);
     count(JobState::queued, kWaiting);
   }
   void count(JobState state, std::size_t wanted) const {
     const auto jobs = scheduler_.active();
     const auto found =
-        std::ranges::count_if(jobs, [&](JobId id) { return scheduler_.find(id)->state == state; });
+        std::ranges::count_if(jobs, [&](JobId id) { return scheduler_.find(id)->state() == state; });
     if (static_cast<std::size_t>(found) == wanted) return;
     throw std::runtime_error(std::to_string(found) + " jobs are " + to_string(state));
   }
@@ -153,7 +165,7 @@ class Hall {
   void withdraw(JobId job) {
     step(Cancel{job});
     const Job& canceled = *scheduler_.find(job);
-    if (!is_terminal(canceled.state)) {  // its arm had the motion
+    if (!is_terminal(canceled.state())) {  // its arm had the motion
       step(
           MotionReport{job, MotionReport::Kind::stopped, Duration{}, canceled.trajectory->start()});
     }
@@ -178,6 +190,8 @@ class Hall {
     }
   }
 
+  std::size_t running_;
+  double share_;
   CellPtr cell_;
   Arbiter arbiter_;
   Arbiter chooses_;  // knows nothing to the other one's advantage
@@ -189,8 +203,8 @@ class Hall {
   std::uint64_t seed_ = 0;
 };
 
-void decision(benchmark::State& state, const std::string& policy) {
-  Hall hall(policy);
+void decision(benchmark::State& state, const std::string& policy, double share) {
+  Hall hall(policy, share);
   std::vector<double> took_ms;
   double admitted = 0.0, questions = 0.0;
   for (auto _ : state) {
@@ -198,7 +212,7 @@ void decision(benchmark::State& state, const std::string& policy) {
       const ArmId arm{static_cast<std::uint32_t>(kFree[i % std::size(kFree)])};
       const TrajectoryPtr motion = hall.new_motion(arm);
       const Hall::Decision decided = hall.decide(motion);
-      took_ms.push_back(1e3 * to_seconds(decided.took));
+      took_ms.push_back(decided.took_ms);
       admitted += decided.admitted ? 1.0 : 0.0;
       questions += static_cast<double>(decided.questions);
     }
@@ -212,12 +226,19 @@ void decision(benchmark::State& state, const std::string& policy) {
   state.counters["questions"] = questions / count;
 }
 
-BENCHMARK_CAPTURE(decision, earliest_start, "earliest_start")
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(decision, coordinated, "coordinated")
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
+const bool kRegistered = [] {
+  for (const char* policy :
+       {"sequential", "lockstep", "reservation", "certified", "earliest_start", "coordinated"}) {
+    for (const auto& [name, share] :
+         {std::pair("decision/", kShare), {"crossing/", kCrossingShare}}) {
+      benchmark::RegisterBenchmark((std::string(name) + policy).c_str(),
+                                   [policy, share](auto& state) { decision(state, policy, share); })
+          ->Iterations(1)
+          ->Unit(benchmark::kMillisecond);
+    }
+  }
+  return true;
+}();
 
 }  // namespace
 }  // namespace armloom::bench

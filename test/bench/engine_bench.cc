@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "core/collision/arbiter.h"
 #include "core/collision/state_check.h"
+#include "test/bench/cells.h"
 #include "test/bench/collision_bench.h"
 
 namespace armloom::bench {
@@ -71,7 +74,7 @@ void cross_arm(benchmark::State& run, const Motions& motions, bool must_be_free)
   CoordinationDiagram::Answer answer;
   for (auto _ : run) {
     CoordinationDiagram diagram(
-        {&scene->bodies(), &pairs},
+        {&scene->bodies(), &pairs, CoordinationDiagram::make_scratch()},
         std::make_shared<MotionTube>(left, motions.trajectories[0], motions.rest, 0.0),
         std::make_shared<MotionTube>(right, motions.trajectories[1], motions.rest, 0.0));
     answer = diagram.ask(region, Arbiter::kBudget);
@@ -79,6 +82,50 @@ void cross_arm(benchmark::State& run, const Motions& motions, bool must_be_free)
   }
   run.counters["evaluations"] = static_cast<double>(answer.evaluations);
   if (must_be_free && !answer.free) run.SkipWithError("not free");
+}
+
+// The regions of random pairs of motions that meet somewhere on their ways; time is that of one
+// pair. blocked_percent: how much of its diagram is not certified free.
+void regions_of_pairs(benchmark::State& run) {
+  constexpr std::size_t kPairs = 40;
+  constexpr double kReach = 0.8;
+  const CellPtr cell = two_pandas();
+  const PlanningScenePtr scene = scene_of(cell);
+  std::vector<Question> pairs;
+  for (std::uint64_t seed = 1; pairs.size() < kPairs; seed += 2) {
+    const Motions motions{cell,
+                          {random_motion(*cell, ArmId{0}, seed, kReach),
+                           random_motion(*cell, ArmId{1}, seed + 1, kReach)},
+                          cell->home()};
+    const Question question = admission(motions, 0, Coordinated{0.001});
+    if (!Arbiter(scene).judge(question).regions.empty()) pairs.push_back(question);
+  }
+  double evaluations = 0.0, regions = 0.0, blocked = 0.0, asked = 0.0;
+  std::size_t next = 0;
+  std::optional<Arbiter> arbiter;
+  while (run.KeepRunning()) {
+    run.PauseTiming();
+    const Question& question = pairs[next];
+    next = (next + 1) % pairs.size();
+    arbiter.emplace(scene);
+    run.ResumeTiming();
+    const Verdict verdict = arbiter->judge(question);
+    run.PauseTiming();
+    asked += 1.0;
+    evaluations += static_cast<double>(verdict.evaluations);
+    for (const PairRegions& pair : verdict.regions) {
+      regions += static_cast<double>(pair.regions.size());
+      for (const ConflictRegion& region : pair.regions) {
+        for (const ProgressBox& box : region.boxes) {
+          blocked += to_seconds(box.to_a - box.from_a) * to_seconds(box.to_b - box.from_b);
+        }
+      }
+    }
+    run.ResumeTiming();
+  }
+  run.counters["evaluations"] = evaluations / asked;
+  run.counters["regions"] = regions / asked;
+  run.counters["blocked_percent"] = 100.0 * blocked / asked / (kMotion_s * kMotion_s);
 }
 
 void register_states(const Workloads& workloads) {
@@ -128,6 +175,8 @@ void register_admissions(const Workloads& workloads) {
     complete("admission_swept_cold", Swept{tracking}, false);
     complete("regions_cold", Coordinated{tracking}, false);
   }
+  benchmark::RegisterBenchmark("engine/regions_cold/random_pairs", regions_of_pairs)
+      ->Iterations(40);
   for (const auto& [others, workload] : workloads.halls) {
     const Hall& hall = workload;
     benchmark::RegisterBenchmark(

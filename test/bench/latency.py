@@ -13,6 +13,7 @@ import base64
 import json
 import os
 import pathlib
+import re
 import socket
 import statistics
 import struct
@@ -30,15 +31,20 @@ NEAR = [0, -1.1, 0, -2.5, 0, 1.6, 0.785]
 DURATION_S = 0.5
 
 
-def connect(port):
-    for _ in range(100):
-        try:
-            s = socket.create_connection(("127.0.0.1", port), timeout=10)
-            s.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-            return s
-        except ConnectionRefusedError:
-            time.sleep(0.1)
+def start_server(arguments):
+    """The server at a port that the system gives, and the port, which it says when it listens."""
+    server = subprocess.Popen([*arguments, "--listen", "127.0.0.1:0"], stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL, text=True)
+    for line in server.stdout:
+        if found := re.search(r"dashboard: http://127\.0\.0\.1:(\d+)/", line):
+            return server, int(found[1])
     sys.exit("the server did not come up")
+
+
+def connect(port):
+    s = socket.create_connection(("127.0.0.1", port), timeout=10)
+    s.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    return s
 
 
 class Events:
@@ -103,12 +109,7 @@ def post(connection, port, body):
 def main():
     armloom = sys.argv[1]
     count = int(sys.argv[2]) if len(sys.argv) > 2 else 200
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    server = subprocess.Popen([armloom, "serve", "--cell", TOP / "config/two_pandas.json",
-                               "--listen", f"127.0.0.1:{port}"],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    server, port = start_server([armloom, "serve", "--cell", TOP / "config/two_pandas.json"])
     try:
         connection, events = connect(port), Events(port)
         at = {"left": HOME, "right": HOME}

@@ -2,12 +2,12 @@
 // after: names are "decided_<question>/<cell>/<states>".
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
 #include <string>
 
 #include "core/collision/collision_checker.h"
 #include "core/collision/state_check.h"
 #include "test/bench/mesh_cells.h"
+#include "test/bench/run_benchmarks.h"
 
 namespace armloom::bench {
 namespace {
@@ -36,16 +36,11 @@ void closest(benchmark::State& run, const PlanningScenePtr& scene,
   CollisionChecker checker(scene);
   std::size_t next = 0;
   for (auto _ : run) {
-    benchmark::DoNotOptimize(
-        checker.closest_apart(states[next++ % states.size()], horizon_m));
+    benchmark::DoNotOptimize(checker.closest_apart(states[next++ % states.size()], horizon_m));
   }
 }
 
 void register_cell(const std::string& name, const CellPtr& cell) {
-  if (!cell) {
-    std::fprintf(stderr, "%s: its files are not here, left out\n", name.c_str());
-    return;
-  }
   const PlanningScenePtr scene = PlanningScene::build(cell).value();
   for (const bool near : {false, true}) {
     const auto states = random_states(*cell, kStates, near);
@@ -69,7 +64,7 @@ void register_cell(const std::string& name, const CellPtr& cell) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  armloom::bench::register_cell("two_fanucs", armloom::bench::two_fanucs());
+  armloom::bench::register_cell("two_shuttles", armloom::bench::two_shuttles());
   armloom::bench::register_cell("two_channel_arms", armloom::bench::two_channel_arms());
-  benchmark::RunSpecifiedBenchmarks();
+  return armloom::bench::run_benchmarks();
 }

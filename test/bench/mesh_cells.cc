@@ -89,10 +89,11 @@ std::string robot(const std::string& name, const std::string& base) {
 }
 
 CellPtr cell_of(const std::string& text, const std::string& folder) {
-  const auto description = read_cell_text(text, folder);
-  if (!description) return nullptr;
-  const auto cell = build_cell(*description);
-  return cell ? *cell : nullptr;
+  const auto cell = read_cell_text(text, folder).and_then([](const CellDescription& read) {
+    return build_cell(read);
+  });
+  if (!cell) throw std::runtime_error(cell.error().front().detail);
+  return *cell;
 }
 
 bool frames_near(const Cell& cell, const Configuration& q, LinkPoses& X_WL) {
@@ -108,9 +109,9 @@ bool frames_near(const Cell& cell, const Configuration& q, LinkPoses& X_WL) {
 
 }  // namespace
 
-CellPtr two_fanucs() {
+CellPtr two_shuttles() {
   const std::string folder = ARMLOOM_SOURCE_DIR "/config";
-  std::ifstream file(folder + "/two_fanucs.json");
+  std::ifstream file(folder + "/two_shuttles.json");
   std::ostringstream text;
   text << file.rdbuf();
   return cell_of(text.str(), folder);

@@ -7,8 +7,8 @@
 
 namespace armloom::bench {
 
-// config/two_fanucs.json; null: its robots' files are not here.
-[[nodiscard]] CellPtr two_fanucs();
+// config/two_shuttles.json
+[[nodiscard]] CellPtr two_shuttles();
 
 // Two arms of six links face to face 0.9 m apart, each link a U-shaped channel of 400 triangles
 // that convex pieces follow well. Written as STL and URDF into a temporary folder and read from

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/scheduler/scheduler.h"
+#include "test/bench/run_benchmarks.h"
 #include "test/scheduler/one_joint_arms.h"
 
 namespace armloom {
@@ -226,3 +227,9 @@ BENCHMARK_CAPTURE(progressed, coordinated, "coordinated")->Apply(sizes);
 
 }  // namespace
 }  // namespace armloom
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  return armloom::bench::run_benchmarks();
+}

@@ -11,7 +11,6 @@ import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { createServer } from 'node:net';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -47,13 +46,11 @@ let page;
 const errors = [];
 
 before(async () => {
-  const port = await free_port();
-  const url = `http://127.0.0.1:${port}/`;
   // certified: two jobs that cross show a backlog; the default would schedule the second.
-  server = spawn(kBinary, ['serve', '--cell', 'config/two_pandas.json', '--policy', 'certified', '--listen', `127.0.0.1:${port}`], { cwd: kRoot });
+  server = spawn(kBinary, ['serve', '--cell', 'config/two_pandas.json', '--policy', 'certified', '--listen', '127.0.0.1:0'], { cwd: kRoot });
   server.on('error', (error) => { server_output += String(error); });
   for (const stream of [server.stdout, server.stderr]) stream.on('data', (data) => { server_output += data; });
-  await until_healthy(`${url}healthz`);
+  const url = await address_of_server();
 
   profile = mkdtempSync(join(tmpdir(), 'armloom-browser-'));
   browser = await chromium.launchPersistentContext(profile, {
@@ -316,26 +313,20 @@ function path_for(name) {
 
 // ---- the server ----
 
-function free_port() {
+/** Where the server listens, at a port that the system gave, as it says itself. */
+function address_of_server() {
   return new Promise((done, fail) => {
-    const probe = createServer();
-    probe.on('error', fail);
-    probe.listen(0, '127.0.0.1', () => {
-      const { port } = probe.address();
-      probe.close(() => done(port));
+    const lost = () => fail(new Error(`the server did not come up: ${kBinary}\n${server_output}`));
+    const timer = setTimeout(lost, kPatience_ms);
+    server.once('exit', lost);
+    server.stdout.on('data', () => {
+      const url = /dashboard: (http:\/\/127\.0\.0\.1:\d+\/)/.exec(server_output)?.[1];
+      if (!url) return;
+      clearTimeout(timer);
+      server.off('exit', lost);
+      done(url);
     });
   });
-}
-
-async function until_healthy(url) {
-  const until_ms = Date.now() + kPatience_ms;
-  while (Date.now() < until_ms) {
-    if (server.exitCode !== null) break;
-    const answer = await fetch(url).catch(() => null);
-    if (answer?.ok) return;
-    await new Promise((done) => setTimeout(done, 100));
-  }
-  throw new Error(`the server did not become healthy: ${kBinary}\n${server_output}`);
 }
 
 async function end_server() {

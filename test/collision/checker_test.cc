@@ -6,11 +6,10 @@
 #include <random>
 #include <set>
 
-#include "core/collision/body.h"
 #include "core/collision/check_home.h"
 #include "core/collision/collision_checker.h"
-#include "core/collision/exact_distance.h"
 #include "core/model/kinematics.h"
+#include "test/collision/reference_distance.h"
 #include "test/collision/small_cell.h"
 
 namespace armloom {
@@ -61,14 +60,27 @@ double limit_for(const Cell& cell, const NamePair& pair) {
   return self ? cell.self_clearance_m : cell.clearance_m;
 }
 
-// All pairs that matter, with plain FCL on every body: no filter, no groups.
-std::map<NamePair, double> brute_force(const Cell& cell, const Configuration& q) {
+reference::Convex placed(const PlacedShape& shape, const Eigen::Isometry3d& X_WP) {
+  using Kind = reference::Convex::Kind;
+  const Eigen::Isometry3d X_WS = X_WP * shape.X_LS;
+  if (const auto* ball = std::get_if<Sphere>(&shape.shape)) {
+    return {Kind::capsule, {}, ball->radius_m, 0.0, X_WS};
+  }
+  if (const auto* tube = std::get_if<Cylinder>(&shape.shape)) {
+    return {Kind::cylinder, {}, tube->radius_m, 0.5 * tube->length_m, X_WS};
+  }
+  return {Kind::box, 0.5 * std::get<Box>(shape.shape).size_m, 0.0, 0.0, X_WS};
+}
+
+// All pairs that matter, every shape with every one, by closed forms that share nothing with the
+// engine (reference_distance.h): no filter, no groups, no FCL.
+std::map<NamePair, reference::Bracket> brute_force(const Cell& cell, const Configuration& q) {
   struct Solid {
     std::string name;
     std::optional<ArmId> arm;
     std::size_t index;
     bool object;
-    std::vector<Body> bodies;
+    std::vector<PlacedShape> shapes;
     Eigen::Isometry3d X_WP;
   };
   LinkPoses X_WL;
@@ -76,13 +88,12 @@ std::map<NamePair, double> brute_force(const Cell& cell, const Configuration& q)
   std::vector<Solid> solids;
   for (std::size_t i = 0; i < cell.links.size(); ++i) {
     const Link& link = cell.links[i];
-    solids.push_back({link.name, link.arm, i, false, make_bodies(link.shapes), X_WL[i]});
+    solids.push_back({link.name, link.arm, i, false, link.shapes, X_WL[i]});
   }
   for (const CollisionObject& o : cell.objects) {
-    solids.push_back(
-        {o.name, {}, 0, true, make_bodies(std::vector<PlacedShape>(1, {o.shape})), o.X_WO});
+    solids.push_back({o.name, {}, 0, true, std::vector<PlacedShape>(1, {o.shape}), o.X_WO});
   }
-  std::map<NamePair, double> found;
+  std::map<NamePair, reference::Bracket> found;
   for (const Solid& a : solids) {
     for (const Solid& b : solids) {
       if (&a >= &b || a.object || (!a.arm && !b.arm)) continue;
@@ -92,13 +103,15 @@ std::map<NamePair, double> brute_force(const Cell& cell, const Configuration& q)
                    : cell.allowed_link_pairs.contains({id_a, id_b})) {
         continue;
       }
-      double smallest = 1e9;
-      for (const Body& x : a.bodies) {
-        for (const Body& y : b.bodies) {
-          smallest = std::min(smallest, exact_distance(x, a.X_WP * x.X_PS, y, b.X_WP * y.X_PS));
+      reference::Bracket smallest{1e9, 1e9};
+      for (const PlacedShape& x : a.shapes) {
+        for (const PlacedShape& y : b.shapes) {
+          const auto apart = reference::distance(placed(x, a.X_WP), placed(y, b.X_WP), 2000);
+          smallest.lower = std::min(smallest.lower, apart.lower);
+          smallest.upper = std::min(smallest.upper, apart.upper);
         }
       }
-      if (smallest < 1e9) found[names(a.name, b.name)] = smallest;
+      if (smallest.upper < 1e9) found[names(a.name, b.name)] = smallest;
     }
   }
   return found;
@@ -111,13 +124,21 @@ Configuration random_configuration(const Cell& cell, std::mt19937_64& random) {
   return q;
 }
 
+constexpr double kRounding_m = 1e-6;
+
+// What the checker says (zero or less: contact) is the distance that was found beside it.
+void expect_within(const reference::Bracket& distance, double clearance_m) {
+  EXPECT_GE(std::max(0.0, clearance_m), std::max(0.0, distance.lower) - kRounding_m);
+  EXPECT_LE(std::max(0.0, clearance_m), distance.upper + kRounding_m);
+}
+
 TEST(CollisionChecker, HidesNoPairThatBruteForceFinds) {
   const CellPtr cell = small::shared(busy_cell());
   CollisionChecker checker(scene_of(cell));
   const std::vector<bool> all(2, true);
   std::mt19937_64 random(99);
   std::vector<NearPair> near;
-  std::size_t found = 0;
+  std::size_t found = 0, open = 0;
   for (int i = 0; i < 2500; ++i) {
     const Configuration q = random_configuration(*cell, random);
     checker.near_pairs(q, cell->clearance_m, all, all, near);
@@ -129,16 +150,19 @@ TEST(CollisionChecker, HidesNoPairThatBruteForceFinds) {
     for (const auto& [pair, distance] : brute_force(*cell, q)) {
       const auto at = seen.find(pair);
       const double limit_m = limit_for(*cell, pair);
-      if (distance < limit_m - 1e-6) {
+      if (distance.upper < limit_m - kRounding_m) {
         ASSERT_NE(at, seen.end()) << i << ": " << pair.first << " and " << pair.second;
-        EXPECT_NEAR(std::max(0.0, at->second), distance, 1e-6) << i;
+        expect_within(distance, at->second);
         ++found;
-      } else if (distance > limit_m + 1e-6) {
+      } else if (distance.lower > limit_m + kRounding_m) {
         EXPECT_EQ(at, seen.end()) << i << ": " << pair.first << " and " << pair.second;
+      } else {
+        ++open;
       }
     }
   }
   EXPECT_GT(found, 1000U);
+  EXPECT_LT(open, found / 100) << "so many the closed forms could not say";
 }
 
 TEST(CollisionChecker, FirstIsTheFirstOfAllInTheScenesOrder) {
@@ -146,13 +170,17 @@ TEST(CollisionChecker, FirstIsTheFirstOfAllInTheScenesOrder) {
   CollisionChecker checker(scene_of(cell));
   std::mt19937_64 random(5);
   std::vector<NearPair> near;
+  std::size_t found = 0;
   for (int i = 0; i < 500; ++i) {
     const Configuration q = random_configuration(*cell, random);
+    const auto truly = brute_force(*cell, q);
     for (const std::vector<bool>& arms : {std::vector{true, true}, {true, false}, {false, true}}) {
       checker.near_pairs(q, 0.02, arms, {true, true}, near);
       const auto first = checker.first_closer_than(q, 0.02, arms);
       ASSERT_EQ(first.has_value(), !near.empty());
       if (!first) continue;
+      ++found;
+      expect_within(truly.at(names(first->body_a, first->body_b)), first->clearance_m);
       const Proximity expected = checker.describe(near.front());
       EXPECT_EQ(first->body_a, expected.body_a);
       EXPECT_EQ(first->body_b, expected.body_b);
@@ -161,6 +189,7 @@ TEST(CollisionChecker, FirstIsTheFirstOfAllInTheScenesOrder) {
                   (first->arm_b && arms[first->arm_b->index()]));
     }
   }
+  EXPECT_GT(found, 300U);
 }
 
 TEST(CollisionChecker, ClosestBetweenArmsIsTheSmallestOverAllPairs) {
@@ -170,19 +199,20 @@ TEST(CollisionChecker, ClosestBetweenArmsIsTheSmallestOverAllPairs) {
   int within = 0;
   for (int i = 0; i < 500; ++i) {
     const Configuration q = random_configuration(*cell, random);
-    double smallest = 1e9;
+    reference::Bracket smallest{1e9, 1e9};
     for (const auto& [pair, distance] : brute_force(*cell, q)) {
       if (pair.first.starts_with("left_link") && pair.second.starts_with("right")) {
-        smallest = std::min(smallest, distance);
+        smallest = {std::min(smallest.lower, distance.lower),
+                    std::min(smallest.upper, distance.upper)};
       }
     }
     auto closest = checker.closest_apart(q, 0.3);
     std::erase_if(closest, [](const Proximity& pair) { return !pair.arm_b; });
-    if (smallest > 0.3 + 1e-6) {
+    if (smallest.lower > 0.3 + kRounding_m) {
       EXPECT_TRUE(closest.empty());
-    } else if (smallest < 0.3 - 1e-6) {
+    } else if (smallest.upper < 0.3 - kRounding_m) {
       ASSERT_EQ(closest.size(), 1U);
-      EXPECT_NEAR(std::max(0.0, closest[0].clearance_m), smallest, 1e-6);
+      expect_within(smallest, closest[0].clearance_m);
       ++within;
     }
   }
@@ -240,12 +270,17 @@ TEST(CollisionChecker, ForbidsContactEvenWhereNoClearanceIsAsked) {
   int contacts = 0;
   for (int i = 0; i < 300; ++i) {
     const Configuration q = random_configuration(*shared, random);
-    double smallest = 1.0;
+    reference::Bracket smallest{1.0, 1.0};
     for (const auto& [pair, distance] : brute_force(*shared, q)) {
-      smallest = std::min(smallest, distance);
+      smallest = {std::min(smallest.lower, distance.lower),
+                  std::min(smallest.upper, distance.upper)};
     }
     const bool found = checker.first_closer_than(q, 0.0, {true, true}).has_value();
-    EXPECT_EQ(found, smallest <= 0.0) << i;
+    if (found) {
+      EXPECT_LE(smallest.lower, kRounding_m) << i;
+    } else {
+      EXPECT_GT(smallest.upper, 0.0) << i;
+    }
     contacts += found ? 1 : 0;
   }
   EXPECT_GT(contacts, 50);

@@ -254,7 +254,7 @@ TEST(MotionStore, ForgetsWhatArmsDoToEachOtherWhenTheyHoldOtherThingsAndOnlyThen
   MotionStore store(bare);
   const auto diagram = [&] {
     store.begin_question();
-    const auto& a = store.motion(trajectory, kA, rest, 0.0);
+    auto& a = store.motion(trajectory, kA, rest, 0.0);
     return store.pair(a, store.motion(nullptr, kB, rest, 0.0));
   };
   const std::size_t pairs_bare = diagram().pairs->pairs.size();

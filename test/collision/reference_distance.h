@@ -50,19 +50,40 @@ struct Bracket {
   double upper;
 };
 
+inline constexpr double kTouching_m = 1e-9;
+inline constexpr double kClosed_m = 1e-8;
+
+// Whether so many rounds more would bring the bracket to its end, at the pace of the last `window`.
+inline bool is_hopeless(const Bracket& before, const Bracket& now, int window, int rounds_left) {
+  const auto windows = [](double last, double current, double target) {
+    return current >= last ? 1e9 : std::log(current / target) / std::log(last / current);
+  };
+  const double needed =
+      std::min(windows(before.upper, now.upper, kTouching_m),
+               windows(before.upper - before.lower, now.upper - now.lower, kClosed_m));
+  return needed * window > rounds_left;
+}
+
+// At most so many rounds; fewer where these would not do.
 inline Bracket distance(const Convex& a, const Convex& b, int rounds = 20000) {
+  constexpr int kWindow = 100;
   Eigen::Vector3d on_a = project(a, b.X_WS.translation());
   Bracket best{-1e9, 1e9};
+  Bracket before = best;
   for (int i = 0; i < rounds; ++i) {
+    if (i % kWindow == kWindow - 1) {
+      if (i > kWindow && is_hopeless(before, best, kWindow, rounds - i)) break;
+      before = best;
+    }
     const Eigen::Vector3d on_b = project(b, on_a);
     const Eigen::Vector3d gap = on_b - on_a;
     best.upper = std::min(best.upper, gap.norm());
-    if (best.upper < 1e-9) return {0.0, 0.0};
+    if (best.upper < kTouching_m) return {0.0, 0.0};
     const Eigen::Vector3d n = gap.normalized();
     const double lower =
         n.dot(b.X_WS.translation() - a.X_WS.translation()) - extent(a, n) - extent(b, n);
     best.lower = std::max(best.lower, lower);
-    if (best.upper - best.lower < 1e-8) break;
+    if (best.upper - best.lower < kClosed_m) break;
     on_a = project(a, on_b);
   }
   return best;

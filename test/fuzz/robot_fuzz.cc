@@ -6,10 +6,10 @@
 #include "core/model/kinematics.h"
 #include "test/fuzz/problems.h"
 
-// A robot's URDF, SRDF and joint limits: build_cell on a cell of one robot whose files come from the
-// input. An input is the name of the arm's group, a newline, the URDF, a line "=== SRDF", the SRDF, a
-// line "=== LIMITS", the YAML; the last two are optional.
-// The files are written to the folder ARMLOOM_FUZZ_SCRATCH (a memory file system, for speed).
+// A robot's URDF, SRDF and joint limits: build_cell on a cell of one robot whose files come from
+// the input. An input is the name of the arm's group, a newline, the URDF, a line "=== SRDF", the
+// SRDF, a line "=== LIMITS", the YAML; the last two are optional. The files are written to the
+// folder ARMLOOM_FUZZ_SCRATCH (a memory file system, for speed).
 
 namespace armloom::fuzz {
 namespace {

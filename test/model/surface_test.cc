@@ -11,7 +11,6 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 
@@ -156,25 +155,6 @@ TEST(ModelSurfaces, AreKnownOfEveryModel) {
     const auto known = std::ranges::find(kKnown, entry.path().stem().string(), &Model::name);
     EXPECT_NE(known, kKnown.end()) << entry.path();
   }
-}
-
-// All the points that were measured, where they are at hand: more than the table holds.
-TEST(ModelSurfaces, ContainAllThatWasMeasuredOfTheUr5e) {
-  const fs::path file = fs::path(ARMLOOM_SOURCE_DIR) / "../shared/data/ur5e_surface.json";
-  if (!fs::exists(file)) GTEST_SKIP() << file << " is not there";
-  const std::string text = text_of(kModels / "ur5e.urdf");
-  const auto robot = urdf::parseURDF(text);
-  const auto measured = nlohmann::json::parse(text_of(file));
-  std::size_t count = 0;
-  for (const auto& [name, points] : measured.at("links").items()) {
-    const auto link = robot->getLink(name == "base_link_inertia" ? "base_link" : name);
-    ASSERT_TRUE(link) << name;
-    std::vector<Eigen::Vector3d> all;
-    for (const auto& p : points) all.emplace_back(p.at(0), p.at(1), p.at(2));
-    EXPECT_GE(least_depth(*link, all), reserve_m(text)) << name;
-    count += all.size();
-  }
-  EXPECT_GT(count, 1000U);
 }
 
 }  // namespace

@@ -158,7 +158,10 @@ test('Jobs, good and bad', async () => {
   const diagram = (status, query) => call(status, 'GET', `${v1}/jobs/{id}/diagram`, {args: {id: 'meet'}, query});
   const drawn = await diagram(200, '?with=reach');
   assert.deepEqual([drawn.a.id, drawn.b.id, drawn.layers[0].arms], ['meet', 'reach', ['right', 'left']]);
+  const ahead = await diagram(200, '?with=reach&cells=0');
+  assert.deepEqual([ahead.layers[0].cells, ahead.layers[0].met.state], [undefined, 'conflict']);
   await diagram(400, '');
+  await diagram(400, '?with=reach&cells=no');
   await diagram(404, '?with=nothing');
   await diagram(422, '?with=meet');
   await call(202, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'meet'}});

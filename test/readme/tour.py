@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Executes the examples of the README and of the server's as they stand: "Your own robot", where that robot's files are
-there, and those with curl, comparing what comes back.
+"""Executes every ```sh block of the README and of the server's as it stands.
 
     test/readme/tour.py ARMLOOM
 
-Each ```sh block is run in one and the same shell; the ```json block behind it lists what must be
-in the answers, one JSON value for each answer: every key shown must be there with that value ("…"
-stands for any value). The server is started on the README's port, in a network of its own where
-that is possible, so that nothing else can be listening there.
+"Your own robot" and "Without a server" run in a folder that holds build/armloom and what the
+repository has; each command must succeed. The blocks with curl are run in one and the same shell;
+the ```json block behind each lists what must be in the answers, one JSON value for each answer:
+every key shown must be there with that value ("…" stands for any value). The server is started on
+the README's port, in a network of its own where that is possible, so that nothing else can be
+listening there.
 """
 import json
 import os
@@ -60,33 +61,55 @@ def difference(expected, got, place=""):
     return None if same else f"{place}: {got!r}, expected {expected!r}"
 
 
-def own_robot(readme, armloom):
-    """Runs "Your own robot in five minutes" with its cell file in a folder of its own, and serves it."""
-    commands = readme.split("## Your own robot in five minutes")[1].split("```sh\n")[1].split("```")[0]
-    if not (TOP / re.search(r"^F=(\S+)", commands).group(1)).with_suffix(".urdf").exists():
-        print("own robot: skipped, its files are not here")
-        return 0
-    importing, serving = commands.split("./server/run --cell my_cell.json\n")
+def commands_of(readme, heading):
+    return readme.split(f"## {heading}\n")[1].split("```sh\n")[1].split("```")[0]
+
+
+def like_a_clone(folder, armloom):
+    """What the commands of a README name: the repository's folders, and the program in build/."""
+    for part in ("models", "config"):
+        (folder / part).symlink_to(TOP / part)
+    (folder / "build").mkdir()
+    (folder / "build/armloom").symlink_to(pathlib.Path(armloom).resolve())
+
+
+def run_block(name, commands, folder):
+    done = subprocess.run(["bash", "-ec", commands], cwd=folder, capture_output=True, text=True)
+    print(f"{name}: {'ok' if done.returncode == 0 else 'FAIL'} exit {done.returncode}")
+    if done.returncode != 0:
+        print(done.stdout[-2000:], done.stderr[-2000:])
+    return done.returncode == 0
+
+
+def own_robot(readme, armloom, folder):
+    """Imports the robot and serves it."""
+    importing, serving = commands_of(readme, "Your own robot in five minutes").split(
+        "./server/run --cell my_cell.json\n")
     if serving:
         sys.exit(f"own robot: something stands behind the last command: {serving}")
-    with tempfile.TemporaryDirectory() as folder:
-        cell = pathlib.Path(folder) / "my_cell.json"
-        importing = importing.replace("build/armloom", str(armloom)).replace("my_cell.json", str(cell))
-        done = subprocess.run(["bash", "-ec", importing], cwd=TOP, capture_output=True, text=True)
-        if done.returncode != 0:
-            print(f"own robot: FAIL exit {done.returncode}\n{done.stderr}")
-            return 1
-        server = subprocess.Popen([armloom, "serve", "--cell", cell], stdout=subprocess.DEVNULL)
-        try:
-            wait_until_up(server)
-            arms = json.load(urllib.request.urlopen("http://127.0.0.1:8080/api/v1/arms"))["arms"]
-        finally:
-            server.terminate()
-            server.wait(timeout=10)
+    if not run_block("own robot", importing, folder):
+        return 1
+    server = subprocess.Popen([armloom, "serve", "--cell", folder / "my_cell.json"],
+                              stdout=subprocess.DEVNULL)
+    try:
+        wait_until_up(server)
+        arms = json.load(urllib.request.urlopen("http://127.0.0.1:8080/api/v1/arms"))["arms"]
+    finally:
+        server.terminate()
+        server.wait(timeout=10)
     found = [(arm["name"], arm["state"]) for arm in arms]
     good = found == [("left", "idle"), ("right", "idle")]
-    print(f"own robot: {'ok' if good else 'FAIL'} {found}")
+    print(f"own robot is served: {'ok' if good else 'FAIL'} {found}")
     return 0 if good else 1
+
+
+def without_a_server(readme, folder):
+    done = run_block("without a server", commands_of(readme, "Without a server"), folder)
+    written = [name for name in ("recording/states.csv", "compared/compare.svg")
+               if not (folder / name).exists()]
+    if written:
+        print(f"without a server: FAIL not written: {written}")
+    return 0 if done and not written else 1
 
 
 def wait_until_up(server):
@@ -121,6 +144,16 @@ def run_tour(tour):
     return failed
 
 
+def reasons_are_explained(readme):
+    """The closed list of result.reason stands in the README, and each is explained beside it."""
+    document = json.load(urllib.request.urlopen("http://127.0.0.1:8080/openapi.json"))
+    explained = (TOP / "core/scheduler/README.md").read_text()
+    reasons = document["components"]["schemas"]["Reason"]["enum"]
+    lost = [r for r in reasons if f"`{r}`" not in readme or f"| `{r}` |" not in explained]
+    print(f"result.reason: {'ok' if not lost and len(reasons) >= 10 else f'FAIL {lost} of {reasons}'}")
+    return 1 if lost or len(reasons) < 10 else 0
+
+
 def main():
     # A network of its own: loopback only, nobody else on the README's port.
     if "ARMLOOM_TOUR_INSIDE" not in os.environ and os.geteuid() == 0 and shutil.which("unshare"):
@@ -133,14 +166,18 @@ def main():
     readme = (TOP / "README.md").read_text()
     api = (TOP / "server/README.md").read_text()
     tour = blocks(readme, "A tour with curl") + blocks(api, "The API")
-    if len(tour) < 13:
-        sys.exit(f"only {len(tour)} blocks found in the READMEs")
-    failed = own_robot(readme, sys.argv[1])
+    shown = readme.count("```sh\n") + api.count("```sh\n")
+    if len(tour) + 2 != shown or shown < 14:  # two are not answered in JSON
+        sys.exit(f"{len(tour)} of {shown} blocks found in the READMEs")
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        like_a_clone(folder, sys.argv[1])
+        failed = own_robot(readme, sys.argv[1], folder) + without_a_server(readme, folder)
     server = subprocess.Popen([sys.argv[1], "serve", "--cell", TOP / "config/two_pandas.json"],
                               stdout=subprocess.DEVNULL)
     try:
         wait_until_up(server)
-        failed += run_tour(tour)
+        failed += run_tour(tour) + reasons_are_explained(readme)
     finally:
         server.terminate()
         server.wait(timeout=10)

@@ -42,7 +42,7 @@ CellPtr cell_of(const CrowdedWorkload& load, const std::string& on_idle_blocker)
   CellDescription description = load.cell();
   description.scheduling.on_idle_blocker = on_idle_blocker;
   description.scheduling.backlog_timeout = 100000s;  // ends nobody: a job that hangs is seen
-  description.checking.time_step = 10ms;  // timed_discrete sees no more
+  description.checking.time_step = 10ms;             // timed_discrete sees no more
   return *build_cell(description);
 }
 

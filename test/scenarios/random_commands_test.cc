@@ -20,6 +20,12 @@ constexpr std::uint64_t kSequences = 2000;  // of each policy its share
 constexpr std::uint64_t kParked = 60;       // of each policy, under "park"
 constexpr int kCommands = 25;
 
+// What came of the commands, over all sequences of a test: an executive that refuses everything has
+// nothing to end.
+struct Tally {
+  std::size_t submitted = 0, accepted = 0, succeeded = 0, cancels = 0, faults = 0, changes = 0;
+};
+
 // The two arms and how they stand to each other.
 struct World {
   std::array<std::string, 2> arms;
@@ -69,7 +75,7 @@ class RandomCommands {
         bothering_(world.bothering),
         apart_m_(world.apart_m) {}
 
-  void run() {
+  Tally run() {
     for (int i = 0; i < kCommands; ++i) {
       command();
       run_for(std::chrono::milliseconds(pick(0, pause_ms_)));
@@ -78,6 +84,7 @@ class RandomCommands {
     end_all();
     compare();
     judge_the_log();
+    return tally_;
   }
 
  private:
@@ -135,7 +142,9 @@ class RandomCommands {
   }
   void remember(const Result<JobView>& accepted, const std::vector<std::string>& joints,
                 const std::vector<double>& goal) {
+    ++tally_.submitted;
     if (!accepted) return;
+    ++tally_.accepted;
     submitted_.push_back(accepted->key);
     for (std::size_t j = 0; j < joints.size(); ++j) {
       goals_[{accepted->key, joints[j].substr(0, 1)}] = goal[j];
@@ -188,7 +197,7 @@ class RandomCommands {
   void cancel() {
     if (submitted_.empty()) return;
     const auto i = static_cast<std::size_t>(pick(0, static_cast<int>(submitted_.size()) - 1));
-    static_cast<void>(executive().cancel(submitted_[i]));
+    tally_.cancels += executive().cancel(submitted_[i]) ? 1 : 0;
   }
 
   void change_scene() {
@@ -196,19 +205,20 @@ class RandomCommands {
     ball.X_WO.translation().x() = 0.1 * pick(-10, 10);
     if (bothering_ < 10) ball.X_WO.translation().y() = 0.1 * pick(0, 5);
     if (executive().objects().empty()) {
-      static_cast<void>(executive().add_object(ball));
+      tally_.changes += executive().add_object(ball) ? 1 : 0;
     } else if (pick(0, 1) == 0) {
-      static_cast<void>(executive().replace_object(ball));
+      tally_.changes += executive().replace_object(ball) ? 1 : 0;
     } else {
-      static_cast<void>(executive().remove_object("ball"));
+      tally_.changes += executive().remove_object("ball") ? 1 : 0;
     }
   }
 
   void inject(ArmFault::Kind kind, double value) {
-    static_cast<void>(executive().inject({.arm = arms_[static_cast<std::size_t>(pick(0, 1))],
-                                          .kind = kind,
-                                          .lasting = std::chrono::milliseconds(pick(100, 1500)),
-                                          .value = value}));
+    const auto injected = executive().inject({.arm = arms_[static_cast<std::size_t>(pick(0, 1))],
+                                              .kind = kind,
+                                              .lasting = std::chrono::milliseconds(pick(100, 1500)),
+                                              .value = value});
+    tally_.faults += injected ? 1 : 0;
   }
 
   void run_for(Duration duration) {
@@ -268,6 +278,7 @@ class RandomCommands {
       EXPECT_EQ(event.seq, ++seq) << "the log has a hole";
       if (const auto* job = std::get_if<JobView>(&event.body)) {
         endings[job->key] += is_terminal(job->state) ? 1 : 0;
+        tally_.succeeded += job->state == JobState::succeeded ? 1 : 0;
       }
     }
     for (const std::string& key : submitted_) EXPECT_EQ(endings[key], 1) << key;
@@ -289,18 +300,42 @@ class RandomCommands {
   int pause_ms_, bothering_;
   double (*apart_m_)(const Configuration& q);
   double closest_m_ = 1e9;
+  Tally tally_;
 };
+
+void expect_much_was_done(const Tally& all, std::uint64_t sequences) {
+  std::cout << sequences << " sequences: " << all.submitted << " jobs submitted, " << all.accepted
+            << " accepted, " << all.succeeded << " succeeded; " << all.cancels << " cancels, "
+            << all.faults << " faults, " << all.changes << " changes of the scene\n";
+  ASSERT_GE(sequences, 1U);
+  EXPECT_GE(2 * all.accepted, all.submitted);
+  EXPECT_GE(all.accepted, 4 * sequences);
+  EXPECT_GE(5 * all.succeeded, sequences);
+  EXPECT_GE(2 * all.cancels, sequences);
+  if (sequences < 50) return;  // seldom given
+  EXPECT_GE(2 * all.faults, sequences);
+  EXPECT_GE(2 * all.changes, sequences);
+}
 
 void run_sequences(std::uint64_t first, std::uint64_t last, const std::string& policy,
                    World (*world)() = crossing_world) {
+  Tally all;
   for (std::uint64_t seed = first; seed <= last; ++seed) {
     SCOPED_TRACE(policy + ", seed " + std::to_string(seed));
-    RandomCommands(seed, policy, world()).run();
+    const Tally one = RandomCommands(seed, policy, world()).run();
     if (::testing::Test::HasFailure()) return;
+    all.submitted += one.submitted;
+    all.accepted += one.accepted;
+    all.succeeded += one.succeeded;
+    all.cancels += one.cancels;
+    all.faults += one.faults;
+    all.changes += one.changes;
   }
+  expect_much_was_done(all, last + 1 - first);
 }
 
-std::uint64_t sequences() { return seed_count(kSequences); }
+// At least one of each policy, however few are asked for.
+std::uint64_t sequences() { return std::max<std::uint64_t>(4, seed_count(kSequences)); }
 
 TEST(RandomCommands, EveryJobReachesExactlyOneEnd) {
   run_sequences(1, sequences() * 3 / 10, "timed_discrete", unwatched_crossing_world);

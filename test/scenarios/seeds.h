@@ -1,15 +1,30 @@
 #pragma once
 
+#include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace armloom {
 
 // How many random workloads a test runs: `usual`, or what the environment variable ARMLOOM_SEEDS
-// says (long runs by hand). Seeds count from 1, so that a longer run contains the shorter one.
-inline std::uint64_t seed_count(std::uint64_t usual) {
-  const char* asked = std::getenv("ARMLOOM_SEEDS");
-  return asked == nullptr ? usual : std::strtoull(asked, nullptr, 10);
+// says (long runs by hand); of that a `part`, at least one. Seeds count from 1, so that a longer
+// run contains the shorter one. Throws where the variable is no number above zero: nobody means to
+// run nothing.
+inline std::uint64_t seed_count(std::uint64_t usual, std::uint64_t part = 1) {
+  std::uint64_t count = usual;
+  if (const char* variable = std::getenv("ARMLOOM_SEEDS")) {
+    const std::string_view asked(variable);
+    const auto [end, error] = std::from_chars(asked.begin(), asked.end(), count);
+    if (error != std::errc{} || end != asked.end() || count == 0) {
+      throw std::invalid_argument("ARMLOOM_SEEDS=" + std::string(asked) +
+                                  ": how many seeds to run, a whole number above 0");
+    }
+  }
+  return std::max<std::uint64_t>(1, count / part);
 }
 
 }  // namespace armloom

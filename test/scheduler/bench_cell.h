@@ -68,9 +68,10 @@ class Bench {
       if (auto* r = std::get_if<Release>(&effect)) released.push_back(r->job);
       if (auto* c = std::get_if<JobChanged>(&effect)) {
         const Job& job = *scheduler.find(c->job);
-        if (is_terminal(job.state)) ++terminal_events[c->job];
+        if (job.has_ended()) ++terminal_events[c->job];
       }
     }
+    EXPECT_TRUE(scheduler.is_acyclic());
   }
 
   JobId submit(TrajectoryPtr trajectory, TimePoint now, Duration timeout = 60s, int priority = 0) {
@@ -148,7 +149,7 @@ class Bench {
 
   JobId next_id() { return JobId{++last_}; }
   [[nodiscard]] JobId id_of_next() const { return JobId{last_ + 1}; }
-  JobState state(JobId job) const { return scheduler.find(job)->state; }
+  JobState state(JobId job) const { return scheduler.find(job)->state(); }
   const Job& job(JobId id) const { return *scheduler.find(id); }
   // How far its arms may go, as they were told last.
   Duration authority(JobId id) const {

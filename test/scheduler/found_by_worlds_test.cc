@@ -62,7 +62,7 @@ TEST(Stop, OfAJobThatIsOnItsWayUnseenHoldsItThere) {
   bench.stopped(job, 400ms, at(500ms));
   EXPECT_EQ(bench.state(job), JobState::holding);
   bench.step(Resume{{ArmId{0}}}, at(1s));
-  EXPECT_EQ(bench.state(job), JobState::holding) << bench.job(job).detail;
+  EXPECT_EQ(bench.state(job), JobState::holding) << bench.job(job).detail();
   bench.answer_free(at(1001ms));
   EXPECT_EQ(bench.dispatched.back().from_progress, 400ms);
 }
@@ -124,7 +124,7 @@ TEST(Lockstep, AJobThatPausesForAnArmLetsThatArmsNextJobJoin) {
   bench.progressed(pauses, 700ms, at(1s));
   bench.progressed(pauses, 1500ms, at(2s));
   bench.progressed(pauses, 1500ms, at(3s));
-  ASSERT_TRUE(bench.job(pauses).pausing);
+  ASSERT_TRUE(bench.job(pauses).pausing());
   const JobId next = bench.submit(move({0}, bench.scheduler.rest()[0], 0, 2s), at(4s));
   ASSERT_TRUE(bench.question) << "it would wait for the round, and the round for it";
   EXPECT_EQ(bench.question->candidates.front().job, next);
@@ -141,14 +141,14 @@ TEST(Cancel, ThatTakesTheLastJobOfAnArmInTheWayIsTimedFromThatStepOn) {
   bench.stopped(two.second, 1500ms - kShortOf, at(3200ms));
   bench.step(Resume{{ArmId{1}}}, at(4s));
   bench.answer_free(at(4s));
-  ASSERT_TRUE(bench.job(two.second).pausing);
+  ASSERT_TRUE(bench.job(two.second).pausing());
   bench.step(Cancel{two.first}, at(5s));
   bench.wake_at.reset();
   bench.stopped(two.first, 1100ms, at(6s));
   ASSERT_EQ(bench.scheduler.active(), std::vector{two.second});
   ASSERT_TRUE(bench.wake_at) << "nobody looks at it any more";
   bench.step(Wake{}, *bench.wake_at);
-  EXPECT_EQ(bench.job(two.second).reason, Reason::backlog_timeout);
+  EXPECT_EQ(bench.job(two.second).reason(), Reason::backlog_timeout);
 }
 
 // Canceled in b's way, where each of its arms may be the one that is; then one of them goes.

@@ -191,7 +191,7 @@ void IdealArms::heard(const Effect& effect) {
   if (const auto* release = std::get_if<Release>(&effect)) {
     ++times_released_[release->job];
     EXPECT_FALSE(moves(release->job)) << "released in motion";
-    EXPECT_TRUE(is_terminal(state(release->job)) || !job(release->job).started_at);
+    EXPECT_TRUE(is_terminal(state(release->job)) || !job(release->job).times.started_at);
   }
 }
 

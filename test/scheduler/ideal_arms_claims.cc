@@ -93,9 +93,9 @@ void IdealArms::check_explained() const {
   if (question) return;  // it may be about to go
   for (const JobId id : scheduler.active()) {
     const Job& job = this->job(id);
-    const bool stands = job.pausing || !moves(id);
+    const bool stands = job.pausing() || !moves(id);
     EXPECT_FALSE(stands && job.waits_on.empty())
-        << "job " << id.value() << " (" << to_string(job.state) << ") does not say why it stands";
+        << "job " << id.value() << " (" << to_string(job.state()) << ") does not say why it stands";
   }
 }
 

@@ -40,13 +40,13 @@ TEST(LeftArmFirst, GoesFirstAlthoughItComesLater) {
   arms.run_until(at(100ms));
   const JobId left = arms.submit({JobId{0}, move({0}, 0, 1, 10s), 0, 60s});
   arms.run_until(at(5s));
-  ASSERT_TRUE(arms.job(right).pausing);
+  ASSERT_TRUE(arms.job(right).pausing());
   EXPECT_EQ(arms.job(right).waits_on.front().job, left);
   EXPECT_LE(arms.stands_at(ArmId{1}), 0.4);
   arms.run();
   EXPECT_EQ(arms.state(left), JobState::succeeded);
   EXPECT_EQ(arms.state(right), JobState::succeeded);
-  EXPECT_LT(*arms.job(left).ended_at, *arms.job(right).ended_at);
+  EXPECT_LT(*arms.job(left).ended_at(), *arms.job(right).ended_at());
 }
 
 TEST(LeftArmFirst, LetsTheRightOnePassThatIsThereAlready) {
@@ -58,7 +58,7 @@ TEST(LeftArmFirst, LetsTheRightOnePassThatIsThereAlready) {
   arms.run();
   EXPECT_EQ(arms.state(left), JobState::succeeded);
   EXPECT_EQ(arms.state(right), JobState::succeeded);
-  EXPECT_GT(*arms.job(left).ended_at, at(5500ms));
+  EXPECT_GT(*arms.job(left).ended_at(), at(5500ms));
 }
 
 }  // namespace

@@ -29,13 +29,14 @@ class Worlds : public ::testing::TestWithParam<std::string> {
       IdealArms& bench = world.bench();
       for (const JobId job : world.jobs) {
         const Job& at_end = bench.job(job);
-        ++ended[at_end.state];
-        EXPECT_TRUE(is_terminal(at_end.state))
-            << "job " << job.value() << " is " << to_string(at_end.state)
-            << (at_end.started_at ? ", has begun" : "")
+        ++ended[at_end.state()];
+        EXPECT_TRUE(is_terminal(at_end.state()))
+            << "job " << job.value() << " is " << to_string(at_end.state())
+            << (at_end.times.started_at ? ", has begun" : "")
             << (at_end.waits_on.empty() ? "" : waits_text(at_end.waits_on.front()));
-        EXPECT_TRUE(!all_succeed || at_end.state == JobState::succeeded)
-            << "job " << job.value() << " is " << to_string(at_end.state) << ": " << at_end.detail;
+        EXPECT_TRUE(!all_succeed || at_end.state() == JobState::succeeded)
+            << "job " << job.value() << " is " << to_string(at_end.state()) << ": "
+            << at_end.detail();
         EXPECT_EQ(bench.terminal_events[job], 1);
         EXPECT_GE(bench.times_dispatched(job), bench.times_released(job));
         EXPECT_EQ(bench.times_dispatched(job) > 0, bench.times_released(job) > 0);

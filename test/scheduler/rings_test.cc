@@ -36,7 +36,7 @@ TEST(Deadlock, TheJobThatCameLastFailsAndTheOtherWaitsForItsArm) {
   Swap bench;
   bench.step(Wake{}, at(3ms));
   EXPECT_EQ(bench.state(bench.b), JobState::failed);
-  EXPECT_EQ(bench.job(bench.b).reason, Reason::deadlock);
+  EXPECT_EQ(bench.job(bench.b).reason(), Reason::deadlock);
   EXPECT_THAT(bench.job(bench.b).ring, ElementsAre(bench.b, bench.a)) << "kept, as the reason";
   EXPECT_EQ(bench.terminal_events[bench.b], 1);
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
@@ -66,7 +66,7 @@ TEST(Deadlock, OfTwoThatStandOnTheirPathsIsNamedToo) {
   bench.answer_conflict(at(1003ms), Conflict::With::rest, {}, ArmId{0});
   EXPECT_THAT(bench.job(a).ring, ElementsAre(a, b));
   bench.step(Wake{}, at(1004ms));
-  EXPECT_EQ(bench.job(b).reason, Reason::deadlock);
+  EXPECT_EQ(bench.job(b).reason(), Reason::deadlock);
   bench.answer_free(at(1005ms));
   EXPECT_EQ(bench.state(a), JobState::scheduled);
 }
@@ -77,7 +77,7 @@ TEST(Deadlock, ACanceledJobOpensTheRing) {
   EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
   EXPECT_THAT(bench.job(bench.b).ring, IsEmpty());
-  EXPECT_FALSE(bench.job(bench.b).reason);
+  EXPECT_FALSE(bench.job(bench.b).reason());
 }
 
 TEST(Deadlock, OnAnotherSceneIsJudgedAgainBeforeAnyoneFails) {
@@ -117,7 +117,7 @@ TEST(Deadlock, ThroughAPredecessor) {
   bench.step(Submit{JobId{2}, move({1}, 0, 1, 2s), 0, 60s, {a}}, at(2ms));
   EXPECT_THAT(bench.job(a).ring, ElementsAre(a, JobId{2}));
   bench.step(Wake{}, at(3ms));
-  EXPECT_EQ(bench.job(JobId{2}).reason, Reason::deadlock);
+  EXPECT_EQ(bench.job(JobId{2}).reason(), Reason::deadlock);
   EXPECT_EQ(bench.state(a), JobState::backlogged);
 }
 
@@ -234,7 +234,7 @@ TEST(RingUnderPark, WhenEveryWayIsRefusedTheLastJobFails) {
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
   bench.answer_free(at(4ms));
   bench.answer_conflict(at(5ms), Conflict::With::rest, {}, ArmId{0});  // b would find it there too
-  EXPECT_EQ(bench.job(bench.b).reason, Reason::deadlock);
+  EXPECT_EQ(bench.job(bench.b).reason(), Reason::deadlock);
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
   EXPECT_THAT(bench.asides, IsEmpty());
 }
@@ -325,8 +325,8 @@ TEST(RingUnderPark, WithAMoveAsideInItFailsThatAndNoClientsJob) {
   EXPECT_THAT(bench.job(bench.a).ring, ElementsAre(bench.a, bench.way));
   EXPECT_EQ(bench.asides.size(), 1u);
   bench.step(Wake{}, at(7ms));
-  EXPECT_EQ(bench.job(bench.way).reason, Reason::deadlock);
-  EXPECT_EQ(bench.job(bench.back).reason, Reason::predecessor_failed);
+  EXPECT_EQ(bench.job(bench.way).reason(), Reason::deadlock);
+  EXPECT_EQ(bench.job(bench.back).reason(), Reason::predecessor_failed);
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
 }
@@ -353,7 +353,7 @@ TEST(RingUnderPark, ThatClosesAgainWithTheReturnFailsTheOtherAndNotTheReturn) {
   bench.answer_conflict(at(2003ms), Conflict::With::rest, {}, ArmId{0});
   EXPECT_THAT(bench.job(bench.back).ring, ElementsAre(bench.back, bench.a));
   bench.answer_conflict(at(2004ms), Conflict::With::scene);  // a's arm cannot go aside
-  EXPECT_EQ(bench.job(bench.a).reason, Reason::deadlock);
+  EXPECT_EQ(bench.job(bench.a).reason(), Reason::deadlock);
   EXPECT_EQ(bench.state(bench.back), JobState::backlogged);
   EXPECT_FALSE(is_terminal(bench.state(bench.b)));
 }
@@ -373,7 +373,7 @@ TEST(RingUnderPark, WithAMoveAsideThatAClientCountsOnFailsTheOther) {
   bench.answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{0});
   EXPECT_THAT(bench.job(a).ring, ElementsAre(a, way));
   bench.answer_conflict(at(5ms), Conflict::With::scene);  // a's arm cannot go aside
-  EXPECT_EQ(bench.job(a).reason, Reason::deadlock);
+  EXPECT_EQ(bench.job(a).reason(), Reason::deadlock);
   EXPECT_EQ(bench.state(way), JobState::backlogged);
   EXPECT_FALSE(is_terminal(bench.state(counts)));
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/coordination/effort.h"
+#include "core/scheduler/deadlines.h"
 #include "test/scheduler/bench_cell.h"
 
 namespace armloom {
@@ -81,7 +82,7 @@ TEST(Admission, DispatchesInTheStepThatAdmitsWhereNothingHoldsTheJobBack) {
   EXPECT_EQ(bench.dispatched.front().from_progress, 0ms);
   bench.progressed(job, 0ms, at(8ms));
   EXPECT_EQ(bench.state(job), JobState::running);
-  EXPECT_EQ(bench.job(job).started_at, at(8ms));
+  EXPECT_EQ(bench.job(job).times.started_at, at(8ms));
 }
 
 TEST(Admission, TriesTheLargerPriorityFirst) {
@@ -132,7 +133,7 @@ TEST(Admission, FailsWhatHitsItself) {
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_conflict(at(1ms), Conflict::With::self);
   EXPECT_EQ(bench.state(job), JobState::failed);
-  EXPECT_EQ(bench.job(job).reason, Reason::self_collision);
+  EXPECT_EQ(bench.job(job).reason(), Reason::self_collision);
   EXPECT_TRUE(bench.dispatched.empty());
 }
 
@@ -175,8 +176,8 @@ TEST(Backlog, ExpiresAJobAtItsDeadlineAndNotBefore) {
   EXPECT_EQ(bench.state(job), JobState::backlogged);
   bench.step(Wake{}, at(102ms));
   EXPECT_EQ(bench.state(job), JobState::expired);
-  EXPECT_EQ(bench.job(job).reason, Reason::backlog_timeout);
-  EXPECT_EQ(bench.job(job).detail, "waited 0.1 s in the backlog");
+  EXPECT_EQ(bench.job(job).reason(), Reason::backlog_timeout);
+  EXPECT_EQ(bench.job(job).detail(), "waited 0.1 s in the backlog");
   EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::object) << "in vain, for this";
   EXPECT_EQ(bench.terminal_events[job], 1);
 }
@@ -216,8 +217,8 @@ TEST(Order, AJobThatCannotBeginWhereItsArmStandsFailsAtItsTurn) {  // T11
   bench.answer_free(at(1ms));
   bench.finished(first, at(2s));
   EXPECT_EQ(bench.state(same_start), JobState::failed);
-  EXPECT_EQ(bench.job(same_start).reason, Reason::start_mismatch);
-  EXPECT_EQ(bench.job(same_start).detail, "a_joint stands at 1, the trajectory begins at 0");
+  EXPECT_EQ(bench.job(same_start).reason(), Reason::start_mismatch);
+  EXPECT_EQ(bench.job(same_start).detail(), "a_joint stands at 1, the trajectory begins at 0");
   EXPECT_EQ(bench.terminal_events[same_start], 1);
 }
 
@@ -237,8 +238,8 @@ TEST(Order, TheEndOfAJobOfTwoArmsGivesBothANewHead) {
   const JobId both = bench.submit(move({0, 1}, 1, 2, 2s), at(2ms));  // arm 0 stands at 0
   const JobId behind = bench.submit(move({0}, 2, 1, 2s), at(3ms));   // and here, too
   bench.finished(runs, at(2s));
-  EXPECT_EQ(bench.job(both).reason, Reason::start_mismatch);
-  EXPECT_EQ(bench.job(behind).reason, Reason::start_mismatch);
+  EXPECT_EQ(bench.job(both).reason(), Reason::start_mismatch);
+  EXPECT_EQ(bench.job(behind).reason(), Reason::start_mismatch);
   EXPECT_FALSE(bench.question);
 }
 
@@ -276,7 +277,7 @@ TEST(Overrun, OfAMotionThatStandsStillEndsIt) {
   EXPECT_THAT(bench.braked, ElementsAre(job));
   bench.stopped(job, 500ms, at(11s));
   EXPECT_EQ(bench.state(job), JobState::failed);
-  EXPECT_EQ(bench.job(job).reason, Reason::overrun);
+  EXPECT_EQ(bench.job(job).reason(), Reason::overrun);
 }
 
 TEST(Overrun, IsNoneWhileItMovesHoweverSlowly) {

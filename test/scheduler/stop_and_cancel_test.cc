@@ -37,7 +37,7 @@ TEST(Cancel, OfAMotionBrakesItAndDisturbsNoOther) {  // T7
   bench.progressed(second, 800ms, at(803ms));
   bench.step(Cancel{first}, at(803ms));
   EXPECT_THAT(bench.braked, ElementsAre(first));
-  EXPECT_TRUE(bench.job(first).stopping);
+  EXPECT_TRUE(bench.job(first).stopping());
   EXPECT_EQ(bench.state(first), JobState::running);
   bench.stopped(first, 1s, at(1100ms));
   EXPECT_EQ(bench.state(first), JobState::canceled);
@@ -76,13 +76,13 @@ TEST(Cancel, HoldsOnlyWhatTheRestingArmStandsInTheWayOf) {
   bench.progressed(behind, 900ms, at(2s));
   bench.progressed(behind, 1500ms, at(3s));
   bench.progressed(behind, 1500ms, at(4s));
-  EXPECT_TRUE(bench.job(behind).pausing);
+  EXPECT_TRUE(bench.job(behind).pausing());
   EXPECT_EQ(bench.job(behind).waits_on.front().kind, Wait::Kind::arm);
   EXPECT_EQ(bench.job(behind).waits_on.front().arm, ArmId{0});
   EXPECT_EQ(bench.authority(behind), 1500ms - kShortOf);
   bench.progressed(free, 1500ms, at(4s));
   EXPECT_GT(bench.authority(free), 1500ms);
-  EXPECT_FALSE(bench.job(free).pausing);
+  EXPECT_FALSE(bench.job(free).pausing());
 }
 
 // Where only another one's decision would let it go on.
@@ -99,15 +99,15 @@ TEST(Cancel, ThatLeavesAnArmInTheWayForGoodEndsWhoWaitsForItOnItsPath) {
   bench.stopped(first, 1100ms, at(1107ms));
   bench.progressed(behind, 900ms, at(2s));
   for (Duration t = 3s; t < 24s; t += 1s) bench.progressed(behind, 1500ms - kShortOf, at(t));
-  ASSERT_TRUE(bench.job(behind).pausing);
+  ASSERT_TRUE(bench.job(behind).pausing());
   bench.step(Wake{}, at(24s) - 1ns);
   EXPECT_THAT(bench.braked, ElementsAre(first));
   bench.step(Wake{}, at(24s));
   EXPECT_THAT(bench.braked, ElementsAre(first, behind)) << "it has stood there since 4 s";
   bench.stopped(behind, 1450ms, at(24100ms));
   EXPECT_EQ(bench.state(behind), JobState::expired);
-  EXPECT_EQ(bench.job(behind).reason, Reason::backlog_timeout);
-  EXPECT_EQ(bench.job(behind).detail, "waited 20 s on its path");
+  EXPECT_EQ(bench.job(behind).reason(), Reason::backlog_timeout);
+  EXPECT_EQ(bench.job(behind).detail(), "waited 20 s on its path");
 }
 
 // x, y and z take their arm out of b's way only together: all are admitted with b.
@@ -149,9 +149,9 @@ TEST(Stop, HoldsMotionsAndKeepsTheQueue) {
   const JobId waits = bench.submit(move({0}, 1, 0, 2s), at(100ms));
   bench.step(Stop{{ArmId{0}}, "operator"}, at(500ms));
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::holding);
-  EXPECT_TRUE(bench.job(bench.jobs[0]).stopping);
+  EXPECT_TRUE(bench.job(bench.jobs[0]).stopping());
   bench.stopped(bench.jobs[0], 700ms, at(800ms));
-  EXPECT_FALSE(bench.job(bench.jobs[0]).stopping);
+  EXPECT_FALSE(bench.job(bench.jobs[0]).stopping());
   EXPECT_EQ(bench.job(bench.jobs[0]).waits_on.front().kind, Wait::Kind::stop);
   EXPECT_EQ(bench.job(bench.jobs[0]).waits_on.front().detail, "operator");
   EXPECT_EQ(bench.job(waits).waits_on.front().kind, Wait::Kind::order);
@@ -163,7 +163,7 @@ TEST(Stop, HoldsMotionsAndKeepsTheQueue) {
   EXPECT_EQ(bench.dispatched.back().from_progress, 700ms);
   bench.progressed(bench.jobs[0], 710ms, at(5010ms));
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::running);
-  EXPECT_EQ(bench.job(bench.jobs[0]).started_at, at(4ms)) << "it has started once";
+  EXPECT_EQ(bench.job(bench.jobs[0]).times.started_at, at(4ms)) << "it has started once";
   bench.finished(bench.jobs[0], at(7s));
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::succeeded);
   EXPECT_EQ(bench.question->candidates.front().job, waits);
@@ -256,7 +256,7 @@ TEST(Interrupt, EndsEveryJobOnce) {
   bench.step(Interrupt{}, at(701ms));
   for (JobId job : {bench.jobs[0], bench.jobs[1], waits}) {
     EXPECT_EQ(bench.state(job), JobState::interrupted);
-    EXPECT_EQ(bench.job(job).reason, Reason::server_restart);
+    EXPECT_EQ(bench.job(job).reason(), Reason::server_restart);
     EXPECT_EQ(bench.terminal_events[job], 1);
   }
 }
@@ -267,7 +267,7 @@ TEST(Fault, FailsTheJobAndStopsItsArmUntilResumed) {
                           Eigen::VectorXd::Constant(1, 0.2), "drive 3"},
              at(503ms));
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::failed);
-  EXPECT_EQ(bench.job(bench.jobs[0]).reason, Reason::arm_fault);
+  EXPECT_EQ(bench.job(bench.jobs[0]).reason(), Reason::arm_fault);
   EXPECT_TRUE(bench.scheduler.stopped(ArmId{0}));
   EXPECT_EQ(bench.state(bench.jobs[1]), JobState::running);
   const JobId next = bench.submit(move({0}, 0.2, 0, 2s), at(600ms));

@@ -31,7 +31,7 @@ std::string told(const Scheduler& scheduler) {
   std::string text;
   for (const JobId id : scheduler.active()) {
     const Job& job = *scheduler.find(id);
-    text += std::to_string(id.value()) + " " + to_string(job.state) + " " +
+    text += std::to_string(id.value()) + " " + to_string(job.state()) + " " +
             std::to_string(job.progress.count()) + " " + armloom::text(job.waits_on) + "\n";
   }
   return text;
@@ -99,16 +99,17 @@ class Look {
 
   void compare(const Trial::Outcome& says, const Job& job) {
     ++seen_.states;
-    const bool is_free = job.state == JobState::scheduled || job.state == JobState::running;
+    const bool is_free = job.state() == JobState::scheduled || job.state() == JobState::running;
     const std::string what = "job " + std::to_string(job.id.value()) + " at " +
                              std::to_string(to_seconds(bench().now().time_since_epoch())) +
                              " s, said to wait for " + text(says.waits) + ", is " +
-                             to_string(job.state) + " and waits for " + text(job.waits_on);
+                             to_string(job.state()) + " and waits for " + text(job.waits_on);
     ASSERT_EQ(says.kind == Verdict::Kind::free, is_free) << what;
     if (is_free) {
-      ASSERT_EQ(says.starts_in, std::max(Duration{}, *job.scheduled_at - bench().now())) << what;
+      ASSERT_EQ(says.starts_in, std::max(Duration{}, *job.times.scheduled_at - bench().now()))
+          << what;
       ++(*says.starts_in > Duration{} ? seen_.free_later : seen_.free_now);
-    } else if (is_terminal(job.state)) {
+    } else if (is_terminal(job.state())) {
       ++seen_.fail;
     } else {
       ++seen_.wait;

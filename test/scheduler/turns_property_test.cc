@@ -37,10 +37,10 @@ class World {
     for (const auto& [job, times] : bench_.terminal_events) {
       EXPECT_EQ(times, 1);
       const Job& ended = bench_.job(job);
-      succeeded += ended.state == JobState::succeeded ? 1 : 0;
-      deadlocks += ended.reason == Reason::deadlock ? 1 : 0;
-      EXPECT_NE(ended.state, JobState::expired);
-      if (ended.reason == Reason::deadlock) {
+      succeeded += ended.state() == JobState::succeeded ? 1 : 0;
+      deadlocks += ended.reason() == Reason::deadlock ? 1 : 0;
+      EXPECT_NE(ended.state(), JobState::expired);
+      if (ended.reason() == Reason::deadlock) {
         EXPECT_EQ(*std::ranges::max_element(ended.ring), job) << "the last one gives way";
       }
     }

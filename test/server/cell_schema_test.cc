@@ -122,7 +122,7 @@ TEST_P(WrittenCell, ReadsBackAsTheSame) {
 
 INSTANTIATE_TEST_SUITE_P(Configs, WrittenCell,
                          ::testing::Values("two_pandas.json", "dual_panda.json",
-                                           "panda_and_ur5e.json", "two_fanucs.json"));
+                                           "panda_and_ur5e.json", "two_shuttles.json"));
 
 TEST(CommentedJson, KeepsACommentAComment) {
   const Schema schema{{"properties", {{"a", {{"description", "x"}}}}}};

@@ -200,7 +200,8 @@ TEST_F(Command, AuditFindsTheContactInADoctoredRecording) {
   // A state more: both arms reach across the middle of the table, through each other.
   constexpr test::Pose kReaching{0, 0.3, 0, -1.8, 0, 2.1, 0.785};
   std::string states = read_text_file(folder_ / "states.csv").value();
-  states += "1000";
+  const double end_s = std::stod(states.substr(states.rfind('\n', states.size() - 2) + 1));
+  states += std::to_string(end_s + 1.0);
   for (int arm = 0; arm < 2; ++arm) {
     for (const double q : kReaching) states += "," + std::to_string(q);
     states += ",0";
@@ -211,7 +212,7 @@ TEST_F(Command, AuditFindsTheContactInADoctoredRecording) {
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   EXPECT_EQ(outcome.last_line()["contact"]["links"].size(), 2U);
 
-  file("states.csv", states + "1001,x\n");
+  file("states.csv", states + "\n" + std::to_string(end_s + 2.0) + ",x\n");
   const Outcome broken = run("audit --cell " + kCell + " --recording " + folder_.string());
   EXPECT_EQ(broken.exit_code, 2);
   EXPECT_NE(broken.err.find("states.csv:"), std::string::npos) << broken.err;

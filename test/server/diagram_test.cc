@@ -82,6 +82,15 @@ TEST_F(DiagramOverHttp, OfTwoThatCrossIsFreeAtTheirBeginningsAndAConflictAtTheir
   ASSERT_EQ(diagram["layers"].size(), 1U);
   const json& layer = diagram["layers"][0];
   EXPECT_EQ(layer["arms"], json({"left", "right"}));
+  // What lies ahead is in the cells where it says so; asked again, nothing is drawn anew.
+  const json met = layer["met"];
+  EXPECT_EQ(met["state"], "conflict");
+  EXPECT_EQ(state_at(layer, met["a_s"].get<double>() + 1e-6, met["b_s"].get<double>() + 1e-6),
+            "conflict");
+  const json again = get("/api/v1/jobs/l/diagram?with=r&cells=0").json();
+  EXPECT_FALSE(again["layers"][0].contains("cells"));
+  EXPECT_EQ(again["layers"][0]["met"]["state"], "conflict");
+  EXPECT_EQ(again["evaluations"], diagram["evaluations"]);
   auto area = areas(layer, 3.0, 4.0);
   EXPECT_GT(area["free"], 1.0);
   EXPECT_GT(area["conflict"], 0.5);

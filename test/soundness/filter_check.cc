@@ -214,10 +214,11 @@ CellPtr cell_of_file(const std::string& name) {
   std::ifstream file(folder + "/" + name);
   std::ostringstream text;
   text << file.rdbuf();
-  const auto description = read_cell_text(text.str(), folder);
-  if (!description) return nullptr;
-  const auto cell = build_cell(*description);
-  return cell ? *cell : nullptr;
+  const auto cell = read_cell_text(text.str(), folder).and_then([](const CellDescription& read) {
+    return build_cell(read);
+  });
+  if (!cell) throw std::runtime_error(name + ": " + cell.error().front().detail);
+  return *cell;
 }
 
 }  // namespace armloom::soundness

@@ -28,7 +28,7 @@ struct FilterReport {
 [[nodiscard]] FilterReport check_filter(const CellPtr& cell, std::size_t states,
                                         std::uint64_t seed);
 
-// A cell of this repository's config folder; null: it has files that are not here.
+// A cell of this repository's config folder. Throws what is wrong with it.
 [[nodiscard]] CellPtr cell_of_file(const std::string& name);
 
 }  // namespace armloom::soundness

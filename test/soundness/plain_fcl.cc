@@ -75,9 +75,7 @@ double PlainFcl::distance(std::size_t part_a, const Eigen::Isometry3d& X_WA, std
   double smallest = std::numeric_limits<double>::infinity();
   fcl::DistanceRequestd request;
   request.distance_tolerance = 1e-12;
-  const auto pose = [](const Body& body) {
-    return body.is_piece ? body.solid->X_PT : body.X_PS;
-  };
+  const auto pose = [](const Body& body) { return body.is_piece ? body.solid->X_PT : body.X_PS; };
   for (std::size_t i = a.bodies_begin; i < a.bodies_end; ++i) {
     for (std::size_t j = b.bodies_begin; j < b.bodies_end; ++j) {
       if (!shapes_->of_body[i] || !shapes_->of_body[j]) continue;

@@ -25,6 +25,8 @@ export type CellJoint = Schemas['CellJoint'];
 export type Diagram = Schemas['Diagram'];
 /** What one arm of A and one arm of B do to each other, wherever each is on its way. */
 export type DiagramLayer = Diagram['layers'][number];
+/** What the two meet if both go on from where they are. */
+export type DiagramMeeting = Schemas['DiagramMeeting'];
 export type CellState = Schemas['DiagramCell']['state'];
 export type QueueData = Schemas['QueueIds'];
 export type MonitorData = Schemas['MonitorFinding'];

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { Api } from '../src/api';
-import { evidence_in_words, evidence_of, first_met, plan_from, plan_in_words, shares } from '../src/diagram';
+import { evidence_in_words, evidence_of, plan_from, plan_in_words, shares } from '../src/diagram';
 import { parse_diagram, parse_job, type Diagram, type Job } from '../src/messages';
 import { diagram_json, job_json, wait_json } from './samples';
 
@@ -26,17 +26,16 @@ function job(id: string, over: object = {}): Job {
   if (!parsed.ok) throw new Error(parsed.fault);
   return parsed.value;
 }
-const met_from = (a_s: number, b_s: number, cells?: Cells) => first_met(plan_from({ a_s, b_s }, diagram()), layer(cells));
 
 describe('a diagram', () => {
   it('is read with its cells', () => {
-    expect(layer().cells[2]).toEqual({ state: 'undecided', a_s: [2, 4], b_s: [0.5, 1] });
+    expect(layer().cells?.[2]).toEqual({ state: 'undecided', a_s: [2, 4], b_s: [0.5, 1] });
     expect(diagram().a).toMatchObject({ id: 'left', duration_s: 4, progress_s: 1 });
   });
   it('is refused with the place of what is wrong in it', () => {
     const wrong = parse_diagram(diagram_json([['perhaps', 0, 1, 0, 1]]));
     expect(!wrong.ok && wrong.fault).toMatch(/^\/layers\/0\/cells\/0\/state: .*"free"/);
-    const bent = parse_diagram(diagram_json([], { layers: [{ arms: ['left', 'right'], cells: [{ state: 'free', a_s: [1], b_s: [0, 1] }] }] }));
+    const bent = parse_diagram(diagram_json([], { layers: [{ arms: ['left', 'right'], met: null, cells: [{ state: 'free', a_s: [1], b_s: [0, 1] }] }] }));
     expect(!bent.ok && bent.fault).toMatch(/^\/layers\/0\/cells\/0\/a_s: .*too few items/);
   });
   it('is asked for by both ids, whatever characters they hold', async () => {
@@ -48,6 +47,8 @@ describe('a diagram', () => {
     const answer = await api.diagram('a/1', 'b&2');
     expect(asked).toBe('/api/v1/jobs/a%2F1/diagram?with=b%262');
     expect(answer.ok && answer.value.layers[0]?.cells).toHaveLength(4);
+    await api.diagram('a/1', 'b&2', false);
+    expect(asked).toBe('/api/v1/jobs/a%2F1/diagram?with=b%262&cells=0');
   });
   it('has shares of its area that add up to one', () => {
     const { free, conflict, undecided } = shares(layer());
@@ -62,28 +63,9 @@ describe('the plan', () => {
     expect(plan_from({ a_s: 1, b_s: 0.5 }, diagram())).toEqual([{ a_s: 1, b_s: 0.5 }, { a_s: 3.5, b_s: 3 }, { a_s: 4, b_s: 3 }]);
     expect(plan_from({ a_s: 4, b_s: 0 }, diagram())).toEqual([{ a_s: 4, b_s: 0 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }]);
   });
-  it('meets the first conflict, and says when', () => {
-    expect(met_from(0, 0)).toEqual({ state: 'conflict', in_s: 2, a_s: 2, b_s: 2 });
-    expect(met_from(1.75, 0.5)).toEqual({ state: 'conflict', in_s: 0.5, a_s: 2.25, b_s: 1 });
-  });
-  it('meets what is not decided where there is no conflict', () => {
-    expect(met_from(1.75, 0.5, kCells.slice(0, 3))).toEqual({ state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 });
-  });
-  it('meets what lies on the rest of one after the end of the other', () => {
-    expect(met_from(4, 0)).toMatchObject({ state: 'conflict', in_s: 1, a_s: 4, b_s: 1 });
-  });
-  it('meets nothing when it passes by, or only touches a corner', () => {
-    expect(met_from(0, 0, [['free', 0, 4, 0, 3]])).toBeNull();
-    expect(met_from(1, 0, [['conflict', 0, 2, 2, 3], ['conflict', 3, 4, 0, 1]])).toBeNull();
-    expect(met_from(1, 0, [['conflict', 0, 2, 1, 2]])).toBeNull();
-  });
-  it('says that they stand in it when they do', () => {
-    expect(met_from(3, 2)?.in_s).toBe(0);
-    expect(met_from(4, 3)?.in_s).toBe(0);
-  });
   it('is put into words', () => {
-    expect(plan_in_words(met_from(0, 0), 'right')).toBe('If right started now, they meet a conflict in 2.00 s.');
-    expect(plan_in_words(met_from(1.75, 0.5, kCells.slice(0, 3)), null)).toBe('If both go on from here, they meet what is not proven free in 0.25 s.');
+    expect(plan_in_words({ state: 'conflict', in_s: 2, a_s: 2, b_s: 2 }, 'right')).toBe('If right started now, they meet a conflict in 2.00 s.');
+    expect(plan_in_words({ state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 }, null)).toBe('If both go on from here, they meet what is not proven free in 0.25 s.');
     expect(plan_in_words(null, null, 'left')).toBe('While left rests at its end, the way of the other one is free.');
     expect(plan_in_words(null, null)).toMatch(/through free cells only/);
   });

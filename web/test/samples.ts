@@ -51,7 +51,7 @@ export function diagram_json(cells: Ranges[], over: object = {}): Record<string,
   return {
     t_s: 7, a: { id: 'left', state: 'running', duration_s: 4, progress_s: 1 },
     b: { id: 'right', state: 'backlogged', duration_s: 3, progress_s: 0 },
-    layers: [{ arms: ['left', 'right'], cells: cells.map(([state, a0, a1, b0, b1]) => ({ state, a_s: [a0, a1], b_s: [b0, b1] })) }],
+    layers: [{ arms: ['left', 'right'], met: null, cells: cells.map(([state, a0, a1, b0, b1]) => ({ state, a_s: [a0, a1], b_s: [b0, b1] })) }],
     evaluations: 12, scene_version: 1, ...over,
   };
 }

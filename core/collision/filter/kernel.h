@@ -62,6 +62,14 @@ struct Side {
                            // they may move (Kernel::enclose); not read where pairs have no groups
 };
 
+// What moves the capsules of a side that is held apart along one direction.
+struct Joints {
+  const Linkage* linkage;  // null: nothing does
+  const float* axes;       // as Placed::axes
+  const float* span;       // as inflate() takes it
+  const float* bend;       // as inflate() makes it
+};
+
 // Two capsules to compare, with what does not change. Rows of the sides' inflation arrays say how
 // far each may move.
 struct Pair {
@@ -124,8 +132,10 @@ struct Kernel {
   // other ancestors of span times the lever about that joint at this configuration. (Changing the
   // joints one after another from base to tip, each turns what is behind it in the shape that it
   // has here: hence the levers at hand bound motions of any size.)
+  // bend: [capsule][kLanes], what along any direction is to be added to the first order of
+  // that motion (sweep.h, the second sum, with what turning adds to a round end).
   void (*inflate)(const Linkage& linkage, const float* axes, const float* capsules,
-                  const float* span, float* suffix);
+                  const float* span, float* suffix, float* bend);
   // The ball of a side; rows[c] is the row of capsule c in `inflation`. Null: nothing moves.
   void (*enclose)(const Linkage& linkage, const float* capsules, const float* inflation,
                   const int* rows, float* ball);
@@ -133,6 +143,10 @@ struct Kernel {
   // for all pairs.
   int (*near_pairs)(const Side& a, const Side& b, const Pair* pairs, int count,
                     const Groups& groups, unsigned lanes, Hit* hits);
+  // In which of `lanes` the two capsules keep their limit wherever the joints are within their
+  // spans, because of how far each reaches along the direction that parts their axes (sweep.h).
+  unsigned (*keep_apart)(const Side& a, const Joints& of_a, const Side& b, const Joints& of_b,
+                         const Pair& pair, unsigned lanes);
   int (*near_boxes)(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits);
 };
 

@@ -152,19 +152,23 @@ inline Vec<F> minus(const Vec<F>& a, const Vec<F>& b) {
 // Float roundings of a lever are below one part in 1e5 and a micrometre.
 template <class F>
 void inflate(const Linkage& linkage, const float* axes, const float* capsules, const float* span,
-             float* suffix) {
+             float* suffix, float* bend) {
   for (int c = 0; c < linkage.capsule_count; ++c) {
     const Capsule& capsule = linkage.capsules[c];
     const int* ancestors = linkage.ancestors + capsule.ancestors_begin;
     float* rows = suffix + capsule.suffix_begin * kLanes;
     const F extra = F::all(capsule.radius_up + 2e-6F);
+    const F half_one = F::all(0.5F);
     for (int l = 0; l < kLanes; l += F::kLanes) {
       const Vec<F> center = Vec<F>::load(capsules + c * 6 * kLanes + l);
       const Vec<F> half = Vec<F>::load(capsules + (c * 6 + 3) * kLanes + l);
       F sum = F::all(0.0F);
+      F bends = F::all(0.0F);
+      F turned = F::all(0.0F);
       sum.store(rows + capsule.depth * kLanes + l);
       for (int k = capsule.depth - 1; k >= 0; --k) {
         const int f = ancestors[k];
+        const F by = F::load(span + f * kLanes + l);
         F lever = F::all(1.0F);
         if (!linkage.frames[f].prismatic) {
           const Vec<F> origin = Vec<F>::load(axes + f * 6 * kLanes + l);
@@ -173,18 +177,24 @@ void inflate(const Linkage& linkage, const float* axes, const float* capsules, c
           const Vec<F> v = cross(half, axis);
           const F uv = F::abs(dot(u, v));
           lever = F::sqrt(dot(u, u) + dot(v, v) + uv + uv) + extra;
+          bends = bends + by * (sum + half_one * by * lever);
+          turned = turned + by;
         }
-        sum = sum + lever * F::load(span + f * kLanes + l) * F::all(1.00001F);
+        sum = sum + lever * by * F::all(1.00001F);
         sum.store(rows + k * kLanes + l);
       }
+      // sqrt(1 + t^2) - 1 <= t^2 / 2; the last term: roundings of the moments about each axis.
+      bends = bends + half_one * F::all(capsule.radius_up) * turned * turned;
+      const F size = F::abs(center.x) + F::abs(center.y) + F::abs(center.z);
+      bends = bends * F::all(1.0001F) + turned * (F::all(4e-6F) + F::all(1e-6F) * size);
+      bends.store(bend + c * kLanes + l);
     }
   }
 }
 
-// A lower bound of the distance of the axes: the gap between two planes that hold them apart,
-// across the direction of (nearly) nearest points. Errors of these points lower it, never raise it.
+// From (nearly) the nearest point of b's axis to that of a's; w: from b's centre to a's.
 template <class F>
-inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pair& pair) {
+inline Vec<F> between_axes(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pair& pair) {
   const F one = F::all(1.0F);
   const F ab = dot(ha, hb);
   const F aw = dot(ha, w);
@@ -196,11 +206,72 @@ inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pai
   F s = clamp((ab * bw - aw * bb) / denominator);
   const F t = clamp((ab * s + bw) * F::all(pair.inv_bb));
   s = clamp((ab * t - aw) * F::all(pair.inv_aa));
-  const Vec<F> v = {w.x + s * ha.x - t * hb.x, w.y + s * ha.y - t * hb.y,
-                    w.z + s * ha.z - t * hb.z};
+  return {w.x + s * ha.x - t * hb.x, w.y + s * ha.y - t * hb.y, w.z + s * ha.z - t * hb.z};
+}
+
+// A lower bound of the distance of the axes: the gap between two planes that hold them apart,
+// across the direction of (nearly) nearest points. Errors of these points lower it, never raise it.
+template <class F>
+inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pair& pair) {
+  const Vec<F> v = between_axes(w, ha, hb, pair);
   const F length = F::sqrt(dot(v, v));
   const F gap = dot(v, w) - F::abs(dot(v, ha)) - F::abs(dot(v, hb));
   return gap / F::max(length, F::all(1e-20F));
+}
+
+// How much farther than its centre a capsule's axis reaches along d, to first order of what the
+// joints may do.
+template <class F>
+inline F reach_along(const Joints& joints, int c, const Vec<F>& d, const Vec<F>& center,
+                     const Vec<F>& half, int l) {
+  const F along = dot(d, half);
+  if (joints.linkage == nullptr) return F::abs(along);
+  const Capsule& capsule = joints.linkage->capsules[c];
+  const int* ancestors = joints.linkage->ancestors + capsule.ancestors_begin;
+  F shifts = F::all(0.0F);
+  F ahead = along;                  // of the end at center + half
+  F behind = F::all(0.0F) - along;  // of the other one
+  for (int k = 0; k < capsule.depth; ++k) {
+    const int f = ancestors[k];
+    const Vec<F> axis = Vec<F>::load(joints.axes + (f * 6 + 3) * kLanes + l);
+    const F span = F::load(joints.span + f * kLanes + l);
+    if (joints.linkage->frames[f].prismatic) {
+      shifts = shifts + span * F::abs(dot(d, axis));
+      continue;
+    }
+    const Vec<F> moment = cross(d, axis);
+    const F middle = dot(moment, minus(center, Vec<F>::load(joints.axes + f * 6 * kLanes + l)));
+    const F end = dot(moment, half);
+    ahead = ahead + span * F::abs(middle + end);
+    behind = behind + span * F::abs(middle - end);
+  }
+  return (F::max(ahead, behind) + shifts) * F::all(1.00001F) +
+         F::load(joints.bend + c * kLanes + l);
+}
+
+// Roundings: as axis_gap() but for the direction's, once more; those of moments are in `bend`.
+template <class F>
+unsigned keep_apart(const Side& a, const Joints& of_a, const Side& b, const Joints& of_b,
+                    const Pair& pair, unsigned lanes) {
+  const float* at_a = a.capsules + pair.a * 6 * kLanes;
+  const float* at_b = b.capsules + pair.b * 6 * kLanes;
+  unsigned open = 0;
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    const Vec<F> center_a = Vec<F>::load(at_a + l);
+    const Vec<F> center_b = Vec<F>::load(at_b + l);
+    const Vec<F> half_a = Vec<F>::load(at_a + 3 * kLanes + l);
+    const Vec<F> half_b = Vec<F>::load(at_b + 3 * kLanes + l);
+    const Vec<F> w = minus(center_a, center_b);
+    const Vec<F> v = between_axes(w, half_a, half_b, pair);
+    const F length = F::max(F::sqrt(dot(v, v)), F::all(1e-20F));
+    const Vec<F> d = {v.x / length, v.y / length, v.z / length};
+    const F zero = F::all(0.0F);
+    const Vec<F> back = {zero - d.x, zero - d.y, zero - d.z};
+    const F gap = dot(d, w) - reach_along(of_a, pair.a, back, center_a, half_a, l) -
+                  reach_along(of_b, pair.b, d, center_b, half_b, l);
+    open |= F::not_at_least(gap, F::all(pair.limit_up + pair.radii_up + 1e-6F)) << l;
+  }
+  return lanes & ~open;
 }
 
 // About the middle of the box around the capsules' centres.

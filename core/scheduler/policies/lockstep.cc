@@ -1,17 +1,60 @@
 // Synchronous execution, the baseline of the paper's experiments: rounds of one job for each arm.
 // They start together; those in conflict within a round follow one after the other. The next round
 // begins when all have ended.
+#include <algorithm>
+
+#include "core/scheduler/authority.h"
 #include "core/scheduler/policies/policies.h"
 
 namespace armloom {
 namespace {
+
+// Waits for something else of the round, or for an arm that has no job in it.
+bool stands_in_vain(const State& state, const Record& record) {
+  const bool tried = record.job.is_waiting() &&
+                     (record.job.judgement().at == state.version || !state.jobs.at_head(record));
+  return tried || held_where_it_stands(state, record).has_value();
+}
 
 class LockstepPolicy final : public Policy {
  public:
   explicit LockstepPolicy(double tracking_error) : tracking_error_(tracking_error) {}
 
   std::string_view name() const override { return "lockstep"; }
-  bool in_rounds() const override { return true; }
+  // A round is over when all of its jobs have ended; until the first of them moves, arms that have
+  // no job in it may join. Where those that are left wait for arms that only a next job would move
+  // away, these jobs join too; and so does what was placed before one of them.
+  Round next_round(const State& state) const override {
+    Round round = state.round;
+    const JobBook& book = state.jobs;
+    std::erase_if(round.jobs, [&](JobId id) { return !book.is_active(id); });
+    for (const auto& queue : book.queues()) {
+      for (const JobId id : queue) {
+        const auto& before = book.at(id).before;
+        if (!before) break;
+        if (round.jobs.contains(*before)) round.jobs.insert(id);
+      }
+    }
+    const bool stuck = std::ranges::all_of(
+        round.jobs, [&](JobId id) { return stands_in_vain(state, book.at(id)); });
+    if (round.jobs.empty()) round.has_begun = false;
+    for (JobId id : round.jobs) round.has_begun |= book.at(id).job.has_started();
+    if (round.has_begun && !stuck) return round;
+    for (const auto& queue : book.queues()) {
+      if (queue.empty()) continue;
+      const Record& record = book.at(queue.front());
+      const bool goes =
+          record.job.is_waiting() && book.at_head(record) && !state.arms.stop_of(record.job);
+      if (goes) round.jobs.insert(queue.front());
+    }
+    return round;
+  }
+  std::optional<JobId> place_taken_by(const State& state, const Record& record) const override {
+    const auto& jobs = state.round.jobs;
+    if (jobs.contains(record.job.id) || jobs.empty()) return std::nullopt;
+    return *jobs.begin();
+  }
+  bool lets_jobs_age() const override { return false; }  // rounds are fair by themselves
   CheckMethod method() const override { return Coordinated{tracking_error_}; }
   PassingOrders decide(const OrderQuestion& question) const override {
     return orders_in_time(question, Duration{});

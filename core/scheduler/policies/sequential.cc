@@ -10,9 +10,10 @@ class SequentialPolicy final : public Policy {
   explicit SequentialPolicy(double tracking_error) : tracking_error_(tracking_error) {}
 
   std::string_view name() const override { return "sequential"; }
-  std::optional<JobId> capacity_taken_by(const std::vector<const Job*>& occupying) const override {
-    if (occupying.empty()) return std::nullopt;
-    return occupying.front()->id;
+  std::optional<JobId> place_taken_by(const State& state, const Record& record) const override {
+    std::vector<const Job*> others = state.jobs.occupying();
+    std::erase(others, &record.job);  // held on its path
+    return others.empty() ? std::nullopt : std::optional(others.front()->id);
   }
   CheckMethod method() const override { return Coordinated{tracking_error_}; }
   PassingOrders decide(const OrderQuestion& question) const override {

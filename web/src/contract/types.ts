@@ -134,8 +134,10 @@ export interface components {
                     string,
                     string
                 ];
-                /** @description Cover the rectangle of both durations and do not overlap */
-                cells: components["schemas"]["DiagramCell"][];
+                /** @description Cover the rectangle of both durations and do not overlap; not with cells=false */
+                cells?: components["schemas"]["DiagramCell"][];
+                /** @description The first conflict, else the first undecided cell, if both go on from where they are, and who ends first rests; null: through free cells only */
+                met: components["schemas"]["DiagramMeeting"] | null;
             }[];
             evaluations: number;
             scene_version: number;
@@ -444,7 +446,7 @@ export interface components {
             detail?: string;
         };
         /**
-         * @description A closed list; the README explains each.
+         * @description A closed list; core/scheduler/README.md explains each.
          * @enum {string}
          */
         Reason: "completed" | "canceled_by_client" | "backlog_timeout" | "start_mismatch" | "self_collision" | "predecessor_failed" | "arm_fault" | "overrun" | "server_restart" | "deadlock";
@@ -470,6 +472,14 @@ export interface components {
                 number,
                 number
             ];
+        };
+        DiagramMeeting: {
+            /** @enum {string} */
+            state: "free" | "conflict" | "undecided";
+            /** @description After t_s */
+            in_s: number;
+            a_s: number;
+            b_s: number;
         };
         Snapshot: {
             cell: string;

@@ -3,7 +3,7 @@
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import {
-  evidence_in_words, evidence_of, first_met, plan_from, plan_in_words, shares, type Point,
+  evidence_in_words, evidence_of, plan_from, plan_in_words, shares, type Point,
 } from '../diagram';
 import type { Diagram, Job, Problem } from '../messages';
 import { arm_colour, kCellColours } from '../palette';
@@ -16,6 +16,7 @@ import { use_store } from './use_store';
 
 const kShownFinished = 12;
 const kTrail = 2000;
+const kAheadEvery_ms = 500;
 
 interface Props { a: string; b: string; store: Store; actions: Actions }
 
@@ -66,7 +67,7 @@ export function DiagramPanel({ a, b, store, actions }: Props) {
           ))}
         </div>
       )}
-      {diagram && <Drawn key={`${a} ${b} ${layer}`} diagram={diagram} layer={layer} jobs={jobs} store={store} />}
+      {diagram && <Drawn key={`${a} ${b} ${layer}`} diagram={diagram} layer={layer} jobs={jobs} store={store} actions={actions} />}
       {fetched.kind !== 'refused' && !diagram && <p class="hint">{connected ? 'Drawing…' : 'Not connected.'}</p>}
     </>
   );
@@ -89,9 +90,33 @@ function Pick({ what, id, store, on_pick }: { what: string; id: string; store: S
   );
 }
 
-interface DrawnProps { diagram: Diagram; layer: number; jobs: { a: Job | null; b: Job | null }; store: Store }
+/** The diagram as the server answers it again and again, without its cells: what lies ahead by now. */
+function use_ahead(diagram: Diagram, is_open: boolean, actions: Actions): Diagram {
+  const [ahead, set_ahead] = useState(diagram);
+  useEffect(() => {
+    set_ahead(diagram);
+    if (!is_open) return;
+    let closed = false;
+    const ask = async () => {
+      const answer = await actions.api.diagram(diagram.a.id, diagram.b.id, false);
+      if (closed) return;
+      if (answer.ok) set_ahead(answer.value);
+      timer = setTimeout(() => void ask(), kAheadEvery_ms);
+    };
+    let timer = setTimeout(() => void ask(), kAheadEvery_ms);
+    return () => {
+      closed = true;
+      clearTimeout(timer);
+    };
+  }, [actions, diagram, is_open]);
+  return ahead;
+}
 
-function Drawn({ diagram, layer: index, jobs, store }: DrawnProps) {
+interface DrawnProps {
+  diagram: Diagram; layer: number; jobs: { a: Job | null; b: Job | null }; store: Store; actions: Actions;
+}
+
+function Drawn({ diagram, layer: index, jobs, store, actions }: DrawnProps) {
   const layer = diagram.layers[index] ?? diagram.layers[0];
   const host = useRef<HTMLDivElement>(null);
   const scene = useRef<() => Scene | null>(() => null);
@@ -104,9 +129,8 @@ function Drawn({ diagram, layer: index, jobs, store }: DrawnProps) {
   const now_point = () => ({ a_s: progress_s(diagram.a), b_s: progress_s(diagram.b) });
   const is_open = [jobs.a, jobs.b].every((job) => job !== null && (!store.is_terminal(job) || job.state === 'succeeded'))
     && [jobs.a, jobs.b].some((job) => job !== null && !store.is_terminal(job));
-  const now = now_point();
-  const way = is_open ? plan_from(now, diagram) : [];
-  const met = layer && is_open ? first_met(way, layer) : null;
+  const ahead = use_ahead(diagram, is_open, actions);
+  const met = is_open ? ahead.layers[index]?.met ?? null : null;
   const evidence = evidence_of(jobs.a, jobs.b);
   const names = [...store.arms.keys()];
   scene.current = () => {
@@ -114,9 +138,8 @@ function Drawn({ diagram, layer: index, jobs, store }: DrawnProps) {
     const at = now_point();
     const last = trail.current.at(-1);
     if (!last || last.a_s !== at.a_s || last.b_s !== at.b_s) trail.current = [...trail.current.slice(1 - kTrail), at];
-    const ahead = is_open ? plan_from(at, diagram) : [];
     return {
-      diagram, layer, now: at, way: ahead, trail: trail.current, met: first_met(ahead, layer), evidence,
+      diagram, layer, now: at, way: is_open ? plan_from(at, diagram) : [], trail: trail.current, met, evidence,
       colours: { a: arm_colour(names, layer.arms[0]), b: arm_colour(names, layer.arms[1]) },
     };
   };
@@ -147,7 +170,7 @@ function Drawn({ diagram, layer: index, jobs, store }: DrawnProps) {
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
       {is_open && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null, resting?.id ?? null)}</p>}
       <p class="hint">
-        Each cell holds for every instant in it, at any pace: {layer.cells.length} cells between
+        Each cell holds for every instant in it, at any pace: {layer.cells?.length ?? 0} cells between
         the {layer.arms[0]} and the {layer.arms[1]} arm, {diagram.evaluations} states looked at.
       </p>
     </>

@@ -1,8 +1,8 @@
 // Draws a coordination diagram on two canvases, one above the other: the cells, which stay, and what
 // moves over them. A runs across, B up, in seconds of each one's own trajectory.
 
-import type { Evidence, Meeting, Point } from '../diagram';
-import type { Diagram, DiagramLayer } from '../messages';
+import type { Evidence, Point } from '../diagram';
+import type { Diagram, DiagramLayer, DiagramMeeting } from '../messages';
 import { kCellColours } from '../palette';
 import { millimetres, short_id } from '../wording';
 
@@ -13,7 +13,7 @@ export interface Scene {
   /** Empty: no plan. */
   way: Point[];
   trail: Point[];
-  met: Meeting | null;
+  met: DiagramMeeting | null;
   evidence: Evidence | null;
   colours: { a: string; b: string };
 }
@@ -96,7 +96,7 @@ function fit(canvas: HTMLCanvasElement, width: number, height: number): CanvasRe
 
 function draw_cells(g: CanvasRenderingContext2D, sheet: Sheet, { layer }: Scene): void {
   const edges = new Path2D();
-  for (const { state, a_s, b_s } of layer.cells) {
+  for (const { state, a_s, b_s } of layer.cells ?? []) {
     const left = sheet.x(a_s[0]);
     const top = sheet.y(b_s[1]);
     const width = sheet.x(a_s[1]) - left;
@@ -176,7 +176,7 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   g.stroke();
 }
 
-function up_to(way: Point[], met: Meeting): Point[] {
+function up_to(way: Point[], met: DiagramMeeting): Point[] {
   return [...way.filter((point) => point.a_s <= met.a_s && point.b_s <= met.b_s), met];
 }
 

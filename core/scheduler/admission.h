@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/scheduler/state.h"
+#include "core/scheduler/wait_cycles.h"
+#include "core/scheduler/yield_moves.h"
+
+namespace armloom {
+
+// What is asked of geometry, one question at a time, and what an answer means: these go, with these
+// orders; or more is asked; or they wait. Admission and the orders that it makes are one step.
+class Admission {
+ public:
+  // The next question, if none is open: motions that another scene may endanger first, then arms
+  // that could open a ring, jobs whose turn it is, arms that could go aside. Whether jobs have been
+  // put off on the way: then who waits for whom is another.
+  [[nodiscard]] bool ask_next(State& state, const WaitCycles& cycles);
+  // The answer to the open question. One on an older version is void and asked again.
+  void on(const Judged& input, State& state, WaitCycles& cycles);
+
+  [[nodiscard]] bool is_about(JobId job) const;
+
+ private:
+  enum class Purpose {
+    start,    // of a job that waits
+    recheck,  // of a motion that is under way or scheduled
+    yield,    // whether an arm could go aside, and the job then pass
+  };
+  struct OpenQuestion {
+    Version version;
+    std::vector<JobId> jobs;
+    Purpose purpose;
+    std::optional<YieldMove> yield = {};
+    std::vector<Passage> passages = {};  // Question::passages
+  };
+  // Policies that admit groups: everything that waits is tried as one; if that fails, these alone.
+  struct Together {
+    Version version;
+    std::vector<JobId> alone;
+  };
+
+  void ask(State& state, std::vector<JobId> jobs, Purpose purpose);
+  void ask_yield(State& state, YieldMove move);
+  void answer_yield(State& state, const Verdict& verdict, YieldMove move, WaitCycles& cycles);
+  void answer_start(State& state, const Verdict& verdict, const std::vector<JobId>& jobs);
+  void decide(State& state, const Verdict& verdict, const std::vector<JobId>& jobs);
+  [[nodiscard]] bool leaves_a_sequence(State& state, const std::vector<JobId>& jobs);
+  [[nodiscard]] bool tries_together(State& state, const std::vector<JobId>& jobs, bool can_go);
+
+  std::optional<OpenQuestion> open_;
+  std::optional<Together> together_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,72 @@
+#include "core/scheduler/groups.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/scheduler/policy.h"
+
+namespace armloom {
+namespace {
+
+bool contains(const std::vector<JobId>& group, JobId job) {
+  return std::ranges::find(group, job) != group.end();
+}
+
+// Of each arm's jobs that are not admitted or in the group the first ones.
+std::set<JobId> first_of_arms(const State& state, const std::vector<JobId>& group) {
+  std::set<JobId> jobs;
+  for (const auto& queue : state.jobs.queues()) {
+    std::size_t left = kTogetherMax;
+    for (auto id = queue.begin(); id != queue.end() && left > 0; ++id) {
+      if (state.graph.holds(*id) || contains(group, *id)) continue;
+      jobs.insert(*id);
+      --left;
+    }
+  }
+  return jobs;
+}
+
+// It could go when those before it on its arms have gone.
+bool may_follow(const State& state, const Record& record) {
+  return record.job.is_waiting() && record.job.after.empty() &&
+         !state.jobs.lets_another_pass(record) && !state.arms.stop_of(record.job) &&
+         state.lanes.follows_on(record.job.id);
+}
+
+}  // namespace
+
+std::vector<JobId> with_all_that_wait(const State& state, const std::vector<JobId>& group) {
+  std::vector<JobId> all = group;
+  std::vector<std::size_t> left(state.cell->arms.size(), kTogetherMax);
+  for (JobId id : state.jobs.in_turn(first_of_arms(state, group))) {
+    const Record& record = state.jobs.at(id);
+    const auto& arms = record.job.trajectory->arms();
+    const bool room = std::ranges::all_of(arms, [&](ArmId arm) { return left[arm.index()] > 0; });
+    const bool goes = room && may_follow(state, record);
+    if (goes) all.push_back(id);
+    for (ArmId arm : arms) left[arm.index()] = goes ? left[arm.index()] - 1 : 0;
+  }
+  return all;
+}
+
+std::vector<JobId> with_next_jobs(const State& state, std::vector<JobId> group,
+                                  const std::vector<ArmId>& in_the_way) {
+  if (!state.policy->admits_groups()) return group;
+  const auto goes = [&](JobId id) { return state.graph.holds(id) || contains(group, id); };
+  const auto next_of = [&](ArmId arm) {
+    const auto& queue = state.jobs.queue(arm);
+    const auto next = std::ranges::find_if_not(queue, goes);
+    return next == queue.end() ? std::nullopt : std::optional(*next);
+  };
+  for (ArmId arm : in_the_way) {
+    const auto next = next_of(arm);
+    if (!next || group.size() >= 2 * state.cell->arms.size()) continue;
+    const Record& record = state.jobs.at(*next);
+    const bool is_next = std::ranges::all_of(record.job.trajectory->arms(),
+                                             [&](ArmId own) { return next_of(own) == next; });
+    if (is_next && may_follow(state, record)) group.push_back(*next);
+  }
+  return group;
+}
+
+}  // namespace armloom

@@ -1,0 +1,150 @@
+#include "core/scheduler/job_book.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace armloom {
+namespace {
+
+// The table in job.h. What only gets other data stays in its phase.
+bool leads_to(const JobPhase& from, const JobPhase& to) {
+  struct Allowed {
+    bool queued, admitted, moving, braking, held, ended;
+  };
+  static constexpr Allowed kTable[] = {
+      {true, true, false, false, false, true},     // Queued
+      {true, true, true, false, true, true},       // Admitted
+      {false, true, true, true, true, true},       // Moving
+      {true, true, false, true, true, true},       // Braking
+      {false, true, false, false, true, true},     // Held
+      {false, false, false, false, false, false},  // Ended
+  };
+  const Allowed& row = kTable[from.index()];
+  const bool allowed[] = {row.queued, row.admitted, row.moving, row.braking, row.held, row.ended};
+  return allowed[to.index()];
+}
+
+}  // namespace
+
+Record& JobBook::add(Record record) {
+  const Job& job = record.job;
+  if (!records_.empty() && job.id <= records_.rbegin()->first) {
+    throw std::invalid_argument("Submit: ids must grow");
+  }
+  for (ArmId arm : job.trajectory->arms()) {
+    auto& queue = queues_[arm.index()];
+    queue.insert(record.before ? std::ranges::find(queue, *record.before) : queue.end(), job.id);
+    work_[arm.index()] += job.trajectory->duration();
+  }
+  active_.insert(job.id);
+  unexplained_.insert(job.id);
+  if (record.before) unexplained_.insert(*record.before);
+  ++priorities_[job.priority];
+  for (JobId before : job.after) followers_[before].push_back(job.id);
+  Record& added = records_.emplace(job.id, std::move(record)).first->second;
+  changed(added);
+  return added;
+}
+
+void JobBook::forget(JobId job) { records_.erase(job); }
+
+Record* JobBook::find(JobId job) {
+  const auto it = records_.find(job);
+  return it == records_.end() ? nullptr : &it->second;
+}
+
+const Record* JobBook::find(JobId job) const {
+  const auto it = records_.find(job);
+  return it == records_.end() ? nullptr : &it->second;
+}
+
+std::vector<const Job*> JobBook::occupying() const {
+  std::vector<const Job*> jobs;
+  for (JobId id : past_queue_) {
+    const Job& job = at(id).job;
+    if (job.in<Held>() != nullptr || job.has_authority()) jobs.push_back(&job);
+  }
+  return jobs;
+}
+
+bool JobBook::is_first(const Job& job) const {
+  return std::ranges::all_of(job.trajectory->arms(),
+                             [&](ArmId arm) { return queue(arm).front() == job.id; });
+}
+
+bool JobBook::at_head(const Record& record) const {
+  return record.job.after.empty() && !lets_another_pass(record) && is_first(record.job);
+}
+
+bool JobBook::lets_another_pass(const Record& record) const {
+  return record.lets_pass && is_active(*record.lets_pass) && at(*record.lets_pass).job.is_waiting();
+}
+
+// By submission, but for those that took their places before others: these stand first of their
+// arms, in the order in which they came.
+std::vector<JobId> JobBook::in_turn(const std::set<JobId>& jobs) const {
+  std::map<JobId, JobId> behind;  // the first job of the arm that did not
+  for (const auto& queue : queues_) {
+    const auto first =
+        std::ranges::find_if_not(queue, [this](JobId id) { return at(id).before.has_value(); });
+    if (first == queue.end()) continue;
+    for (auto id = queue.begin(); id != first; ++id) behind.emplace(*id, *first);
+  }
+  std::vector<JobId> sorted(jobs.begin(), jobs.end());
+  if (behind.empty()) return sorted;
+  std::ranges::sort(sorted, {}, [&behind](JobId id) {
+    const auto first = behind.find(id);
+    const bool placed = first != behind.end();
+    return std::tuple(placed ? first->second : id, !placed, id);
+  });
+  return sorted;
+}
+
+void JobBook::enter(Record& record, JobPhase phase) {
+  Job& job = record.job;
+  if (!leads_to(job.phase, phase)) {
+    throw std::logic_error("job " + std::to_string(job.id.value()) + ": no way from phase " +
+                           std::to_string(job.phase.index()) + " to " +
+                           std::to_string(phase.index()));
+  }
+  job.phase = std::move(phase);
+  if (job.state() == JobState::queued || job.has_ended()) {
+    past_queue_.erase(job.id);
+  } else {
+    past_queue_.insert(job.id);
+  }
+  unexplained_.insert(job.id);
+}
+
+std::vector<JobId> JobBook::end(Record& record, Ended how) {
+  enter(record, std::move(how));
+  Job& job = record.job;
+  const Ended& ended = *job.in<Ended>();
+  if (ended.reason != Reason::deadlock) job.ring.clear();
+  if (ended.state != JobState::expired) job.waits_on.clear();  // else: what it waited for in vain
+  if (ended.state == JobState::succeeded) job.progress = job.trajectory->duration();
+  for (ArmId arm : job.trajectory->arms()) {
+    auto& queue = queues_[arm.index()];
+    const auto next = queue.erase(std::ranges::find(queue, job.id));
+    if (next != queue.end()) unexplained_.insert(*next);
+    work_[arm.index()] -= job.trajectory->duration();
+  }
+  active_.erase(job.id);
+  unexplained_.erase(job.id);
+  if (--priorities_.at(job.priority) == 0) priorities_.erase(job.priority);
+  changed(record);
+  const auto node = followers_.extract(job.id);
+  return node.empty() ? std::vector<JobId>{} : node.mapped();
+}
+
+void JobBook::set_waits(Record& record, std::vector<Wait> waits) {
+  auto& old = record.job.waits_on;
+  const bool same =
+      std::ranges::equal(old, waits, [](const Wait& a, const Wait& b) { return a.same_cause(b); });
+  old = std::move(waits);
+  if (!same) changed(record);
+}
+
+}  // namespace armloom

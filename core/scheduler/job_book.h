@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "core/scheduler/job.h"
+#include "core/scheduler/safe_sequence.h"
+
+namespace armloom {
+
+// Ways out of another job's way that have been tried for it with one arm (yield_moves.h).
+struct YieldsTried {
+  std::size_t total = 0;  // for all that helps the job too
+  std::size_t next = 0;   // of the ways from where the arm came to rest by `from`
+  TrajectoryPtr from;
+  std::vector<Eigen::VectorXd> went_to;  // for all that helps the job too
+};
+
+// A job, and what only the scheduler knows of it.
+struct Record {
+  Job job;
+  WaitingLeg leg;
+  JobId helps{0};                       // Submit::helps, and what that helps; else itself
+  std::optional<JobId> before;          // Submit::before
+  std::optional<JobId> lets_pass;       // Submit::lets_pass
+  std::optional<TimePoint> ages_from;   // first in conflict, or first without a place
+  Version checked_at = 0;               // admitted: the version on which it was last found free
+  Duration farthest{};                  // MotionReport::farthest of the last rest
+  std::uint64_t effort = 1;             // Question::effort of the next time that it is judged
+  int raised = 0;                       // how often that was raised
+  std::map<ArmId, YieldsTried> yields;  // of arms that could make way for it
+};
+
+// All jobs, and their places in the queues of their arms. Changes of what clients see are noted.
+class JobBook {
+ public:
+  explicit JobBook(std::size_t arms) : queues_(arms), work_(arms) {}
+
+  // Ids grow (throws std::invalid_argument). It comes to the end of its arms' queues, or before
+  // record.before where that stands.
+  Record& add(Record record);
+  // Precondition of both: it has ended. Jobs that named it in `after` are returned by end().
+  void forget(JobId job);
+
+  [[nodiscard]] bool knows(JobId job) const { return records_.contains(job); }
+  [[nodiscard]] bool is_active(JobId job) const { return active_.contains(job); }
+  [[nodiscard]] Record* find(JobId job);
+  [[nodiscard]] const Record* find(JobId job) const;
+  [[nodiscard]] Record& at(JobId job) { return records_.at(job); }
+  [[nodiscard]] const Record& at(JobId job) const { return records_.at(job); }
+  // All that have not ended; of these, all that were judged. In order of submission.
+  [[nodiscard]] const std::set<JobId>& active() const { return active_; }
+  [[nodiscard]] const std::set<JobId>& past_queue() const { return past_queue_; }
+  // Admitted or held on their paths.
+  [[nodiscard]] std::vector<const Job*> occupying() const;
+
+  // Per arm: active jobs, first goes first.
+  [[nodiscard]] const std::vector<std::deque<JobId>>& queues() const { return queues_; }
+  [[nodiscard]] const std::deque<JobId>& queue(ArmId arm) const { return queues_[arm.index()]; }
+  [[nodiscard]] bool is_first(const Job& job) const;  // of all its arms
+  // That would not keep it waiting: first of its arms, all in `after` ended, none let pass.
+  [[nodiscard]] bool at_head(const Record& record) const;
+  [[nodiscard]] bool lets_another_pass(const Record& record) const;
+  // The same jobs, each after those before it.
+  [[nodiscard]] std::vector<JobId> in_turn(const std::set<JobId>& jobs) const;
+  // Per arm: of its active jobs.
+  [[nodiscard]] const std::vector<Duration>& work() const { return work_; }
+  [[nodiscard]] bool all_as_urgent() const { return priorities_.size() <= 1; }
+
+  // A transition of the table in job.h; any other one throws std::logic_error.
+  void enter(Record& record, JobPhase phase);
+  // Into Ended, and out of the queues. Active jobs that named it in `after`.
+  [[nodiscard]] std::vector<JobId> end(Record& record, Ended how);
+  void set_waits(Record& record, std::vector<Wait> waits);
+
+  // For clients, or for whoever explains waits: it, or what is before it, is not as it was told.
+  void changed(const Record& record) { changed_.insert(record.job.id); }
+  void explain_anew(JobId job) { unexplained_.insert(job); }
+  [[nodiscard]] bool has_changes() const { return !changed_.empty(); }
+  [[nodiscard]] std::set<JobId> take_changed() { return std::exchange(changed_, {}); }
+  [[nodiscard]] std::set<JobId> take_unexplained() { return std::exchange(unexplained_, {}); }
+
+ private:
+  std::map<JobId, Record> records_;
+  std::set<JobId> active_;
+  std::set<JobId> past_queue_;
+  std::map<JobId, std::vector<JobId>> followers_;  // those that name it in Submit::after
+  std::map<int, std::size_t> priorities_;          // how many active jobs have it
+  std::vector<std::deque<JobId>> queues_;
+  std::vector<Duration> work_;
+  std::set<JobId> unexplained_;
+  std::set<JobId> changed_;
+};
+
+}  // namespace armloom

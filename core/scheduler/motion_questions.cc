@@ -1,0 +1,55 @@
+#include "core/scheduler/motion_questions.h"
+
+#include <algorithm>
+
+#include "core/scheduler/policy.h"
+
+namespace armloom {
+namespace {
+
+Motion motion_now(const State& state, const Job& job) {
+  return Motion{.job = job.id,
+                .trajectory = job.trajectory,
+                .progress = job.progress,
+                .to_come = !state.jobs.is_first(job)};
+}
+
+}  // namespace
+
+Question question_now(const State& state, const std::vector<JobId>& candidates) {
+  Question question{.version = state.version,
+                    .start_at = state.now,
+                    .candidates = {},
+                    .others = {},
+                    .rest = state.arms.rest(),
+                    .method = state.policy->method()};
+  for (JobId id : candidates) {
+    question.candidates.push_back(motion_now(state, state.jobs.at(id).job));
+  }
+  for (const CoordinatedMotion& motion : state.graph.motions()) {
+    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;
+    question.others.push_back(motion_now(state, state.jobs.at(motion.job).job));
+  }
+  return question;
+}
+
+CoordinatedMotion as_candidate(const Job& job) {
+  return {.job = job.id,
+          .arms = job.trajectory->arms(),
+          .duration = job.trajectory->duration(),
+          .progress = job.progress,
+          .authority = job.progress,
+          .priority = job.priority};
+}
+
+void add_passages(Question& question, const std::vector<Passage>& unknown, const JobBook& jobs) {
+  for (const Passage& passage : unknown) {
+    question.passages.push_back({Motion{.job = passage.leg,
+                                        .trajectory = jobs.at(passage.leg).job.trajectory,
+                                        .progress = Duration{},
+                                        .to_come = true},
+                                 passage.place->arm, passage.place->q});
+  }
+}
+
+}  // namespace armloom

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "core/scheduler/state.h"
+
+namespace armloom {
+
+// How jobs pass from phase to phase, with all that follows for lanes, orders and versions.
+
+// The table in job.h; anything else throws std::logic_error.
+void enter(State& state, Record& record, JobPhase phase);
+// Nobody waits for a job that has ended: those that named it in `after` go on, or fail with it.
+void end(State& state, Record& record, JobState how, Reason reason, std::string detail);
+// The server ends: all are interrupted.
+void interrupt(State& state);
+
+// Its arms are to come to rest on their path, and it is then held, canceled or failed. One whose
+// arms know nothing of it yet is withdrawn. A cancel or a failure outlives a later stop; a stop
+// never turns one into a mere hold.
+void brake(State& state, Record& record, AfterStop after);
+// An admitted job whose arms know nothing of it yet: it waits again, or ends.
+void withdraw(State& state, Record& record, const AfterStop& after);
+// At its end, or where it was to stop, or did by itself. Report: not `progressed`.
+void come_to_rest(State& state, Record& record, const MotionReport& report);
+
+// Canceled by a client: at once, or when its arms are at rest.
+void cancel(State& state, Record& record);
+// Arms shall not move until they are resumed; what was not told to them keeps its place.
+void stop_arms(State& state, const Stop& stop);
+
+}  // namespace armloom

@@ -1,0 +1,102 @@
+#include "core/scheduler/putting_off.h"
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "core/coordination/effort.h"
+#include "core/scheduler/phases.h"
+#include "core/scheduler/waits.h"
+
+namespace armloom {
+namespace {
+
+// What a job waits for that is treated as a conflict without being proven one.
+constexpr const char* kUndecided = "undecided within the budget of evaluations";
+// So often is the budget of one job's questions raised.
+constexpr int kRaisedMax = 12;
+
+std::string hits_itself(const Conflict& conflict) {
+  char text[128];
+  std::snprintf(text, sizeof text, " come within %.4g m of each other at %.3f s of the trajectory",
+                conflict.proximity.clearance_m, to_seconds(conflict.own_time));
+  return conflict.proximity.body_a + " and " + conflict.proximity.body_b + text;
+}
+
+// Nothing: it hits itself, and has not begun.
+std::optional<std::vector<Wait>> waits_for(State& state, Record& record, const Verdict& verdict) {
+  std::vector<Wait> waits;
+  for (const Conflict& conflict : verdict.conflicts) {
+    if (conflict.with == Conflict::With::self && !record.job.has_started()) {
+      end(state, record, JobState::failed, Reason::self_collision, hits_itself(conflict));
+      return std::nullopt;
+    }
+    if (conflict.with == Conflict::With::rest && conflict.proximity.arm_b) {
+      state.lanes.learn_in_the_way(record.job.id, *conflict.proximity.arm_b, state.jobs,
+                                   state.arms);
+    }
+    waits.push_back(wait_for(conflict));
+    if (verdict.kind == Verdict::Kind::undecided) waits.back().detail = kUndecided;
+  }
+  return waits;
+}
+
+Judgement& judgement_of(Record& record) {
+  auto* held = std::get_if<Held>(&record.job.phase);
+  return held != nullptr ? held->judgement : std::get<Queued>(record.job.phase).judgement;
+}
+
+}  // namespace
+
+void note_found(Record& record, std::vector<Wait> waits) {
+  judgement_of(record).found = std::move(waits);
+}
+
+void put_off(State& state, Record& record, std::vector<Wait> waits) {
+  judgement_of(record) = {state.version, waits};
+  if (!record.ages_from) record.ages_from = state.now;
+  const auto* queued = record.job.in<Queued>();
+  if (queued != nullptr && !queued->in_backlog) {
+    enter(state, record, Queued{.in_backlog = true, .judgement = queued->judgement});
+    auto& since = record.job.times.backlogged_at;
+    if (!since) since = state.now;
+    state.jobs.changed(record);
+  }
+  state.jobs.set_waits(record, std::move(waits));
+}
+
+void wait_in_turn(State& state, Record& record, JobId first) {
+  const auto* queued = record.job.in<Queued>();
+  if (queued != nullptr && queued->in_backlog) {
+    enter(state, record, Queued{});
+    record.job.times.backlogged_at.reset();
+    state.jobs.changed(record);
+  }
+  judgement_of(record) = {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}};
+  if (!record.ages_from) record.ages_from = state.now;
+  state.jobs.set_waits(record, record.job.judgement().found);
+}
+
+void refuse(State& state, Record& record, const Verdict& verdict) {
+  if (auto waits = waits_for(state, record, verdict)) put_off(state, record, std::move(*waits));
+}
+
+void hold_back(State& state, Record& record, const Verdict& verdict) {
+  auto waits = waits_for(state, record, verdict);
+  if (!waits) return;
+  brake(state, record, {});
+  state.jobs.set_waits(record, std::move(*waits));
+}
+
+bool is_asked_again(Record& record, const Verdict& verdict) {
+  const auto effort = larger_effort(verdict, record.effort);
+  if (!effort || record.raised >= kRaisedMax) {
+    record.effort = 1;
+    return false;
+  }
+  record.effort = *effort;
+  ++record.raised;
+  return true;
+}
+
+}  // namespace armloom

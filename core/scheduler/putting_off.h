@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "core/scheduler/state.h"
+
+namespace armloom {
+
+// What becomes of a job that was judged and does not go.
+
+// Precondition of all but hold_back(): it waits.
+void note_found(Record& record, std::vector<Wait> waits);
+// Into the backlog, until what holds it back is another.
+void put_off(State& state, Record& record, std::vector<Wait> waits);
+// Not the backlog: it could go, or soon could, but for those that have to come before it.
+void wait_in_turn(State& state, Record& record, JobId first);
+// For what the verdict found; it fails where its arm would hit itself.
+void refuse(State& state, Record& record, const Verdict& verdict);
+// An admitted one, that another scene endangers: it is stopped.
+void hold_back(State& state, Record& record, const Verdict& verdict);
+
+// Where the budget of evaluations has ended it is not put off yet, but judged again with a larger
+// one when its turn comes, behind those that are judged with less. So often at most that a job that
+// cannot be decided takes no time from others each time that something changes.
+[[nodiscard]] bool is_asked_again(Record& record, const Verdict& verdict);
+
+}  // namespace armloom

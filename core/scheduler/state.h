@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "core/model/cell.h"
+#include "core/scheduler/arm_rests.h"
+#include "core/scheduler/inputs.h"
+#include "core/scheduler/job_book.h"
+#include "core/scheduler/lanes.h"
+#include "core/scheduler/precedence_graph.h"
+
+namespace armloom {
+
+class Policy;
+
+// The jobs that have a place now, under policies with rounds; else empty.
+struct Round {
+  std::set<JobId> jobs = {};
+  bool has_begun = false;  // one of them has moved
+};
+
+// What the rooms of the scheduler share: who is there, where everything stands, what is admitted;
+// and what the present step has decided so far. A copy is independent of it (Trial).
+struct State {
+  CellPtr cell;
+  std::shared_ptr<const Policy> policy;
+  JobBook jobs;
+  ArmRests arms;
+  Lanes lanes;
+  PrecedenceGraph graph;  // all that is admitted
+  Round round = {};
+  Version version = 1;        // of what is admitted, and of where arms rest
+  Version recheck_epoch = 0;  // the last version that began with another scene
+  TimePoint now{};            // of the present step
+  std::vector<Effect> effects = {};
+
+  State(CellPtr description, std::shared_ptr<const Policy> chosen, Configuration rest)
+      : cell(std::move(description)),
+        policy(std::move(chosen)),
+        jobs(cell->arms.size()),
+        arms(*cell, std::move(rest)),
+        lanes(cell->execution.start_tolerance_rad),
+        graph(cell->arms.size()) {}
+};
+
+}  // namespace armloom
