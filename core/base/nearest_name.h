@@ -2,7 +2,9 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace armloom {
 
@@ -11,5 +13,17 @@ namespace armloom {
 // near.
 [[nodiscard]] std::optional<std::string_view> nearest_name(std::string_view misspelt,
                                                            std::span<const std::string_view> known);
+
+// "; did you mean elbow?", of the keys of a map, or nothing. Only where there are few of them: many
+// names can be unknown at once.
+template <class Map>
+[[nodiscard]] std::string did_you_mean(const std::string& misspelt, const Map& known) {
+  constexpr std::size_t kMost = 300;
+  if (known.size() > kMost) return {};
+  std::vector<std::string_view> names;
+  for (const auto& entry : known) names.push_back(entry.first);
+  const auto nearest = nearest_name(misspelt, names);
+  return nearest ? "; did you mean " + std::string(*nearest) + "?" : std::string();
+}
 
 }  // namespace armloom

@@ -31,6 +31,7 @@ struct CollisionChecker::Scratch {
   std::vector<PartPlace> parts;
   std::vector<PlacedBody> placed;            // by body
   std::vector<Eigen::AlignedBox3d> arm_box;  // around the bounding spheres of an arm's parts
+  std::vector<std::pair<double, std::size_t>> by_gap;  // of closest()
 
   explicit Scratch(PlanningScenePtr s)
       : scene(std::move(s)),
@@ -120,14 +121,31 @@ struct CollisionChecker::Scratch {
     }
   }
 
-  // The closest pair of the group, when closer than the limit.
+  // The closest pair of the group, when closer than the limit. Those whose spheres are closest are
+  // asked first: what they keep settles most of the others by their spheres alone.
   [[nodiscard]] std::optional<NearPair> closest(const Group& group, double limit_m) {
     std::optional<NearPair> found;
-    scan(group, limit_m, [&](const NearPair& pair) {
-      found = pair;
-      return pair.clearance_m;
-    });
+    if (far_apart(group, limit_m)) return found;
+    const double asked_m = limit_m;
+    by_gap.clear();
+    for (std::size_t i = group.pairs_begin; i < group.pairs_end; ++i) {
+      const double gap_m = sphere_gap(bodies.pairs[i]);
+      if (gap_m < limit_m) by_gap.emplace_back(gap_m, i);
+    }
+    std::sort(by_gap.begin(), by_gap.end());
+    for (const auto& [gap_m, i] : by_gap) {
+      if (gap_m >= limit_m) break;
+      const double d = distance(bodies.pairs[i], limit_m);
+      if (d >= limit_m) continue;
+      limit_m = d;
+      found = {PairId{static_cast<std::uint32_t>(i)}, d, asked_m};
+    }
     return found;
+  }
+
+  [[nodiscard]] double sphere_gap(const PartPair& pair) const {
+    return (parts[pair.a].center - parts[pair.b].center).norm() - bodies.parts[pair.a].radius_m -
+           bodies.parts[pair.b].radius_m;
   }
 };
 

@@ -31,8 +31,9 @@ namespace {
 // m.
 constexpr double kGjkTolerance = 1e-12;
 // Now and then GJK stops far from the end all the same (libccd's of two boxes that turn about
-// parallel axes: 1 in 20, of other shapes 1 in 5000); then FCL's own one is asked, and libccd's the
-// other way around.
+// parallel axes: 1 in 20, of other shapes 1 in 5000), or claims contact where there is none (of
+// boxes). Then FCL's own one is asked, libccd's the other way around, and at last the bodies'
+// surfaces: their nearest triangles.
 constexpr double kProofGap_m = 5e-7;
 
 // The largest n·(x - center) over the body; n of unit length, in world axes.
@@ -52,6 +53,12 @@ double extent(const Body& body, const Eigen::Isometry3d& X_WS, const Eigen::Vect
   return along + body.radius_m;
 }
 
+// Between two planes across n that hold the bodies; negative: they overlap along n.
+double gap_along(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
+                 const Eigen::Isometry3d& X_WB, const Eigen::Vector3d& n) {
+  return n.dot(X_WB.translation() - X_WA.translation()) - extent(a, X_WA, n) - extent(b, X_WB, -n);
+}
+
 // What FCL says, and what of it is certain: the gap between two parallel planes, across the
 // direction of FCL's nearest points (n, from a to b), that hold the bodies apart. Both zero in
 // contact.
@@ -59,10 +66,13 @@ struct Proof {
   double claimed;
   double proven;
   Eigen::Vector3d n;
+  bool failed = false;  // FCL threw
+
+  [[nodiscard]] bool is_settled() const { return claimed > 0.0 && claimed - proven < kProofGap_m; }
 };
 
 Proof prove(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
-            const Eigen::Isometry3d& X_WB, fcl::GJKSolverType solver = fcl::GST_LIBCCD) {
+            const Eigen::Isometry3d& X_WB, fcl::GJKSolverType solver = fcl::GST_LIBCCD) try {
   fcl::DistanceRequestd request(true);
   request.gjk_solver_type = solver;
   request.distance_tolerance = kGjkTolerance;
@@ -73,9 +83,24 @@ Proof prove(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
   const double length = gap.norm();
   if (!(distance > 0.0) || !(length > 0.0)) return {0.0, 0.0, gap};
   const Eigen::Vector3d n = gap / length;
-  const double proven =
-      n.dot(X_WB.translation() - X_WA.translation()) - extent(a, X_WA, n) - extent(b, X_WB, -n);
-  return {distance, std::clamp(proven, 0.0, distance), n};
+  return {distance, std::clamp(gap_along(a, X_WA, b, X_WB, n), 0.0, distance), n};
+} catch (const std::exception&) {
+  return {0.0, 0.0, Eigen::Vector3d::Zero(), true};
+}
+
+// The planes across the direction of the nearest triangles of the bodies' surfaces. (That of a
+// piece is of its whole mesh.)
+std::optional<Separation> prove_by_surfaces(const Body& a, const Eigen::Isometry3d& X_WA,
+                                            const Body& b, const Eigen::Isometry3d& X_WB) {
+  if (a.solid == nullptr || b.solid == nullptr || a.is_piece || b.is_piece) return std::nullopt;
+  // A solid's tree stands in the part's frame, the poses are of the shapes'.
+  const auto X_WT = [](const Body& body, const Eigen::Isometry3d& X_WS) {
+    return X_WS * body.X_PS.inverse(Eigen::Isometry) * body.solid->X_PT;
+  };
+  const auto n = direction_apart(*a.solid, X_WT(a, X_WA), *b.solid, X_WT(b, X_WB));
+  if (!n) return std::nullopt;
+  const double gap = gap_along(a, X_WA, b, X_WB, *n);
+  return gap > 0.0 ? std::optional(Separation{gap, *n}) : std::nullopt;
 }
 
 std::shared_ptr<fcl::CollisionGeometryd> convex_of(const ConvexHull& hull) {
@@ -122,23 +147,21 @@ double exact_distance(const Body& a, const Eigen::Isometry3d& X_WA, const Body& 
 
 std::optional<Separation> exact_separation(const Body& a, const Eigen::Isometry3d& X_WA,
                                            const Body& b, const Eigen::Isometry3d& X_WB) {
-  try {
-    const Proof one = prove(a, X_WA, b, X_WB);
-    Separation best{one.proven, one.n};
-    // Of boxes it may claim contact too where there is none.
-    const bool boxes = a.kind == BodyKind::box && b.kind == BodyKind::box;
-    if (one.claimed - one.proven >= kProofGap_m || (boxes && !(one.claimed > 0.0))) {
-      const Proof other = prove(a, X_WA, b, X_WB, fcl::GST_INDEP);
-      if (other.proven > best.distance_m) best = {other.proven, other.n};
-      if (!(other.claimed > 0.0) || other.claimed - other.proven >= kProofGap_m) {
-        const Proof turned = prove(b, X_WB, a, X_WA);  // GJK takes another way
-        if (turned.proven > best.distance_m) best = {turned.proven, -turned.n};
-      }
+  const Proof one = prove(a, X_WA, b, X_WB);
+  Separation best{one.proven, one.n};
+  // Of boxes it may claim contact too where there is none.
+  const bool boxes = a.kind == BodyKind::box && b.kind == BodyKind::box;
+  if (one.failed || one.claimed - one.proven >= kProofGap_m || (boxes && !(one.claimed > 0.0))) {
+    const Proof other = prove(a, X_WA, b, X_WB, fcl::GST_INDEP);
+    if (other.proven > best.distance_m) best = {other.proven, other.n};
+    if (!other.is_settled()) {
+      const Proof turned = prove(b, X_WB, a, X_WA);  // GJK takes another way
+      if (turned.proven > best.distance_m) best = {turned.proven, -turned.n};
+      const auto found = turned.is_settled() ? std::nullopt : prove_by_surfaces(a, X_WA, b, X_WB);
+      if (found && found->distance_m > best.distance_m) best = *found;
     }
-    return best.distance_m > 0.0 ? std::optional(best) : std::nullopt;
-  } catch (const std::exception&) {
-    return std::nullopt;
   }
+  return best.distance_m > 0.0 ? std::optional(best) : std::nullopt;
 }
 
 }  // namespace armloom

@@ -52,16 +52,15 @@ bool InnerBalls::surely_meet(const InnerBalls& others, const Eigen::Isometry3d& 
   return false;
 }
 
-std::vector<Ball> inner_balls(const SurfaceTree& tree) {
-  constexpr int kAlong = 8;  // points tried along each side of the box around the surface
+std::vector<Ball> inner_balls(const Vector3d& center, const Vector3d& half_m,
+                              const Depth& depth_m) {
+  constexpr int kAlong = 8;  // points tried along each side of the box
   std::vector<Ball> tried;
-  const Vector3d center = tree.root.center.cast<double>();
-  const Vector3d half = tree.root.half.cast<double>();
-  for (int i = 0; tree.encloses && i < kAlong * kAlong * kAlong; ++i) {
+  for (int i = 0; i < kAlong * kAlong * kAlong; ++i) {
     const Vector3d at(i % kAlong, i / kAlong % kAlong, i / kAlong / kAlong);
     const Vector3d p =
-        center + ((2.0 * at.array() + 1.0) / kAlong - 1.0).matrix().cwiseProduct(half);
-    if (may_enclose(tree, p)) tried.push_back({p, distance_to_surface(tree, p)});
+        center + ((2.0 * at.array() + 1.0) / kAlong - 1.0).matrix().cwiseProduct(half_m);
+    if (const double radius_m = depth_m(p); radius_m > 0.0) tried.push_back({p, radius_m});
   }
   std::ranges::stable_sort(tried, std::ranges::greater{}, &Ball::radius_m);
   std::vector<Ball> chosen;
@@ -72,6 +71,13 @@ std::vector<Ball> inner_balls(const SurfaceTree& tree) {
     if (!covered && chosen.size() < kInnerBalls) chosen.push_back(ball);
   }
   return chosen;
+}
+
+std::vector<Ball> inner_balls(const SurfaceTree& tree) {
+  if (!tree.encloses) return {};
+  return inner_balls(
+      tree.root.center.cast<double>(), tree.root.half.cast<double>(),
+      [&](const Vector3d& p) { return may_enclose(tree, p) ? distance_to_surface(tree, p) : 0.0; });
 }
 
 }  // namespace armloom

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "core/collision/ball.h"
@@ -33,9 +35,14 @@ class InnerBalls {
   double reach_m_ = 0.0;  // of the farthest center from the origin
 };
 
-// Large ones inside of a surface, at most kInnerBalls, none where it encloses nothing; some
-// milliseconds.
+// Large ones inside of a solid that lies in the box about `center`, at most kInnerBalls. depth_m:
+// how far a point inside of it is from its surface, or less; not above zero elsewhere. It is asked
+// some 500 times.
 inline constexpr std::size_t kInnerBalls = 16;
+using Depth = std::function<double(const Eigen::Vector3d& p)>;
+[[nodiscard]] std::vector<Ball> inner_balls(const Eigen::Vector3d& center,
+                                            const Eigen::Vector3d& half_m, const Depth& depth_m);
+// The same inside of a surface, none where it encloses nothing; some milliseconds.
 [[nodiscard]] std::vector<Ball> inner_balls(const SurfaceTree& tree);
 
 }  // namespace armloom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/collision/enclosure.h"
 
@@ -58,6 +59,15 @@ bool closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
 bool surely_closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
                         const Eigen::Isometry3d& X_WB, double limit_m) {
   return a.inner.surely_meet(b.inner, X_WA.inverse(Eigen::Isometry) * X_WB, limit_m);
+}
+
+std::optional<Vector3d> direction_apart(const Solid& a, const Eigen::Isometry3d& X_WA,
+                                        const Solid& b, const Eigen::Isometry3d& X_WB) {
+  constexpr double kAny_m = std::numeric_limits<double>::infinity();
+  const Eigen::Isometry3d X_AB = X_WA.inverse(Eigen::Isometry) * X_WB;
+  SurfaceDescent descent(*a.tree, *b.tree, X_AB, kAny_m, 0.0);
+  if (descent.run() <= 0.0) return std::nullopt;
+  return X_WA.linear() * descent.direction();
 }
 
 bool all_apart(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,

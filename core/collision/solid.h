@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/collision/inner_balls.h"
@@ -38,6 +39,13 @@ using SolidPtr = std::shared_ptr<const Solid>;
 // Whether balls inside of them prove that they are closer than limit_m: most that overlap deeply.
 [[nodiscard]] bool surely_closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
                                       const Eigen::Isometry3d& X_WB, double limit_m);
+
+// The direction from a to b of their nearest triangles, of unit length, in the world; nothing where
+// two touch. Convex solids are as far apart along it as they are (radii included).
+[[nodiscard]] std::optional<Eigen::Vector3d> direction_apart(const Solid& a,
+                                                             const Eigen::Isometry3d& X_WA,
+                                                             const Solid& b,
+                                                             const Eigen::Isometry3d& X_WB);
 
 // Whether every two triangles (with the radii) that are closer than within_m pass `kept`, and
 // neither solid is inside of the other: `kept` gets both in the world, and the direction from a to

@@ -72,15 +72,25 @@ SolidPtr solid_of(const Body& body) {
       break;
     case BodyKind::cylinder:
       solid.tree = prism_tree(body.radius_m, body.half_length_m);
+      solid.inner = InnerBalls(
+          inner_balls(Vector3d::Zero(), {body.radius_m, body.radius_m, body.half_length_m},
+                      [&](const Vector3d& p) {
+                        return std::min(body.radius_m - std::hypot(p.x(), p.y()),
+                                        body.half_length_m - std::abs(p.z()));
+                      }));
       break;
     case BodyKind::box:
       solid.tree = box_tree(body.half_size_m);
+      solid.inner =
+          InnerBalls(inner_balls(Vector3d::Zero(), body.half_size_m, [&](const Vector3d& p) {
+            return (body.half_size_m - p.cwiseAbs()).minCoeff();
+          }));
       break;
     case BodyKind::hull:
       solid.tree = make_surface_tree(body.hull->hull.vertices, body.hull->hull.faces);
+      solid.inner = InnerBalls(inner_balls(*solid.tree));
       break;
   }
-  if (solid.tree->encloses) solid.inner = InnerBalls(inner_balls(*solid.tree));
   return std::make_shared<const Solid>(std::move(solid));
 }
 

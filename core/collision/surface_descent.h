@@ -27,6 +27,9 @@ class SurfaceDescent {
   void pass_over(const TrianglesKept* kept) { kept_ = kept; }
   // min(distance, limit), never larger than the true one; above enough_m less than 1e-9 m below it.
   [[nodiscard]] double run();
+  // After run(), of surfaces apart and below the limit: the direction from a to b of the nearest
+  // triangles, in A's frame.
+  [[nodiscard]] const Eigen::Vector3d& direction() const { return n_A_; }
   // After run(): whether the boxes around all of A and all of B keep apart.
   [[nodiscard]] bool boxes_apart() const { return roots_m_ > 0.0; }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/model/robot_build.h"
 
@@ -26,8 +27,7 @@ void warn_if_held_elsewhere(const RobotBuild& robot, const ArmBuild& build, std:
 Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const std::string& name,
                           NamedState& state, const Cell& cell) {
   const auto& joints = cell.arm(arm.id).joints;
-  const std::string place =
-      robot.semantics->file + ": group_state " + name + " of " + arm.description->group;
+  const std::string& place = state.place;
   const auto fault = [&](const char* slug, const std::string& sentence, double value) {
     state.faults.add({ProblemKind::invalid, slug, place, place + ": " + sentence, value});
   };
@@ -75,26 +75,57 @@ void read_named_states(const RobotBuild& robot, const ArmBuild& build,
   }
 }
 
-std::string listed(const std::map<std::string, Eigen::VectorXd>& states) {
+std::string listed(const std::map<std::string, NamedState>& states) {
   std::string text;
-  for (const auto& [name, values] : states) {
+  for (const auto& [name, state] : states) {
     if (text.size() < 200) text += (text.empty() ? "" : ", ") + name;
   }
   return text.empty() ? "none" : text;
 }
 
+// Of an arm whose home is a state's name. A state that is there and has faults told them itself.
+void refuse_unknown_state(const RobotBuild& robot, const ArmDescription& arm,
+                          const std::string& pointer, Findings& findings) {
+  std::map<std::string, NamedState> none;
+  const std::map<std::string, NamedState>* states = &none;
+  if (robot.semantics) {
+    const auto of_group = robot.semantics->states.find(arm.group);
+    if (of_group != robot.semantics->states.end()) states = &of_group->second;
+  }
+  if (states->contains(arm.home_state)) return;
+  findings.in_cell("unknown-state", pointer + "/home",
+                   "arm " + arm.name + ": home '" + arm.home_state + "' is no state of group '" +
+                       arm.group + "'" + (robot.semantics ? " in " + robot.semantics->file : "") +
+                       "; its states: " + listed(*states),
+                   arm.home_state);
+}
+
+// Of a robot whose tree is not known: the SRDF's states and the cell's homes, each against the
+// other.
+void tell_homes_without_tree(RobotBuild& robot, Findings& findings) {
+  if (!robot.semantics) return;
+  const auto& arms = robot.description->arms;
+  for (std::size_t a = 0; a < arms.size(); ++a) {
+    const ArmDescription& arm = arms[a];
+    if (!robot.semantics->groups.contains(arm.group)) continue;  // which is told
+    for (auto& [name, state] : robot.semantics->states[arm.group]) {
+      if (name == arm.home_state)
+        findings.merge(std::exchange(state.faults, {}));
+      else
+        findings.merge_as_warnings(std::exchange(state.faults, {}));
+    }
+    if (!arm.home_state.empty())
+      refuse_unknown_state(robot, arm, robot.pointer + "/arms/" + std::to_string(a), findings);
+  }
+}
+
 // The home that the description names as a state, or nothing with the reason told.
 std::optional<Eigen::VectorXd> named_home(const RobotBuild& robot, const ArmBuild& build,
-                                          const Arm& arm, bool has_faults, Findings& findings) {
+                                          const Arm& arm, Findings& findings) {
   const std::string& name = build.description->home_state;
   const auto state = arm.named_states.find(name);
   if (state != arm.named_states.end()) return state->second;
-  if (has_faults) return std::nullopt;  // told with the state
-  findings.in_cell("unknown-state", build.pointer + "/home",
-                   "arm " + arm.name + ": home '" + name + "' is no state of group '" + arm.group +
-                       "'" + (robot.semantics ? " in " + robot.semantics->file : "") +
-                       "; its states: " + listed(arm.named_states),
-                   name);
+  refuse_unknown_state(robot, *build.description, build.pointer, findings);
   return std::nullopt;
 }
 
@@ -140,9 +171,50 @@ void check_home(const ArmBuild& build, const Arm& arm, const Cell& cell, Finding
   }
 }
 
+// Where the grippers' joints start.
+void settle_grippers(const RobotBuild& robot, Cell& cell, Findings& findings) {
+  for (const auto& joint : robot.joints) {
+    if (!joint) continue;
+    Joint& one = cell.joints[joint->index()];
+    one.start = std::clamp(0.0, one.lower, one.upper);
+  }
+  for (const ArmBuild& build : robot.arms) {
+    for (const auto& [name, value] : build.description->gripper) {
+      const auto refuse = [&, &named = name, &given = value](const char* slug,
+                                                             const std::string& rest) {
+        findings.in_cell(slug, build.pointer + "/gripper/" + pointer_token(named),
+                         "arm " + build.description->name + rest, given);
+      };
+      const auto link = robot.tree.by_joint.find(name);
+      if (link == robot.tree.by_joint.end()) {
+        if (!robot.tree.nameless)
+          refuse("unknown-joint",
+                 ": joint " + name + " of its gripper is not in " + robot.tree.file);
+        continue;
+      }
+      const auto joint = robot.joints[link->second];
+      const auto& grippers = cell.arm(build.id).gripper_joints;
+      if (!joint || std::find(grippers.begin(), grippers.end(), *joint) == grippers.end()) {
+        if (!robot.tree.patched)
+          refuse("unknown-joint", " has no gripper's joint " + name +
+                                      " (one below the arm, in no arm's group, and no mimic)");
+        continue;
+      }
+      Joint& one = cell.joints[joint->index()];
+      if (std::isfinite(value) && value >= one.lower && value <= one.upper)
+        one.start = value;
+      else
+        refuse("limit-exceeded", ": joint " + name + " of its gripper starts at " + text_of(value) +
+                                     ", outside " + span_text(one));
+    }
+  }
+}
+
 }  // namespace
 
 void settle_homes(RobotBuild& robot, Cell& cell, Findings& findings) {
+  settle_grippers(robot, cell, findings);
+  if (robot.tree.patched) tell_homes_without_tree(robot, findings);
   for (const ArmBuild& build : robot.arms) {
     Arm& arm = cell.arms[build.id.index()];
     arm.home = Eigen::VectorXd(static_cast<Eigen::Index>(arm.joints.size()));
@@ -152,15 +224,11 @@ void settle_homes(RobotBuild& robot, Cell& cell, Findings& findings) {
     }
     if (robot.tree.patched) continue;  // the group may hold other joints than meant
     const std::string& named = build.description->home_state;
-    bool has_faults = false;
-    if (robot.semantics) {
-      auto& states = robot.semantics->states[arm.group];
-      read_named_states(robot, build, states, cell, findings);
-      has_faults = states.contains(named) && !arm.named_states.contains(named);
-    }
+    if (robot.semantics)
+      read_named_states(robot, build, robot.semantics->states[arm.group], cell, findings);
     std::optional<Eigen::VectorXd> home;
     if (!named.empty())
-      home = named_home(robot, build, arm, has_faults, findings);
+      home = named_home(robot, build, arm, findings);
     else if (!build.description->home.empty())
       home = listed_home(robot, build, arm, findings);
     if (home) arm.home = *std::move(home);

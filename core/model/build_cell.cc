@@ -1,7 +1,5 @@
 #include "core/model/build_cell.h"
 
-#include <tinyxml2.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -16,7 +14,6 @@
 #include "core/model/robot_build.h"
 #include "core/model/robot_file.h"
 #include "core/model/urdf_reader.h"
-#include "core/model/xml_element.h"
 
 namespace armloom {
 namespace {
@@ -36,7 +33,7 @@ void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& w
 
 void load_meshes_of(RobotTree& tree, MeshShelf& meshes, Findings& findings) {
   for (TreeLink& link : tree.links) {
-    const std::string place = tree.file + ": link " + link.name;
+    const std::string place = tree.place_of_link(link);
     for (PlacedShape& placed : link.shapes)
       load_mesh_of(placed.shape, place, place, meshes, findings);
   }
@@ -54,22 +51,16 @@ void load_meshes_of_objects(Cell& cell, MeshShelf& meshes, Findings& findings) {
   }
 }
 
-// Tells what of an SRDF can be told without its robot: whether it is XML at all.
-void check_srdf_alone(const std::string& text, const std::filesystem::path& path,
-                      Findings& findings) {
-  tinyxml2::XMLDocument document;
-  static_cast<void>(parse_robot_xml(text, path.filename().string(), document, findings));
-}
-
 std::set<std::string> used_groups(const RobotDescription& robot) {
   std::set<std::string> groups;
   for (const ArmDescription& arm : robot.arms) groups.insert(arm.group);
   return groups;
 }
 
-// The robot's files as far as they can be read, or nothing without a URDF.
-std::optional<RobotBuild> read_robot(const RobotDescription& description, std::size_t index,
-                                     MeshShelf& meshes, Findings& findings) {
+// The robot's files as far as they can be read. Without a URDF its tree has nothing and no name can
+// be held against it; what the other files say is still held against each other.
+RobotBuild read_robot(const RobotDescription& description, std::size_t index, MeshShelf& meshes,
+                      Findings& findings) {
   const std::string pointer = "/robots/" + std::to_string(index);
   const auto load = [&](const std::string& path, const char* key) {
     return path.empty()
@@ -84,10 +75,7 @@ std::optional<RobotBuild> read_robot(const RobotDescription& description, std::s
       limits ? read_limits_file(*limits, description.joint_limits, findings) : std::nullopt;
   auto tree = urdf ? read_urdf(*std::move(urdf), description.urdf, description.packages, findings)
                    : std::nullopt;
-  if (!tree) {
-    if (srdf) check_srdf_alone(*srdf, description.srdf, findings);
-    return std::nullopt;
-  }
+  if (!tree) tree = unread_robot(description.urdf);
   load_meshes_of(*tree, meshes, findings);
   hold_joints(description.fixed, pointer, description.name, *tree, findings);
 
@@ -204,15 +192,17 @@ void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
   if (robot.semantics) added.srdf_text = robot.semantics->text;
   add_joints(robot, cell);
   add_links(robot, cell);
-  if (robot.semantics || robot.description->srdf.empty()) {  // else what it says is not known
+  const bool groups_known = robot.semantics || robot.description->srdf.empty();
+  if (groups_known) {
     add_arms(robot, cell, findings);
     assign_to_arms(robot, cell);
     refuse_shared_joints(robot, cell, findings);
     tell_standing_joints(robot, cell, findings);
+    warn_of_passive_joints(robot, cell, findings);
     warn_of_seen_only(robot, cell, findings);
-    settle_limits(robot, cell, findings);
-    settle_homes(robot, cell, findings);
   }
+  settle_limits(robot, cell, findings);
+  if (groups_known) settle_homes(robot, cell, findings);
   allow_pairs_of_robot(robot, cell);
 }
 
@@ -273,16 +263,13 @@ Result<CellPtr> build_cell(const CellDescription& description, Problems& warning
     const RobotDescription& robot = description.robots[r];
     check_pose(robot.X_WB, "/robots/" + std::to_string(r) + "/base",
                "robot " + robot.name + ": base", findings);
-    auto build = read_robot(robot, r, meshes, findings);
-    if (build) {
-      check_prefixed_names(*build, links, joints, findings);
-      add_robot(*std::move(build), *cell, findings);
-    } else {
-      complete = false;
-    }
+    RobotBuild build = read_robot(robot, r, meshes, findings);
+    complete = complete && !build.tree.nameless;
+    check_prefixed_names(build, links, joints, findings);
+    add_robot(std::move(build), *cell, findings);
   }
   check_objects_are_no_links(description, links, findings);
-  // With a robot missing its links' names would all seem unknown.
+  // Without the names of a robot's links those would seem unknown.
   if (complete) allow_pairs_of_cell(description, *cell, findings);
   warn_of_doubts(description, *cell, findings);
 

@@ -36,6 +36,9 @@ struct Joint {
   double acceleration_max;  // > 0
   double jerk_max;          // > 0
   double brake;             // > 0: deceleration that a stop may use
+  // Where it stands at the start, if it is no joint of an arm's group: at zero, or at the limit
+  // next to it, unless the cell says more of a gripper's.
+  double start = 0.0;
 
   // Limits that no file gives: the defaults that cell_description.h states.
   struct Assumed {

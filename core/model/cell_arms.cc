@@ -11,7 +11,8 @@ std::string usable_groups(const RobotBuild& robot) {
   for (const auto& [name, joints] : robot.semantics->groups) {
     const bool movable = std::any_of(joints.begin(), joints.end(),
                                      [&](std::size_t i) { return robot.joints[i].has_value(); });
-    if (movable && text.size() < 200) text += (text.empty() ? "" : ", ") + name;
+    if ((movable || robot.tree.nameless) && text.size() < 200)
+      text += (text.empty() ? "" : ", ") + name;
   }
   return text.empty() ? "no group of it holds one" : "groups that do: " + text;
 }

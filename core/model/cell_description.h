@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,8 @@ struct JointLimitsDescription {
   std::optional<double> acceleration;  // rad/s^2 (m/s^2), default kDefaultAcceleration
   std::optional<double> jerk;          // rad/s^3 (m/s^3), default kDefaultJerk
   std::optional<double> brake;         // rad/s^2 (m/s^2), default twice the acceleration
+  // The keys by which the cell file gave them, as velocity_m_s: the units have to fit the joint.
+  std::set<std::string> keys = {};
 };
 inline constexpr double kDefaultVelocity = 1.0;  // of joints that no arm's group holds, as MoveIt's
 inline constexpr double kDefaultAcceleration = 3.75;
@@ -37,6 +40,9 @@ struct ArmDescription {
   std::vector<double> home;
   std::string home_state;  // a state of the group by its name in the SRDF
   std::map<std::string, JointLimitsDescription> limits;  // by URDF joint name, without prefix
+  // Where joints of the gripper stand at the start, by URDF joint name (rad, m); others at zero,
+  // clamped to their limits.
+  std::map<std::string, double> gripper = {};
 };
 
 struct ControllerDescription {

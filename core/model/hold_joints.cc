@@ -2,14 +2,18 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
+
+#include "core/base/nearest_name.h"
 
 namespace armloom {
 namespace {
 
-// The tree index of a joint that can be held at the value, or nothing with the reason told.
-std::optional<std::size_t> holdable(const std::string& name, double value,
+// The tree index of a joint that can be held, or nothing with the reason told. A value beyond the
+// limits is told, too, and put to the nearest one.
+std::optional<std::size_t> holdable(const std::string& name, double& value,
                                     const std::string& pointer, const std::string& robot,
                                     const RobotTree& tree, Findings& findings) {
   const auto refuse = [&](const std::string& slug, const std::string& why) {
@@ -18,7 +22,10 @@ std::optional<std::size_t> holdable(const std::string& name, double value,
   };
   const auto found = tree.by_joint.find(name);
   if (found == tree.by_joint.end())
-    return refuse("unknown-joint", "fixed joint " + name + " is not in " + tree.file);
+    return tree.nameless
+               ? std::nullopt
+               : refuse("unknown-joint", "fixed joint " + name + " is not in " + tree.file +
+                                             did_you_mean(name, tree.by_joint));
   const TreeLink& link = tree.links[found->second];
   if (link.mimic) {
     return refuse("held-mimic", "joint " + name + " follows joint " +
@@ -31,10 +38,13 @@ std::optional<std::size_t> holdable(const std::string& name, double value,
     return refuse("not-a-number", "joint " + name + " is held at " + text_of(value));
   const UrdfLimits& limits = link.limits;
   if ((limits.lower && value < *limits.lower) || (limits.upper && value > *limits.upper)) {
-    return refuse("limit-exceeded", "joint " + name + " is held at " + text_of(value) +
-                                        ", outside [" +
-                                        (limits.lower ? text_of(*limits.lower) : "-inf") + ", " +
-                                        (limits.upper ? text_of(*limits.upper) : "inf") + "]");
+    static_cast<void>(
+        refuse("limit-exceeded", "joint " + name + " is held at " + text_of(value) + ", outside [" +
+                                     (limits.lower ? text_of(*limits.lower) : "-inf") + ", " +
+                                     (limits.upper ? text_of(*limits.upper) : "inf") + "]"));
+    // Nothing else of the robot is wrong for that.
+    if (limits.lower) value = std::max(value, *limits.lower);
+    if (limits.upper) value = std::min(value, *limits.upper);
   }
   return found->second;
 }
@@ -94,7 +104,7 @@ void fix_in_text(RobotTree& tree) {
 void hold_joints(const std::map<std::string, double>& fixed, const std::string& pointer,
                  const std::string& robot, RobotTree& tree, Findings& findings) {
   std::map<std::size_t, double> held;
-  for (const auto& [name, value] : fixed) {
+  for (auto [name, value] : fixed) {
     const std::string at = pointer + "/fixed/" + pointer_token(name);
     if (const auto joint = holdable(name, value, at, robot, tree, findings))
       held.emplace(*joint, value);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "core/model/limits_of_joint.h"
 
@@ -24,18 +25,38 @@ void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
                      name});
       continue;
     }
+    if (link == robot.tree.by_joint.end() && robot.tree.nameless) continue;
     const auto joint =
         link == robot.tree.by_joint.end() ? std::nullopt : robot.joints[link->second];
     if (joint && cell.joint(*joint).arm == arm.id) continue;
-    if (robot.tree.patched) continue;
+    if (joint && robot.tree.patched) continue;  // it may hang elsewhere than meant
     findings.in_cell("unknown-joint", pointer,
                      "arm " + arm.description->name + " has no joint " + name + " to limit", name);
   }
 }
 
+// Of arms whose groups could not be found: names that no joint has.
+void check_names_without_group(const RobotBuild& robot, Findings& findings) {
+  if (robot.tree.nameless) return;
+  const auto& arms = robot.description->arms;
+  for (std::size_t a = 0; a < arms.size(); ++a) {
+    const bool found = std::any_of(robot.arms.begin(), robot.arms.end(), [&](const ArmBuild& arm) {
+      return arm.description == &arms[a];
+    });
+    if (found) continue;
+    for (const auto& [name, given] : arms[a].limits) {
+      if (robot.tree.by_joint.contains(name)) continue;
+      findings.in_cell(
+          "unknown-joint",
+          robot.pointer + "/arms/" + std::to_string(a) + "/limits/" + pointer_token(name),
+          "arm " + arms[a].name + " has no joint " + name + " to limit", name);
+    }
+  }
+}
+
 // Of a file that is behind its URDF.
 void warn_of_stale_joints(const RobotBuild& robot, Findings& findings) {
-  if (!robot.limits_file) return;
+  if (!robot.limits_file || robot.tree.nameless) return;
   std::string names;
   for (const auto& [name, joint] : robot.limits_file->joints) {
     if (robot.tree.by_joint.contains(name) || names.size() > 200) continue;
@@ -46,6 +67,40 @@ void warn_of_stale_joints(const RobotBuild& robot, Findings& findings) {
   findings.warn({ProblemKind::invalid, "unknown-name", file,
                  file + ": joints that are not in " + robot.tree.file + " are left out: " + names,
                  names});
+}
+
+// Of a robot whose joints are not known, faults in joint_limits.yaml could be of any of them.
+void tell_limits_without_joint(RobotBuild& robot, Findings& findings) {
+  if (!robot.limits_file || !robot.tree.nameless) return;
+  for (auto& [name, joint] : robot.limits_file->joints) {
+    if (!robot.tree.by_joint.contains(name)) findings.merge(std::exchange(joint.faults, {}));
+  }
+}
+
+// Joints that follow another one go where that takes them, beyond their own limits, too.
+void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+  constexpr double kRounding = 2e-3;  // rad or m: two limits that were meant to fit
+  for (const TreeLink& link : robot.tree.links) {
+    if (!link.mimic) continue;
+    const auto driver = robot.joints[link.mimic->driver];
+    if (!driver) continue;
+    const Joint& followed = cell.joint(*driver);
+    double from = link.mimic->multiplier * followed.lower + link.mimic->offset;
+    double to = link.mimic->multiplier * followed.upper + link.mimic->offset;
+    if (from > to) std::swap(from, to);
+    const UrdfLimits& own = link.limits;
+    const bool below = own.lower && from < *own.lower - kRounding;
+    const bool above = own.upper && to > *own.upper + kRounding;
+    if (link.motion == JointKind::continuous || !(below || above)) continue;
+    const std::string place = robot.tree.place_of_joint(link);
+    findings.warn({ProblemKind::invalid, "mimic-beyond-limits", place,
+                   place + ": it follows " + robot.tree.links[link.mimic->driver].joint + " from " +
+                       text_of(from) + " to " + text_of(to) + ", beyond its own limits [" +
+                       (own.lower ? text_of(*own.lower) : "-inf") + ", " +
+                       (own.upper ? text_of(*own.upper) : "inf") +
+                       "]: here it goes there, the robot may stop short; check <mimic>",
+                   below ? from : to});
+  }
 }
 
 void report_needs(const ArmBuild& arm, const Needs& needs, const std::string& urdf,
@@ -85,7 +140,10 @@ void settle_limits(RobotBuild& robot, Cell& cell, Findings& findings) {
     check_names(robot, arm, cell, findings);
     report_needs(arm, needs[&arm], robot.tree.file, findings);
   }
+  check_names_without_group(robot, findings);
+  if (!robot.tree.patched) warn_of_mimics(robot, cell, findings);
   warn_of_stale_joints(robot, findings);
+  tell_limits_without_joint(robot, findings);
 }
 
 }  // namespace armloom

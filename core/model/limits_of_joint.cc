@@ -42,6 +42,7 @@ void LimitsOfJoint::settle(LimitsFile::Joint* filed, Needs& needs) {
     file_ = filed->limits;
     place_ = filed->place;
   }
+  check_units();
   settle_positions();
   settle_velocity();
   settle_rates();
@@ -52,6 +53,25 @@ void LimitsOfJoint::settle(LimitsFile::Joint* filed, Needs& needs) {
     append_item(needs.members, ", ", json_member(link_.joint, "{" + missing_ + "}"));
   } else {
     findings_.merge_as_warnings(std::move(link_.limits.faults));
+  }
+}
+
+void LimitsOfJoint::check_units() {
+  const bool slides = joint_.kind == JointKind::prismatic;
+  for (const std::string& key : cell_.keys) {
+    const auto angular = key.find("_rad");
+    if ((angular == std::string::npos) == slides) continue;
+    std::string right = key;
+    if (slides)
+      right.replace(angular, 4, "_m");
+    else
+      right.replace(key.find("_m"), 2, "_rad");
+    std::string rest(slides ? " is of joints that turn, and this one slides"
+                            : " is of joints that slide, and this one turns");
+    rest += ": give ";
+    rest += right;
+    findings_.in_cell("wrong-unit", pointer_ + "/" + key,
+                      "joint " + link_.joint + ": " + key + rest);
   }
 }
 
@@ -147,8 +167,6 @@ void LimitsOfJoint::settle_rates() {
               joint_.assumed.brake);
 }
 
-std::string LimitsOfJoint::place_in_urdf() const {
-  return robot_.tree.file + ": joint " + link_.joint;
-}
+std::string LimitsOfJoint::place_in_urdf() const { return robot_.tree.place_of_joint(link_); }
 
 }  // namespace armloom

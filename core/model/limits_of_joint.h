@@ -38,6 +38,9 @@ class LimitsOfJoint {
   std::optional<double> from_cell(const std::optional<double>& value, const std::string& name,
                                   const std::optional<double>& urdf, bool wider);
 
+  // Keys in the cell whose unit is of joints that move otherwise.
+  void check_units();
+
   void refuse(const char* slug, const std::string& name, const std::string& rest, double value);
 
   // The number of joint_limits.yaml, or the URDF's where that is narrower.

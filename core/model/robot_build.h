@@ -48,6 +48,9 @@ void refuse_shared_joints(const RobotBuild& robot, const Cell& cell, Findings& f
 // it stands; others that move shapes, or stand between joints of an arm's group, are warned of.
 void tell_standing_joints(const RobotBuild& robot, const Cell& cell, Findings& findings);
 
+// Warns of joints that the SRDF has as passive and an arm's group holds.
+void warn_of_passive_joints(const RobotBuild& robot, const Cell& cell, Findings& findings);
+
 // Warns of what is seen and not checked: links with a visual and without a collision shape, and
 // arms without any shape.
 void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Findings& findings);

@@ -49,6 +49,10 @@ std::optional<Problem> utf8_fault(const std::string& text, const std::string& pa
 
 }  // namespace
 
+std::string told_file_name(const std::filesystem::path& path) {
+  return path.filename().string() + (path.extension() == ".xacro" ? " (expanded)" : "");
+}
+
 std::optional<std::string> load_robot_file(const std::filesystem::path& path,
                                            const std::string& pointer, const std::string& whose,
                                            Findings& findings) {

@@ -16,4 +16,8 @@ namespace armloom {
                                                          const std::string& whose,
                                                          Findings& findings);
 
+// As places in such a file begin: its name without folder. Of xacro the lines are those of what it
+// expands to, which is said: "arm.urdf.xacro (expanded)".
+[[nodiscard]] std::string told_file_name(const std::filesystem::path& path);
+
 }  // namespace armloom

@@ -42,7 +42,10 @@ struct TreeLink {
   UrdfLimits limits;
   std::optional<double> held;  // by the cell file's "fixed": rad or m, which X_PJ then contains
   std::vector<PlacedShape> shapes;
-  bool seen = false;  // it has a visual
+  bool seen = false;   // it has a <visual>
+  bool solid = false;  // it has a <collision>, which may be faulty
+  int line = 0;        // in the file
+  int line_of_joint = 0;
 
   // A joint with a value of its own: it becomes a Joint of the cell.
   [[nodiscard]] bool is_independent() const { return motion.has_value() && !mimic.has_value(); }
@@ -59,6 +62,16 @@ struct RobotTree {
   // What hangs where is wrong in the file and was told: links may hang elsewhere than meant, so
   // what follows from that need not be told again.
   bool patched = false;
+  // A link or joint of it has no name: what other files name may be that one.
+  bool nameless = false;
+
+  // "arm.urdf:12: link forearm"; of the joint above the link "arm.urdf:17: joint elbow".
+  [[nodiscard]] std::string place_of_link(const TreeLink& link) const {
+    return file + ":" + std::to_string(link.line) + ": link " + link.name;
+  }
+  [[nodiscard]] std::string place_of_joint(const TreeLink& link) const {
+    return file + ":" + std::to_string(link.line_of_joint) + ": joint " + link.joint;
+  }
 };
 
 }  // namespace armloom

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "core/model/robot_build.h"
 
 namespace armloom {
@@ -14,7 +12,7 @@ void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Findings& find
   std::size_t more = 0;
   for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
     const TreeLink& link = robot.tree.links[i];
-    if (!link.seen || !cell.link(robot.links[i]).shapes.empty()) continue;
+    if (!link.seen || link.solid) continue;
     if (links.size() < 200)
       links += (links.empty() ? "" : ", ") + link.name;
     else
@@ -30,8 +28,10 @@ void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Findings& find
   }
   for (const ArmBuild& build : robot.arms) {
     const Arm& arm = cell.arm(build.id);
-    const bool bare = std::all_of(arm.links.begin(), arm.links.end(),
-                                  [&](LinkId link) { return cell.link(link).shapes.empty(); });
+    bool bare = true;
+    for (std::size_t i = 0; i < robot.links.size(); ++i) {
+      if (cell.link(robot.links[i]).arm == build.id) bare = bare && !robot.tree.links[i].solid;
+    }
     if (bare)
       tell("arm " + arm.name,
            "none of its links has a <collision>: nothing that it does can be a conflict", arm.name);

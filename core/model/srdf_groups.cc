@@ -16,6 +16,7 @@ using JointSet = RobotSemantics::JointSet;
 struct Group {
   JointSet joints;
   std::vector<std::string> subgroups;
+  int line = 0;
   Findings faults;  // problems if the group is used, warnings if not
   enum class Mark { fresh, open, done } mark = Mark::fresh;
 };
@@ -27,13 +28,14 @@ class GroupReader {
       : file_(file), tree_(tree), virtual_joints_(virtual_joints), findings_(findings) {}
 
   void read(const XMLElement& element) {
-    const XmlPlace at_line(file_ + ": group at line " + std::to_string(element.GetLineNum()),
-                           findings_);
-    const std::string name = at_line.only_warning("no arm can be this group").name(element, "name");
+    const XmlPlace nameless(file_, element.GetLineNum(), "group", findings_);
+    const std::string name =
+        nameless.only_warning("no arm can be this group").name(element, "name");
     if (name.empty()) return;
     const auto [entry, first] = groups_.emplace(name, Group{});
-    const XmlPlace place = place_of(name, entry->second.faults);
+    const XmlPlace place(file_, element.GetLineNum(), "group " + name, entry->second.faults);
     if (!first) return place.report("duplicate-name", "more than one group has this name", name);
+    entry->second.line = element.GetLineNum();
     place.only_children(element, {"chain", "joint", "link", "group"}, {"passive_joint"});
     for (const auto* child = element.FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {
@@ -50,10 +52,6 @@ class GroupReader {
   }
 
  private:
-  XmlPlace place_of(const std::string& group, Findings& findings) const {
-    return {file_ + ": group " + group, findings};
-  }
-
   void read_member(const XMLElement& member, const XmlPlace& place, Group& group) {
     const std::string_view tag = member.Name();
     if (tag == "chain") return add_chain(member, place, group);
@@ -64,11 +62,12 @@ class GroupReader {
     if (tag == "joint" && virtual_joints_.contains(name)) return;
     const auto& index = tag == "joint" ? tree_.by_joint : tree_.by_link;
     const auto found = index.find(name);
-    if (found == index.end()) return warn_unknown(std::string(tag), name, place);
-    add(found->second, place, group);
+    if (found == index.end()) return warn_unknown(std::string(tag), name, place.at(member));
+    add(found->second, place.at(member), group);
   }
 
   void warn_unknown(const std::string& what, const std::string& name, const XmlPlace& place) const {
+    if (tree_.nameless) return;
     place.warn("unknown-name",
                what + " " + name + " is not in " + tree_.file + "; the group is without it", name);
   }
@@ -82,12 +81,12 @@ class GroupReader {
     for (; link && *link != *base; link = tree_.links[*link].parent) joints.insert(*link);
     if (!link) {
       if (tree_.patched) return;  // links may hang elsewhere than meant
-      return place.report("broken-chain",
-                          "tip_link " + tree_.links[*tip].name + " is not below base_link " +
-                              tree_.links[*base].name,
-                          tree_.links[*tip].name);
+      return place.at(chain).report("broken-chain",
+                                    "tip_link " + tree_.links[*tip].name +
+                                        " is not below base_link " + tree_.links[*base].name,
+                                    tree_.links[*tip].name);
     }
-    for (const std::size_t joint : joints) add(joint, place, group);
+    for (const std::size_t joint : joints) add(joint, place.at(chain), group);
   }
 
   std::optional<std::size_t> link_at(const XMLElement& chain, const char* end,
@@ -96,7 +95,7 @@ class GroupReader {
     if (name.empty()) return std::nullopt;
     const auto found = tree_.by_link.find(name);
     if (found != tree_.by_link.end()) return found->second;
-    warn_unknown("chain " + std::string(end), name, place);
+    warn_unknown("chain " + std::string(end), name, place.at(chain));
     return std::nullopt;
   }
 
@@ -116,7 +115,7 @@ class GroupReader {
     if (group.mark != Group::Mark::fresh) return group.joints;
     group.mark = Group::Mark::open;
     for (const auto& subgroup : group.subgroups) {
-      const XmlPlace place = place_of(name, group.faults);
+      const XmlPlace place(file_, group.line, "group " + name, group.faults);
       const auto found = groups_.find(subgroup);
       if (found == groups_.end()) {
         place.warn("unknown-name", "group " + subgroup + " does not exist; the group is without it",
@@ -161,7 +160,7 @@ std::map<std::string, JointSet> read_groups(const XMLElement& srdf, const std::s
   for (const auto* group = srdf.FirstChildElement("group"); group != nullptr;
        group = group->NextSiblingElement("group")) {
     if (++count > kMaxGroups) {
-      XmlPlace(file + ": robot", findings)
+      XmlPlace(file, group->GetLineNum(), "robot", findings)
           .report("too-many-groups", "more than " + std::to_string(kMaxGroups) + " groups", {},
                   ProblemKind::too_large);
       break;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/model/robot_file.h"
 #include "core/model/srdf_groups.h"
 #include "core/model/xml_element.h"
 
@@ -28,7 +29,7 @@ class SrdfReader {
   RobotSemantics read(const std::set<std::string>& used_groups) {
     RobotSemantics semantics;
     check_name();
-    XmlPlace(file_ + ": robot", findings_)
+    XmlPlace(file_, srdf_.GetLineNum(), "robot", findings_)
         .only_children(
             srdf_,
             {"group", "disable_collisions", "disable_default_collisions", "enable_collisions"},
@@ -38,8 +39,9 @@ class SrdfReader {
     semantics.groups = read_groups(srdf_, file_, tree_, virtual_joints, used_groups, findings_);
     for_each("group_state",
              [&](const XMLElement& state) { read_state(state, virtual_joints, semantics); });
-    for_each("passive_joint",
-             [&](const XMLElement& passive) { read_passive_joint(passive, virtual_joints); });
+    for_each("passive_joint", [&](const XMLElement& passive) {
+      read_passive_joint(passive, virtual_joints, semantics);
+    });
     read_allowed_pairs(semantics);
     warn_of_stale_elements();
     return semantics;
@@ -55,15 +57,14 @@ class SrdfReader {
   }
 
   XmlPlace at_line(const XMLElement& element) const {
-    return {file_ + ": " + element.Name() + " at line " + std::to_string(element.GetLineNum()),
-            findings_};
+    return {file_, element.GetLineNum(), element.Name(), findings_};
   }
 
   void check_name() const {
-    const XmlPlace place(file_ + ": robot", findings_);
+    const XmlPlace place(file_, srdf_.GetLineNum(), "robot", findings_);
     const std::string name =
         place.only_warning("whether it is of the URDF's robot is not known").name(srdf_, "name");
-    if (name.empty() || name == tree_.name) return;
+    if (name.empty() || name == tree_.name || tree_.links.empty()) return;
     place.warn("other-robot",
                "the SRDF is of robot " + name + ", " + tree_.file + " of robot " + tree_.name +
                    "; pairs of links that it disables are not checked, and its groups are taken as "
@@ -71,11 +72,24 @@ class SrdfReader {
                name);
   }
 
+  bool is_root(const std::string& link) const {
+    const auto found = tree_.by_link.find(link);
+    return found != tree_.by_link.end() && !tree_.links[found->second].parent;
+  }
+
   std::set<std::string> read_virtual_joints() const {
     std::set<std::string> names;
     for_each("virtual_joint", [&](const XMLElement& joint) {
       const XmlPlace place = at_line(joint);
       names.insert(place.only_warning("it is left out").name(joint, "name"));
+      const char* child = joint.Attribute("child_link");
+      if (child != nullptr && !tree_.patched && !is_root(child)) {
+        place.warn("other-child",
+                   "child_link " + std::string(child) + " is not the root link " +
+                       tree_.links.front().name + " of " + tree_.file +
+                       "; it is left out: the root link stands where \"base\" of the cell has it",
+                   std::string(child));
+      }
       const char* type = joint.Attribute("type");
       if (type == nullptr || std::string_view(type) == "fixed") return;
       place.warn("moving-base",
@@ -86,13 +100,16 @@ class SrdfReader {
     return names;
   }
 
-  // The value of a passive joint is not ours to command; only its name can be wrong.
-  void read_passive_joint(const XMLElement& passive,
-                          const std::set<std::string>& virtual_joints) const {
+  void read_passive_joint(const XMLElement& passive, const std::set<std::string>& virtual_joints,
+                          RobotSemantics& semantics) const {
     const XmlPlace place = at_line(passive).only_warning("it is left out");
     const std::string name = place.name(passive, "name");
-    if (name.empty() || virtual_joints.contains(name) || tree_.by_joint.contains(name)) return;
-    place.report("unknown-name", "joint " + name + " is not in " + tree_.file, name);
+    if (name.empty() || virtual_joints.contains(name)) return;
+    const auto found = tree_.by_joint.find(name);
+    if (found != tree_.by_joint.end())
+      semantics.passive.emplace(found->second, place.text());
+    else if (!tree_.nameless)
+      place.report("unknown-name", "joint " + name + " is not in " + tree_.file, name);
   }
 
   // A state with a fault can be no home and no goal; its faults say why.
@@ -104,10 +121,12 @@ class SrdfReader {
     const std::string group = line.name(element, "group");
     if (name.empty() || group.empty()) return;
     NamedState state;
-    const XmlPlace place(file_ + ": group_state " + name + " of " + group, state.faults);
+    const XmlPlace place(file_, element.GetLineNum(), "group_state " + name + " of " + group,
+                         state.faults);
+    state.place = place.text();
     const auto found = semantics.groups.find(group);
     if (found == semantics.groups.end()) {
-      return XmlPlace(place.text(), findings_)
+      return place.telling(findings_)
           .only_warning(consequence)
           .report("unknown-name", "group " + group + " does not exist", group);
     }
@@ -117,7 +136,7 @@ class SrdfReader {
     }
     const auto [known, first] = semantics.states[group].emplace(name, std::move(state));
     if (first) return;
-    XmlPlace(place.text(), known->second.faults)
+    place.telling(known->second.faults)
         .report("duplicate-name", "more than one state of this group has this name", name);
   }
 
@@ -127,22 +146,26 @@ class SrdfReader {
     const std::string name = place.name(element, "name");
     if (name.empty() || virtual_joints.contains(name)) return;
     const auto found = tree_.by_joint.find(name);
+    const XmlPlace line = place.at(element);
     if (found == tree_.by_joint.end()) {
-      return place.warn("unknown-name",
-                        "joint " + name + " is not in " + tree_.file + "; the state is without it",
-                        name);
+      if (tree_.nameless) {
+        static_cast<void>(line.of("joint " + name).number(element, "value", Presence::required));
+        return;
+      }
+      return line.warn("unknown-name",
+                       "joint " + name + " is not in " + tree_.file + "; the state is without it",
+                       name);
     }
     const TreeLink& link = tree_.links[found->second];
     if (!link.is_independent() && !link.held) return;  // it has no value of its own
-    const auto value = XmlPlace(place.text() + ": joint " + name, state.faults)
-                           .number(element, "value", Presence::required);
+    const auto value = line.of("joint " + name).number(element, "value", Presence::required);
     if (!value) return;
     if (!group.contains(found->second)) {
-      return place.warn("foreign-joint",
-                        "joint " + name + " is not in the group; the state is without it", name);
+      return line.warn("foreign-joint",
+                       "joint " + name + " is not in the group; the state is without it", name);
     }
     if (!state.values.emplace(found->second, *value).second) {
-      place.report("duplicate-name", "joint " + name + " has more than one value", name);
+      line.report("duplicate-name", "joint " + name + " has more than one value", name);
     }
   }
 
@@ -153,6 +176,7 @@ class SrdfReader {
     if (name.empty()) return std::nullopt;
     const auto found = tree_.by_link.find(name);
     if (found != tree_.by_link.end()) return found->second;
+    if (tree_.nameless) return std::nullopt;
     StaleElements& stale = stale_[element.Name()];
     if (last_stale_ != &element) ++stale.stale;
     last_stale_ = &element;
@@ -166,7 +190,7 @@ class SrdfReader {
   void warn_of_stale_elements() const {
     for (const auto& [tag, stale] : stale_) {
       if (stale.stale == 0) continue;
-      XmlPlace(file_ + ": " + tag, findings_)
+      XmlPlace(file_, 0, tag, findings_)
           .warn("unknown-name",
                 std::to_string(stale.stale) + " of " + std::to_string(stale.all) +
                     " name links that are not in " + tree_.file + " (" + stale.examples +
@@ -218,7 +242,7 @@ std::optional<RobotSemantics> read_srdf(std::string text, const std::filesystem:
                                         const RobotTree& tree,
                                         const std::set<std::string>& used_groups,
                                         Findings& findings) {
-  const std::string file = path.filename().string();
+  const std::string file = told_file_name(path);
   tinyxml2::XMLDocument document;
   const auto* srdf = parse_robot_xml(text, file, document, findings);
   if (srdf == nullptr) return std::nullopt;

@@ -16,6 +16,7 @@ namespace armloom {
 // What an SRDF says about a robot, with every name resolved. Joints and links are indices into
 // RobotTree::links; a joint is the link that it moves.
 struct NamedState {
+  std::string place;                     // "arm.srdf:12: group_state ready of arm"
   std::map<std::size_t, double> values;  // joint -> rad or m
   Findings faults;  // why it can be no home and no goal; problems only of an arm whose home it is
 };
@@ -27,6 +28,7 @@ struct RobotSemantics {
   std::map<std::string, JointSet> groups;  // independent joints, and those that the cell holds
   std::map<std::string, std::map<std::string, NamedState>> states;  // group -> state name -> values
   std::set<std::pair<std::size_t, std::size_t>> allowed_pairs;      // links, smaller first
+  std::map<std::size_t, std::string> passive;  // joint -> place: the robot has no motor for it
 };
 
 // Reads an SRDF that was loaded from `path`. Groups by chain, joints, links and subgroups in any

@@ -19,7 +19,7 @@ void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace&
                  UrdfNotes::Joint& notes, XMLElement& to) {
   XMLElement& copy = *to.InsertNewChildElement("limit");
   for (const char* form : {"effort", "velocity"}) copy.SetAttribute(form, "0");
-  const XmlPlace faults(place.text(), notes.faults);
+  const XmlPlace faults = place.telling(notes.faults);
   const auto* limit = faults.only_child(joint, "limit", Presence::optional);
   if (limit == nullptr) return;
   faults.only_attributes(
@@ -33,16 +33,17 @@ void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace&
   const auto velocity = number("velocity");
   notes.velocity = velocity && *velocity > 0.0;  // 0 says nothing, as for MoveIt
   if (velocity && *velocity < 0.0)
-    faults.report("not-positive",
-                  "limit velocity is " + text_of(*velocity) + ", it must be greater than 0",
-                  *velocity);
+    faults.at(*limit).report(
+        "not-positive", "limit velocity is " + text_of(*velocity) + ", it must be greater than 0",
+        *velocity);
   if (type == "continuous") return;  // MoveIt's too ignore what stands there
   const auto lower = number("lower");
   const auto upper = number("upper");
   const bool crossed = lower && upper && *lower > *upper;
   if (crossed)
-    faults.report("limits-crossed",
-                  "limit lower " + text_of(*lower) + " is above upper " + text_of(*upper), *lower);
+    faults.at(*limit).report(
+        "limits-crossed", "limit lower " + text_of(*lower) + " is above upper " + text_of(*upper),
+        *lower);
   notes.lower = lower && !crossed;
   notes.upper = upper && !crossed;
 }
@@ -57,7 +58,9 @@ void check_axis(const XMLElement& joint, const XmlPlace& place, XMLElement& to) 
   if (norm >= 1e-6 && std::isfinite(norm)) return;
   to.DeleteChild(&copy);
   const char* text = axis->Attribute("xyz");
-  if (xyz) place.report("zero-axis", std::string("axis xyz '") + text + "' has no direction", norm);
+  if (xyz)
+    place.at(*axis).report("zero-axis", std::string("axis xyz '") + text + "' has no direction",
+                           norm);
 }
 
 // The type for urdfdom. A joint of several values stands at its origin, as MoveIt has it by
@@ -102,7 +105,8 @@ void check_joint(const XMLElement& joint, const XmlPlace& place, UrdfNotes::Join
   if (type == "fixed") {
     const XmlPlace unused = place.only_warning("the joint is fixed, so it plays no part");
     check_axis(joint, unused, to);
-    if (mimic != nullptr) unused.report("fixed-mimic", "a fixed joint cannot mimic another");
+    if (mimic != nullptr)
+      unused.at(*mimic).report("fixed-mimic", "a fixed joint cannot mimic another");
     return;
   }
   check_axis(joint, place, to);
@@ -115,11 +119,10 @@ void check_joint(const XMLElement& joint, const XmlPlace& place, UrdfNotes::Join
   copy_if_there(*mimic, "offset", 1, place, copy);
 }
 
-std::string place_of(const XMLElement& element, const std::string& file) {
+XmlPlace place_of(const XMLElement& element, const std::string& file, Findings& findings) {
   const char* name = element.Attribute("name");
-  const std::string place = file + ": " + element.Name() + " ";
-  if (name != nullptr && *name != '\0') return place + name;
-  return place + "at line " + std::to_string(element.GetLineNum());
+  const std::string named = name == nullptr || *name == '\0' ? "" : std::string(" ") + name;
+  return {file, element.GetLineNum(), element.Name() + named, findings};
 }
 
 // Links and joints count directly below <robot> only: in another element they would vanish.
@@ -137,9 +140,9 @@ void refuse_what_holds_links(const XMLElement& robot, const std::string& file, F
     const std::string tag = child->Name();
     if (tag == "link" || tag == "joint" || tag == "gazebo") continue;
     if (tag.find(':') != std::string::npos || !has_part(*child)) continue;
-    XmlPlace(file + ": robot", findings)
+    XmlPlace(file, child->GetLineNum(), "robot", findings)
         .report("misplaced",
-                "line " + std::to_string(child->GetLineNum()) + ": <" + tag +
+                "<" + tag +
                     "> holds a part of the robot, which would be left out: <link> and <joint> "
                     "stand directly below <robot>, and <collision> in a <link>",
                 tag);
@@ -150,7 +153,7 @@ void refuse_what_holds_links(const XMLElement& robot, const std::string& file, F
 
 UrdfNotes check_urdf_elements(const XMLElement& robot, const std::string& file,
                               const MeshFolders& folders, XMLElement& mended, Findings& findings) {
-  XmlPlace(file + ": robot", findings)
+  XmlPlace(file, robot.GetLineNum(), "robot", findings)
       .only_children(robot, {"link", "joint"},
                      {"material", "transmission", "gazebo", "ros2_control", "sensor", "mujoco",
                       "plugin", "loop_joint", "verbose"});
@@ -161,8 +164,9 @@ UrdfNotes check_urdf_elements(const XMLElement& robot, const std::string& file,
        child = child->NextSiblingElement()) {
     const std::string tag = child->Name();
     if (tag != "link" && tag != "joint") continue;
-    const XmlPlace place(place_of(*child, file), findings);
+    const XmlPlace place = place_of(*child, file, findings);
     const std::string name = place.name(*child, "name");
+    notes.lines[tag].emplace(name, child->GetLineNum());
     XMLElement& copy = *mended.InsertNewChildElement(child->Name());
     copy.SetAttribute("name", name.c_str());
     UrdfNotes::Joint joint;
@@ -172,6 +176,7 @@ UrdfNotes check_urdf_elements(const XMLElement& robot, const std::string& file,
       check_joint(*child, place, joint, copy);
     const bool doubled = !name.empty() && !known.emplace(tag, name).second;
     if (doubled) place.report("duplicate-name", "more than one " + tag + " has this name", name);
+    if (name.empty()) notes.nameless = true;
     if (doubled || name.empty()) {
       notes.patched = true;
       if (tag == "joint") notes.loose.insert(copy.FirstChildElement("child")->Attribute("link"));

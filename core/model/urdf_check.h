@@ -30,10 +30,13 @@ struct UrdfNotes {
   };
   std::map<std::string, Joint> joints;        // each of the mended robot
   std::map<std::string, std::string> meshes;  // name in the file -> path
-  std::set<std::string> seen;                 // links with a visual
+  std::set<std::string> seen;                 // links with a <visual>
+  std::set<std::string> solid;                // links with a <collision>, which may be faulty
   std::set<std::string> loose;                // links that hang on nothing because of what was told
   std::set<std::string> made;  // links and joints that only make the mended robot one tree
   bool patched = false;        // as RobotTree has it
+  bool nameless = false;       // the same
+  std::map<std::string, std::map<std::string, int>> lines;  // "link", "joint": name -> line
 };
 
 // Checks every <link> and <joint>, tells all that is wrong and writes what is right to `mended`.

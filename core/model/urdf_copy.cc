@@ -57,18 +57,19 @@ bool copy_origin(const XMLElement& parent, const XmlPlace& place, XMLElement& to
   const auto* origin = place.only_child(parent, "origin", Presence::optional);
   if (origin == nullptr) return true;
   if (origin->Attribute("quat_xyzw") != nullptr)
-    place.report("unsupported", "origin quat_xyzw is not read here; give the rotation as rpy",
-                 std::string(origin->Attribute("quat_xyzw")), ProblemKind::unsupported);
+    place.at(*origin).report("unsupported",
+                             "origin quat_xyzw is not read here; give the rotation as rpy",
+                             std::string(origin->Attribute("quat_xyzw")), ProblemKind::unsupported);
   else
     place.only_attributes(*origin, {"xyz", "rpy"});
   XMLElement& copy = *to.InsertNewChildElement("origin");
   const auto xyz = copy_numbers(*origin, "xyz", 3, Presence::optional, place, copy);
   const auto rpy = copy_numbers(*origin, "rpy", 3, Presence::optional, place, copy);
-  if (rpy) warn_if_degrees(*rpy, place);
+  if (rpy) warn_if_degrees(*rpy, place.at(*origin));
   if ((!rpy && origin->Attribute("rpy") != nullptr) ||
       (!xyz && origin->Attribute("xyz") != nullptr))
     return false;
-  if (xyz) warn_if_far(norm_of(*xyz), "origin xyz", place);
+  if (xyz) warn_if_far(norm_of(*xyz), "origin xyz", place.at(*origin));
   return true;
 }
 

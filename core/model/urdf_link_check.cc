@@ -19,10 +19,10 @@ bool copy_lengths(const XMLElement& shape, const char* attribute, std::size_t si
   if (!read) return false;
   const std::string what = std::string(shape.Name()) + " " + attribute;
   for (const double number : *read) {
-    warn_if_far(number, what, place);
+    warn_if_far(number, what, place.at(shape));
     if (number > 0.0) continue;
-    place.report("not-positive", what + " is " + text_of(number) + " m, it must be greater than 0",
-                 number);
+    place.at(shape).report(
+        "not-positive", what + " is " + text_of(number) + " m, it must be greater than 0", number);
     return false;
   }
   return true;
@@ -36,13 +36,13 @@ bool copy_mesh(const XMLElement& mesh, const XmlPlace& place, const MeshFolders&
   to.SetAttribute("filename", name.c_str());
   const auto scale = copy_numbers(mesh, "scale", 3, Presence::optional, place, to);
   const bool flat = scale && std::find(scale->begin(), scale->end(), 0.0) != scale->end();
-  if (flat) place.report("not-positive", "mesh scale holds a 0", 0.0);
+  if (flat) place.at(mesh).report("not-positive", "mesh scale holds a 0", 0.0);
   if (name.empty()) return false;
   const auto path = resolve_mesh(name, folders.urdf_folder, *folders.packages);
   if (path)
     notes.meshes.emplace(name, path->string());
   else
-    place.report("mesh-unresolved", "mesh " + name + " " + path.error(), name);
+    place.at(mesh).report("mesh-unresolved", "mesh " + name + " " + path.error(), name);
   return path && !flat && (scale || mesh.Attribute("scale") == nullptr);
 }
 
@@ -57,10 +57,10 @@ bool copy_shape(const XMLElement& shape, const XmlPlace& place, const MeshFolder
     const bool radius_right = copy_lengths(shape, "radius", 1, place, copy);
     return copy_lengths(shape, "length", 1, place, copy) && radius_right;
   }
-  place.report("unsupported-shape",
-               "collision geometry <" + std::string(kind) +
-                   "> is not supported (box, cylinder, sphere, mesh are)",
-               std::string(kind), ProblemKind::unsupported);
+  place.at(shape).report("unsupported-shape",
+                         "collision geometry <" + std::string(kind) +
+                             "> is not supported (box, cylinder, sphere, mesh are)",
+                         std::string(kind), ProblemKind::unsupported);
   return false;
 }
 
@@ -74,11 +74,12 @@ bool copy_collision(const XMLElement& collision, const XmlPlace& place, const Me
   if (geometry == nullptr) return false;
   const auto* shape = geometry->FirstChildElement();
   if (shape == nullptr) {
-    place.report("missing", "collision geometry is empty");
+    place.at(*geometry).report("missing", "collision geometry is empty");
     return false;
   }
   if (shape->NextSiblingElement() != nullptr)
-    place.report("duplicate", "collision geometry holds more than one shape");
+    place.at(*shape->NextSiblingElement())
+        .report("duplicate", "collision geometry holds more than one shape");
   XMLElement& copy = *to.InsertNewChildElement("geometry");
   return copy_shape(*shape, place, folders, notes, copy) && placed;
 }
@@ -124,6 +125,7 @@ void check_link(const XMLElement& link, const XmlPlace& place, const MeshFolders
       if (const char* name = link.Attribute("name")) notes.seen.insert(name);
     }
     if (tag != "collision") continue;
+    if (const char* name = link.Attribute("name")) notes.solid.insert(name);
     XMLElement& copy = *to.InsertNewChildElement("collision");
     if (!copy_collision(*child, place, folders, notes, copy)) to.DeleteChild(&copy);
   }

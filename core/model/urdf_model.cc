@@ -94,6 +94,7 @@ RobotTree tree_of(const urdf::ModelInterface& model, UrdfNotes notes) {
   RobotTree tree;
   tree.name = model.getName();
   tree.patched = notes.patched;
+  tree.nameless = notes.nameless;
   std::vector<std::pair<const urdf::Link*, std::optional<std::size_t>>> open{
       {model.getRoot().get(), std::nullopt}};
   while (!open.empty()) {
@@ -107,6 +108,7 @@ RobotTree tree_of(const urdf::ModelInterface& model, UrdfNotes notes) {
       const urdf::Joint* joint = source->parent_joint.get();
       if (joint != nullptr && !notes.made.contains(joint->name)) {
         take_joint(*joint, std::move(notes.joints.at(joint->name)), link);
+        link.line_of_joint = notes.lines.at("joint").at(joint->name);
         tree.by_joint.emplace(joint->name, *index);
       }
       for (const auto& collision : source->collision_array)
@@ -114,6 +116,8 @@ RobotTree tree_of(const urdf::ModelInterface& model, UrdfNotes notes) {
       if (!notes.made.contains(source->name)) {
         link.name = source->name;
         link.seen = notes.seen.contains(link.name);
+        link.solid = notes.solid.contains(link.name);
+        link.line = notes.lines.at("link").at(link.name);
         tree.by_link.emplace(link.name, *index);
       }
     }
@@ -138,7 +142,7 @@ std::optional<RobotTree> read_with_urdfdom(const XMLElement& mended, const std::
     tree.file = file;
     return tree;
   }
-  XmlPlace(file + ": robot", findings)
+  XmlPlace(file, 0, "robot", findings)
       .report("urdf-refused", "urdfdom cannot read it: " + UrdfdomWords::said());
   return std::nullopt;
 }

@@ -4,20 +4,29 @@
 
 #include <utility>
 
+#include "core/model/robot_file.h"
 #include "core/model/urdf_check.h"
 #include "core/model/urdf_model.h"
 #include "core/model/xml_element.h"
 
 namespace armloom {
 
+RobotTree unread_robot(const std::filesystem::path& path) {
+  RobotTree tree;
+  tree.file = told_file_name(path);
+  tree.patched = true;
+  tree.nameless = true;
+  return tree;
+}
+
 std::optional<RobotTree> read_urdf(std::string text, const std::filesystem::path& path,
                                    const std::map<std::string, std::string>& packages,
                                    Findings& findings) {
-  const std::string file = path.filename().string();
+  const std::string file = told_file_name(path);
   tinyxml2::XMLDocument document;
   const auto* robot = parse_robot_xml(text, file, document, findings);
   if (robot == nullptr) return std::nullopt;
-  const XmlPlace place(file + ": robot", findings);
+  const XmlPlace place(file, robot->GetLineNum(), "robot", findings);
   tinyxml2::XMLDocument document_of_mended;
   auto* mended = document_of_mended.NewElement("robot");
   document_of_mended.InsertEndChild(mended);

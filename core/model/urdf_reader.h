@@ -24,4 +24,7 @@ inline constexpr std::size_t kMaxLinksOfRobot = 1000;
                                                  const std::map<std::string, std::string>& packages,
                                                  Findings& findings);
 
+// What is known of a robot whose URDF cannot be read: nothing but the file's name.
+[[nodiscard]] RobotTree unread_robot(const std::filesystem::path& path);
+
 }  // namespace armloom

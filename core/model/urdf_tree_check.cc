@@ -1,7 +1,9 @@
 #include <tinyxml2.h>
 
+#include <string_view>
 #include <vector>
 
+#include "core/base/nearest_name.h"
 #include "core/model/urdf_check.h"
 #include "core/model/xml_element.h"
 
@@ -44,9 +46,18 @@ class TreeMender {
     std::vector<const Node*> children;
   };
 
-  void report(const std::string& whose, const std::string& slug, const std::string& sentence,
+  void report(const std::string& slug, const std::string& sentence,
               const std::string& value) const {
-    XmlPlace(file_ + ": " + whose, findings_).report(slug, sentence, value);
+    XmlPlace(file_, 0, "robot", findings_).report(slug, sentence, value);
+  }
+  void report_joint(const std::string& name, const std::string& slug, const std::string& sentence,
+                    const std::string& value) const {
+    XmlPlace(file_, line_of("joint", name), "joint " + name, findings_)
+        .report(slug, sentence, value);
+  }
+
+  int line_of(const char* tag, const std::string& name) const {
+    return notes_.lines.at(tag).at(name);
   }
 
   void index_names() {
@@ -65,7 +76,8 @@ class TreeMender {
     if (found != links_.end()) return &found->second;
     if (end == "child") all_children_known_ = false;
     if (!link.empty())  // else told with the element
-      report("joint " + joint, "unknown-link", end + " link " + link + " does not exist", link);
+      report_joint(joint, "unknown-link",
+                   end + " link " + link + " does not exist" + did_you_mean(link, links_), link);
     return nullptr;
   }
 
@@ -76,9 +88,10 @@ class TreeMender {
           find_end(name, "parent", joint->FirstChildElement("parent")->Attribute("link"));
       Node* child = find_end(name, "child", link);
       if (child != nullptr && child->joint != nullptr) {
-        report("joint " + name, "two-parents",
-               "child link " + link + " already hangs on joint " + child->joint->Attribute("name"),
-               link);
+        report_joint(
+            name, "two-parents",
+            "child link " + link + " already hangs on joint " + child->joint->Attribute("name"),
+            link);
         all_children_known_ = false;  // which link this one was to move
         child = nullptr;
       }
@@ -91,6 +104,13 @@ class TreeMender {
     }
   }
 
+  std::string listed_with_lines(const std::set<std::string>& links) const {
+    std::set<std::string> texts;
+    for (const std::string& link : links)
+      texts.insert(link + " (line " + std::to_string(line_of("link", link)) + ")");
+    return listed(texts);
+  }
+
   void check_one_root() {
     std::set<std::string> roots;
     std::set<std::string> hanging;
@@ -100,10 +120,11 @@ class TreeMender {
       else if (!notes_.loose.contains(name))
         roots.insert(name);
     }
-    if (links_.empty())
-      return report("robot", "missing", "there are no links: is it the robot's URDF?", "");
+    if (links_.empty()) return report("missing", "there are no links: is it the robot's URDF?", "");
     if (roots.size() > 1)
-      return report("robot", "two-roots", "more than one root link: " + listed(roots),
+      return report("two-roots",
+                    "more than one root link: " + listed_with_lines(roots) +
+                        "; hang all but one on a <joint>, as type=\"fixed\"",
                     listed(roots));
     for (const auto* starts : {&roots, &notes_.loose}) {
       for (const std::string& start : *starts) {
@@ -111,7 +132,7 @@ class TreeMender {
       }
     }
     if (hanging.empty()) return;
-    report("robot", "loop", "links hang in a loop and not below a root: " + listed(hanging),
+    report("loop", "links hang in a loop and not below a root: " + listed_with_lines(hanging),
            listed(hanging));
   }
 
@@ -143,12 +164,13 @@ class TreeMender {
   bool is_mimic_right(const std::string& name, const std::string& followed) const {
     if (followed.empty()) return false;  // told with the element
     const auto refuse = [&](const std::string& slug, const std::string& sentence) {
-      report("joint " + name, slug, sentence, followed);
+      report_joint(name, slug, sentence, followed);
       return false;
     };
     const auto driver = joints_.find(followed);
     if (driver == joints_.end())
-      return refuse("unknown-joint", "mimic joint " + followed + " does not exist");
+      return refuse("unknown-joint", "mimic joint " + followed + " does not exist" +
+                                         did_you_mean(followed, joints_));
     if (followed == name) return refuse("mimic-chain", "the joint mimics itself");
     if (driver->second->FirstChildElement("mimic") != nullptr)
       return refuse("mimic-chain", "mimic joint " + followed + " is a mimic itself");

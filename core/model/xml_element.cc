@@ -44,7 +44,7 @@ std::string why_malformed(const tinyxml2::XMLDocument& document, const std::stri
 tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string& file,
                                       tinyxml2::XMLDocument& document, Findings& findings) {
   const auto refuse = [&](int line, const std::string& sentence) {
-    XmlPlace(file + ":" + std::to_string(line), findings)
+    XmlPlace(file, line, "", findings)
         .report("xml-malformed", sentence, {}, ProblemKind::malformed);
     return nullptr;
   };
@@ -80,6 +80,29 @@ std::size_t count_children(const tinyxml2::XMLElement& element, const char* chil
   return count;
 }
 
+XmlPlace XmlPlace::at(const tinyxml2::XMLElement& element) const {
+  XmlPlace other = *this;
+  other.line_ = element.GetLineNum();
+  return other;
+}
+
+XmlPlace XmlPlace::of(const std::string& part) const {
+  XmlPlace other = *this;
+  other.whose_ += ": " + part;
+  return other;
+}
+
+XmlPlace XmlPlace::telling(Findings& findings) const {
+  XmlPlace other = *this;
+  other.findings_ = &findings;
+  return other;
+}
+
+std::string XmlPlace::text() const {
+  return file_ + (line_ > 0 ? ":" + std::to_string(line_) : "") +
+         (whose_.empty() ? "" : ": " + whose_);
+}
+
 XmlPlace XmlPlace::only_warning(std::string consequence) const {
   XmlPlace other = *this;
   other.consequence_ = std::move(consequence);
@@ -89,13 +112,15 @@ XmlPlace XmlPlace::only_warning(std::string consequence) const {
 void XmlPlace::report(std::string slug, const std::string& sentence, decltype(Problem::value) value,
                       ProblemKind kind) const {
   if (consequence_) return warn(std::move(slug), sentence + "; " + *consequence_, std::move(value));
-  findings_->add({kind, std::move(slug), place_, place_ + ": " + sentence, std::move(value)});
+  const std::string place = text();
+  findings_->add({kind, std::move(slug), place, place + ": " + sentence, std::move(value)});
 }
 
 void XmlPlace::warn(std::string slug, const std::string& sentence,
                     decltype(Problem::value) value) const {
+  const std::string place = text();
   findings_->warn(
-      {ProblemKind::invalid, std::move(slug), place_, place_ + ": " + sentence, std::move(value)});
+      {ProblemKind::invalid, std::move(slug), place, place + ": " + sentence, std::move(value)});
 }
 
 std::optional<double> XmlPlace::number(const tinyxml2::XMLElement& element, const char* attribute,
@@ -110,14 +135,15 @@ std::optional<std::vector<double>> XmlPlace::numbers(const tinyxml2::XMLElement&
   const std::string what = std::string(element.Name()) + " " + attribute;
   const char* text = element.Attribute(attribute);
   if (text == nullptr) {
-    if (presence == Presence::required) report("missing", what + " is missing");
+    if (presence == Presence::required) at(element).report("missing", what + " is missing");
     return std::nullopt;
   }
   auto read = parse_numbers(text);
   if (!read || read->size() != size) {
     const std::string wanted =
         size == 1 ? "a finite number" : std::to_string(size) + " finite numbers";
-    report("not-a-number", what + " is '" + text + "', not " + wanted, std::string(text));
+    at(element).report("not-a-number", what + " is '" + text + "', not " + wanted,
+                       std::string(text));
     return std::nullopt;
   }
   return read;
@@ -126,7 +152,7 @@ std::optional<std::vector<double>> XmlPlace::numbers(const tinyxml2::XMLElement&
 std::string XmlPlace::name(const tinyxml2::XMLElement& element, const char* attribute) const {
   const char* text = element.Attribute(attribute);
   if (text == nullptr || *text == '\0') {
-    report("missing", std::string(element.Name()) + " " + attribute + " is missing");
+    at(element).report("missing", std::string(element.Name()) + " " + attribute + " is missing");
     return {};
   }
   return text;
@@ -137,14 +163,15 @@ const tinyxml2::XMLElement* XmlPlace::only_child(const tinyxml2::XMLElement& ele
   const auto* first = element.FirstChildElement(child);
   if (first == nullptr) {
     if (presence == Presence::required)
-      report("missing", std::string("<") + child + "> is missing");
-  } else if (first->NextSiblingElement(child) != nullptr) {
-    report("duplicate", std::string("more than one <") + child + ">, of which the first counts");
+      at(element).report("missing", std::string("<") + child + "> is missing");
+  } else if (const auto* second = first->NextSiblingElement(child)) {
+    at(*second).report("duplicate",
+                       std::string("more than one <") + child + ">, of which the first counts");
   }
   return first;
 }
 
-void XmlPlace::tell_unknown(const std::string& name, int line, const std::string& before,
+void XmlPlace::tell_unknown(const std::string& name, const std::string& before,
                             const std::string& after, Names used, Names unused) const {
   const auto is_in = [](Names names, std::string_view one) {
     return std::find(names.begin(), names.end(), one) != names.end();
@@ -155,7 +182,7 @@ void XmlPlace::tell_unknown(const std::string& name, int line, const std::string
   std::string lower_case = name;
   for (char& c : lower_case) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const auto meant = nearest_name(lower_case, known);
-  const std::string what = "line " + std::to_string(line) + ": " + before + name + after;
+  const std::string what = before + name + after;
   const std::string hint =
       meant ? "; did you mean " + before + std::string(*meant) + after + "?" : "";
   if (meant && is_in(used, *meant)) return report("misspelt", what + " is not known" + hint, name);
@@ -165,14 +192,14 @@ void XmlPlace::tell_unknown(const std::string& name, int line, const std::string
 void XmlPlace::only_children(const tinyxml2::XMLElement& element, Names used, Names unused) const {
   for (const auto* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
-    tell_unknown(child->Name(), child->GetLineNum(), "<", ">", used, unused);
+    at(*child).tell_unknown(child->Name(), "<", ">", used, unused);
   }
 }
 
 void XmlPlace::only_attributes(const tinyxml2::XMLElement& element, Names used) const {
   for (const auto* one = element.FirstAttribute(); one != nullptr; one = one->Next()) {
-    tell_unknown(one->Name(), one->GetLineNum(), std::string(element.Name()) + " attribute ", "",
-                 used, {});
+    at(element).tell_unknown(one->Name(), std::string(element.Name()) + " attribute ", "", used,
+                             {});
   }
 }
 

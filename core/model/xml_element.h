@@ -28,18 +28,25 @@ enum class Presence { required, optional };
 
 [[nodiscard]] std::size_t count_children(const tinyxml2::XMLElement& element, const char* child);
 
-// Reads one element of a robot file and reports what is wrong with it, always under the place that
-// it was made with: "panda.urdf: joint panda_joint3". The sentence is place + ": " + what is wrong.
+// Reads one element of a robot file and reports what is wrong with it, under the place that it was
+// made with: "panda.urdf:12: joint panda_joint3". Of an element below, and its attributes, the line
+// is that element's own. The sentence is place + ": " + what is wrong.
 class XmlPlace {
  public:
-  XmlPlace(std::string place, Findings& findings)
-      : place_(std::move(place)), findings_(&findings) {}
+  // `line` 0: what is wrong stands in no line. `whose` may be empty.
+  XmlPlace(std::string file, int line, std::string whose, Findings& findings)
+      : file_(std::move(file)), line_(line), whose_(std::move(whose)), findings_(&findings) {}
+
+  // The same at the line of another element; of a part of it ("joint j1"); told to another list.
+  [[nodiscard]] XmlPlace at(const tinyxml2::XMLElement& element) const;
+  [[nodiscard]] XmlPlace of(const std::string& part) const;
+  [[nodiscard]] XmlPlace telling(Findings& findings) const;
 
   // The same place for what the cell does not use: all that is wrong there is only a warning, which
   // ends with this consequence.
   [[nodiscard]] XmlPlace only_warning(std::string consequence) const;
 
-  [[nodiscard]] const std::string& text() const { return place_; }
+  [[nodiscard]] std::string text() const;
   void report(std::string slug, const std::string& sentence, decltype(Problem::value) value = {},
               ProblemKind kind = ProblemKind::invalid) const;
   void warn(std::string slug, const std::string& sentence,
@@ -70,10 +77,12 @@ class XmlPlace {
   void only_attributes(const tinyxml2::XMLElement& element, Names used) const;
 
  private:
-  void tell_unknown(const std::string& name, int line, const std::string& before,
-                    const std::string& after, Names used, Names unused) const;
+  void tell_unknown(const std::string& name, const std::string& before, const std::string& after,
+                    Names used, Names unused) const;
 
-  std::string place_;
+  std::string file_;
+  int line_;
+  std::string whose_;
   Findings* findings_;
   std::optional<std::string> consequence_;  // given: of a place that only warns
 };

@@ -51,7 +51,10 @@ Names resolve_names(const TrajectoryRequest& request, const Cell& cell, ProblemL
     if (!id) {
       refuse("unknown-joint", "is not a movable joint of the cell");
     } else if (!cell.joint(*id).arm) {
-      refuse("joint-of-no-arm", "belongs to no arm, so nothing can move it");
+      refuse(
+          "joint-of-no-arm",
+          "is in no arm's group of the cell, so nothing can move it: list it in the group, or let "
+          "the cell hold it (\"fixed\")");
     } else if (!named.insert(*id).second) {
       refuse("duplicate-joint", "is named twice");
     } else {

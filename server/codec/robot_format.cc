@@ -22,13 +22,23 @@ std::vector<PartPtr<JointLimitsDescription>> limit(
     const std::string& name, std::optional<double> JointLimitsDescription::*where,
     const std::string& power, Range range, const std::string& text,
     std::optional<Schema> stated = std::nullopt) {
+  using Limits = JointLimitsDescription;
   const std::string angular = name + "_rad" + power;
   const std::string linear = name + "_m" + power;
-  return {
-      field(angular, where, number(range), text, stated),
-      // Written once, by the name above: a description does not know how its joints move.
-      read_only(field(linear, where, number(range), "The same of a joint that slides.", stated)),
-      at_most_one<JointLimitsDescription>({angular, linear})};
+  // What was given by neither name is written by the first.
+  const auto part = [&](const std::string& key, bool is_linear, const std::string& words) {
+    return std::make_shared<MemberPart<Limits, double>>(
+        MemberText{key, words, Need::optional, stated}, number(range),
+        [where, linear, is_linear](const Limits& limits) {
+          return limits.keys.contains(linear) == is_linear ? limits.*where : std::nullopt;
+        },
+        [where, key](Limits& limits, double value) {
+          limits.*where = value;
+          limits.keys.insert(key);
+        });
+  };
+  return {part(angular, false, text), part(linear, true, "The same of a joint that slides."),
+          at_most_one<Limits>({angular, linear})};
 }
 
 FormatPtr<JointLimitsDescription> limits_format() {
@@ -105,6 +115,9 @@ FormatPtr<ArmDescription> arm_format() {
       required("group", &ArmDescription::group, name(),
                "The group of the SRDF that the arm consists of: a chain, or joints."),
       home_part(),
+      field("gripper", &ArmDescription::gripper, dictionary(number(kHeld)),
+            "Where joints of the arm's gripper stand at the start (rad, m), by joint name without "
+            "the prefix; at zero, or at the limit next to it, unless given. Jobs move them."),
       field("limits", &ArmDescription::limits, dictionary(limits_format()),
             "Limits of joints of the arm and its gripper, by joint name without the prefix. They "
             "come before those of joint_limits and of the URDF."),

@@ -58,6 +58,13 @@ void print_arm(const Cell& cell, const Arm& arm) {
             << " joints, " << arm.links.size()
             << " links, shapes: " << counted_shapes(cell, arm.links) << '\n';
   std::cout << "    home " << listed(arm.home) << '\n';
+  if (!arm.gripper_joints.empty()) {
+    std::cout << "    gripper starts at";
+    for (const JointId id : arm.gripper_joints)
+      std::cout << (id == arm.gripper_joints.front() ? " " : ", ")
+                << no_minus_zero(cell.joint(id).start) << " (" << cell.joint(id).name << ')';
+    std::cout << '\n';
+  }
   std::cout << "    " << std::left << std::setw(30) << "joint" << std::right;
   for (const char* limit : {"lower", "upper", "velocity", "accel.", "jerk", "brake"}) {
     std::cout << std::setw(9) << limit << ' ';

@@ -103,6 +103,10 @@ class CellImport {
                                     " was not found: give it with --package " + package +
                                     "=FOLDER.");
     }
+    for (const auto& [package, folder] : source.packages.guessed) {
+      remark(pointer + "/packages", "The folder of the package " + package + " is a guess: " +
+                                        folder + " has another name, and a file of it lies there.");
+    }
     for (const HeldJoint& joint : source.held) {
       remark(pointer + "/fixed",
              joint.name + " moves arms and is no single one's: held " +
@@ -126,25 +130,6 @@ class CellImport {
       remark(pointer + "/arms/" + std::to_string(a) + "/limits",
              source.files.urdf.filename().string() + " does not give all limits of " + joints +
                  ": these are guesses, slow and short. Write what the robot really allows.");
-    }
-  }
-
-  // A description does not know how its joints move: limits of those that slide are in metres.
-  void spell_in_metres(Schema& cell) const {
-    for (std::size_t r = 0; r < cell["robots"].size(); ++r) {
-      for (Schema& arm : cell["robots"][r]["arms"]) {
-        if (!arm.contains("limits")) continue;
-        for (auto& [joint, limits] : arm["limits"].items()) {
-          if (!source_of(r).sliding.contains(joint)) continue;
-          Schema spelt = Schema::object();
-          for (auto& [key, value] : limits.items()) {
-            std::string name = key;
-            name.replace(name.find("_rad"), 4, "_m");
-            spelt[name] = value;
-          }
-          limits = std::move(spelt);
-        }
-      }
     }
   }
 
@@ -228,9 +213,7 @@ class CellImport {
                   "its default."};
     JsonWriter out;
     cell_format().write(out, cell);
-    Schema file = Schema::parse(out.text());
-    spell_in_metres(file);
-    return commented_json(file, cell_schema(), notes_);
+    return commented_json(Schema::parse(out.text()), cell_schema(), notes_);
   }
 
   void shorten(std::string& path) const {

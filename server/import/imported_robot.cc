@@ -69,8 +69,12 @@ Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
   ImportedRobot robot{.files = files};
   robot.name = name_in(*urdf);
   robot.packages = find_packages(*urdf, files.urdf, packages, installed_package_folders());
-  const auto tree = read_urdf(*std::move(urdf), files.urdf, robot.packages.folders, findings);
-  if (!tree || findings.count() > 0) {
+  auto tree = read_urdf(*std::move(urdf), files.urdf, robot.packages.folders, findings);
+  if (!tree) tree = unread_robot(files.urdf);
+  const auto semantics = read_srdf(*std::move(srdf), files.srdf, *tree, {}, findings);
+  std::optional<LimitsFile> limits_file;
+  if (limits) limits_file = read_limits_file(*limits, files.joint_limits, findings);
+  if (findings.count() > 0) {
     Problems problems = findings.take();
     for (const std::string& package : robot.packages.missing) {
       problems.push_back({ProblemKind::invalid,
@@ -83,10 +87,6 @@ Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
     }
     return failure(std::move(problems));
   }
-  const auto semantics = read_srdf(*std::move(srdf), files.srdf, *tree, {}, findings);
-  std::optional<LimitsFile> limits_file;
-  if (limits) limits_file = read_limits_file(*limits, files.joint_limits, findings);
-  if (!semantics || findings.count() > 0) return failure(findings.take());
 
   const auto choices = choose_arm_groups(*tree, *semantics, read_group_names(semantics->text));
   for (const GroupChoice& choice : choices) {
@@ -99,9 +99,6 @@ Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
     }
   }
   if (robot.arms.empty()) return no_arm(*semantics, choices);
-  for (const TreeLink& link : tree->links) {
-    if (link.motion == JointKind::prismatic) robot.sliding.insert(link.joint);
-  }
   for (const std::size_t joint : joints_above_arms(*tree, *semantics, choices)) {
     robot.held.push_back(hold(*tree, *semantics, joint));
   }

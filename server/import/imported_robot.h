@@ -28,7 +28,6 @@ struct ImportedRobot {
   std::vector<HeldJoint> held;        // joints above the arms that are in none
   // Limits that no file gives, for each of `arms`, by joint.
   std::vector<std::map<std::string, JointLimitsDescription>> guesses;
-  std::set<std::string> sliding;  // joints whose limits are in metres
   Packages packages;
 };
 

@@ -33,6 +33,7 @@ std::map<std::string, JointLimitsDescription> guess_limits(const RobotTree& tree
       guess.lower = slides ? 0.0 : -kAngle_rad;
       guess.upper = slides ? kLength_m : kAngle_rad;
     }
+    if (slides) guess.keys = {"velocity_m_s", "lower_m", "upper_m"};
     if (guess.velocity || guess.lower) guesses[link.joint] = guess;
   }
   return guesses;

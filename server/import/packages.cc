@@ -48,7 +48,7 @@ std::vector<fs::path> split(const char* variable, const char* below) {
 Packages find_packages(const std::string& urdf_text, const fs::path& urdf,
                        std::map<std::string, std::string> given,
                        const std::vector<fs::path>& installed) {
-  Packages packages{.folders = {}, .missing = {}};
+  Packages packages;
   for (const auto& [name, files] : named_files(urdf_text)) {
     if (const auto known = given.find(name); known != given.end()) {
       packages.folders[name] = fs::weakly_canonical(known->second).string();
@@ -67,6 +67,7 @@ Packages find_packages(const std::string& urdf_text, const fs::path& urdf,
       packages.missing.insert(name);
     } else {
       packages.folders[name] = found->string();
+      if (found->filename() != name) packages.guessed[name] = found->string();
     }
   }
   return packages;

@@ -13,6 +13,7 @@ namespace armloom {
 // folder, or in `installed` (share/ folders of ROS, if there are any).
 struct Packages {
   std::map<std::string, std::string> folders;  // absolute
+  std::map<std::string, std::string> guessed;  // those of them whose folder has another name
   std::set<std::string> missing;               // of packages that were not found
 };
 [[nodiscard]] Packages find_packages(const std::string& urdf_text,

@@ -118,6 +118,40 @@ TEST(Bodies, DistancesAreNeverTooLargeAndHardlyEverTooSmall) {
   EXPECT_LE(too_small, 2);
 }
 
+// As arms that turn about upright axes have them: libccd's GJK claims contact, or 20 mm too much.
+TEST(Bodies, DistancesOfUprightBoxesAreExactHoweverTheyTurn) {
+  std::mt19937_64 random(41);
+  std::uniform_real_distribution<double> side(0.02, 0.5);
+  std::uniform_real_distribution<double> angle(-3.0, 3.0);
+  std::uniform_real_distribution<double> place_m(-0.45, 0.45);
+  int apart = 0;
+  int near = 0;
+  for (int i = 0; i < 3000; ++i) {
+    // Often of one height and at one height, as links of one table are.
+    const double height = i % 3 == 0 ? side(random) : 0.05;
+    const Body a = make_bodies({{Box{{side(random), 0.05, 0.05}}}}).front();
+    const Body b = make_bodies({{Box{{0.02, side(random), height}}}}).front();
+    Eigen::Isometry3d X_WA = Eigen::Isometry3d::Identity();
+    Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+    X_WA.rotate(Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitZ()));
+    X_WB.rotate(Eigen::AngleAxisd(i % 5 == 0 ? 0.0 : angle(random), Eigen::Vector3d::UnitZ()));
+    X_WB.translation() = Eigen::Vector3d(place_m(random), place_m(random), 0.0);
+    const reference::Bracket truth = reference::distance(convex(a, X_WA), convex(b, X_WB), 4000);
+    if (truth.upper - truth.lower > 1e-7) continue;
+    PlacedBody at_a;
+    PlacedBody at_b;
+    place(a, X_WA, at_a);
+    place(b, X_WB, at_b);
+    const double d = distance_below(a, at_a, b, at_b, 10.0);
+    EXPECT_LE(d, std::max(truth.upper, 0.0) + 1e-9) << "trial " << i;
+    EXPECT_GE(d, truth.lower - 2e-7) << "trial " << i;
+    apart += truth.lower > 0.0 ? 1 : 0;
+    near += truth.lower > 0.0 && truth.lower < 0.005 ? 1 : 0;
+  }
+  EXPECT_GE(apart, 1000);
+  EXPECT_GE(near, 15);
+}
+
 TEST(Bodies, CapsulesByHandAgreeWithFcl) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 2000; ++i) {

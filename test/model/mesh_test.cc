@@ -354,7 +354,7 @@ TEST_F(MeshCell, NamesTheLinkOrObjectWhoseMeshIsBad) {
   cell.objects.push_back({"crate", Mesh{folder_.write("crate.obj", "")}});
   cell.objects.push_back({"gone", Mesh{(folder_.path() / "gone.obj").string()}});
   const std::string problems = problems_of(cell);
-  EXPECT_THAT(problems, HasSubstr("r.urdf: link l | r.urdf: link l: mesh "));
+  EXPECT_THAT(problems, HasSubstr("r.urdf:1: link l | r.urdf:1: link l: mesh "));
   EXPECT_THAT(problems, HasSubstr("/objects/0/mesh | object crate: mesh "));
   EXPECT_THAT(problems, HasSubstr("/objects/1/mesh | object gone: mesh "));
 }
@@ -365,7 +365,7 @@ TEST_F(MeshCell, RefusesAMeshThatALinkLeadsOutOfItsPackage) {
   std::filesystem::create_symlink(folder_.path() / "secret.stl",
                                   folder_.path() / "package/part.stl");
   EXPECT_THAT(problems_of(description()),
-              testing::AllOf(HasSubstr("r.urdf: link l"), HasSubstr("through a link")));
+              testing::AllOf(HasSubstr("r.urdf:4: link l"), HasSubstr("through a link")));
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <fstream>
 #include <numbers>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -110,6 +112,22 @@ std::string file_with(const std::string& path, const std::string& from, const st
     throw std::runtime_error("'" + from + "' is not exactly once in " + path);
   }
   return text.replace(found, from.size(), to);
+}
+
+std::string without_lines(const std::string& text) {
+  static const std::regex line("(\\.(?:urdf|srdf)):[0-9]+: ");
+  return std::regex_replace(text, line, "$1: ");
+}
+
+int line_of(const std::string& place) {
+  static const std::regex line("\\.(?:urdf|srdf):([0-9]+)(?:: .*)?");
+  std::smatch found;
+  return std::regex_search(place, found, line) ? std::stoi(found[1]) : 0;
+}
+
+int line_of_change(const std::string& before, const std::string& after) {
+  const auto until = std::ranges::mismatch(before, after).in1;
+  return 1 + static_cast<int>(std::count(before.begin(), until, '\n'));
 }
 
 }  // namespace armloom

@@ -45,4 +45,13 @@ class ScratchFolder {
 [[nodiscard]] std::string file_with(const std::string& path, const std::string& from,
                                     const std::string& to);
 
+// Without the lines of URDF and SRDF files: "a.urdf:12: link b" -> "a.urdf: link b".
+[[nodiscard]] std::string without_lines(const std::string& text);
+
+// The line of "a.urdf:12: link b", 0: it has none.
+[[nodiscard]] int line_of(const std::string& place);
+
+// The line in which two texts begin to differ.
+[[nodiscard]] int line_of_change(const std::string& before, const std::string& after);
+
 }  // namespace armloom

@@ -34,6 +34,7 @@ struct Mistake {
   const char* to;
   const char* place;
   const char* sentence;
+  int line = 0;  // that has to be named, if any is; 0: that of the change
 };
 
 void PrintTo(const Mistake& mistake, std::ostream* out) {
@@ -45,12 +46,17 @@ class UrdfMistake : public testing::TestWithParam<Mistake> {};
 TEST_P(UrdfMistake, IsTheOnlyProblemAndNamedByPlaceAndValue) {
   const Mistake& mistake = GetParam();
   const ScratchFolder folder;
-  const auto cell = build_cell(
-      cell_with_urdf(folder, file_with(data_file("two_arms.urdf"), mistake.from, mistake.to)));
+  const std::string sound = file_with(data_file("two_arms.urdf"), "</robot>", "</robot>");
+  const std::string text = file_with(data_file("two_arms.urdf"), mistake.from, mistake.to);
+  const auto cell = build_cell(cell_with_urdf(folder, text));
   ASSERT_FALSE(cell.has_value()) << mistake.to << " was accepted";
   ASSERT_EQ(cell.error().size(), 1u) << cell.error()[0].detail << "\n"
                                      << cell.error().back().detail;
-  EXPECT_EQ(cell.error()[0].pointer, mistake.place);
+  EXPECT_EQ(without_lines(cell.error()[0].pointer), mistake.place);
+  const int line = line_of(cell.error()[0].pointer);
+  if (line != 0) {
+    EXPECT_EQ(line, mistake.line != 0 ? mistake.line : line_of_change(sound, text));
+  }
   EXPECT_THAT(cell.error()[0].detail, HasSubstr(mistake.sentence));
 }
 
@@ -118,22 +124,24 @@ INSTANTIATE_TEST_SUITE_P(
                             "{\"r_last\": {\"lower_rad\": -1, \"upper_rad\": 1}}"},
                     Mistake{"\"r_spin\" type=\"continuous\"", "\"r_spin\" type=\"floating\"",
                             "two_arms.srdf: group right_arm",
-                            "joint r_spin is floating or planar, which no arm can hold"},
+                            "joint r_spin is floating or planar, which no arm can hold", 6},
                     Mistake{"\"r_spin\" type=\"continuous\"", "\"r_spin\" type=\"planar\"",
-                            "two_arms.srdf: group right_arm", "joint r_spin is floating or planar"},
+                            "two_arms.srdf: group right_arm", "joint r_spin is floating or planar",
+                            6},
                     Mistake{"\"r_spin\" type=\"continuous\"", "\"r_spin\" type=\"hinge\"",
                             "twin.urdf: joint r_spin", "joint type 'hinge' is not known"},
                     Mistake{"\"r_spin\" type=\"continuous\"", "\"r_spin\"",
                             "twin.urdf: joint r_spin", "joint type is missing"},
                     Mistake{"mimic joint=\"l_grip\"", "mimic joint=\"l_gripp\"",
-                            "twin.urdf: joint l_grip_mirror", "mimic joint l_gripp does not exist"},
+                            "twin.urdf: joint l_grip_mirror",
+                            "mimic joint l_gripp does not exist; did you mean l_grip?", 40},
                     Mistake{"mimic joint=\"l_grip\"", "mimic joint=\"r_follow\"",
                             "twin.urdf: joint l_grip_mirror",
-                            "mimic joint r_follow is a mimic itself"},
+                            "mimic joint r_follow is a mimic itself", 40},
                     Mistake{"mimic joint=\"l_grip\"", "mimic joint=\"l_grip_mirror\"",
-                            "twin.urdf: joint l_grip_mirror", "the joint mimics itself"},
+                            "twin.urdf: joint l_grip_mirror", "the joint mimics itself", 40},
                     Mistake{"mimic joint=\"l_grip\"", "mimic joint=\"l_wrist\"",
-                            "twin.urdf: joint l_grip_mirror", "mimic joint l_wrist is fixed"},
+                            "twin.urdf: joint l_grip_mirror", "mimic joint l_wrist is fixed", 40},
                     Mistake{"mimic joint=\"l_grip\"", "mimic", "twin.urdf: joint l_grip_mirror",
                             "mimic joint is missing"}));
 
@@ -144,18 +152,22 @@ INSTANTIATE_TEST_SUITE_P(
                 "twin.urdf: link r2", "more than one link has this name"},
         Mistake{"\"r_last\" type", "\"r_bend\" type", "twin.urdf: joint r_bend",
                 "more than one joint has this name"},
-        Mistake{"<link name=\"r2\"/>", "<link/><link name=\"r2\"/>", "twin.urdf: link at line 47",
+        Mistake{"<link name=\"r2\"/>", "<link/><link name=\"r2\"/>", "twin.urdf: link",
                 "link name is missing"},
         Mistake{"<child link=\"r_tip\"/>", "<child link=\"r_top\"/>", "twin.urdf: joint r_last",
-                "child link r_top does not exist"},
-        Mistake{"<child link=\"r_tip\"/>", "", "twin.urdf: joint r_last", "<child> is missing"},
+                "child link r_top does not exist; did you mean r_tip?", 63},
+        Mistake{"<child link=\"r_tip\"/>", "", "twin.urdf: joint r_last", "<child> is missing", 63},
         Mistake{"<child link=\"r_tip\"/>", "<child link=\"r2\"/>", "twin.urdf: joint r_last",
-                "child link r2 already hangs on joint r_bend"},
+                "child link r2 already hangs on joint r_bend", 63},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><link name=\"stray\"/>",
-                "twin.urdf: robot", "more than one root link: base, stray"},
-        Mistake{"<parent link=\"post\"/><child link=\"r1\"/>",
-                "<parent link=\"r_tip\"/><child link=\"r1\"/>", "twin.urdf: robot",
-                "links hang in a loop and not below a root: r1, r2, r3, r_tip"},
+                "twin.urdf: robot",
+                "more than one root link: base (line 7), stray (line 46); hang all but one on a "
+                "<joint>"},
+        Mistake{
+            "<parent link=\"post\"/><child link=\"r1\"/>",
+            "<parent link=\"r_tip\"/><child link=\"r1\"/>", "twin.urdf: robot",
+            "links hang in a loop and not below a root: r1 (line 46), r2 (line 47), r3 (line 48), "
+            "r_tip (line 49)"},
         Mistake{"<robot name=\"two_arms\"", "<robot", "twin.urdf: robot",
                 "robot name is missing"}));
 
@@ -167,14 +179,13 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<link name=\"r1\"/>",
                 "<link name=\"r1\"><colision><geometry><sphere radius=\"0.1\"/></geometry>"
                 "</colision></link>",
-                "twin.urdf: link r1",
-                "line 46: <colision> is not known; did you mean <collision>?"},
+                "twin.urdf: link r1", "<colision> is not known; did you mean <collision>?"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"><Collision/></link>",
                 "twin.urdf: link r1", "<Collision> is not known; did you mean <collision>?"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"><COLLISIONS/></link>",
                 "twin.urdf: link r1", "<COLLISIONS> is not known; did you mean <collision>?"},
         Mistake{"<collision><origin xyz=\"0 0 0.5\"", "<collision><orgin xyz=\"0 0 0.5\"",
-                "twin.urdf: link post", "line 12: <orgin> is not known; did you mean <origin>?"},
+                "twin.urdf: link post", "<orgin> is not known; did you mean <origin>?"},
         Mistake{"<origin xyz=\"0 0 0.5\"", "<origin xzy=\"0 0 0.5\"", "twin.urdf: link post",
                 "origin attribute xzy is not known; did you mean origin attribute xyz?"},
         Mistake{"scale=\"0.5 0.5 2\"", "scal=\"0.5 0.5 2\"", "twin.urdf: link l2",
@@ -193,12 +204,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "origin quat_xyzw is not read here; give the rotation as rpy"},
         Mistake{"<link name=\"r1\"/>",
                 "<link name=\"r1\"/><model><link name=\"shelf\"><collision/></link></model>",
-                "twin.urdf: robot",
-                "line 46: <model> holds a part of the robot, which would be left out"},
+                "twin.urdf: robot", "<model> holds a part of the robot, which would be left out"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><collision/>", "twin.urdf: robot",
-                "line 46: <collision> holds a part of the robot, which would be left out"},
+                "<collision> holds a part of the robot, which would be left out"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><Link name=\"table\"/>",
-                "twin.urdf: robot", "line 46: <Link> is not known; did you mean <link>?"}));
+                "twin.urdf: robot", "<Link> is not known; did you mean <link>?"}));
 
 // Names that other tools give their elements are no misspellings.
 TEST(UrdfElements, OfOtherToolsPassWithoutAWord) {
@@ -222,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "DOCTYPE"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><xacro:property name=\"x\"/>",
                 "twin.urdf:46", "the file is xacro"},
-        Mistake{"</robot>", "", "twin.urdf:5", "the XML is malformed"},
+        Mistake{"</robot>", "", "twin.urdf:5", "the XML is malformed", 5},
         Mistake{"</robot>", "</robot><robot/>", "twin.urdf:67", "more than one XML element"}));
 
 // What the cell does not use, or what is only odd.
@@ -232,8 +242,8 @@ TEST_P(UrdfOddity, IsAWarningAndRefusesNothing) {
   const Mistake& oddity = GetParam();
   const ScratchFolder folder;
   EXPECT_THAT(
-      warnings_of(
-          cell_with_urdf(folder, file_with(data_file("two_arms.urdf"), oddity.from, oddity.to))),
+      without_lines(warnings_of(
+          cell_with_urdf(folder, file_with(data_file("two_arms.urdf"), oddity.from, oddity.to)))),
       testing::AllOf(HasSubstr(std::string(oddity.place) + " | "), HasSubstr(oddity.sentence)));
 }
 
@@ -244,9 +254,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "size=\"0.4 0x10 0.1\"/></geometry><material", "twin.urdf: link base",
                 "box size is '0.4 0x10 0.1', not 3 finite numbers; it is seen in the dashboard"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"><vizual/></link>", "twin.urdf: link r1",
-                "line 46: <vizual> is not known here and is left out; did you mean <visual>?"},
+                "<vizual> is not known here and is left out; did you mean <visual>?"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><world_frame/>", "twin.urdf: robot",
-                "line 46: <world_frame> is not known here and is left out"},
+                "<world_frame> is not known here and is left out"},
         Mistake{"<origin xyz=\"0 0 0.3\" rpy=\"0 0 -0.785\"/>",
                 "<origin xyz=\"0 0 0.3\" frame=\"world\"/>", "twin.urdf: joint l_wrist",
                 "origin attribute frame is not known here and is left out"},
@@ -295,7 +305,7 @@ TEST(UrdfLimits, ThatAreNoneAreToldWithWhatTheCellCanSayInstead) {
     CellDescription cell =
         cell_with_urdf(folder, file_with(data_file("two_arms.urdf"), fault.from, fault.to));
     const std::string problems = problems_of(cell);
-    EXPECT_THAT(problems, HasSubstr(std::string("twin.urdf: joint l_turn: ") + fault.told));
+    EXPECT_THAT(problems, HasSubstr(std::string("twin.urdf:30: joint l_turn: ") + fault.told));
     EXPECT_THAT(problems,
                 HasSubstr("add to the arm \"limits\": {\"l_turn\": {" + std::string(fault.line)));
     cell.robots[0].arms[0].limits["l_turn"] = {.lower = -1, .upper = 1, .velocity = 1};

@@ -157,14 +157,14 @@ def of_urdf():
     tree = {"subject": "tree"}
     yield urdf('<link name="left_thumb"/>', '<link name="left_thumb"/><link name="left_thumb"/>', "robot.urdf: link left_thumb: more than one link has this name")
     yield urdf('joint name="left_mirror"', 'joint name="left_grip"', "robot.urdf: joint left_grip: more than one joint has this name", **tree)
-    yield urdf('<link name="left_finger"/>', '<link/><link name="left_finger"/>', "robot.urdf: link at line 6: link name is missing")
-    yield urdf('<joint name="left_mirror"', '<joint', "robot.urdf: joint at line 13: joint name is missing", **tree)
+    yield urdf('<link name="left_finger"/>', '<link/><link name="left_finger"/>', "robot.urdf: link: link name is missing")
+    yield urdf('<joint name="left_mirror"', '<joint', "robot.urdf: joint: joint name is missing", **tree)
     yield urdf('<child link="left_finger"/>', '<child link="finger"/>', "robot.urdf: joint left_grip: child link finger does not exist", **tree)
     yield urdf('<parent link="left_upper"/>', '<parent link="upper"/>', "robot.urdf: joint left_bend: parent link upper does not exist", **tree)
     yield urdf('<child link="left_finger"/>', '', "robot.urdf: joint left_grip: <child> is missing", **tree)
     yield urdf('<child link="left_finger"/>', '<child link="left_thumb"/>', "left_thumb already hangs on joint left_grip", **tree)
-    yield urdf('<link name="left_thumb"/>', '<link name="left_thumb"/><link name="stray"/>', "robot.urdf: robot: more than one root link: base, stray", **tree)
-    yield urdf('<parent link="left_upper"/>', '<parent link="left_fore"/>', "robot.urdf: robot: links hang in a loop and not below a root: left_finger, left_fore, left_thumb", **tree)
+    yield urdf('<link name="left_thumb"/>', '<link name="left_thumb"/><link name="stray"/>', "robot.urdf: robot: more than one root link: base (line 3), stray (line 7); hang all but one on a <joint>", **tree)
+    yield urdf('<parent link="left_upper"/>', '<parent link="left_fore"/>', "robot.urdf: robot: links hang in a loop and not below a root: left_finger (line 6), left_fore (line 5), left_thumb (line 7)", **tree)
     yield urdf('<robot name="pair">', '<robot>', "robot.urdf: robot: robot name is missing")
     whole = {"hides": True}
     yield urdf('</robot>\n', '', "robot.urdf:", "the XML is malformed", **whole)

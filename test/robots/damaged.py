@@ -7,6 +7,7 @@ Every damage of damage.py alone, then sets of 2 to 4 independent ones in one fil
 one in each of the files: all of them are told in one go.
 """
 import itertools
+import os
 import pathlib
 import random
 import re
@@ -54,15 +55,33 @@ def fault_of(armloom, folder, damages):
                           text=True, timeout=60)
     if done.returncode != 2:
         return f"exit {done.returncode}\n{done.stderr}"
+    said = without_lines(done.stderr)
+    missing = [told for one in damages for told in one.told if without_lines(told) not in said]
+    if missing:
+        return f"not told: {missing}\n{done.stderr}"
     # One damage may move the lines of another one.
-    said = done.stderr if len(damages) == 1 else without_lines(done.stderr)
-    missing = [told for one in damages for told in one.told
-               if (told if len(damages) == 1 else without_lines(told)) not in said]
-    return f"not told: {missing}\n{done.stderr}" if missing else None
+    wrong = wrong_lines(done.stderr, damages[0]) if len(damages) == 1 else []
+    return f"not the line: {wrong}\n{done.stderr}" if wrong else None
 
 
 def without_lines(text):
-    return re.sub(r"(\.\w+):\d+|( at line) \d+", r"\1\2", text)
+    return re.sub(r"(\.(?:urdf|srdf|yaml)):\d+|(\(line) \d+\)", r"\1\2", text)
+
+
+def wrong_lines(said, one):
+    """What is told of an element of the damaged file in another line than that of the damage."""
+    text = damage.FILES[one.file] if isinstance(damage.FILES[one.file], str) else ""
+    same = len(os.path.commonprefix([one.old, one.new]))
+    line = text[:text.find(one.old) + same].count("\n") + 1
+    wrong = []
+    for told in one.told:
+        if one.hides or not re.match(r"robot\.(urdf|srdf): \w+ \w|joint_limits\.yaml", told):
+            continue
+        lines = [l for l in said.splitlines() if without_lines(told) in without_lines(l)]
+        places = [re.search(re.escape(one.file) + r":(\d+)", l) for l in lines]
+        if not any(place and int(place[1]) == line for place in places):
+            wrong.append((told, line))
+    return wrong
 
 
 def combinations(damages, rng):

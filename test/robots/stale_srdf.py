@@ -8,7 +8,7 @@ WARNED = ["the SRDF is of robot old_robot, robot.urdf of robot new_robot",
           "group left_arm: joint left_twist is not in robot.urdf; the group is without it",
           "group both: group hand does not exist; the group is without it",
           "group_state folded of hand: group hand does not exist; the state is left out",
-          "robot.srdf: passive_joint at line"]
+          ": passive_joint: joint "]
 
 
 def write(folder):

@@ -6,6 +6,7 @@
 
 #include "test/soundness/filter_check.h"
 #include "test/soundness/soundness.h"
+#include "test/soundness/surface_check.h"
 #include "test/soundness/undecided.h"
 
 namespace armloom::soundness {
@@ -38,6 +39,19 @@ bool filters(std::size_t states, std::uint64_t seed) {
   return sound;
 }
 
+// The distances of surfaces (surface_check.h).
+bool surfaces(std::size_t count, std::uint64_t seed) {
+  const SurfaceReport report = check_surfaces(count, seed);
+  std::cout << "| pairs | apart | in contact | of these one inside of the other | apart though "
+               "pieces are closer than 1 mm | said too far | false contacts | shortfall |\n"
+               "|---|---|---|---|---|---|---|---|\n| "
+            << report.pairs << " | " << report.apart << " | " << report.in_contact << " | "
+            << report.inside << " | " << report.opened << " | " << report.too_far << " | "
+            << report.false_contacts << " | " << report.shortfall_m * 1e9 << " nm |\n";
+  for (const std::string& failure : report.failures) std::cout << failure << "\n";
+  return report.too_far == 0 && report.false_contacts == 0;
+}
+
 // What stays open where two Pandas have to keep 5 mm only, each joint 1 mrad off its path.
 bool open(std::size_t count, std::uint64_t seed) {
   const struct {
@@ -66,7 +80,7 @@ bool open(std::size_t count, std::uint64_t seed) {
 }  // namespace
 }  // namespace armloom::soundness
 
-// soundness pairs|filter|open [count [seed]]: the tables of
+// soundness pairs|filter|open|surfaces [count [seed]]: the tables of
 // test/soundness/README.md. Fails where one of the claims there does not hold.
 int main(int argc, char** argv) {
   using namespace armloom::soundness;
@@ -76,7 +90,10 @@ int main(int argc, char** argv) {
     if (what == "filter") return filters(number(argc, argv, 2, 1'000'000), seed) ? 0 : 1;
     if (what == "pairs") return pairs(number(argc, argv, 2, 3000), seed) ? 0 : 1;
     if (what == "open") return open(number(argc, argv, 2, 1500), number(argc, argv, 3, 77)) ? 0 : 1;
-    std::cerr << "usage: soundness pairs|filter|open [count [seed]]\n";
+    if (what == "surfaces") {
+      return surfaces(number(argc, argv, 2, 60'000), number(argc, argv, 3, 51)) ? 0 : 1;
+    }
+    std::cerr << "usage: soundness pairs|filter|open|surfaces [count [seed]]\n";
   } catch (const std::exception& e) {
     std::cerr << "soundness: " << e.what() << "\n";
   }

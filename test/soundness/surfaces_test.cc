@@ -120,6 +120,21 @@ TEST(InnerBalls, ProveOnlyWhatIsSoAndMostOfWhatOverlaps) {
   EXPECT_GE(proven, overlaps / 3);
 }
 
+// The closest pair is that of all pairs that are near.
+void expect_the_closest(CollisionChecker& checker, const Configuration& q) {
+  constexpr double kHorizon_m = kSurfaceWithin_m;  // farther ones may be told of their pieces
+  std::vector<NearPair> near;
+  checker.near_pairs(q, kHorizon_m, {true, true}, {true, true}, near);
+  double least_m = kHorizon_m;
+  for (const NearPair& pair : near) {
+    if (!checker.is_self(pair.pair)) least_m = std::min(least_m, pair.clearance_m);
+  }
+  double closest_m = kHorizon_m;
+  for (const Proximity& pair : checker.closest_apart(q, kHorizon_m))
+    closest_m = std::min(closest_m, pair.clearance_m);
+  EXPECT_NEAR(std::max(closest_m, 0.0), std::max(least_m, 0.0), 1e-9);
+}
+
 // Eight states at once, balls first, against the distances of all pairs.
 TEST(Surfaces, DecideWholeStatesAsTheirDistancesDo) {
   std::mt19937_64 random(56);
@@ -156,6 +171,7 @@ TEST(Surfaces, DecideWholeStatesAsTheirDistancesDo) {
         const bool by_pairs =
             checker.first_closer_than(states[lane], cell->clearance_m, {true, true}).has_value();
         ASSERT_EQ((too_close >> lane & 1U) != 0, by_pairs) << "cell " << i << ", states " << k;
+        if (lane == 0) expect_the_closest(checker, states[lane]);
         ++(by_pairs ? close : clear);
       }
     }
