@@ -68,7 +68,7 @@ struct Proof {
   Eigen::Vector3d n;
   bool failed = false;  // FCL threw
 
-  [[nodiscard]] bool is_settled() const { return claimed > 0.0 && claimed - proven < kProofGap_m; }
+  [[nodiscard]] bool is_settled() const { return proven > 0.0 && claimed - proven < kProofGap_m; }
 };
 
 Proof prove(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
@@ -151,7 +151,7 @@ std::optional<Separation> exact_separation(const Body& a, const Eigen::Isometry3
   Separation best{one.proven, one.n};
   // Of boxes it may claim contact too where there is none.
   const bool boxes = a.kind == BodyKind::box && b.kind == BodyKind::box;
-  if (one.failed || one.claimed - one.proven >= kProofGap_m || (boxes && !(one.claimed > 0.0))) {
+  if (one.failed || one.claimed - one.proven >= kProofGap_m || (boxes && !one.is_settled())) {
     const Proof other = prove(a, X_WA, b, X_WB, fcl::GST_INDEP);
     if (other.proven > best.distance_m) best = {other.proven, other.n};
     if (!other.is_settled()) {

@@ -59,7 +59,7 @@ bool Cell::is_own(LinkId a, LinkId b) const {
 Configuration Cell::home() const {
   Configuration q(static_cast<Eigen::Index>(joints.size()));
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    q[static_cast<Eigen::Index>(j)] = joints[j].start;
+    q[static_cast<Eigen::Index>(j)] = std::clamp(joints[j].start, joints[j].lower, joints[j].upper);
   }
   for (const Arm& each : arms) {
     for (std::size_t j = 0; j < each.joints.size(); ++j) {

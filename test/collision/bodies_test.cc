@@ -92,7 +92,7 @@ TEST(Bodies, DistancesAreNeverTooLargeAndHardlyEverTooSmall) {
     const Eigen::Isometry3d X_WA = reference::random_pose(random, 0.4);
     Eigen::Isometry3d X_WB = reference::random_pose(random, 0.4);
     if (i % 3 == 0) X_WB.linear() = X_WA.linear();  // parallel axes and faces
-    const reference::Bracket truth = reference::distance(convex(a, X_WA), convex(b, X_WB), 4000);
+    const reference::Bracket truth = reference::distance(convex(a, X_WA), convex(b, X_WB), 1000);
     if (truth.upper - truth.lower > 1e-7) continue;  // the reference itself did not converge
     PlacedBody at_a;
     PlacedBody at_b;
@@ -136,7 +136,7 @@ TEST(Bodies, DistancesOfUprightBoxesAreExactHoweverTheyTurn) {
     X_WA.rotate(Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitZ()));
     X_WB.rotate(Eigen::AngleAxisd(i % 5 == 0 ? 0.0 : angle(random), Eigen::Vector3d::UnitZ()));
     X_WB.translation() = Eigen::Vector3d(place_m(random), place_m(random), 0.0);
-    const reference::Bracket truth = reference::distance(convex(a, X_WA), convex(b, X_WB), 4000);
+    const reference::Bracket truth = reference::distance(convex(a, X_WA), convex(b, X_WB), 1000);
     if (truth.upper - truth.lower > 1e-7) continue;
     PlacedBody at_a;
     PlacedBody at_b;
@@ -150,6 +150,33 @@ TEST(Bodies, DistancesOfUprightBoxesAreExactHoweverTheyTurn) {
   }
   EXPECT_GE(apart, 1000);
   EXPECT_GE(near, 15);
+}
+
+// A link that turns beside a small box: fresh eyes were told 0.0000 m in 14 of 244 such homes.
+TEST(Bodies, ALinkThatTurnsBesideABoxIsNotSaidToTouchIt) {
+  std::mt19937_64 random(43);
+  std::uniform_real_distribution<double> place_m(0.46, 0.53);
+  std::uniform_real_distribution<double> angle(0.2, 0.6);
+  const Body link = make_bodies({{Box{{0.5, 0.05, 0.05}}, small::at_xyz(0.25, 0, 0)}}).front();
+  const Body block = make_bodies({{Box{{0.02, 0.02, 0.02}}}}).front();
+  int near = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
+    X_WL.rotate(Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitZ()));
+    const Eigen::Isometry3d X_WB = small::at_xyz(place_m(random), 0.2, 0.0);
+    const reference::Bracket truth =
+        reference::distance(convex(link, X_WL), convex(block, X_WB), 1000);
+    if (truth.upper - truth.lower > 1e-7 || truth.lower <= 0.0) continue;
+    PlacedBody at_link;
+    PlacedBody at_block;
+    place(link, X_WL, at_link);
+    place(block, X_WB, at_block);
+    const double d = distance_below(link, at_link, block, at_block, 1.0);
+    EXPECT_LE(d, truth.upper + 1e-9) << "trial " << i;
+    EXPECT_GE(d, truth.lower - 2e-7) << "trial " << i;
+    near += truth.lower < 0.004 ? 1 : 0;
+  }
+  EXPECT_GE(near, 30);
 }
 
 TEST(Bodies, CapsulesByHandAgreeWithFcl) {

@@ -7,6 +7,7 @@
 
 #include "core/collision/collision_checker.h"
 #include "core/collision/enclosure.h"
+#include "core/collision/part_distance.h"
 #include "core/collision/solid.h"
 #include "core/collision/state_check.h"
 #include "core/collision/triangle_distance.h"
