@@ -8,8 +8,8 @@
 #include "core/collision/arbiter.h"
 #include "core/coordination/effort.h"
 #include "core/executive/executive_impl.h"
-#include "core/scheduler/passing_orders.h"
-#include "core/scheduler/waits.h"
+#include "core/scheduler/orders/passing_orders.h"
+#include "core/scheduler/waiting/waits.h"
 
 namespace armloom {
 namespace {
@@ -140,7 +140,7 @@ std::optional<JobId> place_taken(const Question& question, const CellPtr& cell,
     Record& record =
         state.jobs.add({.job = {.id = motion.job, .trajectory = motion.trajectory},
                         .leg = state.arms.leg_of(*cell, motion.job, *motion.trajectory),
-                        .helps = motion.job});
+                        .on_behalf_of = motion.job});
     if (motion.job == question.candidates.front().job) continue;
     state.jobs.enter(record, Admitted{});
     state.jobs.enter(record, Moving{.overrun_at = {}, .moved_at = {}});

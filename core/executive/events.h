@@ -34,7 +34,7 @@ struct JobView {
   JobState state = JobState::queued;
   std::vector<std::string> arms;
   int priority = 0;
-  bool own = false;  // the server's: a move aside
+  bool system_job = false;  // the server's: a move aside
   TimePoint submitted_at{};
   std::optional<TimePoint> scheduled_at;
   std::optional<TimePoint> started_at;

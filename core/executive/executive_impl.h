@@ -111,7 +111,7 @@ class Executive::Impl final : public JobNames {
   JobId enter(Submit submitted, std::string key, std::string name);
   [[nodiscard]] Submit submission(Prepared prepared) const;
   [[nodiscard]] Submit return_of(TrajectoryPtr back, int priority) const;
-  void remember_way_back(const MoveAside& aside);
+  void remember_way_back(const YieldMove& aside);
   [[nodiscard]] Ahead ahead_now() const;
   std::vector<TrajectoryPtr> returns_for(const Trajectory& motion, Ahead& ahead) const;
   std::string own_key();
@@ -121,7 +121,7 @@ class Executive::Impl final : public JobNames {
   std::string free_key(JobId id) const;
 
   void carry_out(const Effect& effect);
-  void carry_out(const MoveAside& aside);
+  void carry_out(const YieldMove& aside);
   void watch();
   void tell_tick();
   static StateCheck monitored(const PlanningScenePtr& scene);
@@ -154,7 +154,7 @@ class Executive::Impl final : public JobNames {
   std::uint64_t next_job_ = 1;
   std::uint64_t next_fault_ = 1;
   std::uint64_t next_aside_ = 1;
-  std::vector<MoveAside> asides_;  // of the present step
+  std::vector<YieldMove> asides_;  // of the present step
   std::map<ArmId, TrajectoryPtr> ways_back_;
   std::uint64_t seq_ = 0;
   bool told_rest_ = false;

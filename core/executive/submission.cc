@@ -6,7 +6,7 @@
 
 #include "core/base/told.h"
 #include "core/executive/executive_impl.h"
-#include "core/scheduler/making_way.h"
+#include "core/scheduler/yielding/making_way.h"
 #include "core/trajectory/joint_line.h"
 
 namespace armloom {
@@ -211,21 +211,21 @@ Submit Executive::Impl::return_of(TrajectoryPtr back, int priority) const {
           .trajectory = std::move(back),
           .priority = priority,
           .backlog_timeout = cell_->scheduling.backlog_timeout,
-          .own = true};
+          .system_job = true};
 }
 
-void Executive::Impl::carry_out(const MoveAside& aside) {
+void Executive::Impl::carry_out(const YieldMove& aside) {
   const std::string arm = cell_->arm(aside.arm).name;
   make_way(scheduler_, aside, cell_->scheduling.backlog_timeout, [&](Submit way) {
     if (!aside.before) remember_way_back(aside);
     std::string name = way.lets_pass ? arm + " returns to where it stood"
-                                     : arm + " moves aside for " + key(aside.way_of);
+                                     : arm + " moves aside for " + key(aside.blocked_job);
     return enter(std::move(way), own_key(), std::move(name));
   });
 }
 
 // Where the clients of an arm left it, however often it goes aside.
-void Executive::Impl::remember_way_back(const MoveAside& aside) {
+void Executive::Impl::remember_way_back(const YieldMove& aside) {
   const Trajectory& way = *aside.trajectory;
   TrajectoryPtr back = retraced(way);
   if (const auto before = ways_back_.find(aside.arm); before != ways_back_.end()) {

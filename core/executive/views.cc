@@ -65,7 +65,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .name = names.name(job.id),
                .state = job.pausing() ? JobState::holding : job.state(),
                .priority = job.priority,
-               .own = job.own,
+               .system_job = job.system_job,
                .submitted_at = job.times.submitted_at,
                .scheduled_at = job.times.scheduled_at,
                .started_at = job.times.started_at,

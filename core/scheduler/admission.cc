@@ -9,8 +9,8 @@
 #include "core/scheduler/phases.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/putting_off.h"
-#include "core/scheduler/turns.h"
-#include "core/scheduler/waits.h"
+#include "core/scheduler/waiting/turns.h"
+#include "core/scheduler/waiting/waits.h"
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
@@ -139,9 +139,9 @@ void Admission::ask(State& state, std::vector<JobId> jobs, Purpose purpose) {
   state.effects.push_back(Judge{std::move(question)});
 }
 
-void Admission::ask_yield(State& state, YieldMove move) {
+void Admission::ask_yield(State& state, YieldTrial move) {
   Question question = question_about(state, move);
-  open_ = OpenQuestion{state.version, {move.way_of}, Purpose::yield, std::move(move)};
+  open_ = OpenQuestion{state.version, {move.blocked_job}, Purpose::yield, std::move(move)};
   state.effects.push_back(Judge{std::move(question)});
 }
 
@@ -167,7 +167,7 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
   }
 }
 
-void Admission::answer_yield(State& state, const Verdict& verdict, YieldMove move,
+void Admission::answer_yield(State& state, const Verdict& verdict, YieldTrial move,
                              WaitCycles& cycles) {
   const auto passes = lets_through(state, verdict, move);
   if (!passes) return;
@@ -177,7 +177,7 @@ void Admission::answer_yield(State& state, const Verdict& verdict, YieldMove mov
   }
   note_tried(state, move, *passes);
   if (!*passes) return;
-  state.effects.push_back(MoveAside{move.arm, move.way_of, move.way, move.before});
+  state.effects.push_back(YieldMove{move.arm, move.blocked_job, move.way, move.before});
   if (move.before) cycles.opens(*move.before);
 }
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/scheduler/state.h"
-#include "core/scheduler/wait_cycles.h"
-#include "core/scheduler/yield_moves.h"
+#include "core/scheduler/waiting/wait_cycles.h"
+#include "core/scheduler/yielding/yield_moves.h"
 
 namespace armloom {
 
@@ -32,7 +32,7 @@ class Admission {
     Version version;
     std::vector<JobId> jobs;
     Purpose purpose;
-    std::optional<YieldMove> yield = {};
+    std::optional<YieldTrial> yield = {};
     std::vector<Passage> passages = {};  // Question::passages
   };
   // Policies that admit groups: everything that waits is tried as one; if that fails, these alone.
@@ -42,8 +42,8 @@ class Admission {
   };
 
   void ask(State& state, std::vector<JobId> jobs, Purpose purpose);
-  void ask_yield(State& state, YieldMove move);
-  void answer_yield(State& state, const Verdict& verdict, YieldMove move, WaitCycles& cycles);
+  void ask_yield(State& state, YieldTrial move);
+  void answer_yield(State& state, const Verdict& verdict, YieldTrial move, WaitCycles& cycles);
   void answer_start(State& state, const Verdict& verdict, const std::vector<JobId>& jobs);
   void decide(State& state, const Verdict& verdict, const std::vector<JobId>& jobs);
   [[nodiscard]] bool leaves_a_sequence(State& state, const std::vector<JobId>& jobs);

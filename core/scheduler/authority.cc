@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/scheduler/phases.h"
-#include "core/scheduler/waits.h"
+#include "core/scheduler/waiting/waits.h"
 
 namespace armloom {
 namespace {

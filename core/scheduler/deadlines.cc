@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <string>
 
-#include "core/scheduler/gates.h"
 #include "core/scheduler/phases.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {

@@ -23,10 +23,11 @@ struct Submit {
   int priority = 0;  // larger goes first
   Duration backlog_timeout;
   std::vector<JobId> after = {};  // active jobs that have to succeed first; smaller ids than `job`
-  bool own = false;  // the caller's, for a MoveAside: in a ring it gives way to jobs of clients
-  // For a MoveAside: the job that it is to help. What goes aside for this one, goes for that.
-  std::optional<JobId> helps = {};
-  // For a MoveAside of an arm that has jobs: it takes its place before this one of its arm ...
+  bool system_job =
+      false;  // the caller's, for a YieldMove: in a ring it gives way to jobs of clients
+  // For a YieldMove: the job that it is to help. What goes aside for this one, goes for that.
+  std::optional<JobId> on_behalf_of = {};
+  // For a YieldMove of an arm that has jobs: it takes its place before this one of its arm ...
   std::optional<JobId> before = {};
   // ... and does not begin while this one waits.
   std::optional<JobId> lets_pass = {};
@@ -102,10 +103,11 @@ struct Brake {
 // An arm rests in this job's way: come back at once with Submit of a job of one's own that has this
 // motion. If the arm has a job, `before`, the two wait for each other in a ring: the motion takes
 // its place before that job, and behind it a second one, back to where the arm stands now, that
-// comes after the first and lets the other pass. The first helps `way_of`, the second `before`.
-struct MoveAside {
+// comes after the first and lets the other pass. The first helps `blocked_job`, the second
+// `before`.
+struct YieldMove {
   ArmId arm;
-  JobId way_of;
+  JobId blocked_job;
   TrajectoryPtr trajectory;
   std::optional<JobId> before = {};
 };
@@ -122,6 +124,6 @@ struct WakeAt {
   TimePoint when;
 };
 
-using Effect = std::variant<Judge, Dispatch, Grant, Brake, MoveAside, Release, JobChanged, WakeAt>;
+using Effect = std::variant<Judge, Dispatch, Grant, Brake, YieldMove, Release, JobChanged, WakeAt>;
 
 }  // namespace armloom

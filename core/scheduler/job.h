@@ -130,7 +130,7 @@ struct Job {
   int priority = 0;
   Duration backlog_timeout{};
   std::vector<JobId> after = {};  // those that have not ended yet
-  bool own = false;               // the server's: a move aside
+  bool system_job = false;        // the server's: a move aside
   JobPhase phase = Queued{};
   JobTimes times = {};
   Duration progress{};           // trajectory time, last measured

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/scheduler/job.h"
-#include "core/scheduler/safe_sequence.h"
+#include "core/scheduler/sequence/safe_sequence.h"
 
 namespace armloom {
 
@@ -24,9 +24,9 @@ struct YieldsTried {
 struct Record {
   Job job;
   WaitingLeg leg;
-  JobId helps{0};                       // Submit::helps, and what that helps; else itself
-  std::optional<JobId> before;          // Submit::before
-  std::optional<JobId> lets_pass;       // Submit::lets_pass
+  JobId on_behalf_of{0};           // Submit::on_behalf_of, and whom that was sent for; else itself
+  std::optional<JobId> before;     // Submit::before
+  std::optional<JobId> lets_pass;  // Submit::lets_pass
   std::optional<TimePoint> ages_from;   // first in conflict, or first without a place
   Version checked_at = 0;               // admitted: the version on which it was last found free
   Duration farthest{};                  // MotionReport::farthest of the last rest

@@ -9,7 +9,7 @@
 #include "core/base/problem.h"
 #include "core/coordination/motion.h"
 #include "core/model/cell.h"
-#include "core/scheduler/passing_orders.h"
+#include "core/scheduler/orders/passing_orders.h"
 #include "core/scheduler/state.h"
 
 namespace armloom {

@@ -6,7 +6,7 @@
 
 #include "core/coordination/effort.h"
 #include "core/scheduler/phases.h"
-#include "core/scheduler/waits.h"
+#include "core/scheduler/waiting/waits.h"
 
 namespace armloom {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/scheduler/invariants.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/phases.h"
-#include "core/scheduler/turns.h"
+#include "core/scheduler/waiting/turns.h"
 
 namespace armloom {
 namespace {
@@ -110,14 +110,14 @@ void Scheduler::on(const Submit& input) {
                         .priority = input.priority,
                         .backlog_timeout = input.backlog_timeout,
                         .after = input.after,
-                        .own = input.own},
+                        .system_job = input.system_job},
                 .leg = state_.arms.leg_of(*state_.cell, input.job, *input.trajectory),
-                .helps = input.job,
+                .on_behalf_of = input.job,
                 .before = input.before,
                 .lets_pass = input.lets_pass};
   record.job.times.submitted_at = state_.now;
-  const Record* helped = input.helps ? state_.jobs.find(*input.helps) : nullptr;
-  if (helped != nullptr) record.helps = helped->helps;
+  const Record* helped = input.on_behalf_of ? state_.jobs.find(*input.on_behalf_of) : nullptr;
+  if (helped != nullptr) record.on_behalf_of = helped->on_behalf_of;
   state_.lanes.add(state_.jobs.add(std::move(record)));
   if (!input.before) return;
   // It takes its place before a job that was in a ring: an arm of that goes aside now.

@@ -8,7 +8,7 @@
 #include "core/scheduler/inputs.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/state.h"
-#include "core/scheduler/wait_cycles.h"
+#include "core/scheduler/waiting/wait_cycles.h"
 
 namespace armloom {
 

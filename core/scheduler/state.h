@@ -8,8 +8,8 @@
 #include "core/scheduler/arm_rests.h"
 #include "core/scheduler/inputs.h"
 #include "core/scheduler/job_book.h"
-#include "core/scheduler/lanes.h"
-#include "core/scheduler/precedence_graph.h"
+#include "core/scheduler/orders/precedence_graph.h"
+#include "core/scheduler/sequence/lanes.h"
 
 namespace armloom {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/scheduler/making_way.h"
-#include "core/scheduler/waits.h"
+#include "core/scheduler/waiting/waits.h"
+#include "core/scheduler/yielding/making_way.h"
 
 namespace armloom {
 
@@ -19,15 +19,15 @@ Trial::Trial(Scheduler scheduler, std::optional<Question> open, const std::vecto
 }
 
 void Trial::step(const Input& input) {
-  std::vector<MoveAside> asides;
+  std::vector<YieldMove> asides;
   for (Effect& effect : scheduler_.step(input, now_)) {
     if (auto* judge = std::get_if<Judge>(&effect)) open_ = std::move(judge->question);
-    if (auto* aside = std::get_if<MoveAside>(&effect)) asides.push_back(std::move(*aside));
+    if (auto* aside = std::get_if<YieldMove>(&effect)) asides.push_back(std::move(*aside));
   }
   const Job* job = scheduler_.find(job_);
   if (job != nullptr && !job->waits_on.empty()) waits_ = job->waits_on;
-  for (const MoveAside& aside : asides) {
-    const Duration as_helped = scheduler_.find(aside.way_of)->backlog_timeout;
+  for (const YieldMove& aside : asides) {
+    const Duration as_helped = scheduler_.find(aside.blocked_job)->backlog_timeout;
     make_way(scheduler_, aside, as_helped, [this](Submit way) {
       way.job = JobId{++last_id_};
       step(way);

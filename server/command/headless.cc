@@ -108,7 +108,7 @@ void complain_of_ends(const SimulationResult& result, const std::string& under) 
               << " at " << to_seconds(result.ended_at) << " s, and not all jobs have ended\n";
   }
   for (const JobView& job : result.jobs) {
-    if (job.state == JobState::succeeded || (job.own && is_terminal(job.state))) continue;
+    if (job.state == JobState::succeeded || (job.system_job && is_terminal(job.state))) continue;
     std::string said = is_terminal(job.state) ? "" : "did not end, it is ";
     said += to_string(job.state);
     if (!job.detail.empty()) said += ": " + job.detail;
@@ -127,7 +127,7 @@ RunSummary summarise(const SimulationResult& result, TimePoint first_submit) {
   std::int64_t started = 0;
   Duration wait_sum{};
   for (const JobView& job : result.jobs) {
-    if (job.own) continue;
+    if (job.system_job) continue;
     ++summary.jobs[to_string(job.state)];
     if (!job.started_at) continue;
     const Duration wait = *job.started_at - job.submitted_at;

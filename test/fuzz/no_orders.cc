@@ -2,7 +2,7 @@
 // is left out: clang 14 does not compile the library's ranges that it is written with.
 #include <cstdlib>
 
-#include "core/scheduler/passing_orders.h"
+#include "core/scheduler/orders/passing_orders.h"
 
 namespace armloom {
 

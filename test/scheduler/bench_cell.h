@@ -64,7 +64,7 @@ class Bench {
       if (auto* d = std::get_if<Dispatch>(&effect)) dispatched.push_back(*d);
       if (auto* g = std::get_if<Grant>(&effect)) granted.push_back(*g);
       if (auto* b = std::get_if<Brake>(&effect)) braked.push_back(b->job);
-      if (auto* m = std::get_if<MoveAside>(&effect)) asides.push_back(*m);
+      if (auto* m = std::get_if<YieldMove>(&effect)) asides.push_back(*m);
       if (auto* r = std::get_if<Release>(&effect)) released.push_back(r->job);
       if (auto* c = std::get_if<JobChanged>(&effect)) {
         const Job& job = *scheduler.find(c->job);
@@ -165,7 +165,7 @@ class Bench {
   std::optional<TimePoint> wake_at;
   std::vector<Dispatch> dispatched;
   std::vector<Grant> granted;
-  std::vector<MoveAside> asides;
+  std::vector<YieldMove> asides;
   std::vector<JobId> braked, released;
   std::map<JobId, int> terminal_events;
 

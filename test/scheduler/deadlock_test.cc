@@ -1,12 +1,11 @@
 // The search for rings and what passes along the waits, on graphs written by hand.
-#include "core/scheduler/deadlock.h"
-
 #include <gmock/gmock.h>
 
 #include <random>
 #include <set>
 
-#include "core/scheduler/fairness.h"
+#include "core/scheduler/waiting/priority_inheritance.h"
+#include "core/scheduler/waiting/waits_for.h"
 
 namespace armloom {
 namespace {
@@ -25,19 +24,19 @@ void add_blocked(std::vector<WaitsForEdge>& edges, std::uint64_t waits, std::uin
   edges.push_back({arm(by), job(first)});
 }
 
-TEST(Rings, NoneWhereNobodyWaits) { EXPECT_THAT(find_rings(WaitsFor({})), IsEmpty()); }
+TEST(Rings, NoneWhereNobodyWaits) { EXPECT_THAT(find_wait_cycles(WaitsFor({})), IsEmpty()); }
 
 TEST(Rings, NoneInAChainThatEndsAtAnArmWithoutAJob) {
   std::vector<WaitsForEdge> edges{{job(3), job(1)}, {job(2), arm(9)}};
   add_blocked(edges, 1, 4, 2);
-  EXPECT_THAT(find_rings(WaitsFor(edges)), IsEmpty());
+  EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), IsEmpty());
 }
 
 TEST(Rings, OfTwoBeginsWithTheSmallerId) {
   std::vector<WaitsForEdge> edges;
   add_blocked(edges, 7, 0, 5);
   add_blocked(edges, 5, 1, 7);
-  EXPECT_THAT(find_rings(WaitsFor(edges)), ElementsAre(ElementsAre(job(5), job(7))));
+  EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), ElementsAre(ElementsAre(job(5), job(7))));
 }
 
 TEST(Rings, OfThreeGoesInTheOrderOfWaiting) {
@@ -45,14 +44,14 @@ TEST(Rings, OfThreeGoesInTheOrderOfWaiting) {
   add_blocked(edges, 1, 2, 3);
   add_blocked(edges, 3, 1, 2);
   add_blocked(edges, 2, 0, 1);
-  EXPECT_THAT(find_rings(WaitsFor(edges)), ElementsAre(ElementsAre(job(1), job(3), job(2))));
+  EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), ElementsAre(ElementsAre(job(1), job(3), job(2))));
 }
 
 TEST(Rings, OfFourThroughAnOrderAndAPredecessor) {
   std::vector<WaitsForEdge> edges{{job(8), job(2)}, {job(4), job(3)}};
   add_blocked(edges, 2, 0, 4);
   add_blocked(edges, 3, 1, 8);
-  EXPECT_THAT(find_rings(WaitsFor(edges)),
+  EXPECT_THAT(find_wait_cycles(WaitsFor(edges)),
               ElementsAre(ElementsAre(job(2), job(4), job(3), job(8))));
 }
 
@@ -60,13 +59,13 @@ TEST(Rings, LeaveOutTheTailsThatLeadInAndOut) {
   std::vector<WaitsForEdge> edges{{job(1), job(3)}, {job(9), job(1)}, {job(3), arm(7)}};
   add_blocked(edges, 3, 0, 4);
   add_blocked(edges, 4, 1, 3);
-  EXPECT_THAT(find_rings(WaitsFor(edges)), ElementsAre(ElementsAre(job(3), job(4))));
+  EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), ElementsAre(ElementsAre(job(3), job(4))));
 }
 
 TEST(Rings, AnArmDoesNotStandInItsOwnJobsWay) {
   std::vector<WaitsForEdge> edges{{job(2), job(2)}};
   add_blocked(edges, 1, 0, 1);
-  EXPECT_THAT(find_rings(WaitsFor(edges)), IsEmpty());
+  EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), IsEmpty());
 }
 
 TEST(Rings, TwoThatDoNotMeetAreTwo) {
@@ -75,7 +74,7 @@ TEST(Rings, TwoThatDoNotMeetAreTwo) {
   add_blocked(edges, 6, 1, 3);
   add_blocked(edges, 2, 2, 9);
   add_blocked(edges, 9, 3, 2);
-  EXPECT_THAT(find_rings(WaitsFor(edges)),
+  EXPECT_THAT(find_wait_cycles(WaitsFor(edges)),
               ElementsAre(ElementsAre(job(2), job(9)), ElementsAre(job(3), job(6))));
 }
 
@@ -83,18 +82,18 @@ TEST(Rings, OneForEachComponentTheShortestThroughItsSmallestJob) {
   std::vector<WaitsForEdge> edges{{job(1), job(2)}, {job(2), job(3)}, {job(3), job(1)},
                                   {job(3), job(2)}, {job(1), job(4)}, {job(4), job(5)},
                                   {job(5), job(6)}, {job(6), job(1)}};
-  EXPECT_THAT(find_rings(WaitsFor(edges)), ElementsAre(ElementsAre(job(1), job(2), job(3))));
+  EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), ElementsAre(ElementsAre(job(1), job(2), job(3))));
 }
 
 TEST(Rings, AreTheSameInWhateverOrderTheEdgesCome) {
   std::mt19937_64 random(3);
   std::vector<WaitsForEdge> edges;
   for (int i = 0; i < 60; ++i) edges.push_back({job(random() % 40), job(random() % 40)});
-  const std::vector<Ring> rings = find_rings(WaitsFor(edges));
+  const std::vector<WaitCycle> rings = find_wait_cycles(WaitsFor(edges));
   ASSERT_FALSE(rings.empty());
   for (int i = 0; i < 20; ++i) {
     std::ranges::shuffle(edges, random);
-    EXPECT_EQ(find_rings(WaitsFor(edges)), rings);
+    EXPECT_EQ(find_wait_cycles(WaitsFor(edges)), rings);
   }
 }
 
@@ -116,10 +115,10 @@ TEST(Rings, AreThereExactlyWhereAJobWaitsForItselfOn1000RandomGraphs) {
       const auto before = graph.all_before(e.first);
       cyclic |= std::ranges::binary_search(before, e.waits);
     }
-    const std::vector<Ring> rings = find_rings(graph);
+    const std::vector<WaitCycle> rings = find_wait_cycles(graph);
     EXPECT_EQ(!rings.empty(), cyclic);
     with += cyclic ? 1 : 0;
-    for (const Ring& ring : rings) {
+    for (const WaitCycle& ring : rings) {
       EXPECT_EQ(std::set(ring.begin(), ring.end()).size(), ring.size()) << "elementary";
       for (std::size_t k = 0; k < ring.size(); ++k) {
         EXPECT_TRUE(edges.contains({ring[k], ring[(k + 1) % ring.size()]}));
@@ -133,10 +132,10 @@ TEST(Rings, AreThereExactlyWhereAJobWaitsForItselfOn1000RandomGraphs) {
 TEST(Rings, AreFoundInAChainOfAHundredThousand) {
   std::vector<WaitsForEdge> edges;
   for (std::uint64_t i = 1; i < 100'000; ++i) edges.push_back({job(i + 1), job(i)});
-  EXPECT_THAT(find_rings(WaitsFor(edges)), IsEmpty());
+  EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), IsEmpty());
   edges.push_back({job(1), job(100'000)});
-  ASSERT_EQ(find_rings(WaitsFor(edges)).size(), 1u);
-  EXPECT_EQ(find_rings(WaitsFor(edges)).front().size(), 100'000u);
+  ASSERT_EQ(find_wait_cycles(WaitsFor(edges)).size(), 1u);
+  EXPECT_EQ(find_wait_cycles(WaitsFor(edges)).front().size(), 100'000u);
 }
 
 TEST(Rings, AreToldByEachOfTheirJobs) {

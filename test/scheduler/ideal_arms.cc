@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/scheduler/making_way.h"
+#include "core/scheduler/yielding/making_way.h"
 
 namespace armloom {
 namespace {
@@ -26,7 +26,7 @@ IdealArms::IdealArms(const CellPtr& description, std::unique_ptr<const Policy> p
 JobId IdealArms::submit(Submit submitted) {
   const std::vector<JobId> after = submitted.after;
   const std::vector<ArmId> arms = submitted.trajectory->arms();
-  const bool own = submitted.own;
+  const bool own = submitted.system_job;
   submitted.job = next_id();
   after_[submitted.job] = after;
   if (!own) {
@@ -104,9 +104,9 @@ void IdealArms::run(std::size_t events_max) {
 void IdealArms::take(const Input& input) {
   step(input, now_);
   while (!asides.empty()) {
-    const MoveAside aside = asides.front();
+    const YieldMove aside = asides.front();
     asides.erase(asides.begin());
-    make_way(scheduler, aside, job(aside.way_of).backlog_timeout,
+    make_way(scheduler, aside, job(aside.blocked_job).backlog_timeout,
              [this](Submit way) { return submit(std::move(way)); });
   }
   check();
@@ -206,7 +206,7 @@ void IdealArms::on(const Dispatch& dispatch) {
     }
     EXPECT_NEAR(place_of(*job.trajectory, arm, dispatch.from_progress), q_[arm.index()], 1e-6)
         << "it does not stand there";
-    if (job.own) continue;
+    if (job.system_job) continue;
     for (const JobId before : of_arm_[arm]) {
       if (before == dispatch.job) break;
       EXPECT_TRUE(is_terminal(state(before))) << "out of the order of its arm";

@@ -29,9 +29,9 @@ struct Habits {
 //   Motions of an arm begin one after the other in order of submission, where the arm stands, never
 //   before those that they come after, and never on a stopped arm. Authority never shrinks, nor
 //   grows while the arm brakes. What moves belongs to a job that has not ended.
-//   What was measured is not beyond where the arm is, nor that beyond its authority, nor that beyond
-//   its end. What moves, brakes or stands on its path is in the state that says so, and in no other.
-//   What stands says what it waits for; admitted jobs that do wait in no ring.
+//   What was measured is not beyond where the arm is, nor that beyond its authority, nor that
+//   beyond its end. What moves, brakes or stands on its path is in the state that says so, and in
+//   no other. What stands says what it waits for; admitted jobs that do wait in no ring.
 class IdealArms : public Bench {
  public:
   using HabitsOf = std::function<Habits(JobId)>;

@@ -154,23 +154,23 @@ struct Parking : Bench {
     answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
     answer_conflict(at(2ms), Conflict::With::rest, {}, ArmId{0});
   }
-  // What the caller does on MoveAside.
+  // What the caller does on YieldMove.
   void make_way(TimePoint now) {
     ASSERT_EQ(asides.size(), 1u);
-    const MoveAside& aside = asides.front();
+    const YieldMove& aside = asides.front();
     way = submit(Submit{.job = b,
                         .trajectory = aside.trajectory,
                         .backlog_timeout = 60s,
-                        .own = true,
+                        .system_job = true,
                         .before = aside.before},
                  now);
     back = submit(Submit{.job = b,
                          .trajectory = retraced(*aside.trajectory),
                          .backlog_timeout = 60s,
                          .after = {way},
-                         .own = true,
+                         .system_job = true,
                          .before = aside.before,
-                         .lets_pass = aside.way_of},
+                         .lets_pass = aside.blocked_job},
                   now);
   }
   void answer_way_and_passing() {
@@ -209,7 +209,7 @@ TEST(RingUnderPark, TheMoveAsideNamesTheJobThatItGoesBefore) {
   bench.answer_way_and_passing();
   ASSERT_EQ(bench.asides.size(), 1u);
   EXPECT_EQ(bench.asides[0].arm, ArmId{1});
-  EXPECT_EQ(bench.asides[0].way_of, bench.a);
+  EXPECT_EQ(bench.asides[0].blocked_job, bench.a);
   EXPECT_EQ(bench.asides[0].before, bench.b);
 }
 
@@ -368,7 +368,7 @@ TEST(RingUnderPark, WithAMoveAsideThatAClientCountsOnFailsTheOther) {
   ASSERT_EQ(bench.asides.size(), 1u);
   const TrajectoryPtr aside = bench.asides[0].trajectory;
   const JobId way = bench.submit(
-      Submit{.job = a, .trajectory = aside, .backlog_timeout = 60s, .own = true}, at(3ms));
+      Submit{.job = a, .trajectory = aside, .backlog_timeout = 60s, .system_job = true}, at(3ms));
   const JobId counts = bench.submit(move({1}, -1, 0.5, 2s), at(3ms));
   bench.answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{0});
   EXPECT_THAT(bench.job(a).ring, ElementsAre(a, way));
@@ -390,8 +390,8 @@ struct Chain : Bench {
     way = submit(Submit{.job = a,
                         .trajectory = asides.at(0).trajectory,
                         .backlog_timeout = 60s,
-                        .own = true,
-                        .helps = a},
+                        .system_job = true,
+                        .on_behalf_of = a},
                  at(3ms));
     answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{2});
   }
@@ -430,8 +430,8 @@ TEST(MovingAside, ForWhatHelpsAJobCountsAsForThatJob) {
       bench.way = bench.submit(Submit{.job = bench.a,
                                       .trajectory = bench.asides.at(0).trajectory,
                                       .backlog_timeout = 60s,
-                                      .own = true,
-                                      .helps = bench.a},
+                                      .system_job = true,
+                                      .on_behalf_of = bench.a},
                                at(now));
     }
   }

@@ -1,0 +1,245 @@
+#include "core/scheduler/orders/open_orders.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/scheduler/orders/order_ties.h"
+
+namespace armloom {
+namespace {
+
+using Member = OrderChoice::Member;
+
+std::vector<CoordinatedMotion> both(const std::vector<CoordinatedMotion>& admitted,
+                                    const std::vector<CoordinatedMotion>& candidates) {
+  std::vector<CoordinatedMotion> all = admitted;
+  all.insert(all.end(), candidates.begin(), candidates.end());
+  return all;
+}
+
+}  // namespace
+
+OpenOrders::OpenOrders(const OrderQuestion& question)
+    : motions_(both(question.admitted, question.candidates)),
+      first_candidate_(question.admitted.size()),
+      chains_(motions_) {
+  for (const Precedence& precedence : question.precedences) add_decided(precedence);
+  decided_ = orders_.size();
+  for (const PairRegions& pair : question.regions) add(pair);
+  collect_choices();
+}
+
+std::optional<std::size_t> OpenOrders::index_of(JobId job) const {
+  const auto found = std::ranges::find(motions_, job, &CoordinatedMotion::job);
+  if (found == motions_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - motions_.begin());
+}
+
+// ---- What may be decided ----
+
+void OpenOrders::add(const PairRegions& pair) {
+  const std::size_t a = *index_of(pair.a);
+  if (const auto* arm = std::get_if<ArmId>(&pair.b)) {
+    for (const ConflictRegion& region : pair.regions) {
+      answer_.obstacles.push_back(
+          {pair.a, std::nullopt, *arm, region.proximity, region.time_a, region.time_b});
+      answer_.in_the_way.push_back(*arm);
+    }
+    return;
+  }
+  const auto b = index_of(std::get<JobId>(pair.b));
+  if (!b) return;  // has ended meanwhile
+  for (const ConflictRegion& region : pair.regions) add(a, *b, region);
+}
+
+// It may be turned as long as the first one has no authority in it.
+void OpenOrders::add_decided(const Precedence& precedence) {
+  const std::size_t a = *index_of(precedence.first());
+  const std::size_t b = *index_of(precedence.second());
+  OpenOrder order{.a = a, .b = b, .region = precedence.region()};
+  for (const ProgressBox& box : order.region.boxes) {
+    if (motions_[b].is_beyond(box.to_b)) continue;
+    if (reaches(a, box.from_a, b) || blocks_end(b, box.to_b, a)) order.b_may = false;
+  }
+  if (motions_[a].keeps_its_place && !motions_[b].keeps_its_place) order.b_may = false;
+  order.made[0] = precedence;
+  orders_.push_back(std::move(order));
+}
+
+void OpenOrders::add(std::size_t a, std::size_t b, const ConflictRegion& region) {
+  OpenOrder order{.a = a, .b = b, .region = region, .prefers_a = a < b};
+  std::erase_if(order.region.boxes, [&](const ProgressBox& box) {
+    return motions_[a].is_beyond(box.to_a) || motions_[b].is_beyond(box.to_b);
+  });
+  if (order.region.boxes.empty()) return;
+  for (const ProgressBox& box : order.region.boxes) {
+    if (reaches(b, box.from_b, a) || blocks_end(a, box.to_a, b)) order.a_may = false;
+    if (reaches(a, box.from_a, b) || blocks_end(b, box.to_b, a)) order.b_may = false;
+    if (blocks_end(a, box.to_a, b)) note_in_the_way(a);
+    if (blocks_end(b, box.to_b, a)) note_in_the_way(b);
+  }
+  if (order.a_may && order.b_may) {
+    if (motions_[a].keeps_its_place && !motions_[b].keeps_its_place) order.b_may = false;
+    if (motions_[b].keeps_its_place && !motions_[a].keeps_its_place) order.a_may = false;
+  }
+  orders_.push_back(std::move(order));
+}
+
+// It has, or may have, entered what begins at `from` when the other one passes: it stands at its
+// start now, or does before the other one begins, which follows what brings it there.
+bool OpenOrders::reaches(std::size_t motion, Duration from, std::size_t other) const {
+  if (from < motions_[motion].authority) return true;
+  const bool at_start = from <= Duration{} && motions_[motion].authority <= Duration{};
+  if (!at_start) return false;
+  return chains_.stands(motion) ||
+         std::ranges::any_of(chains_.before(motion), [&](std::size_t ahead) {
+           return ahead < other && share_an_arm(motions_[ahead], motions_[other]);
+         });
+}
+
+// It comes to rest there and nothing takes it away, or only what follows the other one.
+bool OpenOrders::blocks_end(std::size_t motion, Duration to, std::size_t other) const {
+  if (to < motions_[motion].duration) return false;
+  if (!chains_.moves_on(motion)) return true;
+  for (std::size_t next = std::max(motion, other) + 1; next < motions_.size(); ++next) {
+    const auto& before = chains_.before(next);
+    const bool follows = std::ranges::find(before, motion) != before.end();
+    if (follows && share_an_arm(motions_[next], motions_[other])) return true;
+  }
+  return false;
+}
+
+void OpenOrders::note_in_the_way(std::size_t motion) {
+  for (const ArmId arm : motions_[motion].arms) answer_.in_the_way.push_back(arm);
+}
+
+// ---- Choices ----
+
+void OpenOrders::collect_choices() {
+  const OrderTies ties(orders_, motions_, chains_);
+  std::vector<bool> seen(orders_.size(), false);
+  for (std::size_t d = 0; d < orders_.size(); ++d) {
+    if (seen[d]) continue;
+    OrderChoice choice{.members = {{d, false}}};
+    seen[d] = true;
+    for (std::size_t i = 0; i < choice.members.size(); ++i) {  // grows
+      const Member member = choice.members[i];
+      for (const Member& tied : ties.of(member.order)) {
+        if (seen[tied.order]) continue;
+        seen[tied.order] = true;
+        choice.members.push_back({tied.order, member.turned != tied.turned});
+      }
+    }
+    for (const bool value : {false, true}) {  // the earlier one of the pair first
+      const bool a_first = orders_[d].prefers_a ? !value : value;
+      if (allowed(choice, a_first)) choice.options.push_back(a_first);
+    }
+    if (choice.options.empty()) {
+      const auto of_candidate = std::ranges::find_if(
+          choice.members, [this](const Member& member) { return member.order >= decided_; });
+      if (of_candidate != choice.members.end()) report(of_candidate->order);
+    } else {
+      set(choice, choice.options.front());
+      choices_.push_back(std::move(choice));
+    }
+  }
+}
+
+bool OpenOrders::allowed(const OrderChoice& choice, bool a_first) const {
+  return std::ranges::all_of(choice.members, [&](const Member& member) {
+    const OpenOrder& order = orders_[member.order];
+    return a_first != member.turned ? order.a_may : order.b_may;
+  });
+}
+
+void OpenOrders::set(OrderChoice& choice, bool value) {
+  choice.value = value;
+  for (const Member& member : choice.members) {
+    orders_[member.order].a_first = value != member.turned;
+  }
+}
+
+// ---- What follows from it ----
+
+const Precedence& OpenOrders::precedence(OpenOrder& order) {
+  std::optional<Precedence>& made = order.made[order.a_first ? 0 : 1];
+  if (!made) {
+    const CoordinatedMotion& second = motions_[order.a_first ? order.b : order.a];
+    const bool waits_at_start = wait_at_starts_ && second.authority <= Duration{};
+    made.emplace(motions_[order.a].job, motions_[order.b].job, order.region, order.a_first,
+                 waits_at_start);
+  }
+  return *made;
+}
+
+Prediction OpenOrders::predicted(std::vector<MotionAhead> motions, std::size_t orders) {
+  std::vector<Dependency> dependencies;
+  for (std::size_t d = 0; d < orders; ++d) {
+    OpenOrder& order = orders_[d];
+    dependencies.push_back(
+        {order.a_first ? order.a : order.b, order.a_first ? order.b : order.a, &precedence(order)});
+  }
+  return predict(motions, dependencies);
+}
+
+// What rests in the way of a motion may be what a candidate takes away.
+Prediction OpenOrders::predicted() {
+  std::vector<MotionAhead> ahead;
+  for (std::size_t m = 0; m < motions_.size(); ++m) {
+    ahead.push_back({motions_[m].progress, motions_[m].duration, chains_.before(m)});
+  }
+  return predicted(std::move(ahead), orders_.size());
+}
+
+Prediction OpenOrders::predicted_before() {
+  std::vector<MotionAhead> ahead;
+  for (std::size_t m = 0; m < first_candidate_; ++m) {
+    const CoordinatedMotion& motion = motions_[m];
+    ahead.push_back({motion.progress, motion.duration, chains_.before(m), motion.held_at});
+  }
+  return predicted(std::move(ahead), decided_);
+}
+
+// ---- The answers ----
+
+PassingOrders OpenOrders::admitted(Prediction prediction) {
+  for (OpenOrder& order : orders_) answer_.precedences.push_back(precedence(order));
+  answer_.prediction = std::move(prediction);
+  return std::move(answer_);
+}
+
+PassingOrders OpenOrders::refused(const std::vector<std::size_t>& because) {
+  for (std::size_t order : because) report(order);
+  std::ranges::sort(answer_.in_the_way);
+  const auto again = std::ranges::unique(answer_.in_the_way);
+  answer_.in_the_way.erase(again.begin(), again.end());
+  return std::move(answer_);
+}
+
+// The candidates' own orders in the ring say why.
+PassingOrders OpenOrders::stuck(const Prediction& prediction) {
+  const auto in_ring = [&](std::size_t motion) {
+    return std::ranges::find(prediction.ring, motion) != prediction.ring.end();
+  };
+  std::vector<std::size_t> because;
+  for (std::size_t d = decided_; d < orders_.size(); ++d) {
+    if (in_ring(orders_[d].a) && in_ring(orders_[d].b)) because.push_back(d);
+  }
+  if (because.empty() && orders_.size() > decided_) because.push_back(decided_);
+  return refused(because);
+}
+
+void OpenOrders::report(std::size_t d) {
+  const OpenOrder& order = orders_[d];
+  const ConflictRegion& region = order.region;
+  const bool own_is_a = order.a >= first_candidate_;
+  answer_.obstacles.push_back(
+      {.candidate = motions_[own_is_a ? order.a : order.b].job,
+       .other = motions_[own_is_a ? order.b : order.a].job,
+       .arm = std::nullopt,
+       .proximity = own_is_a ? region.proximity : turned_around(region.proximity),
+       .own_time = own_is_a ? region.time_a : region.time_b,
+       .other_time = own_is_a ? region.time_b : region.time_a});
+}
+
+}  // namespace armloom

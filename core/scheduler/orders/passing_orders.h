@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/time.h"
+#include "core/coordination/conflict_region.h"
+#include "core/coordination/verdict.h"
+#include "core/scheduler/orders/coordinated_motion.h"
+#include "core/scheduler/orders/precedence.h"
+#include "core/scheduler/orders/prediction.h"
+
+namespace armloom {
+
+// Why a candidate cannot be admitted.
+struct Obstacle {
+  JobId candidate;
+  std::optional<JobId> other;  // the motion that it cannot pass ...
+  std::optional<ArmId> arm;    // ... or the arm that rests in its way
+  Proximity proximity;         // evidence; body_a is the candidate's
+  Duration own_time;
+  Duration other_time;
+};
+
+// Who is to pass first in the candidates' regions, beside what is admitted?
+struct OrderQuestion {
+  const std::vector<CoordinatedMotion>& admitted;
+  const std::vector<Precedence>& precedences;  // between these
+  const std::vector<CoordinatedMotion>& candidates;
+  const std::vector<PairRegions>& regions;
+  const std::vector<Duration>& work_behind;  // by ArmId: of jobs that are in neither list
+};
+
+// The answer: who passes first in every region, or what stands against it.
+struct PassingOrders {
+  std::vector<Precedence> precedences;  // of every region, if admitted; those of before included
+  Prediction prediction;                // of the admitted motions, then the candidates
+  std::vector<Obstacle> obstacles;      // empty: admitted
+  std::vector<ArmId> in_the_way;  // arms that end or rest in the way: a next motion of theirs might
+                                  // open it; ascending
+};
+
+// Finds the orders under which everything comes to its end, and of these the ones that cost least:
+// the sum over arms of when each has done what is admitted, and when the last one has done its work
+// (what waits behind counted); motions of larger priority before others. Orders of before are
+// turned where that helps.
+//
+// All assignments are tried for up to kTriedInFull free choices; beyond that, single choices are
+// changed while that helps.
+inline constexpr std::size_t kTriedInFull = 5;
+[[nodiscard]] PassingOrders cheapest_orders(const OrderQuestion& question);
+
+// Of one candidate: the orders in which all go on by the clock. What is admitted is predicted; the
+// candidate begins so much later than now that it passes each region before or after the other
+// without a stop on its way; it is the least such time, and no more than `latest` where given. From
+// then on the orders count, not the times: it begins when those it lets pass are as far as they
+// were to be then. Orders of before stay.
+[[nodiscard]] PassingOrders orders_in_time(const OrderQuestion& question,
+                                           std::optional<Duration> latest);
+
+// None: the candidates go beside what meets them nowhere.
+[[nodiscard]] PassingOrders orders_apart(const OrderQuestion& question);
+
+}  // namespace armloom

@@ -1,0 +1,240 @@
+#include "core/scheduler/orders/precedence_graph.h"
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/scheduler/orders/motion_chains.h"
+
+namespace armloom {
+namespace {
+
+// Whether an arm that rests at `at` of its motion is in the interval; its closed edges are free,
+// but for the motion's own ends.
+// Arms of one motion may rest apart on it, from `at` to `farthest`.
+bool rests_in(Duration at, Duration farthest, Duration from, Duration to, Duration duration,
+              bool seam) {
+  const bool after = from < farthest || from <= Duration{} || seam;
+  const bool before = at < to || to >= duration;
+  return after && before && from <= farthest && at <= to;
+}
+
+// On which arms it comes right after it.
+std::vector<ArmId> follows_on(const std::vector<CoordinatedMotion>& motions,
+                              const CoordinatedMotion& next, const CoordinatedMotion& before) {
+  std::vector<ArmId> arms;
+  std::ranges::copy_if(next.arms, std::back_inserter(arms), [&](ArmId arm) {
+    const auto takes = [arm](const CoordinatedMotion& motion) {
+      return std::ranges::find(motion.arms, arm) != motion.arms.end();
+    };
+    return takes(before) && std::none_of(motions.begin() + (&before - motions.data()) + 1,
+                                         motions.begin() + (&next - motions.data()), takes);
+  });
+  return arms;
+}
+
+}  // namespace
+
+const CoordinatedMotion* PrecedenceGraph::find(JobId job) const {
+  const auto found = std::ranges::find(motions_, job, &CoordinatedMotion::job);
+  return found == motions_.end() ? nullptr : &*found;
+}
+
+CoordinatedMotion* PrecedenceGraph::motion(JobId job) {
+  return const_cast<CoordinatedMotion*>(std::as_const(*this).find(job));
+}
+
+void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
+                            const PassingOrders& orders) {
+  for (const CoordinatedMotion& candidate : candidates) {
+    // Its regions say from now on what its arms are in the way of.
+    for (Blockade& blockade : blockades_) blockade.leave(candidate.arms);
+    std::erase_if(blockades_, [](const Blockade& blockade) { return blockade.arms.empty(); });
+    motions_.push_back(candidate);
+  }
+  precedences_ = orders.precedences;
+  std::erase_if(precedences_, [this](const Precedence& precedence) {
+    return !precedence.limit(find(precedence.first())->progress);
+  });
+  tell_holds();
+}
+
+void PrecedenceGraph::progress(JobId job, Duration progress) {
+  CoordinatedMotion* found = motion(job);
+  if (found == nullptr) return;
+  found->progress = std::max(found->progress, progress);
+  found->authority = std::max(found->authority, found->progress);
+}
+
+void PrecedenceGraph::Blockade::leave(const std::vector<ArmId>& left) {
+  std::erase_if(arms, [&](ArmId arm) { return std::ranges::find(left, arm) != left.end(); });
+  if (!arms.empty() && std::ranges::find(arms, *evidence.arm) == arms.end()) {
+    evidence.arm = arms.front();
+  }
+}
+
+bool PrecedenceGraph::waits_for_own_arm(std::size_t index) const {
+  for (std::size_t i = 0; i < index; ++i) {
+    if (share_an_arm(motions_[i], motions_[index])) return true;
+  }
+  return false;
+}
+
+Duration PrecedenceGraph::limit(JobId job) const {
+  const CoordinatedMotion* found = find(job);
+  if (found == nullptr) return Duration{};
+  if (waits_for_own_arm(static_cast<std::size_t>(found - motions_.data()))) return Duration{};
+  Duration limit = found->duration;
+  for (const Precedence& precedence : precedences_) {
+    if (precedence.second() != job) continue;
+    const auto held = precedence.limit(find(precedence.first())->progress);
+    if (held) limit = std::min(limit, *held);
+  }
+  for (const Blockade& blockade : blockades_) {
+    if (blockade.job == job && found->progress < blockade.until) {
+      limit = std::min(limit, blockade.limit);
+    }
+  }
+  return limit;
+}
+
+std::optional<HeldBack> PrecedenceGraph::held_back(JobId job) const {
+  const CoordinatedMotion* found = find(job);
+  if (found == nullptr) return std::nullopt;
+  const Duration at = limit(job);
+  if (at >= found->duration) return std::nullopt;
+  for (const Blockade& blockade : blockades_) {
+    if (blockade.job == job && blockade.limit == at && found->progress < blockade.until) {
+      return blockade.evidence;
+    }
+  }
+  for (const Precedence& precedence : precedences_) {
+    if (precedence.second() != job) continue;
+    if (precedence.limit(find(precedence.first())->progress) != at) continue;
+    const ConflictRegion& region = precedence.region();
+    return HeldBack{precedence.first(), std::nullopt, turned_around(region.proximity),
+                    region.time_b, region.time_a};
+  }
+  return std::nullopt;
+}
+
+bool PrecedenceGraph::is_acyclic() const {
+  const MotionChains chains(motions_);
+  std::vector<MotionAhead> ahead;
+  for (std::size_t m = 0; m < motions_.size(); ++m) {
+    ahead.push_back({motions_[m].progress, motions_[m].duration, chains.before(m)});
+  }
+  const auto index = [this](JobId job) {
+    return static_cast<std::size_t>(find(job) - motions_.data());
+  };
+  std::vector<Dependency> dependencies;
+  for (const Precedence& precedence : precedences_) {
+    dependencies.push_back({index(precedence.first()), index(precedence.second()), &precedence});
+  }
+  return predict(ahead, dependencies).stuck.empty();
+}
+
+void PrecedenceGraph::granted(JobId job, Duration authority) {
+  CoordinatedMotion* found = motion(job);
+  if (found == nullptr) return;
+  if (authority > limit(job)) {
+    throw std::logic_error("job " + std::to_string(job.value()) + ": authority beyond its limit");
+  }
+  found->authority = std::max(found->authority, authority);
+}
+
+void PrecedenceGraph::keep_place(JobId job) {
+  if (CoordinatedMotion* found = motion(job)) found->keeps_its_place = true;
+}
+
+void PrecedenceGraph::finish(JobId job) {
+  const CoordinatedMotion* found = find(job);
+  if (found == nullptr) return;
+  const bool moves_on = std::ranges::any_of(motions_, [&](const CoordinatedMotion& motion) {
+    return &motion > found && share_an_arm(motion, *found);
+  });
+  if (!moves_on) block_others(*found, {found->arms, found->duration, found->duration});
+  for (Blockade& blockade : blockades_) {
+    if (blockade.goal_of == job) blockade.goal_of.reset();  // there they are
+  }
+  erase(job);
+}
+
+void PrecedenceGraph::abandon(JobId job, Duration rests_at, Duration farthest) {
+  const CoordinatedMotion* found = find(job);
+  if (found == nullptr) return;
+  std::erase_if(blockades_, [job](const Blockade& blockade) { return blockade.goal_of == job; });
+  // Who was to pass after it has left the goal of the one before it would wait in vain. Not who
+  // passes before that one comes there.
+  std::vector<ArmId> stand = found->arms;
+  for (const CoordinatedMotion& before : motions_) {
+    if (&before == found) break;
+    const std::vector<ArmId> arms = follows_on(motions_, *found, before);
+    if (arms.empty()) continue;
+    std::erase_if(stand, [&](ArmId arm) { return std::ranges::find(arms, arm) != arms.end(); });
+    block_others(before, {arms, before.duration, before.duration});
+  }
+  if (!stand.empty()) block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});
+  erase(job);
+}
+
+// Whether it rests there now or will.
+void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& rest) {
+  const auto [arms, at, farthest] = rest;
+  const bool is_there = motion.progress >= at;
+  for (const Precedence& precedence : precedences_) {
+    const bool first = precedence.first() == motion.job;
+    if (!first && (precedence.second() != motion.job || !is_there)) continue;
+    const JobId other = first ? precedence.second() : precedence.first();
+    const ConflictRegion& region = precedence.region();
+    const Duration passed = find(other)->progress;
+    std::optional<Blockade> blockade;
+    for (const ProgressBox& box : region.boxes) {
+      const Duration from = first ? box.from_a : box.from_b, to = first ? box.to_a : box.to_b;
+      const Duration own_from = first ? box.from_b : box.from_a;
+      const Duration own_to = first ? box.to_b : box.to_a;
+      // Where another box ends that it is in the way of too, the edge is none of the outline.
+      const bool seam = std::ranges::any_of(region.boxes, [&](const ProgressBox& other_box) {
+        return (first ? other_box.to_a : other_box.to_b) == farthest &&
+               (first ? other_box.from_b : other_box.from_a) <= own_to &&
+               own_from <= (first ? other_box.to_b : other_box.to_a);
+      });
+      if (own_to <= passed || !rests_in(at, farthest, from, to, motion.duration, seam)) continue;
+      if (!blockade) {
+        HeldBack evidence{
+            std::nullopt, arms.front(), first ? turned_around(region.proximity) : region.proximity,
+            first ? region.time_b : region.time_a, first ? region.time_a : region.time_b};
+        const auto named = evidence.proximity.arm_b;
+        if (named && std::ranges::find(arms, *named) != arms.end()) evidence.arm = named;
+        const auto goal_of = is_there ? std::nullopt : std::optional(motion.job);
+        blockade = Blockade{arms, goal_of, other, own_from, own_to, evidence};
+      }
+      blockade->limit = std::min(blockade->limit, std::max(Duration{}, own_from - kShortOf));
+      blockade->until = std::max(blockade->until, own_to);
+    }
+    if (blockade) blockades_.push_back(std::move(*blockade));
+  }
+}
+
+void PrecedenceGraph::erase(JobId job) {
+  std::erase_if(precedences_, [job](const Precedence& precedence) {
+    return precedence.first() == job || precedence.second() == job;
+  });
+  std::erase_if(blockades_, [job](const Blockade& blockade) { return blockade.job == job; });
+  std::erase_if(motions_, [job](const CoordinatedMotion& motion) { return motion.job == job; });
+  tell_holds();
+}
+
+void PrecedenceGraph::tell_holds() {
+  for (CoordinatedMotion& motion : motions_) {
+    motion.held_at.reset();
+    for (const Blockade& blockade : blockades_) {
+      if (blockade.job != motion.job || motion.progress >= blockade.until) continue;
+      motion.held_at = std::min(motion.held_at.value_or(blockade.limit), blockade.limit);
+    }
+  }
+}
+
+}  // namespace armloom

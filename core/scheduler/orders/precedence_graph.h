@@ -1,0 +1,92 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/scheduler/orders/passing_orders.h"
+
+namespace armloom {
+
+// What keeps an admitted motion from going on.
+struct HeldBack {
+  std::optional<JobId> by;   // the motion that passes first ...
+  std::optional<ArmId> arm;  // ... or the arm that came to rest in its way
+  Proximity proximity;       // evidence; body_a is the held motion's
+  Duration own_time;
+  Duration other_time;
+};
+
+// The admitted motions of a cell with the passing orders between them, and what follows from both:
+// how far each may go. The invariant: for any two of them, with their progress s and authority
+// alpha, the rectangle [s_A, alpha_A] x [s_B, alpha_B] is certified free; so any may be late, slow
+// or stop, in any combination. The graph is acyclic after every admission, so that all come to
+// their ends. Pure.
+class PrecedenceGraph {
+ public:
+  explicit PrecedenceGraph(std::size_t arms) : work_behind_(arms) {}
+
+  [[nodiscard]] const std::vector<CoordinatedMotion>& motions() const { return motions_; }
+  [[nodiscard]] const std::vector<Precedence>& precedences() const { return precedences_; }
+  [[nodiscard]] const CoordinatedMotion* find(JobId job) const;
+  [[nodiscard]] bool holds(JobId job) const { return find(job) != nullptr; }
+  // Precondition: it holds it.
+  [[nodiscard]] Duration horizon(JobId job) const { return find(job)->horizon; }
+
+  // By ArmId: the work that waits behind; only the choice between orders depends on it.
+  void set_work_behind(std::vector<Duration> work) { work_behind_ = std::move(work); }
+
+  // Who is to pass first where the candidates go beside what is admitted? Refers to all three.
+  [[nodiscard]] OrderQuestion question(const std::vector<CoordinatedMotion>& candidates,
+                                       const std::vector<PairRegions>& regions) const {
+    return {motions_, precedences_, candidates, regions, work_behind_};
+  }
+  void admit(const std::vector<CoordinatedMotion>& candidates, const PassingOrders& orders);
+
+  // What measurement proves; never goes back.
+  void progress(JobId job, Duration progress);
+  // How far precedence lets the motion go now; its duration, if nothing holds it. Zero while
+  // another motion of one of its arms comes before it.
+  [[nodiscard]] Duration limit(JobId job) const;
+  // What holds it at its limit; nothing: it may go to its end, or waits for its own arm.
+  [[nodiscard]] std::optional<HeldBack> held_back(JobId job) const;
+  // Whether all come to their ends by their orders, but for arms that rest in the way.
+  [[nodiscard]] bool is_acyclic() const;
+  // Told to the arm. No more than limit(): else throws std::logic_error.
+  void granted(JobId job, Duration authority);
+  void keep_place(JobId job);
+
+  // The motion has ended: at its goal, or where it rests instead for good. In the latter case
+  // motions that would pass there stay where they may be until its arm moves again. Of several arms
+  // one may rest farther on the path than another.
+  void finish(JobId job);
+  void abandon(JobId job, Duration rests_at, Duration farthest = {});
+
+ private:
+  // Arms that came to rest on one motion in the way of an admitted one: until all have left.
+  struct Blockade {
+    std::vector<ArmId> arms;
+    std::optional<JobId> goal_of;  // they will rest there when this one has come to its end
+    JobId job;
+    Duration limit;
+    Duration until;     // beyond it the motion has passed
+    HeldBack evidence;  // names one of these arms
+
+    void leave(const std::vector<ArmId>& left);
+  };
+  [[nodiscard]] CoordinatedMotion* motion(JobId job);
+  [[nodiscard]] bool waits_for_own_arm(std::size_t index) const;
+  struct Rest {
+    std::vector<ArmId> arms;
+    Duration at, farthest;  // arms of one motion may rest apart on it
+  };
+  void block_others(const CoordinatedMotion& motion, const Rest& rest);
+  void erase(JobId job);
+  void tell_holds();
+
+  std::vector<CoordinatedMotion> motions_;  // in order per arm
+  std::vector<Precedence> precedences_;
+  std::vector<Blockade> blockades_;
+  std::vector<Duration> work_behind_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/base/time.h"
+#include "core/scheduler/orders/precedence.h"
+
+namespace armloom {
+
+// A motion as the prediction sees it.
+struct MotionAhead {
+  Duration progress;                     // where it is
+  Duration duration;                     // of its trajectory
+  std::vector<std::size_t> after;        // motions of the same arms that end before it begins
+  std::optional<Duration> held_at = {};  // goes no farther than this, as things are
+};
+
+// `second` may pass as Precedence says when `first` has got far enough. Indices into the motions.
+struct Dependency {
+  std::size_t first;
+  std::size_t second;
+  const Precedence* precedence;
+};
+
+// When everything goes as fast as its trajectory says and waits where it has to. All times count
+// from now.
+struct Prediction {
+  // How a motion advances: at `progress` at `time`, from there second by second to the next entry.
+  struct Stage {
+    Duration progress;
+    Duration time;
+  };
+  std::vector<std::vector<Stage>> stages;  // up to where it comes; empty: it never begins
+
+  std::vector<Duration> begins;    // leaves its start; zero: has begun
+  std::vector<Duration> ends;      // of motions that come to their end
+  std::vector<std::size_t> stuck;  // ascending: motions that never do, because they wait in a ring
+  std::vector<std::size_t> ring;   // one of these rings: each waits for the next, the last for the
+                                   // first
+
+  // When the motion comes to `progress`, and when it goes on from there; nothing: never.
+  [[nodiscard]] std::optional<Duration> comes_to(std::size_t motion, Duration progress) const;
+  [[nodiscard]] std::optional<Duration> goes_beyond(std::size_t motion, Duration progress) const;
+};
+
+// What a stop on the way and the start after it cost besides the wait.
+inline constexpr Duration kPauseLoss = std::chrono::milliseconds(300);
+
+// The precedences of motions, and their orders per arm, as one graph over progress: it is acyclic
+// exactly when nobody is stuck. Linear in the steps of all precedences, but for sorting them.
+[[nodiscard]] Prediction predict(const std::vector<MotionAhead>& motions,
+                                 const std::vector<Dependency>& dependencies);
+
+}  // namespace armloom

@@ -1,0 +1,195 @@
+#include "core/scheduler/sequence/safe_sequence.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
+
+namespace armloom {
+// ---- What waits ----
+
+SafeSequence::SafeSequence(const SafeSequence& other)
+    : tolerance_(other.tolerance_),
+      stands_(other.stands_),
+      ends_(other.ends_),
+      sequence_(other.sequence_),
+      unplaced_(other.unplaced_),
+      unplaced_legs_(other.unplaced_legs_),
+      apart_(other.apart_),
+      tried_(other.tried_),
+      asked_(other.asked_) {
+  for (Legs* legs : {&sequence_, &unplaced_}) {
+    for (auto leg = legs->begin(); leg != legs->end(); ++leg) index_.emplace(leg->job, leg);
+  }
+  for (const Leg* leg : other.found_) found_.push_back(&*index_.at(leg->job));
+}
+
+void SafeSequence::move(State& state, const Leg& leg) {
+  for (std::size_t i = 0; i < leg.arms.size(); ++i) state[leg.arms[i].index()] = leg.to[i];
+}
+
+// The end of its lanes is in the sequence, and so is what it comes after.
+bool SafeSequence::follows(const Leg& leg) const {
+  return !leg.stopped && !leg.cut && std::ranges::all_of(leg.arms, [&](ArmId arm) {
+    return unplaced_legs_[arm.index()] == 0;
+  }) && std::ranges::all_of(leg.after, [&](JobId before) {
+    const auto known = index_.find(before);
+    return known == index_.end() || known->second->placed;
+  });
+}
+
+void SafeSequence::append(WaitingLeg waiting) {
+  Leg leg{std::move(waiting)};
+  for (std::size_t i = 0; i < leg.arms.size(); ++i) {
+    PlacePtr& end = ends_[leg.arms[i].index()];
+    const bool near =
+        leg.from[i] == end || (leg.from[i]->q - end->q).cwiseAbs().maxCoeff() <= tolerance_;
+    leg.cut = leg.cut || !near;
+    end = leg.to[i];
+  }
+  leg.placed = follows(leg);
+  for (ArmId arm : leg.arms) unplaced_legs_[arm.index()] += leg.placed ? 0 : 1;
+  Legs& legs = leg.placed ? sequence_ : unplaced_;
+  const JobId job = leg.job;
+  legs.push_back(std::move(leg));
+  index_.insert_or_assign(job, std::prev(legs.end()));
+  tried_ = false;
+}
+
+bool SafeSequence::remove(JobId job) {
+  const auto known = index_.find(job);
+  if (known == index_.end()) return true;
+  const auto leg = known->second;
+  const bool stays = leg->from == leg->to && !leg->cut;
+  if (!leg->placed) {
+    for (ArmId arm : leg->arms) --unplaced_legs_[arm.index()];
+  }
+  (leg->placed ? sequence_ : unplaced_).erase(leg);
+  index_.erase(known);
+  asked_.clear();
+  found_.clear();
+  tried_ = false;
+  return stays;
+}
+
+void SafeSequence::admitted(const std::vector<JobId>& group) {
+  const Order order = group == asked_ ? std::exchange(found_, {}) : Order{};
+  put_in_order(order);
+  for (JobId job : group) {
+    const auto known = index_.find(job);
+    if (known == index_.end()) continue;
+    move(stands_, *known->second);
+    (void)remove(job);
+  }
+}
+
+void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<WaitingLeg>& legs) {
+  Legs old = std::move(sequence_);
+  old.splice(old.end(), unplaced_);
+  const std::unordered_map<JobId, Legs::iterator> known = std::exchange(index_, {});
+  const std::size_t arms = stands.size();
+  apart_.resize(arms, std::vector<bool>(arms, false));
+  unplaced_legs_.assign(arms, 0);
+  ends_ = stands_ = std::move(stands);
+  asked_.clear();
+  found_.clear();
+  // By the old order; a new one before the first old one that follows it.
+  std::unordered_map<JobId, const WaitingLeg*> given;
+  for (const WaitingLeg& leg : legs) given.emplace(leg.job, &leg);
+  std::vector<const WaitingLeg*> order;
+  std::vector<std::vector<const WaitingLeg*>> to_come(arms);  // by arm, the last one first
+  for (auto leg = legs.rbegin(); leg != legs.rend(); ++leg) {
+    for (ArmId arm : leg->arms) to_come[arm.index()].push_back(&*leg);
+  }
+  const auto take = [&](const WaitingLeg& until, const auto& again) -> void {
+    for (ArmId arm : until.arms) {
+      auto& lane = to_come[arm.index()];
+      while (!lane.empty() && lane.back()->job != until.job) again(*lane.back(), again);
+    }
+    if (given.erase(until.job) == 0) return;
+    order.push_back(&until);
+    for (ArmId arm : until.arms) to_come[arm.index()].pop_back();
+  };
+  for (const Leg& leg : old) {
+    const auto still = given.find(leg.job);
+    if (still != given.end()) take(*still->second, take);
+  }
+  for (const WaitingLeg& leg : legs) {
+    if (given.contains(leg.job)) take(leg, take);
+  }
+  std::set<JobId> to_be_added;
+  for (const WaitingLeg* leg : order) to_be_added.insert(leg->job);
+  for (const WaitingLeg* leg : order) {
+    append(*leg);
+    to_be_added.erase(leg->job);
+    Leg& added = *index_.at(leg->job);
+    const auto before = known.find(leg->job);
+    if (before != known.end()) added.free = std::move(before->second->free);
+    const bool too_early =
+        std::ranges::any_of(leg->after, [&](JobId job) { return to_be_added.contains(job); });
+    if (too_early && added.placed) take_out(added);
+  }
+}
+
+bool SafeSequence::follows_on(JobId job) const {
+  const auto known = index_.find(job);
+  return known == index_.end() || !known->second->cut;
+}
+
+// ---- What is known ----
+
+void SafeSequence::learn(const Passage& passage, bool free) {
+  const auto known = index_.find(passage.leg);
+  if (known == index_.end()) return;
+  bool& is_free = known->second->free.try_emplace(passage.place->id, !free).first->second;
+  if (is_free == free) return;
+  is_free = free;
+  known->second->seen.clear();
+  tried_ = false;
+}
+
+void SafeSequence::forget_passages() {
+  for (auto& [job, leg] : index_) {
+    leg->free.clear();
+    leg->seen.clear();
+  }
+  tried_ = false;
+}
+
+SafeSequence::Passes SafeSequence::passes(Leg& leg, const State& state,
+                                          std::vector<Passage>* unknown) {
+  if (std::ranges::equal(leg.seen, state, {}, {}, &Place::id)) return Passes::free;
+  bool known = true;
+  for (std::size_t arm = 0; arm < state.size(); ++arm) {
+    const bool own = std::ranges::find(leg.arms, state[arm]->arm) != leg.arms.end();
+    if (own || std::ranges::all_of(leg.arms, [&](ArmId a) { return apart_[a.index()][arm]; })) {
+      continue;
+    }
+    const auto found = leg.free.find(state[arm]->id);
+    if (found == leg.free.end()) {
+      known = false;
+      if (unknown != nullptr) unknown->push_back({leg.job, state[arm]});
+    } else if (!found->second) {
+      return Passes::blocked;
+    }
+  }
+  if (!known) return Passes::unknown;
+  leg.seen.clear();
+  for (const PlacePtr& place : state) leg.seen.push_back(place->id);
+  return Passes::free;
+}
+
+SafeSequence::Walk SafeSequence::walk(State state, std::span<Leg* const> order) {
+  Walk walk;
+  for (Leg* leg : order) {
+    if (passes(*leg, state, &walk.unknown) == Passes::blocked) {
+      walk.blocked = leg;
+      break;
+    }
+    if (walk.unknown.size() >= kUnknownMax) break;
+    move(state, *leg);
+  }
+  return walk;
+}
+
+}  // namespace armloom

@@ -1,0 +1,167 @@
+#include "core/scheduler/waiting/gates.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "core/scheduler/authority.h"
+#include "core/scheduler/policy.h"
+
+namespace armloom {
+namespace {
+
+using Closed = std::optional<std::vector<Wait>>;  // nothing: open
+using Edges = std::vector<WaitsForEdge>;
+
+Closed only(std::optional<Wait> wait) {
+  if (!wait) return std::nullopt;
+  return std::vector<Wait>{std::move(*wait)};
+}
+
+Closed order(JobId first, std::optional<ArmId> arm = {}) {
+  return only(Wait{.kind = Wait::Kind::order, .job = first, .arm = arm});
+}
+
+// Which job stands before it, on the first of its arms where one does.
+Closed behind(const Turns& turns, const Record& record) {
+  for (ArmId arm : record.job.trajectory->arms()) {
+    const auto& queue = turns.state().jobs.queue(arm);
+    if (queue.front() == record.job.id) continue;
+    return order(*std::next(std::find(queue.rbegin(), queue.rend(), record.job.id)), arm);
+  }
+  return std::nullopt;
+}
+
+void add_behind(const State& state, Edges& edges) {
+  for (const auto& queue : state.jobs.queues()) {
+    for (std::size_t i = 1; i < queue.size(); ++i) {
+      if (stands(state, state.jobs.at(queue[i - 1]))) edges.push_back({queue[i], queue[i - 1]});
+    }
+  }
+}
+
+Closed after(const Turns&, const Record& record) {
+  if (record.job.after.empty()) return std::nullopt;
+  return order(record.job.after.front());
+}
+
+void add_after(const State& state, const Record& record, Edges& edges) {
+  for (JobId before : record.job.after) {
+    if (stands(state, state.jobs.at(before))) edges.push_back({record.job.id, before});
+  }
+}
+
+Closed lets_pass(const Turns& turns, const Record& record) {
+  if (!turns.state().jobs.lets_another_pass(record)) return std::nullopt;
+  return order(*record.lets_pass);
+}
+
+void add_lets_pass(const State& state, const Record& record, Edges& edges) {
+  if (state.jobs.lets_another_pass(record)) edges.push_back({record.job.id, *record.lets_pass});
+}
+
+Closed stop(const Turns& turns, const Record& record) {
+  return only(turns.state().arms.stop_of(record.job));
+}
+
+Closed place(const Turns& turns, const Record& record) {
+  const auto taken_by = turns.state().policy->place_taken_by(turns.state(), record);
+  if (!taken_by) return std::nullopt;
+  return only(Wait{.kind = Wait::Kind::capacity, .job = *taken_by});
+}
+
+Closed conflict(const Turns& turns, const Record& record) {
+  if (!record.job.is_waiting()) return std::nullopt;
+  const Judgement& judgement = record.job.judgement();
+  return judgement.at == turns.state().version ? Closed(judgement.found) : std::nullopt;
+}
+
+void add_conflict(const State& state, const Record& record, Edges& edges) {
+  for (const Wait& wait : found_in_the_way(state, record)) {
+    const auto first = has_to_move_first(state, wait);
+    if (!first) continue;
+    if (wait.kind == Wait::Kind::arm) {
+      edges.push_back({record.job.id, *wait.arm});
+      edges.push_back({*wait.arm, *first});
+    } else {
+      edges.push_back({record.job.id, *first});
+    }
+  }
+}
+
+Closed aging(const Turns& turns, const Record& record) {
+  const auto old = turns.held_back_by(record);
+  if (!old) return std::nullopt;
+  const bool is_judged = turns.state().jobs.at(*old).job.judgement().at == turns.state().version;
+  return is_judged ? order(*old) : std::vector<Wait>{};  // else it may be about to go
+}
+
+struct Gate {
+  GateKind kind;
+  Closed (*closed)(const Turns&, const Record&);
+  // For each job that stands: whom this makes it wait for. Null: it opens by itself.
+  void (*edges)(const State&, const Record&, Edges&) = nullptr;
+};
+
+constexpr Gate kGates[] = {
+    {GateKind::behind, behind},  // edges: add_behind(), queue by queue
+    {GateKind::after, after, add_after},
+    {GateKind::lets_pass, lets_pass, add_lets_pass},
+    {GateKind::stop, stop},
+    {GateKind::place, place},
+    {GateKind::conflict, conflict, add_conflict},
+    {GateKind::aging, aging},
+};
+
+}  // namespace
+
+std::optional<ClosedGate> closed_gate(const Turns& turns, const Record& record) {
+  for (const Gate& gate : kGates) {
+    if (auto waits = gate.closed(turns, record)) return ClosedGate{gate.kind, std::move(*waits)};
+  }
+  return std::nullopt;
+}
+
+WaitsFor waits_for(const State& state) {
+  Edges edges;
+  add_behind(state, edges);
+  for (JobId id : state.jobs.active()) {
+    const Record& record = state.jobs.at(id);
+    if (!stands(state, record)) continue;
+    for (const Gate& gate : kGates) {
+      if (gate.edges != nullptr) gate.edges(state, record, edges);
+    }
+  }
+  return WaitsFor(std::move(edges));
+}
+
+std::vector<Wait> found_in_the_way(const State& state, const Record& record) {
+  if (record.job.is_waiting()) {
+    const Judgement& judgement = record.job.judgement();
+    return judgement.at == state.version ? judgement.found : std::vector<Wait>{};
+  }
+  const auto held = held_where_it_stands(state, record);
+  return held ? std::vector<Wait>{*held} : std::vector<Wait>{};
+}
+
+// What is undecided counts as a conflict: it stays so while nothing moves.
+std::optional<JobId> has_to_move_first(const State& state, const Wait& wait) {
+  const JobBook& jobs = state.jobs;
+  if (wait.kind == Wait::Kind::order) {  // it shall be done before, lest it never can be
+    const bool still = jobs.is_active(*wait.job) && stands(state, jobs.at(*wait.job));
+    return still ? wait.job : std::nullopt;
+  }
+  const bool of_job = wait.kind == Wait::Kind::job;
+  if (!of_job && wait.kind != Wait::Kind::arm) return std::nullopt;
+  if (of_job && !jobs.is_active(*wait.job)) return std::nullopt;
+  std::optional<JobId> first = wait.job;
+  const bool begun = of_job && jobs.at(*wait.job).job.has_started();
+  if (!begun && wait.arm) {  // its arm moves with its next job
+    const auto& queue = jobs.queue(*wait.arm);
+    first = queue.empty() ? std::nullopt : std::optional(queue.front());
+  }
+  if (!first) return std::nullopt;
+  return stands(state, jobs.at(*first)) ? first : std::nullopt;
+}
+
+}  // namespace armloom

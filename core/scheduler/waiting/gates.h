@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/scheduler/waiting/turns.h"
+#include "core/scheduler/waiting/waits_for.h"
+
+namespace armloom {
+
+// The reasons for which a job waits, in the order in which they are looked at. Selection, what
+// clients are told, aging and the waits-for graph read this one list (gates.cc): a new reason to
+// wait is one entry of it.
+enum class GateKind {
+  behind,     // another job of its arm comes before it
+  after,      // a job that it comes after has not ended
+  lets_pass,  // an arm that is aside lets another one pass
+  stop,       // an arm of it is stopped
+  place,      // the policy has no place for it
+  conflict,   // judged, and not let go, as things stand
+  aging,      // an older one comes first
+};
+
+struct ClosedGate {
+  GateKind gate;
+  std::vector<Wait> waits;  // empty: as it was told before
+};
+// The first that is closed for this job; nothing: it may be judged.
+[[nodiscard]] std::optional<ClosedGate> closed_gate(const Turns& turns, const Record& record);
+
+// Who cannot move before whom, of all that stands.
+[[nodiscard]] WaitsFor waits_for(const State& state);
+
+// What was found when it was judged last, if that still counts; of what is admitted, what holds it.
+[[nodiscard]] std::vector<Wait> found_in_the_way(const State& state, const Record& record);
+// The job that has to move before what is waited for changes; nothing: it moves, or never will.
+[[nodiscard]] std::optional<JobId> has_to_move_first(const State& state, const Wait& wait);
+
+}  // namespace armloom

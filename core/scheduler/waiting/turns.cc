@@ -1,0 +1,138 @@
+#include "core/scheduler/waiting/turns.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/scheduler/policy.h"
+#include "core/scheduler/waiting/gates.h"
+#include "core/scheduler/waiting/priority_inheritance.h"
+
+namespace armloom {
+namespace {
+
+bool is_aged(const State& state, const Record& record) {
+  return record.job.in<Queued>() != nullptr && record.ages_from &&
+         state.now - *record.ages_from >= state.cell->scheduling.aging &&
+         state.jobs.at_head(record) && !state.arms.stop_of(record.job);
+}
+
+// Nothing that other jobs do or leave would let it go: an arm that no job will move, an object, a
+// stop.
+bool waits_beyond_turns(const State& state, const Record& record) {
+  if (!state.jobs.at_head(record)) return false;
+  if (state.arms.stop_of(record.job)) return true;
+  if (!record.job.is_waiting() || record.job.judgement().at != state.version) return false;
+  return std::ranges::any_of(record.job.judgement().found, [&](const Wait& wait) {
+    if (wait.kind != Wait::Kind::arm) return wait.kind == Wait::Kind::object;
+    const auto& queue = state.jobs.queue(*wait.arm);
+    const bool moves = !queue.empty() && !state.jobs.at(queue.front()).job.is_waiting();
+    return !moves && !has_to_move_first(state, wait);
+  });
+}
+
+}  // namespace
+
+Turns::Turns(const State& state) : state_(state), aged_(aged_jobs()) {}
+
+std::vector<Turns::Aged> Turns::aged_jobs() const {
+  std::vector<Aged> aged;
+  if (!state_.policy->lets_jobs_age()) return aged;
+  const JobBook& jobs = state_.jobs;
+  for (const auto& queue : jobs.queues()) {
+    if (queue.empty() || !is_aged(state_, jobs.at(queue.front()))) continue;
+    aged.push_back({queue.front(), {}});
+  }
+  if (aged.empty()) return aged;
+  std::ranges::sort(aged, {},
+                    [&](const Aged& a) { return std::pair(*jobs.at(a.job).ages_from, a.job); });
+  const auto again = std::ranges::unique(aged, {}, &Aged::job);  // a job of several arms
+  aged.erase(again.begin(), again.end());
+  const WaitsFor graph = waits_for(state_);
+  for (Aged& a : aged) {
+    for (const Waiter& before : graph.all_before(a.job)) {
+      if (const auto* job = std::get_if<JobId>(&before)) a.goes_first.push_back(*job);
+    }
+  }
+  std::erase_if(aged, [&](const Aged& a) {
+    const auto in_vain = [&](JobId id) { return waits_beyond_turns(state_, jobs.at(id)); };
+    return in_vain(a.job) || std::ranges::any_of(a.goes_first, in_vain);
+  });
+  return aged;
+}
+
+std::optional<JobId> Turns::held_back_by(const Record& record) const {
+  if (record.job.in<Held>() != nullptr) return std::nullopt;
+  for (const Aged& a : aged_) {
+    // It has this one's turn: those that are aged for less long do not hold it back either.
+    if (a.job == record.job.id) break;
+    if (std::ranges::binary_search(a.goes_first, record.job.id)) break;
+    const Job& old = state_.jobs.at(a.job).job;
+    const bool outranks = record.job.id < old.id && record.job.priority > old.priority;
+    if (!outranks) return a.job;
+  }
+  return std::nullopt;
+}
+
+// Empty: all are the same.
+std::map<JobId, int> Turns::urgencies() const {
+  if (state_.jobs.all_as_urgent()) return {};
+  std::vector<Urgency> jobs;
+  for (JobId id : state_.jobs.active()) {
+    const Job& job = state_.jobs.at(id).job;
+    if (job.is_waiting()) jobs.push_back({id, job.priority});
+  }
+  return effective_priorities(waits_for(state_), std::move(jobs));
+}
+
+std::optional<JobId> Turns::next() const {
+  const Record* best = nullptr;
+  const std::map<JobId, int> urgency = urgencies();
+  const auto goes_before = [&](const Record& a, const Record& b) {
+    if (a.effort != b.effort) return a.effort < b.effort;  // what takes long keeps nobody waiting
+    const bool a_held = a.job.in<Held>() != nullptr;
+    const bool b_held = b.job.in<Held>() != nullptr;
+    if (a_held != b_held) return a_held;
+    if (urgency.empty() || urgency.at(a.job.id) == urgency.at(b.job.id)) {
+      return a.job.id < b.job.id;
+    }
+    return urgency.at(a.job.id) > urgency.at(b.job.id);
+  };
+  for (const auto& queue : state_.jobs.queues()) {
+    if (queue.empty()) continue;
+    const Record& record = state_.jobs.at(queue.front());
+    if (!record.job.is_waiting() || closed_gate(*this, record)) continue;
+    if (best == nullptr || goes_before(record, *best)) best = &record;
+  }
+  return best != nullptr ? std::optional(best->job.id) : std::nullopt;
+}
+
+// What is not the first of an arm waits for the one before it, as long as that is the same.
+void explain_waits(State& state) {
+  std::set<JobId> jobs = state.jobs.take_unexplained();
+  for (const auto& queue : state.jobs.queues()) {
+    if (!queue.empty()) jobs.insert(queue.front());
+  }
+  const Turns turns(state);
+  for (JobId id : jobs) {
+    Record& record = state.jobs.at(id);
+    const bool waits = record.job.is_waiting();
+    if (!waits && record.job.in<Admitted>() == nullptr) continue;
+    auto closed = closed_gate(turns, record);
+    if (!waits) {  // it is admitted: only what is before it on its arms counts
+      if (closed && closed->gate == GateKind::behind) {
+        state.jobs.set_waits(record, std::move(closed->waits));
+      }
+      continue;
+    }
+    if (closed && closed->gate == GateKind::place && !record.ages_from) {
+      record.ages_from = state.now;
+    }
+    if (closed && !closed->waits.empty()) {
+      state.jobs.set_waits(record, std::move(closed->waits));
+    } else if (!closed && record.job.judgement().at == 0) {
+      state.jobs.set_waits(record, {});  // nothing stands against it but that it is not judged yet
+    }
+  }
+}
+
+}  // namespace armloom

@@ -1,0 +1,131 @@
+#include "core/scheduler/waiting/wait_cycles.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "core/scheduler/authority.h"
+#include "core/scheduler/phases.h"
+#include "core/scheduler/waiting/gates.h"
+
+namespace armloom {
+namespace {
+
+bool contains(const WaitCycle& ring, JobId job) {
+  return std::ranges::find(ring, job) != ring.end();
+}
+
+// Orders alone make no ring: all follow one sequence. And only the first job of an arm is judged.
+bool one_is_in_the_way(const State& state) {
+  return std::ranges::any_of(state.jobs.queues(), [&](const auto& queue) {
+    if (queue.empty()) return false;
+    const auto waits = found_in_the_way(state, state.jobs.at(queue.front()));
+    return std::ranges::any_of(waits, [&](const Wait& wait) {
+      return wait.kind != Wait::Kind::order && has_to_move_first(state, wait).has_value();
+    });
+  });
+}
+
+// No arm of a ring moves while its jobs wait. So a ring that was found stands until one of these
+// goes, or the scene is another one.
+bool ring_stands(const State& state, const WaitCycle& ring, Version epoch) {
+  return epoch == state.recheck_epoch && std::ranges::all_of(ring, [&](JobId id) {
+           return state.jobs.is_active(id) && stands(state, state.jobs.at(id));
+         });
+}
+
+void untell(State& state, const WaitCycle& ring) {
+  for (JobId id : ring) {
+    if (!state.jobs.is_active(id)) continue;
+    Record& record = state.jobs.at(id);
+    const auto* braking = record.job.in<Braking>();
+    const bool ends_for_it = braking != nullptr && braking->after.then == AfterStop::Then::fail &&
+                             braking->after.reason == Reason::deadlock;
+    if (ends_for_it) continue;  // it names the ring when it has come to rest
+    record.job.ring.clear();
+    state.jobs.changed(record);
+  }
+}
+
+// An arm that is aside for the sake of another one of the ring comes back first. Else a move aside
+// gives way, or the last job that a client sent: the others were there before it closed the ring.
+// Not a return, or a move aside on which a client's job counts by now.
+void resolve(State& state, const WaitCycle& ring) {
+  for (JobId id : ring) {
+    Record& record = state.jobs.at(id);
+    if (state.jobs.lets_another_pass(record) && contains(ring, *record.lets_pass)) {
+      record.lets_pass.reset();
+      state.lanes.renew_later();
+      return;
+    }
+  }
+  const auto dispensable = [&](JobId id) {
+    const Record& record = state.jobs.at(id);
+    return std::tuple(!record.job.system_job || !is_counted_on(state, record),
+                      record.job.system_job, id);
+  };
+  Record& last = state.jobs.at(*std::ranges::max_element(ring, {}, dispensable));
+  if (last.job.has_authority()) {
+    return brake(state, last, {AfterStop::Then::fail, Reason::deadlock, ""});
+  }
+  const bool held = last.job.in<Held>() != nullptr;
+  end(state, last, JobState::failed, Reason::deadlock, "");
+  if (held) state.effects.push_back(Release{last.job.id});
+}
+
+}  // namespace
+
+void WaitCycles::name(State& state) {
+  if (!one_is_in_the_way(state)) return;
+  for (WaitCycle& ring : find_wait_cycles(waits_for(state))) {
+    const bool told = std::ranges::any_of(named_, [&](const Named& named) {
+      return std::ranges::find_first_of(named.ring, ring) != named.ring.end();
+    });
+    if (told) continue;
+    for (JobId id : ring) {
+      Record& record = state.jobs.at(id);
+      record.job.ring = beginning_with(id, ring);
+      state.jobs.changed(record);
+    }
+    named_.push_back({std::move(ring), state.recheck_epoch});
+  }
+}
+
+void WaitCycles::settle(State& state) {
+  for (Named& named : std::exchange(named_, {})) {
+    const bool stood = ring_stands(state, named.ring, named.epoch);
+    named.way_out = stood && yield_in(state, named.ring).has_value();
+    if (named.way_out || (stood && named.opens)) {
+      named_.push_back(std::move(named));
+      continue;
+    }
+    if (stood) resolve(state, named.ring);
+    untell(state, named.ring);
+  }
+}
+
+bool WaitCycles::is_one_to_settle() const {
+  return std::ranges::any_of(named_, [](const Named& n) { return !n.way_out && !n.opens; });
+}
+
+std::optional<YieldTrial> WaitCycles::next_yield(const State& state) const {
+  for (const Named& named : named_) {
+    if (named.opens) continue;
+    if (auto move = yield_in(state, named.ring)) return move;
+  }
+  return std::nullopt;
+}
+
+void WaitCycles::opens(JobId before) {
+  for (Named& named : named_) named.opens |= contains(named.ring, before);
+}
+
+void WaitCycles::has_opened(State& state, JobId before) {
+  std::erase_if(named_, [&](const Named& named) {
+    const bool opened = contains(named.ring, before);
+    if (opened) untell(state, named.ring);
+    return opened;
+  });
+}
+
+}  // namespace armloom

@@ -1,0 +1,189 @@
+#include "core/scheduler/yielding/yield_moves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/scheduler/motion_questions.h"
+#include "core/scheduler/yielding/ways_aside.h"
+
+namespace armloom {
+namespace {
+
+// Ways that are tried for one job of a client and one arm, lest arms go to and fro for ever.
+constexpr std::size_t kYieldsMax = 8;
+// So often an arm goes to one and the same place for it: clients may have sent it back there.
+constexpr std::ptrdiff_t kSamePlaceMax = 2;
+constexpr double kSamePlace = 1e-3;  // relative
+
+// Whether the second motion, pausing at `progress`, is in the way of the first, which lasts so
+// long: unless they stand close now, and the first one leaves that for good.
+bool rests_in(const PairRegions& pair, Duration progress, Duration lasts) {
+  std::vector<std::pair<Duration, Duration>> close;  // when
+  for (const ConflictRegion& region : pair.regions) {
+    for (const ProgressBox& box : region.boxes) {
+      const bool holds = box.from_b <= progress && progress <= box.to_b;
+      if (holds) close.emplace_back(box.from_a, box.to_a);
+    }
+  }
+  std::ranges::sort(close);
+  Duration leaves{};
+  for (const auto& [from, to] : close) {
+    if (from > leaves) return true;
+    leaves = std::max(leaves, to);
+  }
+  return leaves >= lasts;
+}
+
+bool has_been_there(const YieldsTried& tried, const Trajectory& way) {
+  return std::ranges::count_if(tried.went_to, [&](const Eigen::VectorXd& goal) {
+           return goal.size() == way.goal().size() && goal.isApprox(way.goal(), kSamePlace);
+         }) >= kSamePlaceMax;
+}
+
+// A way aside of this arm that has not been tried for the job. Nobody makes way any more for what
+// was to help a job that has ended.
+std::optional<YieldTrial> untried(const State& state, const Record& record, ArmId arm) {
+  if (state.cell->scheduling.on_idle_blocker != "park" || state.arms.is_stopped(arm)) {
+    return std::nullopt;
+  }
+  if (!state.jobs.is_active(record.on_behalf_of)) return std::nullopt;
+  static const YieldsTried kNone;
+  const auto tried_for = [arm](const Record& job) -> const YieldsTried& {
+    const auto found = job.yields.find(arm);
+    return found == job.yields.end() ? kNone : found->second;
+  };
+  const YieldsTried& tried = tried_for(record);
+  const YieldsTried& of_all = tried_for(state.jobs.at(record.on_behalf_of));
+  if (of_all.total >= kYieldsMax) return std::nullopt;
+  const TrajectoryPtr& came_by = state.arms.came_by(arm);
+  const auto ways = ways_aside(*state.cell, arm, state.arms.rest(), came_by);
+  for (std::size_t i = tried.from == came_by ? tried.next : 0; i < ways.size(); ++i) {
+    if (has_been_there(of_all, *ways[i])) continue;
+    return YieldTrial{.blocked_job = record.job.id, .arm = arm, .way = ways[i], .index = i};
+  }
+  return std::nullopt;
+}
+
+const std::vector<Wait>& waits_of(const Job& job) {
+  return job.is_waiting() ? job.judgement().found : job.waits_on;
+}
+
+}  // namespace
+
+std::optional<YieldTrial> next_yield(const State& state) {
+  for (JobId id : state.jobs.past_queue()) {
+    const Record& record = state.jobs.at(id);
+    const Job& job = record.job;
+    const bool put_off = job.is_waiting() && job.judgement().at == state.version;
+    if (!put_off && !job.pausing()) continue;
+    for (const Wait& wait : waits_of(job)) {
+      const bool idle =
+          wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queue(*wait.arm).empty();
+      if (!idle) continue;
+      if (auto move = untried(state, record, *wait.arm)) return move;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring) {
+  const bool dispensable = std::ranges::any_of(ring, [&](JobId id) {
+    const Record& record = state.jobs.at(id);
+    return record.job.system_job && !is_counted_on(state, record);
+  });
+  if (dispensable) return std::nullopt;
+  const WaitCycle from_last = beginning_with(*std::ranges::max_element(ring), ring);
+  for (std::size_t i = 0; i < from_last.size(); ++i) {
+    const Job& next = state.jobs.at(from_last[i]).job;
+    const Record& waits = state.jobs.at(from_last[(i + from_last.size() - 1) % from_last.size()]);
+    if (!next.is_waiting() || next.has_started() || next.system_job) continue;
+    for (const Wait& wait : waits_of(waits.job)) {
+      const bool near = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::job;
+      if (!near || !wait.arm) continue;
+      const auto& queue = state.jobs.queue(*wait.arm);
+      if (queue.empty() || queue.front() != next.id) continue;
+      auto move = untried(state, waits, *wait.arm);
+      if (!move) continue;
+      move->before = next.id;
+      return move;
+    }
+  }
+  return std::nullopt;
+}
+
+Question question_about(const State& state, const YieldTrial& move) {
+  if (!move.is_free) {
+    Question question = question_now(state, {});
+    question.candidates = {Motion{JobId{0}, move.way, Duration{}}};
+    return question;
+  }
+  Question question = question_now(state, {move.blocked_job});
+  const auto& joints = move.way->joints();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    question.rest[static_cast<Eigen::Index>(joints[j].index())] =
+        move.way->goal()[static_cast<Eigen::Index>(j)];
+  }
+  return question;
+}
+
+// Whether nothing that stays keeps the arm from its way, or, where that is free, the job from its
+// own: an object, the moving arm itself, an arm of the ring; or the arm that has gone aside.
+std::optional<bool> lets_through(const State& state, const Verdict& verdict,
+                                 const YieldTrial& move) {
+  const auto& own_queue = state.jobs.queue(move.arm);
+  const bool as_it_was =
+      move.before ? !own_queue.empty() && own_queue.front() == *move.before : own_queue.empty();
+  if (!as_it_was) return std::nullopt;
+  const auto stays = [&](ArmId arm) {
+    if (move.is_free) return arm == move.arm;
+    const auto& queue = state.jobs.queue(arm);
+    if (queue.empty()) return false;  // it may go aside too
+    return queue.front() == move.blocked_job ||
+           (move.before && state.jobs.at(queue.front()).job.is_waiting());
+  };
+  for (const Conflict& conflict : verdict.conflicts) {
+    if (conflict.with == Conflict::With::motion) continue;
+    const bool at_rest = conflict.with == Conflict::With::rest && conflict.proximity.arm_b;
+    if (!at_rest || stays(*conflict.proximity.arm_b)) return false;
+  }
+  return std::ranges::none_of(verdict.regions, [&](const PairRegions& pair) {
+    const auto* arm = std::get_if<ArmId>(&pair.b);
+    if (arm != nullptr) return stays(*arm);
+    const bool of_it = !move.is_free && std::get<JobId>(pair.b) == move.blocked_job;
+    return of_it &&
+           rests_in(pair, state.jobs.at(move.blocked_job).job.progress, move.way->duration());
+  });
+}
+
+void note_tried(State& state, const YieldTrial& move, bool goes) {
+  Record& record = state.jobs.at(move.blocked_job);
+  YieldsTried& tried = record.yields[move.arm];
+  tried.from = state.arms.came_by(move.arm);
+  tried.next = move.index + 1;
+  if (!state.jobs.is_active(record.on_behalf_of)) return;
+  YieldsTried& of_all = state.jobs.at(record.on_behalf_of).yields[move.arm];
+  ++of_all.total;
+  if (goes) of_all.went_to.push_back(move.way->goal());
+}
+
+bool is_counted_on(const State& state, const Record& own) {
+  const ArmId arm = own.job.trajectory->arms().front();
+  const auto& queue = state.jobs.queue(arm);
+  const auto of_a_client = [&](JobId id) { return !state.jobs.at(id).job.system_job; };
+  const auto next = std::find_if(std::ranges::find(queue, own.job.id), queue.end(), of_a_client);
+  if (next == queue.end()) return false;
+  if (own.job.has_started()) return true;
+  const Trajectory& motion = *state.jobs.at(*next).job.trajectory;
+  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
+    const JointId joint = motion.joints()[j];
+    if (state.cell->joint(joint).arm != arm) continue;
+    const double begins = motion.start()[static_cast<Eigen::Index>(j)];
+    const double stands = state.arms.rest()[static_cast<Eigen::Index>(joint.index())];
+    if (std::abs(begins - stands) > state.cell->execution.start_tolerance_rad) return true;
+  }
+  return false;
+}
+
+}  // namespace armloom
