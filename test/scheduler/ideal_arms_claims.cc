@@ -17,10 +17,8 @@ void IdealArms::check() {
 // Between what was measured and its authority, and with an admitted job alone.
 void IdealArms::check_moving(const Moving& arm) const {
   const Job& job = this->job(arm.job);
-  const std::string what = "job " + std::to_string(arm.job.value()) + ", " + to_string(job.state);
-  EXPECT_FALSE(is_terminal(job.state)) << what << " moves on";
-  EXPECT_TRUE(job.state == JobState::scheduled || job.state == JobState::running || job.stopping)
-      << what << " moves";
+  const std::string what = "job " + std::to_string(arm.job.value()) + ", " + to_string(job.state());
+  EXPECT_FALSE(job.has_ended()) << what << " moves on";
   EXPECT_EQ(job.progress, arm.reported) << what;
   EXPECT_LE(arm.reported, arm.s) << what;
   EXPECT_LE(arm.s, arm.authority) << what;
@@ -28,27 +26,23 @@ void IdealArms::check_moving(const Moving& arm) const {
   for (const ArmId moved : arm.motion->arms()) EXPECT_EQ(scheduler.occupant(moved), arm.job);
 }
 
-// What is known of a job is what its state says, and no more.
+// What its arms do, and what is known of it, is what its phase says.
 void IdealArms::check_phase(const Job& job) const {
-  const std::string what = "job " + std::to_string(job.id.value()) + ", " + to_string(job.state);
-  const bool admitted = job.state == JobState::scheduled || job.state == JobState::running;
-  EXPECT_FALSE(job.ended_at || job.reason) << what << " has ended";
-  EXPECT_TRUE(!admitted || job.scheduled_at) << what;
-  EXPECT_TRUE(job.state != JobState::backlogged || job.backlogged_at) << what;
-  EXPECT_TRUE(job.state != JobState::running || moves(job.id)) << what << " does not move";
-  EXPECT_TRUE(job.state != JobState::holding || job.stopping || !moves(job.id)) << what;
-  EXPECT_TRUE(!job.stopping || moves(job.id)) << what << " brakes";
-  const bool on_its_way = job.state == JobState::running || job.state == JobState::holding;
-  EXPECT_TRUE(!on_its_way || job.started_at) << what << " has not begun";
-  const bool in_queue = job.state == JobState::queued || job.state == JobState::backlogged;
-  EXPECT_FALSE(in_queue && (job.started_at || job.scheduled_at || job.pausing)) << what;
+  const std::string what = "job " + std::to_string(job.id.value()) + ", " + to_string(job.state());
+  const bool moving = job.in<armloom::Moving>() != nullptr || job.stopping();
+  EXPECT_EQ(moves(job.id), moving) << what;
+  EXPECT_FALSE(job.has_ended()) << what;
+  EXPECT_TRUE(job.in<Held>() == nullptr || job.has_started()) << what << " has not begun";
+  EXPECT_TRUE(!job.has_authority() || job.times.scheduled_at) << what;
+  const bool in_queue = job.in<Queued>() != nullptr;
+  EXPECT_FALSE(in_queue && (job.has_started() || job.times.scheduled_at)) << what;
 }
 
 // Of what is admitted and stands, nobody waits for itself in the end.
 void IdealArms::check_orders() const {
   const auto next = [this](JobId id) -> std::optional<JobId> {
     const Job& job = this->job(id);
-    const bool admitted = job.state == JobState::scheduled || job.state == JobState::running;
+    const bool admitted = job.in<Admitted>() != nullptr || job.in<armloom::Moving>() != nullptr;
     const auto moving = std::ranges::find(moving_, id, &Moving::job);
     const bool may_go_on = moving != moving_.end() && moving->authority > moving->s;
     const bool stands = admitted && !may_go_on;
