@@ -152,7 +152,7 @@ TEST(Bodies, DistancesOfUprightBoxesAreExactHoweverTheyTurn) {
   EXPECT_GE(near, 15);
 }
 
-// A link that turns beside a small box: fresh eyes were told 0.0000 m in 14 of 244 such homes.
+// A link that turns beside a small box, and past touching it.
 TEST(Bodies, ALinkThatTurnsBesideABoxIsNotSaidToTouchIt) {
   std::mt19937_64 random(43);
   std::uniform_real_distribution<double> place_m(0.46, 0.53);

@@ -120,7 +120,7 @@ def jobs():
     for side in SHOULDERS:
         robot = moves.Robot([f"{side}_{joint}" for joint in JOINTS], [2.0] * 3, [3.75] * 3, HOME[side])
         listed.append(moves.Arm(side, robot, "", POSES[side]))
-    return moves.jobs(listed, None)
+    return moves.jobs(listed)
 
 
 def write(folder):

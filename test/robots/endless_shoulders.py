@@ -25,4 +25,4 @@ def write(folder):
     small.write_files(folder, {
         "robot.urdf": small.robot("endless", urdf), "robot.srdf": small.robot("endless", srdf),
         "cell.json": small.cell("endless_shoulders", small.arms()[:1]),
-        "jobs.json": moves.jobs([arm], None)})
+        "jobs.json": moves.jobs([arm])})

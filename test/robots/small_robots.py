@@ -99,7 +99,7 @@ def jobs(velocity=2.0, poses=POSES):
     listed = [moves.Arm(side, moves.Robot([f"{side}_pan", f"{side}_bend"], [velocity] * 2,
                                           [3.75] * 2, HOME[side]), "", poses[side])
               for side in SIDES]
-    return moves.jobs(listed, None)
+    return moves.jobs(listed)
 
 
 def write_files(folder, files):
