@@ -2,16 +2,15 @@
 
 #include <utility>
 
-#include "core/scheduler/policy.h"
+#include "core/scheduler/policy_names.h"
 
 namespace armloom {
 
 std::vector<std::string> known_policies() { return policy_names(); }
 
-std::optional<Problems> policy_problems(const std::string& name, const Cell& cell) {
-  auto policy = make_policy(name, cell);
-  if (policy) return std::nullopt;
-  return std::move(policy.error());
+std::optional<Problems> policy_problems(const std::string& name) {
+  auto problem = unknown_policy(name);
+  return problem ? std::optional(Problems{std::move(*problem)}) : std::nullopt;
 }
 
 }  // namespace armloom

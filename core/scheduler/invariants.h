@@ -14,9 +14,9 @@ namespace armloom {
 //   No rectangle of authority, [s_A, alpha_A] x [s_B, alpha_B], meets a region of the two.
 //
 // Linear in what is admitted, and in the boxes of its regions: asserted in every build. Besides, at
-// any time: phases follow as their table says (JobBook::enter), authority is granted no farther than
-// orders let it (PrecedenceGraph::granted). All throw std::logic_error. That orders are acyclic
-// (PrecedenceGraph::is_acyclic) is asserted in tests.
+// any time: phases follow as their table says (JobBook::enter), authority is granted no farther
+// than orders let it (PrecedenceGraph::granted). All throw std::logic_error. That orders are
+// acyclic (PrecedenceGraph::is_acyclic) is asserted in tests.
 [[nodiscard]] std::optional<std::string> broken_invariant(const State& state);
 
 }  // namespace armloom

@@ -2,20 +2,19 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/base/problem.h"
 #include "core/coordination/motion.h"
 #include "core/model/cell.h"
 #include "core/scheduler/orders/passing_orders.h"
+#include "core/scheduler/policy_names.h"
 #include "core/scheduler/state.h"
 
 namespace armloom {
 
 // What distinguishes one way of sharing the workspace from another. Pure. A new policy is one file
-// in core/scheduler/policies and one line in make_policy().
+// in core/scheduler/policies, its name in policy_names.h and one word in make_policy().
 class Policy {
  public:
   virtual ~Policy() = default;
@@ -44,6 +43,5 @@ class Policy {
 // none of policy_names().
 [[nodiscard]] Result<std::unique_ptr<const Policy>> make_policy(std::string_view name,
                                                                 const Cell& cell);
-[[nodiscard]] std::vector<std::string> policy_names();
 
 }  // namespace armloom

@@ -21,14 +21,14 @@ class Nobody final : public Observer {
 };
 
 // "a,b": both names. Problems: an unknown one, or one that is there twice.
-Result<std::vector<std::string>> read_policies(const std::string& text, const Cell& cell) {
+Result<std::vector<std::string>> read_policies(const std::string& text) {
   if (text.empty()) return known_policies();
   std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     std::string name = text.substr(begin, end - begin);
     begin = end + 1;
-    if (auto problems = policy_problems(name, cell)) {
+    if (auto problems = policy_problems(name)) {
       return failure(said_of_option(*std::move(problems), "unknown-policy", "--policies"));
     }
     if (std::ranges::find(names, name) != names.end()) {
@@ -101,7 +101,7 @@ int compare_policies(const CompareOptions& options) {
   const auto loaded = load_cell(options.cell_file);
   if (!loaded) return kExitBadInput;
   const Cell& cell = *loaded->cell;
-  const auto policies = read_policies(options.policies, cell);
+  const auto policies = read_policies(options.policies);
   if (!policies) return refuse("", policies.error());
   const auto jobs = load_jobs(options.jobs_file, cell);
   if (!jobs) return kExitBadInput;

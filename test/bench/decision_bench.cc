@@ -150,8 +150,8 @@ class Hall {
   }
   void count(JobState state, std::size_t wanted) const {
     const auto jobs = scheduler_.active();
-    const auto found =
-        std::ranges::count_if(jobs, [&](JobId id) { return scheduler_.find(id)->state() == state; });
+    const auto found = std::ranges::count_if(
+        jobs, [&](JobId id) { return scheduler_.find(id)->state() == state; });
     if (static_cast<std::size_t>(found) == wanted) return;
     throw std::runtime_error(std::to_string(found) + " jobs are " + to_string(state));
   }

@@ -187,7 +187,7 @@ class Checks : public ::testing::TestWithParam<std::string> {
     std::cout << GetParam() << ": " << seen.states << " states: free now " << seen.free_now
               << ", later " << seen.free_later << ", waits " << seen.wait << ", fails " << seen.fail
               << ", refused " << seen.refused << "\n";
-    EXPECT_GT(6 * (seen.free_now + seen.free_later), seen.states);
+    EXPECT_GT(8 * (seen.free_now + seen.free_later), seen.states);
     EXPECT_GT(6 * seen.wait, seen.states);
   }
   Seen seen;

@@ -19,7 +19,8 @@ void IdealArms::check_moving(const Moving& arm) const {
   const Job& job = this->job(arm.job);
   const std::string what = "job " + std::to_string(arm.job.value()) + ", " + to_string(job.state());
   EXPECT_FALSE(is_terminal(job.state())) << what << " moves on";
-  EXPECT_TRUE(job.state() == JobState::scheduled || job.state() == JobState::running || job.stopping())
+  EXPECT_TRUE(job.state() == JobState::scheduled || job.state() == JobState::running ||
+              job.stopping())
       << what << " moves";
   EXPECT_EQ(job.progress, arm.reported) << what;
   EXPECT_LE(arm.reported, arm.s) << what;
@@ -41,7 +42,8 @@ void IdealArms::check_phase(const Job& job) const {
   const bool on_its_way = job.state() == JobState::running || job.state() == JobState::holding;
   EXPECT_TRUE(!on_its_way || job.times.started_at) << what << " has not begun";
   const bool in_queue = job.state() == JobState::queued || job.state() == JobState::backlogged;
-  EXPECT_FALSE(in_queue && (job.times.started_at || job.times.scheduled_at || job.pausing())) << what;
+  EXPECT_FALSE(in_queue && (job.times.started_at || job.times.scheduled_at || job.pausing()))
+      << what;
 }
 
 // Of what is admitted and stands, nobody waits for itself in the end.

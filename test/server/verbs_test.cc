@@ -127,10 +127,17 @@ TEST_F(Verbs, ACheckIsAdmissionsOwnAnswerAndChangesNothing) {
 
   ASSERT_EQ(post("/api/v1/jobs", job("l", test::kHome, test::kMiddle).dump()).status, 202);
   until(listener, "l", "succeeded");
+  // The left arm rests in the way now, and would go aside for it.
+  const json later =
+      post("/api/v1/check", job("x", test::kHome, test::kMiddle, "right").dump()).json();
+  EXPECT_EQ(later["verdict"], "free");
+  EXPECT_TRUE(later["earliest_start_s"].is_number());
+  ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);  // stopped, it stays
   const json conflict =
       post("/api/v1/check", job("x", test::kHome, test::kMiddle, "right").dump()).json();
   EXPECT_EQ(conflict["verdict"], "conflict");
   EXPECT_TRUE(conflict["earliest_start_s"].is_null());
+  ASSERT_EQ(conflict["conflicts"].size(), 1U) << conflict;
   EXPECT_EQ(conflict["conflicts"][0]["kind"], "arm");
   EXPECT_EQ(conflict["conflicts"][0]["arm"], "left");
   EXPECT_EQ(conflict["conflicts"][0]["links"].size(), 2U);
