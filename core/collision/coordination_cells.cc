@@ -1,5 +1,6 @@
 // One batch of cells: from the filter over the exact distance to a state.
 #include <algorithm>
+#include <array>
 
 #include "core/collision/coordination_diagram_impl.h"
 #include "core/collision/filter/kernels.h"
@@ -18,63 +19,62 @@ constexpr double kBothShare = 0.5;
 // mostly: where more than that would have to be nothing, it is not asked.
 constexpr double kTowardsShare = 0.25;
 
-// Of every row.
-void copy_lane(const std::vector<float>& from, std::size_t from_lane, std::vector<float>& to,
-               std::size_t lane) {
-  for (std::size_t row = 0; row < from.size(); row += kLanes)
-    to[row + lane] = from[row + from_lane];
-}
-
 }  // namespace
 
-// Whether the nodes of the cells are a block of the tube, in its order.
-bool CoordinationDiagram::together(const MotionTube& tube, int Cell::*node, const Open* open,
-                                   std::size_t count) const {
-  const auto place = [&](std::size_t lane) {
-    return tube.place_of(cells_[static_cast<std::size_t>(open[lane].cell)].*node);
-  };
-  const MotionTube::Place first = place(0);
-  bool together = first.lane == 0;
-  for (std::size_t lane = 1; together && lane < count; ++lane) {
-    together = place(lane).block == first.block && place(lane).lane == lane;
+// Where the nodes of a batch of cells are in their tube, lane by lane.
+struct CoordinationDiagram::Places {
+  std::array<MotionTube::Place, kLanes> of;
+  std::size_t count;
+
+  // The block that they are, in its order; null: they are none.
+  [[nodiscard]] const MotionTube::Block* as_block() const {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if (of[lane].block != of[0].block || of[lane].lane != lane) return nullptr;
+    }
+    return of[0].block;
   }
-  return together;
+  // Every row of them.
+  void copy(std::vector<float> MotionTube::Block::*rows, std::vector<float>& to) const {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::vector<float>& from = of[lane].block->*rows;
+      for (std::size_t row = 0; row < from.size(); row += kLanes) {
+        to[row + lane] = from[row + of[lane].lane];
+      }
+    }
+  }
+};
+
+CoordinationDiagram::Places CoordinationDiagram::places_of(const MotionTube& tube, int Cell::*node,
+                                                           const Open* open,
+                                                           std::size_t count) const {
+  Places places{{}, count};
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    places.of[lane] = tube.place_of(cells_[static_cast<std::size_t>(open[lane].cell)].*node);
+  }
+  return places;
 }
 
-// The nodes of the cells as one side: the block itself where they are one.
-filter::Side CoordinationDiagram::gather(const MotionTube& tube, int Cell::*node, const Open* open,
-                                         std::size_t count, Gathered& to) const {
+// As one side: the block itself where they are one.
+filter::Side CoordinationDiagram::gather(const Places& places, Gathered& to) {
   using Block = MotionTube::Block;
-  if (together(tube, node, open, count)) {
-    const Block& block = *tube.place_of(cells_[static_cast<std::size_t>(open[0].cell)].*node).block;
-    return {block.capsules.data(), block.inflation.data(), block.ball.data()};
+  if (const Block* block = places.as_block()) {
+    return {block->capsules.data(), block->inflation.data(), block->ball.data()};
   }
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    const MotionTube::Place place =
-        tube.place_of(cells_[static_cast<std::size_t>(open[lane].cell)].*node);
-    copy_lane(place.block->capsules, place.lane, to.capsules, lane);
-    copy_lane(place.block->inflation, place.lane, to.inflation, lane);
-    copy_lane(place.block->ball, place.lane, to.ball, lane);
-  }
+  places.copy(&Block::capsules, to.capsules);
+  places.copy(&Block::inflation, to.inflation);
+  places.copy(&Block::ball, to.ball);
   return {to.capsules.data(), to.inflation.data(), to.ball.data()};
 }
 
-filter::Joints CoordinationDiagram::gather_joints(const MotionTube& tube,
-                                                  const filter::Linkage& linkage, int Cell::*node,
-                                                  const Open* open, std::size_t count,
-                                                  Gathered& to) const {
+filter::Joints CoordinationDiagram::gather_joints(const Places& places,
+                                                  const filter::Linkage& linkage, Gathered& to) {
   using Block = MotionTube::Block;
-  if (together(tube, node, open, count)) {
-    const Block& block = *tube.place_of(cells_[static_cast<std::size_t>(open[0].cell)].*node).block;
-    return {&linkage, block.axes.data(), block.spans.data(), block.bends.data()};
+  if (const Block* block = places.as_block()) {
+    return {&linkage, block->axes.data(), block->spans.data(), block->bends.data()};
   }
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    const MotionTube::Place place =
-        tube.place_of(cells_[static_cast<std::size_t>(open[lane].cell)].*node);
-    copy_lane(place.block->axes, place.lane, to.axes, lane);
-    copy_lane(place.block->spans, place.lane, to.spans, lane);
-    copy_lane(place.block->bends, place.lane, to.bends, lane);
-  }
+  places.copy(&Block::axes, to.axes);
+  places.copy(&Block::spans, to.spans);
+  places.copy(&Block::bends, to.bends);
   return {&linkage, to.axes.data(), to.spans.data(), to.bends.data()};
 }
 
@@ -85,10 +85,10 @@ int CoordinationDiagram::left_open(const filter::Side& a, const filter::Side& b,
   if (hits == 0) return 0;
   Scratch& s = *setting_.scratch;
   const filter::Linkage linkage_a = a_->linkage().view();
-  const filter::Joints of_a = gather_joints(*a_, linkage_a, &Cell::a, open, count, s.a);
+  const filter::Joints of_a = gather_joints(places_of(*a_, &Cell::a, open, count), linkage_a, s.a);
   const filter::Linkage linkage_b = b_ ? b_->linkage().view() : filter::Linkage{};
   const filter::Joints of_b =
-      b_ ? gather_joints(*b_, linkage_b, &Cell::b, open, count, s.b) : filter::Joints{};
+      b_ ? gather_joints(places_of(*b_, &Cell::b, open, count), linkage_b, s.b) : filter::Joints{};
   const filter::Kernel& kernel = filter::best_kernel();
   int left = 0;
   for (int h = 0; h < hits; ++h) {
@@ -118,10 +118,10 @@ void CoordinationDiagram::evaluate(const Open* open, std::size_t count) {
   int boxes = 0;
   filter::Side a{};
   if (!self) {
-    a = gather(*a_, &Cell::a, open, count, s.a);
+    a = gather(places_of(*a_, &Cell::a, open, count), s.a);
     const filter::Kernel& kernel = filter::best_kernel();
     const unsigned lanes = (1U << count) - 1U;
-    const filter::Side b = b_ ? gather(*b_, &Cell::b, open, count, s.b)
+    const filter::Side b = b_ ? gather(places_of(*b_, &Cell::b, open, count), s.b)
                               : filter::Side{still_->lanes.data(), still_->at_rest.data(), nullptr};
     pairs = kernel.near_pairs(a, b, set.pairs.data(), static_cast<int>(set.pairs.size()),
                               set.grouped(), lanes, s.hits.data());

@@ -166,13 +166,12 @@ class CoordinationDiagram {
   bool leaves_at(const Cell& of, const Visit& visit) const;
   [[nodiscard]] bool borders_on_free(const Cell& cell) const;
   struct Gathered;
-  [[nodiscard]] bool together(const MotionTube& tube, int Cell::*node, const Open* open,
-                              std::size_t count) const;
-  [[nodiscard]] filter::Side gather(const MotionTube& tube, int Cell::*node, const Open* open,
-                                    std::size_t count, Gathered& to) const;
-  [[nodiscard]] filter::Joints gather_joints(const MotionTube& tube, const filter::Linkage& linkage,
-                                             int Cell::*node, const Open* open, std::size_t count,
-                                             Gathered& to) const;
+  struct Places;
+  [[nodiscard]] Places places_of(const MotionTube& tube, int Cell::*node, const Open* open,
+                                 std::size_t count) const;
+  [[nodiscard]] static filter::Side gather(const Places& places, Gathered& to);
+  [[nodiscard]] static filter::Joints gather_joints(const Places& places,
+                                                    const filter::Linkage& linkage, Gathered& to);
   [[nodiscard]] int left_open(const filter::Side& a, const filter::Side& b, const Open* open,
                               std::size_t count, int hits);
   void decide(int cell);

@@ -59,11 +59,14 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
   const auto may_be_entered = [&](const Cell& cell) {
     return a_->from(cell.a) <= now_a || b_->from(cell.b) <= now_b || borders_on_free(cell);
   };
+  const auto is_open = [&](int index) {
+    const CellState state = at(index).state;
+    return (state == CellState::mixed || state == CellState::unknown) &&
+           remains(at(index), now_a, now_b);
+  };
   std::vector<int> border;  // leaves that may be entered from what is free
   for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
-    const Cell& cell = at(i);
-    const bool open = cell.state == CellState::mixed || cell.state == CellState::unknown;
-    if (open && remains(cell, now_a, now_b) && may_be_entered(cell)) border.push_back(i);
+    if (is_open(i) && may_be_entered(at(i))) border.push_back(i);
   }
   std::vector<Open> unknown;
   while (!border.empty() && looked_at < budget) {
@@ -86,9 +89,7 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
       if (at(leaf.cell).state == CellState::mixed) border.push_back(leaf.cell);
       if (at(leaf.cell).state != CellState::free) continue;
       leaves_at(at(leaf.cell), [&](int other) {
-        const CellState state = at(other).state;
-        const bool open = state == CellState::mixed || state == CellState::unknown;
-        if (open && remains(at(other), now_a, now_b)) border.push_back(other);
+        if (is_open(other)) border.push_back(other);
         return false;
       });
     }

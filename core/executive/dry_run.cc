@@ -168,21 +168,21 @@ PassingOrders orders_for(const Question& question, const Cell& cell, const Polic
 }
 
 // The same as an answer to clients about the first of so many candidates: in conflict with the
-// obstacles, or free to start when it begins.
+// blockers, or free to start when it begins.
 Verdict as_verdict(const PassingOrders& orders, std::size_t candidates, Verdict verdict) {
   if (verdict.kind != Verdict::Kind::free) return verdict;
   verdict.regions.clear();
-  if (orders.obstacles.empty()) {
+  if (orders.blockers.empty()) {
     verdict.earliest_start =
         *(orders.prediction.begins.end() - static_cast<std::ptrdiff_t>(candidates));
     return verdict;
   }
   verdict.kind = Verdict::Kind::conflict;
   verdict.clearance_bound_m.reset();
-  for (const Obstacle& obstacle : orders.obstacles) {
-    verdict.conflicts.push_back({obstacle.arm ? Conflict::With::rest : Conflict::With::motion,
-                                 obstacle.candidate, obstacle.other, obstacle.proximity,
-                                 obstacle.own_time, obstacle.other_time});
+  for (const Blocker& blocker : orders.blockers) {
+    verdict.conflicts.push_back({blocker.arm ? Conflict::With::rest : Conflict::With::motion,
+                                 blocker.blocked, blocker.other, blocker.proximity,
+                                 blocker.own_time, blocker.other_time});
   }
   return verdict;
 }

@@ -42,8 +42,8 @@ void go_on(State& state, Record& record, const Verdict& verdict) {
     const auto* arm = std::get_if<ArmId>(&pair.b);
     if (arm == nullptr) continue;
     const ConflictRegion& region = pair.regions.front();
-    waits.push_back(wait_for(Obstacle{record.job.id, std::nullopt, *arm, region.proximity,
-                                      region.time_a, region.time_b}));
+    waits.push_back(wait_for(Blocker{record.job.id, std::nullopt, *arm, region.proximity,
+                                     region.time_a, region.time_b}));
   }
   if (!waits.empty()) return put_off(state, record, std::move(waits));
   enter(state, record, Admitted{});
@@ -169,14 +169,14 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
 
 void Admission::answer_yield(State& state, const Verdict& verdict, YieldTrial move,
                              WaitCycles& cycles) {
-  const auto passes = lets_through(state, verdict, move);
-  if (!passes) return;
-  if (*passes && !move.is_free) {
+  if (!is_as_asked(state, move)) return;
+  const bool passes = lets_through(state, verdict, move);
+  if (passes && !move.is_free) {
     move.is_free = true;
     return ask_yield(state, std::move(move));
   }
-  note_tried(state, move, *passes);
-  if (!*passes) return;
+  note_tried(state, move, passes);
+  if (!passes) return;
   state.effects.push_back(YieldMove{move.arm, move.blocked_job, move.way, move.before});
   if (move.before) cycles.opens(*move.before);
 }
@@ -200,7 +200,7 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   for (JobId id : jobs) candidates.push_back(as_candidate(state.jobs.at(id).job));
   const PassingOrders orders =
       state.policy->decide(state.graph.question(candidates, verdict.regions));
-  const bool can_go = orders.obstacles.empty();
+  const bool can_go = orders.blockers.empty();
   if (tries_together(state, jobs, can_go)) return;
   if (can_go) {
     if (leaves_a_sequence(state, jobs)) {
@@ -211,12 +211,12 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
     return;
   }
   std::vector<Wait> waits;
-  for (const Obstacle& obstacle : orders.obstacles) {
-    if (obstacle.candidate != first.job.id) continue;
-    if (obstacle.arm) {
-      state.lanes.learn_in_the_way(first.job.id, *obstacle.arm, state.jobs, state.arms);
+  for (const Blocker& blocker : orders.blockers) {
+    if (blocker.blocked != first.job.id) continue;
+    if (blocker.arm) {
+      state.lanes.learn_in_the_way(first.job.id, *blocker.arm, state.jobs, state.arms);
     }
-    waits.push_back(wait_for(obstacle));
+    waits.push_back(wait_for(blocker));
   }
   if (jobs.size() == 1 || !waits.empty()) note_found(first, std::move(waits));
   std::vector<JobId> group = with_next_jobs(state, jobs, orders.in_the_way);

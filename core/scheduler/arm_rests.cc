@@ -32,13 +32,6 @@ Eigen::VectorXd part_of(const Arm& arm, const Trajectory& trajectory,
   return part;
 }
 
-std::string mismatch_text(const std::string& joint, double stands, double begins) {
-  char text[256];
-  std::snprintf(text, sizeof text, "%s stands at %.6g, the trajectory begins at %.6g",
-                joint.c_str(), told(stands), told(begins));
-  return text;
-}
-
 }  // namespace
 
 ArmRests::ArmRests(const Cell& cell, Configuration rest)
@@ -89,17 +82,29 @@ WaitingLeg ArmRests::leg_of(const Cell& cell, JobId job, const Trajectory& motio
   return leg;
 }
 
-std::optional<std::string> ArmRests::start_mismatch(const Cell& cell,
-                                                    const Trajectory& trajectory) const {
+std::optional<JointId> ArmRests::begins_elsewhere(const Cell& cell, const Trajectory& trajectory,
+                                                  std::optional<ArmId> arm) const {
   for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
     const JointId joint = trajectory.joints()[j];
+    if (arm && cell.joint(joint).arm != *arm) continue;
     const double begins = trajectory.start()[static_cast<Eigen::Index>(j)];
     const double stands = rest_[static_cast<Eigen::Index>(joint.index())];
-    if (std::abs(begins - stands) > cell.execution.start_tolerance_rad) {
-      return mismatch_text(cell.joint(joint).name, stands, begins);
-    }
+    if (std::abs(begins - stands) > cell.execution.start_tolerance_rad) return joint;
   }
   return std::nullopt;
+}
+
+std::optional<std::string> ArmRests::start_mismatch(const Cell& cell,
+                                                    const Trajectory& trajectory) const {
+  const auto joint = begins_elsewhere(cell, trajectory);
+  if (!joint) return std::nullopt;
+  const auto j = std::ranges::find(trajectory.joints(), *joint) - trajectory.joints().begin();
+  char text[256];
+  std::snprintf(text, sizeof text, "%s stands at %.6g, the trajectory begins at %.6g",
+                cell.joint(*joint).name.c_str(),
+                told(rest_[static_cast<Eigen::Index>(joint->index())]),
+                told(trajectory.start()[j]));
+  return text;
 }
 
 }  // namespace armloom

@@ -35,6 +35,11 @@ class ArmRests {
 
   // A motion of these arms as a leg of their lanes.
   [[nodiscard]] WaitingLeg leg_of(const Cell& cell, JobId job, const Trajectory& motion);
+  // The first joint that stands elsewhere than where the trajectory begins, by more than
+  // execution.start_tolerance_rad; of this arm only, if given.
+  [[nodiscard]] std::optional<JointId> begins_elsewhere(const Cell& cell,
+                                                        const Trajectory& trajectory,
+                                                        std::optional<ArmId> arm = {}) const;
   // Why it cannot begin where the arms stand.
   [[nodiscard]] std::optional<std::string> start_mismatch(const Cell& cell,
                                                           const Trajectory& trajectory) const;

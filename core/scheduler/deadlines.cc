@@ -52,21 +52,12 @@ void see_whether_in_vain(const State& state, Record& record) {
   if (in_vain && !pause->in_vain_since) pause->in_vain_since = state.now;
 }
 
-void give_up(State& state, Record& record) {
-  const std::string detail = "waited " + seconds_text(record.job.backlog_timeout) + " on its path";
-  if (record.job.has_authority()) {
-    return brake(state, record, {AfterStop::Then::fail, Reason::backlog_timeout, detail});
-  }
-  end(state, record, JobState::expired, Reason::backlog_timeout, detail);
-  state.effects.push_back(Release{record.job.id});
-}
-
 void fail_overdue(State& state, Record& record) {
   const Duration stood = state.now - record.job.in<Moving>()->moved_at;
-  brake(state, record,
-        {AfterStop::Then::fail, Reason::overrun,
-         "has not moved for " + seconds_text(stood) +
-             ", and has had its duration by duration_scaling and duration_margin"});
+  give_up(state, record,
+          {AfterStop::Then::fail, Reason::overrun,
+           "has not moved for " + seconds_text(stood) +
+               ", and has had its duration by duration_scaling and duration_margin"});
 }
 
 std::optional<TimePoint> deadline_of(const Job& job) {
@@ -97,7 +88,9 @@ void expire_and_overrun(State& state) {
     const bool in_vain = pause != nullptr && pause->in_vain_since &&
                          state.now >= *pause->in_vain_since + job.backlog_timeout;
     if (in_vain) {
-      give_up(state, record);
+      give_up(state, record,
+              {AfterStop::Then::fail, Reason::backlog_timeout,
+               "waited " + seconds_text(job.backlog_timeout) + " on its path"});
     } else if (overruns(job, state.now)) {
       fail_overdue(state, record);
     }

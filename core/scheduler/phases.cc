@@ -38,8 +38,11 @@ void end_as(State& state, Record& record, const AfterStop& after, const char* ca
   end(state, record, expires ? JobState::expired : JobState::failed, after.reason, after.detail);
 }
 
-const char* canceled_at_rest(const Job& job) {
-  return job.has_started() ? "canceled while holding" : "canceled before it moved";
+// Its arms stand: where it began, or on its path with the motion still told to them.
+void end_at_rest(State& state, Record& record, const AfterStop& after) {
+  const bool held = record.job.has_started();
+  end_as(state, record, after, held ? "canceled while holding" : "canceled before it moved");
+  if (held) release(state, record.job.id);
 }
 
 // Stopped before it had moved: it waits in the queue again, as if it had not been admitted; but
@@ -114,12 +117,7 @@ void brake(State& state, Record& record, AfterStop after) {
 void withdraw(State& state, Record& record, const AfterStop& after) {
   ++state.version;  // others may have counted on its departure
   Job& job = record.job;
-  if (after.then != Then::hold) {
-    const bool held = job.has_started();
-    end_as(state, record, after, canceled_at_rest(job));
-    if (held) release(state, job.id);
-    return;
-  }
+  if (after.then != Then::hold) return end_at_rest(state, record, after);
   leave_graph(state, record);
   if (job.has_started()) {
     enter(state, record, Held{});
@@ -157,11 +155,9 @@ void come_to_rest(State& state, Record& record, const MotionReport& report) {
   release(state, job.id);
 }
 
-void cancel(State& state, Record& record) {
-  if (record.job.has_authority()) return brake(state, record, {.then = Then::cancel});
-  const bool held = record.job.in<Held>() != nullptr;
-  end(state, record, JobState::canceled, Reason::canceled_by_client, canceled_at_rest(record.job));
-  if (held) release(state, record.job.id);
+void give_up(State& state, Record& record, const AfterStop& after) {
+  if (record.job.has_authority()) return brake(state, record, after);
+  end_at_rest(state, record, after);
 }
 
 void stop_arms(State& state, const Stop& stop) {

@@ -19,13 +19,14 @@ void interrupt(State& state);
 // arms know nothing of it yet is withdrawn. A cancel or a failure outlives a later stop; a stop
 // never turns one into a mere hold.
 void brake(State& state, Record& record, AfterStop after);
+// It is canceled or fails (`after` does not hold it): at once where it stands, else when its arms
+// have come to rest.
+void give_up(State& state, Record& record, const AfterStop& after);
 // An admitted job whose arms know nothing of it yet: it waits again, or ends.
 void withdraw(State& state, Record& record, const AfterStop& after);
 // At its end, or where it was to stop, or did by itself. Report: not `progressed`.
 void come_to_rest(State& state, Record& record, const MotionReport& report);
 
-// Canceled by a client: at once, or when its arms are at rest.
-void cancel(State& state, Record& record);
 // Arms shall not move until they are resumed; what was not told to them keeps its place.
 void stop_arms(State& state, const Stop& stop);
 

@@ -127,7 +127,8 @@ void Scheduler::on(const Submit& input) {
 
 void Scheduler::on(const Cancel& input) {
   Record* record = state_.jobs.find(input.job);
-  if (record != nullptr && !record->job.has_ended()) cancel(state_, *record);
+  if (record == nullptr || record->job.has_ended()) return;
+  give_up(state_, *record, {.then = AfterStop::Then::cancel});
 }
 
 void Scheduler::on(const MotionReport& input) {
@@ -212,7 +213,7 @@ std::optional<Duration> Scheduler::earliest_start(const Question& question,
       as_candidate(state_.jobs.at(question.candidates.front().job).job)};
   const PassingOrders orders =
       orders_in_time(state_.graph.question(candidate, verdict.regions), std::nullopt);
-  if (!orders.obstacles.empty()) return std::nullopt;
+  if (!orders.blockers.empty()) return std::nullopt;
   return orders.prediction.begins.back();
 }
 

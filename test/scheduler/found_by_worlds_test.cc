@@ -158,7 +158,7 @@ TEST(Blockades, ATeamThatRestsInTheWayIsThereUntilAllOfItsArmsHaveLeft) {
   const auto admit = [&](const CoordinatedMotion& motion, const std::vector<PairRegions>& regions) {
     const std::vector<CoordinatedMotion> candidates{motion};
     const PassingOrders orders = cheapest_orders(graph.question(candidates, regions));
-    ASSERT_TRUE(orders.obstacles.empty());
+    ASSERT_TRUE(orders.blockers.empty());
     graph.admit(candidates, orders);
   };
   admit({.job = both, .arms = {ArmId{0}, ArmId{1}}, .duration = 5s}, {});

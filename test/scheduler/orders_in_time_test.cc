@@ -27,7 +27,7 @@ struct InTime : ::testing::Test {
   PassingOrders admit(const CoordinatedMotion& candidate, const std::vector<PairRegions>& regions,
                       std::optional<Duration> latest = std::nullopt) {
     PassingOrders orders = decide(candidate, regions, latest);
-    if (orders.obstacles.empty()) graph.admit({candidate}, orders);
+    if (orders.blockers.empty()) graph.admit({candidate}, orders);
     return orders;
   }
 };
@@ -38,7 +38,7 @@ const std::vector<PairRegions> kMeet{{kB, kA, {region(ProgressBox{1s, 2s, 4s, 6s
 TEST_F(InTime, WhoIsThroughByTheClockBeforeTheOtherComesPassesFirst) {
   admit(motion(kA, 0, 10s), {});
   const auto orders = admit(motion(kB, 1, 3s), kMeet);
-  ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
+  ASSERT_THAT(orders.blockers, ::testing::IsEmpty());
   EXPECT_EQ(orders.precedences.front().first(), kB);
   EXPECT_THAT(orders.prediction.begins, ElementsAre(0s, 0s));
   EXPECT_EQ(graph.limit(kA), 4s - kShortOf);
@@ -49,7 +49,7 @@ TEST_F(InTime, WhoIsNotBeginsSoMuchLaterThatItPassesSecondWithoutAStop) {
   admit(motion(kA, 0, 10s), {});
   graph.progress(kA, 3s);  // is there in 1 s, gone in 3 s
   const auto orders = admit(motion(kB, 1, 3s), kMeet);
-  ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
+  ASSERT_THAT(orders.blockers, ::testing::IsEmpty());
   EXPECT_EQ(orders.precedences.front().first(), kA);
   EXPECT_EQ(orders.prediction.begins.back(), 2s + kShortOf) << "and 1 s to short of the place";
   EXPECT_EQ(orders.prediction.ends.back(), 5s + kShortOf);
@@ -61,7 +61,7 @@ TEST_F(InTime, FromThenOnItWaitsForWhatHasHappenedAndNotForTheClock) {
   admit(motion(kB, 1, 3s), kMeet);
   graph.progress(kA, 5s + kShortOf - 1ms);  // however long that took
   EXPECT_EQ(graph.limit(kB), 0s);
-  EXPECT_EQ(graph.held_back(kB)->by, kA);
+  EXPECT_EQ(graph.held_back(kB)->other, kA);
   graph.progress(kA, 5s + kShortOf);
   EXPECT_EQ(graph.limit(kB), 1s - kShortOf) << "off, and to the place where A still is";
   graph.progress(kA, 6s);
@@ -71,12 +71,12 @@ TEST_F(InTime, FromThenOnItWaitsForWhatHasHappenedAndNotForTheClock) {
 TEST_F(InTime, NothingLaterThanLatestIsTaken) {
   admit(motion(kA, 0, 10s), {});
   graph.progress(kA, 3s);
-  EXPECT_THAT(decide(motion(kB, 1, 3s), kMeet, 2s).obstacles, ::testing::IsEmpty());
+  EXPECT_THAT(decide(motion(kB, 1, 3s), kMeet, 2s).blockers, ::testing::IsEmpty());
   for (const Duration latest : {Duration{}, Duration(2s) - Duration(1)}) {
     const auto refused = decide(motion(kB, 1, 3s), kMeet, latest);
-    ASSERT_EQ(refused.obstacles.size(), 1u);
-    EXPECT_EQ(refused.obstacles[0].candidate, kB);
-    EXPECT_EQ(refused.obstacles[0].other, kA);
+    ASSERT_EQ(refused.blockers.size(), 1u);
+    EXPECT_EQ(refused.blockers[0].blocked, kB);
+    EXPECT_EQ(refused.blockers[0].other, kA);
   }
 }
 
@@ -88,7 +88,7 @@ TEST_F(InTime, WhoComesLaterAnywayGoesNow) {
     admit(motion(kA, 0, 10s), {});
     const ConflictRegion meet = region(ProgressBox{comes, 7s, 4s, 6s});
     const auto orders = admit(motion(kB, 1, 10s), {{kB, kA, {meet}}}, Duration{});
-    ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
+    ASSERT_THAT(orders.blockers, ::testing::IsEmpty());
     if (comes == 6s) {
       EXPECT_EQ(graph.limit(kB), 0s);
       EXPECT_EQ(orders.prediction.begins.back(), kShortOf);
@@ -109,7 +109,7 @@ TEST_F(InTime, TheLeastShiftThatPassesAllRegionsIsTaken) {
        {kB,
         kC,
         {region(ProgressBox{500ms, 1500ms, 1s, 2s}), region(ProgressBox{500ms, 1500ms, 6s, 8s})}}});
-  ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
+  ASSERT_THAT(orders.blockers, ::testing::IsEmpty());
   EXPECT_EQ(orders.prediction.begins.back(), 2500ms + kShortOf);
   EXPECT_EQ(graph.limit(kC), 6s - kShortOf) << "behind B";
   EXPECT_EQ(graph.limit(kA), 10s) << "before B";
@@ -127,7 +127,7 @@ TEST_F(InTime, AStartIsCountedByThatOfWhoWaitsForAnother) {
   // C meets B's goal from its start on, and B ends there: it passes before B comes.
   const auto orders =
       admit(motion(kC, 2, 1s), {{kC, kB, {region(ProgressBox{0s, 500ms, 1s, 2s})}}});
-  ASSERT_THAT(orders.obstacles, ::testing::IsEmpty());
+  ASSERT_THAT(orders.blockers, ::testing::IsEmpty());
   EXPECT_EQ(graph.limit(kB), 1s - kShortOf);
 }
 
@@ -135,8 +135,8 @@ TEST_F(InTime, WhoEndsInTheWayIsAnObstacleAndItsArmIsNamed) {
   admit(motion(kA, 0, 5s), {});
   const auto refused =
       decide(motion(kB, 1, 3s), {{kB, kA, {region(ProgressBox{1s, 2s, 500ms, 5s})}}});
-  ASSERT_EQ(refused.obstacles.size(), 1u);
-  EXPECT_EQ(refused.obstacles[0].other, kA);
+  ASSERT_EQ(refused.blockers.size(), 1u);
+  EXPECT_EQ(refused.blockers[0].other, kA);
   EXPECT_THAT(refused.in_the_way, ElementsAre(ArmId{0}));
 }
 
@@ -153,8 +153,8 @@ TEST_F(InTime, OrdersOfBeforeStay) {
 TEST_F(InTime, AnArmAtRestInTheWayIsAnObstacleAtOnce) {
   const auto refused =
       decide(motion(kA, 0, 5s), {{kA, ArmId{2}, {region(ProgressBox{2s, 3s, 0s, 0s})}}});
-  ASSERT_EQ(refused.obstacles.size(), 1u);
-  EXPECT_EQ(refused.obstacles[0].arm, ArmId{2});
+  ASSERT_EQ(refused.blockers.size(), 1u);
+  EXPECT_EQ(refused.blockers[0].arm, ArmId{2});
 }
 
 // ---- Gates at the start ----
@@ -183,11 +183,11 @@ TEST_F(InTime, ApartGoesOnlyWhatMeetsNothing) {
   const std::vector<CoordinatedMotion> b{motion(kB, 1, 3s)}, c{motion(kC, 2, 3s)};
   const std::vector<PairRegions> none;
   const auto refused = orders_apart(graph.question(b, kMeet));
-  ASSERT_EQ(refused.obstacles.size(), 1u);
-  EXPECT_EQ(refused.obstacles[0].other, kA);
-  EXPECT_THAT(orders_apart(graph.question(c, none)).obstacles, ::testing::IsEmpty());
+  ASSERT_EQ(refused.blockers.size(), 1u);
+  EXPECT_EQ(refused.blockers[0].other, kA);
+  EXPECT_THAT(orders_apart(graph.question(c, none)).blockers, ::testing::IsEmpty());
   graph.progress(kA, 6s + 1ns);
-  EXPECT_THAT(orders_apart(graph.question(b, kMeet)).obstacles, ::testing::IsEmpty()) << "passed";
+  EXPECT_THAT(orders_apart(graph.question(b, kMeet)).blockers, ::testing::IsEmpty()) << "passed";
 }
 
 // ---- The parts ----

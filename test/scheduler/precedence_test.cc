@@ -70,7 +70,7 @@ struct Graph : ::testing::Test {
   PassingOrders admit(const std::vector<CoordinatedMotion>& candidates,
                       const std::vector<PairRegions>& regions) {
     PassingOrders orders = cheapest_orders(graph.question(candidates, regions));
-    if (orders.obstacles.empty()) graph.admit(candidates, orders);
+    if (orders.blockers.empty()) graph.admit(candidates, orders);
     return orders;
   }
 };
@@ -91,22 +91,22 @@ TEST_F(Graph, NobodyIsPassedWhereItHasAuthority) {
   admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
   EXPECT_EQ(graph.limit(kA), 10s);
   EXPECT_EQ(graph.limit(kB), 1s - kShortOf);
-  EXPECT_EQ(graph.held_back(kB)->by, kA);
+  EXPECT_EQ(graph.held_back(kB)->other, kA);
   EXPECT_EQ(graph.held_back(kB)->proximity.body_a, "a");
 }
 
 TEST_F(Graph, AGoalInTheOthersWayIsPassedBeforeItIsReached) {
   admit({motion(kA, 0, 5s)}, {});
   const auto orders = admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}});
-  ASSERT_TRUE(orders.obstacles.empty());
+  ASSERT_TRUE(orders.blockers.empty());
   EXPECT_EQ(graph.limit(kA), 4s - kShortOf);
   EXPECT_EQ(graph.limit(kB), 5s);
 }
 
 TEST_F(Graph, AnArmAtRestInTheWayIsAnObstacle) {
   const auto orders = admit({motion(kA, 0, 5s)}, {{kA, ArmId{2}, {region({{2s, 3s, 0s, 0s}})}}});
-  ASSERT_EQ(orders.obstacles.size(), 1U);
-  EXPECT_EQ(orders.obstacles[0].arm, ArmId{2});
+  ASSERT_EQ(orders.blockers.size(), 1U);
+  EXPECT_EQ(orders.blockers[0].arm, ArmId{2});
   EXPECT_EQ(orders.in_the_way, std::vector<ArmId>{ArmId{2}});
 }
 
@@ -116,7 +116,7 @@ const std::vector<PairRegions> kSwap{
 
 TEST_F(Graph, ASwapSucceedsWhereThereIsRoomToPass) {
   const auto orders = admit({motion(kA, 0, 5s), motion(kB, 1, 5s)}, kSwap);
-  ASSERT_TRUE(orders.obstacles.empty());
+  ASSERT_TRUE(orders.blockers.empty());
   EXPECT_EQ(graph.limit(kA), 4s - kShortOf);
   EXPECT_EQ(graph.limit(kB), 3s - kShortOf);
 }
@@ -124,9 +124,9 @@ TEST_F(Graph, ASwapSucceedsWhereThereIsRoomToPass) {
 TEST_F(Graph, ASwapWithoutRoomIsARing) {
   const auto orders = admit({motion(kA, 0, 5s), motion(kB, 1, 5s)},
                             {{kA, kB, {region({{2s, 5s, 0s, 3s}}), region({{0s, 3s, 2s, 5s}})}}});
-  ASSERT_FALSE(orders.obstacles.empty());
-  EXPECT_EQ(orders.obstacles[0].candidate, kA);
-  EXPECT_EQ(orders.obstacles[0].other, kB);
+  ASSERT_FALSE(orders.blockers.empty());
+  EXPECT_EQ(orders.blockers[0].blocked, kA);
+  EXPECT_EQ(orders.blockers[0].other, kB);
 }
 
 // A's first motion comes to rest in B's way and its next one leaves.
@@ -134,11 +134,11 @@ TEST_F(Graph, WhoLetsTheFirstMotionComeToRestLetsTheNextOneLeave) {
   admit({motion(kA, 0, 5s)}, {});
   graph.granted(kA, 5s);
   EXPECT_FALSE(
-      admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}}).obstacles.empty());
+      admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}}).blockers.empty());
   const auto orders =
       admit({motion(kB, 1, 5s), motion(kNext, 0, 4s)},
             {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 1s}})}}});
-  ASSERT_TRUE(orders.obstacles.empty());
+  ASSERT_TRUE(orders.blockers.empty());
   EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
   graph.progress(kA, 5s);
   graph.finish(kA);
@@ -259,9 +259,9 @@ TEST(PassingOrders, NobodyWaitsForADepartureThatFollowsItself) {
   const std::vector<CoordinatedMotion> candidates = {motion(kB, 1, 5s), of_both(kNext, 2s)};
   const std::vector<PairRegions> regions = {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}};
   const auto orders = cheapest_orders(graph.question(candidates, regions));
-  ASSERT_EQ(orders.obstacles.size(), 1u);
-  EXPECT_EQ(orders.obstacles[0].candidate, kB);
-  EXPECT_EQ(orders.obstacles[0].other, kA);
+  ASSERT_EQ(orders.blockers.size(), 1u);
+  EXPECT_EQ(orders.blockers[0].blocked, kB);
+  EXPECT_EQ(orders.blockers[0].other, kA);
 }
 
 // A brings both arms to where B begins, in C's way; C begins when A has ended.
@@ -271,7 +271,7 @@ TEST(PassingOrders, NobodyPassesAStartAtWhichTheOtherStandsByThen) {
   const std::vector<CoordinatedMotion> candidates = {motion(kB, 0, 50s), motion(kC, 1, 5s)};
   const std::vector<PairRegions> regions = {{kB, kC, {region({{0s, 40s, 2s, 3s}})}}};
   const auto orders = cheapest_orders(graph.question(candidates, regions));
-  EXPECT_TRUE(orders.obstacles.empty());
+  EXPECT_TRUE(orders.blockers.empty());
   ASSERT_EQ(orders.precedences.size(), 1u);
   EXPECT_EQ(orders.precedences[0].first(), kB);
 }

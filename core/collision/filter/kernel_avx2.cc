@@ -1,7 +1,7 @@
 // Four doubles or eight floats at once; compiled for AVX2, run only where the processor has it.
 #include <immintrin.h>
 
-#include "core/collision/filter/kernel_lanes.h"
+#include "core/collision/filter/kernel_pairs.h"
 
 namespace armloom::filter {
 namespace {

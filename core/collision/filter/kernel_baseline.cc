@@ -1,7 +1,7 @@
 // Two doubles or four floats at once: SSE2, which every x86-64 has.
 #include <immintrin.h>
 
-#include "core/collision/filter/kernel_lanes.h"
+#include "core/collision/filter/kernel_pairs.h"
 
 namespace armloom::filter {
 namespace {

@@ -1,7 +1,7 @@
 // One lane at a time: the reference that the vector kernels are held against.
 #include <cmath>
 
-#include "core/collision/filter/kernel_lanes.h"
+#include "core/collision/filter/kernel_pairs.h"
 
 namespace armloom::filter {
 namespace {

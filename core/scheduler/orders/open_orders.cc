@@ -41,7 +41,7 @@ void OpenOrders::add(const PairRegions& pair) {
   const std::size_t a = *index_of(pair.a);
   if (const auto* arm = std::get_if<ArmId>(&pair.b)) {
     for (const ConflictRegion& region : pair.regions) {
-      answer_.obstacles.push_back(
+      answer_.blockers.push_back(
           {pair.a, std::nullopt, *arm, region.proximity, region.time_a, region.time_b});
       answer_.in_the_way.push_back(*arm);
     }
@@ -233,8 +233,8 @@ void OpenOrders::report(std::size_t d) {
   const OpenOrder& order = orders_[d];
   const ConflictRegion& region = order.region;
   const bool own_is_a = order.a >= first_candidate_;
-  answer_.obstacles.push_back(
-      {.candidate = motions_[own_is_a ? order.a : order.b].job,
+  answer_.blockers.push_back(
+      {.blocked = motions_[own_is_a ? order.a : order.b].job,
        .other = motions_[own_is_a ? order.b : order.a].job,
        .arm = std::nullopt,
        .proximity = own_is_a ? region.proximity : turned_around(region.proximity),

@@ -48,7 +48,7 @@ class OpenOrders {
   [[nodiscard]] std::size_t decided() const { return decided_; }
   // Unless blocked, each has an option, and is set to the first of them.
   [[nodiscard]] std::vector<OrderChoice>& choices() { return choices_; }
-  [[nodiscard]] bool blocked() const { return !answer_.obstacles.empty(); }
+  [[nodiscard]] bool blocked() const { return !answer_.blockers.empty(); }
 
   void set(OrderChoice& choice, bool value);
   // Who passes second shall not have to stop on its way for it: it waits at its start.

@@ -14,12 +14,12 @@
 
 namespace armloom {
 
-// Why a candidate cannot be admitted.
-struct Obstacle {
-  JobId candidate;
-  std::optional<JobId> other;  // the motion that it cannot pass ...
+// What keeps a motion from being admitted, or, where it is, from going on.
+struct Blocker {
+  JobId blocked;
+  std::optional<JobId> other;  // the motion that passes first, or that it cannot pass ...
   std::optional<ArmId> arm;    // ... or the arm that rests in its way
-  Proximity proximity;         // evidence; body_a is the candidate's
+  Proximity proximity;         // evidence; body_a is the blocked one's
   Duration own_time;
   Duration other_time;
 };
@@ -37,7 +37,7 @@ struct OrderQuestion {
 struct PassingOrders {
   std::vector<Precedence> precedences;  // of every region, if admitted; those of before included
   Prediction prediction;                // of the admitted motions, then the candidates
-  std::vector<Obstacle> obstacles;      // empty: admitted
+  std::vector<Blocker> blockers;        // of candidates; empty: admitted
   std::vector<ArmId> in_the_way;  // arms that end or rest in the way: a next motion of theirs might
                                   // open it; ascending
 };

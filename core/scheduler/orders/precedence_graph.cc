@@ -100,7 +100,7 @@ Duration PrecedenceGraph::limit(JobId job) const {
   return limit;
 }
 
-std::optional<HeldBack> PrecedenceGraph::held_back(JobId job) const {
+std::optional<Blocker> PrecedenceGraph::held_back(JobId job) const {
   const CoordinatedMotion* found = find(job);
   if (found == nullptr) return std::nullopt;
   const Duration at = limit(job);
@@ -114,8 +114,8 @@ std::optional<HeldBack> PrecedenceGraph::held_back(JobId job) const {
     if (precedence.second() != job) continue;
     if (precedence.limit(find(precedence.first())->progress) != at) continue;
     const ConflictRegion& region = precedence.region();
-    return HeldBack{precedence.first(), std::nullopt, turned_around(region.proximity),
-                    region.time_b, region.time_a};
+    return Blocker{job,           precedence.first(), std::nullopt, turned_around(region.proximity),
+                   region.time_b, region.time_a};
   }
   return std::nullopt;
 }
@@ -203,9 +203,12 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& 
       });
       if (own_to <= passed || !rests_in(at, farthest, from, to, motion.duration, seam)) continue;
       if (!blockade) {
-        HeldBack evidence{
-            std::nullopt, arms.front(), first ? turned_around(region.proximity) : region.proximity,
-            first ? region.time_b : region.time_a, first ? region.time_a : region.time_b};
+        Blocker evidence{other,
+                         std::nullopt,
+                         arms.front(),
+                         first ? turned_around(region.proximity) : region.proximity,
+                         first ? region.time_b : region.time_a,
+                         first ? region.time_a : region.time_b};
         const auto named = evidence.proximity.arm_b;
         if (named && std::ranges::find(arms, *named) != arms.end()) evidence.arm = named;
         const auto goal_of = is_there ? std::nullopt : std::optional(motion.job);

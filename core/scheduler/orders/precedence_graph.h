@@ -7,15 +7,6 @@
 
 namespace armloom {
 
-// What keeps an admitted motion from going on.
-struct HeldBack {
-  std::optional<JobId> by;   // the motion that passes first ...
-  std::optional<ArmId> arm;  // ... or the arm that came to rest in its way
-  Proximity proximity;       // evidence; body_a is the held motion's
-  Duration own_time;
-  Duration other_time;
-};
-
 // The admitted motions of a cell with the passing orders between them, and what follows from both:
 // how far each may go. The invariant: for any two of them, with their progress s and authority
 // alpha, the rectangle [s_A, alpha_A] x [s_B, alpha_B] is certified free; so any may be late, slow
@@ -48,7 +39,7 @@ class PrecedenceGraph {
   // another motion of one of its arms comes before it.
   [[nodiscard]] Duration limit(JobId job) const;
   // What holds it at its limit; nothing: it may go to its end, or waits for its own arm.
-  [[nodiscard]] std::optional<HeldBack> held_back(JobId job) const;
+  [[nodiscard]] std::optional<Blocker> held_back(JobId job) const;
   // Whether all come to their ends by their orders, but for arms that rest in the way.
   [[nodiscard]] bool is_acyclic() const;
   // Told to the arm. No more than limit(): else throws std::logic_error.
@@ -68,8 +59,8 @@ class PrecedenceGraph {
     std::optional<JobId> goal_of;  // they will rest there when this one has come to its end
     JobId job;
     Duration limit;
-    Duration until;     // beyond it the motion has passed
-    HeldBack evidence;  // names one of these arms
+    Duration until;    // beyond it the motion has passed
+    Blocker evidence;  // names one of these arms
 
     void leave(const std::vector<ArmId>& left);
   };

@@ -65,12 +65,7 @@ void resolve(State& state, const WaitCycle& ring) {
                       record.job.system_job, id);
   };
   Record& last = state.jobs.at(*std::ranges::max_element(ring, {}, dispensable));
-  if (last.job.has_authority()) {
-    return brake(state, last, {AfterStop::Then::fail, Reason::deadlock, ""});
-  }
-  const bool held = last.job.in<Held>() != nullptr;
-  end(state, last, JobState::failed, Reason::deadlock, "");
-  if (held) state.effects.push_back(Release{last.job.id});
+  give_up(state, last, {AfterStop::Then::fail, Reason::deadlock});
 }
 
 }  // namespace

@@ -17,18 +17,13 @@ Wait wait_for(const Conflict& conflict) {
   return wait;
 }
 
-Wait wait_for(const HeldBack& held) {
-  return Wait{.kind = held.by ? Wait::Kind::job : Wait::Kind::arm,
-              .job = held.by,
-              .arm = held.arm ? held.arm : held.proximity.arm_b,
-              .proximity = held.proximity,
-              .own_time = held.own_time,
-              .other_time = held.other_time};
-}
-
-Wait wait_for(const Obstacle& obstacle) {
-  return wait_for(HeldBack{obstacle.other, obstacle.arm, obstacle.proximity, obstacle.own_time,
-                           obstacle.other_time});
+Wait wait_for(const Blocker& blocker) {
+  return Wait{.kind = blocker.other ? Wait::Kind::job : Wait::Kind::arm,
+              .job = blocker.other,
+              .arm = blocker.arm ? blocker.arm : blocker.proximity.arm_b,
+              .proximity = blocker.proximity,
+              .own_time = blocker.own_time,
+              .other_time = blocker.other_time};
 }
 
 }  // namespace armloom

@@ -1,7 +1,6 @@
 #include "core/scheduler/yielding/yield_moves.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -128,14 +127,12 @@ Question question_about(const State& state, const YieldTrial& move) {
   return question;
 }
 
-// Whether nothing that stays keeps the arm from its way, or, where that is free, the job from its
-// own: an object, the moving arm itself, an arm of the ring; or the arm that has gone aside.
-std::optional<bool> lets_through(const State& state, const Verdict& verdict,
-                                 const YieldTrial& move) {
-  const auto& own_queue = state.jobs.queue(move.arm);
-  const bool as_it_was =
-      move.before ? !own_queue.empty() && own_queue.front() == *move.before : own_queue.empty();
-  if (!as_it_was) return std::nullopt;
+bool is_as_asked(const State& state, const YieldTrial& move) {
+  const auto& queue = state.jobs.queue(move.arm);
+  return move.before ? !queue.empty() && queue.front() == *move.before : queue.empty();
+}
+
+bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& move) {
   const auto stays = [&](ArmId arm) {
     if (move.is_free) return arm == move.arm;
     const auto& queue = state.jobs.queue(arm);
@@ -175,15 +172,8 @@ bool is_counted_on(const State& state, const Record& own) {
   const auto next = std::find_if(std::ranges::find(queue, own.job.id), queue.end(), of_a_client);
   if (next == queue.end()) return false;
   if (own.job.has_started()) return true;
-  const Trajectory& motion = *state.jobs.at(*next).job.trajectory;
-  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
-    const JointId joint = motion.joints()[j];
-    if (state.cell->joint(joint).arm != arm) continue;
-    const double begins = motion.start()[static_cast<Eigen::Index>(j)];
-    const double stands = state.arms.rest()[static_cast<Eigen::Index>(joint.index())];
-    if (std::abs(begins - stands) > state.cell->execution.start_tolerance_rad) return true;
-  }
-  return false;
+  return state.arms.begins_elsewhere(*state.cell, *state.jobs.at(*next).job.trajectory, arm)
+      .has_value();
 }
 
 }  // namespace armloom

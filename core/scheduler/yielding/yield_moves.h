@@ -28,9 +28,11 @@ struct YieldTrial {
 
 // First whether the way itself will be free, then whether the job would find the arm gone.
 [[nodiscard]] Question question_about(const State& state, const YieldTrial& move);
-// Whether the answer lets it through; nothing: the arm has got a job meanwhile, or lost it.
-[[nodiscard]] std::optional<bool> lets_through(const State& state, const Verdict& verdict,
-                                               const YieldTrial& move);
+// The arm has got no job meanwhile, nor lost the one that it is to go before.
+[[nodiscard]] bool is_as_asked(const State& state, const YieldTrial& move);
+// Whether nothing that stays keeps the arm from its way, or, where that is free, the job from its
+// own: an object, the moving arm itself, an arm of the ring; or the arm that has gone aside.
+[[nodiscard]] bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& move);
 // It has been asked about to the end; it goes, or not.
 void note_tried(State& state, const YieldTrial& move, bool goes);
 

@@ -1,0 +1,263 @@
+#pragma once
+
+// The second part of the one source of the kernels (kernel_lanes.h): which pairs may be near.
+
+#include "core/collision/filter/kernel_lanes.h"
+
+namespace armloom::filter {
+namespace {
+
+// From (nearly) the nearest point of b's axis to that of a's; w: from b's centre to a's.
+template <class F>
+inline Vec<F> between_axes(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pair& pair) {
+  const F one = F::all(1.0F);
+  const F ab = dot(ha, hb);
+  const F aw = dot(ha, w);
+  const F bw = dot(hb, w);
+  const auto clamp = [&one](F x) { return F::max(F::all(-1.0F), F::min(one, x)); };
+  const F aa = F::all(pair.aa);
+  const F bb = F::all(pair.bb);
+  const F denominator = F::max(aa * bb - ab * ab, F::all(1e-12F));
+  F s = clamp((ab * bw - aw * bb) / denominator);
+  const F t = clamp((ab * s + bw) * F::all(pair.inv_bb));
+  s = clamp((ab * t - aw) * F::all(pair.inv_aa));
+  return {w.x + s * ha.x - t * hb.x, w.y + s * ha.y - t * hb.y, w.z + s * ha.z - t * hb.z};
+}
+
+// A lower bound of the distance of the axes: the gap between two planes that hold them apart,
+// across the direction of (nearly) nearest points. Errors of these points lower it, never raise it.
+template <class F>
+inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pair& pair) {
+  const Vec<F> v = between_axes(w, ha, hb, pair);
+  const F length = F::sqrt(dot(v, v));
+  const F gap = dot(v, w) - F::abs(dot(v, ha)) - F::abs(dot(v, hb));
+  return gap / F::max(length, F::all(1e-20F));
+}
+
+// How much farther than its centre a capsule's axis reaches along d, to first order of what the
+// joints may do.
+template <class F>
+inline F reach_along(const Joints& joints, int c, const Vec<F>& d, const Vec<F>& center,
+                     const Vec<F>& half, int l) {
+  const F along = dot(d, half);
+  if (joints.linkage == nullptr) return F::abs(along);
+  const Capsule& capsule = joints.linkage->capsules[c];
+  const int* ancestors = joints.linkage->ancestors + capsule.ancestors_begin;
+  F shifts = F::all(0.0F);
+  F ahead = along;                  // of the end at center + half
+  F behind = F::all(0.0F) - along;  // of the other one
+  for (int k = 0; k < capsule.depth; ++k) {
+    const int f = ancestors[k];
+    const Vec<F> axis = Vec<F>::load(joints.axes + (f * 6 + 3) * kLanes + l);
+    const F span = F::load(joints.span + f * kLanes + l);
+    if (joints.linkage->frames[f].prismatic) {
+      shifts = shifts + span * F::abs(dot(d, axis));
+      continue;
+    }
+    const Vec<F> moment = cross(d, axis);
+    const F middle = dot(moment, minus(center, Vec<F>::load(joints.axes + f * 6 * kLanes + l)));
+    const F end = dot(moment, half);
+    ahead = ahead + span * F::abs(middle + end);
+    behind = behind + span * F::abs(middle - end);
+  }
+  return (F::max(ahead, behind) + shifts) * F::all(1.00001F) +
+         F::load(joints.bend + c * kLanes + l);
+}
+
+// Roundings: as axis_gap() but for the direction's, once more; those of moments are in `bend`.
+template <class F>
+unsigned keep_apart(const Side& a, const Joints& of_a, const Side& b, const Joints& of_b,
+                    const Pair& pair, unsigned lanes) {
+  const float* at_a = a.capsules + pair.a * 6 * kLanes;
+  const float* at_b = b.capsules + pair.b * 6 * kLanes;
+  unsigned open = 0;
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    const Vec<F> center_a = Vec<F>::load(at_a + l);
+    const Vec<F> center_b = Vec<F>::load(at_b + l);
+    const Vec<F> half_a = Vec<F>::load(at_a + 3 * kLanes + l);
+    const Vec<F> half_b = Vec<F>::load(at_b + 3 * kLanes + l);
+    const Vec<F> w = minus(center_a, center_b);
+    const Vec<F> v = between_axes(w, half_a, half_b, pair);
+    const F length = F::max(F::sqrt(dot(v, v)), F::all(1e-20F));
+    const Vec<F> d = {v.x / length, v.y / length, v.z / length};
+    const F zero = F::all(0.0F);
+    const Vec<F> back = {zero - d.x, zero - d.y, zero - d.z};
+    const F gap = dot(d, w) - reach_along(of_a, pair.a, back, center_a, half_a, l) -
+                  reach_along(of_b, pair.b, d, center_b, half_b, l);
+    open |= F::not_at_least(gap, F::all(pair.limit_up + pair.radii_up + 1e-6F)) << l;
+  }
+  return lanes & ~open;
+}
+
+// About the middle of the box around the capsules' centres.
+template <class F>
+void enclose(const Linkage& linkage, const float* capsules, const float* inflation, const int* rows,
+             float* ball) {
+  if (linkage.capsule_count == 0) {  // an arm without shapes: nothing is compared with it
+    for (int i = 0; i < 4 * kLanes; ++i) ball[i] = 0.0F;
+    return;
+  }
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    Vec<F> low = Vec<F>::load(capsules + l);
+    Vec<F> high = low;
+    for (int c = 1; c < linkage.capsule_count; ++c) {
+      const Vec<F> p = Vec<F>::load(capsules + c * 6 * kLanes + l);
+      low = {F::min(low.x, p.x), F::min(low.y, p.y), F::min(low.z, p.z)};
+      high = {F::max(high.x, p.x), F::max(high.y, p.y), F::max(high.z, p.z)};
+    }
+    const F half = F::all(0.5F);
+    const Vec<F> center = {(low.x + high.x) * half, (low.y + high.y) * half,
+                           (low.z + high.z) * half};
+    F radius = F::all(0.0F);
+    for (int c = 0; c < linkage.capsule_count; ++c) {
+      const Vec<F> w = minus(Vec<F>::load(capsules + c * 6 * kLanes + l), center);
+      F far = F::sqrt(dot(w, w)) * F::all(1.00001F) + F::all(linkage.capsules[c].ball_up);
+      if (inflation != nullptr) far = far + F::load(inflation + rows[c] * kLanes + l);
+      radius = F::max(radius, far);
+    }
+    center.x.store(ball + l);
+    center.y.store(ball + kLanes + l);
+    center.z.store(ball + 2 * kLanes + l);
+    radius.store(ball + 3 * kLanes + l);
+  }
+}
+
+// Whether the pair is undecided in some of the lanes; then its hit is filled.
+template <class F, bool kMoving>
+inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& hit) {
+  const float* at_a = a.capsules + pair.a * 6 * kLanes;
+  const float* at_b = b.capsules + pair.b * 6 * kLanes;
+  unsigned near = 0;
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    const Vec<F> w = minus(Vec<F>::load(at_a + l), Vec<F>::load(at_b + l));
+    F inflation = F::all(0.0F);
+    F keep = F::all(pair.limit_up + pair.radii_up);
+    if constexpr (kMoving) {
+      inflation = F::load(a.inflation + pair.row_a * kLanes + l) +
+                  F::load(b.inflation + pair.row_b * kLanes + l);
+      keep = keep + inflation;
+    }
+    const F reach = keep + F::all(pair.ends_up);
+    if (F::not_at_least(dot(w, w), reach * reach) == 0) continue;
+    const Vec<F> ha = Vec<F>::load(at_a + 3 * kLanes + l);
+    // The ball of b against the axis of a.
+    const F one = F::all(1.0F);
+    const F t = F::max(F::all(-1.0F), F::min(one, dot(ha, w) * F::all(-pair.inv_aa)));
+    const Vec<F> v = {w.x + t * ha.x, w.y + t * ha.y, w.z + t * ha.z};
+    const F ball = keep + F::all(pair.end_b_up);
+    if (F::not_at_least(dot(v, v), ball * ball) == 0) continue;
+    const Vec<F> hb = Vec<F>::load(at_b + 3 * kLanes + l);
+    const F gap = axis_gap(w, ha, hb, pair);
+    near |= F::not_at_least(gap, keep) << l;
+    (gap - F::all(pair.radii_up)).store(hit.distance + l);
+    inflation.store(hit.inflation + l);
+  }
+  return near;
+}
+
+// Whether the group's capsule, one of `own`, may come near the other side's ball in some lane.
+template <class F, bool kMoving>
+inline bool near_ball(const Side& own, const Side& other, const Group& group) {
+  const float* at = own.capsules + group.capsule * 6 * kLanes;
+  unsigned near = 0;
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    const Vec<F> w = minus(Vec<F>::load(at + l), Vec<F>::load(other.ball + l));
+    F reach = F::load(other.ball + 3 * kLanes + l) + F::all(group.limit_up + group.size_up);
+    if constexpr (kMoving) reach = reach + F::load(own.inflation + group.row * kLanes + l);
+    near |= F::not_at_least(dot(w, w), reach * reach);
+  }
+  return near != 0;
+}
+
+// Whether the balls of both sides may come near each other in some lane.
+template <class F>
+inline bool near_balls(const Side& a, const Side& b, float limit_up) {
+  unsigned near = 0;
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    const Vec<F> w = minus(Vec<F>::load(a.ball + l), Vec<F>::load(b.ball + l));
+    const F reach =
+        (F::load(a.ball + 3 * kLanes + l) + F::load(b.ball + 3 * kLanes + l) + F::all(limit_up)) *
+        F::all(1.00001F);
+    near |= F::not_at_least(dot(w, w), reach * reach);
+  }
+  return near != 0;
+}
+
+template <class F, bool kMoving>
+int near_pairs_of(const Side& a, const Side& b, const Pair* pairs, int count, const Groups& groups,
+                  unsigned lanes, Hit* hits) {
+  int found = 0;
+  unsigned long long of_b = ~0ULL;  // capsules of b that are looked at, where they are counted out
+  const auto look = [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      if (groups.other_count > 0 && (of_b >> pairs[p].b & 1U) == 0) continue;
+      Hit& hit = hits[found];
+      hit.pair = p;
+      hit.lanes = near_pair<F, kMoving>(a, b, pairs[p], hit) & lanes;
+      found += hit.lanes != 0 ? 1 : 0;
+    }
+  };
+  if (groups.count == 0) look(0, count);
+  if (groups.other_count > 0) {
+    if (!near_balls<F>(a, b, groups.limit_up)) return 0;
+    of_b = 0;
+    for (int o = 0; o < groups.other_count; ++o) {
+      const Group& other = groups.others[o];
+      if (near_ball<F, kMoving>(b, a, other)) of_b |= 1ULL << other.capsule;
+    }
+    if (of_b == 0) return 0;
+  }
+  for (int g = 0; g < groups.count; ++g) {
+    const Group& group = groups.all[g];
+    const bool near =
+        groups.of_b ? near_ball<F, kMoving>(b, a, group) : near_ball<F, kMoving>(a, b, group);
+    if (near) look(group.begin, group.end);
+  }
+  return found;
+}
+
+template <class F>
+int near_pairs(const Side& a, const Side& b, const Pair* pairs, int count, const Groups& groups,
+               unsigned lanes, Hit* hits) {
+  if (a.inflation == nullptr && b.inflation == nullptr) {
+    return near_pairs_of<F, false>(a, b, pairs, count, groups, lanes, hits);
+  }
+  return near_pairs_of<F, true>(a, b, pairs, count, groups, lanes, hits);
+}
+
+// The gap across the box's faces: a lower bound, the distance itself before a face.
+template <class F>
+int near_boxes(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits) {
+  int found = 0;
+  for (int p = 0; p < count; ++p) {
+    const BoxPair& pair = pairs[p];
+    const float* at = a.capsules + pair.a * 6 * kLanes;
+    Hit& hit = hits[found];
+    unsigned near = 0;
+    for (int l = 0; l < kLanes; l += F::kLanes) {
+      Vec<F> w = Vec<F>::load(at + l);
+      w = {w.x - F::all(pair.center[0]), w.y - F::all(pair.center[1]),
+           w.z - F::all(pair.center[2])};
+      const Vec<F> half = Vec<F>::load(at + 3 * kLanes + l);
+      F gap = F::all(-1e9F);
+      for (int i = 0; i < 3; ++i) {
+        const Vec<F> axis = {F::all(pair.R[3 * i]), F::all(pair.R[3 * i + 1]),
+                             F::all(pair.R[3 * i + 2])};
+        gap = F::max(gap, F::abs(dot(axis, w)) - F::abs(dot(axis, half)) - F::all(pair.half_up[i]));
+      }
+      const F inflation =
+          a.inflation == nullptr ? F::all(0.0F) : F::load(a.inflation + pair.row_a * kLanes + l);
+      const F distance = gap - F::all(pair.radius_up);
+      near |= F::not_at_least(distance, F::all(pair.limit_up) + inflation) << l;
+      distance.store(hit.distance + l);
+      inflation.store(hit.inflation + l);
+    }
+    hit.pair = p;
+    hit.lanes = near & lanes;
+    found += hit.lanes != 0 ? 1 : 0;
+  }
+  return found;
+}
+
+}  // namespace
+}  // namespace armloom::filter

@@ -1,0 +1,96 @@
+// What the executive makes of what controllers say: played here by arms that say what they are
+// told.
+#include "core/executive/motions.h"
+
+#include <gtest/gtest.h>
+
+#include "test/collision/small_cell.h"
+#include "test/scheduler/one_joint_arms.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+
+class ToldArm final : public ArmController {
+ public:
+  explicit ToldArm(JointId joint) : joints_{joint} { says.measured = Eigen::VectorXd::Zero(1); }
+
+  const std::vector<JointId>& joints() const override { return joints_; }
+  void start(TrajectoryPtr, TimePoint, Duration, Duration) override {}
+  void grant(Duration authority) override { granted = authority; }
+  void brake() override { ++brakes; }
+  void release() override {}
+  const ArmFeedback& tick(TimePoint) override { return says; }
+
+  ArmFeedback says;
+  Duration granted{};
+  int brakes = 0;
+
+ private:
+  std::vector<JointId> joints_;
+};
+
+// Two arms of one joint each, and a motion of 4 s of the first or of both.
+class ToldArms : public ::testing::Test {
+ protected:
+  ToldArms() {
+    std::vector<std::unique_ptr<ArmController>> controllers;
+    for (std::uint32_t arm = 0; arm < 2; ++arm) {
+      auto told = std::make_unique<ToldArm>(cell->arms[arm].joints.front());
+      arms.push_back(told.get());
+      controllers.push_back(std::move(told));
+    }
+    motions = std::make_unique<Motions>(cell, std::move(controllers), cell->home());
+  }
+  void dispatch(const std::vector<ArmId>& of) {
+    const std::vector<double> begins(of.size(), -1.0), ends(of.size(), 1.0);
+    motions->dispatch({JobId{1}, TimePoint{}, Duration{}, 4s},
+                      small::sweep(*cell, of, begins, ends, 4s));
+  }
+  void say(std::size_t arm, Duration commanded, Duration measured) const {
+    arms[arm]->says.phase = ArmFeedback::Phase::moving;
+    arms[arm]->says.commanded_progress = commanded;
+    arms[arm]->says.measured_progress = measured;
+  }
+
+  CellPtr cell = one_joint_arms(2);
+  std::vector<ToldArm*> arms;
+  std::unique_ptr<Motions> motions;
+};
+
+TEST_F(ToldArms, OnlyMeasuredProgressIsReported) {
+  dispatch({ArmId{0}});
+  say(0, 2s, 1900ms);
+  const auto& reports = motions->tick(TimePoint{} + 1ms);
+  ASSERT_EQ(reports.size(), 1U);
+  EXPECT_EQ(reports.front().progress, 1900ms);
+}
+
+TEST_F(ToldArms, OfATeamTheLastOneCounts) {
+  dispatch({ArmId{0}, ArmId{1}});
+  say(0, 2s, 1900ms);
+  say(1, 1950ms, 1800ms);
+  const auto& reports = motions->tick(TimePoint{} + 1ms);
+  ASSERT_EQ(reports.size(), 1U);
+  EXPECT_EQ(reports.front().progress, 1800ms);
+}
+
+TEST_F(ToldArms, WhoGetsAheadOfItsTeamWaitsForIt) {
+  dispatch({ArmId{0}, ArmId{1}});
+  say(0, 2s, 2s);
+  say(1, 2s - 2 * kOutOfStep, 2s - 2 * kOutOfStep);
+  (void)motions->tick(TimePoint{} + 1ms);
+  EXPECT_EQ(arms[0]->granted, 2s - 2 * kOutOfStep);
+  EXPECT_EQ(arms[1]->granted, 4s);
+}
+
+TEST_F(ToldArms, AllBrakeAtOnce) {
+  dispatch({ArmId{0}});
+  motions->brake_all();
+  EXPECT_EQ(arms[0]->brakes, 1);
+  EXPECT_EQ(arms[1]->brakes, 1);
+}
+
+}  // namespace
+}  // namespace armloom
