@@ -144,6 +144,9 @@ void check_settings(const CellDescription& d, Findings& findings) {
         d.scheduling.on_idle_blocker);
   }
 
+  require(d.scheduling.horizon_legs >= 1 && d.scheduling.horizon_legs <= 32,
+          d.scheduling.horizon_legs, "/scheduling/horizon_legs", "from 1 to 32", findings);
+
   const MonitorSettings& monitor = d.monitor;
   require(monitor.rate_hz > 0.0 && monitor.rate_hz <= 1000.0, monitor.rate_hz, "/monitor/rate_hz",
           "greater than 0 and at most 1000 Hz", findings);

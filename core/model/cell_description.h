@@ -82,6 +82,7 @@ struct SchedulingSettings {
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
   std::string on_idle_blocker = "park";
+  int horizon_legs = 6;  // of each lane, admitted ahead by policies that look ahead
 };
 struct MonitorSettings {
   double rate_hz = 100.0;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/scheduler/groups.h"
+#include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/phases.h"
 #include "core/scheduler/policy.h"
@@ -52,25 +53,6 @@ void go_on(State& state, Record& record, const Verdict& verdict) {
   state.jobs.changed(record);
 }
 
-// What waits behind all that is admitted, these jobs included, counts for the choice of orders; and
-// who has been overtaken for long is overtaken no more.
-void prepare_graph(State& state, const std::vector<JobId>& jobs) {
-  std::vector<Duration> work_behind = state.jobs.work();
-  std::vector<JobId> in_front = jobs;
-  for (const CoordinatedMotion& motion : state.graph.motions()) {
-    const auto& ages_from = state.jobs.at(motion.job).ages_from;
-    if (ages_from && state.now - *ages_from >= state.cell->scheduling.aging) {
-      state.graph.keep_place(motion.job);
-    }
-    in_front.push_back(motion.job);
-  }
-  for (JobId id : in_front) {
-    const Trajectory& trajectory = *state.jobs.at(id).job.trajectory;
-    for (ArmId arm : trajectory.arms()) work_behind[arm.index()] -= trajectory.duration();
-  }
-  state.graph.set_work_behind(std::move(work_behind));
-}
-
 void admit(State& state, const std::vector<JobId>& jobs, std::vector<CoordinatedMotion> candidates,
            const PassingOrders& orders) {
   state.lanes.admitted(jobs);
@@ -89,9 +71,9 @@ void admit(State& state, const std::vector<JobId>& jobs, std::vector<Coordinated
     record.job.waits_on.clear();
     record.checked_at = state.version;
     record.effort = 1;
-    if (!record.ages_from) record.ages_from = state.now;
     state.jobs.changed(record);
   }
+  state.expected.renew(state.graph.motions(), orders.prediction, state.now);
 }
 
 }  // namespace
@@ -104,7 +86,6 @@ bool Admission::is_about(JobId job) const {
 
 bool Admission::ask_next(State& state, const WaitCycles& cycles) {
   if (open_) return false;
-  state.lanes.renew(state.jobs, state.arms);
   bool put_off = false;
   if (const auto recheck = next_recheck(state)) {
     ask(state, {*recheck}, Purpose::recheck);
@@ -195,7 +176,7 @@ void Admission::answer_start(State& state, const Verdict& verdict, const std::ve
 
 void Admission::decide(State& state, const Verdict& verdict, const std::vector<JobId>& jobs) {
   Record& first = state.jobs.at(jobs.front());
-  prepare_graph(state, jobs);
+  prepare_choice(state, jobs);
   std::vector<CoordinatedMotion> candidates;
   for (JobId id : jobs) candidates.push_back(as_candidate(state.jobs.at(id).job));
   const PassingOrders orders =

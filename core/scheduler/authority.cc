@@ -35,6 +35,7 @@ void pause_at_rest(State& state, Record& record) {
 void dispatch_if_ready(State& state, Record& record) {
   Job& job = record.job;
   if (!state.jobs.at_head(record)) return;
+  if (!record.ages_from) record.ages_from = state.now;
   if (!job.has_started() && state.arms.start_mismatch(*state.cell, *job.trajectory)) {
     return withdraw(state, record, {});
   }

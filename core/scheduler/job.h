@@ -153,10 +153,12 @@ struct Job {
   [[nodiscard]] bool pausing() const;
   // It will not move before it is judged (again).
   [[nodiscard]] bool is_waiting() const { return in<Queued>() != nullptr || in<Held>() != nullptr; }
-  // Judged free, and not at rest for good yet.
-  [[nodiscard]] bool has_authority() const {
-    return in<Admitted>() != nullptr || in<Moving>() != nullptr || in<Braking>() != nullptr;
+  // With passing orders, on its way to its end.
+  [[nodiscard]] bool is_admitted() const {
+    return in<Admitted>() != nullptr || in<Moving>() != nullptr;
   }
+  // Judged free, and not at rest for good yet.
+  [[nodiscard]] bool has_authority() const { return is_admitted() || in<Braking>() != nullptr; }
   // Precondition: it waits.
   [[nodiscard]] const Judgement& judgement() const;
 

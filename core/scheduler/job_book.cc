@@ -117,6 +117,11 @@ void JobBook::enter(Record& record, JobPhase phase) {
     past_queue_.insert(job.id);
   }
   unexplained_.insert(job.id);
+  for (ArmId arm : job.trajectory->arms()) {  // what comes next may have waited for it, or does now
+    const auto& queue = queues_[arm.index()];
+    const auto next = std::ranges::find(queue, job.id) + 1;
+    if (next != queue.end()) unexplained_.insert(*next);
+  }
 }
 
 std::vector<JobId> JobBook::end(Record& record, Ended how) {

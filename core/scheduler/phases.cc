@@ -25,6 +25,7 @@ void leave_graph(State& state, const Record& record) {
   for (auto job = behind.rbegin(); job != behind.rend(); ++job) {
     if (state.graph.holds(*job)) withdraw(state, state.jobs.at(*job), {});
   }
+  state.expected.spoil();
   state.graph.abandon(record.job.id, record.job.progress, record.farthest);
 }
 

@@ -35,6 +35,10 @@ class Policy {
   }
   // Whether a job that has waited for long holds others back.
   [[nodiscard]] virtual bool lets_jobs_age() const { return true; }
+  // Of each lane so many legs are admitted at most, the one under way included.
+  [[nodiscard]] virtual std::size_t horizon() const { return 1; }
+  // Whether orders are chosen anew when something comes otherwise than expected.
+  [[nodiscard]] virtual bool weighs_again() const { return false; }
   // Whether a job that cannot go alone is tried together with others that wait.
   [[nodiscard]] virtual bool admits_groups() const { return false; }
 };

@@ -54,6 +54,8 @@ void note_found(Record& record, std::vector<Wait> waits) {
 
 void put_off(State& state, Record& record, std::vector<Wait> waits) {
   judgement_of(record) = {state.version, waits};
+  state.jobs.set_waits(record, std::move(waits));
+  if (!state.jobs.at_head(record)) return;  // it has had no turn yet
   if (!record.ages_from) record.ages_from = state.now;
   const auto* queued = record.job.in<Queued>();
   if (queued != nullptr && !queued->in_backlog) {
@@ -62,7 +64,6 @@ void put_off(State& state, Record& record, std::vector<Wait> waits) {
     if (!since) since = state.now;
     state.jobs.changed(record);
   }
-  state.jobs.set_waits(record, std::move(waits));
 }
 
 void wait_in_turn(State& state, Record& record, JobId first) {
@@ -73,7 +74,7 @@ void wait_in_turn(State& state, Record& record, JobId first) {
     state.jobs.changed(record);
   }
   judgement_of(record) = {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}};
-  if (!record.ages_from) record.ages_from = state.now;
+  if (!record.ages_from && state.jobs.at_head(record)) record.ages_from = state.now;
   state.jobs.set_waits(record, record.job.judgement().found);
 }
 

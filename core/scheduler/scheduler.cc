@@ -6,6 +6,7 @@
 
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
+#include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/invariants.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/phases.h"
@@ -61,10 +62,12 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 void Scheduler::settle() {
   expire_and_overrun(state_);
   cycles_.settle(state_);
+  weigh_again(state_);
   dispatch_ready(state_);
   fail_impossible_starts();
   bool put_off = true;
   while (put_off) {  // until a question is open, or nothing is left to be asked
+    state_.lanes.renew(state_.jobs, state_.arms);
     state_.round = state_.policy->next_round(state_);
     explain_waits(state_);
     cycles_.name(state_);
@@ -97,6 +100,7 @@ void Scheduler::ask_for_wake() {
     const TimePoint soon = state_.now + Duration(1);  // a step of its own
     next = next ? std::min(*next, soon) : soon;
   }
+  if (const auto weighs = weighs_next(state_)) next = next ? std::min(*next, *weighs) : weighs;
   if (next && next != wake_at_) state_.effects.push_back(WakeAt{*next});
   wake_at_ = next;
 }

@@ -6,6 +6,7 @@
 
 #include "core/model/cell.h"
 #include "core/scheduler/arm_rests.h"
+#include "core/scheduler/horizon/expectation.h"
 #include "core/scheduler/inputs.h"
 #include "core/scheduler/job_book.h"
 #include "core/scheduler/orders/precedence_graph.h"
@@ -29,7 +30,8 @@ struct State {
   JobBook jobs;
   ArmRests arms;
   Lanes lanes;
-  PrecedenceGraph graph;  // all that is admitted
+  PrecedenceGraph graph;      // all that is admitted
+  Expectation expected = {};  // of what is admitted
   Round round = {};
   Version version = 1;        // of what is admitted, and of where arms rest
   Version recheck_epoch = 0;  // the last version that began with another scene

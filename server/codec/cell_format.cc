@@ -5,6 +5,7 @@
 #include "server/codec/robot_format.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/scene_format.h"
+#include "server/codec/value_formats.h"
 
 namespace armloom {
 
@@ -46,6 +47,10 @@ FormatPtr<SchedulingSettings> scheduling_format() {
             "An arm without a job in the way of one, and jobs that wait for each other: park sends "
             "an arm "
             "aside, report only tells of it."),
+      field(
+          "horizon_legs", &Scheduling::horizon_legs, integer(1, 32),
+          "Of each arm so many jobs are admitted together, the one under way included; who passes "
+          "first is chosen for all of them (coordinated only)."),
   });
 }
 

@@ -22,6 +22,9 @@ struct CoordinatedMotion {
   int priority = 0;
   bool keeps_its_place = false;  // has been overtaken long enough
   Duration horizon{};            // how far ahead of its progress its authority may reach
+  // Its arms have stood for so long without a reason of ours: they are expected to do so for as
+  // long again.
+  Duration stands_for{};
 
   // Has passed what ends at `to`; its goal it never passes.
   [[nodiscard]] bool is_beyond(Duration to) const { return to < progress && to < duration; }

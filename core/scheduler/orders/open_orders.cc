@@ -156,28 +156,51 @@ void OpenOrders::set(OrderChoice& choice, bool value) {
   choice.value = value;
   for (const Member& member : choice.members) {
     orders_[member.order].a_first = value != member.turned;
+    orders_[member.order].is_open = false;
   }
+}
+
+void OpenOrders::leave_open(const OrderChoice& choice) {
+  for (const Member& member : choice.members) orders_[member.order].is_open = true;
 }
 
 // ---- What follows from it ----
 
-const Precedence& OpenOrders::precedence(OpenOrder& order) {
-  std::optional<Precedence>& made = order.made[order.a_first ? 0 : 1];
+const Precedence& OpenOrders::precedence(OpenOrder& order, bool a_first) {
+  std::optional<Precedence>& made = order.made[a_first ? 0 : 1];
   if (!made) {
-    const CoordinatedMotion& second = motions_[order.a_first ? order.b : order.a];
+    const CoordinatedMotion& second = motions_[a_first ? order.b : order.a];
     const bool waits_at_start = wait_at_starts_ && second.authority <= Duration{};
-    made.emplace(motions_[order.a].job, motions_[order.b].job, order.region, order.a_first,
+    made.emplace(motions_[order.a].job, motions_[order.b].job, order.region, a_first,
                  waits_at_start);
   }
   return *made;
+}
+
+std::optional<Duration> OpenOrders::broken_at(const OrderChoice& choice, bool value,
+                                              const Prediction& prediction) {
+  std::optional<Duration> broken;
+  for (const Member& member : choice.members) {
+    OpenOrder& order = orders_[member.order];
+    const bool a_first = value != member.turned;
+    const std::size_t first = a_first ? order.a : order.b, second = a_first ? order.b : order.a;
+    for (const Precedence::Step& step : precedence(order, a_first).steps()) {
+      if (step.until <= motions_[first].progress) continue;
+      const auto passed = prediction.comes_to(first, step.until);
+      const auto goes = prediction.goes_beyond(second, step.limit);
+      if (goes && (!passed || *goes < *passed)) broken = std::min(broken.value_or(*goes), *goes);
+    }
+  }
+  return broken;
 }
 
 Prediction OpenOrders::predicted(std::vector<MotionAhead> motions, std::size_t orders) {
   std::vector<Dependency> dependencies;
   for (std::size_t d = 0; d < orders; ++d) {
     OpenOrder& order = orders_[d];
-    dependencies.push_back(
-        {order.a_first ? order.a : order.b, order.a_first ? order.b : order.a, &precedence(order)});
+    if (order.is_open) continue;
+    dependencies.push_back({order.a_first ? order.a : order.b, order.a_first ? order.b : order.a,
+                            &precedence(order, order.a_first)});
   }
   return predict(motions, dependencies);
 }
@@ -186,7 +209,11 @@ Prediction OpenOrders::predicted(std::vector<MotionAhead> motions, std::size_t o
 Prediction OpenOrders::predicted() {
   std::vector<MotionAhead> ahead;
   for (std::size_t m = 0; m < motions_.size(); ++m) {
-    ahead.push_back({motions_[m].progress, motions_[m].duration, chains_.before(m)});
+    const CoordinatedMotion& motion = motions_[m];
+    ahead.push_back({.progress = motion.progress,
+                     .duration = motion.duration,
+                     .after = chains_.before(m),
+                     .stands_for = motion.stands_for});
   }
   return predicted(std::move(ahead), orders_.size());
 }
@@ -203,7 +230,7 @@ Prediction OpenOrders::predicted_before() {
 // ---- The answers ----
 
 PassingOrders OpenOrders::admitted(Prediction prediction) {
-  for (OpenOrder& order : orders_) answer_.precedences.push_back(precedence(order));
+  for (OpenOrder& order : orders_) answer_.precedences.push_back(precedence(order, order.a_first));
   answer_.prediction = std::move(prediction);
   return std::move(answer_);
 }

@@ -19,6 +19,7 @@ struct OpenOrder {
   bool b_may = true;
   bool prefers_a = true;                               // of two that are as good
   bool a_first = true;                                 // as it is set
+  bool is_open = false;                                // nobody waits for it yet
   std::array<std::optional<Precedence>, 2> made = {};  // A first, B first; once asked for
 };
 
@@ -51,6 +52,11 @@ class OpenOrders {
   [[nodiscard]] bool blocked() const { return !answer_.blockers.empty(); }
 
   void set(OrderChoice& choice, bool value);
+  // Nobody waits for it in predictions, until it is set.
+  void leave_open(const OrderChoice& choice);
+  // When somebody would have to wait for this side of it, but goes on; nothing: it holds by itself.
+  [[nodiscard]] std::optional<Duration> broken_at(const OrderChoice& choice, bool value,
+                                                  const Prediction& prediction);
   // Who passes second shall not have to stop on its way for it: it waits at its start.
   void wait_at_starts() { wait_at_starts_ = true; }
   // As the orders are set; or of what is admitted alone, as that has been decided.
@@ -72,7 +78,7 @@ class OpenOrders {
   void note_in_the_way(std::size_t motion);
   void collect_choices();
   [[nodiscard]] bool allowed(const OrderChoice& choice, bool a_first) const;
-  [[nodiscard]] const Precedence& precedence(OpenOrder& order);
+  [[nodiscard]] const Precedence& precedence(OpenOrder& order, bool a_first);
   [[nodiscard]] Prediction predicted(std::vector<MotionAhead> motions, std::size_t orders);
   void report(std::size_t order);
 

@@ -149,6 +149,10 @@ void PrecedenceGraph::keep_place(JobId job) {
   if (CoordinatedMotion* found = motion(job)) found->keeps_its_place = true;
 }
 
+void PrecedenceGraph::set_stands_for(JobId job, Duration duration) {
+  if (CoordinatedMotion* found = motion(job)) found->stands_for = duration;
+}
+
 void PrecedenceGraph::finish(JobId job) {
   const CoordinatedMotion* found = find(job);
   if (found == nullptr) return;

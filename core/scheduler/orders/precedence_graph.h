@@ -45,6 +45,7 @@ class PrecedenceGraph {
   // Told to the arm. No more than limit(): else throws std::logic_error.
   void granted(JobId job, Duration authority);
   void keep_place(JobId job);
+  void set_stands_for(JobId job, Duration duration);
 
   // The motion has ended: at its goal, or where it rests instead for good. In the latter case
   // motions that would pass there stay where they may be until its arm moves again. Of several arms

@@ -107,6 +107,9 @@ class Race {
         start = std::max(start, runners_[before].stages.back().time);
       }
       runner.stages.push_back({motion.progress, start});
+      if (motion.stands_for > Duration{}) {
+        runner.stages.push_back({motion.progress, start + motion.stands_for});
+      }
       moved = true;
     }
     for (; runner.next_gate < runner.gates.size(); ++runner.next_gate) {

@@ -15,6 +15,7 @@ struct MotionAhead {
   Duration duration;                     // of its trajectory
   std::vector<std::size_t> after;        // motions of the same arms that end before it begins
   std::optional<Duration> held_at = {};  // goes no farther than this, as things are
+  Duration stands_for{};                 // before it goes on
 };
 
 // `second` may pass as Precedence says when `first` has got far enough. Indices into the motions.

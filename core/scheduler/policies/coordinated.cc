@@ -1,6 +1,8 @@
 // Motions share the workspace by passing orders instead of clocks: a job starts as soon as there is
 // an order in which everything comes to its end, goes as far as its precedences let it, pauses
 // there on its path, and goes on when the others have passed. Any arm may be late, slow or stop.
+// The next legs of every lane are admitted ahead, so that the orders of all of them are chosen
+// together.
 #include "core/scheduler/policies/policies.h"
 
 namespace armloom {
@@ -8,9 +10,13 @@ namespace {
 
 class CoordinatedPolicy final : public Policy {
  public:
-  explicit CoordinatedPolicy(double tracking_error) : tracking_error_(tracking_error) {}
+  explicit CoordinatedPolicy(const Cell& cell)
+      : tracking_error_(cell.checking.tracking_error_rad),
+        horizon_(static_cast<std::size_t>(cell.scheduling.horizon_legs)) {}
 
   std::string_view name() const override { return "coordinated"; }
+  std::size_t horizon() const override { return horizon_; }
+  bool weighs_again() const override { return true; }
   bool admits_groups() const override { return true; }
   CheckMethod method() const override { return Coordinated{tracking_error_}; }
   PassingOrders decide(const OrderQuestion& question) const override {
@@ -19,12 +25,13 @@ class CoordinatedPolicy final : public Policy {
 
  private:
   double tracking_error_;
+  std::size_t horizon_;
 };
 
 }  // namespace
 
 std::unique_ptr<const Policy> make_coordinated(const Cell& cell) {
-  return std::make_unique<CoordinatedPolicy>(cell.checking.tracking_error_rad);
+  return std::make_unique<CoordinatedPolicy>(cell);
 }
 
 }  // namespace armloom

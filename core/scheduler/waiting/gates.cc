@@ -22,11 +22,24 @@ Closed order(JobId first, std::optional<ArmId> arm = {}) {
   return only(Wait{.kind = Wait::Kind::order, .job = first, .arm = arm});
 }
 
-// Which job stands before it, on the first of its arms where one does.
+// It is one of the arm's first jobs, as many as the policy looks ahead, and those before it are
+// admitted. Of an admitted one all others would have to have ended.
+bool is_next(const State& state, const Record& record, ArmId arm) {
+  const auto& queue = state.jobs.queue(arm);
+  const bool ahead = record.job.is_waiting() && state.lanes.follows_on(record.job.id);
+  const std::size_t horizon = ahead ? state.policy->horizon() : 1;
+  for (std::size_t place = 0; place < std::min(horizon, queue.size()); ++place) {
+    if (queue[place] == record.job.id) return true;
+    if (!state.jobs.at(queue[place]).job.is_admitted()) return false;
+  }
+  return false;
+}
+
+// Which job stands before it, on the first of its arms where one does and has to go first.
 Closed behind(const Turns& turns, const Record& record) {
   for (ArmId arm : record.job.trajectory->arms()) {
+    if (is_next(turns.state(), record, arm)) continue;
     const auto& queue = turns.state().jobs.queue(arm);
-    if (queue.front() == record.job.id) continue;
     return order(*std::next(std::find(queue.rbegin(), queue.rend(), record.job.id)), arm);
   }
   return std::nullopt;

@@ -30,6 +30,13 @@ bool waits_beyond_turns(const State& state, const Record& record) {
   });
 }
 
+// Of an arm's jobs the first that is not admitted; nothing: all are.
+std::optional<JobId> first_that_waits(const State& state, const std::deque<JobId>& queue) {
+  const auto waits = [&](JobId id) { return state.jobs.at(id).job.is_waiting(); };
+  const auto first = std::ranges::find_if(queue, waits);
+  return first == queue.end() ? std::nullopt : std::optional(*first);
+}
+
 }  // namespace
 
 Turns::Turns(const State& state) : state_(state), aged_(aged_jobs()) {}
@@ -98,9 +105,10 @@ std::optional<JobId> Turns::next() const {
     return urgency.at(a.job.id) > urgency.at(b.job.id);
   };
   for (const auto& queue : state_.jobs.queues()) {
-    if (queue.empty()) continue;
-    const Record& record = state_.jobs.at(queue.front());
-    if (!record.job.is_waiting() || closed_gate(*this, record)) continue;
+    const auto first = first_that_waits(state_, queue);
+    if (!first) continue;
+    const Record& record = state_.jobs.at(*first);
+    if (closed_gate(*this, record)) continue;
     if (best == nullptr || goes_before(record, *best)) best = &record;
   }
   return best != nullptr ? std::optional(best->job.id) : std::nullopt;
@@ -111,6 +119,7 @@ void explain_waits(State& state) {
   std::set<JobId> jobs = state.jobs.take_unexplained();
   for (const auto& queue : state.jobs.queues()) {
     if (!queue.empty()) jobs.insert(queue.front());
+    if (const auto first = first_that_waits(state, queue)) jobs.insert(*first);
   }
   const Turns turns(state);
   for (JobId id : jobs) {

@@ -1,0 +1,142 @@
+#include "core/scheduler/orders/order_search.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <utility>
+
+namespace armloom {
+namespace {
+
+const double kWeightOfSum = getenv("W") ? atof(getenv("W")) : 0.3;
+const std::size_t kPredictionsMax = getenv("P") ? atoi(getenv("P")) : 400;
+constexpr double kLeast_s = 1e-3;  // what is nearer is as good
+
+}  // namespace
+
+Prediction OrderSearch::run() {
+  std::vector<Side> sides(open_.choices().size(), Side::open), as_is(sides.size(), Side::first);
+  for (std::size_t c = 0; c < sides.size(); ++c) {
+    if (open_.choices()[c].options.size() < 2) sides[c] = Side::first;
+  }
+  Node now = made(std::move(as_is));
+  Prediction otherwise = now.prediction;
+  if (now.prediction.stuck.empty()) note(now);
+  dive(made(std::move(sides)));
+  const auto later = [](const Node& a, const Node& b) {
+    return a.cost != b.cost ? a.cost > b.cost : a.number > b.number;
+  };
+  while (!waiting_.empty() && made_ < kPredictionsMax) {
+    std::ranges::make_heap(waiting_, later);
+    std::ranges::pop_heap(waiting_, later);
+    Node next = std::move(waiting_.back());
+    waiting_.pop_back();
+    if (is_better(next.cost)) dive(std::move(next));
+  }
+  if (!best_) {
+    set(std::vector<Side>(open_.choices().size(), Side::first));
+    return otherwise;
+  }
+  set(best_->sides);
+  return std::move(best_->prediction);
+}
+
+OrderSearch::Cost OrderSearch::cost_of(const Prediction& prediction) const {
+  Cost cost;
+  std::map<int, std::map<ArmId, double>, std::greater<>> finish;  // by priority, arm
+  for (std::size_t m = 0; m < open_.motions().size(); ++m) {
+    for (const ArmId arm : open_.motions()[m].arms) {
+      double& last = finish[open_.motions()[m].priority][arm];
+      last = std::max(last, to_seconds(prediction.ends[m]));
+    }
+  }
+  for (const auto& [priority, arms] : finish) {
+    double last = 0.0, sum = 0.0;
+    for (const auto& [arm, end] : arms) {
+      last = std::max(last, end + to_seconds(work_behind_[arm.index()]));
+      sum += end;
+    }
+    cost.push_back(last + kWeightOfSum * sum);
+  }
+  return cost;
+}
+
+bool OrderSearch::is_better(const Cost& cost) const {
+  if (!best_) return true;
+  for (std::size_t i = 0; i < cost.size(); ++i) {
+    if (cost[i] < best_->cost[i] - kLeast_s) return true;
+    if (cost[i] > best_->cost[i] + kLeast_s) return false;
+  }
+  return false;
+}
+
+void OrderSearch::set(const std::vector<Side>& sides) {
+  for (std::size_t c = 0; c < sides.size(); ++c) {
+    OrderChoice& choice = open_.choices()[c];
+    if (sides[c] == Side::open) {
+      open_.leave_open(choice);
+    } else {
+      open_.set(choice, choice.options[sides[c] == Side::first ? 0 : 1]);
+    }
+  }
+}
+
+OrderSearch::Node OrderSearch::made(std::vector<Side> sides) {
+  set(sides);
+  Prediction prediction = open_.predicted();
+  Cost cost = cost_of(prediction);
+  return {std::move(sides), std::move(prediction), std::move(cost), made_++};
+}
+
+// The open choice of which first neither side holds by itself.
+std::optional<std::size_t> OrderSearch::first_broken(const Node& node) {
+  std::optional<std::size_t> first;
+  Duration at{};
+  for (std::size_t c = 0; c < node.sides.size(); ++c) {
+    if (node.sides[c] != Side::open) continue;
+    const OrderChoice& choice = open_.choices()[c];
+    const auto one = open_.broken_at(choice, choice.options[0], node.prediction);
+    if (!one) continue;
+    const auto other = open_.broken_at(choice, choice.options[1], node.prediction);
+    if (!other) continue;
+    if (first && std::max(*one, *other) >= at) continue;
+    first = c;
+    at = std::max(*one, *other);
+  }
+  return first;
+}
+
+// Down to where nothing is broken, on the cheaper side each time; the other one is kept for later.
+void OrderSearch::dive(Node node) {
+  for (;;) {
+    if (!node.prediction.stuck.empty() || !is_better(node.cost)) return;
+    const auto choice = first_broken(node);
+    if (!choice) return note(node);
+    if (made_ >= 2 * kPredictionsMax) return;
+    std::vector<Side> sides = node.sides;
+    sides[*choice] = Side::first;
+    Node one = made(sides);
+    sides[*choice] = Side::other;
+    Node other = made(std::move(sides));
+    const bool one_ends = one.prediction.stuck.empty(), other_ends = other.prediction.stuck.empty();
+    const bool takes_one = one_ends && (!other_ends || one.cost <= other.cost);
+    node = std::move(takes_one ? one : other);
+    Node& left = takes_one ? other : one;
+    if (left.prediction.stuck.empty()) waiting_.push_back(std::move(left));
+  }
+}
+
+// Everything comes to its end: what was left open is set as it comes.
+void OrderSearch::note(const Node& node) {
+  if (!is_better(node.cost)) return;
+  best_ = node;
+  for (std::size_t c = 0; c < node.sides.size(); ++c) {
+    if (node.sides[c] != Side::open) continue;
+    const OrderChoice& choice = open_.choices()[c];
+    const bool holds = !open_.broken_at(choice, choice.options[0], node.prediction);
+    best_->sides[c] = holds ? Side::first : Side::other;
+  }
+}
+
+}  // namespace armloom

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/time.h"
+#include "core/scheduler/orders/open_orders.h"
+#include "core/scheduler/orders/prediction.h"
+
+namespace armloom {
+
+// The orders that cost least, by branch and bound over predictions. A choice that is left open
+// delays nobody, so that what is predicted without it bounds from below what follows with it; the
+// first one that the motions then break is decided next, both ways. What nobody breaks need not be
+// decided: it is as it comes. (As conflict-based search does with paths: Sharon et al. 2015; over
+// the disjunctive graph of job shops: Carlier and Pinson 1989.)
+//
+// A budget of predictions bounds it; what is best by then counts. Deterministic.
+class OrderSearch {
+ public:
+  // `work_behind` by ArmId: of jobs that are not among the motions.
+  OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind)
+      : open_(open), work_behind_(work_behind) {}
+
+  // Sets the choices; returns what is predicted then. Somebody is stuck: no orders were found in
+  // which everything comes to its end.
+  [[nodiscard]] Prediction run();
+
+ private:
+  // Smaller is better, entry by entry.
+  using Cost = std::vector<double>;
+  enum class Side : signed char { open, first, other };  // of OrderChoice::options
+  struct Node {
+    std::vector<Side> sides;  // by choice
+    Prediction prediction;
+    Cost cost;
+    std::size_t number;  // in order of making
+  };
+
+  [[nodiscard]] Cost cost_of(const Prediction& prediction) const;
+  [[nodiscard]] bool is_better(const Cost& cost) const;
+  [[nodiscard]] Node made(std::vector<Side> sides);
+  [[nodiscard]] std::optional<std::size_t> first_broken(const Node& node);
+  void dive(Node node);
+  void note(const Node& node);
+  void set(const std::vector<Side>& sides);
+
+  OpenOrders& open_;
+  const std::vector<Duration>& work_behind_;
+  std::vector<Node> waiting_;  // a heap
+  std::optional<Node> best_;
+  std::size_t made_ = 0;
+};
+
+}  // namespace armloom
