@@ -46,16 +46,13 @@ void end_at_rest(State& state, Record& record, const AfterStop& after) {
   if (held) release(state, record.job.id);
 }
 
-// Stopped before it had moved: it waits in the queue again, as if it had not been admitted; but
-// where its arms are stopped it keeps its place between the others.
+// Stopped before it had moved: it keeps its place between the others, but for objects that have
+// come into its way.
 void rest_at_start(State& state, Record& record) {
   release(state, record.job.id);
   state.jobs.changed(record);
   enter(state, record, Admitted{});
-  if (state.arms.stop_of(record.job)) return;
-  leave_graph(state, record);
-  enter(state, record, Queued{});
-  record.job.times.scheduled_at.reset();
+  record.checked_at = 0;
 }
 
 }  // namespace

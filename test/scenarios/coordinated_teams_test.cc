@@ -121,7 +121,7 @@ TEST(CoordinatedTeams, AStopBeforeTheyMoveKeepsTheirPlace) {
   description.robots.push_back(moved(description.robots[1], "z", {-0.3, 0, 0}));
   description.robots.back().arms[0].home = {0.3};
   description.robots.push_back(moved(description.robots[0], "w", {0, 0.6, 0}));
-  description.scheduling.aging = 8s;  // then y's job is overtaken no more
+  description.scheduling.aging = 1s;  // then y's job is overtaken no more
   Crossing cell(description, "coordinated");
   Executive& executive = cell.simulation->executive();
   cell.submit(slide("x", -1, 0, 1, "in the middle"));

@@ -189,7 +189,7 @@ TEST_F(Graph, LargerPriorityPassesFirstWhateverItCostsOthers) {
 
 TEST_F(Graph, WhoKeepsItsPlaceIsNotOvertaken) {
   admit({motion(kA, 0, 10s)}, {});
-  graph.keep_place(kA);
+  graph.set_outlook(kA, true, {});
   admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
   EXPECT_EQ(graph.limit(kA), 10s);
   EXPECT_EQ(graph.limit(kB), 1s - kShortOf);

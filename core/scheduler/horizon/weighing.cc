@@ -1,5 +1,6 @@
 #include "core/scheduler/horizon/weighing.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/scheduler/policy.h"
@@ -10,6 +11,8 @@ namespace {
 constexpr Duration kEvery = std::chrono::milliseconds(250);
 // An arm that sets out or brakes may be seen so long in one place.
 constexpr Duration kStandsFrom = std::chrono::milliseconds(250);
+// Who has stood for so long is not looked at any more.
+constexpr Duration kStandsForGood = std::chrono::minutes(10);
 
 // Since when its arms have stood for no reason of ours.
 std::optional<TimePoint> stands_since(const Job& job) {
@@ -20,13 +23,11 @@ std::optional<TimePoint> stands_since(const Job& job) {
   return stopped ? std::optional(job.progress_seen_at) : std::nullopt;
 }
 
-// What stands though nothing of ours holds it counts as standing for as long again.
-void note_what_stands(State& state) {
-  for (const CoordinatedMotion& motion : state.graph.motions()) {
-    const auto since = stands_since(state.jobs.at(motion.job).job);
-    const Duration stood = since ? state.now - *since : Duration{};
-    state.graph.set_stands_for(motion.job, stood < kStandsFrom ? Duration{} : stood);
-  }
+// Zero: it moves, or waits for others.
+Duration stands_for(const State& state, const Job& job) {
+  const auto since = state.policy->weighs_again() ? stands_since(job) : std::nullopt;
+  const Duration stood = since ? state.now - *since : Duration{};
+  return stood < kStandsFrom ? Duration{} : stood;
 }
 
 }  // namespace
@@ -34,11 +35,13 @@ void note_what_stands(State& state) {
 void prepare_choice(State& state, const std::vector<JobId>& jobs) {
   std::vector<Duration> work_behind = state.jobs.work();
   std::vector<JobId> in_front = jobs;
-  for (const CoordinatedMotion& motion : state.graph.motions()) {
-    const auto& ages_from = state.jobs.at(motion.job).ages_from;
-    if (ages_from && state.now - *ages_from >= state.cell->scheduling.aging) {
-      state.graph.keep_place(motion.job);
-    }
+  const std::vector<CoordinatedMotion> motions = state.graph.motions();
+  for (const CoordinatedMotion& motion : motions) {
+    const Record& record = state.jobs.at(motion.job);
+    const Duration stands = stands_for(state, record.job);
+    const bool is_aged =
+        record.ages_from && state.now - *record.ages_from >= state.cell->scheduling.aging;
+    state.graph.set_outlook(motion.job, is_aged && stands <= Duration{}, stands);
     in_front.push_back(motion.job);
   }
   for (JobId id : in_front) {
@@ -46,7 +49,6 @@ void prepare_choice(State& state, const std::vector<JobId>& jobs) {
     for (ArmId arm : trajectory.arms()) work_behind[arm.index()] -= trajectory.duration();
   }
   state.graph.set_work_behind(std::move(work_behind));
-  if (state.policy->weighs_again()) note_what_stands(state);
 }
 
 void weigh_again(State& state) {
@@ -60,9 +62,27 @@ void weigh_again(State& state) {
   state.expected.renew(state.graph.motions(), orders.prediction, state.now);
 }
 
+// Who moves may be late. Who was stopped may stand for longer than expected, while another one
+// waits for it: that is looked at less and less often.
 std::optional<TimePoint> weighs_next(const State& state) {
-  if (!state.policy->weighs_again() || state.graph.motions().empty()) return std::nullopt;
-  return TimePoint((state.now.time_since_epoch() / kEvery + 1) * kEvery);
+  if (!state.policy->weighs_again()) return std::nullopt;
+  const auto job_of = [&](JobId id) -> const Job& { return state.jobs.at(id).job; };
+  const bool moves = std::ranges::any_of(state.graph.motions(), [&](const auto& motion) {
+    const auto* moving = job_of(motion.job).template in<Moving>();
+    return moving != nullptr && !moving->pause;
+  });
+  if (moves) return TimePoint((state.now.time_since_epoch() / kEvery + 1) * kEvery);
+  std::optional<TimePoint> next;
+  for (const Precedence& order : state.graph.precedences()) {
+    const auto since = stands_since(job_of(order.first()));
+    if (!since || stands_since(job_of(order.second()))) continue;
+    const Duration stood = state.now - *since;
+    if (stood > kStandsForGood) continue;
+    Duration looks = kEvery;
+    while (looks <= stood) looks *= 2;
+    next = next ? std::min(*next, *since + looks) : *since + looks;
+  }
+  return next;
 }
 
 }  // namespace armloom

@@ -61,7 +61,7 @@ void OpenOrders::add_decided(const Precedence& precedence) {
     if (motions_[b].is_beyond(box.to_b)) continue;
     if (reaches(a, box.from_a, b) || blocks_end(b, box.to_b, a)) order.b_may = false;
   }
-  if (motions_[a].keeps_its_place && !motions_[b].keeps_its_place) order.b_may = false;
+  if (motions_[a].keeps_its_place) order.b_may = false;
   order.made[0] = precedence;
   orders_.push_back(std::move(order));
 }

@@ -145,12 +145,10 @@ void PrecedenceGraph::granted(JobId job, Duration authority) {
   found->authority = std::max(found->authority, authority);
 }
 
-void PrecedenceGraph::keep_place(JobId job) {
-  if (CoordinatedMotion* found = motion(job)) found->keeps_its_place = true;
-}
-
-void PrecedenceGraph::set_stands_for(JobId job, Duration duration) {
-  if (CoordinatedMotion* found = motion(job)) found->stands_for = duration;
+void PrecedenceGraph::set_outlook(JobId job, bool keeps_its_place, Duration stands_for) {
+  CoordinatedMotion& found = *motion(job);
+  found.keeps_its_place = keeps_its_place;
+  found.stands_for = stands_for;
 }
 
 void PrecedenceGraph::finish(JobId job) {

@@ -44,8 +44,8 @@ class PrecedenceGraph {
   [[nodiscard]] bool is_acyclic() const;
   // Told to the arm. No more than limit(): else throws std::logic_error.
   void granted(JobId job, Duration authority);
-  void keep_place(JobId job);
-  void set_stands_for(JobId job, Duration duration);
+  // What is known of a motion besides its progress. Precondition: it holds it.
+  void set_outlook(JobId job, bool keeps_its_place, Duration stands_for);
 
   // The motion has ended: at its goal, or where it rests instead for good. In the latter case
   // motions that would pass there stay where they may be until its arm moves again. Of several arms

@@ -28,15 +28,15 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
   if (!std::exchange(is_stale_, false)) return;
   std::vector<PlacePtr> stands = arms.places();
   std::set<JobId> waiting;
-  for (const auto& queue : book.queues()) {
-    for (JobId id : queue) {
+  for (std::size_t arm = 0; arm < stands.size(); ++arm) {
+    for (JobId id : book.queues()[arm]) {
       const Record& record = book.at(id);
       if (record.job.in<Queued>() != nullptr) {
         waiting.insert(id);
         continue;
       }
       for (std::size_t i = 0; i < record.leg.arms.size(); ++i) {
-        stands[record.leg.arms[i].index()] = record.leg.to[i];
+        if (record.leg.arms[i].index() == arm) stands[arm] = record.leg.to[i];
       }
     }
   }
