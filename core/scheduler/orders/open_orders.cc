@@ -10,6 +10,10 @@ namespace {
 
 using Member = OrderChoice::Member;
 
+std::size_t variant(bool a_first, bool at_start) {
+  return (a_first ? 0U : 1U) + (at_start ? 2U : 0U);
+}
+
 std::vector<CoordinatedMotion> both(const std::vector<CoordinatedMotion>& admitted,
                                     const std::vector<CoordinatedMotion>& candidates) {
   std::vector<CoordinatedMotion> all = admitted;
@@ -62,7 +66,8 @@ void OpenOrders::add_decided(const Precedence& precedence) {
     if (reaches(a, box.from_a, b) || blocks_end(b, box.to_b, a)) order.b_may = false;
   }
   if (motions_[a].keeps_its_place) order.b_may = false;
-  order.made[0] = precedence;
+  order.at_start = precedence.waits_at_start();
+  order.made[variant(true, order.at_start)] = precedence;
   orders_.push_back(std::move(order));
 }
 
@@ -139,7 +144,7 @@ void OpenOrders::collect_choices() {
           choice.members, [this](const Member& member) { return member.order >= decided_; });
       if (of_candidate != choice.members.end()) report(of_candidate->order);
     } else {
-      set(choice, choice.options.front());
+      set(choice, choice.options.front(), orders_[d].at_start);
       choices_.push_back(std::move(choice));
     }
   }
@@ -152,10 +157,12 @@ bool OpenOrders::allowed(const OrderChoice& choice, bool a_first) const {
   });
 }
 
-void OpenOrders::set(OrderChoice& choice, bool value) {
+void OpenOrders::set(OrderChoice& choice, bool value, bool at_start) {
   choice.value = value;
+  choice.at_start = at_start;
   for (const Member& member : choice.members) {
     orders_[member.order].a_first = value != member.turned;
+    orders_[member.order].at_start = at_start;
     orders_[member.order].is_open = false;
   }
 }
@@ -166,13 +173,12 @@ void OpenOrders::leave_open(const OrderChoice& choice) {
 
 // ---- What follows from it ----
 
-const Precedence& OpenOrders::precedence(OpenOrder& order, bool a_first) {
-  std::optional<Precedence>& made = order.made[a_first ? 0 : 1];
+const Precedence& OpenOrders::precedence(OpenOrder& order, bool a_first, bool at_start) {
+  const bool begins = motions_[a_first ? order.b : order.a].authority <= Duration{};
+  std::optional<Precedence>& made = order.made[variant(a_first, at_start && begins)];
   if (!made) {
-    const CoordinatedMotion& second = motions_[a_first ? order.b : order.a];
-    const bool waits_at_start = wait_at_starts_ && second.authority <= Duration{};
     made.emplace(motions_[order.a].job, motions_[order.b].job, order.region, a_first,
-                 waits_at_start);
+                 at_start && begins);
   }
   return *made;
 }
@@ -184,7 +190,7 @@ std::optional<Duration> OpenOrders::broken_at(const OrderChoice& choice, bool va
     OpenOrder& order = orders_[member.order];
     const bool a_first = value != member.turned;
     const std::size_t first = a_first ? order.a : order.b, second = a_first ? order.b : order.a;
-    for (const Precedence::Step& step : precedence(order, a_first).steps()) {
+    for (const Precedence::Step& step : precedence(order, a_first, false).steps()) {
       if (step.until <= motions_[first].progress) continue;
       const auto passed = prediction.comes_to(first, step.until);
       const auto goes = prediction.goes_beyond(second, step.limit);
@@ -200,7 +206,7 @@ Prediction OpenOrders::predicted(std::vector<MotionAhead> motions, std::size_t o
     OpenOrder& order = orders_[d];
     if (order.is_open) continue;
     dependencies.push_back({order.a_first ? order.a : order.b, order.a_first ? order.b : order.a,
-                            &precedence(order, order.a_first)});
+                            &precedence(order, order.a_first, order.at_start)});
   }
   return predict(motions, dependencies);
 }
@@ -230,7 +236,8 @@ Prediction OpenOrders::predicted_before() {
 // ---- The answers ----
 
 PassingOrders OpenOrders::admitted(Prediction prediction) {
-  for (OpenOrder& order : orders_) answer_.precedences.push_back(precedence(order, order.a_first));
+  for (OpenOrder& order : orders_)
+    answer_.precedences.push_back(precedence(order, order.a_first, order.at_start));
   answer_.prediction = std::move(prediction);
   return std::move(answer_);
 }

@@ -19,8 +19,9 @@ struct OpenOrder {
   bool b_may = true;
   bool prefers_a = true;                               // of two that are as good
   bool a_first = true;                                 // as it is set
+  bool at_start = false;                               // the second waits at its start
   bool is_open = false;                                // nobody waits for it yet
-  std::array<std::optional<Precedence>, 2> made = {};  // A first, B first; once asked for
+  std::array<std::optional<Precedence>, 4> made = {};  // by a_first and at_start; once asked for
 };
 
 // Orders that are one: all take the same side, or the other one where `turned`. So do the regions
@@ -33,6 +34,7 @@ struct OrderChoice {
   std::vector<Member> members;
   std::vector<bool> options = {};  // values of "a goes first" of the first member, preferred first
   bool value = true;
+  bool at_start = false;
 };
 
 // Who may pass first in all regions of what is admitted and of candidates: what a search for orders
@@ -51,14 +53,14 @@ class OpenOrders {
   [[nodiscard]] std::vector<OrderChoice>& choices() { return choices_; }
   [[nodiscard]] bool blocked() const { return !answer_.blockers.empty(); }
 
-  void set(OrderChoice& choice, bool value);
+  // `at_start`: who passes second shall not have to stop on its way for it, but waits at its start
+  // if it is there.
+  void set(OrderChoice& choice, bool value, bool at_start = false);
   // Nobody waits for it in predictions, until it is set.
   void leave_open(const OrderChoice& choice);
   // When somebody would have to wait for this side of it, but goes on; nothing: it holds by itself.
   [[nodiscard]] std::optional<Duration> broken_at(const OrderChoice& choice, bool value,
                                                   const Prediction& prediction);
-  // Who passes second shall not have to stop on its way for it: it waits at its start.
-  void wait_at_starts() { wait_at_starts_ = true; }
   // As the orders are set; or of what is admitted alone, as that has been decided.
   [[nodiscard]] Prediction predicted();
   [[nodiscard]] Prediction predicted_before();
@@ -78,7 +80,7 @@ class OpenOrders {
   void note_in_the_way(std::size_t motion);
   void collect_choices();
   [[nodiscard]] bool allowed(const OrderChoice& choice, bool a_first) const;
-  [[nodiscard]] const Precedence& precedence(OpenOrder& order, bool a_first);
+  [[nodiscard]] const Precedence& precedence(OpenOrder& order, bool a_first, bool at_start);
   [[nodiscard]] Prediction predicted(std::vector<MotionAhead> motions, std::size_t orders);
   void report(std::size_t order);
 
@@ -88,7 +90,6 @@ class OpenOrders {
   std::vector<OpenOrder> orders_;
   std::size_t decided_ = 0;
   std::vector<OrderChoice> choices_;
-  bool wait_at_starts_ = false;
   PassingOrders answer_;
 };
 

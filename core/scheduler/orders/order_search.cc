@@ -9,18 +9,20 @@
 namespace armloom {
 namespace {
 
-const double kWeightOfSum = getenv("W") ? atof(getenv("W")) : 0.3;
-const std::size_t kPredictionsMax = getenv("P") ? atoi(getenv("P")) : 400;
+const double kWeightOfSum =
+    getenv("W") ? atof(getenv("W")) : 0.1;  // of all arms' ends, beside the last one's
+constexpr std::size_t kPredictionsMax = 400;
 constexpr double kLeast_s = 1e-3;  // what is nearer is as good
 
 }  // namespace
 
 Prediction OrderSearch::run() {
-  std::vector<Side> sides(open_.choices().size(), Side::open), as_is(sides.size(), Side::first);
+  std::vector<Side> sides(open_.choices().size()), as_is;
   for (std::size_t c = 0; c < sides.size(); ++c) {
-    if (open_.choices()[c].options.size() < 2) sides[c] = Side::first;
+    as_is.push_back({Side::first, open_.choices()[c].at_start});
+    if (open_.choices()[c].options.size() < 2) sides[c] = as_is[c];
   }
-  Node now = made(std::move(as_is));
+  Node now = made(as_is);
   Prediction otherwise = now.prediction;
   if (now.prediction.stuck.empty()) note(now);
   dive(made(std::move(sides)));
@@ -35,9 +37,10 @@ Prediction OrderSearch::run() {
     if (is_better(next.cost)) dive(std::move(next));
   }
   if (!best_) {
-    set(std::vector<Side>(open_.choices().size(), Side::first));
+    set(as_is);
     return otherwise;
   }
+  wait_where_it_is_cheaper();
   set(best_->sides);
   return std::move(best_->prediction);
 }
@@ -74,10 +77,10 @@ bool OrderSearch::is_better(const Cost& cost) const {
 void OrderSearch::set(const std::vector<Side>& sides) {
   for (std::size_t c = 0; c < sides.size(); ++c) {
     OrderChoice& choice = open_.choices()[c];
-    if (sides[c] == Side::open) {
+    if (sides[c].side == Side::open) {
       open_.leave_open(choice);
     } else {
-      open_.set(choice, choice.options[sides[c] == Side::first ? 0 : 1]);
+      open_.set(choice, choice.options[sides[c].side == Side::first ? 0 : 1], sides[c].at_start);
     }
   }
 }
@@ -94,7 +97,7 @@ std::optional<std::size_t> OrderSearch::first_broken(const Node& node) {
   std::optional<std::size_t> first;
   Duration at{};
   for (std::size_t c = 0; c < node.sides.size(); ++c) {
-    if (node.sides[c] != Side::open) continue;
+    if (node.sides[c].side != Side::open) continue;
     const OrderChoice& choice = open_.choices()[c];
     const auto one = open_.broken_at(choice, choice.options[0], node.prediction);
     if (!one) continue;
@@ -114,11 +117,7 @@ void OrderSearch::dive(Node node) {
     const auto choice = first_broken(node);
     if (!choice) return note(node);
     if (made_ >= 2 * kPredictionsMax) return;
-    std::vector<Side> sides = node.sides;
-    sides[*choice] = Side::first;
-    Node one = made(sides);
-    sides[*choice] = Side::other;
-    Node other = made(std::move(sides));
+    Node one = cheaper_way(node, *choice, true), other = cheaper_way(node, *choice, false);
     const bool one_ends = one.prediction.stuck.empty(), other_ends = other.prediction.stuck.empty();
     const bool takes_one = one_ends && (!other_ends || one.cost <= other.cost);
     node = std::move(takes_one ? one : other);
@@ -127,15 +126,36 @@ void OrderSearch::dive(Node node) {
   }
 }
 
+// To stop on the way costs time; to wait at the start may keep others waiting for that place.
+OrderSearch::Node OrderSearch::cheaper_way(const Node& node, std::size_t choice, bool first) {
+  std::vector<Side> sides = node.sides;
+  sides[choice] = {first ? Side::first : Side::other, false};
+  Node on_its_way = made(sides);
+  sides[choice].at_start = true;
+  Node at_its_start = made(std::move(sides));
+  if (!at_its_start.prediction.stuck.empty()) return on_its_way;
+  if (!on_its_way.prediction.stuck.empty()) return at_its_start;
+  return at_its_start.cost < on_its_way.cost ? at_its_start : on_its_way;
+}
+
+void OrderSearch::wait_where_it_is_cheaper() {
+  for (std::size_t c = 0; c < best_->sides.size(); ++c) {
+    std::vector<Side> sides = best_->sides;
+    sides[c].at_start = !sides[c].at_start;
+    Node turned = made(std::move(sides));
+    if (turned.prediction.stuck.empty() && is_better(turned.cost)) best_ = std::move(turned);
+  }
+}
+
 // Everything comes to its end: what was left open is set as it comes.
 void OrderSearch::note(const Node& node) {
   if (!is_better(node.cost)) return;
   best_ = node;
   for (std::size_t c = 0; c < node.sides.size(); ++c) {
-    if (node.sides[c] != Side::open) continue;
+    if (node.sides[c].side != Side::open) continue;
     const OrderChoice& choice = open_.choices()[c];
     const bool holds = !open_.broken_at(choice, choice.options[0], node.prediction);
-    best_->sides[c] = holds ? Side::first : Side::other;
+    best_->sides[c].side = holds ? Side::first : Side::other;
   }
 }
 

@@ -28,7 +28,11 @@ class OrderSearch {
  private:
   // Smaller is better, entry by entry.
   using Cost = std::vector<double>;
-  enum class Side : signed char { open, first, other };  // of OrderChoice::options
+  // One of OrderChoice::options, or none yet; who passes second waits on its way or at its start.
+  struct Side {
+    enum : signed char { open, first, other } side = open;
+    bool at_start = false;
+  };
   struct Node {
     std::vector<Side> sides;  // by choice
     Prediction prediction;
@@ -39,6 +43,8 @@ class OrderSearch {
   [[nodiscard]] Cost cost_of(const Prediction& prediction) const;
   [[nodiscard]] bool is_better(const Cost& cost) const;
   [[nodiscard]] Node made(std::vector<Side> sides);
+  [[nodiscard]] Node cheaper_way(const Node& node, std::size_t choice, bool first);
+  void wait_where_it_is_cheaper();
   [[nodiscard]] std::optional<std::size_t> first_broken(const Node& node);
   void dive(Node node);
   void note(const Node& node);

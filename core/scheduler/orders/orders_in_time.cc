@@ -94,7 +94,7 @@ std::vector<std::size_t> set_by_line(OpenOrders& open, const Line& line, Duratio
       }
       value = side;
     }
-    if (value) open.set(choice, *value);
+    if (value) open.set(choice, *value, true);
   }
   return in_the_way;
 }
@@ -104,7 +104,6 @@ std::vector<std::size_t> set_by_line(OpenOrders& open, const Line& line, Duratio
 PassingOrders orders_in_time(const OrderQuestion& question, std::optional<Duration> latest) {
   OpenOrders open(question);
   if (open.blocked()) return open.refused({});
-  open.wait_at_starts();
   const Line line(open, open.predicted_before());
   std::vector<std::size_t> in_the_way;
   for (const Duration start : line.starts()) {

@@ -22,6 +22,7 @@ Precedence::Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_fi
                        bool waits_at_start)
     : first_(a_first ? a : b),
       second_(a_first ? b : a),
+      waits_at_start_(waits_at_start),
       region_(a_first ? region : turned(region)) {
   std::vector<ProgressBox> boxes = region_.boxes;
   std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);

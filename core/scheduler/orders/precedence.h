@@ -25,6 +25,7 @@ class Precedence {
 
   [[nodiscard]] JobId first() const { return first_; }
   [[nodiscard]] JobId second() const { return second_; }
+  [[nodiscard]] bool waits_at_start() const { return waits_at_start_; }
   // With times of `first` as A's; body_a of the evidence is first's.
   [[nodiscard]] const ConflictRegion& region() const { return region_; }
 
@@ -41,6 +42,7 @@ class Precedence {
  private:
   JobId first_;
   JobId second_;
+  bool waits_at_start_;
   ConflictRegion region_;
   std::vector<Step> steps_;
 };
