@@ -125,23 +125,6 @@ ChosenMoments largest_exclusion(const ConflictTable& table) {
   return Matching(table).independent();
 }
 
-std::size_t shortest_way(const ConflictTable& table) {
-  if (table.conflict.empty()) return 0;
-  const std::size_t n = table.columns;
-  std::vector<std::size_t> steps(table.conflict.size(), kNobody);
-  for (std::size_t cell = 0; cell < steps.size(); ++cell) {
-    if (table.conflict[cell] != 0) continue;
-    const std::size_t row = cell / n;
-    const std::size_t column = cell % n;
-    std::size_t before = cell == 0 ? 0 : kNobody;
-    if (row > 0) before = std::min(before, steps[cell - n]);
-    if (column > 0) before = std::min(before, steps[cell - 1]);
-    if (row > 0 && column > 0) before = std::min(before, steps[cell - n - 1]);
-    if (before != kNobody) steps[cell] = cell == 0 ? 0 : before + 1;
-  }
-  return steps.back() == kNobody ? 0 : steps.back();
-}
-
 std::vector<char> exclusion_of_all(const std::vector<char>& free, std::size_t n) {
   std::vector<char> chosen(n, 1);
   std::vector<std::size_t> degree(n, 0);

@@ -92,17 +92,6 @@ TEST(Exclusion, CountsTheTimeBetweenChosenNeighboursOfOneMotion) {
   EXPECT_EQ(steps_chosen({1, 1, 1, 0, 1, 1, 1}, {0, 0, 0, 0, 0, 0, 1}), 3U);
 }
 
-TEST(ShortestWay, WaitsBesideABlockAndNotInIt) {
-  EXPECT_EQ(shortest_way(table_of(4, "................")), 3U);
-  EXPECT_EQ(shortest_way(table_of(4,
-                                  "...."
-                                  ".##."
-                                  ".##."
-                                  "....")),
-            5U);  // one stands still for as long as the other passes
-  EXPECT_EQ(shortest_way(table_of(3, "...###...")), 0U);
-}
-
 TEST(LowerBound, OfTwoArmsInOneFixtureIsTheSumOfTheirTimesThere) {
   // Each of the two stands for 2 s and more where the other one would hit it.
   const Workload workload = kind_of("one_fixture").make(1);
@@ -128,8 +117,6 @@ TEST(LowerBound, OfTwoArmsInOneFixtureIsTheSumOfTheirTimesThere) {
 
   EXPECT_GT(bound.excluding_s, inside_s - 0.2);
   EXPECT_LT(bound.excluding_s, all_s);
-  EXPECT_GE(bound.pausing_s, bound.bound_s() - 0.2);
-  EXPECT_LT(bound.pausing_s, all_s);
 }
 
 TEST(LowerBound, OfArmsThatNeverMeetIsTheBusiestOnesOwnWork) {
@@ -144,7 +131,6 @@ TEST(LowerBound, OfArmsThatNeverMeetIsTheBusiestOnesOwnWork) {
   const LowerBound bound = lower_bound(workload.cell, work, std::chrono::milliseconds(50));
   EXPECT_EQ(bound.busiest, "left");
   EXPECT_DOUBLE_EQ(bound.bound_s(), left_s);
-  EXPECT_NEAR(bound.pausing_s, left_s, 0.5);
 }
 
 TEST(Workloads, ShortTasksTakeAThirdOfTheLongOnesAndAsMuchTogether) {
@@ -180,7 +166,7 @@ TEST(Experiments, RepeatByteForByteWhateverTheThreads) {
 RunRow row(const std::string& policy, double makespan_s) {
   RunRow made{.workload = "pick_and_place", .policy = policy, .seed = 1, .jobs = 4};
   made.makespan_s = makespan_s;
-  made.bound.own_s = 50.0;
+  made.limits.bound.own_s = 50.0;
   made.together = 0.5;
   return made;
 }

@@ -107,7 +107,7 @@ void note_jobs(const SimulationResult& result, const std::vector<PlannedJob>& pl
 }  // namespace
 
 Run run_policy(const Workload& workload, const std::string& name, const std::string& policy,
-               std::uint64_t seed, const LowerBound& bound) {
+               std::uint64_t seed, const Limits& limits) {
   const bool alone = policy == kOneArm;
   const std::vector<PlannedJob>& planned = alone ? workload.one_arm : workload.jobs;
   std::vector<TimedJob> jobs;
@@ -124,7 +124,7 @@ Run run_policy(const Workload& workload, const std::string& name, const std::str
 
   Run run{{.workload = name, .policy = policy, .seed = seed, .jobs = planned.size()}, {policy}};
   RunRow& row = run.row;
-  row.bound = bound;
+  row.limits = limits;
   note_jobs(*result, planned, run);
   run.timeline.moving = spectator.take_spans();
   row.makespan_s = to_seconds(result->figures.last_end);

@@ -4,13 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "test/experiments/lower_bound.h"
+#include "test/experiments/optimum.h"
 #include "test/experiments/workloads.h"
 
 namespace armloom::experiments {
 
 // What the first arm does alone, under the name of a policy.
 inline constexpr const char* kOneArm = "one arm";
+
+// What no policy can beat, whichever it is.
+struct Limits {
+  LowerBound bound;
+  Optimum optimum;
+};
 
 // The figures of one run; shares are of the makespan. All but judging_s repeat for a seed.
 struct RunRow {
@@ -20,7 +26,7 @@ struct RunRow {
   std::size_t jobs = 0;
   std::size_t not_succeeded = 0;
   double makespan_s = 0.0;  // from the first submission to the last end
-  LowerBound bound;
+  Limits limits;
   std::vector<double> busy;  // per arm: share under way
   double together = 0.0;     // share in which the joints of at least two arms really move
   // Of a job that is the first of its arm, from then (or from its submission) to its start.
@@ -56,7 +62,7 @@ struct Run {
 // executive cannot be made or a job is refused.
 [[nodiscard]] Run run_policy(const Workload& workload, const std::string& name,
                              const std::string& policy, std::uint64_t seed,
-                             const LowerBound& bound);
+                             const Limits& limits);
 
 // Of several runs: mean and standard deviation (of the sample).
 struct Spread {

@@ -29,11 +29,11 @@ Eigen::Vector3d JobMaker::from_base(ArmId arm, const Eigen::Vector3d& p_BT) cons
   return cell_->robots[cell_->arm(arm).robot.index()].X_WB * p_BT;
 }
 
-bool JobMaker::add(ArmId arm, TimePoint at, const std::vector<Draft>& drafts) {
-  std::vector<PlannedJob>& before = jobs_[arm.index()];
+std::vector<PlannedJob> JobMaker::drafted(ArmId arm, TimePoint at,
+                                          const std::vector<Draft>& drafts) const {
+  const std::vector<PlannedJob>& before = jobs_[arm.index()];
   Eigen::VectorXd start = before.empty() ? home(arm) : before.back().trajectory->goal();
   std::vector<PlannedJob> jobs;
-  std::vector<Rest> rests;
   for (const Draft& draft : drafts) {
     TrajectoryRequest request = way(*cell_, arm, start, draft.legs);
     auto trajectory = validate(request, *cell_);
@@ -46,12 +46,25 @@ bool JobMaker::add(ArmId arm, TimePoint at, const std::vector<Draft>& drafts) {
     job.backlog_timeout = kPatience;
     jobs.push_back({arm, draft.kind, {at, std::move(job)}, *trajectory});
     start = draft.legs.back().q;
-    if (start != home(arm)) rests.push_back({arm, start});
+  }
+  return jobs;
+}
+
+bool JobMaker::add(ArmId arm, TimePoint at, const std::vector<Draft>& drafts) {
+  std::vector<PlannedJob> jobs = drafted(arm, at, drafts);
+  std::vector<Rest> rests;
+  for (const Draft& draft : drafts) {
+    if (draft.legs.back().q != home(arm)) rests.push_back({arm, draft.legs.back().q});
   }
   if (!open(jobs, rests)) return false;
-  std::ranges::move(jobs, std::back_inserter(before));
+  std::ranges::move(jobs, std::back_inserter(jobs_[arm.index()]));
   std::ranges::move(rests, std::back_inserter(rests_));
   return true;
+}
+
+void JobMaker::add_trip(ArmId arm, const std::vector<Draft>& drafts) {
+  if (drafts.back().legs.back().q != home(arm)) throw std::invalid_argument("a trip ends at home");
+  std::ranges::move(drafted(arm, TimePoint{}, drafts), std::back_inserter(jobs_[arm.index()]));
 }
 
 bool JobMaker::open(const std::vector<PlannedJob>& jobs, const std::vector<Rest>& rests) {
@@ -75,16 +88,17 @@ bool JobMaker::open(const std::vector<PlannedJob>& jobs, const std::vector<Rest>
   return true;
 }
 
-std::vector<PlannedJob> JobMaker::take() {
+std::vector<PlannedJob> JobMaker::take(std::size_t each) {
   std::vector<std::size_t> turn(jobs_.size());
   for (std::size_t i = 0; i < turn.size(); ++i) turn[i] = i;
   std::vector<PlannedJob> all;
-  const std::size_t rounds =
+  const std::size_t most =
       std::ranges::max(jobs_, {}, [](const auto& jobs) { return jobs.size(); }).size();
-  for (std::size_t round = 0; round < rounds; ++round) {
+  for (std::size_t first = 0; first < most; first += each) {
     for (std::size_t i = turn.size(); i > 1; --i) std::swap(turn[i - 1], turn[random_() % i]);
     for (const std::size_t arm : turn) {
-      if (round < jobs_[arm].size()) all.push_back(std::move(jobs_[arm][round]));
+      const std::size_t last = std::min(first + each, jobs_[arm].size());
+      for (std::size_t i = first; i < last; ++i) all.push_back(std::move(jobs_[arm][i]));
     }
   }
   std::ranges::stable_sort(all, {}, [](const PlannedJob& job) { return job.timed.at; });

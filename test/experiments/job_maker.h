@@ -46,18 +46,25 @@ class JobMaker {
   // of them, when one is not open (open_places.h). Throws std::runtime_error when a draft breaks
   // limits: that is a fault of the workload.
   [[nodiscard]] bool add(ArmId arm, TimePoint at, const std::vector<Draft>& drafts);
+  // The same for jobs that come home again and are known to be clear with all others at home. Where
+  // one of them ends others may be shut out until the next: so that all can be done in turn,
+  // take(drafts.size()). Throws std::invalid_argument where they do not come home.
+  void add_trip(ArmId arm, const std::vector<Draft>& drafts);
 
   [[nodiscard]] const std::vector<PlannedJob>& jobs_of(ArmId arm) const {
     return jobs_[arm.index()];
   }
-  // In order of submission: by time, then by turns of the arms, who is first being drawn.
-  [[nodiscard]] std::vector<PlannedJob> take();
+  // In order of submission: by time, then by turns of the arms of `each` jobs, who is first being
+  // drawn.
+  [[nodiscard]] std::vector<PlannedJob> take(std::size_t each = 1);
 
  private:
   struct Rest {
     ArmId arm;
     Eigen::VectorXd q;
   };
+  [[nodiscard]] std::vector<PlannedJob> drafted(ArmId arm, TimePoint at,
+                                                const std::vector<Draft>& drafts) const;
   [[nodiscard]] bool open(const std::vector<PlannedJob>& jobs, const std::vector<Rest>& rests);
 
   CellPtr cell_;

@@ -141,8 +141,6 @@ LowerBound lower_bound(const CellPtr& cell, const std::vector<Work>& work, Durat
           steps_chosen(chosen.rows, arms[a].motion) + steps_chosen(chosen.columns, arms[b].motion),
           step, {names[a], names[b]}, bound);
       free.note(a, b, table);
-      bound.pausing_s =
-          std::max(bound.pausing_s, to_seconds(step) * static_cast<double>(shortest_way(table)));
     }
   }
   if (arms.size() > 2) consider(free.steps(), step, names, bound);

@@ -24,18 +24,15 @@ struct LowerBound {
   double excluding_s = 0.0;
   std::string busiest;                 // arm
   std::vector<std::string> excluding;  // arms
-  // Not part of the bound, to judge it by: what the jobs of the pair of arms that needs most would
-  // take in their order by arm if both could pause anywhere at no cost, seen at the samples; what
-  // lies above the bound even then is out of reach for every policy.
-  double pausing_s = 0.0;
   [[nodiscard]] double bound_s() const { return own_s > excluding_s ? own_s : excluding_s; }
 };
 
-// One motion of one arm, in any order; every one must be clear with all other arms at home (the
-// states that are looked at hold two arms under way and the others at home).
+// One motion of one arm; every one must be clear with all other arms at home (the states that are
+// looked at hold two arms under way and the others at home).
 struct Work {
   ArmId arm;
   TrajectoryPtr motion;
+  TimePoint from{};  // it is not known before; of no account for the lower bound
 };
 // Moments are samples every `step`. Rounded down: a chosen sample counts only together with its
 // chosen neighbour, for the time between them; what lies after the last whole step counts nothing.
@@ -56,10 +53,6 @@ struct ChosenMoments {
 };
 // The largest sets of rows and columns, by their common number, in which every pair conflicts.
 [[nodiscard]] ChosenMoments largest_exclusion(const ConflictTable& table);
-
-// Steps of the shortest way from the first row and column to the last, through pairs that do not
-// conflict, each step advancing a row, a column or both. 0: there is none.
-[[nodiscard]] std::size_t shortest_way(const ConflictTable& table);
 
 // The largest exclusion among more than two kinds, greedily: `free[i * n + j]` says that i and j
 // may be at once. Always: no two of those chosen may.

@@ -56,6 +56,8 @@ std::string policy_row(const std::string& policy, const Rows& rows, double seque
       fixed(makespan.mean, 2) + " ± " + fixed(makespan.deviation, 2),
       sequential_s > 0.0 ? fixed(makespan.mean / sequential_s, 2) : "-",
       policy == kOneArm ? "-" : fixed(makespan.mean / mean_bound_s(rows), 2),
+      policy == kOneArm ? "-" : fixed(spread_of(of_optimum(rows)).mean, 3),
+      policy == kOneArm ? "-" : fixed(std::ranges::max(of_optimum(rows)), 3),
       fixed(100.0 * mean(rows, busy), 0) + " %",
       fixed(100.0 * spread_of(rows, &RunRow::together).mean, 0) + " %",
       fixed(spread_of(rows, &RunRow::wait_mean_s).mean, 2),
@@ -72,16 +74,18 @@ std::string policy_row(const std::string& policy, const Rows& rows, double seque
 }
 
 std::string workload_heading(const WorkloadKind& kind, const Rows& any) {
-  const auto bound = [&](const auto& part) {
-    return fixed(mean(any, [&](const RunRow& row) { return part(row.bound); }), 2) + " s";
+  const auto limit = [&](const auto& part) {
+    return fixed(mean(any, [&](const RunRow& row) { return part(row.limits); }), 2) + " s";
   };
   return "\n## " + kind.title + "\n\n" + std::to_string(any.front()->jobs) + " jobs. Lower bound " +
-         bound([](const LowerBound& b) { return b.bound_s(); }) + ": the busiest arm's own work " +
-         bound([](const LowerBound& b) { return b.own_s; }) + ", work that excludes each other " +
-         bound([](const LowerBound& b) { return b.excluding_s; }) +
-         ". With pauses anywhere at no cost: " +
-         bound([](const LowerBound& b) { return b.pausing_s; }) + ".\n\n![](makespan_" + kind.name +
-         ".svg)\n\n";
+         limit([](const Limits& l) { return l.bound.bound_s(); }) +
+         ": the busiest arm's own work " + limit([](const Limits& l) { return l.bound.own_s; }) +
+         ", work that excludes each other " +
+         limit([](const Limits& l) { return l.bound.excluding_s; }) + ". Optimum between " +
+         limit([](const Limits& l) { return l.optimum.least_s; }) + " and " +
+         limit([](const Limits& l) { return l.optimum.most_s; }) +
+         (any.front()->busy.size() > 2 ? " (of the pair that needs most: a bound)" : "") +
+         ".\n\n![](makespan_" + kind.name + ".svg)\n\n";
 }
 
 }  // namespace
@@ -116,14 +120,20 @@ Spread spread_of(const std::vector<const RunRow*>& rows, double RunRow::*figure)
   return spread_of(values);
 }
 
+std::vector<double> of_optimum(const std::vector<const RunRow*>& rows) {
+  std::vector<double> ratios;
+  for (const RunRow* row : rows) ratios.push_back(row->makespan_s / row->limits.optimum.least_s);
+  return ratios;
+}
+
 double mean_bound_s(const std::vector<const RunRow*>& rows) {
-  return mean(rows, [](const RunRow& row) { return row.bound.bound_s(); });
+  return mean(rows, [](const RunRow& row) { return row.limits.bound.bound_s(); });
 }
 
 std::string results_csv(const std::vector<RunRow>& rows) {
   std::string text =
       "workload,seed,policy,jobs,not_succeeded,makespan_s,own_work_s,excluding_work_s,"
-      "lower_bound_s,pausing_anywhere_s,busy_ratio,least_busy_ratio,together_ratio,wait_mean_s,"
+      "lower_bound_s,optimum_s,optimum_at_most_s,busy_ratio,least_busy_ratio,together_ratio,wait_mean_s,"
       "wait_max_s,"
       "held_mean_s,min_clearance_m,monitor_stops,backlogged,judgements,evaluations\n";
   for (const RunRow& row : rows) {
@@ -133,10 +143,11 @@ std::string results_csv(const std::vector<RunRow>& rows) {
                     std::to_string(row.jobs),
                     std::to_string(row.not_succeeded),
                     fixed(row.makespan_s, 3),
-                    fixed(row.bound.own_s, 3),
-                    fixed(row.bound.excluding_s, 3),
-                    fixed(row.bound.bound_s(), 3),
-                    fixed(row.bound.pausing_s, 3),
+                    fixed(row.limits.bound.own_s, 3),
+                    fixed(row.limits.bound.excluding_s, 3),
+                    fixed(row.limits.bound.bound_s(), 3),
+                    fixed(row.limits.optimum.least_s, 3),
+                    fixed(row.limits.optimum.most_s, 3),
                     fixed(busy(row), 6),
                     fixed(*std::ranges::min_element(row.busy), 6),
                     fixed(row.together, 6),
@@ -167,6 +178,8 @@ std::string results_markdown(const Plan& plan, const std::vector<RunRow>& rows) 
                                               "makespan, s",
                                               "of sequential",
                                               "of lower bound",
+                                              "of optimum",
+                                              "worst of optimum",
                                               "arms in use",
                                               "two or more move",
                                               "mean wait, s",

@@ -14,6 +14,8 @@ namespace armloom::experiments {
 [[nodiscard]] std::vector<std::string> policies_of(const std::vector<RunRow>& rows,
                                                    const std::string& workload);
 [[nodiscard]] Spread spread_of(const std::vector<const RunRow*>& rows, double RunRow::*figure);
+// Of each row: makespan over optimum.
+[[nodiscard]] std::vector<double> of_optimum(const std::vector<const RunRow*>& rows);
 [[nodiscard]] double mean_bound_s(const std::vector<const RunRow*>& rows);
 [[nodiscard]] std::string fixed(double number, int decimals);
 

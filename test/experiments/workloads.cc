@@ -9,6 +9,7 @@
 #include "core/model/build_cell.h"
 #include "core/model/text_file.h"
 #include "server/codec/cell_codec.h"
+#include "test/experiments/shuttles.h"
 
 namespace armloom::experiments {
 namespace {
@@ -298,6 +299,12 @@ Workload apart(std::uint64_t seed) {
   return workload;
 }
 
+Workload shuttles(std::uint64_t seed) {
+  Workload workload{config("two_pandas")};
+  workload.jobs = shuttle_jobs(workload.cell, seed);
+  return workload;
+}
+
 }  // namespace
 
 const std::vector<WorkloadKind>& workload_kinds() {
@@ -306,6 +313,7 @@ const std::vector<WorkloadKind>& workload_kinds() {
       {"four_pandas", "Pick and place, four Pandas", true, four_pandas},
       {"short_beside_long", "Short beside long tasks, two Pandas", true, short_beside_long},
       {"random_mix", "A random mix that arrives over time, two Pandas", true, random_mix},
+      {"shuttles", "To and fro between home and poses in the middle, two Pandas", false, shuttles},
       {"one_fixture", "One fixture for both arms: hardly pays", false, one_fixture},
       {"apart", "Arms that never meet, in takt: does not pay", false, apart},
   };
