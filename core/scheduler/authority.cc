@@ -39,7 +39,8 @@ void dispatch_if_ready(State& state, Record& record) {
   if (!job.has_started() && state.arms.start_mismatch(*state.cell, *job.trajectory)) {
     return withdraw(state, record, {});
   }
-  if (state.arms.stop_of(job) || record.checked_at < state.recheck_epoch) return;
+  if (auto stop = state.arms.stop_of(job)) return state.jobs.set_waits(record, {std::move(*stop)});
+  if (record.checked_at < state.recheck_epoch) return;
   const Duration limit = state.graph.limit(job.id);
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {
     const auto held = state.graph.held_back(job.id);

@@ -8,6 +8,8 @@
 namespace armloom {
 namespace {
 
+constexpr std::size_t kBehindFirst[] = {0};
+
 using ::testing::ElementsAre;
 
 constexpr JobId kA{1}, kB{2}, kC{3}, kNext{4};
@@ -194,7 +196,7 @@ TEST_F(InTime, ApartGoesOnlyWhatMeetsNothing) {
 
 TEST(Prediction, KnowsWhenAMotionComesSomewhere) {
   const Precedence order(kA, kB, region(ProgressBox{1s, 3s, 2s, 4s}), true);
-  const Prediction p = predict({{1s, 5s, {}}, {0s, 5s, {}}, {0s, 2s, {0}}}, {{0, 1, &order}});
+  const Prediction p = predict({{1s, 5s}, {0s, 5s}, {0s, 2s, kBehindFirst}}, {{0, 1, &order}});
   EXPECT_EQ(p.comes_to(0, 500ms), Duration{}) << "has been there";
   EXPECT_EQ(p.comes_to(0, 3s), Duration(2s));
   EXPECT_EQ(p.comes_to(1, 2s), Duration(2s) + kShortOf + kPauseLoss) << "waits short of it";
@@ -206,7 +208,7 @@ TEST(Prediction, KnowsThatWhatIsStuckNeverComes) {
   const Precedence ab(kA, kB, region(ProgressBox{2s, 3s, 1s, 4s}), true);
   const Precedence ba(kB, kA, region(ProgressBox{2s, 3s, 1s, 4s}), true);
   const Prediction p =
-      predict({{0s, 5s, {}}, {0s, 5s, {}}, {0s, 1s, {0}}}, {{0, 1, &ab}, {1, 0, &ba}});
+      predict({{0s, 5s}, {0s, 5s}, {0s, 1s, kBehindFirst}}, {{0, 1, &ab}, {1, 0, &ba}});
   EXPECT_THAT(p.stuck, ElementsAre(0u, 1u, 2u));
   EXPECT_EQ(p.comes_to(2, 0s), std::nullopt) << "it never begins";
 }

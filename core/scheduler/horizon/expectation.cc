@@ -22,7 +22,8 @@ void Expectation::renew(const std::vector<CoordinatedMotion>& motions, const Pre
                         TimePoint now) {
   stages_.clear();
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    stages_[motions[m].job] = prediction.stages[m];
+    const auto stages = prediction.stages(m);
+    stages_[motions[m].job].assign(stages.begin(), stages.end());
   }
   at_ = now;
   is_spoilt_ = false;

@@ -27,6 +27,12 @@ OpenOrders::OpenOrders(const OrderQuestion& question)
     : motions_(both(question.admitted, question.candidates)),
       first_candidate_(question.admitted.size()),
       chains_(motions_) {
+  for (std::size_t m = 0; m < motions_.size(); ++m) {
+    ahead_.push_back({.progress = motions_[m].progress,
+                      .duration = motions_[m].duration,
+                      .after = chains_.before(m),
+                      .stands_for = motions_[m].stands_for});
+  }
   for (const Precedence& precedence : question.precedences) add_decided(precedence);
   decided_ = orders_.size();
   for (const PairRegions& pair : question.regions) add(pair);
@@ -200,8 +206,9 @@ std::optional<Duration> OpenOrders::broken_at(const OrderChoice& choice, bool va
   return broken;
 }
 
-Prediction OpenOrders::predicted(std::vector<MotionAhead> motions, std::size_t orders) {
+Prediction OpenOrders::predicted(const std::vector<MotionAhead>& motions, std::size_t orders) {
   std::vector<Dependency> dependencies;
+  dependencies.reserve(orders);
   for (std::size_t d = 0; d < orders; ++d) {
     OpenOrder& order = orders_[d];
     if (order.is_open) continue;
@@ -212,25 +219,13 @@ Prediction OpenOrders::predicted(std::vector<MotionAhead> motions, std::size_t o
 }
 
 // What rests in the way of a motion may be what a candidate takes away.
-Prediction OpenOrders::predicted() {
-  std::vector<MotionAhead> ahead;
-  for (std::size_t m = 0; m < motions_.size(); ++m) {
-    const CoordinatedMotion& motion = motions_[m];
-    ahead.push_back({.progress = motion.progress,
-                     .duration = motion.duration,
-                     .after = chains_.before(m),
-                     .stands_for = motion.stands_for});
-  }
-  return predicted(std::move(ahead), orders_.size());
-}
+Prediction OpenOrders::predicted() { return predicted(ahead_, orders_.size()); }
 
 Prediction OpenOrders::predicted_before() {
-  std::vector<MotionAhead> ahead;
-  for (std::size_t m = 0; m < first_candidate_; ++m) {
-    const CoordinatedMotion& motion = motions_[m];
-    ahead.push_back({motion.progress, motion.duration, chains_.before(m), motion.held_at});
-  }
-  return predicted(std::move(ahead), decided_);
+  std::vector<MotionAhead> ahead(ahead_.begin(),
+                                 ahead_.begin() + static_cast<std::ptrdiff_t>(first_candidate_));
+  for (std::size_t m = 0; m < ahead.size(); ++m) ahead[m].held_at = motions_[m].held_at;
+  return predicted(ahead, decided_);
 }
 
 // ---- The answers ----

@@ -81,12 +81,13 @@ class OpenOrders {
   void collect_choices();
   [[nodiscard]] bool allowed(const OrderChoice& choice, bool a_first) const;
   [[nodiscard]] const Precedence& precedence(OpenOrder& order, bool a_first, bool at_start);
-  [[nodiscard]] Prediction predicted(std::vector<MotionAhead> motions, std::size_t orders);
+  [[nodiscard]] Prediction predicted(const std::vector<MotionAhead>& motions, std::size_t orders);
   void report(std::size_t order);
 
   std::vector<CoordinatedMotion> motions_;
   std::size_t first_candidate_;
   MotionChains chains_;
+  std::vector<MotionAhead> ahead_;
   std::vector<OpenOrder> orders_;
   std::size_t decided_ = 0;
   std::vector<OrderChoice> choices_;

@@ -1,20 +1,31 @@
 #include "core/scheduler/orders/order_search.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <functional>
-#include <map>
+#include <iterator>
+#include <set>
 #include <utility>
 
 namespace armloom {
 namespace {
 
-const double kWeightOfSum =
-    getenv("W") ? atof(getenv("W")) : 0.1;  // of all arms' ends, beside the last one's
-constexpr std::size_t kPredictionsMax = 400;
+// Of the sum of all arms' ends, beside the last one's.
+constexpr double kWeightOfSum = 0.3;
+constexpr std::size_t kPredictionsMax = 300;
 constexpr double kLeast_s = 1e-3;  // what is nearer is as good
 
 }  // namespace
+
+OrderSearch::OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind)
+    : open_(open), work_behind_(work_behind) {
+  std::set<int, std::greater<>> priorities;
+  for (const CoordinatedMotion& motion : open.motions()) priorities.insert(motion.priority);
+  for (const CoordinatedMotion& motion : open.motions()) {
+    const auto level = std::distance(priorities.begin(), priorities.find(motion.priority));
+    level_.push_back(static_cast<std::size_t>(level));
+  }
+  levels_ = priorities.size();
+}
 
 Prediction OrderSearch::run() {
   std::vector<Side> sides(open_.choices().size()), as_is;
@@ -46,21 +57,25 @@ Prediction OrderSearch::run() {
 }
 
 OrderSearch::Cost OrderSearch::cost_of(const Prediction& prediction) const {
-  Cost cost;
-  std::map<int, std::map<ArmId, double>, std::greater<>> finish;  // by priority, arm
+  constexpr double kNever = -1.0;
+  const std::size_t arms = work_behind_.size();
+  std::vector<double> finish(levels_ * arms, kNever);
   for (std::size_t m = 0; m < open_.motions().size(); ++m) {
     for (const ArmId arm : open_.motions()[m].arms) {
-      double& last = finish[open_.motions()[m].priority][arm];
+      double& last = finish[level_[m] * arms + arm.index()];
       last = std::max(last, to_seconds(prediction.ends[m]));
     }
   }
-  for (const auto& [priority, arms] : finish) {
+  Cost cost(levels_);
+  for (std::size_t level = 0; level < levels_; ++level) {
     double last = 0.0, sum = 0.0;
-    for (const auto& [arm, end] : arms) {
-      last = std::max(last, end + to_seconds(work_behind_[arm.index()]));
+    for (std::size_t arm = 0; arm < arms; ++arm) {
+      const double end = finish[level * arms + arm];
+      if (end == kNever) continue;
+      last = std::max(last, end + to_seconds(work_behind_[arm]));
       sum += end;
     }
-    cost.push_back(last + kWeightOfSum * sum);
+    cost[level] = last + kWeightOfSum * sum;
   }
   return cost;
 }

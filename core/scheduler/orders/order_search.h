@@ -18,8 +18,7 @@ namespace armloom {
 class OrderSearch {
  public:
   // `work_behind` by ArmId: of jobs that are not among the motions.
-  OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind)
-      : open_(open), work_behind_(work_behind) {}
+  OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind);
 
   // Sets the choices; returns what is predicted then. Somebody is stuck: no orders were found in
   // which everything comes to its end.
@@ -52,6 +51,8 @@ class OrderSearch {
 
   OpenOrders& open_;
   const std::vector<Duration>& work_behind_;
+  std::vector<std::size_t> level_;  // by motion: of its priority, the largest first
+  std::size_t levels_ = 0;
   std::vector<Node> waiting_;  // a heap
   std::optional<Node> best_;
   std::size_t made_ = 0;

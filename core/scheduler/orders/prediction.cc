@@ -5,55 +5,43 @@
 namespace armloom {
 namespace {
 
-// A place that a motion may not pass before another one has got somewhere.
-struct Gate {
-  Duration limit;
-  std::optional<std::size_t> other;  // nothing: it stays closed
-  Duration until;
-};
+constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
 
 using Stage = Prediction::Stage;
 
+// A place that a motion may not pass before another one has got somewhere.
+struct Gate {
+  Duration limit;
+  std::size_t other;  // nobody: it stays closed
+  Duration until;
+};
+
 // Precondition: it comes there.
-Duration time_at(const std::vector<Stage>& stages, Duration progress) {
+Duration time_at(std::span<const Stage> stages, Duration progress) {
   if (progress <= stages.front().progress) return Duration{};
   const auto after = std::ranges::lower_bound(stages, progress, {}, &Stage::progress);
   const Stage& from = *(after - 1);
   return from.time + progress - from.progress;
 }
 
-struct Runner {
-  std::vector<Gate> gates;  // by limit
-  std::size_t next_gate = 0;
-  std::vector<Stage> stages;
-  bool ended = false;
-  std::size_t waits_for = 0;
+}  // namespace
 
-  // When it comes to `progress`; nothing: not known yet.
-  [[nodiscard]] std::optional<Duration> comes_to(Duration progress, Duration duration) const {
-    if (stages.empty()) return std::nullopt;
-    if (progress <= stages.front().progress) return Duration{};
-    const bool known = ended || (next_gate < gates.size() && progress <= gates[next_gate].limit);
-    return known ? std::optional(time_at(stages, std::min(progress, duration))) : std::nullopt;
-  }
-};
-
+// All motions at once, each as far as is known of those that it waits for. What belongs to each
+// motion stands side by side in one array: nothing is allocated by motion.
 class Race {
  public:
   Race(const std::vector<MotionAhead>& motions, const std::vector<Dependency>& dependencies)
       : motions_(motions), runners_(motions.size()) {
-    for (const Dependency& dependency : dependencies) {
-      for (const Precedence::Step& step : dependency.precedence->steps()) {
-        if (step.until <= motions_[dependency.first].progress) continue;  // passed
-        runners_[dependency.second].gates.push_back({step.limit, dependency.first, step.until});
-      }
+    place_gates(dependencies);
+    prediction_.first_.resize(motions.size());
+    prediction_.count_.resize(motions.size());
+    std::size_t stages = 0;
+    for (std::size_t m = 0; m < motions.size(); ++m) {
+      prediction_.first_[m] = stages;
+      // Its beginning, a stand, two at each gate, its end.
+      stages += 3 + 2 * (runners_[m].gates_end - runners_[m].next_gate);
     }
-    for (std::size_t m = 0; m < motions_.size(); ++m) {
-      if (const auto& at = motions_[m].held_at) runners_[m].gates.push_back({*at, {}, {}});
-    }
-    for (Runner& runner : runners_) {
-      std::ranges::stable_sort(runner.gates, {}, &Gate::limit);
-    }
+    prediction_.stages_.resize(stages);
   }
 
   Prediction run() {
@@ -61,77 +49,129 @@ class Race {
       moved = false;
       for (std::size_t m = 0; m < runners_.size(); ++m) moved = advance(m) || moved;
     }
-    Prediction prediction;
-    for (const Runner& runner : runners_) {
-      const Duration last = runner.stages.empty() ? Duration{} : runner.stages.back().time;
-      prediction.begins.push_back(runner.stages.empty() ? Duration{} : begins(runner));
-      prediction.ends.push_back(last);
-    }
     for (std::size_t m = 0; m < runners_.size(); ++m) {
-      if (!runners_[m].ended) prediction.stuck.push_back(m);
+      const auto stages = prediction_.stages(m);
+      prediction_.begins.push_back(stages.empty() ? Duration{} : begins(stages));
+      prediction_.ends.push_back(stages.empty() ? Duration{} : stages.back().time);
+      if (!runners_[m].ended) prediction_.stuck.push_back(m);
     }
-    if (!prediction.stuck.empty()) prediction.ring = ring_from(prediction.stuck.front());
-    for (Runner& runner : runners_) {
-      if (!runner.ended && !runner.stages.empty()) come_to_gate(runner);
-      prediction.stages.push_back(std::move(runner.stages));
-    }
-    return prediction;
+    if (!prediction_.stuck.empty()) prediction_.ring = ring_from(prediction_.stuck.front());
+    for (const std::size_t m : prediction_.stuck) come_to_gate(m);
+    return std::move(prediction_);
   }
 
  private:
-  static Duration begins(const Runner& runner) {
-    const Stage& first = runner.stages.front();
-    const bool waits = runner.stages.size() > 1 && runner.stages[1].progress == first.progress;
-    return first.progress > Duration{} ? Duration{} : waits ? runner.stages[1].time : first.time;
+  struct Runner {
+    std::size_t next_gate = 0;  // into gates_
+    std::size_t gates_end = 0;
+    std::size_t waits_for = 0;
+    bool ended = false;
+  };
+
+  // By motion, and of each by limit.
+  void place_gates(const std::vector<Dependency>& dependencies) {
+    const auto each_gate = [&](auto&& take) {
+      for (const Dependency& dependency : dependencies) {
+        for (const Precedence::Step& step : dependency.precedence->steps()) {
+          if (step.until <= motions_[dependency.first].progress) continue;  // passed
+          take(dependency.second, Gate{step.limit, dependency.first, step.until});
+        }
+      }
+      for (std::size_t m = 0; m < motions_.size(); ++m) {
+        if (const auto& at = motions_[m].held_at) take(m, Gate{*at, kNobody, {}});
+      }
+    };
+    each_gate([this](std::size_t m, const Gate&) { ++runners_[m].gates_end; });
+    std::size_t all = 0;
+    for (Runner& runner : runners_) {
+      runner.next_gate = all;
+      all += runner.gates_end;
+      runner.gates_end = runner.next_gate;
+    }
+    gates_.resize(all);
+    each_gate([this](std::size_t m, const Gate& gate) { gates_[runners_[m].gates_end++] = gate; });
+    for (const Runner& runner : runners_) {
+      const auto begin = gates_.begin();
+      std::stable_sort(begin + static_cast<std::ptrdiff_t>(runner.next_gate),
+                       begin + static_cast<std::ptrdiff_t>(runner.gates_end),
+                       [](const Gate& a, const Gate& b) { return a.limit < b.limit; });
+    }
   }
 
-  static void come_to_gate(Runner& runner) {
-    const Stage here = runner.stages.back();
-    const Duration limit = runner.gates[runner.next_gate].limit;
-    if (limit > here.progress) runner.stages.push_back({limit, here.time + limit - here.progress});
+  static Duration begins(std::span<const Stage> stages) {
+    const Stage& first = stages.front();
+    const bool waits = stages.size() > 1 && stages[1].progress == first.progress;
+    return first.progress > Duration{} ? Duration{} : waits ? stages[1].time : first.time;
+  }
+
+  void add_stage(std::size_t m, Stage stage) {
+    prediction_.stages_[prediction_.first_[m] + prediction_.count_[m]++] = stage;
+  }
+
+  // Where one that is stuck stands in the end.
+  void come_to_gate(std::size_t m) {
+    if (prediction_.count_[m] == 0) return;
+    const Stage here = prediction_.stages(m).back();
+    const Duration limit = gates_[runners_[m].next_gate].limit;
+    if (limit > here.progress) add_stage(m, {limit, here.time + limit - here.progress});
+  }
+
+  // When it comes to `progress`; nothing: not known yet.
+  [[nodiscard]] std::optional<Duration> comes_to(std::size_t m, Duration progress) const {
+    const Runner& runner = runners_[m];
+    const auto stages = prediction_.stages(m);
+    if (stages.empty()) return std::nullopt;
+    if (progress <= stages.front().progress) return Duration{};
+    const bool known = runner.ended || (runner.next_gate < runner.gates_end &&
+                                        progress <= gates_[runner.next_gate].limit);
+    if (!known) return std::nullopt;
+    return time_at(stages, std::min(progress, motions_[m].duration));
+  }
+
+  // Whether it may leave its start.
+  bool sets_out(std::size_t m) {
+    const MotionAhead& motion = motions_[m];
+    Duration start{};
+    for (const std::size_t before : motion.after) {
+      if (!runners_[before].ended) {
+        runners_[m].waits_for = before;
+        return false;
+      }
+      start = std::max(start, prediction_.stages(before).back().time);
+    }
+    add_stage(m, {motion.progress, start});
+    if (motion.stands_for > Duration{}) add_stage(m, {motion.progress, start + motion.stands_for});
+    return true;
   }
 
   // As far as is known; whether that is any farther.
   bool advance(std::size_t m) {
     Runner& runner = runners_[m];
-    const MotionAhead& motion = motions_[m];
     if (runner.ended) return false;
     bool moved = false;
-    if (runner.stages.empty()) {
-      Duration start{};
-      for (const std::size_t before : motion.after) {
-        if (!runners_[before].ended) {
-          runner.waits_for = before;
-          return false;
-        }
-        start = std::max(start, runners_[before].stages.back().time);
-      }
-      runner.stages.push_back({motion.progress, start});
-      if (motion.stands_for > Duration{}) {
-        runner.stages.push_back({motion.progress, start + motion.stands_for});
-      }
+    if (prediction_.count_[m] == 0) {
+      if (!sets_out(m)) return false;
       moved = true;
     }
-    for (; runner.next_gate < runner.gates.size(); ++runner.next_gate) {
-      const Gate& gate = runner.gates[runner.next_gate];
-      const std::size_t other = gate.other.value_or(m);
-      const auto opens = gate.other ? runners_[other].comes_to(gate.until, motions_[other].duration)
-                                    : std::nullopt;
+    for (; runner.next_gate < runner.gates_end; ++runner.next_gate) {
+      const Gate& gate = gates_[runner.next_gate];
+      const auto opens = gate.other != kNobody ? comes_to(gate.other, gate.until) : std::nullopt;
       if (!opens) {
-        runner.waits_for = other;
+        runner.waits_for = gate.other != kNobody ? gate.other : m;
         return moved;
       }
-      const Stage here = runner.stages.back();
+      const Stage here = prediction_.stages(m).back();
       const Duration limit = std::max(gate.limit, here.progress);
       const Duration arrives = here.time + (limit - here.progress);
       moved = true;
       if (*opens <= arrives) continue;
       const Duration loss = limit > Duration{} ? kPauseLoss : Duration{};
-      if (limit > here.progress) runner.stages.push_back({limit, arrives});
-      runner.stages.push_back({limit, *opens + loss});
+      if (limit > here.progress) add_stage(m, {limit, arrives});
+      add_stage(m, {limit, *opens + loss});
     }
-    const Stage here = runner.stages.back();
-    runner.stages.push_back({motion.duration, here.time + (motion.duration - here.progress)});
+    const Stage here = prediction_.stages(m).back();
+    const Duration duration = motions_[m].duration;
+    add_stage(m, {duration, here.time + (duration - here.progress)});
     runner.ended = true;
     return true;
   }
@@ -150,19 +190,19 @@ class Race {
 
   const std::vector<MotionAhead>& motions_;
   std::vector<Runner> runners_;
+  std::vector<Gate> gates_;
+  Prediction prediction_;
 };
 
-}  // namespace
-
 std::optional<Duration> Prediction::comes_to(std::size_t motion, Duration progress) const {
-  const std::vector<Stage>& way = stages[motion];
+  const auto way = stages(motion);
   if (way.empty()) return std::nullopt;
   if (progress > way.back().progress) return std::nullopt;
   return time_at(way, progress);
 }
 
 std::optional<Duration> Prediction::goes_beyond(std::size_t motion, Duration progress) const {
-  const std::vector<Stage>& way = stages[motion];
+  const auto way = stages(motion);
   const auto after = std::ranges::upper_bound(way, progress, {}, &Stage::progress);
   if (after == way.end()) return std::nullopt;
   if (after == way.begin()) return Duration{};

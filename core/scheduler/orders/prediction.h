@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/time.h"
@@ -11,11 +12,11 @@ namespace armloom {
 
 // A motion as the prediction sees it.
 struct MotionAhead {
-  Duration progress;                     // where it is
-  Duration duration;                     // of its trajectory
-  std::vector<std::size_t> after;        // motions of the same arms that end before it begins
-  std::optional<Duration> held_at = {};  // goes no farther than this, as things are
-  Duration stands_for{};                 // before it goes on
+  Duration progress;                        // where it is
+  Duration duration;                        // of its trajectory
+  std::span<const std::size_t> after = {};  // motions of the same arms that end before it begins
+  std::optional<Duration> held_at = {};     // goes no farther than this, as things are
+  Duration stands_for{};                    // before it goes on
 };
 
 // `second` may pass as Precedence says when `first` has got far enough. Indices into the motions.
@@ -27,23 +28,31 @@ struct Dependency {
 
 // When everything goes as fast as its trajectory says and waits where it has to. All times count
 // from now.
-struct Prediction {
+class Prediction {
+ public:
   // How a motion advances: at `progress` at `time`, from there second by second to the next entry.
   struct Stage {
     Duration progress;
     Duration time;
   };
-  std::vector<std::vector<Stage>> stages;  // up to where it comes; empty: it never begins
-
-  std::vector<Duration> begins;    // leaves its start; zero: has begun
-  std::vector<Duration> ends;      // of motions that come to their end
-  std::vector<std::size_t> stuck;  // ascending: motions that never do, because they wait in a ring
-  std::vector<std::size_t> ring;   // one of these rings: each waits for the next, the last for the
-                                   // first
-
+  // Up to where it comes; empty: it never begins.
+  [[nodiscard]] std::span<const Stage> stages(std::size_t motion) const {
+    return {stages_.data() + first_[motion], count_[motion]};
+  }
   // When the motion comes to `progress`, and when it goes on from there; nothing: never.
   [[nodiscard]] std::optional<Duration> comes_to(std::size_t motion, Duration progress) const;
   [[nodiscard]] std::optional<Duration> goes_beyond(std::size_t motion, Duration progress) const;
+
+  std::vector<Duration> begins = {};    // leaves its start; zero: has begun
+  std::vector<Duration> ends = {};      // of motions that come to their end
+  std::vector<std::size_t> stuck = {};  // ascending: motions that never do: they wait in a ring
+  std::vector<std::size_t> ring = {};   // one of these rings: each waits for the next, the last for
+                                        // the first
+ private:
+  friend class Race;
+  std::vector<Stage> stages_ = {};
+  std::vector<std::size_t> first_ = {};  // of each motion's stages
+  std::vector<std::size_t> count_ = {};
 };
 
 // What a stop on the way and the start after it cost besides the wait.
