@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/scheduler/authority.h"
 #include "core/scheduler/policy.h"
 
 namespace armloom {
@@ -30,7 +31,7 @@ std::set<JobId> first_of_arms(const State& state, const std::vector<JobId>& grou
 bool may_follow(const State& state, const Record& record) {
   return record.job.is_waiting() && record.job.after.empty() &&
          !state.jobs.lets_another_pass(record) && !state.arms.stop_of(record.job) &&
-         state.lanes.follows_on(record.job.id);
+         state.lanes.follows_on(record.job.id) && !holds_one_ahead(state, record);
 }
 
 }  // namespace

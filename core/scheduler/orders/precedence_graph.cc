@@ -49,8 +49,10 @@ CoordinatedMotion* PrecedenceGraph::motion(JobId job) {
 void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
                             const PassingOrders& orders) {
   for (const CoordinatedMotion& candidate : candidates) {
-    // Its regions say from now on what its arms are in the way of.
-    for (Blockade& blockade : blockades_) blockade.leave(candidate.arms);
+    // Its regions say from now on what its arms are in the way of; but for motions of its own arms.
+    for (Blockade& blockade : blockades_) {
+      if (!share_an_arm(*find(blockade.job), candidate)) blockade.leave(candidate.arms);
+    }
     std::erase_if(blockades_, [](const Blockade& blockade) { return blockade.arms.empty(); });
     motions_.push_back(candidate);
   }
@@ -118,6 +120,14 @@ std::optional<Blocker> PrecedenceGraph::held_back(JobId job) const {
                    region.time_b, region.time_a};
   }
   return std::nullopt;
+}
+
+bool PrecedenceGraph::is_held_by(JobId job, const std::vector<ArmId>& arms) const {
+  return std::ranges::any_of(blockades_, [&](const Blockade& blockade) {
+    return blockade.job == job && std::ranges::any_of(blockade.arms, [&](ArmId arm) {
+             return std::ranges::find(arms, arm) != arms.end();
+           });
+  });
 }
 
 bool PrecedenceGraph::is_acyclic() const {

@@ -40,6 +40,8 @@ class PrecedenceGraph {
   [[nodiscard]] Duration limit(JobId job) const;
   // What holds it at its limit; nothing: it may go to its end, or waits for its own arm.
   [[nodiscard]] std::optional<Blocker> held_back(JobId job) const;
+  // Whether one of the arms rests in the way of the motion.
+  [[nodiscard]] bool is_held_by(JobId job, const std::vector<ArmId>& arms) const;
   // Whether all come to their ends by their orders, but for arms that rest in the way.
   [[nodiscard]] bool is_acyclic() const;
   // Told to the arm. No more than limit(): else throws std::logic_error.

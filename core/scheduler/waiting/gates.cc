@@ -29,7 +29,7 @@ bool is_next(const State& state, const Record& record, ArmId arm) {
   const bool ahead = record.job.is_waiting() && state.lanes.follows_on(record.job.id);
   const std::size_t horizon = ahead ? state.policy->horizon() : 1;
   for (std::size_t place = 0; place < std::min(horizon, queue.size()); ++place) {
-    if (queue[place] == record.job.id) return true;
+    if (queue[place] == record.job.id) return place == 0 || !holds_one_ahead(state, record);
     if (!state.jobs.at(queue[place]).job.is_admitted()) return false;
   }
   return false;
