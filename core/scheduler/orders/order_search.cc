@@ -9,9 +9,6 @@
 namespace armloom {
 namespace {
 
-// Of the sum of all arms' ends, beside the last one's.
-constexpr double kWeightOfSum = 0.3;
-constexpr std::size_t kPredictionsMax = 300;
 constexpr double kLeast_s = 1e-3;  // what is nearer is as good
 
 }  // namespace
@@ -29,20 +26,22 @@ OrderSearch::OrderSearch(OpenOrders& open, const std::vector<Duration>& work_beh
 
 Prediction OrderSearch::run() {
   std::vector<Side> sides(open_.choices().size()), as_is;
+  const std::vector<bool> concerned = motions_concerned();
   for (std::size_t c = 0; c < sides.size(); ++c) {
-    as_is.push_back({Side::first, open_.choices()[c].at_start});
-    if (open_.choices()[c].options.size() < 2) sides[c] = as_is[c];
+    const OrderChoice& choice = open_.choices()[c];
+    as_is.push_back({Side::first, choice.at_start});
+    const bool is_near = std::ranges::any_of(choice.members, [&](const auto& member) {
+      const OpenOrder& order = open_.orders()[member.order];
+      return concerned[order.a] && concerned[order.b];
+    });
+    if (choice.options.size() < 2 || !is_near) sides[c] = as_is[c];
   }
   Node now = made(as_is);
   Prediction otherwise = now.prediction;
   if (now.prediction.stuck.empty()) note(now);
   dive(made(std::move(sides)));
-  const auto later = [](const Node& a, const Node& b) {
-    return a.cost != b.cost ? a.cost > b.cost : a.number > b.number;
-  };
   while (!waiting_.empty() && made_ < kPredictionsMax) {
-    std::ranges::make_heap(waiting_, later);
-    std::ranges::pop_heap(waiting_, later);
+    std::ranges::pop_heap(waiting_, is_later);
     Node next = std::move(waiting_.back());
     waiting_.pop_back();
     if (is_better(next.cost)) dive(std::move(next));
@@ -54,6 +53,31 @@ Prediction OrderSearch::run() {
   wait_where_it_is_cheaper();
   set(best_->sides);
   return std::move(best_->prediction);
+}
+
+bool OrderSearch::is_later(const Node& a, const Node& b) {
+  return a.cost != b.cost ? a.cost > b.cost : a.number > b.number;
+}
+
+// Those on the lanes of candidates, and of what these meet; of no candidates all are.
+std::vector<bool> OrderSearch::motions_concerned() const {
+  const auto& motions = open_.motions();
+  if (open_.first_candidate() == motions.size()) return std::vector<bool>(motions.size(), true);
+  std::vector<bool> lanes(work_behind_.size(), false);
+  const auto add_lanes_of = [&](std::size_t motion) {
+    for (const ArmId arm : motions[motion].arms) lanes[arm.index()] = true;
+  };
+  for (std::size_t m = open_.first_candidate(); m < motions.size(); ++m) add_lanes_of(m);
+  for (std::size_t d = open_.decided(); d < open_.orders().size(); ++d) {
+    add_lanes_of(open_.orders()[d].a);
+    add_lanes_of(open_.orders()[d].b);
+  }
+  std::vector<bool> concerned;
+  for (const CoordinatedMotion& motion : motions) {
+    concerned.push_back(std::ranges::any_of(
+        motion.arms, [&](ArmId arm) { return static_cast<bool>(lanes[arm.index()]); }));
+  }
+  return concerned;
 }
 
 OrderSearch::Cost OrderSearch::cost_of(const Prediction& prediction) const {
@@ -137,7 +161,9 @@ void OrderSearch::dive(Node node) {
     const bool takes_one = one_ends && (!other_ends || one.cost <= other.cost);
     node = std::move(takes_one ? one : other);
     Node& left = takes_one ? other : one;
-    if (left.prediction.stuck.empty()) waiting_.push_back(std::move(left));
+    if (!left.prediction.stuck.empty()) continue;
+    waiting_.push_back(std::move(left));
+    std::ranges::push_heap(waiting_, is_later);
   }
 }
 

@@ -15,8 +15,14 @@ namespace armloom {
 // the disjunctive graph of job shops: Carlier and Pinson 1989.)
 //
 // A budget of predictions bounds it; what is best by then counts. Deterministic.
+//
+// Cost: when the last arm has done its work, what waits behind included, and kWeightOfSum times the
+// sum of the arms' ends; of motions of larger priority first.
 class OrderSearch {
  public:
+  inline static constexpr double kWeightOfSum = 0.3;
+  inline static constexpr std::size_t kPredictionsMax = 300;
+
   // `work_behind` by ArmId: of jobs that are not among the motions.
   OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind);
 
@@ -39,6 +45,8 @@ class OrderSearch {
     std::size_t number;  // in order of making
   };
 
+  [[nodiscard]] static bool is_later(const Node& a, const Node& b);
+  [[nodiscard]] std::vector<bool> motions_concerned() const;
   [[nodiscard]] Cost cost_of(const Prediction& prediction) const;
   [[nodiscard]] bool is_better(const Cost& cost) const;
   [[nodiscard]] Node made(std::vector<Side> sides);

@@ -1,0 +1,142 @@
+// The next legs of every lane are admitted ahead, and their orders weighed again.
+#include <gmock/gmock.h>
+
+#include "test/scheduler/bench_cell.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::ElementsAre;
+
+CellPtr cell_with_horizon(std::size_t arms, int legs) {
+  auto cell = std::make_shared<Cell>(*one_joint_arms(arms));
+  cell->scheduling.horizon_legs = legs;
+  return cell;
+}
+
+struct Horizon : ::testing::Test {
+  Bench bench{cell_with_horizon(2, 3), "coordinated"};
+  TimePoint now{};
+
+  void answer_all_free() {
+    while (bench.question) bench.answer_free(now += 1ms);
+  }
+  // To and fro.
+  std::vector<JobId> submit_legs(std::uint32_t arm, std::size_t count) {
+    std::vector<JobId> jobs;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double from = i % 2 == 0 ? 0.0 : 1.0;
+      jobs.push_back(bench.submit(move({arm}, from, 1.0 - from, 2s), now += 1ms));
+    }
+    return jobs;
+  }
+  // Of one that has begun, and one that meets it from 4 to 4.2 s of both motions.
+  std::pair<JobId, JobId> meet() {
+    const JobId first = bench.submit(move({0}, 0, 1, 6s), now += 1ms);
+    answer_all_free();
+    bench.progressed(first, 400ms, now += 400ms);
+    const JobId second = bench.submit(move({1}, 0, 1, 6s), now += 1ms);
+    bench.answer_regions(now += 1ms,
+                         {{second, first, {region(ProgressBox{4s, 4200ms, 4s, 4200ms})}}});
+    bench.step(Wake{}, now += 400ms);
+    return {first, second};
+  }
+};
+
+TEST_F(Horizon, AdmitsSoManyLegsOfALane) {
+  const std::vector<JobId> jobs = submit_legs(0, 5);
+  answer_all_free();
+  for (const std::size_t ahead : {0, 1, 2}) {
+    EXPECT_EQ(bench.state(jobs[ahead]), JobState::scheduled);
+  }
+  EXPECT_EQ(bench.state(jobs[3]), JobState::queued);
+  ASSERT_EQ(bench.job(jobs[3]).waits_on.size(), 1u);
+  EXPECT_EQ(bench.job(jobs[3]).waits_on.front().job, jobs[2]);
+  EXPECT_EQ(bench.dispatched.size(), 1u) << "one after the other";
+  bench.finished(jobs[0], now += 2s);
+  answer_all_free();
+  EXPECT_EQ(bench.state(jobs[3]), JobState::scheduled);
+  EXPECT_EQ(bench.state(jobs[4]), JobState::queued);
+}
+
+TEST_F(Horizon, TakesNoLegThatDoesNotBeginWhereTheLaneLeads) {
+  const JobId out = submit_legs(0, 1).front();
+  answer_all_free();
+  const JobId elsewhere = bench.submit(move({0}, 0.5, 0, 2s), now += 1ms);
+  answer_all_free();
+  EXPECT_EQ(bench.state(out), JobState::scheduled);
+  EXPECT_EQ(bench.state(elsewhere), JobState::queued);
+  bench.finished(out, now += 2s);
+  EXPECT_EQ(bench.state(elsewhere), JobState::failed);
+}
+
+TEST_F(Horizon, AConflictAheadOfItsTurnIsNoBacklog) {
+  const std::vector<JobId> jobs = submit_legs(0, 2);
+  bench.answer_free(now += 1ms);
+  bench.answer_conflict(now += 1ms, Conflict::With::rest, {}, ArmId{1});
+  EXPECT_EQ(bench.state(jobs[1]), JobState::queued);
+  EXPECT_FALSE(bench.job(jobs[1]).times.backlogged_at);
+  bench.finished(jobs[0], now += 2s);
+  bench.answer_conflict(now += 1ms, Conflict::With::rest, {}, ArmId{1});
+  EXPECT_EQ(bench.state(jobs[1]), JobState::backlogged);
+}
+
+TEST_F(Horizon, WhoStallsLosesItsTurn) {
+  const auto [first, second] = meet();
+  EXPECT_EQ(bench.scheduler.find(second)->state(), JobState::scheduled);
+  for (Duration progress = 100ms; progress < 3s; progress += 100ms) {
+    bench.progressed(second, progress, now += 100ms);
+    bench.step(Wake{}, now);
+  }
+  bench.progressed(second, 3900ms, now += 900ms);
+  EXPECT_GT(bench.authority(second), 4s);
+  EXPECT_LT(bench.authority(first), 4s);
+}
+
+TEST_F(Horizon, WhoIsStoppedLosesItsTurn) {
+  const auto [first, second] = meet();
+  bench.step(Stop{{ArmId{0}}, "operator"}, now += 1ms);
+  bench.stopped(first, 500ms, now += 100ms);
+  for (Duration progress = 100ms; progress < 3900ms; progress += 100ms) {
+    bench.progressed(second, progress, now += 100ms);
+    bench.step(Wake{}, now);
+  }
+  EXPECT_GT(bench.authority(second), 4s);
+  bench.finished(second, now += 2s);
+  bench.step(Resume{{ArmId{0}}}, now += 1ms);
+  answer_all_free();
+  EXPECT_EQ(bench.dispatched.back().job, first);
+}
+
+TEST_F(Horizon, WhoIsOnTimeKeepsIt) {
+  const auto [first, second] = meet();
+  for (Duration progress = 100ms; progress < 3s; progress += 100ms) {
+    bench.progressed(first, progress + 800ms, now += 50ms);
+    bench.progressed(second, progress, now += 50ms);
+    bench.step(Wake{}, now);
+  }
+  EXPECT_LT(bench.authority(second), 4s);
+  bench.progressed(first, 3900ms, now += 50ms);
+  EXPECT_GT(bench.authority(first), 4s);
+}
+
+// Arm a rests in the way of b's first motion, and moves on only together with b.
+TEST_F(Horizon, ATeamIsNotAdmittedBehindWhatOneOfItsArmsHolds) {
+  const JobId held = bench.submit(move({1}, 0, 1, 6s), now += 1ms);
+  bench.answer_free(now += 1ms);
+  bench.progressed(held, 100ms, now += 1ms);
+  const JobId leaves = bench.submit(move({0}, 0, 1, 2s), now += 1ms);
+  bench.answer_regions(now += 1ms,
+                       {{leaves, held, {region(ProgressBox{0ms, 1200ms, 4s, 4200ms})}}});
+  ASSERT_EQ(bench.state(leaves), JobState::scheduled);
+  bench.step(Cancel{leaves}, now += 1ms);
+  bench.stopped(leaves, 0s, now += 1ms);
+  ASSERT_LT(bench.authority(held), 4s);
+  const JobId team = bench.submit(move({0, 1}, {0, 1}, {1, 0}, 2s), now += 1ms);
+  answer_all_free();
+  EXPECT_EQ(bench.state(team), JobState::queued);
+  EXPECT_LT(bench.authority(held), 4s);
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,108 @@
+// Branch and bound against all assignments there are.
+#include "core/scheduler/orders/order_search.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "test/scheduler/bench_cell.h"
+
+namespace armloom {
+namespace {
+
+// Two or three lanes of random legs, and regions between legs of different lanes.
+class RandomOrders {
+ public:
+  explicit RandomOrders(std::uint64_t seed) : random_(seed) {
+    lanes_ = 2 + static_cast<std::uint32_t>(random_() % 2);
+    for (std::uint64_t leg = 0; leg < 2; ++leg) {
+      for (std::uint32_t arm = 0; arm < lanes_; ++arm) {
+        const JobId job{motions_.size() + 1};
+        motions_.push_back({.job = job, .arms = {ArmId{arm}}, .duration = 1s + up_to(3s)});
+      }
+    }
+    for (const CoordinatedMotion& a : motions_) {
+      for (const CoordinatedMotion& b : motions_) {
+        if (b.job < a.job && a.arms != b.arms && random_() % 3 == 0) meet(a, b);
+      }
+    }
+    work_.resize(lanes_);
+    for (Duration& work : work_) work = up_to(4s);
+  }
+  [[nodiscard]] OpenOrders open() const {
+    return OpenOrders({nobody_, none_, motions_, regions_, work_});
+  }
+  [[nodiscard]] const std::vector<Duration>& work() const { return work_; }
+
+  // As OrderSearch has it, of one priority.
+  [[nodiscard]] double cost_of(const Prediction& prediction) const {
+    std::vector<double> ends(lanes_);
+    for (std::size_t m = 0; m < motions_.size(); ++m) {
+      double& end = ends[motions_[m].arms.front().index()];
+      end = std::max(end, to_seconds(prediction.ends[m]));
+    }
+    double last = 0.0, sum = 0.0;
+    for (std::size_t arm = 0; arm < ends.size(); ++arm) {
+      last = std::max(last, ends[arm] + to_seconds(work_[arm]));
+      sum += ends[arm];
+    }
+    return last + OrderSearch::kWeightOfSum * sum;
+  }
+
+ private:
+  Duration up_to(Duration most) {
+    return Duration(
+        static_cast<Duration::rep>(random_() % static_cast<std::uint64_t>(most.count())));
+  }
+  void meet(const CoordinatedMotion& a, const CoordinatedMotion& b) {
+    const Duration from_a = 100ms + up_to(700ms), from_b = 100ms + up_to(700ms);
+    regions_.push_back(
+        {a.job, b.job, {region(ProgressBox{from_a, from_a + 100ms, from_b, from_b + 100ms})}});
+  }
+
+  std::mt19937_64 random_;
+  std::uint32_t lanes_;
+  std::vector<CoordinatedMotion> nobody_;
+  std::vector<Precedence> none_;
+  std::vector<CoordinatedMotion> motions_;
+  std::vector<PairRegions> regions_;
+  std::vector<Duration> work_;
+};
+
+TEST(OrderSearch, FindsNothingDearerThanTheCheapestOfAllAssignments) {
+  std::size_t compared = 0, better_than_first = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const RandomOrders random(seed);
+    OpenOrders open = random.open();
+    std::vector<OrderChoice*> free;
+    for (OrderChoice& choice : open.choices()) {
+      if (choice.options.size() > 1) free.push_back(&choice);
+    }
+    if (open.blocked() || free.empty() || free.size() > 9) continue;
+    std::optional<double> cheapest;
+    double first = 0.0;
+    for (std::size_t which = 0; which < std::size_t{1} << free.size(); ++which) {
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        open.set(*free[i], free[i]->options[which >> i & 1U]);
+      }
+      const Prediction prediction = open.predicted();
+      if (!prediction.stuck.empty()) continue;
+      const double cost = random.cost_of(prediction);
+      if (which == 0) first = cost;
+      cheapest = std::min(cheapest.value_or(cost), cost);
+    }
+    OpenOrders searched = random.open();
+    const Prediction found = OrderSearch(searched, random.work()).run();
+    ASSERT_EQ(found.stuck.empty(), cheapest.has_value()) << "seed " << seed;
+    if (!cheapest) continue;
+    ++compared;
+    EXPECT_LE(random.cost_of(found), *cheapest + 2e-3) << "seed " << seed;
+    EXPECT_NEAR(random.cost_of(searched.predicted()), random.cost_of(found), 1e-9);
+    if (random.cost_of(found) < first - 0.1) ++better_than_first;
+  }
+  EXPECT_GT(compared, 150u);
+  EXPECT_GT(better_than_first, 50u);
+}
+
+}  // namespace
+}  // namespace armloom
