@@ -1,6 +1,8 @@
 #include "test/experiments/claims.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "test/experiments/tables.h"
 
@@ -11,6 +13,11 @@ constexpr double kOfLockstep = 0.80;
 constexpr double kOfSequential = 0.85;
 constexpr double kShorter = 0.30;
 constexpr double kOrderSlack = 0.02;
+constexpr double kMeanAbove = 0.03;  // the optimum
+constexpr double kMostAbove = 0.08;
+constexpr double kMeanAboveBound = 0.07;                    // more than two arms
+constexpr double kBehind = 0.01;                            // earliest_start, on any seed
+constexpr const char* kPromisesNothing = "timed_discrete";  // between two time steps
 // Slowest last.
 constexpr const char* kOrder[] = {"coordinated", "earliest_start", "certified", "reservation",
                                   "sequential"};
@@ -52,6 +59,48 @@ class Claims {
       faster_s = slower_s;
     }
     say(holds, workload + ": " + sentence + " s, each within " + percent(kOrderSlack));
+  }
+  // Of two arms; of more, the mean against a bound.
+  void near_optimum(const std::string& workload) {
+    const auto rows = rows_of(rows_, workload, best_);
+    if (rows.empty()) return;
+    const std::vector<double> ratios = of_optimum(rows);
+    const double mean = spread_of(ratios).mean - 1.0;
+    const double most = std::ranges::max(ratios) - 1.0;
+    const bool two = rows.front()->busy.size() == 2;
+    const std::string wanted = two ? percent(kMeanAbove) + " and " + percent(kMostAbove)
+                                   : percent(kMeanAboveBound) + " in the mean, of the pair's";
+    say(two ? mean <= kMeanAbove && most <= kMostAbove : mean <= kMeanAboveBound,
+        workload + ": " + best_ + " is " + percent(mean) + " above the optimum in the mean, " +
+            percent(most) + " at worst (wanted " + wanted + ")");
+  }
+  void never_behind(const std::string& workload, const std::string& other) {
+    const auto others = rows_of(rows_, workload, other);
+    const auto rows = rows_of(rows_, workload, best_);
+    if (others.empty() || other == best_) return;
+    const RunRow* worst = nullptr;
+    double behind = -1.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double ratio = rows[i]->makespan_s / others[i]->makespan_s - 1.0;
+      if (worst != nullptr && ratio <= behind) continue;
+      worst = rows[i];
+      behind = ratio;
+    }
+    if (worst == nullptr) return;
+    say(behind <= kBehind, workload + ": " + best_ + " is at most " + percent(behind) + " behind " +
+                               other + " (seed " + std::to_string(worst->seed) + "; wanted " +
+                               percent(kBehind) + ")");
+  }
+  void optimum_is_one(const std::string& workload) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const RunRow& row : rows_) {
+      if (row.workload != workload || row.policy == kOneArm) continue;
+      if (row.policy == kPromisesNothing) continue;
+      least = std::min(least, row.makespan_s / row.limits.optimum.least_s);
+    }
+    if (std::isinf(least)) return;
+    say(least >= 1.0, workload + ": no certified run is shorter than its optimum, the nearest " +
+                          percent(least - 1.0) + " above");
   }
   void both_move(const std::string& workload) {
     double least = 1.0;
@@ -105,6 +154,12 @@ std::vector<Claim> claims(const Plan& plan, const std::vector<RunRow>& rows,
   all.shorter("short_beside_long");
   for (const WorkloadKind& kind : plan.workloads) all.order(kind.name);
   for (const WorkloadKind& kind : plan.workloads) all.both_move(kind.name);
+  for (const WorkloadKind& kind : plan.workloads) all.optimum_is_one(kind.name);
+  for (const WorkloadKind& kind : plan.workloads) {
+    if (kind.delayed) continue;
+    all.near_optimum(kind.name);
+    all.never_behind(kind.name, "earliest_start");
+  }
   all.all_succeed();
   return all.said;
 }

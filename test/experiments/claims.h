@@ -11,7 +11,7 @@ struct Claim {
   bool holds = false;
   std::string sentence;  // with the figures
 };
-// What issue 5 says must hold of the experiments, of the policy `best` ("coordinated").
+// What issues 5 and 14 say must hold of the experiments, of the policy `best` ("coordinated").
 [[nodiscard]] std::vector<Claim> claims(const Plan& plan, const std::vector<RunRow>& rows,
                                         const std::string& best);
 

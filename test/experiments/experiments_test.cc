@@ -4,6 +4,7 @@
 #include <random>
 
 #include "test/experiments/claims.h"
+#include "test/experiments/job_delays.h"
 #include "test/experiments/run_all.h"
 #include "test/experiments/tables.h"
 
@@ -167,6 +168,8 @@ RunRow row(const std::string& policy, double makespan_s) {
   RunRow made{.workload = "pick_and_place", .policy = policy, .seed = 1, .jobs = 4};
   made.makespan_s = makespan_s;
   made.limits.bound.own_s = 50.0;
+  made.limits.optimum.least_s = 55.0;
+  made.busy = {0.5, 0.5};
   made.together = 0.5;
   return made;
 }
@@ -180,16 +183,56 @@ std::vector<bool> verdicts(const std::vector<RunRow>& rows) {
 }
 
 TEST(Claims, FollowTheFigures) {
-  // Lockstep, sequential, order, both move, all succeed.
+  // Lockstep, sequential, order, both move, optimum is one, near it, all succeed.
   std::vector<RunRow> rows = {row("sequential", 100.0), row("lockstep", 80.0),
                               row("certified", 70.0), row("coordinated", 55.9)};
-  EXPECT_THAT(verdicts(rows), ElementsAre(true, true, true, true, true));
-  rows[3].makespan_s = 57.0;  // 76.7 % of lockstep's, 86 % of sequential's
+  EXPECT_THAT(verdicts(rows), ElementsAre(true, true, true, true, true, true, true));
+  rows[3].makespan_s = 57.0;  // 76.7 % of lockstep's, 86 % of sequential's, 3.6 % above the optimum
   rows[3].together = 0.0;
-  EXPECT_THAT(verdicts(rows), ElementsAre(false, true, true, false, true));
+  EXPECT_THAT(verdicts(rows), ElementsAre(false, true, true, false, true, false, true));
   rows[3].makespan_s = 71.5;  // 2.1 % behind
   rows[0].not_succeeded = 1;
-  EXPECT_THAT(verdicts(rows), ElementsAre(false, false, false, false, false));
+  EXPECT_THAT(verdicts(rows), ElementsAre(false, false, false, false, true, false, false));
+}
+
+TEST(Claims, CompareSeedBySeedAndWithTheOptimum) {
+  // Order, both move, optimum is one, near it, never behind, all succeed.
+  std::vector<RunRow> rows = {row("timed_discrete", 50.0), row("earliest_start", 55.2),
+                              row("coordinated", 55.7)};
+  EXPECT_THAT(verdicts(rows), ElementsAre(true, true, true, true, true, true));
+  rows[2].makespan_s = 55.9;  // 1.3 % behind
+  EXPECT_THAT(verdicts(rows), ElementsAre(true, true, true, true, false, true));
+  rows[1].makespan_s = 54.9;  // that would be a way shorter than the shortest
+  rows[2].makespan_s = 55.2;
+  EXPECT_THAT(verdicts(rows), ElementsAre(true, true, false, true, true, true));
+}
+
+TEST(Delays, TakeTheTimeThatTheySay) {
+  Workload workload = kind_of("shuttles").make(1);
+  workload.jobs.erase(workload.jobs.begin() + 4, workload.jobs.end());
+  const double before_s = run_policy(workload, "shuttles", "sequential", 1, {}).row.makespan_s;
+  workload.jobs[2].delay = JobDelay{1.0, 0.5};
+  const double after_s = run_policy(workload, "shuttles", "sequential", 1, {}).row.makespan_s;
+  const double twice_s = to_seconds(workload.jobs[2].trajectory->duration());
+  EXPECT_NEAR(after_s - before_s, 1.0 + twice_s, 0.1);
+}
+
+TEST(Delays, MeetATenthToThreeTenthsOfTheJobs) {
+  std::size_t least = 100;
+  std::size_t most = 0;
+  std::size_t all = 0;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    std::vector<PlannedJob> jobs(100, PlannedJob{.arm = ArmId(0)});
+    delay_some(jobs, seed);
+    const auto delayed = static_cast<std::size_t>(
+        std::ranges::count_if(jobs, [](const PlannedJob& job) { return job.delay.has_value(); }));
+    least = std::min(least, delayed);
+    most = std::max(most, delayed);
+    all += delayed;
+  }
+  EXPECT_NEAR(static_cast<double>(all) / 5000.0, 0.2, 0.03);
+  EXPECT_GE(least, 2U);  // of a share of 0.1
+  EXPECT_LE(most, 45U);  // of a share of 0.3
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "test/experiments/job_delays.h"
+
 namespace armloom::experiments {
 namespace {
 
@@ -116,7 +118,11 @@ Run run_policy(const Workload& workload, const std::string& name, const std::str
   options.policy = alone ? "sequential" : policy;
   options.seed = seed;
   Spectator spectator(*workload.cell);
-  auto result = simulate(workload.cell, options, std::move(jobs), at(kTimeLimit), spectator);
+  const bool delayed =
+      std::ranges::any_of(planned, [](const PlannedJob& job) { return job.delay.has_value(); });
+  auto result = delayed
+                    ? simulate_delayed(workload.cell, options, planned, at(kTimeLimit), spectator)
+                    : simulate(workload.cell, options, std::move(jobs), at(kTimeLimit), spectator);
   if (!result) throw std::runtime_error(result.error().front().detail);
   if (!result->refused.empty()) {
     throw std::runtime_error(result->refused.front().problems.front().detail);

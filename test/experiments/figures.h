@@ -61,8 +61,7 @@ struct Run {
 // after the other. Says on stderr which jobs did not succeed. Throws std::runtime_error when the
 // executive cannot be made or a job is refused.
 [[nodiscard]] Run run_policy(const Workload& workload, const std::string& name,
-                             const std::string& policy, std::uint64_t seed,
-                             const Limits& limits);
+                             const std::string& policy, std::uint64_t seed, const Limits& limits);
 
 // Of several runs: mean and standard deviation (of the sample).
 struct Spread {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -11,12 +12,19 @@
 
 namespace armloom::experiments {
 
+// What goes wrong with the arm of a job (job_delays.h).
+struct JobDelay {
+  double late_s;
+  double speed;  // (0, 1] of the planned
+};
+
 // A job as a client submits it, and what the experiments know of it.
 struct PlannedJob {
   ArmId arm;
   std::string kind;  // "pick", "place", ...: its colour in a timeline
   TimedJob timed;
   TrajectoryPtr trajectory;
+  std::optional<JobDelay> delay = {};
 };
 
 // Draws jobs for the arms of one cell. Every job that it takes can run whenever its arm has come to

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "test/experiments/lower_bound.h"
+#include "test/experiments/joined_diagram.h"
 
 namespace armloom::experiments {
 
@@ -15,19 +15,18 @@ namespace armloom::experiments {
 // out. For more than two arms the largest over all pairs: a bound only, for the third has to find
 // its way, too.
 //
-// From the cells of the diagrams (Arbiter::draw, no wider than kCell where they are decided), laid
-// on squares of kCell. least_s: squares are closed that are proven to be in conflict all over; no
-// way is shorter than that. most_s: squares are open that are proven free all over; there is such a
-// way. The true optimum lies between.
+// On the squares of JoinedDiagram. least_s: those are closed that are in conflict all over; no way
+// is shorter than that. most_s: those are open that are free all over; there is such a way. The
+// true optimum lies between.
 struct Optimum {
   double least_s = 0.0;
   double most_s = 0.0;
   std::vector<std::string> arms;  // the pair that needs most
 };
 // `work`: of each arm in its order, every motion beginning where the one before ends. Precondition
-// (throws std::invalid_argument): durations are multiples of kCell. Throws std::runtime_error when
+// (throws std::invalid_argument): durations are multiples of
+// JoinedDiagram::kSquare. Throws std::runtime_error when
 // there is no way, or the scene cannot be built.
 [[nodiscard]] Optimum optimum(const CellPtr& cell, const std::vector<Work>& work);
-inline constexpr Duration kCell = std::chrono::milliseconds(10);
 
 }  // namespace armloom::experiments

@@ -36,15 +36,18 @@ struct Table {
   }
 };
 
-// Every place where both may be after each step, until they are at the end or nothing changes.
+// Every place where both may be after each step, until they are at the end or it is always the
+// same.
 std::optional<std::size_t> steps_by_trying(const Table& table) {
   const std::size_t rows = table.ready_rows.size();
   const auto may = [&](std::size_t row, std::size_t column, std::size_t step) {
     return row < rows && column < table.columns && table.ready_rows[row] <= step &&
            table.ready_columns[column] <= step && table.blocked[row * table.columns + column] == 0;
   };
+  const std::size_t all_ready =
+      std::max(std::ranges::max(table.ready_rows), std::ranges::max(table.ready_columns));
   std::vector<char> here(table.blocked.size(), 0);
-  for (std::size_t step = 0; step < 2000; ++step) {
+  for (std::size_t step = 0;; ++step) {
     std::vector<char> next(here.size(), 0);
     for (std::size_t cell = 0; cell < here.size(); ++cell) {
       if (here[cell] == 0) continue;
@@ -58,9 +61,9 @@ std::optional<std::size_t> steps_by_trying(const Table& table) {
     }
     if (may(0, 0, step)) next.front() = 1;
     if (next.back() != 0) return step;
+    if (next == here && step > all_ready) return std::nullopt;
     here = std::move(next);
   }
-  return std::nullopt;
 }
 
 TEST(ShortestWay, WaitsBesideABlockAndNotInIt) {
@@ -164,7 +167,7 @@ TEST(Optimum, IsWhatTryingEveryPaceFinds) {
       // Between two instants each arm may be 25 ms ahead of either.
       EXPECT_NEAR(found.least_s, *tried_s, 0.1) << name << ", seed " << seed;
       EXPECT_LE(found.least_s, found.most_s);
-      EXPECT_LT(found.most_s, found.least_s + 0.1) << name << ", seed " << seed;
+      EXPECT_LT(found.most_s, found.least_s + 0.25) << name << ", seed " << seed;
       in_the_way += found.least_s > std::max(own_s(work, ArmId(0)), own_s(work, ArmId(1))) + 0.1;
     }
   }
@@ -176,13 +179,13 @@ TEST(Optimum, OfArmsThatNeverMeetIsTheBusiestOnesOwnWork) {
   std::vector<Work> work = work_of(workload, 2);
   const double least_s = std::max(own_s(work, ArmId(0)), own_s(work, ArmId(1)));
   Optimum found = optimum(workload.cell, work);
-  EXPECT_NEAR(found.least_s, least_s, to_seconds(kCell) + 1e-9);
+  EXPECT_NEAR(found.least_s, least_s, to_seconds(JoinedDiagram::kSquare) + 1e-9);
   EXPECT_LE(found.least_s, least_s);
   EXPECT_GE(found.most_s, least_s);
 
   for (Work& part : work) part.from = at(part.arm == ArmId(1) ? 3s : 0s);
   found = optimum(workload.cell, work);
-  EXPECT_NEAR(found.least_s, own_s(work, ArmId(1)) + 3.0, 3 * to_seconds(kCell));
+  EXPECT_NEAR(found.least_s, own_s(work, ArmId(1)) + 3.0, 3 * to_seconds(JoinedDiagram::kSquare));
   EXPECT_THAT(found.arms, ElementsAre("left", "right"));
 }
 

@@ -20,7 +20,8 @@ SeedRuns run_seed(const WorkloadKind& kind, std::uint64_t seed,
                   const std::vector<std::string>& policies) {
   const Workload workload = kind.make(seed);
   std::vector<Work> work;
-  for (const PlannedJob& job : workload.jobs) work.push_back({job.arm, job.trajectory, job.timed.at});
+  for (const PlannedJob& job : workload.jobs)
+    work.push_back({job.arm, job.trajectory, job.timed.at});
   const Limits limits{lower_bound(workload.cell, work, kMoment), optimum(workload.cell, work)};
   SeedRuns done{workload.cell, {}};
   if (!workload.one_arm.empty()) {

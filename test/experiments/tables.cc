@@ -133,7 +133,8 @@ double mean_bound_s(const std::vector<const RunRow*>& rows) {
 std::string results_csv(const std::vector<RunRow>& rows) {
   std::string text =
       "workload,seed,policy,jobs,not_succeeded,makespan_s,own_work_s,excluding_work_s,"
-      "lower_bound_s,optimum_s,optimum_at_most_s,busy_ratio,least_busy_ratio,together_ratio,wait_mean_s,"
+      "lower_bound_s,optimum_s,optimum_at_most_s,busy_ratio,least_busy_ratio,together_ratio,wait_"
+      "mean_s,"
       "wait_max_s,"
       "held_mean_s,min_clearance_m,monitor_stops,backlogged,judgements,evaluations\n";
   for (const RunRow& row : rows) {

@@ -9,6 +9,7 @@
 #include "core/model/build_cell.h"
 #include "core/model/text_file.h"
 #include "server/codec/cell_codec.h"
+#include "test/experiments/job_delays.h"
 #include "test/experiments/shuttles.h"
 
 namespace armloom::experiments {
@@ -305,6 +306,14 @@ Workload shuttles(std::uint64_t seed) {
   return workload;
 }
 
+template <Workload (*make)(std::uint64_t)>
+Workload delayed(std::uint64_t seed) {
+  Workload workload = make(seed);
+  workload.one_arm.clear();
+  delay_some(workload.jobs, seed);
+  return workload;
+}
+
 }  // namespace
 
 const std::vector<WorkloadKind>& workload_kinds() {
@@ -316,6 +325,9 @@ const std::vector<WorkloadKind>& workload_kinds() {
       {"shuttles", "To and fro between home and poses in the middle, two Pandas", false, shuttles},
       {"one_fixture", "One fixture for both arms: hardly pays", false, one_fixture},
       {"apart", "Arms that never meet, in takt: does not pay", false, apart},
+      {"shuttles_delayed", "To and fro, some jobs late and slow", false, delayed<shuttles>, true},
+      {"pick_and_place_delayed", "Pick and place, some jobs late and slow", false,
+       delayed<pick_and_place>, true},
   };
   return kinds;
 }

@@ -23,6 +23,8 @@ struct WorkloadKind {
   // these only. The others are there to show where it does not.
   bool pays;
   Workload (*make)(std::uint64_t seed);
+  // Some jobs are late and slow: the optimum knows of none.
+  bool delayed = false;
 };
 
 // Throw std::runtime_error when a cell does not read, or no open task is found.
