@@ -27,7 +27,7 @@ struct RobotSemantics {
   std::string text;
   std::map<std::string, JointSet> groups;  // independent joints, and those that the cell holds
   std::map<std::string, std::map<std::string, NamedState>> states;  // group -> state name -> values
-  std::set<std::pair<std::size_t, std::size_t>> allowed_pairs;      // links, smaller first
+  std::map<std::pair<std::size_t, std::size_t>, int> allowed_pairs;  // links, smaller first: line
   std::map<std::size_t, std::string> passive;  // joint -> place: the robot has no motor for it
 };
 
