@@ -1,5 +1,6 @@
 #include "core/model/cell_doubts.h"
 
+#include <cmath>
 #include <set>
 
 #include "core/model/mesh.h"
@@ -85,7 +86,7 @@ class MeshDoubts {
     const double size_m = box.sizes().maxCoeff();
     if (size_m < kTiny_m) {
       warn("tiny-mesh", place,
-           named + " is " + text_of(size_m) +
+           named + " is " + text_of(std::round(1e6 * size_m) / 1e6) +
                " m long, hardly meant (is the file in metres already? then its scale is too "
                "small): as good as nothing is checked there",
            mesh->path);

@@ -14,9 +14,10 @@ void warn_of_pairs_of_arms(const RobotBuild& robot, const Cell& cell, Findings& 
   std::string pairs;
   std::size_t count = 0;
   for (const auto& [pair, line] : robot.semantics->allowed_pairs) {
-    const auto a = cell.link(robot.links[pair.first]).arm;
-    const auto b = cell.link(robot.links[pair.second]).arm;
-    if (!a || !b || a == b || ++count > kTold) continue;
+    const Link& a = cell.link(robot.links[pair.first]);
+    const Link& b = cell.link(robot.links[pair.second]);
+    if (!a.arm || !b.arm || a.arm == b.arm || a.shapes.empty() || b.shapes.empty()) continue;
+    if (++count > kTold) continue;
     pairs += (pairs.empty() ? "" : ", ") + robot.tree.links[pair.first].name + " and " +
              robot.tree.links[pair.second].name + " at line " + std::to_string(line);
   }
