@@ -14,6 +14,7 @@ constexpr double kFarthestTurn_rad = 20.0;
 constexpr double kFarthestSlide_m = 20.0;
 constexpr double kFastestTurn_rad_s = 30.0;
 constexpr double kFastestSlide_m_s = 20.0;
+constexpr double kStrongest = 100.0;  // rad/s^2 or m/s^2
 
 }  // namespace
 
@@ -189,6 +190,12 @@ void LimitsOfJoint::warn_of_units() {
          "it may go from " + text_of(joint_.lower) + " to " + text_of(joint_.upper) + unit +
              ", hardly meant" + meant + ": jobs that go so far are taken",
          beyond(joint_.lower) ? joint_.lower : joint_.upper);
+  }
+  if (joint_.acceleration_max > kStrongest) {
+    warn("wrong-unit", place_.empty() ? place_in_urdf() : place_,
+         "its acceleration is " + text_of(joint_.acceleration_max) + unit + "/s^2, hardly meant" +
+             meant + ": jobs that speed up so are taken",
+         joint_.acceleration_max);
   }
   if (joint_.velocity_max > fastest) {
     warn("wrong-unit", place_in_urdf(),

@@ -78,6 +78,12 @@ class SettingDoubts {
       warn("/monitor/stop_clearance_m", 0.0,
            ": the monitor stops arms only when they touch; a share of clearance_m leaves them way "
            "to brake");
+    const double reaction_s = to_seconds(given_.monitor.reaction);
+    if (given_.monitor.rate_hz > 0.0 && reaction_s * given_.monitor.rate_hz < 1.0)
+      warn("/monitor/reaction_s", reaction_s,
+           ", less than from one look of the monitor to the next (" +
+               text_of(1.0 / given_.monitor.rate_hz) +
+               " s): arms have gone on longer before they brake than stops are certified for");
   }
 
   void doubt_places() const {

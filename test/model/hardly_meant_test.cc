@@ -64,6 +64,10 @@ INSTANTIATE_TEST_SUITE_P(
         DOUBT(cell.scheduling.policy = "timed_discrete";
               cell.checking.time_step = 5s, "/checking/time_step_s",
               "does not see what happens between two such steps"),
+        DOUBT(cell.monitor.reaction = 5ms, "/monitor/reaction_s",
+              "reaction_s is 0.005, less than from one look of the monitor to the next (0.01 s)"),
+        DOUBT(turn(cell).acceleration = 180, "two_arms.urdf:28: joint l_turn",
+              "its acceleration is 180 rad/s^2, hardly meant (degrees?)"),
         DOUBT(turn(cell).brake = 100, "/robots/0/arms/0/limits/l_turn/brake_rad_s2",
               "stops are certified for a brake that strong"),
         DOUBT(cell.objects[0].X_WO.translation().x() = 800, "/objects/0",
