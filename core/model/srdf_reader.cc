@@ -159,7 +159,10 @@ class SrdfReader {
     const TreeLink& link = tree_.links[found->second];
     if (!link.is_independent() && !link.held) return;  // it has no value of its own
     const auto value = line.of("joint " + name).number(element, "value", Presence::required);
-    if (!value) return;
+    if (!value) {
+      state.unread.insert(found->second);
+      return;
+    }
     if (!group.contains(found->second)) {
       return line.warn("foreign-joint",
                        "joint " + name + " is not in the group; the state is without it", name);

@@ -18,6 +18,7 @@ namespace armloom {
 struct NamedState {
   std::string place;                     // "arm.srdf:12: group_state ready of arm"
   std::map<std::size_t, double> values;  // joint -> rad or m
+  std::set<std::size_t> unread;          // joints whose values are none
   Findings faults;  // why it can be no home and no goal; problems only of an arm whose home it is
 };
 struct RobotSemantics {

@@ -177,6 +177,18 @@ TEST(HeldJoints, MisspeltAreHeldAsTheyAreMeantSoThatNothingElseFollows) {
             "did you mean l_slide?\n");
 }
 
+TEST(NamedStates, WithAValueThatIsNoneAreToldOnce) {
+  const ScratchFolder folder;
+  CellDescription cell = two_arms_description();
+  cell.robots[0].srdf = folder.write(
+      "twin.srdf", file_with(data_file("two_arms.srdf"), "value=\"1.5\"", "value=\"x\""));
+  cell.robots[0].arms[0].home.clear();
+  cell.robots[0].arms[0].home_state = "out";
+  EXPECT_EQ(without_lines(problems_of(cell)),
+            "twin.srdf: group_state out of left_arm: joint l_turn | twin.srdf: group_state out of "
+            "left_arm: joint l_turn: joint value is 'x', not a finite number\n");
+}
+
 TEST(CrossedLimits, AreToldWithoutHomesThatLieOutside) {
   const ScratchFolder folder;
   EXPECT_THAT(
