@@ -14,16 +14,24 @@ namespace armloom {
 [[nodiscard]] std::optional<std::string_view> nearest_name(std::string_view misspelt,
                                                            std::span<const std::string_view> known);
 
-// "; did you mean elbow?", of the keys of a map, or nothing. Only where there are few of them: many
-// names can be unknown at once.
+// The same of the keys of a map. Only where there are few of them: many names can be unknown at
+// once.
 template <class Map>
-[[nodiscard]] std::string did_you_mean(const std::string& misspelt, const Map& known) {
+[[nodiscard]] std::optional<std::string> nearest_key(const std::string& misspelt,
+                                                     const Map& known) {
   constexpr std::size_t kMost = 300;
-  if (known.size() > kMost) return {};
+  if (known.size() > kMost) return std::nullopt;
   std::vector<std::string_view> names;
   for (const auto& entry : known) names.push_back(entry.first);
   const auto nearest = nearest_name(misspelt, names);
-  return nearest ? "; did you mean " + std::string(*nearest) + "?" : std::string();
+  return nearest ? std::optional<std::string>(*nearest) : std::nullopt;
+}
+
+// "; did you mean elbow?", of the keys of a map, or nothing.
+template <class Map>
+[[nodiscard]] std::string did_you_mean(const std::string& misspelt, const Map& known) {
+  const auto nearest = nearest_key(misspelt, known);
+  return nearest ? "; did you mean " + *nearest + "?" : std::string();
 }
 
 }  // namespace armloom

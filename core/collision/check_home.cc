@@ -39,7 +39,11 @@ Problems check_home(const PlanningScenePtr& scene) {
                   : mount ? "mount_clearance_m"
                           : "clearance_m",
                   proximity.limit_m);
-    std::string remedy;
+    std::string remedy =
+        self ? " (where these always are so close add to the SRDF <disable_collisions link1=\"" +
+                   proximity.body_a + "\" link2=\"" + proximity.body_b +
+                   "\" reason=\"Adjacent\"/>, with the names there; else give another \"home\")"
+             : " (give another \"home\", or place one of them elsewhere)";
     if (checker.is_mount(pair.pair) && proximity.clearance_m > 0.0) {
       remedy = " (" + proximity.body_b + " carries the arm: where it passes this link so closely " +
                "by design, and not a table, add \"mount_clearance_m\": " +

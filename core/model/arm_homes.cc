@@ -45,6 +45,7 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
     const auto value = state.values.find(index);
     values[row++] = value == state.values.end() ? 0.0 : value->second;
     if (value == state.values.end()) {
+      if (state.unread.contains(index)) continue;  // which is told
       state.faults.add({ProblemKind::invalid,
                         "missing",
                         place,

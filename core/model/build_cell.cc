@@ -13,6 +13,7 @@
 #include "core/model/mesh_path.h"
 #include "core/model/robot_build.h"
 #include "core/model/robot_file.h"
+#include "core/model/setting_doubts.h"
 #include "core/model/urdf_reader.h"
 
 namespace armloom {
@@ -203,7 +204,7 @@ void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
   }
   settle_limits(robot, cell, findings);
   if (groups_known) settle_homes(robot, cell, findings);
-  allow_pairs_of_robot(robot, cell);
+  allow_pairs_of_robot(robot, cell, findings);
 }
 
 void copy_settings(const CellDescription& description, Cell& cell) {
@@ -272,6 +273,7 @@ Result<CellPtr> build_cell(const CellDescription& description, Problems& warning
   // Without the names of a robot's links those would seem unknown.
   if (complete) allow_pairs_of_cell(description, *cell, findings);
   warn_of_doubts(description, *cell, findings);
+  warn_of_settings(description, *cell, findings);
 
   warnings = findings.take_warnings();
   if (findings.count() > 0) return failure(findings.take());

@@ -15,6 +15,12 @@ void check_name(const std::string& name, const std::string& kind, const std::str
   } else if (!known.insert(name).second) {
     findings.in_cell("duplicate-name", pointer, "the name " + name + " of " + kind + " is taken",
                      name);
+  } else if (name.find_first_of("/\\") != std::string::npos) {
+    findings.in_cell(
+        "bad-name", pointer,
+        "the name " + name + " of " + kind +
+            " holds a slash, and names stand in the paths of the API; take another one",
+        name);
   }
 }
 

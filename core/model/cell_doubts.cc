@@ -1,5 +1,6 @@
 #include "core/model/cell_doubts.h"
 
+#include <cmath>
 #include <set>
 
 #include "core/model/mesh.h"
@@ -8,6 +9,8 @@ namespace armloom {
 namespace {
 
 constexpr double kHuge_m = 10.0;  // of a link's mesh
+constexpr double kHugeObject_m = 100.0;
+constexpr double kTiny_m = 0.002;
 
 void warn_of_brakes(const CellDescription& description, const Cell& cell, Findings& findings) {
   for (std::size_t r = 0; r < description.robots.size(); ++r) {
@@ -78,7 +81,16 @@ class MeshDoubts {
     if (mesh == nullptr || mesh->data == nullptr) return;
     if (!told_.insert(mesh->path).second) return;
     const std::string named = whose + ": mesh " + mesh->path;
-    if (is_flat(*mesh->data)) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : mesh->data->vertices) box.extend(vertex);
+    const double size_m = box.sizes().maxCoeff();
+    if (size_m < kTiny_m) {
+      warn("tiny-mesh", place,
+           named + " is " + text_of(std::round(1e6 * size_m) / 1e6) +
+               " m long, hardly meant (is the file in metres already? then its scale is too "
+               "small): as good as nothing is checked there",
+           mesh->path);
+    } else if (is_flat(*mesh->data)) {
       warn("flat-mesh", place, named + " is flat: it has no inside", mesh->path);
     } else if (const std::size_t open = mesh->data->open_edges; open > 0) {
       warn(
@@ -94,14 +106,12 @@ class MeshDoubts {
                "known, so its convex pieces are checked: notches and hollows may count as filled",
            mesh->path);
     }
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& vertex : mesh->data->vertices) box.extend(vertex);
-    const double size_m = box.sizes().maxCoeff();
-    if (of_link && size_m > kHuge_m) {
+    if (size_m > (of_link ? kHuge_m : kHugeObject_m)) {
       warn("huge-mesh", place,
-           named + " is " + text_of(size_m) +
-               " m long, hardly meant (millimetres? then the URDF's mesh needs "
-               "scale=\"0.001 0.001 0.001\"); it fills the cell",
+           named + " is " + text_of(size_m) + " m long, hardly meant (millimetres? then " +
+               (of_link ? "the URDF's mesh needs scale=\"0.001 0.001 0.001\""
+                        : "the object needs \"scale\": [0.001, 0.001, 0.001]") +
+               "); it fills the cell",
            mesh->path);
     }
   }

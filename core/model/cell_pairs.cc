@@ -5,7 +5,36 @@
 
 namespace armloom {
 
-void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell) {
+namespace {
+
+// The Setup Assistant disables what did not meet in its random samples: between two arms that is no
+// proof.
+void warn_of_pairs_of_arms(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+  constexpr std::size_t kTold = 3;
+  std::string pairs;
+  std::size_t count = 0;
+  for (const auto& [pair, line] : robot.semantics->allowed_pairs) {
+    const Link& a = cell.link(robot.links[pair.first]);
+    const Link& b = cell.link(robot.links[pair.second]);
+    if (!a.arm || !b.arm || a.arm == b.arm || a.shapes.empty() || b.shapes.empty()) continue;
+    if (++count > kTold) continue;
+    pairs += (pairs.empty() ? "" : ", ") + robot.tree.links[pair.first].name + " and " +
+             robot.tree.links[pair.second].name + " at line " + std::to_string(line);
+  }
+  if (count == 0) return;
+  if (count > kTold) pairs += ", ...";
+  const std::string place = robot.semantics->file + ": disable_collisions";
+  findings.warn({ProblemKind::invalid, "unchecked-arms", place,
+                 place + ": " + std::to_string(count) + (count == 1 ? " pair" : " pairs") +
+                     " of links of different arms (" + pairs +
+                     "): they are not checked, so these arms may meet there; delete what is not "
+                     "known to be out of reach",
+                 static_cast<double>(count)});
+}
+
+}  // namespace
+
+void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Findings& findings) {
   const auto allow = [&](std::size_t a, std::size_t b) {
     cell.allowed_link_pairs.insert(std::minmax(robot.links[a], robot.links[b]));
   };
@@ -21,7 +50,8 @@ void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell) {
     if (!robot.semantics && link.parent) allow(*link.parent, i);
   }
   if (!robot.semantics) return;
-  for (const auto& [a, b] : robot.semantics->allowed_pairs) allow(a, b);
+  for (const auto& [pair, line] : robot.semantics->allowed_pairs) allow(pair.first, pair.second);
+  if (!robot.tree.patched) warn_of_pairs_of_arms(robot, cell, findings);
 }
 
 void allow_pairs_of_cell(const CellDescription& description, Cell& cell, Findings& findings) {

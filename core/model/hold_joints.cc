@@ -21,11 +21,15 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
     return std::nullopt;
   };
   const auto found = tree.by_joint.find(name);
-  if (found == tree.by_joint.end())
-    return tree.nameless
-               ? std::nullopt
-               : refuse("unknown-joint", "fixed joint " + name + " is not in " + tree.file +
-                                             did_you_mean(name, tree.by_joint));
+  if (found == tree.by_joint.end()) {
+    if (tree.nameless) return std::nullopt;
+    static_cast<void>(refuse("unknown-joint", "fixed joint " + name + " is not in " + tree.file +
+                                                  did_you_mean(name, tree.by_joint)));
+    // Held under the name that is meant: that arms hang on that joint need not be told then.
+    const auto meant = nearest_key(name, tree.by_joint);
+    Findings unsaid;
+    return meant ? holdable(*meant, value, pointer, robot, tree, unsaid) : std::nullopt;
+  }
   const TreeLink& link = tree.links[found->second];
   if (link.mimic) {
     return refuse("held-mimic", "joint " + name + " follows joint " +

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/nearest_name.h"
 #include "core/model/limits_of_joint.h"
 
 namespace armloom {
@@ -10,6 +11,14 @@ const ArmBuild* arm_of(const RobotBuild& robot, const Joint& joint) {
   const auto found = std::find_if(robot.arms.begin(), robot.arms.end(),
                                   [&](const ArmBuild& arm) { return arm.id == joint.arm; });
   return found == robot.arms.end() ? nullptr : &*found;
+}
+
+std::string no_such_joint(const RobotBuild& robot, const ArmDescription& arm,
+                          const std::string& name) {
+  const std::string sentence = "arm " + arm.name + " has no joint " + name + " to limit";
+  if (!robot.tree.by_joint.contains(name))
+    return sentence + did_you_mean(name, robot.tree.by_joint);
+  return sentence + ": it is of another arm, or of none, or follows another joint";
 }
 
 // Limits may name joints of the arm and of its gripper.
@@ -30,8 +39,7 @@ void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
         link == robot.tree.by_joint.end() ? std::nullopt : robot.joints[link->second];
     if (joint && cell.joint(*joint).arm == arm.id) continue;
     if (joint && robot.tree.patched) continue;  // it may hang elsewhere than meant
-    findings.in_cell("unknown-joint", pointer,
-                     "arm " + arm.description->name + " has no joint " + name + " to limit", name);
+    findings.in_cell("unknown-joint", pointer, no_such_joint(robot, *arm.description, name), name);
   }
 }
 
@@ -49,7 +57,7 @@ void check_names_without_group(const RobotBuild& robot, Findings& findings) {
       findings.in_cell(
           "unknown-joint",
           robot.pointer + "/arms/" + std::to_string(a) + "/limits/" + pointer_token(name),
-          "arm " + arms[a].name + " has no joint " + name + " to limit", name);
+          no_such_joint(robot, arms[a], name), name);
     }
   }
 }

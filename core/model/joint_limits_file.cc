@@ -45,23 +45,22 @@ class JointReader {
     }
     check_keys();
     JointLimitsDescription& limits = joint_.limits;
-    if (has("has_position_limits")) {
+    const auto positions = has("has_position_limits");
+    if (counts(positions, "min_position"))
       limits.lower = number("min_position", "has_position_limits");
+    if (counts(positions, "max_position"))
       limits.upper = number("max_position", "has_position_limits");
-      if (limits.lower && limits.upper && *limits.lower > *limits.upper) {
-        report(joint_.place, "limits-crossed",
-               "min_position " + text_of(*limits.lower) + " is above max_position " +
-                   text_of(*limits.upper),
-               *limits.lower, joint_.faults);
-        limits.lower = limits.upper = std::nullopt;
-      }
+    if (limits.lower && limits.upper && *limits.lower > *limits.upper) {
+      report(joint_.place, "limits-crossed",
+             "min_position " + text_of(*limits.lower) + " is above max_position " +
+                 text_of(*limits.upper),
+             *limits.lower, joint_.faults);
+      limits.lower = limits.upper = std::nullopt;
     }
-    if (has("has_velocity_limits"))
-      limits.velocity = positive("max_velocity", "has_velocity_limits");
-    if (has("has_acceleration_limits"))
-      limits.acceleration = positive("max_acceleration", "has_acceleration_limits");
-    if (has("has_deceleration_limits")) limits.brake = deceleration();
-    if (has("has_jerk_limits")) limits.jerk = positive("max_jerk", "has_jerk_limits");
+    limits.velocity = rate("has_velocity_limits", "max_velocity");
+    limits.acceleration = rate("has_acceleration_limits", "max_acceleration");
+    limits.jerk = rate("has_jerk_limits", "max_jerk");
+    if (counts(has("has_deceleration_limits"), "max_deceleration")) limits.brake = deceleration();
   }
 
  private:
@@ -94,9 +93,18 @@ class JointReader {
     }
   }
 
-  bool has(const char* key) {
+  // Whether the limit counts: what stands there does, unless its has_... is false, as for MoveIt.
+  [[nodiscard]] bool counts(const std::optional<bool>& has, const char* limit) const {
+    return has ? *has : static_cast<bool>(node_[limit]);
+  }
+
+  std::optional<double> rate(const char* has_key, const char* key) {
+    return counts(has(has_key), key) ? positive(key, has_key) : std::nullopt;
+  }
+
+  std::optional<bool> has(const char* key) {
     const YAML::Node value = node_[key];
-    if (!value) return false;
+    if (!value) return std::nullopt;
     bool set = false;
     if (value.IsScalar() && YAML::convert<bool>::decode(value, set)) return set;
     report(at_line(file_, value.Mark()), "wrong-type",

@@ -9,6 +9,13 @@ namespace {
 // Files round: a limit that is above the URDF's by less than this share is the URDF's.
 constexpr double kRounding = 1e-3;
 
+// Beyond what robots do.
+constexpr double kFarthestTurn_rad = 20.0;
+constexpr double kFarthestSlide_m = 20.0;
+constexpr double kFastestTurn_rad_s = 30.0;
+constexpr double kFastestSlide_m_s = 20.0;
+constexpr double kStrongest = 100.0;  // rad/s^2 or m/s^2
+
 }  // namespace
 
 std::string json_member(const std::string& key, const std::string& value) {
@@ -46,6 +53,7 @@ void LimitsOfJoint::settle(LimitsFile::Joint* filed, Needs& needs) {
   settle_positions();
   settle_velocity();
   settle_rates();
+  warn_of_units();
   // A faulty limit that another file replaces, or nobody needs, is only odd.
   if (own_ && !missing_.empty()) {
     findings_.merge(std::move(link_.limits.faults));
@@ -165,6 +173,36 @@ void LimitsOfJoint::settle_rates() {
   joint_.brake = 2.0 * joint_.acceleration_max;
   settle_rate(cell_.brake, file_.brake, key("brake", "_rad_s2", "_m_s2"), joint_.brake,
               joint_.assumed.brake);
+}
+
+void LimitsOfJoint::warn_of_units() {
+  if (arm_ == nullptr) return;
+  const bool slides = joint_.kind == JointKind::prismatic;
+  const char* meant = slides ? " (millimetres?)" : " (degrees?)";
+  const double farthest = slides ? kFarthestSlide_m : kFarthestTurn_rad;
+  const double fastest = slides ? kFastestSlide_m_s : kFastestTurn_rad_s;
+  const std::string unit = slides ? " m" : " rad";
+  const auto beyond = [&](double limit) {
+    return std::isfinite(limit) && std::abs(limit) > farthest;
+  };
+  if (beyond(joint_.lower) || beyond(joint_.upper)) {
+    warn("wrong-unit", place_in_urdf(),
+         "it may go from " + text_of(joint_.lower) + " to " + text_of(joint_.upper) + unit +
+             ", hardly meant" + meant + ": jobs that go so far are taken",
+         beyond(joint_.lower) ? joint_.lower : joint_.upper);
+  }
+  if (joint_.acceleration_max > kStrongest) {
+    warn("wrong-unit", place_.empty() ? place_in_urdf() : place_,
+         "its acceleration is " + text_of(joint_.acceleration_max) + unit + "/s^2, hardly meant" +
+             meant + ": jobs that speed up so are taken",
+         joint_.acceleration_max);
+  }
+  if (joint_.velocity_max > fastest) {
+    warn("wrong-unit", place_in_urdf(),
+         "its velocity is " + text_of(joint_.velocity_max) + unit + "/s, hardly meant" + meant +
+             ": jobs that go so fast are taken",
+         joint_.velocity_max);
+  }
 }
 
 std::string LimitsOfJoint::place_in_urdf() const { return robot_.tree.place_of_joint(link_); }

@@ -55,6 +55,8 @@ class LimitsOfJoint {
 
   void refuse_crossed();
 
+  void say_nothing_more();
+
   void need_positions(bool lower, bool upper);
 
   void settle_velocity();
@@ -63,6 +65,9 @@ class LimitsOfJoint {
                    const std::string& name, double& limit, bool& assumed);
 
   void settle_rates();
+
+  // Limits of an arm's joint that are hardly meant, as degrees and millimetres are.
+  void warn_of_units();
 
   [[nodiscard]] std::string place_in_urdf() const;
 

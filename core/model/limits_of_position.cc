@@ -30,10 +30,11 @@ void LimitsOfJoint::settle_positions() {
   joint_.upper = highest.value_or(endless ? kInfinity : 0.0);
   if (lowest && highest && joint_.lower > joint_.upper) {
     refuse_crossed();
-    joint_.lower = joint_.upper = 0.0;
+    say_nothing_more();
   } else if (!endless && !(lowest && highest)) {
     joint_.lower = joint_.upper = lowest.value_or(highest.value_or(0.0));
     need_positions(!lowest, !highest);
+    if (own_) say_nothing_more();
   }
 }
 
@@ -46,6 +47,12 @@ void LimitsOfJoint::take_zero_for_the_other(UrdfLimits& urdf) {
        lower ? "limit lower is missing; the URDF specification takes 0"
              : "limit upper is missing; the URDF specification takes 0",
        0.0);
+}
+
+// Of limits whose fault is told: that homes and states lie outside would only follow.
+void LimitsOfJoint::say_nothing_more() {
+  joint_.lower = -kInfinity;
+  joint_.upper = kInfinity;
 }
 
 void LimitsOfJoint::refuse_crossed() {

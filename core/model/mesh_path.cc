@@ -57,6 +57,22 @@ fs::path package_folder_of(const fs::path& mesh) {
   return mesh.parent_path();
 }
 
+// "; there is Arm.stl", where the file's name differs in case only: other systems do not mind.
+std::string spelt_otherwise(const fs::path& file) {
+  const auto lower = [](std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  };
+  const std::string wanted = lower(file.filename().string());
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(file.parent_path(), error)) {
+    const std::string name = entry.path().filename().string();
+    if (lower(name) == wanted) return "; there is " + name;
+  }
+  return {};
+}
+
 std::string line_of_package(const std::string& name, const std::string& folder) {
   return "add to the robot \"packages\": {\"" + name + "\": \"" + folder + "\"}";
 }
@@ -135,7 +151,9 @@ tl::expected<fs::path, std::string> resolve_mesh(
   const fs::path real_folder = fs::canonical(folder, error);
   if (error) return tl::unexpected("lies in a folder that does not exist: " + folder.string());
   const fs::path real_file = fs::canonical(folder / lexical, error);
-  if (error) return tl::unexpected("does not exist: " + (folder / lexical).string());
+  if (error)
+    return tl::unexpected("does not exist: " + (folder / lexical).string() +
+                          spelt_otherwise(folder / lexical));
   if (!is_below(real_folder, real_file)) {
     return tl::unexpected("leaves its folder " + folder.string() + " through a link");
   }

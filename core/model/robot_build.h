@@ -64,7 +64,8 @@ void settle_limits(RobotBuild& robot, Cell& cell, Findings& findings);
 void settle_homes(RobotBuild& robot, Cell& cell, Findings& findings);
 
 // Adds the pairs of the robot's links that need no check: those of the SRDF and those within one
-// rigid body. Without an SRDF also links on both sides of one movable joint.
-void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell);
+// rigid body. Without an SRDF also links on both sides of one movable joint. Warns of pairs of two
+// arms.
+void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Findings& findings);
 
 }  // namespace armloom

@@ -39,7 +39,9 @@ std::optional<Problem> utf8_fault(const std::string& text, const std::string& pa
       std::snprintf(byte, sizeof byte, "0x%02x", static_cast<unsigned char>(text[at]));
       const std::string place = path + ":" + std::to_string(line);
       return Problem{ProblemKind::malformed, "not-utf-8", place,
-                     place + ": the byte " + byte + " is not UTF-8", std::string(byte)};
+                     place + ": the byte " + byte +
+                         " is not UTF-8; save the file as UTF-8 (iconv -f latin1 -t utf-8)",
+                     std::string(byte)};
     }
     if (text[at] == '\n') ++line;
     at += length;

@@ -159,7 +159,10 @@ class SrdfReader {
     const TreeLink& link = tree_.links[found->second];
     if (!link.is_independent() && !link.held) return;  // it has no value of its own
     const auto value = line.of("joint " + name).number(element, "value", Presence::required);
-    if (!value) return;
+    if (!value) {
+      state.unread.insert(found->second);
+      return;
+    }
     if (!group.contains(found->second)) {
       return line.warn("foreign-joint",
                        "joint " + name + " is not in the group; the state is without it", name);
@@ -210,7 +213,7 @@ class SrdfReader {
         return at_line(element).warn(
             "same-link", "link1 and link2 are the same link; it is left out", tree_.links[*a].name);
       }
-      visit(std::minmax(*a, *b));
+      visit(std::pair<std::size_t, std::size_t>(std::minmax(*a, *b)), element.GetLineNum());
     });
   }
 
@@ -219,13 +222,14 @@ class SrdfReader {
       ++stale_[element.Name()].all;
       const auto link = link_at(element, "link");
       for (std::size_t other = 0; link && other < tree_.links.size(); ++other) {
-        if (other != *link) semantics.allowed_pairs.insert(std::minmax(*link, other));
+        if (other != *link)
+          semantics.allowed_pairs.emplace(std::minmax(*link, other), element.GetLineNum());
       }
     });
     for_each_pair("enable_collisions",
-                  [&](const auto& pair) { semantics.allowed_pairs.erase(pair); });
+                  [&](const auto& pair, int) { semantics.allowed_pairs.erase(pair); });
     for_each_pair("disable_collisions",
-                  [&](const auto& pair) { semantics.allowed_pairs.insert(pair); });
+                  [&](const auto& pair, int line) { semantics.allowed_pairs.emplace(pair, line); });
   }
 
   const XMLElement& srdf_;

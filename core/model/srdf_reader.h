@@ -18,6 +18,7 @@ namespace armloom {
 struct NamedState {
   std::string place;                     // "arm.srdf:12: group_state ready of arm"
   std::map<std::size_t, double> values;  // joint -> rad or m
+  std::set<std::size_t> unread;          // joints whose values are none
   Findings faults;  // why it can be no home and no goal; problems only of an arm whose home it is
 };
 struct RobotSemantics {
@@ -27,7 +28,7 @@ struct RobotSemantics {
   std::string text;
   std::map<std::string, JointSet> groups;  // independent joints, and those that the cell holds
   std::map<std::string, std::map<std::string, NamedState>> states;  // group -> state name -> values
-  std::set<std::pair<std::size_t, std::size_t>> allowed_pairs;      // links, smaller first
+  std::map<std::pair<std::size_t, std::size_t>, int> allowed_pairs;  // links, smaller first: line
   std::map<std::size_t, std::string> passive;  // joint -> place: the robot has no motor for it
 };
 

@@ -2,6 +2,7 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -13,6 +14,27 @@ namespace armloom {
 namespace {
 
 using tinyxml2::XMLElement;
+
+// The limits of a <safety_controller> count where they are narrower, as for MoveIt.
+void narrow_to_soft_limits(const XMLElement& joint, double lower, double upper,
+                           const XmlPlace& place, XMLElement& limit) {
+  const auto* safety = joint.FirstChildElement("safety_controller");
+  if (safety == nullptr) return;
+  const XmlPlace odd = place.only_warning("the <limit> counts");
+  const auto soft_lower = odd.number(*safety, "soft_lower_limit", Presence::optional);
+  const auto soft_upper = odd.number(*safety, "soft_upper_limit", Presence::optional);
+  const double from = std::max(lower, soft_lower.value_or(lower));
+  const double to = std::min(upper, soft_upper.value_or(upper));
+  if (from > to || (from == to && lower < upper)) {
+    odd.at(*safety).report("limits-crossed",
+                           "the soft limits leave nothing of the <limit>, from " + text_of(from) +
+                               " to " + text_of(to),
+                           from);
+    return;
+  }
+  limit.SetAttribute("lower", text_of(from).c_str());
+  limit.SetAttribute("upper", text_of(to).c_str());
+}
 
 // urdfdom wants a limit, with effort and velocity; the notes say what of it the file gives.
 void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace& place,
@@ -46,6 +68,7 @@ void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace&
         *lower);
   notes.lower = lower && !crossed;
   notes.upper = upper && !crossed;
+  if (notes.lower && notes.upper) narrow_to_soft_limits(joint, *lower, *upper, place, copy);
 }
 
 void check_axis(const XMLElement& joint, const XmlPlace& place, XMLElement& to) {
@@ -90,9 +113,11 @@ std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes
 
 void check_joint(const XMLElement& joint, const XmlPlace& place, UrdfNotes::Joint& notes,
                  XMLElement& to) {
-  place.only_children(
-      joint, {"origin", "parent", "child", "axis", "limit", "mimic"},
-      {"dynamics", "calibration", "safety_controller", "joint_properties", "gazebo"});
+  place.only_children(joint, {"origin", "parent", "child", "axis", "limit", "mimic"},
+                      {"dynamics", "calibration", "safety_controller", "joint_properties", "gazebo",
+                       "collision", "geometry"});
+  for (const char* shape : {"collision", "geometry"})
+    place.refuse_child(joint, shape, "in a <link>");
   const std::string type = check_type(joint, place, notes);
   to.SetAttribute("type", type.c_str());
   for (const char* end : {"parent", "child"}) {

@@ -113,7 +113,8 @@ void check_link(const XMLElement& link, const XmlPlace& place, const MeshFolders
                 UrdfNotes& notes, XMLElement& to) {
   place.only_children(link, {"collision"},
                       {"inertial", "visual", "contact", "sensor", "gazebo", "material",
-                       "self_collision_checking", "verbose"});
+                       "self_collision_checking", "verbose", "geometry"});
+  place.refuse_child(link, "geometry", "in a <collision>");
   XMLElement& unused = *to.GetDocument()->NewElement("unused");
   check_inertial(link, place.only_warning("masses play no part in the checks"), unused);
   const XmlPlace seen = place.only_warning("it is seen in the dashboard, and not checked");

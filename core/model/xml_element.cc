@@ -33,10 +33,29 @@ const tinyxml2::XMLElement* find_xacro(const tinyxml2::XMLElement& element) {
 std::string why_malformed(const tinyxml2::XMLDocument& document, const std::string& text) {
   if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED)
     return "elements are nested too deeply";
-  if (text.find("<!DOCTYPE") != std::string::npos) return "a DOCTYPE is not allowed";
-  if (document.ErrorID() == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT)
-    return "the XML is malformed: the element that begins here is not closed by its own name";
-  return std::string("the XML is malformed (") + document.ErrorName() + ")";
+  if (text.find("<!DOCTYPE") != std::string::npos)
+    return "a DOCTYPE is not allowed; delete it, robots need none";
+  const auto what = [&]() -> std::string {
+    switch (document.ErrorID()) {
+      case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+        return "the element that begins here is not closed by its own name";
+      case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+        return "no tag can be read here";
+      case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+        return "an attribute is not name=\"value\"";
+      case tinyxml2::XML_ERROR_PARSING_TEXT:
+        return "there is text outside of the elements, or one is not closed";
+      case tinyxml2::XML_ERROR_PARSING_COMMENT:
+        return "a comment is not closed by -->";
+      case tinyxml2::XML_ERROR_PARSING:
+        return "the element that begins here is not closed; was the file cut off?";
+      case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+        return "the file holds no element";
+      default:
+        return document.ErrorName();
+    }
+  }();
+  return "the XML is malformed: " + what;
 }
 
 }  // namespace
@@ -52,7 +71,8 @@ tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string
     return refuse(document.ErrorLineNum(), why_malformed(document, text));
   }
   if (const auto* declaration = find_declaration(document)) {
-    return refuse(declaration->GetLineNum(), "a DOCTYPE or entity declaration is not allowed");
+    return refuse(declaration->GetLineNum(),
+                  "a DOCTYPE or entity declaration is not allowed; delete it, robots need none");
   }
   auto* root = document.RootElement();
   if (root == nullptr) return refuse(1, "the file holds no XML element");
@@ -169,6 +189,15 @@ const tinyxml2::XMLElement* XmlPlace::only_child(const tinyxml2::XMLElement& ele
                        std::string("more than one <") + child + ">, of which the first counts");
   }
   return first;
+}
+
+void XmlPlace::refuse_child(const tinyxml2::XMLElement& element, const char* child,
+                            const char* where) const {
+  const auto* misplaced = element.FirstChildElement(child);
+  if (misplaced == nullptr) return;
+  const std::string tag = std::string("<") + child + ">";
+  at(*misplaced)
+      .report("misplaced", tag + " would be left out here: it has to stand " + where, tag);
 }
 
 void XmlPlace::tell_unknown(const std::string& name, const std::string& before,

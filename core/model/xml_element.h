@@ -65,6 +65,9 @@ class XmlPlace {
   // second one is reported.
   const tinyxml2::XMLElement* only_child(const tinyxml2::XMLElement& element, const char* child,
                                          Presence presence) const;
+  // Reports a child that would count elsewhere only ("in a <link>"), and here be left out.
+  void refuse_child(const tinyxml2::XMLElement& element, const char* child,
+                    const char* where) const;
   // Names of elements or attributes.
   using Names = std::initializer_list<std::string_view>;
 

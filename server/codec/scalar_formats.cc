@@ -127,8 +127,8 @@ class NumbersFormat final : public Format<Numbers> {
     }
     const auto outside =
         std::ranges::find_if(numbers, [&](double number) { return !range_.holds(number); });
-    node.invalid("out-of-range",
-                 spelled(*outside) + " " + sentence(range_) + ", found " + node.raw().dump());
+    node.invalid("out-of-range", spelled(*outside) + " " + sentence(range_) + ", found " +
+                                     node.raw().dump() + range_.remedy);
   }
   void write(JsonWriter& out, const Numbers& numbers) const override {
     out.begin_array();

@@ -16,6 +16,7 @@ struct Range {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
   bool open = false;
+  const char* remedy = "";  // told with a number outside: "; degrees go to rpy_deg"
 
   [[nodiscard]] bool holds(double number) const {
     return (open ? number > lowest : number >= lowest) && number <= highest;

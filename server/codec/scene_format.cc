@@ -12,9 +12,9 @@ using namespace formats;
 
 namespace {
 
-constexpr Range kLength{0.0, 1000.0, true};  // m
-constexpr Range kPosition{-1000.0, 1000.0};  // m
-constexpr Range kAngle{-100.0, 100.0};       // rad
+constexpr Range kLength{0.0, 1000.0, true};                           // m
+constexpr Range kPosition{-1000.0, 1000.0};                           // m
+constexpr Range kAngle{-6.3, 6.3, false, "; degrees go to rpy_deg"};  // rad: a turn
 constexpr Range kAngleDegrees{-3600.0, 3600.0};
 
 struct ShapeWords {

@@ -320,8 +320,10 @@ TEST(CheckHome, IsQuietWhenHomesAreFreeAndNamesEveryPairThatIsNot) {
   const Problems problems = check_home(scene_of(small::shared(cell)));
   ASSERT_EQ(problems.size(), 3U);
   EXPECT_EQ(problems[0].pointer, "/robots/0/arms/0/home");
-  EXPECT_EQ(problems[0].detail,
-            "left_link1 and right_link1: 0.0300 m apart at home, clearance_m is 0.0310");
+  EXPECT_EQ(
+      problems[0].detail,
+      "left_link1 and right_link1: 0.0300 m apart at home, clearance_m is 0.0310 (give another "
+      "\"home\", or place one of them elsewhere)");
   EXPECT_THAT(problems[2].detail, ::testing::StartsWith("right_link1 and shelf: 0.0200 m"));
 }
 

@@ -81,13 +81,27 @@ def run_block(name, commands, folder):
     return done.returncode == 0
 
 
-def own_robot(readme, armloom, folder):
-    """Imports the robot and serves it."""
+def own_robots(readme, armloom, folder):
+    """Imports and serves the robot of the page, and the one that it names beside it, if it is there."""
+    section = readme.split("## Your own robot in five minutes\n")[1].split("\n## ")[0]
     importing, serving = commands_of(readme, "Your own robot in five minutes").split(
         "./server/run --cell my_cell.json\n")
     if serving:
         sys.exit(f"own robot: something stands behind the last command: {serving}")
-    if not run_block("own robot", importing, folder):
+    failed = own_robot("own robot", importing, armloom, folder)
+    shown, other = re.search(r"^R=(.*)$", importing, re.M), re.search(r"`R=(.*?)`", section)
+    if not shown or not other:
+        sys.exit("own robot: its files are not named by R=...")
+    if not (TOP / f"{other[1]}.urdf").exists():
+        print(f"SKIP another robot: there is no {other[1]}.urdf here")
+        return failed
+    importing = importing.replace(shown[0], f"R={TOP / other[1]}")
+    return failed + own_robot("another robot", importing, armloom, folder)
+
+
+def own_robot(name, importing, armloom, folder):
+    (folder / "my_cell.json").unlink(missing_ok=True)
+    if not run_block(name, importing, folder):
         return 1
     server = subprocess.Popen([armloom, "serve", "--cell", folder / "my_cell.json"],
                               stdout=subprocess.DEVNULL)
@@ -99,7 +113,7 @@ def own_robot(readme, armloom, folder):
         server.wait(timeout=10)
     found = [(arm["name"], arm["state"]) for arm in arms]
     good = found == [("left", "idle"), ("right", "idle")]
-    print(f"own robot is served: {'ok' if good else 'FAIL'} {found}")
+    print(f"{name} is served: {'ok' if good else 'FAIL'} {found}")
     return 0 if good else 1
 
 
@@ -172,7 +186,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         like_a_clone(folder, sys.argv[1])
-        failed = own_robot(readme, sys.argv[1], folder) + without_a_server(readme, folder)
+        failed = own_robots(readme, sys.argv[1], folder) + without_a_server(readme, folder)
     server = subprocess.Popen([sys.argv[1], "serve", "--cell", TOP / "config/two_pandas.json"],
                               stdout=subprocess.DEVNULL)
     try:

@@ -169,6 +169,30 @@ MeshPtr concave_mesh(const MeshWish& wish, std::mt19937_64& random) {
   return mesh;
 }
 
+MeshPtr twice_wound_mesh() {
+  constexpr std::uint32_t kPoints = 48;
+  auto mesh = std::make_shared<MeshData>();
+  for (const double z : {-0.2, 0.2}) {
+    for (std::uint32_t i = 0; i < kPoints; ++i) {
+      const double angle = 4.0 * std::numbers::pi * i / kPoints;
+      const double radius = 0.2 * (1.0 + 0.35 * std::cos(0.5 * angle));
+      mesh->vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+    mesh->vertices.emplace_back(0.0, 0.0, z);
+  }
+  constexpr std::uint32_t kTop = kPoints + 1;
+  for (std::uint32_t i = 0; i < kPoints; ++i) {
+    const std::uint32_t next = (i + 1) % kPoints;
+    mesh->triangles.push_back({i, next, kTop + next});
+    mesh->triangles.push_back({i, kTop + next, kTop + i});
+    mesh->triangles.push_back({kPoints, next, i});
+    mesh->triangles.push_back({kTop + kPoints, kTop + i, kTop + next});
+  }
+  if (!is_closed(mesh->triangles)) throw std::logic_error("the prism is not closed");
+  mesh->surface = make_surface_tree(mesh->vertices, mesh->triangles);
+  return mesh;
+}
+
 MeshPtr turned_over(const MeshData& mesh, std::mt19937_64& random) {
   auto turned = std::make_shared<MeshData>(mesh);
   for (Triangle& t : turned->triangles) {

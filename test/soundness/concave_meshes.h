@@ -19,7 +19,12 @@ struct MeshWish {
 };
 [[nodiscard]] MeshPtr concave_mesh(const MeshWish& wish, std::mt19937_64& random);
 
-// The same with some triangles turned over: where outside is cannot be told by them any more.
+// A prism over a curve that goes twice about the z-axis (and so meets itself): inside of its
+// smaller turn, up to 0.12 m from the axis and 0.2 m from the origin along it, the surface winds
+// twice about each point. With a surface only.
+[[nodiscard]] MeshPtr twice_wound_mesh();
+
+// The mesh with some triangles turned over: where outside is cannot be told by them any more.
 [[nodiscard]] MeshPtr turned_over(const MeshData& mesh, std::mt19937_64& random);
 
 // For each corner the smallest one that it hangs together with.

@@ -63,6 +63,27 @@ TEST(Surfaces, EncloseWhatTheyWindAbout) {
   EXPECT_LE(wrongly, outside / 20);
 }
 
+TEST(Surfaces, EncloseWhatTheyWindAboutTwice) {
+  std::mt19937_64 random(54);
+  const MeshPtr mesh = twice_wound_mesh();
+  const auto components = components_of(*mesh);
+  int twice = 0;
+  int outside = 0;
+  for (int k = 0; k < 2'000; ++k) {
+    const Eigen::Vector3d p(between(random, -0.3, 0.3), between(random, -0.3, 0.3),
+                            between(random, -0.3, 0.3));
+    const bool inside = winds_about(*mesh, components, p);
+    ASSERT_EQ(may_enclose(*mesh->surface, p), inside) << "point " << k;
+    if (p.head<2>().norm() < 0.12 && std::abs(p.z()) < 0.2) {
+      ASSERT_TRUE(inside);
+      ++twice;
+    }
+    if (!inside) ++outside;
+  }
+  EXPECT_GE(twice, 100);
+  EXPECT_GE(outside, 500);
+}
+
 // Pairs that come closer than a limit are found whether or not the distance is asked for.
 TEST(Surfaces, AreCloserThanALimitWhenTheirDistanceIs) {
   std::mt19937_64 random(53);
