@@ -5,6 +5,8 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
+#include "core/model/cell.h"
+#include "core/trajectory/trajectory.h"
 
 namespace armloom {
 
@@ -24,6 +26,16 @@ struct DiagramLayer {
   ArmId arm_a;
   ArmId arm_b;
   std::vector<DiagramCell> cells;  // cover the rectangle of both motions
+};
+
+// "What do these two motions do to each other, wherever each is on its way?"
+struct Drawing {
+  TrajectoryPtr a;
+  TrajectoryPtr b;
+  Configuration rest;  // where the joints stand that are in neither
+  double tracking_error;
+  Duration resolution;
+  std::uint64_t budget;  // cells, for each pair of arms
 };
 
 // Of two motions: a layer for each arm of A and each arm of B.

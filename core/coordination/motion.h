@@ -20,10 +20,6 @@ struct Motion {
   JobId job;
   TrajectoryPtr trajectory;
   Duration progress;
-  bool may_stand = false;  // loses time: also to be judged as standing where it is, for ever
-  // What measurement has proven, where `progress` is extrapolated from it to the question's
-  // instant.
-  std::optional<Duration> proven = {};
   bool to_come = false;  // Coordinated: its arm makes another motion before it
 
   [[nodiscard]] Duration remaining() const { return trajectory->duration() - progress; }
@@ -34,20 +30,15 @@ struct TimedDiscrete {  // the paper's: at equal instants, every `step`; between
                         // promised
   Duration step;
 };
-struct Certified {  // for every instant, with proof
-  Duration lag;     // each motion may be this far behind its plan ...
-  bool stopping;    // ... and may have to stop at any time: what it still passes then counts too
+struct Swept {            // whatever the times: all of what remains of one against all of the other
   double tracking_error;  // of each joint against its path (rad, m)
-};
-struct Swept {  // whatever the times: all of what remains of one against all of the other
-  double tracking_error;
 };
 struct Coordinated {  // no times at all: in which states of each pair it is not certified that both
                       // may be (Verdict::regions). Of one arm, several motions may be named, in the
                       // order in which it will make them; each begins where the one before ends
   double tracking_error;
 };
-using CheckMethod = std::variant<TimedDiscrete, Certified, Swept, Coordinated>;
+using CheckMethod = std::variant<TimedDiscrete, Swept, Coordinated>;
 
 // Does this motion find its way free, from its progress on, while an arm that it does not move
 // rests there?
@@ -67,7 +58,6 @@ struct Question {
   Configuration rest;              // where every joint that is in none of these motions stands
   CheckMethod method;
   std::vector<PassageQuestion> passages = {};  // asked besides, whatever becomes of the candidates
-  bool find_earliest = false;  // not free: how much later would it be? (not for TimedDiscrete)
   // How many times the usual budget of evaluations an answer may cost (not for TimedDiscrete).
   std::uint64_t effort = 1;
 };

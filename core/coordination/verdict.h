@@ -47,9 +47,8 @@ struct Verdict {
   // Absent: nothing is proven.
   std::optional<double> clearance_bound_m;
   std::uint64_t evaluations = 0;  // combined states looked at
-  // Not free, and asked for: the candidates could start this much after the question's instant, and
-  // no earlier (to within Arbiter::kShift_s), if they wait where they are. Absent: never, as things
-  // stand.
+  // Where a policy has been asked too (executive/dry_run.h): the candidates would start this much
+  // after the question's instant.
   std::optional<Duration> earliest_start = {};
   // Coordinated, and no conflict: every pair of a candidate and another motion or an arm at rest
   // that is not free everywhere.

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/collision/arbiter.h"
+#include "core/collision/check/motion_checker.h"
 #include "core/coordination/effort.h"
 #include "core/executive/executive_impl.h"
 #include "core/scheduler/orders/passing_orders.h"
@@ -209,12 +209,12 @@ std::vector<std::size_t> with_next_jobs(std::vector<std::size_t> group, const Pl
 // As admission does: with more effort where the budget ends, and, where passing orders decide,
 // together with others if it is in conflict by itself.
 Verdict weighed(std::size_t index, const std::vector<std::size_t>& begun, const Plan& plan,
-                const Cell& cell, const Policy& policy, Arbiter& arbiter) {
+                const Cell& cell, const Policy& policy, MotionChecker& checker) {
   std::vector<std::size_t> group{index};
   std::optional<Verdict> alone;
   for (;;) {
     Question question = question_for(plan, group, begun, cell, policy);
-    Verdict answer = arbiter.judge(question);
+    Verdict answer = checker.judge(question);
     const auto means = [&] {
       if (answer.kind != Verdict::Kind::free) return answer;
       return as_verdict(orders_for(question, cell, policy, answer), group.size(), answer);
@@ -224,7 +224,7 @@ Verdict weighed(std::size_t index, const std::vector<std::size_t>& begun, const 
       const auto effort = larger_effort(answer, question.effort);
       if (!effort) break;
       question.effort = *effort;
-      answer = arbiter.judge(question);
+      answer = checker.judge(question);
       meant = means();
     }
     if (meant.kind == Verdict::Kind::free || !policy.admits_groups()) return meant;
@@ -239,7 +239,7 @@ Verdict weighed(std::size_t index, const std::vector<std::size_t>& begun, const 
 
 CheckView judged(std::size_t index, const std::vector<std::size_t>& begun, const Plan& plan,
                  const CellPtr& cell_ptr, const std::shared_ptr<const Policy>& policy_ptr,
-                 Arbiter& arbiter) {
+                 MotionChecker& checker) {
   const Cell& cell = *cell_ptr;
   const Policy& policy = *policy_ptr;
   const Question question = question_for(plan, {index}, begun, cell, policy);
@@ -249,7 +249,7 @@ CheckView judged(std::size_t index, const std::vector<std::size_t>& begun, const
     view.conflicts.push_back(view_of(wait, cell, plan));
     return view;
   }
-  const Verdict verdict = weighed(index, begun, plan, cell, policy, arbiter);
+  const Verdict verdict = weighed(index, begun, plan, cell, policy, checker);
   view.kind = verdict.kind;
   view.clearance_bound_m = verdict.clearance_bound_m;
   view.evaluations = verdict.evaluations;
@@ -277,14 +277,14 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
   std::vector<std::size_t> order(jobs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return plan.jobs()[i].starts; });
-  Arbiter arbiter(*scene);
+  MotionChecker checker(*scene);
   std::vector<CheckedJob> checked(jobs.size());
   std::vector<std::size_t> begun;
   for (std::size_t index : order) {
     const Planned& job = plan.jobs()[index];
     checked[index].key = job.key;
     CheckView& view = checked[index].verdict;
-    view = judged(index, begun, plan, cell, policy, arbiter);
+    view = judged(index, begun, plan, cell, policy, checker);
     if (view.kind == Verdict::Kind::free && !view.earliest_start_s) {
       view.earliest_start_s = to_seconds(job.starts - job.asked);
     } else if (view.earliest_start_s) {  // counted from where it was judged

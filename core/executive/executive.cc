@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/arm/simulated_arm.h"
-#include "core/collision/check_home.h"
+#include "core/collision/state/check_home.h"
 #include "core/executive/executive_impl.h"
 
 namespace armloom {
@@ -38,10 +38,9 @@ std::vector<std::unique_ptr<ArmController>> controllers(
 
 }  // namespace
 
-// As CollisionChecker::all_closer_than.
-StateCheck Executive::Impl::monitored(const PlanningScenePtr& scene) {
+ClearanceQuery Executive::Impl::monitored(const PlanningScenePtr& scene) {
   const Cell& cell = scene->cell();
-  return StateCheck(scene, PairLimits::scaled(cell, cell.monitor.stop_clearance_m));
+  return ClearanceQuery(scene, PairLimits::scaled(cell, cell.monitor.stop_clearance_m));
 }
 
 Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
@@ -56,8 +55,7 @@ Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr s
       observer_(observer),
       faulty_(pointers(arms)),
       motions_(cell, controllers(std::move(arms)), cell->home()),
-      checker_(scene_),
-      near_(monitored(scene_)),
+      clearance_query_(monitored(scene_)),
       monitor_period_(from_seconds(1.0 / cell->monitor.rate_hz)),
       told_arms_(cell->arms.size(), ArmState::idle),
       told_arm_jobs_(cell->arms.size()),
@@ -156,7 +154,7 @@ void Executive::Impl::watch() {
   const Configuration& q = motions_.measured();
   if (watched_.size() != q.size() || watched_ != q) {
     watched_ = q;
-    clearance_ = checker_.closest_apart(q, kClearanceHorizon_m);
+    clearance_ = clearance_query_.closest_apart(q, kClearanceHorizon_m);
     for (const Proximity& pair : clearance_) {
       figures_.min_clearance_m = std::min(figures_.min_clearance_m, pair.clearance_m);
       if (!pair.arm_b) continue;
@@ -166,9 +164,7 @@ void Executive::Impl::watch() {
     for (ArmId arm : all_arms()) moving.push_back(motions_.moving(arm));
     const Configuration* state[] = {&q};
     std::vector<Proximity> too_close;
-    if (near_.too_close(state) != 0) {
-      too_close = checker_.all_closer_than(q, cell_->monitor.stop_clearance_m);
-    }
+    if (clearance_query_.too_close(state) != 0) too_close = clearance_query_.closest_too_close(q);
     for (MonitorFinding& finding : monitor_.observe(too_close, moving, now_)) {
       MonitorEvent event{.finding = finding};
       for (const auto& arm : {finding.proximity.arm_a, finding.proximity.arm_b}) {

@@ -9,8 +9,10 @@
 
 #include "core/arm/faulty_arm.h"
 #include "core/base/problem.h"
-#include "core/collision/judge.h"
+#include "core/collision/scene/planning_scene.h"
 #include "core/coordination/diagram.h"
+#include "core/coordination/motion.h"
+#include "core/coordination/verdict.h"
 #include "core/executive/events.h"
 #include "core/executive/plan_ahead.h"
 #include "core/model/cell.h"
@@ -26,16 +28,6 @@ struct JobRequest {
   int priority = 0;
   std::optional<Duration> backlog_timeout;  // absent: the cell's
   std::vector<std::string> after;           // keys of jobs that have to succeed first
-};
-
-// "What do these two motions do to each other, wherever each is on its way?" As Arbiter::draw().
-struct Drawing {
-  TrajectoryPtr a;
-  TrajectoryPtr b;
-  Configuration rest;  // where the joints stand that are in neither
-  double tracking_error;
-  Duration resolution;
-  std::uint64_t budget;  // cells, for each pair of arms
 };
 
 // Where judgements are computed. Called on the strand; `done` must be called exactly once, on the
@@ -81,7 +73,7 @@ struct RunFigures {
   std::vector<Duration> busy;  // per arm: time in motion
   Duration together{};         // time in which at least two arms were in motion
   // Smallest that the monitor saw between arms, and of arms from what stands still
-  // (CollisionChecker::closest_apart); +inf: never near.
+  // (ClearanceQuery::closest_apart); +inf: never near.
   double min_clearance_m;
   double between_arms_m;  // the smallest of two arms alone; +inf: never near
   std::uint64_t monitor_stops = 0;

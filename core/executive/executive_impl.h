@@ -8,8 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/collision/collision_checker.h"
-#include "core/collision/state_check.h"
+#include "core/collision/state/clearance_query.h"
 #include "core/executive/executive.h"
 #include "core/executive/motions.h"
 #include "core/executive/views.h"
@@ -124,7 +123,7 @@ class Executive::Impl final : public JobNames {
   void carry_out(const YieldMove& aside);
   void watch();
   void tell_tick();
-  static StateCheck monitored(const PlanningScenePtr& scene);
+  static ClearanceQuery monitored(const PlanningScenePtr& scene);
   void tell_job(JobId job);
   void tell_arms();
   void tell_queue();
@@ -138,9 +137,7 @@ class Executive::Impl final : public JobNames {
   std::vector<FaultyArm*> faulty_;  // ArmId; owned by motions_
   Motions motions_;
   Monitor monitor_;
-  CollisionChecker checker_;
-  StateCheck
-      near_;  // the monitor's limits: only states that it does not clear are looked at closely
+  ClearanceQuery clearance_query_;  // with the monitor's limits
   Duration monitor_period_;
   TimePoint monitor_due_{};
   Configuration watched_;  // the configuration that the monitor looked at last

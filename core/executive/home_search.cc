@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/collision/collision_checker.h"
+#include "core/collision/state/clearance_query.h"
 
 namespace armloom {
 namespace {
@@ -11,11 +11,7 @@ namespace {
 class Search {
  public:
   Search(const PlanningScenePtr& scene, const HomePlaces& places)
-      : cell_(scene->cell()),
-        checker_(scene),
-        places_(places),
-        all_(cell_.arms.size(), true),
-        q_(cell_.home()) {}
+      : cell_(scene->cell()), query_(scene), places_(places), q_(cell_.home()) {}
 
   std::optional<std::vector<std::size_t>> run() {
     if (place(0)) return chosen_;
@@ -45,21 +41,19 @@ class Search {
 
   // Whether nothing of this arm is too close to what stands already.
   bool is_free(std::size_t arm, double clearance_m) {
-    checker_.near_pairs(q_, clearance_m, all_, all_, near_);
-    return std::ranges::none_of(near_, [&](const NearPair& pair) {
-      const Proximity proximity = checker_.describe(pair);
+    query_.set_limits(PairLimits::scaled(cell_, clearance_m));
+    return std::ranges::none_of(query_.near_pairs(q_), [&](const NearPair& pair) {
+      const Proximity proximity = query_.describe(pair);
       const auto stands = [&](const std::optional<ArmId>& id) { return !id || id->index() <= arm; };
       if (!stands(proximity.arm_a) || !stands(proximity.arm_b)) return false;
-      return !checker_.is_self(pair.pair) || pair.clearance_m < cell_.self_clearance_m;
+      return !query_.is_self(pair.pair) || pair.clearance_m < cell_.self_clearance_m;
     });
   }
 
   const Cell& cell_;
-  CollisionChecker checker_;
+  ClearanceQuery query_;
   const HomePlaces& places_;
-  std::vector<bool> all_;
   Configuration q_;
-  std::vector<NearPair> near_;
   std::vector<std::size_t> chosen_;
   std::size_t checks_ = 0;
 };

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "core/collision/arbiter.h"
+#include "core/collision/check/motion_checker.h"
 
 namespace armloom {
 namespace {
@@ -104,30 +104,27 @@ class RealTimeLoop::Impl final : public JudgePool {
   };
 
   void judge_questions(std::stop_token stop) {
-    std::optional<Arbiter> arbiter;
+    std::optional<MotionChecker> checker;
     while (!stop.stop_requested()) {
       for (Asked& asked : questions_.take(stop)) {
-        if (!arbiter) arbiter.emplace(asked.scene);
-        arbiter->look_at(asked.scene);
-        post([verdict = arbiter->judge(asked.question), done = std::move(asked.done)](Executive&) {
+        if (!checker) checker.emplace(asked.scene);
+        checker->look_at(asked.scene);
+        post([verdict = checker->judge(asked.question), done = std::move(asked.done)](Executive&) {
           done(verdict);
         });
       }
     }
   }
 
-  // On a thread of its own, with its own arbiter: whoever looks keeps no job waiting.
+  // On a thread of its own, with its own checker: whoever looks keeps no job waiting.
   void draw_diagrams(std::stop_token stop) {
-    std::optional<Arbiter> arbiter;
+    std::optional<MotionChecker> checker;
     while (!stop.stop_requested()) {
       for (ToDraw& asked : drawings_.take(stop)) {
         if (stop.stop_requested()) return;
-        if (!arbiter) arbiter.emplace(asked.scene);
-        arbiter->look_at(asked.scene);
-        const Drawing& drawing = asked.drawing;
-        post([this,
-              diagram = arbiter->draw(drawing.a, drawing.b, drawing.rest, drawing.tracking_error,
-                                      drawing.resolution, drawing.budget),
+        if (!checker) checker.emplace(asked.scene);
+        checker->look_at(asked.scene);
+        post([this, diagram = checker->draw(asked.drawing),
               done = std::move(asked.done)](Executive&) {
           --open_drawings_;
           done(diagram);

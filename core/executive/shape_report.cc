@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/collision/scene_bodies.h"
+#include "core/collision/scene/scene_bodies.h"
 
 namespace armloom {
 
@@ -18,11 +18,11 @@ Result<std::vector<LinkShapeReport>> report_shapes(CellPtr cell) {
       LinkShapeReport& link = report.back();
       link.convex_shapes += part.bodies_end - part.bodies_begin;
       link.capsules += part.capsules.size();
-      link.excess_m = std::max(link.excess_m, part.capsule_excess_m);
+      link.excess_m = std::max(link.excess_m, part.capsule_overestimate_m);
       continue;
     }
     report.push_back({part.name, part.bodies_end - part.bodies_begin, part.capsules.size(),
-                      part.capsule_excess_m});
+                      part.capsule_overestimate_m});
   }
   return report;
 }

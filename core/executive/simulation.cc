@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/collision/arbiter.h"
+#include "core/collision/check/motion_checker.h"
 
 namespace armloom {
 
@@ -15,23 +15,21 @@ namespace armloom {
 class Simulation::Judge final : public JudgePool {
  public:
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
-    if (!arbiter_) arbiter_.emplace(scene);
-    arbiter_->look_at(std::move(scene));
+    if (!checker_) checker_.emplace(scene);
+    checker_->look_at(std::move(scene));
     const auto begun = std::chrono::steady_clock::now();
-    Verdict verdict = arbiter_->judge(question);
+    Verdict verdict = checker_->judge(question);
     judging_.wall += std::chrono::steady_clock::now() - begun;
     judging_.evaluations += verdict.evaluations;
     ++judging_.judgements;
     answer([verdict = std::move(verdict), done = std::move(done)] { done(verdict); });
   }
 
-  // By an arbiter of its own: what has been drawn must not change the evaluations of a verdict.
+  // By a checker of its own: what has been drawn must not change the evaluations of a verdict.
   bool draw(Drawing drawing, PlanningScenePtr scene, std::function<void(Diagram)> done) override {
     if (!artist_) artist_.emplace(scene);
     artist_->look_at(std::move(scene));
-    answer([diagram = artist_->draw(drawing.a, drawing.b, drawing.rest, drawing.tracking_error,
-                                    drawing.resolution, drawing.budget),
-            done = std::move(done)] { done(diagram); });
+    answer([diagram = artist_->draw(drawing), done = std::move(done)] { done(diagram); });
     return true;
   }
 
@@ -56,8 +54,8 @@ class Simulation::Judge final : public JudgePool {
     pending_.push_back({now_ + kSimulatedJudgement, std::move(deliver)});
   }
 
-  std::optional<Arbiter> arbiter_;
-  std::optional<Arbiter> artist_;
+  std::optional<MotionChecker> checker_;
+  std::optional<MotionChecker> artist_;
   TimePoint now_{};
   std::deque<Answer> pending_;
   Judging judging_;

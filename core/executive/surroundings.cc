@@ -62,13 +62,9 @@ Result<void> Executive::Impl::remove_object(const std::string& name) {
 Result<void> Executive::Impl::change_objects(std::vector<CollisionObject> objects) {
   auto scene = scene_->with_objects(std::move(objects));
   if (!scene) return failure(std::move(scene.error()));
-  CollisionChecker checker(*scene);
-  const double limit_m = cell_->monitor.stop_clearance_m;
-  const std::vector<bool> all(cell_->arms.size(), true);
-  std::vector<NearPair> near;
-  checker.near_pairs(motions_.measured(), limit_m, all, all, near);
-  for (const NearPair& closer : near) {
-    const Proximity pair = checker.describe(closer);
+  ClearanceQuery query = monitored(*scene);
+  for (const NearPair& closer : query.near_pairs(motions_.measured())) {
+    const Proximity pair = query.describe(closer);
     if (!pair.object_b) continue;
     char text[256];
     std::snprintf(text, sizeof text, "%s would be %.4f m from %s as it stands now, limit %.4f m",
@@ -76,8 +72,7 @@ Result<void> Executive::Impl::change_objects(std::vector<CollisionObject> object
     return failure(Problem{ProblemKind::conflict, "object-in-arm", "", text, pair.clearance_m});
   }
   scene_ = std::move(*scene);
-  checker_ = std::move(checker);
-  near_ = monitored(scene_);
+  clearance_query_ = std::move(query);
   watched_.resize(0);  // the monitor looks again, though no arm has moved
   ++scene_version_;
   tell(SceneView{scene_version_, scene_->objects()});

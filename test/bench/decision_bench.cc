@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/collision/arbiter.h"
-#include "core/collision/planning_scene.h"
+#include "core/collision/check/motion_checker.h"
+#include "core/collision/scene/planning_scene.h"
 #include "core/scheduler/scheduler.h"
 #include "core/trajectory/validate.h"
 #include "test/bench/cells.h"
@@ -120,7 +120,7 @@ class Hall {
                             .candidates = {{JobId{1}, motion, Duration{}}},
                             .others = {},
                             .rest = cell_->home(),
-                            .method = Certified{100ms, true, cell_->checking.tracking_error_rad}};
+                            .method = Coordinated{cell_->checking.tracking_error_rad}};
     return chooses_.judge(question).kind == Verdict::Kind::free;
   }
 
@@ -197,8 +197,8 @@ class Hall {
   std::size_t running_;
   double share_;
   CellPtr cell_;
-  Arbiter arbiter_;
-  Arbiter chooses_;  // knows nothing to the other one's advantage
+  MotionChecker arbiter_;
+  MotionChecker chooses_;  // knows nothing to the other one's advantage
   Scheduler scheduler_;
   std::map<TrajectoryPtr, TrajectoryPtr> random_;  // what a motion was made of
   std::optional<Question> question_;

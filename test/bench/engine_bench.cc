@@ -6,8 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/collision/arbiter.h"
-#include "core/collision/state_check.h"
+#include "core/collision/check/motion_checker.h"
+#include "core/collision/state/clearance_query.h"
+#include "core/collision/state/placed_cell.h"
 #include "test/bench/cells.h"
 #include "test/bench/collision_bench.h"
 
@@ -45,7 +46,7 @@ void per_admission(benchmark::State& run, const Motions& motions, std::size_t ca
   Verdict verdict{Verdict::Kind::undecided, 0, {}, std::nullopt, 0};
   for (auto _ : run) {
     run.PauseTiming();
-    Arbiter arbiter(scene);
+    MotionChecker arbiter(scene);
     if (running && motions.trajectories.size() > 1) {
       Question before = admission(motions, candidate == 0 ? 1 : 0, method);
       std::erase_if(before.others, [&](const Motion& other) {
@@ -56,7 +57,7 @@ void per_admission(benchmark::State& run, const Motions& motions, std::size_t ca
     run.ResumeTiming();
     verdict = arbiter.judge(question);
     run.PauseTiming();
-    arbiter = Arbiter(scene);  // what it holds is let go outside of the measurement
+    arbiter = MotionChecker(scene);  // what it holds is let go outside of the measurement
     run.ResumeTiming();
   }
   run.counters["evaluations"] = static_cast<double>(verdict.evaluations);
@@ -66,18 +67,18 @@ void per_admission(benchmark::State& run, const Motions& motions, std::size_t ca
 // Only the two motions against each other.
 void cross_arm(benchmark::State& run, const Motions& motions, bool must_be_free) {
   const PlanningScenePtr scene = scene_of(motions.cell);
-  const Region region{.duration_a = to_seconds(motions.trajectories[0]->duration()),
-                      .duration_b = to_seconds(motions.trajectories[1]->duration())};
+  const ProgressBand band{.duration_a = to_seconds(motions.trajectories[0]->duration()),
+                          .duration_b = to_seconds(motions.trajectories[1]->duration())};
   const auto left = std::make_shared<const ArmGeometry>(scene->bodies(), ArmId{0});
   const auto right = std::make_shared<const ArmGeometry>(scene->bodies(), ArmId{1});
-  const PairSet pairs = cross_pairs(scene->bodies(), left->linkage, right->linkage);
+  const PairSet pairs = pairs_between(scene->bodies(), left->linkage, right->linkage);
   CoordinationDiagram::Answer answer;
   for (auto _ : run) {
     CoordinationDiagram diagram(
-        {&scene->bodies(), &pairs, CoordinationDiagram::make_scratch()},
-        std::make_shared<MotionTube>(left, motions.trajectories[0], motions.rest, 0.0),
-        std::make_shared<MotionTube>(right, motions.trajectories[1], motions.rest, 0.0));
-    answer = diagram.ask(region, Arbiter::kBudget);
+        TubePair({&scene->bodies(), &pairs, TubePair::make_scratch()},
+                 std::make_shared<MotionTube>(left, motions.trajectories[0], motions.rest, 0.0),
+                 std::make_shared<MotionTube>(right, motions.trajectories[1], motions.rest, 0.0)));
+    answer = diagram.ask(band, MotionChecker::kBudget);
     benchmark::DoNotOptimize(answer);
   }
   run.counters["evaluations"] = static_cast<double>(answer.evaluations);
@@ -98,11 +99,11 @@ void regions_of_pairs(benchmark::State& run) {
                            random_motion(*cell, ArmId{1}, seed + 1, kReach)},
                           cell->home()};
     const Question question = admission(motions, 0, Coordinated{0.001});
-    if (!Arbiter(scene).judge(question).regions.empty()) pairs.push_back(question);
+    if (!MotionChecker(scene).judge(question).regions.empty()) pairs.push_back(question);
   }
   double evaluations = 0.0, regions = 0.0, blocked = 0.0, asked = 0.0;
   std::size_t next = 0;
-  std::optional<Arbiter> arbiter;
+  std::optional<MotionChecker> arbiter;
   while (run.KeepRunning()) {
     run.PauseTiming();
     const Question& question = pairs[next];
@@ -132,29 +133,35 @@ void register_states(const Workloads& workloads) {
   for (const auto& [name, workload] : workloads.states) {
     const States& states = workload;
     const PlanningScenePtr scene = scene_of(states.cell);
-    const auto decided = [&](const std::string& question, const StateCheck::Limits& limits) {
+    const auto decided = [&](const std::string& question, const PairLimits& limits) {
       benchmark::RegisterBenchmark(
           ("engine/" + question + "/" + name).c_str(), [&states, scene, limits](auto& run) {
-            StateCheck check(scene, limits);
+            ClearanceQuery check(scene, limits);
             per_state(run, states, [&](const auto& eight) { return check.too_close(eight); });
           });
     };
     decided("decided_contact", {0.0, 0.0});
-    decided("decided_clearance", {scene->cell().clearance_m, scene->cell().self_clearance_m});
-    for (const filter::Kernel* kernel : filter::kernels()) {
-      benchmark::RegisterBenchmark(
-          ("engine/filter_" + std::string(kernel->name) + "/" + name).c_str(),
-          [&states, scene, kernel](auto& run) {
-            StateCheck check(scene, {0.0, 0.0}, *kernel);
-            per_state(run, states,
-                      [&](const auto& eight) { return check.open_by_capsules(eight); });
+    // The capsules of arms against each other and themselves, and nothing behind them.
+    benchmark::RegisterBenchmark(("engine/filter/" + name).c_str(), [&states, scene](auto& run) {
+      PlacedCell placed(scene->bodies(), {0.0, 0.0});
+      const std::size_t still = scene->cell().arms.size();
+      per_state(run, states, [&](const auto& eight) {
+        unsigned open = 0;
+        placed.place(eight);
+        for (const PlacedCell::Comparison& c : placed.comparisons()) {
+          if (c.b == still) continue;
+          placed.filter(c, 0xFF, [&](auto hits, const auto&) {
+            for (const filter::Hit& hit : hits) open |= hit.lanes;
           });
-    }
+        }
+        return open;
+      });
+    });
+    decided("decided_clearance", {scene->cell().clearance_m, scene->cell().self_clearance_m});
   }
 }
 
 void register_admissions(const Workloads& workloads) {
-  using namespace std::chrono_literals;
   const double tracking = 0.001;
   for (const auto& [name, workload] : workloads.motions) {
     const Motions& motions = workload;
@@ -168,22 +175,17 @@ void register_admissions(const Workloads& workloads) {
                                      per_admission(run, motions, 0, method, running, !swept);
                                    });
     };
-    complete("admission_line_cold", Certified{0ms, false, tracking}, false);
-    complete("admission_stopping_cold", Certified{0ms, true, tracking}, false);
-    complete("admission_band_cold", Certified{100ms, true, tracking}, false);
-    complete("admission_band_running", Certified{100ms, true, tracking}, true);
     complete("admission_swept_cold", Swept{tracking}, false);
     complete("regions_cold", Coordinated{tracking}, false);
+    complete("regions_running", Coordinated{tracking}, true);
   }
   benchmark::RegisterBenchmark("engine/regions_cold/random_pairs", regions_of_pairs)
       ->Iterations(40);
   for (const auto& [others, workload] : workloads.halls) {
     const Hall& hall = workload;
     benchmark::RegisterBenchmark(
-        ("engine/admission_band_running/hall_" + std::to_string(others)).c_str(),
-        [&hall](auto& run) {
-          per_admission(run, hall.motions, hall.candidate, Certified{100ms, true, 0.001}, true,
-                        false);
+        ("engine/regions_running/hall_" + std::to_string(others)).c_str(), [&hall](auto& run) {
+          per_admission(run, hall.motions, hall.candidate, Coordinated{0.001}, true, false);
         });
   }
 }

@@ -15,26 +15,26 @@ namespace {
 constexpr double kMargin_m = 2.0 * kHullTolerance_m;
 
 // The largest n·p over the body's points p in P; n of unit length.
-double support(const Body& body, const Eigen::Vector3d& n) {
+double support(const ConvexShape& body, const Eigen::Vector3d& n) {
   const Eigen::Vector3d n_S = body.X_PS.linear().transpose() * n;
   const double middle = n.dot(body.X_PS.translation());
   const double along = std::abs(n_S.z()) * body.half_length_m;
   switch (body.kind) {
-    case BodyKind::box:
+    case ConvexShapeKind::box:
       return middle + n_S.cwiseAbs().dot(body.half_size_m);
-    case BodyKind::cylinder:
+    case ConvexShapeKind::cylinder:
       return middle + along + body.radius_m * std::hypot(n_S.x(), n_S.y());
-    case BodyKind::hull:
-      return middle + body.hull->extent(n_S);
-    case BodyKind::round:
+    case ConvexShapeKind::hull:
+      return middle + body.hull->support(n_S);
+    case ConvexShapeKind::round:
       break;
   }
   return middle + along + body.radius_m;
 }
 
-double support(const std::vector<Body>& bodies, const Eigen::Vector3d& n) {
+double support(const std::vector<ConvexShape>& bodies, const Eigen::Vector3d& n) {
   double largest = -std::numeric_limits<double>::infinity();
-  for (const Body& body : bodies) largest = std::max(largest, support(body, n));
+  for (const ConvexShape& body : bodies) largest = std::max(largest, support(body, n));
   return largest;
 }
 
@@ -64,9 +64,9 @@ Eigen::Vector3d normal(const ConvexHull& hull, const std::array<std::uint32_t, 3
 
 }  // namespace
 
-LinkMesh circumscribed_mesh(const std::vector<Body>& bodies, std::size_t triangles) {
+LinkMesh circumscribed_mesh(const std::vector<ConvexShape>& bodies, std::size_t triangles) {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  for (const Body& body : bodies) center += body.X_PS.translation();
+  for (const ConvexShape& body : bodies) center += body.X_PS.translation();
   center /= static_cast<double>(bodies.size());
 
   // A plane at height h above the centre along n is the point n / h of the dual; the corners of the

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/collision/body.h"
+#include "core/collision/geometry/convex_shape.h"
 
 namespace armloom::bench {
 
@@ -21,6 +21,7 @@ struct LinkMesh {
 // (triangles + 8) / 4 evenly spread directions. It touches them there and stands off at its corners
 // (a sphere of 6 cm in 252 triangles: 3 mm), so it never hides a contact. Checked: throws
 // std::logic_error if a body leaves it. Precondition: bodies not empty, triangles >= 32.
-[[nodiscard]] LinkMesh circumscribed_mesh(const std::vector<Body>& bodies, std::size_t triangles);
+[[nodiscard]] LinkMesh circumscribed_mesh(const std::vector<ConvexShape>& bodies,
+                                          std::size_t triangles);
 
 }  // namespace armloom::bench

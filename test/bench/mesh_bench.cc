@@ -4,8 +4,7 @@
 
 #include <string>
 
-#include "core/collision/collision_checker.h"
-#include "core/collision/state_check.h"
+#include "core/collision/state/clearance_query.h"
 #include "test/bench/mesh_cells.h"
 #include "test/bench/run_benchmarks.h"
 
@@ -16,8 +15,8 @@ constexpr std::size_t kStates = 2048;
 
 // One iteration: one state; eight are decided at once.
 void decided(benchmark::State& run, const PlanningScenePtr& scene,
-             const std::vector<Configuration>& states, const StateCheck::Limits& limits) {
-  StateCheck check(scene, limits);
+             const std::vector<Configuration>& states, const PairLimits& limits) {
+  ClearanceQuery check(scene, limits);
   std::vector<const Configuration*> eight(filter::kLanes);
   std::size_t next = 0;
   double close = 0.0;
@@ -33,7 +32,7 @@ void decided(benchmark::State& run, const PlanningScenePtr& scene,
 // What the monitor's figures cost: the closest pair of different arms below a horizon.
 void closest(benchmark::State& run, const PlanningScenePtr& scene,
              const std::vector<Configuration>& states, double horizon_m) {
-  CollisionChecker checker(scene);
+  ClearanceQuery checker(scene);
   std::size_t next = 0;
   for (auto _ : run) {
     benchmark::DoNotOptimize(checker.closest_apart(states[next++ % states.size()], horizon_m));

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/collision/body.h"
+#include "core/collision/geometry/convex_shape.h"
 #include "core/model/kinematics.h"
 #include "test/bench/link_mesh.h"
 
@@ -97,7 +97,7 @@ struct MoveItWay::Scene {
     for (std::size_t i = 0; i < cell->links.size(); ++i) {
       if (cell->links[i].shapes.empty()) continue;
       const LinkMesh mesh =
-          circumscribed_mesh(make_bodies(cell->links[i].shapes), kTrianglesPerLink);
+          circumscribed_mesh(make_convex_shapes(cell->links[i].shapes), kTrianglesPerLink);
       triangles += mesh.triangles.size();
       robot.push_back(std::make_shared<Object>(bvh_of(mesh)));
       number(*robot.back(), links.size());

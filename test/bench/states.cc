@@ -1,7 +1,11 @@
 #include "test/bench/states.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+
+#include "core/collision/state/part_distance.h"
+#include "core/model/kinematics.h"
 
 namespace armloom::bench {
 namespace {
@@ -21,39 +25,74 @@ void put_anywhere(const Cell& cell, const Arm& arm, std::mt19937_64& random, Con
   }
 }
 
+// The smallest distance of the pairs of groups that `wanted` names, where below `horizon_m`. An end
+// at `enough_m` or less saves time.
+template <class Wanted>
+double smallest(ExactScene& exact, const Configuration& q, double horizon_m, double enough_m,
+                const Wanted& wanted) {
+  const PlanningScene::Bodies& bodies = exact.scene->bodies();
+  forward_kinematics(*bodies.cell, q, exact.X_WL);
+  double smallest_m = horizon_m;
+  for (const PairGroup& group : bodies.groups) {
+    if (!wanted(group)) continue;
+    for (std::size_t i = group.pairs_begin; i < group.pairs_end && smallest_m > enough_m; ++i) {
+      const Part& a = bodies.parts[bodies.pairs[i].a];
+      const Part& b = bodies.parts[bodies.pairs[i].b];
+      const Eigen::Isometry3d X_WA = a.pose(exact.X_WL);
+      const Eigen::Isometry3d X_WB = b.pose(exact.X_WL);
+      const double centers_m = (X_WA * a.p_PC - X_WB * b.p_PC).norm();
+      if (centers_m - a.radius_m - b.radius_m >= smallest_m) continue;
+      smallest_m =
+          std::min(smallest_m, part_distance(bodies.bodies, {a, X_WA}, {b, X_WB}, smallest_m));
+    }
+  }
+  return smallest_m;
+}
+
+using Kind = PairGroup::Kind;
+constexpr double kDeepest_m = -1e9;
+
+// Whether a pair of these groups is closer than its limit.
+template <class Wanted>
+bool any_closer(ExactScene& exact, const Configuration& q, double clearance_m,
+                const Wanted& wanted) {
+  const PairLimits limits = PairLimits::scaled(exact.cell(), clearance_m);
+  return std::ranges::any_of(exact.scene->bodies().groups, [&](const PairGroup& group) {
+    if (!wanted(group)) return false;
+    const double limit_m = group.limit_m(limits);
+    const auto only = [&](const PairGroup& other) { return &other == &group; };
+    return smallest(exact, q, limit_m, std::nextafter(limit_m, 0.0), only) < limit_m;
+  });
+}
+
 }  // namespace
 
-ExactScene::ExactScene(const CellPtr& cell)
-    : scene(PlanningScene::build(cell).value()),
-      checker(scene),
-      every_arm(cell->arms.size(), true) {}
+ExactScene::ExactScene(const CellPtr& cell) : scene(PlanningScene::build(cell).value()) {}
 
 double ExactScene::between_arms(const Configuration& q, double horizon_m) {
-  double smallest = horizon_m;
-  for (const Proximity& pair : checker.closest_apart(q, horizon_m)) {
-    if (pair.arm_b) smallest = std::min(smallest, pair.clearance_m);
-  }
-  return smallest;
+  return smallest(*this, q, horizon_m, kDeepest_m,
+                  [](const PairGroup& group) { return group.kind == Kind::arms; });
 }
 
 double ExactScene::to_scene(const Configuration& q, double horizon_m) {
-  double smallest = horizon_m;
-  checker.near_pairs(q, horizon_m, every_arm, every_arm, near);
-  for (const NearPair& pair : near) {
-    if (checker.is_self(pair.pair) || checker.describe(pair).arm_b) continue;
-    smallest = std::min(smallest, pair.clearance_m);
-  }
-  return smallest;
+  return smallest(*this, q, horizon_m, kDeepest_m, [](const PairGroup& group) {
+    return group.kind == Kind::still || group.kind == Kind::mount;
+  });
 }
 
 bool ExactScene::self_too_close(const Configuration& q, double clearance_m) {
-  checker.near_pairs(q, clearance_m, every_arm, every_arm, near);
-  return std::any_of(near.begin(), near.end(),
-                     [this](const NearPair& pair) { return checker.is_self(pair.pair); });
+  return any_closer(*this, q, clearance_m,
+                    [](const PairGroup& group) { return group.kind == Kind::self; });
 }
 
 bool ExactScene::in_contact(const Configuration& q) {
-  return checker.first_closer_than(q, 0.0, every_arm).has_value();
+  return any_closer(*this, q, 0.0, [](const PairGroup&) { return true; });
+}
+
+bool ExactScene::too_close(const Configuration& q, ArmId arm, double clearance_m) {
+  return any_closer(*this, q, clearance_m, [arm](const PairGroup& group) {
+    return group.arm == arm || group.other == arm;
+  });
 }
 
 bool Referees::baseline_sees_one_arm_touch(const Configuration& q) {
@@ -102,19 +141,16 @@ std::vector<Configuration> free_states(Referees& referees, std::size_t count) {
   std::mt19937_64 random(2028);
   const Cell& cell = exact.cell();
   Configuration q = cell.home();
-  std::vector<bool> one(cell.arms.size(), false);
-  const auto clear = [&] {
-    return !exact.checker.first_closer_than(q, kNearMin_m, one) && !exact.self_too_close(q);
+  const auto clear = [&](std::uint32_t arm) {
+    return !exact.too_close(q, ArmId{arm}, kNearMin_m) && !exact.self_too_close(q);
   };
   std::vector<Configuration> states;
   while (states.size() < count) {
     for (int round = 0; round < 3; ++round) {
-      for (std::size_t i = 0; i < cell.arms.size(); ++i) {
-        one.assign(one.size(), false);
-        one[i] = true;
+      for (std::uint32_t i = 0; i < cell.arms.size(); ++i) {
         do {
           put_anywhere(cell, cell.arms[i], random, q);
-        } while (!clear());
+        } while (!clear(i));
       }
     }
     if (!referees.baseline_sees_one_arm_touch(q)) states.push_back(q);

@@ -3,18 +3,16 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/collision/collision_checker.h"
-#include "core/collision/planning_scene.h"
+#include "core/collision/scene/planning_scene.h"
+#include "core/collision/state/clearance_query.h"
 #include "test/bench/moveit_way.h"
 
 namespace armloom::bench {
 
-// A scene and one who looks at it with exact shapes: the truth of the benchmarks.
+// A scene looked at with exact shapes, without the engine's filter: the truth of the benchmarks.
 struct ExactScene {
   PlanningScenePtr scene;
-  CollisionChecker checker;
-  std::vector<bool> every_arm;
-  std::vector<NearPair> near;  // scratch
+  LinkPoses X_WL;  // scratch
 
   explicit ExactScene(const CellPtr& cell);
   [[nodiscard]] const Cell& cell() const { return scene->cell(); }
@@ -31,6 +29,8 @@ struct ExactScene {
   }
   // Whether anything that the scene looks at touches, an arm's own links included.
   [[nodiscard]] bool in_contact(const Configuration& q);
+  // Whether the arm is closer than that to anything, or to itself than its share of that.
+  [[nodiscard]] bool too_close(const Configuration& q, ArmId arm, double clearance_m);
 };
 
 // Who decides what a workload is: the exact shapes, and whether the baseline would see its own

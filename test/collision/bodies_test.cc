@@ -4,20 +4,20 @@
 #include <array>
 #include <vector>
 
-#include "core/collision/body.h"
-#include "core/collision/exact_distance.h"
+#include "core/collision/geometry/convex_shape.h"
+#include "core/collision/geometry/exact_distance.h"
 #include "test/collision/reference_distance.h"
 #include "test/collision/small_cell.h"
 
 namespace armloom {
 namespace {
 
-reference::Convex convex(const Body& body, const Eigen::Isometry3d& X_WP) {
+reference::Convex convex(const ConvexShape& body, const Eigen::Isometry3d& X_WP) {
   reference::Convex c{};
   using Kind = reference::Convex::Kind;
-  c.kind = body.kind == BodyKind::box        ? Kind::box
-           : body.kind == BodyKind::cylinder ? Kind::cylinder
-                                             : Kind::capsule;
+  c.kind = body.kind == ConvexShapeKind::box        ? Kind::box
+           : body.kind == ConvexShapeKind::cylinder ? Kind::cylinder
+                                                    : Kind::capsule;
   c.half_size_m = body.half_size_m;
   c.radius_m = body.radius_m;
   c.half_length_m = body.half_length_m;
@@ -42,9 +42,9 @@ std::vector<PlacedShape> random_shape(int kind, std::mt19937_64& random) {
 }
 
 TEST(Bodies, MergeACylinderWithItsTwoCapsIntoOneCapsule) {
-  const auto bodies = make_bodies(small::capsule_along_x(0.1, 0.5, 0.06));
+  const auto bodies = make_convex_shapes(small::capsule_along_x(0.1, 0.5, 0.06));
   ASSERT_EQ(bodies.size(), 1U);
-  EXPECT_EQ(bodies[0].kind, BodyKind::round);
+  EXPECT_EQ(bodies[0].kind, ConvexShapeKind::round);
   EXPECT_DOUBLE_EQ(bodies[0].half_length_m, 0.2);
   EXPECT_NEAR(bodies[0].radius_m, 0.06, 1e-12);
 }
@@ -54,9 +54,9 @@ TEST(Bodies, MergeTwoCylindersThatShareACap) {
   const auto second = small::capsule_along_x(0.4, 0.7, 0.05);
   shapes.push_back(second[0]);
   shapes.push_back(second[2]);  // its far end only
-  const auto bodies = make_bodies(shapes);
+  const auto bodies = make_convex_shapes(shapes);
   ASSERT_EQ(bodies.size(), 2U);
-  for (const Body& body : bodies) EXPECT_EQ(body.kind, BodyKind::round);
+  for (const ConvexShape& body : bodies) EXPECT_EQ(body.kind, ConvexShapeKind::round);
 }
 
 TEST(Bodies, KeepACylinderFlatWhenACapIsMissingOrOfAnotherSizeOrElsewhere) {
@@ -67,16 +67,16 @@ TEST(Bodies, KeepACylinderFlatWhenACapIsMissingOrOfAnotherSizeOrElsewhere) {
   auto elsewhere = small::capsule_along_x(0.0, 0.4, 0.05);
   elsewhere[1].X_LS.translation().x() += 1e-5;
   for (const auto& [shapes, count] : {std::pair{missing, 2U}, {thinner, 3U}, {elsewhere, 3U}}) {
-    const auto bodies = make_bodies(shapes);
+    const auto bodies = make_convex_shapes(shapes);
     ASSERT_EQ(bodies.size(), count);
-    EXPECT_EQ(bodies[0].kind, BodyKind::cylinder);
+    EXPECT_EQ(bodies[0].kind, ConvexShapeKind::cylinder);
   }
 }
 
 TEST(Bodies, MergedCapsuleContainsCapsThatAreAMicrometreOff) {
   auto shapes = small::capsule_along_x(0.0, 0.4, 0.05);
   shapes[1].X_LS.translation().y() = 8e-7;
-  const auto bodies = make_bodies(shapes);
+  const auto bodies = make_convex_shapes(shapes);
   ASSERT_EQ(bodies.size(), 1U);
   EXPECT_GE(bodies[0].radius_m, 0.05 + 8e-7);
 }
@@ -87,15 +87,15 @@ TEST(Bodies, DistancesAreNeverTooLargeAndHardlyEverTooSmall) {
   std::array<int, 5> apart{};
   int too_small = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Body a = make_bodies(random_shape(i % 5, random)).front();
-    const Body b = make_bodies(random_shape(i / 5 % 5, random)).front();
+    const ConvexShape a = make_convex_shapes(random_shape(i % 5, random)).front();
+    const ConvexShape b = make_convex_shapes(random_shape(i / 5 % 5, random)).front();
     const Eigen::Isometry3d X_WA = reference::random_pose(random, 0.4);
     Eigen::Isometry3d X_WB = reference::random_pose(random, 0.4);
     if (i % 3 == 0) X_WB.linear() = X_WA.linear();  // parallel axes and faces
     const reference::Bracket truth = reference::distance(convex(a, X_WA), convex(b, X_WB), 1000);
     if (truth.upper - truth.lower > 1e-7) continue;  // the reference itself did not converge
-    PlacedBody at_a;
-    PlacedBody at_b;
+    PlacedConvexShape at_a;
+    PlacedConvexShape at_b;
     place(a, X_WA, at_a);
     place(b, X_WB, at_b);
     const double d = distance_below(a, at_a, b, at_b, 10.0);
@@ -129,8 +129,8 @@ TEST(Bodies, DistancesOfUprightBoxesAreExactHoweverTheyTurn) {
   for (int i = 0; i < 3000; ++i) {
     // Often of one height and at one height, as links of one table are.
     const double height = i % 3 == 0 ? side(random) : 0.05;
-    const Body a = make_bodies({{Box{{side(random), 0.05, 0.05}}}}).front();
-    const Body b = make_bodies({{Box{{0.02, side(random), height}}}}).front();
+    const ConvexShape a = make_convex_shapes({{Box{{side(random), 0.05, 0.05}}}}).front();
+    const ConvexShape b = make_convex_shapes({{Box{{0.02, side(random), height}}}}).front();
     Eigen::Isometry3d X_WA = Eigen::Isometry3d::Identity();
     Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
     X_WA.rotate(Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitZ()));
@@ -138,8 +138,8 @@ TEST(Bodies, DistancesOfUprightBoxesAreExactHoweverTheyTurn) {
     X_WB.translation() = Eigen::Vector3d(place_m(random), place_m(random), 0.0);
     const reference::Bracket truth = reference::distance(convex(a, X_WA), convex(b, X_WB), 1000);
     if (truth.upper - truth.lower > 1e-7) continue;
-    PlacedBody at_a;
-    PlacedBody at_b;
+    PlacedConvexShape at_a;
+    PlacedConvexShape at_b;
     place(a, X_WA, at_a);
     place(b, X_WB, at_b);
     const double d = distance_below(a, at_a, b, at_b, 10.0);
@@ -157,8 +157,9 @@ TEST(Bodies, ALinkThatTurnsBesideABoxIsNotSaidToTouchIt) {
   std::mt19937_64 random(43);
   std::uniform_real_distribution<double> place_m(0.46, 0.53);
   std::uniform_real_distribution<double> angle(0.2, 0.6);
-  const Body link = make_bodies({{Box{{0.5, 0.05, 0.05}}, small::at_xyz(0.25, 0, 0)}}).front();
-  const Body block = make_bodies({{Box{{0.02, 0.02, 0.02}}}}).front();
+  const ConvexShape link =
+      make_convex_shapes({{Box{{0.5, 0.05, 0.05}}, small::at_xyz(0.25, 0, 0)}}).front();
+  const ConvexShape block = make_convex_shapes({{Box{{0.02, 0.02, 0.02}}}}).front();
   int near = 0;
   for (int i = 0; i < 2000; ++i) {
     Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
@@ -167,8 +168,8 @@ TEST(Bodies, ALinkThatTurnsBesideABoxIsNotSaidToTouchIt) {
     const reference::Bracket truth =
         reference::distance(convex(link, X_WL), convex(block, X_WB), 1000);
     if (truth.upper - truth.lower > 1e-7 || truth.lower <= 0.0) continue;
-    PlacedBody at_link;
-    PlacedBody at_block;
+    PlacedConvexShape at_link;
+    PlacedConvexShape at_block;
     place(link, X_WL, at_link);
     place(block, X_WB, at_block);
     const double d = distance_below(link, at_link, block, at_block, 1.0);
@@ -182,12 +183,12 @@ TEST(Bodies, ALinkThatTurnsBesideABoxIsNotSaidToTouchIt) {
 TEST(Bodies, CapsulesByHandAgreeWithFcl) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 2000; ++i) {
-    const Body a = make_bodies(random_shape(4, random)).front();
-    const Body b = make_bodies(random_shape(i % 2 == 0 ? 4 : 0, random)).front();
+    const ConvexShape a = make_convex_shapes(random_shape(4, random)).front();
+    const ConvexShape b = make_convex_shapes(random_shape(i % 2 == 0 ? 4 : 0, random)).front();
     const Eigen::Isometry3d X_WA = reference::random_pose(random, 0.5);
     const Eigen::Isometry3d X_WB = reference::random_pose(random, 0.5);
-    PlacedBody at_a;
-    PlacedBody at_b;
+    PlacedConvexShape at_a;
+    PlacedConvexShape at_b;
     place(a, X_WA, at_a);
     place(b, X_WB, at_b);
     const double by_hand = lower_bound(a, at_a, b, at_b).distance_m;
@@ -197,14 +198,14 @@ TEST(Bodies, CapsulesByHandAgreeWithFcl) {
 }
 
 TEST(Bodies, ABodyWhollyInsideAnotherIsInContact) {
-  const Body table = make_bodies({{Box{{2.0, 2.0, 1.0}}}}).front();
-  const Body crate = make_bodies({{Box{{0.1, 0.1, 0.1}}}}).front();
-  const Body can = make_bodies({{Cylinder{0.05, 0.1}}}).front();
-  const Body ball = make_bodies({{Sphere{0.05}}}).front();
-  PlacedBody at_table;
+  const ConvexShape table = make_convex_shapes({{Box{{2.0, 2.0, 1.0}}}}).front();
+  const ConvexShape crate = make_convex_shapes({{Box{{0.1, 0.1, 0.1}}}}).front();
+  const ConvexShape can = make_convex_shapes({{Cylinder{0.05, 0.1}}}).front();
+  const ConvexShape ball = make_convex_shapes({{Sphere{0.05}}}).front();
+  PlacedConvexShape at_table;
   place(table, Eigen::Isometry3d::Identity(), at_table);
-  for (const Body& inner : {crate, can, ball}) {
-    PlacedBody inside;
+  for (const ConvexShape& inner : {crate, can, ball}) {
+    PlacedConvexShape inside;
     place(inner, small::at_xyz(0.3, 0.2, 0.1), inside);
     EXPECT_LE(distance_below(inner, inside, table, at_table, 1.0), 0.0);
     EXPECT_LE(distance_below(table, at_table, inner, inside, 1.0), 0.0);
@@ -212,9 +213,9 @@ TEST(Bodies, ABodyWhollyInsideAnotherIsInContact) {
 }
 
 TEST(Bodies, OverlapOfCapsulesIsSigned) {
-  const Body a = make_bodies(small::capsule_along_x(-0.2, 0.2, 0.1)).front();
-  PlacedBody here;
-  PlacedBody above;
+  const ConvexShape a = make_convex_shapes(small::capsule_along_x(-0.2, 0.2, 0.1)).front();
+  PlacedConvexShape here;
+  PlacedConvexShape above;
   place(a, Eigen::Isometry3d::Identity(), here);
   place(a, small::at_xyz(0, 0, 0.15), above);
   EXPECT_NEAR(distance_below(a, here, a, above, 0.02), -0.05, 1e-12);

@@ -6,10 +6,11 @@
 #include <random>
 #include <set>
 
-#include "core/collision/check_home.h"
-#include "core/collision/collision_checker.h"
+#include "core/collision/state/check_home.h"
+#include "core/collision/state/clearance_query.h"
 #include "core/model/kinematics.h"
 #include "test/collision/reference_distance.h"
+#include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
 
 namespace armloom {
@@ -132,16 +133,15 @@ void expect_within(const reference::Bracket& distance, double clearance_m) {
   EXPECT_LE(std::max(0.0, clearance_m), distance.upper + kRounding_m);
 }
 
-TEST(CollisionChecker, HidesNoPairThatBruteForceFinds) {
+TEST(ClearanceQuery, HidesNoPairThatBruteForceFinds) {
   const CellPtr cell = small::shared(busy_cell());
-  CollisionChecker checker(scene_of(cell));
-  const std::vector<bool> all(2, true);
+  small::ScaledQuery checker(scene_of(cell));
   std::mt19937_64 random(99);
   std::vector<NearPair> near;
   std::size_t found = 0, open = 0;
   for (int i = 0; i < 2500; ++i) {
     const Configuration q = random_configuration(*cell, random);
-    checker.near_pairs(q, cell->clearance_m, all, all, near);
+    near = checker.near(q, cell->clearance_m);
     std::map<NamePair, double> seen;
     for (const NearPair& pair : near) {
       const Proximity p = checker.describe(pair);
@@ -165,9 +165,9 @@ TEST(CollisionChecker, HidesNoPairThatBruteForceFinds) {
   EXPECT_LT(open, found / 100) << "so many the closed forms could not say";
 }
 
-TEST(CollisionChecker, FirstIsTheFirstOfAllInTheScenesOrder) {
+TEST(ClearanceQuery, FirstIsTheFirstOfAllInTheScenesOrder) {
   const CellPtr cell = small::shared(busy_cell());
-  CollisionChecker checker(scene_of(cell));
+  small::ScaledQuery checker(scene_of(cell));
   std::mt19937_64 random(5);
   std::vector<NearPair> near;
   std::size_t found = 0;
@@ -175,7 +175,7 @@ TEST(CollisionChecker, FirstIsTheFirstOfAllInTheScenesOrder) {
     const Configuration q = random_configuration(*cell, random);
     const auto truly = brute_force(*cell, q);
     for (const std::vector<bool>& arms : {std::vector{true, true}, {true, false}, {false, true}}) {
-      checker.near_pairs(q, 0.02, arms, {true, true}, near);
+      near = checker.near(q, 0.02, arms);
       const auto first = checker.first_closer_than(q, 0.02, arms);
       ASSERT_EQ(first.has_value(), !near.empty());
       if (!first) continue;
@@ -192,9 +192,9 @@ TEST(CollisionChecker, FirstIsTheFirstOfAllInTheScenesOrder) {
   EXPECT_GT(found, 300U);
 }
 
-TEST(CollisionChecker, ClosestBetweenArmsIsTheSmallestOverAllPairs) {
+TEST(ClearanceQuery, ClosestBetweenArmsIsTheSmallestOverAllPairs) {
   const CellPtr cell = small::shared(busy_cell());
-  CollisionChecker checker(scene_of(cell));
+  small::ScaledQuery checker(scene_of(cell));
   std::mt19937_64 random(17);
   int within = 0;
   for (int i = 0; i < 500; ++i) {
@@ -219,14 +219,14 @@ TEST(CollisionChecker, ClosestBetweenArmsIsTheSmallestOverAllPairs) {
   EXPECT_GT(within, 100);
 }
 
-TEST(CollisionChecker, AllNamesTheClosestOfEachCounterpart) {
+TEST(ClearanceQuery, AllNamesTheClosestOfEachCounterpart) {
   Cell cell;
   const ArmId left =
       small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.05);
   const ArmId right = small::add_robot(cell, "right", small::at_xyz(0, 2, 0), {kZ}, 0.3, 0.05);
   cell.objects.push_back({"near", Sphere{0.1}, small::at_xyz(0.15, 0, 0.155)});
   cell.objects.push_back({"nearer", Sphere{0.1}, small::at_xyz(0.15, 0, -0.152)});
-  CollisionChecker checker(scene_of(small::shared(cell)));
+  small::ScaledQuery checker(scene_of(small::shared(cell)));
   Configuration q = cell.home();
   q[2] = 3.1;
   q[1] = 3.1;  // folded twice: link3 lies on link1
@@ -243,29 +243,29 @@ TEST(CollisionChecker, AllNamesTheClosestOfEachCounterpart) {
   EXPECT_NEAR(found[1].limit_m, 0.0025, 1e-12);  // 5 mm of 20 mm, of which 10 mm stop
 }
 
-TEST(CollisionChecker, HoldsAnArmsOwnLinksToTheirOwnClearance) {
+TEST(ClearanceQuery, HoldsAnArmsOwnLinksToTheirOwnClearance) {
   Cell cell;
   cell.clearance_m = 0.02;
   cell.self_clearance_m = 0.005;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.05);
   Configuration q(3);
   q << 0.0, small::kHalfTurn - std::asin(0.11 / 0.3), 0.0;  // link3 begins 0.11 m beside link1
-  CollisionChecker checker(scene_of(small::shared(cell)));
+  small::ScaledQuery checker(scene_of(small::shared(cell)));
   EXPECT_TRUE(checker.all_closer_than(q, 0.02).empty());
   cell.self_clearance_m = 0.012;
-  CollisionChecker stricter(scene_of(small::shared(cell)));
+  small::ScaledQuery stricter(scene_of(small::shared(cell)));
   const auto found = stricter.all_closer_than(q, 0.02);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].clearance_m, 0.01, 1e-9);
   EXPECT_EQ(found[0].limit_m, 0.012);
 }
 
-TEST(CollisionChecker, ForbidsContactEvenWhereNoClearanceIsAsked) {
+TEST(ClearanceQuery, ForbidsContactEvenWhereNoClearanceIsAsked) {
   Cell cell = busy_cell();
   cell.clearance_m = 0.0;
   cell.self_clearance_m = 0.0;
   const CellPtr shared = small::shared(cell);
-  CollisionChecker checker(scene_of(shared));
+  small::ScaledQuery checker(scene_of(shared));
   std::mt19937_64 random(3);
   int contacts = 0;
   for (int i = 0; i < 300; ++i) {

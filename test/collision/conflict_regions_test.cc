@@ -1,4 +1,4 @@
-#include "core/collision/conflict_regions.h"
+#include "core/collision/check/conflict_regions.h"
 
 #include <gtest/gtest.h>
 

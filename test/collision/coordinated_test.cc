@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/collision/arbiter.h"
-#include "core/collision/pair_regions.h"
+#include "core/collision/check/motion_checker.h"
+#include "core/collision/check/pair_regions.h"
 #include "test/collision/small_cell.h"
 
 namespace armloom {
@@ -75,7 +75,7 @@ struct Rails {
   [[nodiscard]] Verdict judge() { return arbiter->judge(question); }
 
   CellPtr cell;
-  std::optional<Arbiter> arbiter;
+  std::optional<MotionChecker> arbiter;
   Question question{};
 };
 

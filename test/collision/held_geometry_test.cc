@@ -5,17 +5,18 @@
 #include <random>
 #include <set>
 
-#include "core/collision/arbiter.h"
-#include "core/collision/check_home.h"
-#include "core/collision/exact_distance.h"
-#include "core/collision/link_capsules.h"
-#include "core/collision/linkage.h"
-#include "core/collision/pair_set.h"
-#include "core/collision/scene_bodies.h"
-#include "core/collision/segment_distance.h"
-#include "core/collision/state_check.h"
+#include "core/collision/check/motion_checker.h"
+#include "core/collision/filter/arm_kinematics.h"
+#include "core/collision/filter/pair_set.h"
+#include "core/collision/geometry/exact_distance.h"
+#include "core/collision/geometry/segment_distance.h"
+#include "core/collision/scene/link_capsules.h"
+#include "core/collision/scene/scene_bodies.h"
+#include "core/collision/state/check_home.h"
+#include "core/collision/state/clearance_query.h"
 #include "core/model/kinematics.h"
 #include "test/collision/reference_distance.h"
+#include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
 #include "test/model/small_meshes.h"
 #include "test/model/test_cells.h"
@@ -71,22 +72,24 @@ std::map<NamePair, double> brute_force(const Holding& h, const Configuration& q)
   forward_kinematics(*h.cell, q, X_WL);
   struct Solid {
     std::string name;
-    std::vector<Body> bodies;
+    std::vector<ConvexShape> bodies;
     Eigen::Isometry3d X_WP;
     bool held;
   };
   std::vector<Solid> solids;
   for (const Attachment& held : h.scene->attachments()) {
     solids.push_back({held.object.name,
-                      make_bodies(std::vector<PlacedShape>(1, {held.object.shape})),
+                      make_convex_shapes(std::vector<PlacedShape>(1, {held.object.shape})),
                       X_WL[held.link.index()] * held.X_LO, true});
   }
   for (std::size_t i = 0; i < h.cell->links.size(); ++i) {
     if (h.cell->links[i].shapes.empty()) continue;
-    solids.push_back({h.cell->links[i].name, make_bodies(h.cell->links[i].shapes), X_WL[i], false});
+    solids.push_back(
+        {h.cell->links[i].name, make_convex_shapes(h.cell->links[i].shapes), X_WL[i], false});
   }
   for (const CollisionObject& o : h.cell->objects) {
-    solids.push_back({o.name, make_bodies(std::vector<PlacedShape>(1, {o.shape})), o.X_WO, false});
+    solids.push_back(
+        {o.name, make_convex_shapes(std::vector<PlacedShape>(1, {o.shape})), o.X_WO, false});
   }
   const std::set<std::string> hand{"left_panda_link7", "left_panda_hand", "left_panda_leftfinger",
                                    "left_panda_rightfinger"};
@@ -98,8 +101,8 @@ std::map<NamePair, double> brute_force(const Holding& h, const Configuration& q)
       if (left && (hand.contains(b.name) || (b.held && b.name != "bracket"))) continue;
       if (!left && b.name == "right_panda_link5") continue;
       double smallest = 1e9;
-      for (const Body& x : a.bodies) {
-        for (const Body& y : b.bodies) {
+      for (const ConvexShape& x : a.bodies) {
+        for (const ConvexShape& y : b.bodies) {
           smallest = std::min(smallest, exact_distance(x, a.X_WP * x.X_PS, y, b.X_WP * y.X_PS));
         }
       }
@@ -111,16 +114,15 @@ std::map<NamePair, double> brute_force(const Holding& h, const Configuration& q)
 
 TEST(HeldObjects, AreWhereTheirLinksCarryThemForTheChecker) {
   Holding h;
-  CollisionChecker checker(h.scene);
+  small::ScaledQuery checker(h.scene);
   const double limit_m = 0.1;
   const double self_limit_m = limit_m * h.cell->self_clearance_m / h.cell->clearance_m;
   std::vector<NearPair> near;
-  const std::vector<bool> all(2, true);
   int close = 0;
   int contacts = 0;
   for (int i = 0; i < 150; ++i) {
     const Configuration q = h.random_configuration();
-    checker.near_pairs(q, limit_m, all, all, near);
+    near = checker.near(q, limit_m);
     std::map<NamePair, double> seen;
     for (const NearPair& pair : near) {
       const Proximity proximity = checker.describe(pair);
@@ -169,12 +171,12 @@ struct Filtered {
     const Eigen::Vector3d half = X_WF.leftCols<3>() * Eigen::Vector3d(capsule.half);
     return {center - half, center + half, static_cast<double>(capsule.radius_up)};
   }
-  Linkage linkage;
+  ArmKinematics linkage;
   std::vector<double> frames;
 };
 constexpr double kRounding_m = 1e-9;
 
-std::vector<LinkCapsule> capsules_of(const Filtered& arm, const LinkagePart& part) {
+std::vector<LinkCapsule> capsules_of(const Filtered& arm, const KinematicPart& part) {
   std::vector<LinkCapsule> capsules;
   for (int c = part.capsules_begin; c < part.capsules_end; ++c) capsules.push_back(arm.capsule(c));
   return capsules;
@@ -190,13 +192,14 @@ TEST(HeldObjects, LieInTheirCapsulesInTheFilter) {
     forward_kinematics(*h.cell, q, X_WL);
     for (const ArmId id : {ArmId{0}, ArmId{1}}) {
       const Filtered arm(*h.scene, id, q);
-      const Linkage& linkage = arm.linkage;
-      for (const LinkagePart& placed : linkage.parts()) {
+      const ArmKinematics& linkage = arm.linkage;
+      for (const KinematicPart& placed : linkage.parts()) {
         const Part& part = bodies.parts[placed.part];
         if (!part.held()) continue;
         const Attachment& held = h.scene->attachments()[placed.part - bodies.links_end];
         const Eigen::Isometry3d X_WO = X_WL[held.link.index()] * held.X_LO;
-        for (const Body& body : make_bodies(std::vector<PlacedShape>(1, {held.object.shape}))) {
+        for (const ConvexShape& body :
+             make_convex_shapes(std::vector<PlacedShape>(1, {held.object.shape}))) {
           for (const Ball& ball : extreme_balls(body)) {
             const Eigen::Vector3d p_W = X_WO * ball.center;
             double outside_m = 1e9;
@@ -219,7 +222,7 @@ TEST(HeldObjects, LieInTheirCapsulesInTheFilter) {
 TEST(HeldObjects, AreNeverFartherInTheFilterThanTheyAre) {
   Holding h;
   const auto& bodies = h.scene->bodies();
-  const StillParts still(bodies);
+  const ArmKinematics still(bodies, std::nullopt);
   int compared = 0;
   for (int i = 0; i < 40; ++i) {
     const Configuration q = h.random_configuration();
@@ -239,7 +242,7 @@ TEST(HeldObjects, AreNeverFartherInTheFilterThanTheyAre) {
         if (b != nullptr) {
           other = b->capsule(set.pairs[k].b);
         } else {
-          const filter::Capsule& c = still.capsules[static_cast<std::size_t>(set.pairs[k].b)];
+          const filter::Capsule& c = still.capsules()[static_cast<std::size_t>(set.pairs[k].b)];
           const Eigen::Vector3d center(c.center);
           const Eigen::Vector3d half(c.half);
           other = {center - half, center + half, static_cast<double>(c.radius_up)};
@@ -251,10 +254,10 @@ TEST(HeldObjects, AreNeverFartherInTheFilterThanTheyAre) {
         add(set.narrow[k], axes_m - one.radius_m - other.radius_m);
       }
     };
-    collect(cross_pairs(bodies, left.linkage, right.linkage), left, &right);
+    collect(pairs_between(bodies, left.linkage, right.linkage), left, &right);
     for (const Filtered* arm : {&left, &right}) {
-      collect(self_pairs(bodies, arm->linkage), *arm, arm);
-      collect(still_pairs(bodies, arm->linkage, still), *arm, nullptr);
+      collect(pairs_between(bodies, arm->linkage, arm->linkage), *arm, arm);
+      collect(pairs_between(bodies, arm->linkage, still), *arm, nullptr);
     }
     double closest_m = 1e9;
     for (const auto& [pair, distance_m] : brute_force(h, q)) {
@@ -268,9 +271,7 @@ TEST(HeldObjects, AreNeverFartherInTheFilterThanTheyAre) {
     // And in the kernels: what is held is closer than this.
     const double limit_m = closest_m + 1e-6;
     const Configuration* state = &q;
-    for (const filter::Kernel* kernel : filter::kernels()) {
-      EXPECT_EQ(StateCheck(h.scene, {limit_m, limit_m}, *kernel).too_close({&state, 1}), 1U);
-    }
+    EXPECT_EQ(ClearanceQuery(h.scene, {limit_m, limit_m}).too_close({&state, 1}), 1U);
   }
   EXPECT_GT(compared, 40 * 30);
 }
@@ -285,22 +286,22 @@ TEST(HeldObjects, AreAllThatIsCloseToAHandThatIsAlone) {
     for (const auto& [pair, d] : brute_force(h, q)) closest_m = std::min(closest_m, d);
     if (closest_m < 1e-4) continue;
     const Configuration* state = &q;
-    const StateCheck::Limits above{closest_m + 1e-5, closest_m + 1e-5};
-    const StateCheck::Limits below{closest_m - 1e-5, closest_m - 1e-5};
-    if (StateCheck(h.bare, above).too_close({&state, 1}) != 0) continue;
-    EXPECT_EQ(StateCheck(h.scene, above).too_close({&state, 1}), 1U);
-    EXPECT_EQ(StateCheck(h.scene, below).too_close({&state, 1}), 0U);
+    const PairLimits above{closest_m + 1e-5, closest_m + 1e-5};
+    const PairLimits below{closest_m - 1e-5, closest_m - 1e-5};
+    if (ClearanceQuery(h.bare, above).too_close({&state, 1}) != 0) continue;
+    EXPECT_EQ(ClearanceQuery(h.scene, above).too_close({&state, 1}), 1U);
+    EXPECT_EQ(ClearanceQuery(h.scene, below).too_close({&state, 1}), 0U);
     ++alone;
   }
   EXPECT_GT(alone, 3);
 }
 
 // What is certified stays free at every millisecond, with what the arms hold.
-TEST(HeldObjects, KeepTheClearanceAllAlongCertifiedMotions) {
+TEST(HeldObjects, KeepTheClearanceAllAlongSweptMotions) {
   Holding h;
-  Arbiter arbiter(h.scene);
-  Arbiter of_bare(h.bare);
-  CollisionChecker checker(h.scene);
+  MotionChecker arbiter(h.scene);
+  MotionChecker of_bare(h.bare);
+  small::ScaledQuery checker(h.scene);
   int free = 0;
   int because_held = 0;
   const Configuration home = h.cell->home();
@@ -322,7 +323,7 @@ TEST(HeldObjects, KeepTheClearanceAllAlongCertifiedMotions) {
                        small::sweep(*h.cell, {ArmId{1}}, towards(ArmId{1}, to, 0.0),
                                     towards(ArmId{1}, to, 0.3), 3s),
                        500ms};
-    const Question question{1, at(0s), {candidate}, {other}, home, Certified{0s, false, 0.0}};
+    const Question question{1, at(0s), {candidate}, {other}, home, Swept{0.0}};
     const Verdict verdict = arbiter.judge(question);
     if (verdict.kind != Verdict::Kind::free) {
       because_held += of_bare.judge(question).kind == Verdict::Kind::free ? 1 : 0;

@@ -1,7 +1,7 @@
-#include "core/collision/judge.h"
-
 #include <gtest/gtest.h>
 
+#include "core/collision/check/timed_discrete_check.h"
+#include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
 
 namespace armloom {
@@ -40,10 +40,10 @@ struct Judged {
                 Duration progress = 0s) const {
     return {JobId{job}, small::sweep(*cell, {arm}, {from}, {to}, duration), progress};
   }
-  Verdict operator()() { return judge(question, checker); }
+  Verdict operator()() { return timed_discrete_check(question, checker); }
 
   CellPtr cell;
-  CollisionChecker checker;
+  small::ScaledQuery checker;
   Question question;
 };
 

@@ -1,4 +1,4 @@
-#include "core/collision/link_capsules.h"
+#include "core/collision/scene/link_capsules.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "core/collision/scene_bodies.h"
+#include "core/collision/scene/scene_bodies.h"
 #include "core/model/convex_pieces.h"
 #include "test/collision/reference_distance.h"
 #include "test/collision/small_cell.h"
@@ -80,7 +80,7 @@ TEST(LinkCapsules, HoldEveryPointOfRandomPartsEachShapeInOneOfThem) {
     std::vector<PlacedShape> shapes;
     const std::size_t count = 1 + random() % 10;
     for (std::size_t i = 0; i < count; ++i) shapes.push_back(random_shape(random));
-    const LinkCapsules fitted = fit_capsules(make_bodies(shapes));
+    const LinkCapsules fitted = fit_capsules(make_convex_shapes(shapes));
     ASSERT_GE(fitted.capsules.size(), 1U);
     ASSERT_LE(fitted.capsules.size(), 2U);
     if (fitted.capsules.size() == 2) ++with_two;
@@ -104,7 +104,7 @@ TEST(LinkCapsules, OfALoneRoundBodyAreThatBodyToTheBit) {
     auto shapes = small::capsule_along_x(-0.1 - 0.01 * i, 0.3, 0.05);
     const Eigen::Isometry3d X = reference::random_pose(random, 1.0);
     for (PlacedShape& shape : shapes) shape.X_LS = X * shape.X_LS;
-    const auto bodies = make_bodies(shapes);
+    const auto bodies = make_convex_shapes(shapes);
     ASSERT_EQ(bodies.size(), 1U);
     const LinkCapsules fitted = fit_capsules(bodies);
     ASSERT_EQ(fitted.capsules.size(), 1U);
@@ -112,34 +112,34 @@ TEST(LinkCapsules, OfALoneRoundBodyAreThatBodyToTheBit) {
     EXPECT_EQ(capsule.radius_m, bodies[0].radius_m);
     EXPECT_EQ(capsule.p_PA, bodies[0].X_PS.translation() - bodies[0].p_SE_P);
     EXPECT_EQ(capsule.p_PB, bodies[0].X_PS.translation() + bodies[0].p_SE_P);
-    EXPECT_LE(fitted.excess_m, 1e-12);
+    EXPECT_LE(fitted.overestimate_m, 1e-12);
   }
 }
 
 TEST(LinkCapsules, OfABodyThatHoldsTheOthersAreThatBody) {
   auto shapes = small::capsule_along_x(-0.2, 0.2, 0.1);
   shapes.push_back({Box{{0.3, 0.05, 0.05}}, small::at_xyz(0.02, 0.01, 0)});
-  const LinkCapsules fitted = fit_capsules(make_bodies(shapes));
+  const LinkCapsules fitted = fit_capsules(make_convex_shapes(shapes));
   ASSERT_EQ(fitted.capsules.size(), 1U);
-  EXPECT_EQ(fitted.capsules.front().radius_m, make_bodies(shapes).front().radius_m);
+  EXPECT_EQ(fitted.capsules.front().radius_m, make_convex_shapes(shapes).front().radius_m);
 }
 
 TEST(LinkCapsules, OfALongBarAreNoThickerThanItsCrossSection) {
   std::mt19937_64 random(43);
   for (int i = 0; i < 20; ++i) {
     const Eigen::Isometry3d X = reference::random_pose(random, 1.0);
-    const LinkCapsules fitted = fit_capsules(make_bodies({{Box{{0.06, 0.08, 1.0}}, X}}));
+    const LinkCapsules fitted = fit_capsules(make_convex_shapes({{Box{{0.06, 0.08, 1.0}}, X}}));
     ASSERT_EQ(fitted.capsules.size(), 1U);
     EXPECT_LE(fitted.capsules.front().radius_m, 0.05 * 1.02);
     EXPECT_LE((fitted.capsules.front().p_PB - fitted.capsules.front().p_PA).norm(), 1.0);
     // The side stands off 50 mm - 30 mm, a cap's tip almost a radius.
-    EXPECT_GE(fitted.excess_m, 0.02);
-    EXPECT_LE(fitted.excess_m, 0.05);
+    EXPECT_GE(fitted.overestimate_m, 0.02);
+    EXPECT_LE(fitted.overestimate_m, 0.05);
   }
 }
 
 TEST(LinkCapsules, OfACubeAreTheBallAround) {
-  const LinkCapsules fitted = fit_capsules(make_bodies({{Box{{0.2, 0.2, 0.2}}}}));
+  const LinkCapsules fitted = fit_capsules(make_convex_shapes({{Box{{0.2, 0.2, 0.2}}}}));
   const double ball = 4.0 / 3.0 * small::kHalfTurn * std::pow(0.1 * std::sqrt(3.0), 3);
   EXPECT_LE(volume(fitted), ball * 1.001);
 }
@@ -152,30 +152,30 @@ TEST(LinkCapsules, OfTwoRoundBodiesAtAnAngleAreBothOfThem) {
     shape.X_LS = turn * shape.X_LS;
     shapes.push_back(shape);
   }
-  const auto bodies = make_bodies(shapes);
+  const auto bodies = make_convex_shapes(shapes);
   const LinkCapsules fitted = fit_capsules(bodies);
   ASSERT_EQ(bodies.size(), 2U);
   ASSERT_EQ(fitted.capsules.size(), 2U);
-  EXPECT_LE(fitted.excess_m, 1e-3);
+  EXPECT_LE(fitted.overestimate_m, 1e-3);
 }
 
 TEST(LinkCapsules, AreFarLessThanAPrincipalAxisCapsuleWhereThatIsBad) {
   // A flat disc: its principal axis says nothing; the best capsule is close to a ball.
-  const LinkCapsules disc = fit_capsules(make_bodies({{Cylinder{0.2, 0.02}}}));
+  const LinkCapsules disc = fit_capsules(make_convex_shapes({{Cylinder{0.2, 0.02}}}));
   const double ball = 4.0 / 3.0 * small::kHalfTurn * std::pow(std::hypot(0.2, 0.01), 3);
   EXPECT_LE(volume(disc), ball * 1.005);
 }
 
 TEST(LinkCapsules, ContainsSaysNoAsSoonAsACornerStandsOut) {
-  const Body box = make_bodies({{Box{{0.1, 0.1, 0.4}}}}).front();
+  const ConvexShape box = make_convex_shapes({{Box{{0.1, 0.1, 0.4}}}}).front();
   const double across = std::hypot(0.05, 0.05);
   const Eigen::Vector3d half(0, 0, 0.2);
   EXPECT_TRUE(contains(LinkCapsule{-half, half, across * (1 + 1e-12)}, box));
   EXPECT_FALSE(contains(LinkCapsule{-half, half, across * (1 - 1e-12)}, box));
-  const Body can = make_bodies({{Cylinder{0.1, 0.4}}}).front();
+  const ConvexShape can = make_convex_shapes({{Cylinder{0.1, 0.4}}}).front();
   EXPECT_TRUE(contains(LinkCapsule{-half, half, 0.1013}, can));
   EXPECT_FALSE(contains(LinkCapsule{-half, half, 0.0999}, can));
-  const Body ball = make_bodies({{Sphere{0.1}}}).front();
+  const ConvexShape ball = make_convex_shapes({{Sphere{0.1}}}).front();
   EXPECT_TRUE(contains(LinkCapsule{-half, half, 0.1}, ball));
   EXPECT_FALSE(contains(LinkCapsule{-half, half, std::nextafter(0.1, 0.0)}, ball));
 }
@@ -186,12 +186,13 @@ Mesh cut(const small::Surface& surface) {
   return {"by hand", Eigen::Vector3d::Ones(), std::make_shared<const MeshData>(std::move(data))};
 }
 
-double distance_between(const std::vector<Body>& a, const Body& b, const Eigen::Isometry3d& X_WB) {
-  PlacedBody at_b;
+double distance_between(const std::vector<ConvexShape>& a, const ConvexShape& b,
+                        const Eigen::Isometry3d& X_WB) {
+  PlacedConvexShape at_b;
   place(b, X_WB, at_b);
   double nearest = 1e9;
-  for (const Body& body : a) {
-    PlacedBody at_a;
+  for (const ConvexShape& body : a) {
+    PlacedConvexShape at_a;
     place(body, Eigen::Isometry3d::Identity(), at_a);
     nearest = std::min(nearest, distance_below(body, at_a, b, at_b, 10.0));
   }
@@ -199,9 +200,9 @@ double distance_between(const std::vector<Body>& a, const Body& b, const Eigen::
 }
 
 TEST(MeshPieces, OfAULeaveARodInItsGapFreeThatTheHullTouches) {
-  const Body rod = make_bodies({{Cylinder{0.02, 0.8}}}).front();
-  const auto whole = make_bodies({{small::mesh_of(small::channel(0.3))}});
-  const auto pieces = make_bodies({{cut(small::channel(0.3))}});
+  const ConvexShape rod = make_convex_shapes({{Cylinder{0.02, 0.8}}}).front();
+  const auto whole = make_convex_shapes({{small::mesh_of(small::channel(0.3))}});
+  const auto pieces = make_convex_shapes({{cut(small::channel(0.3))}});
   ASSERT_EQ(whole.size(), 1U);
   ASSERT_GE(pieces.size(), 3U);
   const Eigen::Isometry3d in_gap = small::at_xyz(0.03, 0.1, 0.55);
@@ -214,8 +215,8 @@ TEST(MeshPieces, OfAULeaveARodInItsGapFreeThatTheHullTouches) {
 TEST(MeshPieces, OfAnLGetACapsuleEach) {
   const small::Surface bars = small::joined(small::box_surface({0, 0, 0}, {1.0, 0.1, 0.1}),
                                             small::box_surface({0, 0.1, 0}, {0.1, 1.0, 0.1}));
-  const LinkCapsules whole = fit_capsules(make_bodies({{small::mesh_of(bars)}}));
-  const LinkCapsules pieces = fit_capsules(make_bodies({{cut(bars)}}));
+  const LinkCapsules whole = fit_capsules(make_convex_shapes({{small::mesh_of(bars)}}));
+  const LinkCapsules pieces = fit_capsules(make_convex_shapes({{cut(bars)}}));
   EXPECT_EQ(whole.capsules.size(), 1U);
   ASSERT_EQ(pieces.capsules.size(), 2U);
   EXPECT_LT(volume(pieces), 0.2 * volume(whole));
@@ -225,8 +226,8 @@ TEST(LinkCapsules, AreTheSameEachTime) {
   std::mt19937_64 random(44);
   std::vector<PlacedShape> shapes;
   for (int i = 0; i < 5; ++i) shapes.push_back(random_shape(random));
-  const LinkCapsules first = fit_capsules(make_bodies(shapes));
-  const LinkCapsules second = fit_capsules(make_bodies(shapes));
+  const LinkCapsules first = fit_capsules(make_convex_shapes(shapes));
+  const LinkCapsules second = fit_capsules(make_convex_shapes(shapes));
   ASSERT_EQ(first.capsules.size(), second.capsules.size());
   for (std::size_t i = 0; i < first.capsules.size(); ++i) {
     EXPECT_EQ(first.capsules[i].p_PA, second.capsules[i].p_PA);
@@ -248,8 +249,8 @@ TEST(LinkCapsules, OfThePandasStandOffAFewCentimetres) {
       })) << part.name;
     }
     RecordProperty(part.name, std::to_string(part.capsules.size()) + " capsules, " +
-                                  std::to_string(part.capsule_excess_m) + " m");
-    EXPECT_LE(part.capsule_excess_m, 0.05) << part.name;
+                                  std::to_string(part.capsule_overestimate_m) + " m");
+    EXPECT_LE(part.capsule_overestimate_m, 0.05) << part.name;
   }
 }
 

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <random>
 
-#include "core/collision/body.h"
-#include "core/collision/collision_checker.h"
-#include "core/collision/exact_distance.h"
+#include "core/collision/geometry/convex_shape.h"
+#include "core/collision/geometry/exact_distance.h"
+#include "core/collision/state/clearance_query.h"
 #include "test/collision/reference_distance.h"
+#include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
 #include "test/model/small_meshes.h"
 
@@ -104,10 +105,10 @@ Solid solid_at(const Mesh& mesh, const Eigen::Isometry3d& X_WM) {
   return solid;
 }
 
-double distance_of(const Body& a, const Eigen::Isometry3d& X_WA, const Body& b,
+double distance_of(const ConvexShape& a, const Eigen::Isometry3d& X_WA, const ConvexShape& b,
                    const Eigen::Isometry3d& X_WB, double limit_m = 1e3) {
-  PlacedBody at_a{};
-  PlacedBody at_b{};
+  PlacedConvexShape at_a{};
+  PlacedConvexShape at_b{};
   place(a, X_WA, at_a);
   place(b, X_WB, at_b);
   return distance_below(a, at_a, b, at_b, limit_m);
@@ -123,8 +124,8 @@ TEST(MeshBody, IsAsFarFromAnotherAsTheirNearestFeatures) {
     const Eigen::Isometry3d X_WB = reference::random_pose(random, 0.4);
     const Solid solid_a = solid_at(a, X_WA);
     const Solid solid_b = solid_at(b, X_WB);
-    const double distance =
-        distance_of(make_bodies({{a}}).front(), X_WA, make_bodies({{b}}).front(), X_WB);
+    const double distance = distance_of(make_convex_shapes({{a}}).front(), X_WA,
+                                        make_convex_shapes({{b}}).front(), X_WB);
     const double truth = brute_distance(solid_a, solid_b);
     ASSERT_LE(distance, truth + 1e-12) << i;  // never too large, also where they overlap
     if (!apart(solid_a, solid_b)) continue;
@@ -142,10 +143,11 @@ TEST(MeshBody, OfABoxIsAsFarFromAllShapesAsTheBoxItself) {
                                              small::capsule_along_x(-0.1, 0.2, 0.04),
                                              {{cloud(random_points(random, 30, {0.1, 0.1, 0.1}))}}};
   const Eigen::Vector3d half(0.2, 0.1, 0.05);
-  const Body box = make_bodies({{Box{2 * half}}}).front();
-  const Body mesh = make_bodies({{small::mesh_of(small::box_surface(-half, half))}}).front();
+  const ConvexShape box = make_convex_shapes({{Box{2 * half}}}).front();
+  const ConvexShape mesh =
+      make_convex_shapes({{small::mesh_of(small::box_surface(-half, half))}}).front();
   for (int i = 0; i < 2000; ++i) {
-    const Body other = make_bodies(others[i % 5]).front();
+    const ConvexShape other = make_convex_shapes(others[i % 5]).front();
     const Eigen::Isometry3d X_WA = reference::random_pose(random, 0.3);
     const Eigen::Isometry3d X_WB = reference::random_pose(random, 0.3);
     const double to_box = std::max(0.0, distance_of(box, X_WA, other, X_WB));
@@ -158,7 +160,8 @@ TEST(MeshBody, LiesInItsCapsuleAndItsBox) {
   std::mt19937_64 random(13);
   for (int i = 0; i < 200; ++i) {
     const Mesh mesh = cloud(random_points(random, 5 + i, {0.1, 0.5, 0.02}));
-    const Body body = make_bodies({{mesh, reference::random_pose(random, 1.0)}}).front();
+    const ConvexShape body =
+        make_convex_shapes({{mesh, reference::random_pose(random, 1.0)}}).front();
     for (const Eigen::Vector3d& p : body.hull->hull.vertices) {
       const double beside = std::max(0.0, std::abs(p.z()) - body.half_length_m);
       EXPECT_LE(std::hypot(p.x(), p.y(), beside), body.radius_m + 1e-15);
@@ -175,10 +178,10 @@ TEST(MeshBody, FilterNeverExceedsTheExactDistance) {
       {{Cylinder{0.05, 0.3}}},
       {{cloud(random_points(random, 30, {0.1, 0.02, 0.05}))}}};
   for (int i = 0; i < 4000; ++i) {
-    const Body a = make_bodies(shapes[3]).front();
-    const Body b = make_bodies(shapes[i % 4]).front();
-    PlacedBody at_a{};
-    PlacedBody at_b{};
+    const ConvexShape a = make_convex_shapes(shapes[3]).front();
+    const ConvexShape b = make_convex_shapes(shapes[i % 4]).front();
+    PlacedConvexShape at_a{};
+    PlacedConvexShape at_b{};
     place(a, reference::random_pose(random, 0.25), at_a);
     place(b, reference::random_pose(random, 0.25), at_b);
     const double exact = exact_distance(a, shape_pose(a, at_a), b, shape_pose(b, at_b));
@@ -193,11 +196,12 @@ TEST(MeshBody, FilterNeverExceedsTheExactDistance) {
 }
 
 TEST(MeshBody, ABodyInsideOfAnotherTouchesIt) {
-  const Body crate =
-      make_bodies({{small::mesh_of(small::box_surface({-1, -1, -1}, {1, 1, 1}))}}).front();
-  const Body ball = make_bodies({{Sphere{0.1}}}).front();
-  const Body part =
-      make_bodies({{small::mesh_of(small::box_surface({-.1, -.1, -.1}, {.1, .1, .1}))}}).front();
+  const ConvexShape crate =
+      make_convex_shapes({{small::mesh_of(small::box_surface({-1, -1, -1}, {1, 1, 1}))}}).front();
+  const ConvexShape ball = make_convex_shapes({{Sphere{0.1}}}).front();
+  const ConvexShape part =
+      make_convex_shapes({{small::mesh_of(small::box_surface({-.1, -.1, -.1}, {.1, .1, .1}))}})
+          .front();
   const Eigen::Isometry3d X = small::at_xyz(0.3, 0.2, -0.1);
   EXPECT_LE(distance_of(crate, small::at_xyz(0, 0, 0), ball, X), 0.0);
   EXPECT_LE(distance_of(part, X, crate, small::at_xyz(0, 0, 0)), 0.0);
@@ -211,7 +215,7 @@ TEST(PlanningScene, SeesMeshesOfLinksAndObjectsAsTheirHulls) {
       {"channel", small::mesh_of(small::channel(0.3)), small::at_xyz(0.0, -0.2, -0.5)});
   auto scene = PlanningScene::build(small::shared(cell));
   ASSERT_TRUE(scene.has_value());
-  CollisionChecker checker(*scene);
+  small::ScaledQuery checker(*scene);
   const auto contact = checker.first_closer_than(cell.home(), 0.02, {true});
   ASSERT_TRUE(contact.has_value());
   EXPECT_EQ(contact->body_b, "channel");

@@ -6,9 +6,10 @@
 
 #include "core/audit/audit.h"
 #include "core/audit/audited_cell.h"
-#include "core/collision/check_home.h"
-#include "core/collision/judge.h"
-#include "core/collision/scene_bodies.h"
+#include "core/collision/check/timed_discrete_check.h"
+#include "core/collision/scene/scene_bodies.h"
+#include "core/collision/state/check_home.h"
+#include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
 #include "test/model/test_cells.h"
 
@@ -22,7 +23,7 @@ constexpr double kHorizon_m = 0.02;
 struct Pandas {
   CellPtr cell = build_or_fail(two_pandas_description());
   PlanningScenePtr scene = *PlanningScene::build(cell);
-  CollisionChecker checker{scene};
+  small::ScaledQuery checker{scene};
   std::mt19937_64 random{2024};
 
   Configuration random_configuration() {
@@ -50,9 +51,9 @@ TEST(TwoPandas, AreAllCapsulesOnceMerged) {
   const Pandas pandas;
   const auto& bodies = pandas.scene->bodies();
   std::size_t boxes = 0;
-  for (const Body& body : bodies.bodies) {
-    EXPECT_NE(body.kind, BodyKind::cylinder);
-    boxes += body.kind == BodyKind::box ? 1U : 0U;
+  for (const ConvexShape& body : bodies.bodies) {
+    EXPECT_NE(body.kind, ConvexShapeKind::cylinder);
+    boxes += body.kind == ConvexShapeKind::box ? 1U : 0U;
   }
   EXPECT_EQ(boxes, 1U);  // the table
 }
@@ -84,13 +85,12 @@ Audited audited_at(AuditedCell& audited, const Cell& cell, const Configuration& 
 TEST(TwoPandas, CheckerAndAuditAgreeOnRandomStates) {
   Pandas pandas;
   AuditedCell audited = AuditedCell::build(*pandas.cell).value();
-  const std::vector<bool> all(2, true);
   std::vector<NearPair> near;
   int contacts = 0;
   int free = 0;
   for (int i = 0; i < 2000; ++i) {
     const Configuration q = pandas.random_configuration();
-    pandas.checker.near_pairs(q, kHorizon_m, all, all, near);
+    near = pandas.checker.near(q, kHorizon_m);
     double smallest = kHorizon_m;
     bool contact = false;
     for (const NearPair& pair : near) {
@@ -137,7 +137,7 @@ TEST(TwoPandas, AuditConfirmsWhatIsJudged) {
                             {{JobId{2}, move(right, 3s), 500ms}},
                             from,
                             TimedDiscrete{20ms}};
-    const Verdict verdict = judge(question, pandas.checker);
+    const Verdict verdict = timed_discrete_check(question, pandas.checker);
     std::vector<RecordedState> states;
     Eigen::VectorXd positions;
     for (std::uint64_t k = 0; k < verdict.evaluations; ++k) {

@@ -36,7 +36,7 @@ inline Eigen::Vector3d project(const Convex& c, const Eigen::Vector3d& p_W) {
 }
 
 // The largest n·x over the shape, minus n·centre; n of unit length.
-inline double extent(const Convex& c, const Eigen::Vector3d& n_W) {
+inline double support(const Convex& c, const Eigen::Vector3d& n_W) {
   const Eigen::Vector3d n = c.X_WS.linear().transpose() * n_W;
   if (c.kind == Convex::Kind::box) return n.cwiseAbs().dot(c.half_size_m);
   const double along = std::abs(n.z()) * c.half_length_m;
@@ -81,7 +81,7 @@ inline Bracket distance(const Convex& a, const Convex& b, int rounds = 20000) {
     if (best.upper < kTouching_m) return {0.0, 0.0};
     const Eigen::Vector3d n = gap.normalized();
     const double lower =
-        n.dot(b.X_WS.translation() - a.X_WS.translation()) - extent(a, n) - extent(b, n);
+        n.dot(b.X_WS.translation() - a.X_WS.translation()) - support(a, n) - support(b, n);
     best.lower = std::max(best.lower, lower);
     if (best.upper - best.lower < kClosed_m) break;
     on_a = project(a, on_b);

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "core/audit/audit.h"
-#include "core/collision/arbiter.h"
-#include "core/collision/check_home.h"
-#include "core/collision/state_check.h"
+#include "core/collision/check/motion_checker.h"
+#include "core/collision/state/check_home.h"
+#include "core/collision/state/clearance_query.h"
+#include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
 #include "test/collision/walled_cell.h"
 
@@ -28,8 +29,7 @@ constexpr ArmId kB{1};
 PlanningScenePtr scene_of(const CellPtr& cell) { return *PlanningScene::build(cell); }
 
 std::vector<CheckMethod> methods() {
-  return {TimedDiscrete{20ms}, Certified{.lag = 100ms, .stopping = true, .tracking_error = 0.001},
-          Swept{0.001}, Coordinated{0.001}};
+  return {TimedDiscrete{20ms}, Swept{0.001}, Coordinated{0.001}};
 }
 
 // The same motions in either cell.
@@ -43,8 +43,7 @@ Question question(const Cell& cell, const CheckMethod& method, std::uint64_t see
                  .candidates = {},
                  .others = {},
                  .rest = cell.home(),
-                 .method = method,
-                 .find_earliest = !std::holds_alternative<TimedDiscrete>(method)};
+                 .method = method};
   const double down = -0.5;
   asked.candidates = {
       {JobId{1}, small::sweep(cell, {kA}, {down, 0.0}, {angle(1.2), angle(1.5)}, 2s), 0s}};
@@ -59,7 +58,6 @@ std::string named(const std::string& body) { return body == "a_base" ? "wall" : 
 void expect_same(const Verdict& link, const Verdict& object, const std::string& where) {
   EXPECT_EQ(link.kind, object.kind) << where;
   EXPECT_EQ(link.clearance_bound_m, object.clearance_bound_m) << where;
-  EXPECT_EQ(link.earliest_start, object.earliest_start) << where;
   EXPECT_EQ(link.evaluations, object.evaluations) << where;
   EXPECT_EQ(link.regions.size(), object.regions.size()) << where;
   ASSERT_EQ(link.conflicts.size(), object.conflicts.size()) << where;
@@ -82,8 +80,8 @@ TEST(SceneLinks, AreJudgedAsTheSameObjectIsByEveryMethod) {
     int met = 0;
     int free = 0;
     for (const CheckMethod& method : methods()) {
-      Arbiter of_link(scene_of(with_link));
-      Arbiter of_object(scene_of(with_object));
+      MotionChecker of_link(scene_of(with_link));
+      MotionChecker of_object(scene_of(with_object));
       for (std::uint64_t seed = 0; seed < 60; ++seed) {
         const Verdict link = of_link.judge(question(*with_link, method, seed));
         const Verdict object = of_object.judge(question(*with_object, method, seed));
@@ -113,8 +111,8 @@ TEST(SceneLinks, GetTheClearanceOfTheScene) {
   for (const As as : {As::link, As::object, As::mount}) {
     const CellPtr cell = walled(as);
     const PlanningScenePtr scene = scene_of(cell);
-    CollisionChecker checker(scene);
-    StateCheck states(scene);
+    small::ScaledQuery checker(scene);
+    ClearanceQuery states(scene);
     for (const double gap_m : {0.0094, 0.0199, 0.0201}) {
       const Configuration q = tip_from_wall(*cell, gap_m);
       const Configuration* state[] = {&q};
@@ -132,7 +130,7 @@ TEST(SceneLinks, GetTheClearanceOfTheScene) {
 TEST(SceneLinks, CountInTheFiguresAndInTheAudit) {
   for (const As as : {As::link, As::object, As::mount}) {
     const CellPtr cell = walled(as);
-    CollisionChecker checker(scene_of(cell));
+    small::ScaledQuery checker(scene_of(cell));
     const Configuration q = tip_from_wall(*cell, 0.0094);
     const auto closest = checker.closest_apart(q, 2.0);
     ASSERT_EQ(closest.size(), 3U);  // a with b, a and b with what stands still
@@ -166,9 +164,9 @@ TEST(SceneLinks, AreAnArmsOwnMountButForWhatItsFirstJointMoves) {
   EXPECT_FALSE(cell->is_own(second, *cell->find_link("b_link2")));
   EXPECT_FALSE(cell->is_own(mount, *cell->find_link("wall")));
   EXPECT_FALSE(cell->is_own(first, *cell->find_link("wall")));
-  CollisionChecker checker(scene_of(cell));
+  small::ScaledQuery checker(scene_of(cell));
   std::vector<NearPair> near;
-  checker.near_pairs(cell->home(), 10.0, {true, true}, {true, true}, near);
+  near = checker.near(cell->home(), 10.0);
   int own = 0;
   int mounted = 0;
   int others = 0;
@@ -191,8 +189,8 @@ TEST(SceneLinks, OfAMountMayBeGivenAClearanceOfTheirOwn) {
   closer.mount_clearance_m = 0.008;
   const CellPtr cell = small::shared(closer);
   const PlanningScenePtr scene = scene_of(cell);
-  CollisionChecker checker(scene);
-  StateCheck states(scene);
+  small::ScaledQuery checker(scene);
+  ClearanceQuery states(scene);
   for (const double gap_m : {0.0079, 0.0081}) {
     const Configuration q = tip_from_wall(*cell, gap_m);
     const Configuration* state[] = {&q};
@@ -206,15 +204,14 @@ TEST(SceneLinks, OfAMountMayBeGivenAClearanceOfTheirOwn) {
   const auto stops = checker.all_closer_than(tip_from_wall(*cell, 0.0039), 0.01);
   ASSERT_EQ(stops.size(), 1U);
   EXPECT_NEAR(stops.front().limit_m, 0.004, 1e-12);
-  Arbiter arbiter(scene);
+  MotionChecker arbiter(scene);
   const Question asked{
       .version = 1,
       .start_at = TimePoint{},
       .candidates = {{JobId{1}, small::sweep(*cell, {kA}, {0.0, 0.0}, {0.3, 0.0}, 2s), 0s}},
       .others = {},
       .rest = cell->home(),
-      .method = Certified{.lag = 100ms, .stopping = true, .tracking_error = 0.001},
-      .find_earliest = false};
+      .method = Swept{0.001}};
   const Verdict verdict = arbiter.judge(asked);
   EXPECT_EQ(verdict.kind, Verdict::Kind::free);
   EXPECT_EQ(verdict.clearance_bound_m, 0.008);
@@ -234,7 +231,7 @@ TEST(SceneLinks, AMountingFrameWithoutAShapeHandsItsRoleDown) {
     const CellPtr shared = small::shared(cell);
     const Configuration q = tip_from_wall(*shared, gap_m);
     const Configuration* state[] = {&q};
-    return StateCheck(scene_of(shared)).too_close(state) != 0;
+    return ClearanceQuery(scene_of(shared)).too_close(state) != 0;
   };
   EXPECT_TRUE(cell.is_mount(frame, kA));
   EXPECT_FALSE(cell.is_mount(wall, kA));
@@ -256,7 +253,7 @@ TEST(ClearanceBound, IsNoMoreThanWhatEveryPairWasHeldTo) {
     const Configuration q = tip_from_wall(*cell, 0.01);
     for (const CheckMethod& method : methods()) {
       if (std::holds_alternative<TimedDiscrete>(method)) continue;
-      Arbiter arbiter(scene_of(cell));
+      MotionChecker arbiter(scene_of(cell));
       Question asked{
           .version = 1,
           .start_at = TimePoint{},
@@ -267,7 +264,7 @@ TEST(ClearanceBound, IsNoMoreThanWhatEveryPairWasHeldTo) {
       const Verdict parts = arbiter.judge(asked);
       ASSERT_EQ(parts.kind, Verdict::Kind::free) << method.index();
       ASSERT_TRUE(parts.clearance_bound_m);
-      EXPECT_NEAR(*parts.clearance_bound_m, Arbiter::kPartingShare * 0.01, 1e-6);
+      EXPECT_NEAR(*parts.clearance_bound_m, OrientedDiagram::kPartingShare * 0.01, 1e-6);
       asked.candidates = {{JobId{1}, small::sweep(*cell, {kA}, {0.0, 0.0}, {-0.5, 0.0}, 2s), 0s}};
       EXPECT_EQ(arbiter.judge(asked).clearance_bound_m, 0.02);
     }

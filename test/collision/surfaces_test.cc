@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/collision/arbiter.h"
-#include "core/collision/collision_checker.h"
-#include "core/collision/scene_bodies.h"
-#include "core/collision/state_check.h"
+#include "core/collision/check/motion_checker.h"
+#include "core/collision/scene/scene_bodies.h"
+#include "core/collision/state/clearance_query.h"
 #include "core/model/convex_pieces.h"
+#include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
 #include "test/model/small_meshes.h"
 
@@ -75,16 +75,16 @@ struct InNotch {
   }
   Configuration q(double angle) const { return Configuration::Constant(1, angle); }
   std::optional<Proximity> closer(double angle) {
-    return CollisionChecker(scene).first_closer_than(q(angle), cell.clearance_m, {true});
+    return small::ScaledQuery(scene).first_closer_than(q(angle), cell.clearance_m, {true});
   }
   Verdict sweep() {
     Question question;
     question.start_at = TimePoint{};
     question.rest = q(-0.2);
-    question.method = Certified{};
+    question.method = Coordinated{0.0};
     question.candidates = {
         {JobId{1}, small::sweep(*made, {ArmId{0}}, {0.6}, {-kPi + 0.2}, 20s), 0s}};  // from outside
-    return Arbiter(scene).judge(question);
+    return MotionChecker(scene).judge(question);
   }
 
   Cell cell;
@@ -99,7 +99,7 @@ TEST(Surface, LeavesFreeWhatOnlyPiecesCallTooClose) {
   const Part& arm = bodies.parts[0];
   const Part& body = bodies.parts[1];
   ASSERT_GT(body.bodies_end - body.bodies_begin, 1U);
-  StateCheck states(passes.scene);
+  ClearanceQuery states(passes.scene);
   for (double angle = -0.2; angle > -kPi + 0.2; angle -= 0.05) {
     EXPECT_FALSE(passes.closer(angle)) << angle;
     const Configuration q = passes.q(angle);
@@ -107,8 +107,8 @@ TEST(Surface, LeavesFreeWhatOnlyPiecesCallTooClose) {
     EXPECT_EQ(states.too_close(one), 0U) << angle;
     LinkPoses X_WL;
     forward_kinematics(*passes.made, q, X_WL);
-    PlacedBody at_arm;
-    PlacedBody at_piece;
+    PlacedConvexShape at_arm;
+    PlacedConvexShape at_piece;
     place(bodies.bodies[arm.bodies_begin], arm.pose(X_WL), at_arm);
     double least = 1.0;
     for (std::size_t i = body.bodies_begin; i < body.bodies_end; ++i) {
@@ -123,7 +123,7 @@ TEST(Surface, LeavesFreeWhatOnlyPiecesCallTooClose) {
 
 TEST(Surface, IsWhatConflictsTellTheDistanceOf) {
   InNotch scrapes(0.005);
-  StateCheck states(scrapes.scene);
+  ClearanceQuery states(scrapes.scene);
   for (double angle = -0.2; angle > -kPi + 0.2; angle -= 0.05) {
     const auto close = scrapes.closer(angle);
     ASSERT_TRUE(close) << angle;
@@ -159,7 +159,7 @@ TEST(Surface, FindsAnArmInsideOfTheBody) {
       loaded(small::joined(notch(0.05), small::box_surface({-0.3, -1.2, -0.3}, {0.3, -0.6, 0.3})));
   passes.cell.objects[0].X_WO = small::at_xyz(0.1, 0.9, 0);
   const auto scene = PlanningScene::build(small::shared(passes.cell)).value();
-  const auto inside = CollisionChecker(scene).first_closer_than(passes.q(0.0), 0.008, {true});
+  const auto inside = small::ScaledQuery(scene).first_closer_than(passes.q(0.0), 0.008, {true});
   ASSERT_TRUE(inside);
   EXPECT_LE(inside->clearance_m, 0.0);
 }
@@ -167,7 +167,7 @@ TEST(Surface, FindsAnArmInsideOfTheBody) {
 TEST(Surface, SaysHowFarCapsulesStandOffIt) {
   const InNotch passes(0.012);
   const Part& body = passes.scene->bodies().parts[1];
-  EXPECT_GT(body.capsule_excess_m, 0.05);  // the notch is part of that
+  EXPECT_GT(body.capsule_overestimate_m, 0.05);  // the notch is part of that
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "core/collision/state_check.h"
+#include "core/collision/state/clearance_query.h"
 #include "test/experiments/open_places.h"
 
 namespace armloom::experiments {
@@ -75,7 +75,7 @@ class Conflicts {
   }
 
   const Cell& cell_;
-  StateCheck check_;
+  ClearanceQuery check_;
 };
 
 void consider(std::size_t steps, Duration step, std::vector<std::string> arms, LowerBound& bound) {

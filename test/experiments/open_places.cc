@@ -9,10 +9,10 @@ namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds(10);
 
-StateCheck check_of(const CellPtr& cell) {
+ClearanceQuery check_of(const CellPtr& cell) {
   auto scene = PlanningScene::build(cell);
   if (!scene) throw std::runtime_error(scene.error().front().detail);
-  return StateCheck(*scene, {cell->clearance_m + OpenPlaces::kMargin_m,
+  return ClearanceQuery(*scene, {cell->clearance_m + OpenPlaces::kMargin_m,
                              cell->self_clearance_m + OpenPlaces::kSelfMargin_m});
 }
 

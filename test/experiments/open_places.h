@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/collision/planning_scene.h"
-#include "core/collision/state_check.h"
+#include "core/collision/scene/planning_scene.h"
+#include "core/collision/state/clearance_query.h"
 #include "core/model/cell.h"
 #include "core/trajectory/trajectory.h"
 
@@ -31,7 +31,7 @@ class OpenPlaces {
   [[nodiscard]] bool clear(const Trajectory& motion, const Configuration& rest);
 
   CellPtr cell_;
-  StateCheck check_;
+  ClearanceQuery check_;
 };
 
 // Puts the motion's joints, `time` on its way, into q.

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "core/collision/arbiter.h"
+#include "core/collision/check/motion_checker.h"
 #include "core/executive/known_policies.h"
 #include "core/model/build_cell.h"
 #include "core/trajectory/joint_line.h"
@@ -57,7 +57,7 @@ class Judges final : public JudgePool {
     return true;
   }
 
-  std::optional<Arbiter> arbiter_;
+  std::optional<MotionChecker> arbiter_;
   std::deque<Asked> of_check_, of_scheduler_;
   bool checking_ = false;
 };

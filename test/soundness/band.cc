@@ -1,23 +1,19 @@
 #include "test/soundness/band.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
-#include "core/trajectory/stopping_reach.h"
 #include "test/soundness/soundness.h"
 
 namespace armloom::soundness {
 namespace {
 
-constexpr double kAnywhere_s = 1e6;  // of any motion here
 constexpr int kThrows = 60;
 constexpr int kSteps = 160;
 
-// A state in the unit cube: time, place of each motion in its band, and each joint's deviation.
+// A state in the unit cube: the place of each motion in what remains of it, and each joint's
+// deviation.
 struct Point {
-  double t = 0.0;
   double candidate = 0.0;
   double other = 0.0;
   std::vector<double> deviation;  // -1 to 1, by joint of the cell
@@ -25,38 +21,31 @@ struct Point {
 
 class Attacker {
  public:
-  Attacker(bench::ExactScene& exact, const MovingPair& pair, const Promise& promise)
-      : exact_(exact), pair_(pair), promise_(promise), q_(exact.cell().home()) {}
+  Attacker(bench::ExactScene& exact, const MovingPair& pair, double tracking_error)
+      : exact_(exact), pair_(pair), tracking_error_(tracking_error), q_(exact.cell().home()) {}
 
   Attack look(const Point& point, double horizon_m) {
-    const double t_s = point.t * pair_.span_s();
-    const double candidate_s = place(pair_.candidate, t_s, promise_.lag_candidate_s,
-                                     promise_.lead_candidate_s, point.candidate);
-    const double other_s =
-        place(pair_.other, t_s, promise_.lag_other_s, promise_.lead_other_s, point.other);
+    const double candidate_s = place(pair_.candidate, point.candidate);
+    const double other_s = place(pair_.other, point.other);
     q_ = exact_.cell().home();
-    pair_.state_at(t_s, candidate_s, other_s, q_);
+    pair_.state_at(0.0, candidate_s - to_seconds(pair_.candidate.progress),
+                   other_s - to_seconds(pair_.other.progress), q_);
     for (std::size_t j = 0; j < point.deviation.size(); ++j) {
-      q_[static_cast<Eigen::Index>(j)] += promise_.tracking_error * point.deviation[j];
+      q_[static_cast<Eigen::Index>(j)] += tracking_error_ * point.deviation[j];
     }
-    return {exact_.between_arms(q_, horizon_m), t_s, candidate_s, other_s, q_};
+    return {exact_.between_arms(q_, horizon_m), candidate_s, other_s};
   }
 
  private:
-  // How far ahead of its plan: from the last place that it may still be at to the first that it
-  // may already be at.
-  static double place(const Motion& motion, double t_s, double lag_s, double lead_s, double share) {
+  static double place(const Motion& motion, double share) {
     const double end = to_seconds(motion.trajectory->duration());
     const double now = std::clamp(to_seconds(motion.progress), 0.0, end);
-    const double plan = std::clamp(to_seconds(motion.progress) + t_s, 0.0, end);
-    const double low = std::max(now, plan - lag_s);
-    const double high = std::min(end, plan + lead_s);
-    return low + share * (high - low) - (to_seconds(motion.progress) + t_s);
+    return now + share * (end - now);
   }
 
   bench::ExactScene& exact_;
   const MovingPair& pair_;
-  const Promise& promise_;
+  double tracking_error_;
   Configuration q_;
 };
 
@@ -73,29 +62,12 @@ double extreme_or_any(std::mt19937_64& random, double low, double high) {
 
 }  // namespace
 
-Promise promise_of(const Cell& cell, const MovingPair& pair, const CheckMethod& method) {
-  Promise promise;
-  if (const auto* swept = std::get_if<Swept>(&method)) {
-    return {kAnywhere_s, kAnywhere_s, kAnywhere_s, kAnywhere_s, swept->tracking_error};
-  }
-  const auto& certified = std::get<Certified>(method);
-  promise.tracking_error = certified.tracking_error;
-  const double lag_s = to_seconds(certified.lag);
-  promise.lag_candidate_s = pair.candidate.may_stand ? kAnywhere_s : lag_s;
-  promise.lag_other_s = pair.other.may_stand ? kAnywhere_s : lag_s;
-  if (!certified.stopping) return promise;
-  const double reaction_s = to_seconds(cell.monitor.reaction);
-  promise.lead_candidate_s = reaction_s + stopping_reach_s(cell, *pair.candidate.trajectory);
-  promise.lead_other_s = reaction_s + stopping_reach_s(cell, *pair.other.trajectory);
-  return promise;
-}
-
-Attack attack(bench::ExactScene& exact, const MovingPair& pair, const Promise& promise,
+Attack attack(bench::ExactScene& exact, const MovingPair& pair, double tracking_error,
               double horizon_m, std::mt19937_64& random) {
-  Attacker attacker(exact, pair, promise);
+  Attacker attacker(exact, pair, tracking_error);
   const std::size_t joints = exact.cell().joints.size();
-  Attack best{horizon_m, 0.0, 0.0, 0.0, {}};
-  Point at{0.0, 0.0, 0.0, std::vector<double>(joints, 0.0)};
+  Attack best{horizon_m, 0.0, 0.0};
+  Point at{0.0, 0.0, std::vector<double>(joints, 0.0)};
   const auto keep = [&](const Point& point) {
     const Attack seen = attacker.look(point, best.distance_m);
     if (seen.distance_m >= best.distance_m) return;
@@ -104,7 +76,7 @@ Attack attack(bench::ExactScene& exact, const MovingPair& pair, const Promise& p
   };
   for (int i = 0; i < kThrows; ++i) {
     Point point{(i + uniform(random, 0.0, 1.0)) / kThrows, extreme_or_any(random, 0.0, 1.0),
-                extreme_or_any(random, 0.0, 1.0), std::vector<double>(joints)};
+                std::vector<double>(joints)};
     for (double& d : point.deviation) d = extreme_or_any(random, -1.0, 1.0);
     keep(point);
   }
@@ -116,9 +88,8 @@ Attack attack(bench::ExactScene& exact, const MovingPair& pair, const Promise& p
       x = std::clamp(x + uniform(random, -step, step) * scale, low, 1.0);
     };
     if (i % 3 != 1) {
-      move(point.t, 0.0, 0.02);
-      move(point.candidate, 0.0, 0.5);
-      move(point.other, 0.0, 0.5);
+      move(point.candidate, 0.0, 0.1);
+      move(point.other, 0.0, 0.1);
     }
     if (i % 3 != 0) {
       const std::size_t j = random() % joints;
@@ -129,17 +100,14 @@ Attack attack(bench::ExactScene& exact, const MovingPair& pair, const Promise& p
   return best;
 }
 
-std::optional<MovingPair> hardly_free(Arbiter& arbiter, bench::ExactScene& exact,
-                                      const MovingPair& pair, const CheckMethod& method) {
-  const Cell& cell = exact.cell();
+std::optional<MovingPair> hardly_free(const Verdict& regions, const MovingPair& pair) {
   const auto delayed = [&](double delay_s) {
     MovingPair later = pair;
     later.candidate.progress = pair.candidate.progress - from_seconds(delay_s);
     return later;
   };
   const auto is_free = [&](double delay_s) {
-    const Verdict verdict = arbiter.judge(delayed(delay_s).question(cell, method));
-    return between_motions(verdict) == nullptr;
+    return !first_in_regions_s(regions, delayed(delay_s));
   };
   double conflict_s = 0.0;
   if (is_free(conflict_s)) return std::nullopt;

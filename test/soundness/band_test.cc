@@ -11,8 +11,6 @@
 namespace armloom::soundness {
 namespace {
 
-using namespace std::chrono_literals;
-
 constexpr double kRounding_m = 1e-6;
 constexpr double kHorizonOfAttack_m = 0.06;
 
@@ -28,7 +26,7 @@ struct Scenery {
   bench::ExactScene exact;
   Pool pool;
   std::vector<MovingPair> pairs;
-  Arbiter arbiter;
+  MotionChecker arbiter;
 };
 
 Scenery& scenery() {
@@ -36,89 +34,45 @@ Scenery& scenery() {
   return made;
 }
 
-struct Outcome {
-  std::size_t free = 0;
-  std::size_t hardly_free = 0;
-  double closest_m = kHorizonOfAttack_m;
-};
-
-// Attacks every pair that the method calls free.
-Outcome attack_free_pairs(const CheckMethod& method, bool candidate_may_stand,
-                          bool other_may_stand) {
-  Scenery& s = scenery();
-  const Cell& cell = s.exact.cell();
-  std::mt19937_64 random(23);
-  Outcome outcome;
-  for (MovingPair pair : s.pairs) {
-    pair.candidate.may_stand = candidate_may_stand;
-    pair.other.may_stand = other_may_stand;
-    const bool free = between_motions(s.arbiter.judge(pair.question(cell, method))) == nullptr;
-    if (!free) {
-      const auto later = hardly_free(s.arbiter, s.exact, pair, method);
-      if (!later) continue;
-      pair = *later;
-    }
-    ++(free ? outcome.free : outcome.hardly_free);
-    const Attack found =
-        attack(s.exact, pair, promise_of(cell, pair, method), kHorizonOfAttack_m, random);
-    outcome.closest_m = std::min(outcome.closest_m, found.distance_m);
-    EXPECT_GE(found.distance_m, cell.clearance_m - kRounding_m)
-        << "at " << found.t_s << " s, ahead by " << found.ahead_candidate_s << " and "
-        << found.ahead_other_s << " s";
-  }
-  return outcome;
-}
-
-// Each claim also says that the attack comes close: one that never does would prove nothing.
-// Where a later start makes no conflict free, none is hardly so: `may_be_late` false.
-void expect_a_good_attack(const Outcome& outcome, double within_m, bool may_be_late = true) {
-  std::cout << outcome.free << " free, " << outcome.hardly_free << " hardly free, closest "
-            << outcome.closest_m << " m\n";
-  EXPECT_GE(outcome.free + outcome.hardly_free, 40U);
-  EXPECT_GE(outcome.hardly_free, may_be_late ? 10U : 0U);
-  EXPECT_LE(outcome.closest_m, scenery().exact.cell().clearance_m + within_m);
-}
-
 TEST(HardlyFree, PairsKeepTheClearanceAtEverySampledInstant) {
   Scenery& s = scenery();
+  const double clearance_m = s.exact.cell().clearance_m;
   TruthSampler sampler(s.exact);
   std::size_t found = 0;
   std::size_t tight = 0;
   for (const MovingPair& pair : s.pairs) {
-    const auto later = hardly_free(s.arbiter, s.exact, pair, Certified{0ms, false, 0.0});
+    const Verdict regions = s.arbiter.judge(pair.question(s.exact.cell(), Coordinated{0.0}));
+    const auto later = hardly_free(regions, pair);
     if (!later) continue;
     const Truth truth = sampler.of(*later);
-    EXPECT_GE(truth.smallest_m, s.exact.cell().clearance_m - kRounding_m);
+    EXPECT_GE(truth.smallest_m, clearance_m - kRounding_m);
     ++found;
-    tight += truth.smallest_m < s.exact.cell().clearance_m + 0.001 ? 1 : 0;
+    tight += truth.smallest_m < clearance_m + kHorizonOfAttack_m / 2 ? 1 : 0;
   }
+  std::cout << found << " hardly free, " << tight << " tight\n";
   EXPECT_GE(found, 10U);
-  EXPECT_GE(tight, 9 * found / 10);
+  EXPECT_GE(tight, found / 2);
 }
 
-TEST(Band, FreePairsKeepTheClearanceWhateverTheDelay) {
-  expect_a_good_attack(attack_free_pairs(Certified{100ms, false, 0.0}, false, false), 0.001);
-}
-
-TEST(Band, FreePairsKeepTheClearanceWithJointsOffTheirPaths) {
-  expect_a_good_attack(attack_free_pairs(Certified{0ms, false, 0.01}, false, false), 0.03);
-}
-
-TEST(Band, FreePairsKeepTheClearanceWhereverTheyStop) {
-  expect_a_good_attack(attack_free_pairs(Certified{0ms, true, 0.0}, false, false), 0.001);
-}
-
-TEST(Band, FreePairsKeepTheClearanceWithDelayStopAndDeviationTogether) {
-  expect_a_good_attack(attack_free_pairs(Certified{100ms, true, 0.001}, false, false), 0.004);
-}
-
-TEST(Band, AMotionThatMayStandMayStandAnywhereBehindItsPlan) {
-  expect_a_good_attack(attack_free_pairs(Certified{50ms, true, 0.001}, true, false), 0.004);
-  expect_a_good_attack(attack_free_pairs(Certified{50ms, true, 0.001}, false, true), 0.01, false);
-}
-
-TEST(Band, SweptMotionsKeepTheClearanceInAnyCombinationOfPlaces) {
-  expect_a_good_attack(attack_free_pairs(Swept{0.001}, false, false), 0.004, false);
+TEST(Swept, MotionsKeepTheClearanceInAnyCombinationOfPlaces) {
+  constexpr double kTracking_rad = 0.001;
+  Scenery& s = scenery();
+  const Cell& cell = s.exact.cell();
+  std::mt19937_64 random(23);
+  std::size_t free = 0;
+  double closest_m = kHorizonOfAttack_m;
+  for (const MovingPair& pair : s.pairs) {
+    if (between_motions(s.arbiter.judge(pair.question(cell, Swept{kTracking_rad})))) continue;
+    ++free;
+    const Attack found = attack(s.exact, pair, kTracking_rad, kHorizonOfAttack_m, random);
+    closest_m = std::min(closest_m, found.distance_m);
+    EXPECT_GE(found.distance_m, cell.clearance_m - kRounding_m)
+        << "at " << found.candidate_s << " and " << found.other_s << " s";
+  }
+  std::cout << free << " free, closest " << closest_m << " m\n";
+  EXPECT_GE(free, 40U);
+  // An attack that never comes close would prove nothing.
+  EXPECT_LE(closest_m, cell.clearance_m + 0.004);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/collision/arbiter.h"
+#include "core/collision/check/motion_checker.h"
 #include "core/coordination/effort.h"
 #include "test/bench/cells.h"
 #include "test/soundness/pairs.h"
@@ -21,7 +21,7 @@ TEST(ClosePasses, AreDecidedWhenTheBudgetIsRaised) {
   std::size_t open = 0;
   std::size_t left = 0;
   for (const MovingPair& pair : random_pairs(exact, pool, 400, 78)) {
-    Arbiter arbiter(exact.scene);
+    MotionChecker arbiter(exact.scene);
     Question question = pair.question(*shared, Swept{.tracking_error = 0.0});
     Verdict verdict = arbiter.judge(question);
     if (verdict.kind == Verdict::Kind::undecided) ++open;

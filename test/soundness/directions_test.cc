@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "core/collision/filter/arm_kinematics.h"
 #include "core/collision/filter/kernels.h"
-#include "core/collision/linkage.h"
-#include "core/collision/segment_distance.h"
+#include "core/collision/geometry/segment_distance.h"
 #include "test/soundness/random_linkage.h"
 
 namespace armloom::soundness {
@@ -72,7 +72,7 @@ class Arm {
     return static_cast<std::size_t>((capsule * 6 + row) * kLanes + lane);
   }
   RandomLinkage linkage_;
-  filter::Linkage view_;
+  filter::ArmKinematics view_;
   std::vector<double> middle_, most_, frames_;
   std::vector<float> axes_, capsules_, suffix_, bends_, spans_;
 };

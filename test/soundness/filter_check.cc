@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "core/collision/filter/kernels.h"
-#include "core/collision/pair_set.h"
-#include "core/collision/part_distance.h"
+#include "core/collision/filter/pair_set.h"
+#include "core/collision/state/part_distance.h"
 #include "core/model/build_cell.h"
 #include "core/model/kinematics.h"
 #include "server/codec/cell_codec.h"
@@ -28,7 +28,7 @@ constexpr float kFar_m = 1e3F;  // a limit that leaves every pair open, so that 
 
 // One arm in eight configurations.
 struct PlacedArm {
-  explicit PlacedArm(const Linkage& arm)
+  explicit PlacedArm(const ArmKinematics& arm)
       : linkage(arm),
         q(arm.joints().size() * kLanes),
         frames(arm.frames().size() * 12 * kLanes),
@@ -47,7 +47,7 @@ struct PlacedArm {
   }
   [[nodiscard]] filter::Side side() const { return {capsules.data(), still.data()}; }
 
-  const Linkage& linkage;
+  const ArmKinematics& linkage;
   std::vector<double> q, frames;
   std::vector<float> axes, capsules, still;
 };
@@ -55,17 +55,18 @@ struct PlacedArm {
 class Checker {
  public:
   Checker(const PlanningScene& scene, FilterReport& report)
-      : bodies_(scene.bodies()), report_(report), plain_(bodies_), still_(bodies_), poses_(kLanes) {
+      : bodies_(scene.bodies()), report_(report), plain_(bodies_), poses_(kLanes) {
     for (std::uint32_t a = 0; a < bodies_.cell->arms.size(); ++a) {
       linkages_.emplace_back(bodies_, ArmId{a});
     }
-    for (const Linkage& linkage : linkages_) arms_.emplace_back(linkage);
-    for (std::size_t a = 0; a < arms_.size(); ++a) {
-      for (std::size_t b = a + 1; b < arms_.size(); ++b) {
-        add({cross_pairs(bodies_, linkages_[a], linkages_[b]), a, b, false});
+    linkages_.emplace_back(bodies_, std::nullopt);  // what stands still
+    for (const ArmKinematics& linkage : linkages_) arms_.emplace_back(linkage);
+    for (std::size_t a = 0; a + 1 < arms_.size(); ++a) {
+      for (std::size_t b = a + 1; b + 1 < arms_.size(); ++b) {
+        add(a, b);
       }
-      add({self_pairs(bodies_, linkages_[a]), a, a, false});
-      add({still_pairs(bodies_, linkages_[a], still_), a, a, true});
+      add(a, a);
+      add(a, arms_.size() - 1);
     }
     for (std::uint32_t i = 0; i < bodies_.pairs.size(); ++i) {
       report_.left_out += compared_.contains(PairId{i}) ? 0 : 1;
@@ -86,19 +87,18 @@ class Checker {
   struct Set {
     PairSet pairs;
     std::size_t a, b;
-    bool still;
   };
 
-  void add(Set set) {
+  void add(std::size_t a, std::size_t b) {
+    Set set{pairs_between(bodies_, linkages_[a], linkages_[b]), a, b};
     for (const NarrowPair& pair : set.pairs.narrow) compared_.insert(pair.pair);
     for (const NarrowPair& pair : set.pairs.narrow_boxes) compared_.insert(pair.pair);
     for (filter::Pair& pair : set.pairs.pairs) {
       const auto radius = [&](std::size_t arm, int capsule) {
         return linkages_[arm].capsules()[static_cast<std::size_t>(capsule)].radius_up;
       };
-      const float b = set.still ? still_.capsules[static_cast<std::size_t>(pair.b)].radius_up
-                                : radius(set.b, pair.b);
-      const double margin = static_cast<double>(pair.radii_up) - radius(set.a, pair.a) - b;
+      const double margin =
+          static_cast<double>(pair.radii_up) - radius(set.a, pair.a) - radius(set.b, pair.b);
       report_.margin_m = std::max(report_.margin_m, margin);
       pair.limit_up = kFar_m;
       pair.row_a = pair.row_b = 0;  // all rows are zero
@@ -113,8 +113,7 @@ class Checker {
   void compare(const Set& set) {
     const filter::Kernel& kernel = filter::best_kernel();
     const filter::Side a = arms_[set.a].side();
-    const filter::Side b =
-        set.still ? filter::Side{still_.lanes.data(), still_.at_rest.data()} : arms_[set.b].side();
+    const filter::Side b = arms_[set.b].side();
     hits_.resize(std::max(set.pairs.pairs.size(), set.pairs.boxes.size()) + 1);
     const int pairs = near_pairs(kernel, a, b, set.pairs.pairs, 0xFF, hits_.data());
     if (static_cast<std::size_t>(pairs) != set.pairs.pairs.size()) {
@@ -177,9 +176,8 @@ class Checker {
   const PlanningScene::Bodies& bodies_;
   FilterReport& report_;
   PlainFcl plain_;
-  StillParts still_;
   std::vector<LinkPoses> poses_;  // by lane
-  std::vector<Linkage> linkages_;
+  std::vector<ArmKinematics> linkages_;
   std::vector<PlacedArm> arms_;
   std::vector<Set> sets_;
   std::vector<filter::Hit> hits_;

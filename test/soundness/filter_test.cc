@@ -4,8 +4,8 @@
 #include <cstring>
 #include <vector>
 
+#include "core/collision/filter/arm_kinematics.h"
 #include "core/collision/filter/kernels.h"
-#include "core/collision/linkage.h"
 #include "test/soundness/filter_check.h"
 #include "test/soundness/kernel_calls.h"
 #include "test/soundness/pairs.h"

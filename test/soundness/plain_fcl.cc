@@ -29,13 +29,13 @@ Shape surface_of(const SurfaceTree& tree) {
   return model;
 }
 
-Shape shape_of(const Body& body) {
+Shape shape_of(const ConvexShape& body) {
   if (body.is_piece) return surface_of(*body.solid->tree);
-  if (body.kind == BodyKind::box) return std::make_shared<fcl::Boxd>(2.0 * body.half_size_m);
-  if (body.kind == BodyKind::cylinder) {
+  if (body.kind == ConvexShapeKind::box) return std::make_shared<fcl::Boxd>(2.0 * body.half_size_m);
+  if (body.kind == ConvexShapeKind::cylinder) {
     return std::make_shared<fcl::Cylinderd>(body.radius_m, 2.0 * body.half_length_m);
   }
-  if (body.kind == BodyKind::hull) {
+  if (body.kind == ConvexShapeKind::hull) {
     auto faces = std::make_shared<std::vector<int>>();
     for (const auto& face : body.hull->hull.faces) {
       faces->push_back(3);
@@ -58,7 +58,7 @@ struct PlainFcl::Shapes {
 PlainFcl::PlainFcl(const PlanningScene::Bodies& bodies)
     : bodies_(bodies), shapes_(std::make_unique<Shapes>()) {
   const Solid* last = nullptr;
-  for (const Body& body : bodies.bodies) {
+  for (const ConvexShape& body : bodies.bodies) {
     const bool known = body.solid.get() == last;
     last = body.solid.get();
     shapes_->of_body.push_back(known ? nullptr : shape_of(body));
@@ -75,7 +75,9 @@ double PlainFcl::distance(std::size_t part_a, const Eigen::Isometry3d& X_WA, std
   double smallest = std::numeric_limits<double>::infinity();
   fcl::DistanceRequestd request;
   request.distance_tolerance = 1e-12;
-  const auto pose = [](const Body& body) { return body.is_piece ? body.solid->X_PT : body.X_PS; };
+  const auto pose = [](const ConvexShape& body) {
+    return body.is_piece ? body.solid->X_PT : body.X_PS;
+  };
   for (std::size_t i = a.bodies_begin; i < a.bodies_end; ++i) {
     for (std::size_t j = b.bodies_begin; j < b.bodies_end; ++j) {
       if (!shapes_->of_body[i] || !shapes_->of_body[j]) continue;

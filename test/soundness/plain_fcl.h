@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/collision/scene_bodies.h"
+#include "core/collision/scene/scene_bodies.h"
 
 namespace armloom::soundness {
 

@@ -48,7 +48,7 @@ struct RandomLinkage {
       capsules.push_back(capsule);
     }
   }
-  [[nodiscard]] filter::Linkage view() const {
+  [[nodiscard]] filter::ArmKinematics view() const {
     return {frames.data(), static_cast<int>(frames.size()), capsules.data(),
             static_cast<int>(capsules.size()), ancestors.data()};
   }

@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "core/collision/arbiter.h"
+#include "core/collision/check/motion_checker.h"
 #include "test/bench/cells.h"
 #include "test/soundness/pairs.h"
 
@@ -52,7 +52,7 @@ class Attack {
 
   Tally run() {
     const Pool pool(exact_, 40, 32);
-    Arbiter arbiter(exact_.scene);
+    MotionChecker arbiter(exact_.scene);
     for (const MovingPair& pair : random_pairs(exact_, pool, 2 * kPairs, 33)) {
       if (tally_.pairs == kPairs) break;
       const Verdict verdict =

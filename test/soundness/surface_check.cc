@@ -10,7 +10,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/collision/part_distance.h"
+#include "core/collision/state/part_distance.h"
 #include "test/soundness/concave_meshes.h"
 
 namespace armloom::soundness {
@@ -23,7 +23,7 @@ constexpr double kLimit_m = 0.1;
 
 // A solid as the engine has it, and as the truth does.
 struct Shown {
-  std::vector<Body> bodies;
+  std::vector<ConvexShape> bodies;
   Part part;
   MeshPtr mesh;  // the truth: of one mind about outside; of a primitive: inscribed
   std::vector<std::uint32_t> components;
@@ -113,7 +113,7 @@ Shown show(bool primitive, double size_m, std::mt19937_64& random) {
     shapes = {{Mesh{"by hand", Eigen::Vector3d::Ones(),
                     turned ? turned_over(*made.mesh, random) : made.mesh}}};
   }
-  made.bodies = make_bodies(shapes);
+  made.bodies = make_convex_shapes(shapes);
   made.part.bodies_end = made.bodies.size();
   made.components = components_of(*made.mesh);
   made.model = model_of(*made.mesh);
@@ -202,7 +202,7 @@ class Checker {
   static double distance(const Shown& a, const Eigen::Isometry3d& X_WA, const Shown& b,
                          const Eigen::Isometry3d& X_WB, double limit_m) {
     // One list of bodies, as in a scene.
-    std::vector<Body> bodies = a.bodies;
+    std::vector<ConvexShape> bodies = a.bodies;
     bodies.insert(bodies.end(), b.bodies.begin(), b.bodies.end());
     Part part_b = b.part;
     part_b.bodies_begin += a.bodies.size();
@@ -213,10 +213,10 @@ class Checker {
   static double pieces_m(const Shown& a, const Eigen::Isometry3d& X_WA, const Shown& b,
                          const Eigen::Isometry3d& X_WB) {
     double least = 1e3;
-    for (const Body& body_a : a.bodies) {
-      for (const Body& body_b : b.bodies) {
-        PlacedBody at_a;
-        PlacedBody at_b;
+    for (const ConvexShape& body_a : a.bodies) {
+      for (const ConvexShape& body_b : b.bodies) {
+        PlacedConvexShape at_a;
+        PlacedConvexShape at_b;
         place(body_a, X_WA, at_a);
         place(body_b, X_WB, at_b);
         least = distance_below(body_a, at_a, body_b, at_b, least);

@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <random>
 
-#include "core/collision/collision_checker.h"
-#include "core/collision/enclosure.h"
-#include "core/collision/part_distance.h"
-#include "core/collision/solid.h"
-#include "core/collision/state_check.h"
-#include "core/collision/triangle_distance.h"
+#include "core/collision/geometry/enclosure.h"
+#include "core/collision/geometry/solid.h"
+#include "core/collision/geometry/triangle_distance.h"
+#include "core/collision/state/clearance_query.h"
+#include "core/collision/state/part_distance.h"
+#include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
 #include "test/soundness/concave_meshes.h"
 #include "test/soundness/surface_check.h"
@@ -143,10 +143,9 @@ TEST(InnerBalls, ProveOnlyWhatIsSoAndMostOfWhatOverlaps) {
 }
 
 // The closest pair is that of all pairs that are near.
-void expect_the_closest(CollisionChecker& checker, const Configuration& q) {
+void expect_the_closest(small::ScaledQuery& checker, const Configuration& q) {
   constexpr double kHorizon_m = kSurfaceWithin_m;  // farther ones may be told of their pieces
-  std::vector<NearPair> near;
-  checker.near_pairs(q, kHorizon_m, {true, true}, {true, true}, near);
+  const std::vector<NearPair> near = checker.near(q, kHorizon_m);
   double least_m = kHorizon_m;
   for (const NearPair& pair : near) {
     if (!checker.is_self(pair.pair)) least_m = std::min(least_m, pair.clearance_m);
@@ -179,8 +178,8 @@ TEST(Surfaces, DecideWholeStatesAsTheirDistancesDo) {
     }
     const CellPtr cell = small::shared(made);
     const PlanningScenePtr scene = PlanningScene::build(cell).value();
-    StateCheck check(scene);
-    CollisionChecker checker(scene);
+    ClearanceQuery check(scene);
+    small::ScaledQuery checker(scene);
     for (int k = 0; k < 25; ++k) {
       std::vector<Configuration> states(8, Configuration::Zero(6));
       std::vector<const Configuration*> eight;

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/collision/exact_distance.h"
-#include "core/collision/part_sweep.h"
-#include "core/collision/scene_bodies.h"
+#include "core/collision/diagram/part_sweep.h"
+#include "core/collision/geometry/exact_distance.h"
+#include "core/collision/scene/scene_bodies.h"
 #include "core/model/mesh.h"
 #include "test/soundness/pairs.h"
 
@@ -64,7 +64,7 @@ Isometry3d moved(const std::vector<MovingAxis>& axes, const std::vector<double>&
   return E;
 }
 
-std::vector<Body> any_body(std::mt19937_64& random) {
+std::vector<ConvexShape> any_body(std::mt19937_64& random) {
   const auto size = [&] { return uniform(random, 0.02, 0.2); };
   std::vector<PlacedShape> shapes;
   switch (random() % 4) {
@@ -87,12 +87,12 @@ std::vector<Body> any_body(std::mt19937_64& random) {
       shapes.push_back({Sphere{size()}});
       break;
   }
-  return make_bodies(shapes);
+  return make_convex_shapes(shapes);
 }
 
 // Two bodies somewhere near each other, each carried by joints.
 struct Two {
-  Body a, b;
+  ConvexShape a, b;
   Isometry3d X_WA, X_WB;
   std::vector<MovingAxis> axes_a, axes_b;
 
@@ -106,7 +106,7 @@ struct Two {
         axes_b(any_axes(random, span_max)) {}
 
   [[nodiscard]] std::optional<double> claim() const {
-    PlacedBody at_a, at_b;
+    PlacedConvexShape at_a, at_b;
     place(a, X_WA, at_a);
     place(b, X_WB, at_b);
     const auto apart = separation(a, at_a, b, at_b);
@@ -116,7 +116,7 @@ struct Two {
 
   [[nodiscard]] double distance(const std::vector<double>& share_a,
                                 const std::vector<double>& share_b) const {
-    PlacedBody at_a, at_b;
+    PlacedConvexShape at_a, at_b;
     place(a, moved(axes_a, share_a) * X_WA, at_a);
     place(b, moved(axes_b, share_b) * X_WB, at_b);
     return distance_below(a, at_a, b, at_b, 10.0);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/collision/arbiter.h"
+#include "core/collision/check/motion_checker.h"
 #include "test/collision/small_cell.h"
 
 // T4: two thin rods, each turned about its own base, sweep through one crossing fast, between the
@@ -30,29 +30,23 @@ Question crossing(const Cell& cell, Duration offset, const CheckMethod& method) 
   return {1, TimePoint{}, {left}, {right}, cell.home(), method};
 }
 
-TEST(ThinRod, CrossedBetweenTwoSamplesIsFoundByTheCertifiedCheckOnly) {
+TEST(ThinRod, CrossedBetweenTwoSamplesIsFoundByCertifiedChecksOnly) {
   const CellPtr cell = two_rods();
-  Arbiter arbiter(PlanningScene::build(cell).value());
+  MotionChecker arbiter(PlanningScene::build(cell).value());
   const Duration offset = 22ms;
   for (const Duration step : {100ms, 50ms}) {
     EXPECT_EQ(arbiter.judge(crossing(*cell, offset, TimedDiscrete{step})).kind,
               Verdict::Kind::free);
   }
-  const Verdict verdict = arbiter.judge(crossing(*cell, offset, Certified{0ms, false, 0.0}));
-  ASSERT_EQ(verdict.kind, Verdict::Kind::conflict);
-  ASSERT_EQ(verdict.conflicts.size(), 1U);
-  EXPECT_EQ(verdict.conflicts[0].with, Conflict::With::motion);
-  EXPECT_LT(verdict.conflicts[0].proximity.clearance_m, cell->clearance_m);
-  EXPECT_NEAR(to_seconds(verdict.conflicts[0].own_time), 0.222, 0.02);
-}
-
-TEST(ThinRod, IsAlsoFoundWhenTheOtherOneHasComeToRestLongBefore) {
-  const CellPtr cell = two_rods();
-  Arbiter arbiter(PlanningScene::build(cell).value());
-  Question question = crossing(*cell, 22ms, Certified{0ms, false, 0.0});
-  question.candidates[0].progress = -20s;
-  question.others[0].progress = 990ms;
-  EXPECT_EQ(arbiter.judge(question).kind, Verdict::Kind::conflict);
+  const Verdict verdict = arbiter.judge(crossing(*cell, offset, Coordinated{0.0}));
+  ASSERT_EQ(verdict.kind, Verdict::Kind::free);
+  ASSERT_EQ(verdict.regions.size(), 1U);
+  ASSERT_EQ(verdict.regions[0].regions.size(), 1U);
+  const ConflictRegion& region = verdict.regions[0].regions[0];
+  EXPECT_LT(region.proximity.clearance_m, cell->clearance_m);
+  EXPECT_LE(region.boxes.front().from_a, 222ms);
+  EXPECT_GE(region.boxes.back().to_a, 222ms);
+  EXPECT_EQ(arbiter.judge(crossing(*cell, offset, Swept{0.0})).kind, Verdict::Kind::conflict);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/collision/scene_bodies.h"
+#include "core/collision/scene/scene_bodies.h"
 
 namespace armloom::soundness {
 namespace {

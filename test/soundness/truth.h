@@ -7,7 +7,7 @@
 
 namespace armloom::soundness {
 
-// What exact shapes (CollisionChecker, in double) say of the two arms of a pair at every multiple
+// What exact shapes (bench::ExactScene, in double) say of the two arms of a pair at every multiple
 // of kSample from the question's instant until both rest.
 struct Truth {
   double smallest_m;  // the horizon where never below it; negative by the depth where known

@@ -15,8 +15,7 @@ constexpr double kFar_m = 0.05;
 
 double tracking_error_of(const CheckMethod& method) {
   if (const auto* swept = std::get_if<Swept>(&method)) return swept->tracking_error;
-  if (const auto* regions = std::get_if<Coordinated>(&method)) return regions->tracking_error;
-  return std::get<Certified>(method).tracking_error;
+  return std::get<Coordinated>(method).tracking_error;
 }
 
 // The states where a verdict leaves the two motions open.
@@ -53,7 +52,7 @@ OpenPairs find_open(std::size_t count, std::uint64_t seed, const CheckMethod& me
   OpenPairs found;
   double evaluations = 0.0;
   for (const MovingPair& pair : random_pairs(exact, pool, count, seed + 1)) {
-    Arbiter arbiter(exact.scene);
+    MotionChecker arbiter(exact.scene);
     Question question = pair.question(*shared, method);
     Verdict verdict = arbiter.judge(question);
     std::uint64_t cost = verdict.evaluations;

@@ -24,6 +24,7 @@ struct OpenPairs {
   std::uint64_t evaluations_max = 0;  // for all askings of a pair
 };
 inline constexpr double kCloseClearance_m = 0.005;
+inline constexpr double kHardly_m = 0.002;  // what is open keeps less than this above it
 [[nodiscard]] OpenPairs find_open(std::size_t pairs, std::uint64_t seed, const CheckMethod& method);
 
 }  // namespace armloom::soundness

@@ -26,7 +26,7 @@ struct Frame {
 };
 
 // A capsule fixed in a frame (-1: in the world). Its ancestors are the frames from the root to its
-// own, as indices in Linkage::ancestors.
+// own, as indices in ArmKinematics::ancestors.
 struct Capsule {
   int frame;
   double center[3];  // in the frame, m
@@ -38,7 +38,7 @@ struct Capsule {
   int suffix_begin;  // first of its depth + 1 rows in the array of motion bounds
 };
 
-struct Linkage {
+struct ArmKinematics {
   const Frame* frames;
   int frame_count;
   const Capsule* capsules;
@@ -64,10 +64,10 @@ struct Side {
 
 // What moves the capsules of a side that is held apart along one direction.
 struct Joints {
-  const Linkage* linkage;  // null: nothing does
-  const float* axes;       // as Placed::axes
-  const float* span;       // as inflate() takes it
-  const float* bend;       // as inflate() makes it
+  const ArmKinematics* linkage;  // null: nothing does
+  const float* axes;             // as Placed::axes
+  const float* span;             // as inflate() takes it
+  const float* bend;             // as inflate() makes it
 };
 
 // Two capsules to compare, with what does not change. Rows of the sides' inflation arrays say how
@@ -125,7 +125,7 @@ struct Hit {
 
 struct Kernel {
   const char* name;
-  void (*place)(const Linkage& linkage, const double* q, const Placed& out);
+  void (*place)(const ArmKinematics& linkage, const double* q, const Placed& out);
   // span: [frame][kLanes], how far the joint of the frame may be from the configuration (rad, m),
   // rounded up. suffix: [row][kLanes], see Capsule::suffix_begin: row m of a capsule bounds how far
   // any point of it moves against anything that shares its first m ancestors: the sum over the
@@ -134,10 +134,10 @@ struct Kernel {
   // has here: hence the levers at hand bound motions of any size.)
   // bend: [capsule][kLanes], what along any direction is to be added to the first order of
   // that motion (sweep.h, the second sum, with what turning adds to a round end).
-  void (*inflate)(const Linkage& linkage, const float* axes, const float* capsules,
+  void (*inflate)(const ArmKinematics& linkage, const float* axes, const float* capsules,
                   const float* span, float* suffix, float* bend);
   // The ball of a side; rows[c] is the row of capsule c in `inflation`. Null: nothing moves.
-  void (*enclose)(const Linkage& linkage, const float* capsules, const float* inflation,
+  void (*enclose)(const ArmKinematics& linkage, const float* capsules, const float* inflation,
                   const int* rows, float* ball);
   // Writes the pairs that are undecided in one of `lanes`; returns their number. `hits` has room
   // for all pairs.

@@ -93,7 +93,7 @@ inline void place_frame(const Frame& frame, const double* parent, const double* 
 }
 
 template <class D>
-void place(const Linkage& linkage, const double* q, const Placed& out) {
+void place(const ArmKinematics& linkage, const double* q, const Placed& out) {
   for (int f = 0; f < linkage.frame_count; ++f) {
     const Frame& frame = linkage.frames[f];
     double* X = out.frames + f * 12 * kLanes;
@@ -152,8 +152,8 @@ inline Vec<F> minus(const Vec<F>& a, const Vec<F>& b) {
 
 // Float roundings of a lever are below one part in 1e5 and a micrometre.
 template <class F>
-void inflate(const Linkage& linkage, const float* axes, const float* capsules, const float* span,
-             float* suffix, float* bend) {
+void inflate(const ArmKinematics& linkage, const float* axes, const float* capsules,
+             const float* span, float* suffix, float* bend) {
   for (int c = 0; c < linkage.capsule_count; ++c) {
     const Capsule& capsule = linkage.capsules[c];
     const int* ancestors = linkage.ancestors + capsule.ancestors_begin;

@@ -91,8 +91,8 @@ unsigned keep_apart(const Side& a, const Joints& of_a, const Side& b, const Join
 
 // About the middle of the box around the capsules' centres.
 template <class F>
-void enclose(const Linkage& linkage, const float* capsules, const float* inflation, const int* rows,
-             float* ball) {
+void enclose(const ArmKinematics& linkage, const float* capsules, const float* inflation,
+             const int* rows, float* ball) {
   if (linkage.capsule_count == 0) {  // an arm without shapes: nothing is compared with it
     for (int i = 0; i < 4 * kLanes; ++i) ball[i] = 0.0F;
     return;

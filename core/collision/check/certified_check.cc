@@ -1,0 +1,227 @@
+#include "core/collision/check/certified_check.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "core/collision/check/motion_checker.h"
+#include "core/collision/check/pair_regions.h"
+#include "core/coordination/in_step.h"
+
+namespace armloom {
+namespace {
+
+double tracking_error_of(const CheckMethod& method) {
+  const auto* swept = std::get_if<Swept>(&method);
+  return swept != nullptr ? swept->tracking_error : std::get<Coordinated>(method).tracking_error;
+}
+
+// Of every pair of a candidate with another arm or what stands still.
+double least_asked_m(const PlanningScene::Bodies& bodies, const Question& question) {
+  double least_m = bodies.cell->clearance_m;
+  for (const PairGroup& group : bodies.groups) {
+    if (group.kind != PairGroup::Kind::mount) continue;
+    for (const Motion& motion : question.candidates) {
+      const auto& arms = motion.trajectory->arms();
+      if (std::ranges::find(arms, group.arm) == arms.end()) continue;
+      least_m = std::min(least_m, group.limit_m(PairLimits::of(*bodies.cell)));
+    }
+  }
+  return least_m;
+}
+
+}  // namespace
+
+std::uint64_t cell_budget(std::uint64_t cells, double longest_s) {
+  return static_cast<std::uint64_t>(static_cast<double>(cells) * std::max(1.0, longest_s / 10.0));
+}
+
+double CertifiedCheck::ArmMotion::progress_s() const {
+  return motion == nullptr ? 0.0 : std::max(0.0, to_seconds(motion->progress));
+}
+
+CertifiedCheck::CertifiedCheck(MotionStore& store, const Question& question)
+    : store_(store),
+      question_(question),
+      tracking_error_(tracking_error_of(question.method)),
+      verdict_{Verdict::Kind::free,
+               question.version,
+               {},
+               least_asked_m(store.scene()->bodies(), question),
+               0,
+               {}} {
+  if (static_cast<std::size_t>(question.rest.size()) != store.scene()->cell().joints.size()) {
+    throw std::invalid_argument("MotionChecker: rest must have one entry per joint of the cell");
+  }
+}
+
+std::vector<CertifiedCheck::ArmMotion> CertifiedCheck::arms_of(const Motion& motion) {
+  std::vector<ArmMotion> arms;
+  for (const ArmId arm : motion.trajectory->arms()) {
+    arms.push_back(
+        {&motion, &store_.motion(motion.trajectory, arm, question_.rest, tracking_error_)});
+  }
+  return arms;
+}
+
+// Arms of candidates, of others, and those at rest, in this order.
+std::vector<CertifiedCheck::ArmMotion> CertifiedCheck::all_arms() {
+  const Cell& cell = store_.scene()->cell();
+  std::vector<bool> moved(cell.arms.size(), false);
+  std::vector<ArmMotion> all;
+  for (const std::vector<Motion>* motions : {&question_.candidates, &question_.others}) {
+    for (const Motion& motion : *motions) {
+      for (const ArmMotion& arm : arms_of(motion)) {
+        if (moved[arm.entry->arm.index()]) {
+          throw std::invalid_argument("MotionChecker: two motions of arm " +
+                                      cell.arm(arm.entry->arm).name);
+        }
+        moved[arm.entry->arm.index()] = true;
+        all.push_back(arm);
+      }
+    }
+  }
+  for (std::uint32_t a = 0; a < cell.arms.size(); ++a) {
+    if (moved[a]) continue;
+    all.push_back({nullptr, &store_.motion(nullptr, ArmId{a}, question_.rest, tracking_error_)});
+  }
+  return all;
+}
+
+Verdict CertifiedCheck::swept() {
+  const std::vector<ArmMotion> all = all_arms();
+  std::size_t candidates = 0;
+  for (const Motion& motion : question_.candidates) candidates += motion.trajectory->arms().size();
+  for (std::size_t own = 0; own < candidates; ++own) {
+    check_alone(all[own]);
+    for (std::size_t other = own + 1; other < all.size(); ++other) {
+      check_swept(all[own], all[other]);
+    }
+  }
+  if (verdict_.kind != Verdict::Kind::free) verdict_.clearance_bound_m.reset();
+  return std::move(verdict_);
+}
+
+// Each candidate by itself, as its plan has it; only then the regions of the pairs.
+Verdict CertifiedCheck::coordinated() {
+  for (const Motion& motion : question_.candidates) {
+    const std::vector<ArmMotion> arms = arms_of(motion);
+    for (auto own = arms.begin(); own != arms.end(); ++own) {
+      check_alone(*own);
+      for (auto other = own + 1; other != arms.end(); ++other) check_in_step(*own, *other);
+    }
+  }
+  if (verdict_.kind != Verdict::Kind::free) {
+    verdict_.clearance_bound_m.reset();
+    return std::move(verdict_);
+  }
+  PairRegionSearch search(store_, question_);
+  verdict_.regions = search.find();
+  verdict_.evaluations += search.evaluations();
+  verdict_.clearance_bound_m = std::min(*verdict_.clearance_bound_m, search.least_limit_m());
+  verdict_.exhausted = search.exhausted();
+  return std::move(verdict_);
+}
+
+void CertifiedCheck::check_alone(const ArmMotion& own) {
+  const ProgressBand all{.progress_a = own.progress_s(),
+                         .duration_a = to_seconds(own.entry->duration())};
+  ask(store_.with_itself(*own.entry), all, own, nullptr);
+  ask(store_.with_still(*own.entry), all, own, nullptr);
+}
+
+void CertifiedCheck::check_swept(const ArmMotion& own, const ArmMotion& other) {
+  ask(store_.between(*own.entry, *other.entry),
+      {.progress_a = own.progress_s(),
+       .progress_b = other.progress_s(),
+       .duration_a = to_seconds(own.entry->duration()),
+       .duration_b = to_seconds(other.entry->duration()),
+       .swept = true},
+      own, &other);
+}
+
+// Two arms of one synchronous motion: side by side, or one of them as far behind as it can get.
+void CertifiedCheck::check_in_step(const ArmMotion& own, const ArmMotion& other) {
+  const double apart_s = to_seconds(kOutOfStep + kUntilTold);
+  const double duration_s = to_seconds(own.entry->duration());
+  ask(store_.between(*own.entry, *other.entry),
+      {.progress_a = own.progress_s(),
+       .progress_b = own.progress_s(),
+       .lag_a = apart_s + other.entry->stopping_reach_s,
+       .lag_b = apart_s + own.entry->stopping_reach_s,
+       .duration_a = duration_s,
+       .duration_b = duration_s},
+      own, &other);
+}
+
+void CertifiedCheck::ask(const OrientedDiagram& diagram, const ProgressBand& band,
+                         const ArmMotion& own, const ArmMotion* other) {
+  if (!diagram) return;
+  const std::uint64_t budget = cell_budget(MotionChecker::kBudget * question_.effort,
+                                           std::max(band.duration_a, band.duration_b));
+  CoordinationDiagram::Answer answer = diagram.ask(band, budget);
+  verdict_.evaluations += answer.evaluations;
+  if (answer.free) return;
+  const auto parting =
+      diagram.parting_at(from_seconds(band.progress_a), from_seconds(band.progress_b));
+  if (parting) {
+    answer = parting.ask(band, budget);
+    verdict_.evaluations += answer.evaluations;
+    if (answer.free) {  // pairs that are held to less: that is what is proven
+      verdict_.clearance_bound_m = parting.least_limit_m(*verdict_.clearance_bound_m);
+      return;
+    }
+  }
+  report(answer, diagram, own, other);
+}
+
+void CertifiedCheck::report(const CoordinationDiagram::Answer& answer,
+                            const OrientedDiagram& diagram, const ArmMotion& own,
+                            const ArmMotion* other) {
+  verdict_.exhausted = verdict_.exhausted || (answer.exhausted && !answer.proven);
+  if (answer.proven) {
+    verdict_.kind = Verdict::Kind::conflict;
+  } else if (verdict_.kind == Verdict::Kind::free) {
+    verdict_.kind = Verdict::Kind::undecided;
+  }
+  const CoordinationDiagram::Finding& found = *answer.conflict;
+  Conflict conflict{Conflict::With::scene,       own.motion->job, std::nullopt,
+                    diagram.proximity_of(found), found.time_a,    found.time_b};
+  if (diagram.is_self(found) || (other != nullptr && other->motion == own.motion)) {
+    conflict.with = Conflict::With::self;
+  } else if (other != nullptr && other->motion != nullptr) {
+    conflict.with = Conflict::With::motion;
+    conflict.other_job = other->motion->job;
+  } else if (other != nullptr) {
+    conflict.with = Conflict::With::rest;
+  }
+  verdict_.conflicts.push_back(std::move(conflict));
+}
+
+PassageAnswer check_passage(MotionStore& store, const PassageQuestion& passage, Configuration rest,
+                            double tracking_error, std::uint64_t& evaluations) {
+  const auto& arms = passage.motion.trajectory->arms();
+  if (std::ranges::all_of(arms, [&](ArmId a) { return store.out_of_reach(a, passage.arm); })) {
+    return PassageAnswer::apart;
+  }
+  const auto& joints = store.scene()->cell().arm(passage.arm).joints;
+  Configuration at_rest = rest;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    at_rest[static_cast<Eigen::Index>(joints[j].index())] =
+        passage.rest[static_cast<Eigen::Index>(j)];
+  }
+  MotionStore::Entry& other = store.motion(nullptr, passage.arm, at_rest, tracking_error);
+  for (const ArmId arm : arms) {
+    MotionStore::Entry& own = store.motion(passage.motion.trajectory, arm, rest, tracking_error);
+    const OrientedDiagram diagram = store.between(own, other);
+    if (!diagram) continue;
+    const double duration_s = to_seconds(own.duration());
+    const CoordinationDiagram::Answer answer = diagram.ask(
+        {.duration_a = duration_s, .swept = true}, cell_budget(MotionChecker::kBudget, duration_s));
+    evaluations += answer.evaluations;
+    if (!answer.free) return PassageAnswer::blocked;
+  }
+  return PassageAnswer::free;
+}
+
+}  // namespace armloom

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "core/collision/diagram/motion_store.h"
+#include "core/coordination/motion.h"
+#include "core/coordination/verdict.h"
+
+namespace armloom {
+
+// One question by a certified method (Swept, Coordinated), answered from a store in which it has
+// begun (MotionStore::begin_question). What they claim: motion_checker.h.
+class CertifiedCheck {
+ public:
+  // Store and question outlive it.
+  CertifiedCheck(MotionStore& store, const Question& question);
+  [[nodiscard]] Verdict swept();
+  [[nodiscard]] Verdict coordinated();
+
+ private:
+  struct ArmMotion {       // one arm of a motion, or an arm at rest
+    const Motion* motion;  // null: at rest
+    MotionStore::Entry* entry;
+
+    [[nodiscard]] double progress_s() const;
+  };
+  [[nodiscard]] std::vector<ArmMotion> arms_of(const Motion& motion);
+  [[nodiscard]] std::vector<ArmMotion> all_arms();
+  void check_alone(const ArmMotion& own);
+  void check_swept(const ArmMotion& own, const ArmMotion& other);
+  void check_in_step(const ArmMotion& own, const ArmMotion& other);
+  void ask(const OrientedDiagram& diagram, const ProgressBand& band, const ArmMotion& own,
+           const ArmMotion* other);
+  void report(const CoordinationDiagram::Answer& answer, const OrientedDiagram& diagram,
+              const ArmMotion& own, const ArmMotion* other);
+
+  MotionStore& store_;
+  const Question& question_;
+  double tracking_error_;
+  Verdict verdict_;
+};
+
+// What a cell budget grows with: `cells` for each 10 s of the longest motion.
+[[nodiscard]] std::uint64_t cell_budget(std::uint64_t cells, double longest_s);
+
+// With joints up to `tracking_error` off their paths; adds to `evaluations`.
+[[nodiscard]] PassageAnswer check_passage(MotionStore& store, const PassageQuestion& passage,
+                                          Configuration rest, double tracking_error,
+                                          std::uint64_t& evaluations);
+
+}  // namespace armloom

@@ -1,0 +1,167 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/collision/diagram/progress_band.h"
+#include "core/collision/diagram/tube_pair.h"
+#include "core/coordination/conflict_region.h"
+
+namespace armloom {
+
+// Two motions of different arms collide or not as a function of where each is along its own path
+// (O'Donnell and Lozano-Perez 1989): cells over (trajectory time of A, trajectory time of B) that
+// are certified free, in conflict, or not known yet. Cells are refined only where a question needs
+// it, and kept, so that the same question asked again costs next to nothing. Of one arm against
+// what stands still, or against itself, the second axis has no length.
+//
+// A cell is free when for every pair of parts the distance at its middle, less what each part may
+// move during the cell (MotionTube), is at least the pair's limit: then so is the distance in every
+// state of the cell. Capsules answer first; where they leave it open, the exact distance of the two
+// parts at the middle does. What it leaves open for what the parts may move, whichever way, may
+// still be free for what they may move towards each other (part_sweep.h).
+//
+// Not thread-safe; a tube may be shared by several diagrams of one thread.
+class CoordinationDiagram {
+ public:
+  explicit CoordinationDiagram(TubePair pair);
+  [[nodiscard]] TubePair& pair() { return pair_; }
+
+  // Two parts too close to each other.
+  struct Finding {
+    PairId pair;
+    double distance_m;  // exact if it is below the limit; else (undecided) what is known
+    Duration time_a;    // trajectory times
+    Duration time_b;
+    double at_s;  // when the question's band first holds it, from its beginning
+  };
+  struct Answer {
+    bool free = false;
+    bool exhausted = false;  // the budget ended before the question was decided
+    // Not free: the first state in time that is proven to be a conflict, to within kFirst; or,
+    // where none is proven, the first cell that could not be decided.
+    std::optional<Finding> conflict;
+    bool proven = false;
+    std::uint64_t evaluations = 0;  // cells and states that were looked at for this question
+  };
+  // Looks at no more than `budget` cells and states; so do the others, which return how many.
+  [[nodiscard]] Answer ask(const ProgressBand& band, std::uint64_t budget);
+
+  // Refines the rectangle of what remains of both motions until each cell is free, in conflict, or
+  // no wider than `resolution`.
+  std::uint64_t refine(Duration now_a, Duration now_b, Duration resolution, std::uint64_t budget);
+
+  // Finds where what is free of the rectangle of what remains of both motions ends: what is not
+  // borders on it, or on where both stand now, in cells no wider than `fine`, or `coarse` where
+  // their middle is proven to be a conflict. What lies behind them is not looked at: no motion gets
+  // there.
+  struct Resolution {
+    Duration coarse;
+    Duration fine;
+  };
+  std::uint64_t refine_outline(Duration now_a, Duration now_b, const Resolution& resolution,
+                               std::uint64_t budget);
+
+  // The leaves that meet the rectangle of what remains and are not known to be free, in a fixed
+  // order.
+  struct Blocked {
+    ProgressBox box;
+    std::optional<Finding> found;  // at the middle, exactly; at_s is not set
+    bool proven = false;           // that is closer than its limit
+  };
+  [[nodiscard]] std::vector<Blocked> blocked(Duration now_a, Duration now_b) const;
+
+  // Motions that pass each other closely leave places that are neither free nor in conflict at a
+  // resolution. Halves those whose middle lies in one of the areas, until each is free or no wider
+  // than `finest`, or one is proven to be a conflict: then it is no close pass.
+  std::uint64_t refine_close_passes(const std::vector<ProgressBox>& areas, Duration finest,
+                                    std::uint64_t budget);
+
+  enum class CellState : std::uint8_t { unknown, free, mixed, conflict, finest, inner };
+  struct CellView {
+    ProgressBox box;
+    CellState state;
+  };
+  // The leaves, in a fixed order; unknown ones are those that no question needed.
+  [[nodiscard]] std::vector<CellView> cells() const;
+
+  // How far the time of a first conflict may be off.
+  inline static constexpr double kFirst_s = 0.01;
+  // Wider stretches of a motion are hardly ever free in one: they are halved unseen.
+  inline static constexpr Duration kWide = std::chrono::milliseconds(700);
+  // Cells are not split below this width.
+  inline static constexpr Duration kFinest = std::chrono::microseconds(500);
+
+ private:
+  struct Cell {
+    int a;  // nodes of the axes
+    int b;
+    int children = -1;  // first of two or four
+    CellState state = CellState::unknown;
+    bool split_a = false;  // how to split: for the children of inner cells, and for mixed ones
+    bool split_b = false;
+    std::uint8_t levels = 1;  // of a mixed cell: how many halvings at once
+    int finding = -1;         // at its middle
+
+    [[nodiscard]] int child_count() const { return (split_a ? 2 : 1) * (split_b ? 2 : 1); }
+  };
+  struct Found {  // at the middle of a cell
+    PairId pair;
+    int narrow;
+    bool box;
+    double distance_m;
+  };
+  struct Open {  // a cell that a question needs
+    int cell;
+    TimeRange times;
+  };
+  struct Search;
+
+  // The tree (coordination_diagram.cc).
+  [[nodiscard]] Cell& at(int cell) { return cells_[static_cast<std::size_t>(cell)]; }
+  [[nodiscard]] const Cell& at(int cell) const { return cells_[static_cast<std::size_t>(cell)]; }
+  [[nodiscard]] ProgressBox box_of(const Cell& cell) const;
+  [[nodiscard]] Finding finding_at(const Cell& cell, PairId pair, double distance_m) const;
+  [[nodiscard]] std::optional<TimeRange> meets(const ProgressBand& band, const Cell& cell) const;
+  void collect(int cell, Search& search);
+  void split(int cell, int levels);
+  [[nodiscard]] bool wider(const Cell& cell, Duration resolution) const;
+  void split_if_wide(int cell);
+  void split_if_coarse(int cell, Duration resolution);
+  [[nodiscard]] const Found* proven(const Cell& cell) const;
+  void consider_conflict(const Open& open, Search& search);
+  [[nodiscard]] std::optional<Finding> on_the_line(const Open& open, const ProgressBand& band);
+
+  // Refinement (diagram_refinement.cc).
+  template <class Expand, class Follow>
+  std::uint64_t refine_from(std::vector<int> leaves, std::uint64_t budget, const Expand& expand,
+                            const Follow& follow);
+  [[nodiscard]] bool remains(const Cell& cell, Duration now_a, Duration now_b) const;
+  template <class Visit>
+  bool leaves_at(const Cell& of, const Visit& visit) const;
+
+  // A batch of cells (diagram_cells.cc).
+  void evaluate(std::span<const int> cells);
+  void decide(int cell, std::vector<TubePair::Undecided>& undecided);
+  [[nodiscard]] TubePair::Nodes nodes_of(const Cell& cell) const;
+  void note(Cell& cell, const Found& found);
+  void choose_split(Cell& cell, const TubePair::Undecided& worst);
+  [[nodiscard]] bool clears(Cell& cell, TubePair::Undecided& undecided);
+
+  TubePair pair_;
+  std::shared_ptr<TimeTree>
+      a_;  // the axes: times of the tubes; of an arm and itself the second one
+  std::shared_ptr<TimeTree> b_;  // has no length
+  std::vector<Cell> cells_;
+  std::vector<Found> found_;
+  mutable std::vector<int> walk_;  // of leaves_at()
+  struct Outlined {
+    Duration now_a, now_b;
+    Resolution resolution;
+  };
+  std::optional<Outlined> outlined_;  // as refine_outline() has completed it
+};
+
+}  // namespace armloom

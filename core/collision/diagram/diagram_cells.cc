@@ -1,0 +1,106 @@
+// One batch of cells: from the filter over the exact distance to a state.
+#include <algorithm>
+
+#include "core/collision/diagram/coordination_diagram.h"
+
+namespace armloom {
+namespace {
+
+// A side is halved together with the other if it moves at least this share as much.
+constexpr double kBothShare = 0.5;
+
+// Parts move towards each other at least this share of what they may move in all directions,
+// mostly: where more than that would have to be nothing, it is not asked.
+constexpr double kTowardsShare = 0.25;
+
+}  // namespace
+
+TubePair::Nodes CoordinationDiagram::nodes_of(const Cell& cell) const {
+  return {cell.a, pair_.is_self() ? cell.a : cell.b};
+}
+
+// Up to eight.
+void CoordinationDiagram::evaluate(std::span<const int> cells) {
+  TubePair::Nodes nodes[filter::kLanes];
+  for (std::size_t i = 0; i < cells.size(); ++i) nodes[i] = nodes_of(at(cells[i]));
+  pair_.filter({nodes, cells.size()});
+  for (std::size_t i = 0; i < cells.size(); ++i) decide(cells[i], pair_.undecided(i));
+}
+
+// Whether the pair keeps its limit all over the cell; notes it if not.
+bool CoordinationDiagram::clears(Cell& cell, TubePair::Undecided& u) {
+  const NarrowPair& pair = pair_.narrow(u.narrow, u.box);
+  const double enough_m = u.limit_m + u.moves_m();
+  u.distance_m = pair_.distance(pair, nodes_of(cell), enough_m);
+  u.slack_m = 0.0;
+  if (u.distance_m >= enough_m) return true;
+  if (u.distance_m - u.limit_m > kTowardsShare * u.moves_m() &&
+      pair_.keeps_apart(pair, nodes_of(cell), u.limit_m, enough_m)) {
+    return true;
+  }
+  note(cell, {pair.pair, u.narrow, u.box, u.distance_m});
+  return false;
+}
+
+// From what the filter has left open to the cell's state.
+void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& undecided) {
+  using Undecided = TubePair::Undecided;
+  Cell& cell = at(index);
+  cell.state = CellState::free;
+  if (undecided.empty()) return;
+
+  // What is in conflict all over the cell makes that of it; what is not clear splits it.
+  const auto passes = [&](Undecided& u) {
+    if (clears(cell, u)) return true;
+    if (u.distance_m + u.moves_m() < u.limit_m) {
+      cell.state = CellState::conflict;
+    } else {
+      choose_split(cell, u);
+    }
+    return false;
+  };
+  // By the capsules, a conflict most likely: unless the one is in a notch of the other.
+  const auto closest = std::ranges::min_element(
+      undecided, {}, [](const Undecided& u) { return u.distance_m + u.slack_m - u.limit_m; });
+  if (closest->distance_m + closest->slack_m < closest->limit_m && !passes(*closest)) return;
+  // The largest distance that a pair may have, as far as the capsules tell: what is inside of them
+  // is not farther from the body than they stand off.
+  const auto room = [](const Undecided& u) {
+    return std::max(u.distance_m, 0.0) + u.slack_m - u.limit_m;
+  };
+  const auto worst = std::ranges::min_element(
+      undecided, {}, [&](const Undecided& u) { return room(u) - u.moves_m(); });
+  if (room(*worst) < kTowardsShare * worst->moves_m()) {  // no distance would do: none is asked
+    choose_split(cell, *worst);
+    return;
+  }
+  std::iter_swap(undecided.begin(), worst);  // mostly it is the one that does not
+  for (Undecided& u : undecided) {
+    if (!passes(u)) return;
+  }
+}
+
+// Keeps the closest pair of a cell's middle.
+void CoordinationDiagram::note(Cell& cell, const Found& found) {
+  if (cell.finding < 0) {
+    cell.finding = static_cast<int>(found_.size());
+    found_.push_back(found);
+  } else if (found.distance_m < found_[static_cast<std::size_t>(cell.finding)].distance_m) {
+    found_[static_cast<std::size_t>(cell.finding)] = found;
+  }
+}
+
+void CoordinationDiagram::choose_split(Cell& cell, const TubePair::Undecided& worst) {
+  cell.split_a = worst.moves_a_m >= kBothShare * worst.moves_b_m;
+  cell.split_b = worst.moves_b_m >= kBothShare * worst.moves_a_m;
+  if (!(cell.split_a && a_->width(cell.a) > kFinest) &&
+      !(cell.split_b && b_->width(cell.b) > kFinest)) {
+    cell.split_a = cell.split_b = true;  // what is left
+  }
+  const double room_m = worst.distance_m + worst.slack_m - worst.limit_m;
+  const double shrink = room_m > 0.0 ? worst.moves_m() / room_m : 2.0;
+  cell.levels = shrink > 6.0 ? 2 : 1;
+  cell.state = wider(cell, kFinest) ? CellState::mixed : CellState::finest;
+}
+
+}  // namespace armloom

@@ -1,0 +1,184 @@
+// What makes cells finer but for questions of times, all in one loop.
+#include <algorithm>
+#include <utility>
+
+#include "core/collision/diagram/coordination_diagram.h"
+
+namespace armloom {
+
+// expand(leaves, unknown): splits leaves as far as they have to be, and names what is to be looked
+// at; follow(unknown): the leaves to go on with. As far as the budget goes; returns how many cells
+// were looked at.
+template <class Expand, class Follow>
+std::uint64_t CoordinationDiagram::refine_from(std::vector<int> leaves, std::uint64_t budget,
+                                               const Expand& expand, const Follow& follow) {
+  std::uint64_t looked_at = 0;
+  std::vector<int> unknown;
+  while (!leaves.empty()) {
+    unknown.clear();
+    expand(leaves, unknown);
+    for (std::span<const int> left = unknown; !left.empty();) {
+      if (looked_at >= budget) return looked_at;
+      const auto batch = left.first(std::min<std::size_t>(filter::kLanes, left.size()));
+      evaluate(batch);
+      looked_at += batch.size();
+      left = left.subspan(batch.size());
+    }
+    if (looked_at >= budget) return looked_at;
+    leaves = follow(unknown);
+  }
+  return looked_at;
+}
+
+std::uint64_t CoordinationDiagram::refine(Duration now_a, Duration now_b, Duration resolution,
+                                          std::uint64_t budget) {
+  const auto expand = [&](std::vector<int>& open, std::vector<int>& unknown) {
+    for (std::size_t i = 0; i < open.size(); ++i) {  // grows
+      const int index = open[i];
+      if (!remains(at(index), now_a, now_b)) continue;
+      split_if_wide(index);
+      if (at(index).state == CellState::unknown) unknown.push_back(index);
+      split_if_coarse(index, resolution);
+      const Cell now = at(index);
+      if (now.state != CellState::inner) continue;
+      for (int c = 0; c < now.child_count(); ++c) open.push_back(now.children + c);
+    }
+  };
+  return refine_from({0}, budget, expand, [](const std::vector<int>& seen) { return seen; });
+}
+
+bool CoordinationDiagram::remains(const Cell& cell, Duration now_a, Duration now_b) const {
+  return a_->to(cell.a) >= now_a && b_->to(cell.b) >= now_b;
+}
+
+// Calls visit(leaf) for what touches the cell, corners included, until it says yes: whether it did.
+template <class Visit>
+bool CoordinationDiagram::leaves_at(const Cell& of, const Visit& visit) const {
+  std::vector<int>& open = walk_;
+  open.assign(1, 0);
+  while (!open.empty()) {
+    const int index = open.back();
+    open.pop_back();
+    const Cell& cell = at(index);
+    const bool touch = a_->from(cell.a) <= a_->to(of.a) && a_->to(cell.a) >= a_->from(of.a) &&
+                       b_->from(cell.b) <= b_->to(of.b) && b_->to(cell.b) >= b_->from(of.b);
+    if (!touch) continue;
+    if (cell.state != CellState::inner) {
+      if (visit(index)) return true;
+      continue;
+    }
+    for (int i = 0; i < cell.child_count(); ++i) open.push_back(cell.children + i);
+  }
+  return false;
+}
+
+std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b,
+                                                  const Resolution& resolution,
+                                                  std::uint64_t budget) {
+  if (outlined_ && outlined_->now_a <= now_a && outlined_->now_b <= now_b &&
+      outlined_->resolution.coarse <= resolution.coarse &&
+      outlined_->resolution.fine <= resolution.fine) {
+    return 0;
+  }
+  std::uint64_t looked_at = refine(now_a, now_b, kWide, budget);
+  // A motion that is still to come finds the other one anywhere on its way: hence the edges.
+  const auto may_be_entered = [&](const Cell& cell) {
+    return a_->from(cell.a) <= now_a || b_->from(cell.b) <= now_b ||
+           leaves_at(cell, [&](int other) { return at(other).state == CellState::free; });
+  };
+  const auto is_open = [&](int index) {
+    const CellState state = at(index).state;
+    return (state == CellState::mixed || state == CellState::unknown) &&
+           remains(at(index), now_a, now_b);
+  };
+  std::vector<int> border;  // leaves that may be entered from what is free
+  for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
+    if (is_open(i) && may_be_entered(at(i))) border.push_back(i);
+  }
+  const auto expand = [&](std::vector<int>& leaves, std::vector<int>& unknown) {
+    std::ranges::sort(leaves);
+    leaves.erase(std::ranges::unique(leaves).begin(), leaves.end());
+    for (const int index : leaves) {
+      if (at(index).state == CellState::unknown) unknown.push_back(index);
+      split_if_coarse(index, proven(at(index)) != nullptr ? resolution.coarse : resolution.fine);
+      const Cell cell = at(index);
+      if (cell.state != CellState::inner) continue;
+      for (int child = cell.children; child < cell.children + cell.child_count(); ++child) {
+        if (remains(at(child), now_a, now_b) && may_be_entered(at(child))) unknown.push_back(child);
+      }
+    }
+  };
+  const auto follow = [&](const std::vector<int>& seen) {
+    std::vector<int> next;
+    for (const int leaf : seen) {
+      if (at(leaf).state == CellState::mixed) next.push_back(leaf);
+      if (at(leaf).state != CellState::free) continue;
+      leaves_at(at(leaf), [&](int other) {
+        if (is_open(other)) next.push_back(other);
+        return false;
+      });
+    }
+    return next;
+  };
+  if (looked_at < budget) {
+    looked_at += refine_from(std::move(border), budget - looked_at, expand, follow);
+  }
+  if (looked_at < budget) outlined_ = {now_a, now_b, resolution};
+  return looked_at;
+}
+
+std::vector<CoordinationDiagram::Blocked> CoordinationDiagram::blocked(Duration now_a,
+                                                                       Duration now_b) const {
+  std::vector<Blocked> blocked;
+  for (const Cell& cell : cells_) {
+    if (cell.state == CellState::inner || cell.state == CellState::free) continue;
+    if (!remains(cell, now_a, now_b)) continue;
+    Blocked& leaf = blocked.emplace_back(Blocked{.box = box_of(cell), .found = {}});
+    if (cell.finding < 0) continue;
+    const Found& found = found_[static_cast<std::size_t>(cell.finding)];
+    leaf.found = finding_at(cell, found.pair, found.distance_m);
+    leaf.proven = proven(cell) != nullptr;
+  }
+  return blocked;
+}
+
+std::uint64_t CoordinationDiagram::refine_close_passes(const std::vector<ProgressBox>& areas,
+                                                       Duration finest, std::uint64_t budget) {
+  const auto meant = [&](const Cell& cell) {
+    const Duration a = a_->middle(cell.a);
+    const Duration b = b_->middle(cell.b);
+    return std::ranges::any_of(areas, [&](const ProgressBox& area) {
+      return area.from_a <= a && a <= area.to_a && area.from_b <= b && b <= area.to_b;
+    });
+  };
+  const auto open = [&](const Cell& cell) {
+    return cell.state == CellState::mixed && wider(cell, finest);
+  };
+  std::vector<int> leaves;
+  for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
+    if ((at(i).state == CellState::unknown || open(at(i))) && meant(at(i))) leaves.push_back(i);
+  }
+  const auto expand = [&](std::vector<int>& wide, std::vector<int>& unknown) {
+    for (const int index : wide) {
+      if (at(index).state == CellState::unknown) unknown.push_back(index);
+    }
+    for (const int index : wide) {
+      if (at(index).state == CellState::unknown) continue;
+      split_if_coarse(index, finest);
+      const Cell cell = at(index);
+      for (int c = 0; c < cell.child_count(); ++c) unknown.push_back(cell.children + c);
+    }
+  };
+  const auto follow = [&](const std::vector<int>& seen) {
+    std::vector<int> next;
+    for (const int leaf : seen) {
+      const Cell& cell = at(leaf);
+      if (cell.state == CellState::conflict || proven(cell) != nullptr) return std::vector<int>{};
+      if (open(cell)) next.push_back(leaf);
+    }
+    return next;
+  };
+  return refine_from(std::move(leaves), budget, expand, follow);
+}
+
+}  // namespace armloom

@@ -1,0 +1,149 @@
+#include "core/collision/diagram/motion_store.h"
+
+#include <algorithm>
+
+#include "core/trajectory/stopping_reach.h"
+
+namespace armloom {
+
+MotionStore::MotionStore(PlanningScenePtr scene)
+    : scene_(scene), links_(std::move(scene)), pair_scratch_(TubePair::make_scratch()) {
+  const std::size_t arms = scene_->cell().arms.size();
+  for (std::uint32_t a = 0; a < arms; ++a) {
+    arms_.push_back(std::make_shared<const ArmGeometry>(scene_->bodies(), ArmId{a}));
+    scratch_.push_back(MotionTube::make_scratch(*arms_.back()));
+  }
+  entries_.resize(arms);
+  look_at_still();
+}
+
+void MotionStore::look_at(PlanningScenePtr scene) {
+  if (!scene->holds_as(*scene_)) {
+    *this = MotionStore(std::move(scene));
+    return;
+  }
+  scene_ = std::move(scene);
+  look_at_still();
+}
+
+void MotionStore::look_at_still() {
+  with_still_.clear();
+  still_pairs_.clear();
+  still_ = std::make_shared<MotionTube>(
+      std::make_shared<const ArmGeometry>(scene_->bodies(), std::nullopt), nullptr,
+      scene_->cell().home(), 0.0);
+}
+
+void MotionStore::begin_question() {
+  ++question_;
+  for (auto& entries : entries_) {
+    if (entries.size() <= kKept) continue;
+    std::ranges::nth_element(entries, entries.begin() + kKept, std::ranges::greater{},
+                             [](const std::unique_ptr<Entry>& e) { return e->asked_at; });
+    for (std::size_t i = kKept; i < entries.size(); ++i) drop(*entries[i]);
+    entries.resize(kKept);
+  }
+}
+
+void MotionStore::drop(const Entry& entry) {
+  with_itself_.erase({&entry, &entry});
+  with_still_.erase({&entry, &entry});
+  for (Entry* other : entry.compared) {
+    between_.erase(entry.arm < other->arm ? Key{&entry, other} : Key{other, &entry});
+    std::erase(other->compared, &entry);
+  }
+}
+
+MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId arm,
+                                        const Configuration& rest, double tracking_error) {
+  const std::shared_ptr<const ArmGeometry>& geometry = arms_[arm.index()];
+  const auto stands_as = [&](const Entry& entry) {
+    for (std::size_t row = 0; row < entry.rest.size(); ++row) {
+      const JointId joint = geometry->linkage.joints()[row];
+      const bool moved = trajectory && std::ranges::find(trajectory->joints(), joint) !=
+                                           trajectory->joints().end();
+      const double stands = rest[static_cast<Eigen::Index>(joint.index())];
+      if (!moved && entry.rest[row] != stands) return false;
+    }
+    return true;
+  };
+  auto& entries = entries_[arm.index()];
+  for (const auto& entry : entries) {
+    if (entry->trajectory == trajectory && entry->tracking_error == tracking_error &&
+        stands_as(*entry)) {
+      entry->asked_at = question_;
+      return *entry;
+    }
+  }
+  auto entry = std::make_unique<Entry>(
+      Entry{arm,
+            trajectory,
+            {},
+            tracking_error,
+            std::make_shared<MotionTube>(geometry, trajectory, rest, tracking_error,
+                                         scratch_[arm.index()]),
+            trajectory ? stopping_reach_s(scene_->cell(), *trajectory) : 0.0,
+            question_});
+  for (const JointId joint : geometry->linkage.joints()) {
+    entry->rest.push_back(rest[static_cast<Eigen::Index>(joint.index())]);
+  }
+  entries.push_back(std::move(entry));
+  return *entries.back();
+}
+
+OrientedDiagram MotionStore::diagram(Diagrams& of, const Key& key, const Comparison& made) {
+  const TubePair::Setting setting{&made.scene.bodies(), &made.pairs, pair_scratch_};
+  auto& cells = of[key];
+  if (!cells) {
+    cells = std::make_unique<CoordinationDiagram>(TubePair(setting, key.first->tube, made.second));
+  }
+  return {*cells, setting, made.turned};
+}
+
+OrientedDiagram MotionStore::between(Entry& own, Entry& other) {
+  if (out_of_reach(own.arm, other.arm)) return {};
+  const bool turned = other.arm < own.arm;
+  Entry& a = turned ? other : own;
+  Entry& b = turned ? own : other;
+  const auto linkage = [&](ArmId arm) -> const ArmKinematics& {
+    return arms_[arm.index()]->linkage;
+  };
+  auto pairs = cross_.find({a.arm, b.arm});
+  if (pairs == cross_.end()) {
+    pairs = cross_
+                .emplace(std::pair(a.arm, b.arm),
+                         pairs_between(links_->bodies(), linkage(a.arm), linkage(b.arm)))
+                .first;
+  }
+  if (!between_.contains({&a, &b})) {
+    a.compared.push_back(&b);
+    b.compared.push_back(&a);
+  }
+  return diagram(between_, {&a, &b}, {*links_, pairs->second, b.tube, turned});
+}
+
+OrientedDiagram MotionStore::with_still(const Entry& own) {
+  auto pairs = still_pairs_.find(own.arm);
+  if (pairs == still_pairs_.end()) {
+    pairs = still_pairs_
+                .emplace(own.arm,
+                         pairs_between(scene_->bodies(), own.tube->linkage(), still_->linkage()))
+                .first;
+  }
+  return diagram(with_still_, {&own, &own}, {*scene_, pairs->second, still_});
+}
+
+OrientedDiagram MotionStore::with_itself(const Entry& own) {
+  return diagram(with_itself_, {&own, &own}, {*links_, own.tube->geometry().self, own.tube});
+}
+
+bool MotionStore::out_of_reach(ArmId a, ArmId b) const {
+  const ArmKinematics& one = arms_[a.index()]->linkage;
+  const ArmKinematics& other = arms_[b.index()]->linkage;
+  // Tracking errors and rounding are far below this.
+  constexpr double kSlack_m = 0.05;
+  return (one.root() - other.root()).norm() >
+         one.reach_m() + other.reach_m() + scene_->cell().clearance_m + kSlack_m;
+}
+
+}  // namespace armloom

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/collision/diagram/oriented_diagram.h"
+#include "core/collision/scene/planning_scene.h"
+
+namespace armloom {
+
+// Keeps the tubes of motions and rests, and the diagrams between them, while they are asked about.
+// What links and held objects do to each other outlives a change of the scene's objects. Not
+// thread-safe.
+class MotionStore {
+ public:
+  explicit MotionStore(PlanningScenePtr scene);
+
+  // Objects have changed, or what arms hold; the cell is the same. Everything is forgotten if the
+  // scene does not hold as the one before does (PlanningScene::holds_as).
+  void look_at(PlanningScenePtr scene);
+  [[nodiscard]] const PlanningScenePtr& scene() const { return scene_; }
+
+  // One arm's motion, or its rest.
+  struct Entry {
+    ArmId arm;
+    TrajectoryPtr trajectory;  // null: a rest
+    std::vector<double> rest;  // of the arm's joints, rows of its linkage
+    double tracking_error;
+    std::shared_ptr<MotionTube> tube;
+    double stopping_reach_s;
+    std::uint64_t asked_at;
+    std::vector<Entry*> compared = {};  // those that it has a diagram with
+
+    [[nodiscard]] Duration duration() const { return tube->duration(); }
+  };
+  // Of each arm kKept entries are kept, those that questions named last. References hold until the
+  // next begin_question().
+  inline static constexpr std::size_t kKept = 64;
+  void begin_question();
+  [[nodiscard]] Entry& motion(const TrajectoryPtr& trajectory, ArmId arm, const Configuration& rest,
+                              double tracking_error);
+
+  // Of two arms, empty where they are out of reach; of an arm and what stands still; of an arm and
+  // itself.
+  [[nodiscard]] OrientedDiagram between(Entry& own, Entry& other);
+  [[nodiscard]] OrientedDiagram with_still(const Entry& own);
+  [[nodiscard]] OrientedDiagram with_itself(const Entry& own);
+
+  // The arms cannot come closer than the cell's clearance, wherever they are.
+  [[nodiscard]] bool out_of_reach(ArmId a, ArmId b) const;
+
+ private:
+  using Key = std::pair<const Entry*, const Entry*>;  // of two arms; of one: twice the same
+  using Diagrams = std::map<Key, std::unique_ptr<CoordinationDiagram>>;
+  struct Comparison {
+    const PlanningScene& scene;
+    const PairSet& pairs;
+    std::shared_ptr<MotionTube> second;
+    bool turned = false;
+  };
+  [[nodiscard]] OrientedDiagram diagram(Diagrams& of, const Key& key, const Comparison& made);
+  void look_at_still();
+  void drop(const Entry& entry);
+
+  PlanningScenePtr scene_;
+  PlanningScenePtr links_;  // the scene that cross and self pairs were read from
+  std::vector<std::shared_ptr<const ArmGeometry>> arms_;
+  std::vector<std::shared_ptr<MotionTube::Scratch>> scratch_;  // by arm
+  std::shared_ptr<TubePair::Scratch> pair_scratch_;
+  std::shared_ptr<MotionTube> still_;
+  std::map<std::pair<ArmId, ArmId>, PairSet> cross_;
+  std::map<ArmId, PairSet> still_pairs_;                      // made when asked for
+  std::vector<std::vector<std::unique_ptr<Entry>>> entries_;  // by arm
+  Diagrams between_, with_still_, with_itself_;
+  std::uint64_t question_ = 0;
+};
+
+}  // namespace armloom

@@ -1,0 +1,197 @@
+#include "core/collision/diagram/motion_tube.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/collision/filter/kernels.h"
+
+namespace armloom {
+namespace {
+
+constexpr int kLanes = filter::kLanes;
+// Rounding of positions and times: far above what it can be, far below what matters.
+constexpr double kRounding = 1e-8;
+
+std::size_t lane_size(std::size_t rows) { return rows * static_cast<std::size_t>(kLanes); }
+
+}  // namespace
+
+struct MotionTube::Scratch {
+  std::vector<double> q;
+  std::vector<float> joint_span;  // [row][kLanes]
+  std::vector<float> span;        // [frame][kLanes]
+  std::vector<float> suffix;
+  std::vector<int> capsule_rows;  // in Block::inflation
+  std::vector<filter::Hit> hits;
+  Eigen::VectorXd position, lower, upper;
+};
+
+std::shared_ptr<MotionTube::Scratch> MotionTube::make_scratch(const ArmGeometry& geometry) {
+  const ArmKinematics& arm = geometry.linkage;
+  auto s = std::make_shared<Scratch>();
+  s->q.resize(lane_size(arm.joints().size()));
+  s->joint_span.resize(lane_size(arm.joints().size()));
+  s->span.resize(lane_size(arm.frames().size()));
+  s->suffix.resize(lane_size(static_cast<std::size_t>(arm.suffix_rows())));
+  s->capsule_rows.resize(arm.capsules().size());
+  std::iota(s->capsule_rows.begin(), s->capsule_rows.end(), 0);
+  s->hits.resize(geometry.self.pairs.size() + 1);
+  return s;
+}
+
+MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPtr trajectory,
+                       const Configuration& rest, double tracking_error,
+                       std::shared_ptr<Scratch> scratch)
+    : TimeTree(trajectory ? trajectory->duration() : Duration{}),
+      geometry_(std::move(geometry)),
+      trajectory_(std::move(trajectory)),
+      tracking_error_(tracking_error),
+      scratch_(scratch ? std::move(scratch) : make_scratch(*geometry_)) {
+  const ArmKinematics& arm = geometry_->linkage;
+  rest_.reserve(arm.joints().size());
+  column_.reserve(arm.joints().size());
+  for (const JointId joint : arm.joints()) {
+    rest_.push_back(rest[static_cast<Eigen::Index>(joint.index())]);
+    column_.push_back(-1);
+    if (!trajectory_) continue;
+    const auto& moved = trajectory_->joints();
+    const auto found = std::find(moved.begin(), moved.end(), joint);
+    if (found != moved.end()) column_.back() = static_cast<int>(found - moved.begin());
+  }
+}
+
+void MotionTube::configuration(Duration time, double* q) {
+  if (trajectory_) trajectory_->sample_positions(time, scratch_->position);
+  for (std::size_t row = 0; row < rest_.size(); ++row) {
+    q[row] = column_[row] < 0 ? rest_[row] : scratch_->position[column_[row]];
+  }
+}
+
+void MotionTube::place(std::span<const int> nodes) {
+  placements_.resize(size());
+  int batch[kLanes];
+  std::size_t count = 0;
+  for (const int node : nodes) {
+    Placement& to_place = placements_[static_cast<std::size_t>(node)];
+    if (to_place.placed) continue;
+    to_place.placed = true;
+    batch[count++] = node;
+    if (count == kLanes) {
+      place_batch({batch, count});
+      count = 0;
+    }
+  }
+  if (count > 0) place_batch({batch, count});
+}
+
+// The configuration in the middle of the interval, and how far each joint may be from it.
+void MotionTube::fill_lane(int node, int lane) {
+  Scratch& s = *scratch_;
+  if (trajectory_) {
+    trajectory_->sample_positions(middle(node), s.position);
+    trajectory_->enclose_positions(from(node), to(node), s.lower, s.upper);
+  }
+  for (std::size_t row = 0; row < rest_.size(); ++row) {
+    const std::size_t place = lane_size(row) + static_cast<std::size_t>(lane);
+    const int column = column_[row];
+    double span = tracking_error_;
+    if (column < 0) {
+      s.q[place] = rest_[row];
+    } else {
+      const double q = s.position[column];
+      s.q[place] = q;
+      span += std::max(s.upper[column] - q, q - s.lower[column]) + kRounding;
+    }
+    s.joint_span[place] = round_up(span);
+  }
+}
+
+void MotionTube::place_batch(std::span<const int> nodes) {
+  const ArmKinematics& arm = geometry_->linkage;
+  const filter::Kernel& kernel = filter::best_kernel();
+  Scratch& s = *scratch_;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const auto i = std::min(static_cast<std::size_t>(lane), nodes.size() - 1);
+    if (i == static_cast<std::size_t>(lane)) {
+      fill_lane(nodes[i], lane);
+      continue;
+    }
+    for (std::size_t row = 0; row < rest_.size(); ++row) {  // an unused lane: as the last one
+      const std::size_t to = lane_size(row) + static_cast<std::size_t>(lane);
+      s.q[to] = s.q[lane_size(row) + i];
+      s.joint_span[to] = s.joint_span[lane_size(row) + i];
+    }
+  }
+  for (std::size_t f = 0; f < arm.frames().size(); ++f) {
+    const filter::Frame& frame = arm.frames()[f];
+    const float scale = round_up(std::abs(frame.multiplier));
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const auto l = static_cast<std::size_t>(lane);
+      s.span[lane_size(f) + l] =
+          scale * s.joint_span[lane_size(static_cast<std::size_t>(frame.joint)) + l] * 1.000001F;
+    }
+  }
+  const std::size_t capsules = arm.capsules().size();
+  blocks_.push_back(std::make_unique<Block>());
+  Block& block = *blocks_.back();
+  block.capsules.resize(lane_size(capsules * 6));
+  block.inflation.resize(lane_size(capsules));
+  block.ball.resize(lane_size(4));
+  block.frames.resize(lane_size(arm.frames().size() * 12));
+  block.axes.resize(lane_size(arm.frames().size() * 6));
+  block.spans = s.span;
+  block.bends.resize(lane_size(capsules));
+  kernel.place(arm.view(), s.q.data(),
+               {block.frames.data(), block.axes.data(), block.capsules.data()});
+  kernel.inflate(arm.view(), block.axes.data(), block.capsules.data(), s.span.data(),
+                 s.suffix.data(), block.bends.data());
+  for (std::size_t c = 0; c < capsules; ++c) {
+    const auto row = static_cast<std::size_t>(arm.capsules()[c].suffix_begin);
+    std::copy_n(s.suffix.data() + lane_size(row), kLanes, block.inflation.data() + lane_size(c));
+  }
+  kernel.enclose(arm.view(), block.capsules.data(), block.inflation.data(), s.capsule_rows.data(),
+                 block.ball.data());
+  const filter::Side side{block.capsules.data(), s.suffix.data(), nullptr};
+  const unsigned lanes = (1U << nodes.size()) - 1U;
+  const int found =
+      kernel.near_pairs(side, side, geometry_->self.pairs.data(),
+                        static_cast<int>(geometry_->self.pairs.size()), {}, lanes, s.hits.data());
+  for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
+    Placement& node = placements_[static_cast<std::size_t>(nodes[lane])];
+    node.block = blocks_.size() - 1;
+    node.lane = lane;
+    node.self_begin = self_hits_.size();
+    for (int h = 0; h < found; ++h) {
+      const filter::Hit& hit = s.hits[static_cast<std::size_t>(h)];
+      if ((hit.lanes >> lane & 1U) == 0) continue;
+      self_hits_.push_back({hit.pair, hit.distance[lane], hit.inflation[lane]});
+    }
+    node.self_end = self_hits_.size();
+  }
+}
+
+void MotionTube::axes_of(int node, int frame, std::size_t skipped,
+                         std::vector<MovingAxis>& axes) const {
+  const Place place = place_of(node);
+  axes.clear();
+  for (const int f : linkage().ancestors(frame).subspan(skipped)) {
+    const auto at = static_cast<std::size_t>(f);
+    const double* X = place.frames() + lane_size(12 * at);
+    MovingAxis axis{
+        .z_W = {}, .p_WO = {}, .span = 0.0, .prismatic = linkage().frames()[at].prismatic};
+    for (int k = 0; k < 3; ++k) {
+      axis.z_W[k] = X[lane_size(static_cast<std::size_t>(6 + k))];
+      axis.p_WO[k] = X[lane_size(static_cast<std::size_t>(9 + k))];
+    }
+    axis.span = static_cast<double>(place.block->spans[lane_size(at) + place.lane]);
+    axes.push_back(axis);
+  }
+}
+
+std::span<const MotionTube::SelfHit> MotionTube::self_hits(int index) const {
+  const Placement& node = at(index);
+  return {self_hits_.data() + node.self_begin, node.self_end - node.self_begin};
+}
+
+}  // namespace armloom

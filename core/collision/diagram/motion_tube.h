@@ -1,0 +1,104 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/collision/diagram/sweep.h"
+#include "core/collision/diagram/time_tree.h"
+#include "core/collision/filter/pair_set.h"
+#include "core/trajectory/trajectory.h"
+
+namespace armloom {
+
+// The linkage of an arm, or of what stands still, with the pairs of its own parts.
+struct ArmGeometry {
+  ArmGeometry(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm)
+      : linkage(bodies, arm), self(arm ? pairs_between(bodies, linkage, linkage) : PairSet{}) {}
+  ArmKinematics linkage;
+  PairSet self;
+};
+
+// One arm's motion over its trajectory time, or what stands still. A node holds the arm at the
+// middle of its interval, and for each capsule how far any point of it may be from there during the
+// interval, `tracking_error` of each joint (rad, m) included. Nodes are kept: the motion's
+// comparisons with all others share them. Not thread-safe.
+class MotionTube : public TimeTree {
+ public:
+  // Joints of the arm that are not in the trajectory stand where `rest` (whole cell) has them;
+  // without a trajectory all do, and there is one node for all times.
+  // Tubes of one arm in one thread may share their scratch.
+  struct Scratch;
+  [[nodiscard]] static std::shared_ptr<Scratch> make_scratch(const ArmGeometry& geometry);
+  MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPtr trajectory,
+             const Configuration& rest, double tracking_error,
+             std::shared_ptr<Scratch> scratch = nullptr);
+
+  [[nodiscard]] const ArmKinematics& linkage() const { return geometry_->linkage; }
+  [[nodiscard]] const ArmGeometry& geometry() const { return *geometry_; }
+  [[nodiscard]] const TrajectoryPtr& trajectory() const { return trajectory_; }
+
+  // Computes nodes that are not yet (eight at once). Before it the functions below are undefined.
+  void place(std::span<const int> nodes);
+
+  // Eight nodes side by side, as the kernels have placed them.
+  struct Block {
+    std::vector<float> capsules;   // [capsule][6][kLanes]
+    std::vector<float> inflation;  // [capsule][kLanes]: motion bounds, m
+    std::vector<float> ball;       // [4][kLanes], filter::Side::ball
+    std::vector<double> frames;    // [frame][12][kLanes]
+    std::vector<float> axes;       // [frame][6][kLanes], filter::Placed::axes
+    std::vector<float> spans;      // [frame][kLanes]: how far its joint may be off, rad or m
+    std::vector<float> bends;      // [capsule][kLanes], filter::Joints::bend
+  };
+  struct Place {
+    const Block* block;
+    std::size_t lane;
+    [[nodiscard]] const double* frames() const { return block->frames.data() + lane; }
+  };
+  [[nodiscard]] Place place_of(int node) const {
+    return {blocks_[at(node).block].get(), at(node).lane};
+  }
+  // The axes of the node that carry what a frame of the linkage carries, base to tip, without the
+  // first `skipped`.
+  void axes_of(int node, int frame, std::size_t skipped, std::vector<MovingAxis>& axes) const;
+  // Pairs of the arm's own links (ArmGeometry::self) that are undecided over the interval; the
+  // motion bound is that against each other.
+  struct SelfHit {
+    int pair;
+    float distance;
+    float inflation;
+  };
+  [[nodiscard]] std::span<const SelfHit> self_hits(int node) const;
+
+  // The configuration at a trajectory time, rows as ArmKinematics::joints.
+  void configuration(Duration time, double* q);
+
+ private:
+  struct Placement {  // of a node
+    bool placed = false;
+    std::size_t block = 0;
+    std::size_t lane = 0;
+    std::size_t self_begin = 0;
+    std::size_t self_end = 0;
+  };
+  [[nodiscard]] const Placement& at(int node) const {
+    return placements_[static_cast<std::size_t>(node)];
+  }
+  void place_batch(std::span<const int> nodes);
+  void fill_lane(int node, int lane);
+
+  std::shared_ptr<const ArmGeometry> geometry_;
+  TrajectoryPtr trajectory_;
+  std::vector<int> column_;   // by row: index in the trajectory's joints, or -1
+  std::vector<double> rest_;  // by row
+  double tracking_error_;
+  std::vector<Placement> placements_;
+  std::vector<std::unique_ptr<Block>> blocks_;
+  std::vector<SelfHit> self_hits_;
+
+  std::shared_ptr<Scratch> scratch_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,79 @@
+#include "core/collision/diagram/part_sweep.h"
+
+#include <optional>
+
+#include "core/collision/state/part_groups.h"
+
+namespace armloom {
+namespace {
+
+using Eigen::Vector3d;
+
+bool bodies_keep_apart(const MovingPart& a, const ConvexShape& body_a,
+                       const PlacedConvexShape& at_a, const MovingPart& b,
+                       const ConvexShape& body_b, const PlacedConvexShape& at_b, double limit_m,
+                       double enough_m) {
+  const double reach_m = enough_m + body_a.bounding_radius_m() + body_b.bounding_radius_m();
+  if ((at_a.segment.center - at_b.segment.center).squaredNorm() >= reach_m * reach_m) return true;
+  if (lower_bound(body_a, at_a, body_b, at_b).distance_m >= enough_m) return true;
+  const std::optional<Separation> apart = separation(body_a, at_a, body_b, at_b);
+  if (!apart) return false;
+  if (apart->distance_m >= enough_m) return true;
+  if (apart->distance_m < limit_m) return false;
+  return swept_gap(body_a, at_a, a.axes, body_b, at_b, b.axes, apart->n_W) >= limit_m;
+}
+
+// All pieces of two groups, each convex.
+bool groups_keep_apart(const std::vector<ConvexShape>& bodies, const MovingPart& a,
+                       const PartGroups& of_a, const MovingPart& b, const PartGroups& of_b,
+                       double limit_m, double enough_m) {
+  PlacedConvexShape own_a;
+  PlacedConvexShape own_b;
+  for (std::size_t i = of_a.begin(); i < of_a.end(); ++i) {
+    const PlacedConvexShape& at_a = of_a.placed(i, own_a);
+    for (std::size_t j = of_b.begin(); j < of_b.end(); ++j) {
+      const PlacedConvexShape& at_b = of_b.placed(j, own_b);
+      if (!bodies_keep_apart(a, bodies[i], at_a, b, bodies[j], at_b, limit_m, enough_m)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+// Their surfaces: where no two triangles can meet, neither comes to be inside of the other.
+bool surfaces_keep_apart(const MovingPart& a, const PartGroups& of_a, const MovingPart& b,
+                         const PartGroups& of_b, double limit_m, double enough_m) {
+  const Solid& solid_a = of_a.solid();
+  const Solid& solid_b = of_b.solid();
+  const auto kept = [&](const TrianglePoints& at_a, const TrianglePoints& at_b,
+                        const Vector3d& n_W) {
+    return -Sweep(a.axes, n_W).reach(at_a, solid_a.radius_m) -
+               Sweep(b.axes, -n_W).reach(at_b, solid_b.radius_m) >=
+           limit_m;
+  };
+  return all_apart(solid_a, of_a.X_WT(), solid_b, of_b.X_WT(), enough_m, kept);
+}
+
+}  // namespace
+
+double swept_gap(const ConvexShape& a, const PlacedConvexShape& at_a,
+                 std::span<const MovingAxis> axes_a, const ConvexShape& b,
+                 const PlacedConvexShape& at_b, std::span<const MovingAxis> axes_b,
+                 const Vector3d& n_W) {
+  return -Sweep(axes_a, n_W).reach(a, at_a) - Sweep(axes_b, -n_W).reach(b, at_b);
+}
+
+bool keep_apart(const std::vector<ConvexShape>& bodies, const MovingPart& a, const MovingPart& b,
+                double limit_m, double enough_m) {
+  for (PartGroups of_a(bodies, a.at); !of_a.ended(); of_a.next()) {
+    for (PartGroups of_b(bodies, b.at); !of_b.ended(); of_b.next()) {
+      if (groups_keep_apart(bodies, a, of_a, b, of_b, limit_m, enough_m)) continue;
+      if (!of_a.are_pieces() && !of_b.are_pieces()) return false;
+      if (!surfaces_keep_apart(a, of_a, b, of_b, limit_m, enough_m)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace armloom

@@ -1,0 +1,115 @@
+#include "core/collision/diagram/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace armloom {
+namespace {
+
+using Eigen::Vector3d;
+
+// Of some ten roundings of coordinates of a few metres.
+constexpr double kRounding_m = 1e-13;
+
+}  // namespace
+
+Sweep::Sweep(std::span<const MovingAxis> axes, const Vector3d& n_W) : axes_(axes), n_(n_W) {
+  moments_.reserve(axes.size());
+  for (const MovingAxis& axis : axes) {
+    if (axis.prismatic) {
+      shifts_m_ += axis.span * std::abs(n_.dot(axis.z_W));
+      continue;
+    }
+    const Vector3d m = axis.span * n_.cross(axis.z_W);
+    moments_.push_back({m, m.dot(axis.p_WO)});
+    turn_ += m.norm();
+  }
+}
+
+// n . p with what the joints may add to it, to first order.
+double Sweep::at(const Vector3d& p_W) const {
+  double sum = n_.dot(p_W) + shifts_m_;
+  for (const Moment& moment : moments_) sum += std::abs(moment.m.dot(p_W) - moment.offset);
+  return sum;
+}
+
+// What a ball adds to at() of its centre: for each choice of signs at() is linear with the slope
+// n + sum +-m, all m across n.
+double Sweep::round(double radius_m) const { return radius_m * std::hypot(1.0, turn_); }
+
+// The second sum (class comment) for points within radius_m of the centre.
+double Sweep::remainder(const Vector3d& center_W, double radius_m) const {
+  double sum = 0.0;
+  double turned = 0.0;  // by the axes before
+  for (const MovingAxis& axis : axes_) {
+    if (axis.prismatic) {
+      sum += axis.span * turned;
+      continue;
+    }
+    const double lever_m = axis.z_W.cross(center_W - axis.p_WO).norm() + radius_m;
+    sum += axis.span * lever_m * (0.5 * axis.span + turned);
+    turned += axis.span;
+  }
+  return sum + kRounding_m;
+}
+
+// The rim of a flat end about its centre: as round(), with what of the slope lies in the disc.
+double Sweep::of_cylinder(const ConvexShape& body, const PlacedConvexShape& placed) const {
+  const Vector3d along = placed.X_WS.linear().col(2);
+  const Vector3d across = n_ - n_.dot(along) * along;
+  double squared = across.squaredNorm() + turn_ * turn_;
+  for (const Moment& moment : moments_) squared += 2.0 * std::abs(across.dot(moment.m));
+  const Vector3d& center = placed.segment.center;
+  return std::max(at(center + placed.segment.half), at(center - placed.segment.half)) +
+         body.radius_m * std::sqrt(squared);
+}
+
+double Sweep::of_box(const ConvexShape& body, const PlacedConvexShape& placed) const {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Vector3d p = body.half_size_m;
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((corner >> k & 1U) != 0) p[k] = -p[k];
+    }
+    largest = std::max(largest, at(placed.X_WS * p));
+  }
+  return largest;
+}
+
+double Sweep::of_hull(const ConvexShape& body, const PlacedConvexShape& placed) const {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const Vector3d& p : body.hull->hull.vertices) {
+    largest = std::max(largest, at(placed.X_WS * p));
+  }
+  return largest;
+}
+
+double Sweep::reach(const ConvexShape& body, const PlacedConvexShape& placed) const {
+  const Vector3d& center = placed.segment.center;
+  const double rest = remainder(center, body.bounding_radius_m());
+  switch (body.kind) {
+    case ConvexShapeKind::box:
+      return of_box(body, placed) + rest;
+    case ConvexShapeKind::cylinder:
+      return of_cylinder(body, placed) + rest;
+    case ConvexShapeKind::hull:
+      return of_hull(body, placed) + rest;
+    case ConvexShapeKind::round:
+      break;
+  }
+  return std::max(at(center + placed.segment.half), at(center - placed.segment.half)) +
+         round(body.radius_m) + rest;
+}
+
+double Sweep::reach(std::span<const Vector3d> p_W, double radius_m) const {
+  double largest = -std::numeric_limits<double>::infinity();
+  double size_m = 0.0;
+  for (const Vector3d& p : p_W) {
+    largest = std::max(largest, at(p));
+    size_m = std::max(size_m, (p - p_W.front()).norm());
+  }
+  return largest + round(radius_m) + remainder(p_W.front(), size_m + radius_m);
+}
+
+}  // namespace armloom

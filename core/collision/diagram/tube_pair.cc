@@ -1,0 +1,252 @@
+#include "core/collision/diagram/tube_pair.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/collision/diagram/part_sweep.h"
+#include "core/collision/filter/kernels.h"
+#include "core/collision/state/part_distance.h"
+
+namespace armloom {
+namespace {
+
+constexpr int kLanes = filter::kLanes;
+using Block = MotionTube::Block;
+
+}  // namespace
+
+// Nodes of one tube that lie apart, side by side.
+struct TubePair::Gathered {
+  std::vector<float> capsules, inflation, ball, axes, spans, bends;  // as MotionTube::Block
+};
+
+// What is at hand: nodes to be filtered, what is open of one of them, one state.
+struct TubePair::Scratch {
+  Gathered a, b;
+  std::vector<filter::Hit> hits, box_hits;
+  int hit_count = 0, box_hit_count = 0;
+  std::vector<int> nodes_a, nodes_b;
+  filter::Side side_a;
+  std::vector<Undecided> undecided;
+  std::vector<MovingAxis> axes_a, axes_b;
+  std::vector<double> point_a, point_b, q;  // frames and joints of one state
+};
+
+// The nodes of a batch in their tube, lane by lane.
+struct TubePair::Batch {
+  const MotionTube& tube;
+  Gathered& to;
+  std::array<MotionTube::Place, kLanes> of{};
+  std::size_t count;
+  filter::Side side;
+
+  Batch(const MotionTube& tube_of, const std::vector<int>& nodes, Gathered& gathered)
+      : tube(tube_of), to(gathered), count(nodes.size()) {
+    for (std::size_t lane = 0; lane < count; ++lane) of[lane] = tube.place_of(nodes[lane]);
+    side = {rows(&Block::capsules, to.capsules), rows(&Block::inflation, to.inflation),
+            rows(&Block::ball, to.ball)};
+  }
+  // The block that they are, in its order; null: they are none. That of a rest has it in all lanes.
+  [[nodiscard]] const Block* as_block() const {
+    if (tube.size() == 1) return of[0].block;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if (of[lane].block != of[0].block || of[lane].lane != lane) return nullptr;
+    }
+    return of[0].block;
+  }
+  // Every row of them: the block's own where they are one.
+  [[nodiscard]] const float* rows(std::vector<float> Block::*member,
+                                  std::vector<float>& gathered) const {
+    if (const Block* block = as_block()) return (block->*member).data();
+    gathered.resize(std::max(gathered.size(), (of[0].block->*member).size()));
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::vector<float>& from = of[lane].block->*member;
+      for (std::size_t row = 0; row < from.size(); row += kLanes) {
+        gathered[row + lane] = from[row + of[lane].lane];
+      }
+    }
+    return gathered.data();
+  }
+  // Nothing moves what stands still.
+  [[nodiscard]] filter::Joints joints(const filter::ArmKinematics& linkage) const {
+    if (linkage.frame_count == 0) return {};
+    return {&linkage, rows(&Block::axes, to.axes), rows(&Block::spans, to.spans),
+            rows(&Block::bends, to.bends)};
+  }
+};
+
+std::shared_ptr<TubePair::Scratch> TubePair::make_scratch() { return std::make_shared<Scratch>(); }
+
+TubePair::TubePair(Setting setting, std::shared_ptr<MotionTube> a, std::shared_ptr<MotionTube> b)
+    : setting_(std::move(setting)), a_(std::move(a)), b_(std::move(b)) {
+  Scratch& s = *setting_.scratch;
+  const auto make_room = [](auto& of, std::size_t size) { of.resize(std::max(of.size(), size)); };
+  make_room(s.hits, setting_.pairs->pairs.size() + 1);
+  make_room(s.box_hits, setting_.pairs->boxes.size() + 1);
+  make_room(s.point_a, a_->linkage().frames().size() * 12);
+  make_room(s.point_b, b_->linkage().frames().size() * 12);
+  make_room(s.q, std::max(a_->linkage().joints().size(), b_->linkage().joints().size()));
+}
+
+// Of the pairs that bounds of their motion leave open, those that stay so along the direction that
+// parts them. Returns their number.
+int TubePair::left_open(const Batch& a, const Batch& b, int hits) {
+  if (hits == 0) return 0;
+  Scratch& s = *setting_.scratch;
+  const filter::ArmKinematics linkage_a = a_->linkage().view();
+  const filter::ArmKinematics linkage_b = b_->linkage().view();
+  const filter::Joints of_a = a.joints(linkage_a);
+  const filter::Joints of_b = b.joints(linkage_b);
+  const filter::Kernel& kernel = filter::best_kernel();
+  int left = 0;
+  for (int h = 0; h < hits; ++h) {
+    filter::Hit& hit = s.hits[static_cast<std::size_t>(h)];
+    const filter::Pair& pair = setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)];
+    hit.lanes &= ~kernel.keep_apart(a.side, of_a, b.side, of_b, pair, hit.lanes);
+    if (hit.lanes == 0) continue;
+    if (left != h) s.hits[static_cast<std::size_t>(left)] = hit;
+    ++left;
+  }
+  return left;
+}
+
+void TubePair::filter(std::span<const Nodes> batch) {
+  Scratch& s = *setting_.scratch;
+  s.nodes_a.clear();
+  s.nodes_b.clear();
+  for (const Nodes& nodes : batch) {
+    s.nodes_a.push_back(nodes.a);
+    s.nodes_b.push_back(nodes.b);
+  }
+  a_->place(s.nodes_a);
+  if (is_self()) return;  // its tube has filtered them
+  b_->place(s.nodes_b);
+  const Batch a(*a_, s.nodes_a, s.a);
+  const Batch b(*b_, s.nodes_b, s.b);
+  s.side_a = a.side;
+  const PairSet& set = *setting_.pairs;
+  const filter::Kernel& kernel = filter::best_kernel();
+  const unsigned lanes = (1U << batch.size()) - 1U;
+  const int found =
+      kernel.near_pairs(a.side, b.side, set.pairs.data(), static_cast<int>(set.pairs.size()),
+                        set.grouped(), lanes, s.hits.data());
+  s.hit_count = left_open(a, b, found);
+  s.box_hit_count = kernel.near_boxes(a.side, set.boxes.data(), static_cast<int>(set.boxes.size()),
+                                      lanes, s.box_hits.data());
+}
+
+std::vector<TubePair::Undecided>& TubePair::undecided(std::size_t lane) {
+  Scratch& s = *setting_.scratch;
+  const PairSet& set = *setting_.pairs;
+  s.undecided.clear();
+  const auto add = [&](int entry, bool box, double distance_m, double moves_a_m, double moves_m) {
+    const NarrowPair& pair = narrow(entry, box);
+    const PartPair& parts = setting_.bodies->pairs[pair.pair.index()];
+    const double slack_m = setting_.bodies->parts[parts.a].capsule_overestimate_m +
+                           setting_.bodies->parts[parts.b].capsule_overestimate_m;
+    s.undecided.push_back(
+        {entry, box, distance_m, moves_a_m, moves_m - moves_a_m, pair.limit_m, slack_m});
+  };
+  if (is_self()) {
+    for (const MotionTube::SelfHit& hit : a_->self_hits(s.nodes_a[lane])) {
+      add(hit.pair, false, hit.distance, hit.inflation, hit.inflation);
+    }
+    return s.undecided;
+  }
+  const auto add_all = [&](const std::vector<filter::Hit>& hits, int count, bool box) {
+    for (const filter::Hit& hit : std::span(hits).first(static_cast<std::size_t>(count))) {
+      if ((hit.lanes >> lane & 1U) == 0) continue;
+      const auto entry = static_cast<std::size_t>(hit.pair);
+      const auto row =
+          static_cast<std::size_t>(box ? set.boxes[entry].row_a : set.pairs[entry].row_a);
+      add(hit.pair, box, hit.distance[lane], s.side_a.inflation[row * kLanes + lane],
+          hit.inflation[lane]);
+    }
+  };
+  add_all(s.hits, s.hit_count, false);
+  add_all(s.box_hits, s.box_hit_count, true);
+  return s.undecided;
+}
+
+const NarrowPair& TubePair::narrow(int entry, bool box) const {
+  const auto i = static_cast<std::size_t>(entry);
+  return box ? setting_.pairs->narrow_boxes[i] : setting_.pairs->narrow[i];
+}
+
+const KinematicPart& TubePair::part_a(const NarrowPair& pair) const {
+  return a_->linkage().parts()[static_cast<std::size_t>(pair.part_a)];
+}
+const KinematicPart& TubePair::part_b(const NarrowPair& pair) const {
+  return b_->linkage().parts()[static_cast<std::size_t>(pair.part_b)];
+}
+
+double TubePair::distance(const NarrowPair& pair, Nodes at, double limit_m) const {
+  const KinematicPart& a = part_a(pair);
+  const KinematicPart& b = part_b(pair);
+  return part_distance(*setting_.bodies, a.part, part_pose(a, a_->place_of(at.a).frames(), kLanes),
+                       b.part, part_pose(b, b_->place_of(at.b).frames(), kLanes), limit_m);
+}
+
+bool TubePair::keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, double enough_m) {
+  const KinematicPart& a = part_a(pair);
+  const KinematicPart& b = part_b(pair);
+  std::size_t common = 0;  // what moves both does not part them
+  if (is_self()) {
+    const auto of_a = a_->linkage().ancestors(a.frame);
+    const auto of_b = a_->linkage().ancestors(b.frame);
+    common = static_cast<std::size_t>(std::ranges::mismatch(of_a, of_b).in1 - of_a.begin());
+  }
+  Scratch& s = *setting_.scratch;
+  a_->axes_of(at.a, a.frame, common, s.axes_a);
+  b_->axes_of(at.b, b.frame, common, s.axes_b);
+  const std::vector<Part>& parts = setting_.bodies->parts;
+  return keep_apart(setting_.bodies->bodies,
+                    {{parts[a.part], part_pose(a, a_->place_of(at.a).frames(), kLanes)}, s.axes_a},
+                    {{parts[b.part], part_pose(b, b_->place_of(at.b).frames(), kLanes)}, s.axes_b},
+                    limit_m, enough_m);
+}
+
+void TubePair::place(Duration time_a, Duration time_b) {
+  Scratch& s = *setting_.scratch;
+  a_->configuration(time_a, s.q.data());
+  place_frames(a_->linkage(), s.q.data(), s.point_a.data());
+  b_->configuration(is_self() ? time_a : time_b, s.q.data());
+  place_frames(b_->linkage(), s.q.data(), s.point_b.data());
+}
+
+double TubePair::placed_distance(const NarrowPair& pair, double limit_m) const {
+  const KinematicPart& a = part_a(pair);
+  const KinematicPart& b = part_b(pair);
+  const Scratch& s = *setting_.scratch;
+  return part_distance(*setting_.bodies, a.part, part_pose(a, s.point_a.data()), b.part,
+                       part_pose(b, s.point_b.data()), limit_m);
+}
+
+std::vector<TubePair::Close> TubePair::too_close_at(Duration time_a, Duration time_b) {
+  place(time_a, time_b);
+  std::vector<Close> close;
+  for (const auto* pairs : {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
+    for (std::size_t i = 0; i < pairs->size(); ++i) {
+      const NarrowPair& pair = (*pairs)[i];
+      if (i > 0 && pair.pair == (*pairs)[i - 1].pair) continue;  // another capsule of the same
+      const double distance_m = placed_distance(pair, pair.limit_m);
+      if (distance_m < pair.limit_m) close.push_back({pair.pair, distance_m});
+    }
+  }
+  return close;
+}
+
+TubePair::Close TubePair::closest_at(Duration time_a, Duration time_b) {
+  place(time_a, time_b);
+  Close closest{PairId{0}, std::numeric_limits<double>::infinity()};
+  for (const auto* pairs : {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
+    for (const NarrowPair& pair : *pairs) {
+      const double distance_m = placed_distance(pair, closest.distance_m);
+      if (distance_m < closest.distance_m) closest = {pair.pair, distance_m};
+    }
+  }
+  return closest;
+}
+
+}  // namespace armloom

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/collision/diagram/motion_tube.h"
+
+namespace armloom {
+
+// The tubes of two motions and the pairs of parts that are held apart: of two arms, of an arm and
+// what stands still, or of an arm and itself (both tubes are one). Not thread-safe.
+class TubePair {
+ public:
+  // Of the batch or state at hand: one may serve all pairs of a thread.
+  struct Scratch;
+  [[nodiscard]] static std::shared_ptr<Scratch> make_scratch();
+  // Scene and pairs must outlive the pair (they are held by its owner).
+  struct Setting {
+    const PlanningScene::Bodies* bodies;
+    const PairSet* pairs;
+    std::shared_ptr<Scratch> scratch;
+  };
+  TubePair(Setting setting, std::shared_ptr<MotionTube> a, std::shared_ptr<MotionTube> b);
+  // The same motions in another setting.
+  [[nodiscard]] TubePair with(Setting setting) const { return {std::move(setting), a_, b_}; }
+
+  [[nodiscard]] const std::shared_ptr<MotionTube>& a() const { return a_; }
+  [[nodiscard]] const std::shared_ptr<MotionTube>& b() const { return b_; }
+  [[nodiscard]] bool is_self() const { return a_ == b_; }
+
+  // One node of each; of an arm and itself twice the same.
+  struct Nodes {
+    int a;
+    int b;
+  };
+  // A pair of capsules that the filter leaves open while both are within their nodes.
+  struct Undecided {
+    int narrow;  // in PairSet::narrow, or narrow_boxes
+    bool box;
+    double distance_m;  // lower bound at the middle
+    double moves_a_m;   // within the node
+    double moves_b_m;
+    double limit_m;
+    double slack_m;  // by how much the exact distance may be above the bound
+
+    [[nodiscard]] double moves_m() const { return moves_a_m + moves_b_m; }
+  };
+  // Places and filters up to eight; undecided() then tells what is open of each, until the next
+  // call.
+  void filter(std::span<const Nodes> batch);
+  [[nodiscard]] std::vector<Undecided>& undecided(std::size_t of_batch);
+  // What stands behind it.
+  [[nodiscard]] const NarrowPair& narrow(int entry, bool box) const;
+
+  // min(exact distance at the middle of both nodes, limit_m).
+  [[nodiscard]] double distance(const NarrowPair& pair, Nodes at, double limit_m) const;
+  // Whether the pair keeps its limit all over both nodes where the bodies that come into question
+  // are enough_m apart at the middle or do not come that close along their direction.
+  [[nodiscard]] bool keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, double enough_m);
+
+  struct Close {
+    PairId pair;
+    double distance_m;
+  };
+  // Puts both at these trajectory times, for the three below.
+  void place(Duration time_a, Duration time_b);
+  [[nodiscard]] double placed_distance(const NarrowPair& pair, double limit_m) const;
+  // Every pair that is closer than its limit there, exactly; and the closest pair.
+  [[nodiscard]] std::vector<Close> too_close_at(Duration time_a, Duration time_b);
+  [[nodiscard]] Close closest_at(Duration time_a, Duration time_b);
+
+ private:
+  struct Gathered;
+  struct Batch;
+  [[nodiscard]] int left_open(const Batch& a, const Batch& b, int hits);
+  [[nodiscard]] const KinematicPart& part_a(const NarrowPair& pair) const;
+  [[nodiscard]] const KinematicPart& part_b(const NarrowPair& pair) const;
+
+  Setting setting_;
+  std::shared_ptr<MotionTube> a_;
+  std::shared_ptr<MotionTube> b_;
+};
+
+}  // namespace armloom

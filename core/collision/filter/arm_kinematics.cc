@@ -1,0 +1,233 @@
+#include "core/collision/filter/arm_kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/collision/scene/scene_bodies.h"
+#include "core/model/kinematics.h"
+
+namespace armloom {
+namespace {
+
+// A rotation that takes z to the axis.
+Eigen::Matrix3d z_to(const Eigen::Vector3d& axis) {
+  if (axis == Eigen::Vector3d::UnitZ()) return Eigen::Matrix3d::Identity();
+  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
+}
+
+// Right angles leave numbers like 6e-17 and 1 - 1e-16.
+double without_dust(double x) {
+  const double whole = std::round(x);
+  return std::abs(x - whole) < 1e-14 ? whole : x;
+}
+
+// How far a prismatic joint can push what it carries.
+double travel(const Cell& cell, const Link& link) {
+  if (link.motion != JointKind::prismatic) return 0.0;
+  const Joint& joint = cell.joint(*link.driver);
+  const double farthest = std::max(std::abs(joint.lower), std::abs(joint.upper));
+  return std::abs(link.multiplier) * farthest + std::abs(link.offset);
+}
+
+}  // namespace
+
+float round_up(double x) {
+  const auto rounded = static_cast<float>(x);
+  return static_cast<double>(rounded) >= x
+             ? rounded
+             : std::nextafter(rounded, std::numeric_limits<float>::infinity());
+}
+
+ArmKinematics::ArmKinematics(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm)
+    : arm_(arm) {
+  const Cell& cell = *bodies.cell;
+  std::vector<int> seen(cell.links.size(), 0);
+  std::vector<Carried> carried(cell.links.size());
+  LinkPoses X_WL;
+  if (!arm) forward_kinematics(cell, cell.home(), X_WL);
+  for (std::size_t part = 0; part < bodies.parts.size(); ++part) {
+    const Part& own = bodies.parts[part];
+    if (own.arm != arm) continue;
+    add_part(bodies, part,
+             arm ? carry(cell, *own.carrier, seen, carried) : Carried{.X_FL = own.pose(X_WL)});
+  }
+  for (filter::Capsule& capsule : capsules_) {
+    if (arm) {
+      const auto frame = static_cast<std::size_t>(capsule.frame);
+      capsule.ancestors_begin = ancestors_begin_[frame];
+      capsule.depth = depth_[frame];
+    }
+    capsule.suffix_begin = suffix_rows_;
+    suffix_rows_ += capsule.depth + 1;
+  }
+}
+
+ArmKinematics::Carried ArmKinematics::carry(const Cell& cell, LinkId id, std::vector<int>& seen,
+                                            std::vector<Carried>& carried) {
+  if (seen[id.index()] != 0) return carried[id.index()];
+  const Link& link = cell.link(id);
+  const Carried parent = link.parent ? carry(cell, *link.parent, seen, carried) : Carried{};
+  const Eigen::Isometry3d X_FJ = parent.X_FL * link.X_PJ;
+  Carried here{parent.frame, X_FJ,
+               parent.reach_m + link.X_PJ.translation().norm() + travel(cell, link),
+               parent.from_root_m + link.X_PJ.translation().norm() + travel(cell, link)};
+  if (link.driver) {
+    const Eigen::Matrix3d R = z_to(link.axis);
+    auto row = std::find(joints_.begin(), joints_.end(), *link.driver);
+    if (row == joints_.end()) row = joints_.insert(row, *link.driver);
+    filter::Frame frame{.parent = parent.frame,
+                        .joint = static_cast<int>(row - joints_.begin()),
+                        .prismatic = link.motion == JointKind::prismatic,
+                        .about_x = false,
+                        .multiplier = link.multiplier,
+                        .offset = link.offset,
+                        .C = {}};
+    Eigen::Map<Eigen::Matrix<double, 3, 4>> C(frame.C);
+    C.leftCols<3>() = X_FJ.linear() * R;
+    C.col(3) = X_FJ.translation();
+    C = C.unaryExpr([](double x) { return without_dust(x); });
+    frame.about_x = C.col(0) == Eigen::Vector3d::UnitX();
+    if (parent.frame < 0) {
+      if (frames_.empty()) root_ = X_FJ.translation();
+      here.from_root_m = (X_FJ.translation() - root_).norm() + travel(cell, link);
+    }
+    here.frame = static_cast<int>(frames_.size());
+    here.X_FL = Eigen::Isometry3d::Identity();
+    here.X_FL.linear() = R.transpose();
+    const auto begin = static_cast<int>(ancestors_.size());
+    int depth = 1;
+    if (parent.frame >= 0) {
+      const auto from = static_cast<std::size_t>(parent.frame);
+      depth += depth_[from];
+      for (int k = 0; k < depth_[from]; ++k) {
+        ancestors_.push_back(ancestors_[static_cast<std::size_t>(ancestors_begin_[from] + k)]);
+      }
+    }
+    ancestors_.push_back(here.frame);
+    ancestors_begin_.push_back(begin);
+    depth_.push_back(depth);
+    frames_.push_back(frame);
+  }
+  extent_m_ = std::max(extent_m_, here.reach_m);
+  seen[id.index()] = 1;
+  return carried[id.index()] = here;
+}
+
+void ArmKinematics::add_part(const PlanningScene::Bodies& bodies, std::size_t index,
+                             const Carried& carried) {
+  const Part& part = bodies.parts[index];
+  KinematicPart added{.part = index,
+                      .frame = carried.frame,
+                      .X_FP = part.held() ? carried.X_FL * part.X_CP : carried.X_FL,
+                      .capsules_begin = static_cast<int>(capsules_.size()),
+                      .capsules_end = 0};
+  for (const LinkCapsule& capsule : part.capsules) {
+    filter::Capsule c = kernel_capsule(added.X_FP, capsule.p_PA, capsule.p_PB, capsule.radius_m);
+    c.frame = carried.frame;
+    capsules_.push_back(c);
+    const auto from_link = [&part](const Eigen::Vector3d& p_P) {
+      return part.held() ? (part.X_CP * p_P).norm() : p_P.norm();
+    };
+    const double far =
+        std::max(from_link(capsule.p_PA), from_link(capsule.p_PB)) + capsule.radius_m;
+    extent_m_ = std::max(extent_m_, carried.reach_m + far);
+    reach_m_ = std::max(reach_m_, carried.from_root_m + far);
+  }
+  added.capsules_end = static_cast<int>(capsules_.size());
+  parts_.push_back(added);
+}
+
+filter::ArmKinematics ArmKinematics::view() const {
+  return {frames_.data(), static_cast<int>(frames_.size()), capsules_.data(),
+          static_cast<int>(capsules_.size()), ancestors_.data()};
+}
+
+std::span<const int> ArmKinematics::ancestors(int frame) const {
+  if (frame < 0) return {};
+  const auto f = static_cast<std::size_t>(frame);
+  return {ancestors_.data() + ancestors_begin_[f], static_cast<std::size_t>(depth_[f])};
+}
+
+int ArmKinematics::common_ancestors(int capsule_a, int capsule_b) const {
+  const filter::Capsule& a = capsules_[static_cast<std::size_t>(capsule_a)];
+  const filter::Capsule& b = capsules_[static_cast<std::size_t>(capsule_b)];
+  const int* of_a = ancestors_.data() + a.ancestors_begin;
+  const int* of_b = ancestors_.data() + b.ancestors_begin;
+  const int least = std::min(a.depth, b.depth);
+  return static_cast<int>(std::mismatch(of_a, of_a + least, of_b).first - of_a);
+}
+
+void place_frames(const ArmKinematics& linkage, const double* q, double* frames) {
+  using Columns = Eigen::Map<Eigen::Matrix<double, 3, 4>>;
+  using ConstColumns = Eigen::Map<const Eigen::Matrix<double, 3, 4>>;
+  for (std::size_t f = 0; f < linkage.frames().size(); ++f) {
+    const filter::Frame& frame = linkage.frames()[f];
+    Columns X(frames + 12 * f);
+    const ConstColumns C(frame.C);
+    if (frame.parent < 0) {
+      X = C;
+    } else {
+      const ConstColumns parent(frames + 12 * frame.parent);
+      X.noalias() = parent.leftCols<3>() * C;
+      X.col(3) += parent.col(3);
+    }
+    const double value = frame.multiplier * q[frame.joint] + frame.offset;
+    if (frame.prismatic) {
+      X.col(3) += X.col(2) * value;
+    } else {
+      const double s = std::sin(value);
+      const double c = std::cos(value);
+      const Eigen::Vector3d x = X.col(0);
+      X.col(0) = x * c + X.col(1) * s;
+      X.col(1) = X.col(1) * c - x * s;
+    }
+  }
+}
+
+Eigen::Isometry3d part_pose(const KinematicPart& part, const double* frames, int stride) {
+  if (part.frame < 0) return part.X_FP;
+  Eigen::Isometry3d X_WF = Eigen::Isometry3d::Identity();
+  const double* from = frames + 12 * stride * part.frame;
+  for (int i = 0; i < 9; ++i) X_WF.linear()(i % 3, i / 3) = from[i * stride];
+  for (int i = 0; i < 3; ++i) X_WF.translation()[i] = from[(9 + i) * stride];
+  return X_WF * part.X_FP;
+}
+
+filter::Capsule kernel_capsule(const Eigen::Isometry3d& X_FP, const Eigen::Vector3d& p_PA,
+                               const Eigen::Vector3d& p_PB, double radius_m) {
+  filter::Capsule capsule{};
+  capsule.frame = -1;
+  const Eigen::Vector3d center = X_FP * Eigen::Vector3d(0.5 * (p_PA + p_PB));
+  const Eigen::Vector3d half = X_FP.linear() * (0.5 * (p_PB - p_PA));
+  for (int i = 0; i < 3; ++i) {
+    capsule.center[i] = without_dust(center[i]);
+    capsule.half[i] = without_dust(half[i]);
+  }
+  capsule.radius_up = round_up(radius_m);
+  capsule.ball_up = round_up(radius_m + 0.5 * (p_PB - p_PA).norm() + 1e-6);
+  return capsule;
+}
+
+filter::Pair kernel_pair(int a, const filter::Capsule& at_a, int b, const filter::Capsule& at_b,
+                         double limit_m, double margin_m) {
+  const double half_a = Eigen::Map<const Eigen::Vector3d>(at_a.half).norm();
+  const double half_b = Eigen::Map<const Eigen::Vector3d>(at_b.half).norm();
+  const auto inverse = [](double half) {
+    return half > 1e-9 ? static_cast<float>(1.0 / (half * half)) : 0.0F;
+  };
+  return {.a = a,
+          .b = b,
+          .row_a = a,
+          .row_b = b,
+          .limit_up = round_up(limit_m),
+          .radii_up = round_up(static_cast<double>(at_a.radius_up) + at_b.radius_up + margin_m),
+          .ends_up = round_up(half_a + half_b + 1e-6),
+          .end_b_up = round_up(half_b + 1e-5),
+          .aa = static_cast<float>(half_a * half_a),
+          .bb = static_cast<float>(half_b * half_b),
+          .inv_aa = inverse(half_a),
+          .inv_bb = inverse(half_b)};
+}
+
+}  // namespace armloom

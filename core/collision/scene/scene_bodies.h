@@ -1,0 +1,109 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/collision/geometry/capsule_fit.h"
+#include "core/collision/geometry/convex_shape.h"
+#include "core/collision/scene/pair_limits.h"
+#include "core/collision/scene/planning_scene.h"
+#include "core/coordination/proximity.h"
+#include "core/coordination/verdict.h"
+#include "core/model/attachment.h"
+#include "core/model/cell.h"
+#include "core/model/kinematics.h"
+
+namespace armloom {
+
+// A link with shapes, a box of one that stands still, or an object, held or not: what is placed as
+// one, with its bodies.
+struct Part {
+  std::string name;
+  std::optional<LinkId> link;     // none: an object
+  std::optional<LinkId> carrier;  // what it moves with: the link itself, or that which holds it
+  std::optional<ArmId> arm;       // that moves it; none: it stands still
+  std::optional<RobotId> robot;   // none: an object that stands still
+  // In the carrier, or in the world if it has none; of a link the identity.
+  Eigen::Isometry3d X_CP = Eigen::Isometry3d::Identity();
+  std::size_t bodies_begin = 0;  // range in Bodies::bodies
+  std::size_t bodies_end = 0;
+  Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // centre and radius of its bounding sphere
+  double radius_m = 0.0;
+  bool has_pieces = false;            // of a closed mesh, among its bodies
+  bool lone_box = false;              // its only body is a box: a sphere says little about a table
+  std::vector<LinkCapsule> capsules;  // one or two, in P; each body lies in one (link_capsules.h)
+  double capsule_overestimate_m = 0.0;  // how far they stand off the bodies
+
+  [[nodiscard]] bool held() const { return carrier && !link; }
+  // `X_WL`: of all links.
+  [[nodiscard]] Eigen::Isometry3d pose(const LinkPoses& X_WL) const {
+    if (!carrier) return X_CP;
+    return link ? X_WL[carrier->index()] : X_WL[carrier->index()] * X_CP;
+  }
+};
+
+// The evidence of two parts that are `clearance_m` apart.
+[[nodiscard]] inline Proximity proximity_of(const Part& a, const Part& b, double clearance_m) {
+  return {a.name, b.name, a.arm, b.arm, !b.carrier, clearance_m, a.held(), b.held()};
+}
+
+// Two parts that must not touch. The first belongs to the group's first arm.
+struct PartPair {
+  std::size_t a;
+  std::size_t b;
+};
+
+// A clearance of zero still forbids contact, where distances are zero.
+inline constexpr double kTouching_m = 1e-9;
+
+// All pairs of one counterpart: judged or skipped together. The kind is what limits, conflicts, the
+// monitor and all figures go by.
+struct PairGroup {
+  enum class Kind {
+    arms,   // links of two arms, with what they hold
+    still,  // an arm against all that stands still: objects and links, but for its mount
+    mount,  // an arm against its mount: scene too, but for the limit (Cell::is_mount)
+    self,   // an arm against itself: what it moves and holds, and what else Cell::is_own
+  };
+  Kind kind;
+  ArmId arm;
+  std::optional<ArmId> other;   // Kind::arms only, and larger than arm
+  std::size_t pairs_begin = 0;  // range in Bodies::pairs
+  std::size_t pairs_end = 0;
+
+  [[nodiscard]] double limit_m(const PairLimits& limits) const {
+    const double limit_m = kind == Kind::self ? limits.self_clearance_m
+                           : kind == Kind::mount
+                               ? std::min(limits.mount_clearance_m, limits.clearance_m)
+                               : limits.clearance_m;
+    return std::max(limit_m, kTouching_m);
+  }
+};
+
+// Pairs are in the order of their groups: arms by (arm, other), then still and mount by arm, then
+// self by arm; in a group by link, then held object, then object.
+struct PlanningScene::Bodies {
+  CellPtr cell;
+  std::vector<CollisionObject> objects;
+  std::shared_ptr<const std::vector<Attachment>> attachments;  // shared while objects change
+  std::vector<Part> parts;    // links in the order of their ids, then held objects, then objects
+  std::size_t links_end = 0;  // parts before it are links
+  std::size_t held_end = 0;   // parts from links_end to it are held
+  std::vector<ConvexShape> bodies;
+  std::vector<PartPair> pairs;
+  std::vector<PairGroup> groups;
+  std::vector<std::vector<std::size_t>> parts_of_arm;  // by ArmId
+
+  [[nodiscard]] const PairGroup& group_of(PairId pair) const {
+    return *std::ranges::upper_bound(groups, pair.index(), {}, &PairGroup::pairs_end);
+  }
+};
+
+}  // namespace armloom

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/problem.h"
+#include "core/model/attachment.h"
+#include "core/model/cell.h"
+
+namespace armloom {
+
+// What is wrong with what a scene shall be made of (planning_scene.h has what may not be); with
+// pointers "/objects/<index>/..." and "/attachments/<index>/...".
+void find_link_problems(const Cell& cell, Problems& problems);
+void find_object_problems(const std::vector<CollisionObject>& objects,
+                          const std::vector<Attachment>& held, Problems& problems);
+void find_unknown_allowed(const Cell& cell, Problems& problems);
+void find_attachment_problems(const Cell& cell, const std::vector<CollisionObject>& objects,
+                              const std::vector<Attachment>& attachments, Problems& problems);
+
+}  // namespace armloom

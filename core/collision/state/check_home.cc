@@ -1,0 +1,56 @@
+#include "core/collision/state/check_home.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "core/collision/state/clearance_query.h"
+#include "core/model/findings.h"
+
+namespace armloom {
+namespace {
+
+std::string home_pointer(const Cell& cell, ArmId arm) {
+  const RobotId robot = cell.arm(arm).robot;
+  const std::vector<ArmId>& arms = cell.robots[robot.index()].arms;
+  const auto place = std::find(arms.begin(), arms.end(), arm) - arms.begin();
+  return "/robots/" + std::to_string(robot.index()) + "/arms/" + std::to_string(place) + "/home";
+}
+
+}  // namespace
+
+Problems check_home(const PlanningScenePtr& scene) {
+  const Cell& cell = scene->cell();
+  ClearanceQuery query(scene);
+  Problems problems;
+  for (const NearPair& pair : query.near_pairs(cell.home())) {
+    const Proximity proximity = query.describe(pair);
+    const bool self = query.is_self(pair.pair);
+    const bool mount = query.is_mount(pair.pair) && cell.mount_clearance_m;
+    char figures[120];
+    std::snprintf(figures, sizeof figures, ": %.4f m apart at home, %s is %.4f",
+                  proximity.clearance_m,
+                  self    ? "self_clearance_m"
+                  : mount ? "mount_clearance_m"
+                          : "clearance_m",
+                  proximity.limit_m);
+    std::string remedy =
+        self ? " (where these always are so close add to the SRDF <disable_collisions link1=\"" +
+                   proximity.body_a + "\" link2=\"" + proximity.body_b +
+                   "\" reason=\"Adjacent\"/>, with the names there; else give another \"home\")"
+             : " (give another \"home\", or place one of them elsewhere)";
+    if (query.is_mount(pair.pair) && proximity.clearance_m > 0.0) {
+      remedy = " (" + proximity.body_b + " carries the arm: where it passes this link so closely " +
+               "by design, and not a table, add \"mount_clearance_m\": " +
+               text_of(std::floor(proximity.clearance_m * 1000.0) / 1000.0) + " to the cell)";
+    }
+    problems.push_back({ProblemKind::invalid, "home-conflict", home_pointer(cell, *proximity.arm_a),
+                        proximity.body_a + " and " + proximity.body_b + figures + remedy,
+                        proximity.clearance_m});
+  }
+  return problems;
+}
+
+}  // namespace armloom

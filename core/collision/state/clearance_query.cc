@@ -1,0 +1,230 @@
+#include "core/collision/state/clearance_query.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/collision/state/placed_cell.h"
+#include "core/model/kinematics.h"
+
+namespace armloom {
+namespace {
+
+constexpr auto kLanes = static_cast<std::size_t>(filter::kLanes);
+
+bool includes(const PairGroup& group, const std::vector<bool>& arms) {
+  return arms[group.arm.index()] || (group.other && arms[group.other->index()]);
+}
+
+}  // namespace
+
+struct ClearanceQuery::Scratch {
+  // A pair that the filter leaves open in one lane.
+  struct Open {
+    PlacedPart a;
+    PlacedPart b;
+    double limit_m;
+    std::size_t lane;
+  };
+  // A pair that the filter leaves open in a single state.
+  struct Candidate {
+    double least_m;  // no distance is below it
+    std::size_t pair;
+  };
+
+  PlanningScenePtr scene;
+  const PlanningScene::Bodies& bodies;
+  PlacedCell placed;
+  std::vector<Open> open;  // of meshes, which take long
+  LinkPoses X_WL;
+  std::vector<Candidate> candidates;
+
+  Scratch(PlanningScenePtr s, const PairLimits& limits)
+      : scene(std::move(s)), bodies(scene->bodies()), placed(bodies, limits) {}
+
+  // ---- Many states ----
+
+  [[nodiscard]] bool closer_than_limit(const Open& o) const {
+    return parts_closer_than(bodies.bodies, o.a, o.b, o.limit_m);
+  }
+
+  // Adds lanes in which one of the hits is too close indeed. Meshes that balls do not settle are
+  // left open: most states that are too close have some pair that overlaps deeply.
+  void decide_soon(const PlacedCell::Comparison& c, std::span<const filter::Hit> found,
+                   const std::vector<NarrowPair>& narrow, unsigned& close) {
+    for (const filter::Hit& hit : found) {
+      const NarrowPair& pair = narrow[static_cast<std::size_t>(hit.pair)];
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const unsigned bit = 1U << lane;
+        if ((hit.lanes & ~close & bit) == 0) continue;
+        const Open o{placed.part(c.a, pair.part_a, lane), placed.part(c.b, pair.part_b, lane),
+                     pair.limit_m, lane};
+        const bool meshes = o.a.part.has_pieces || o.b.part.has_pieces;
+        if (meshes ? parts_surely_closer_than(bodies.bodies, o.a, o.b, o.limit_m)
+                   : closer_than_limit(o)) {
+          close |= bit;
+        } else if (meshes) {
+          open.push_back(o);
+        }
+      }
+    }
+  }
+
+  unsigned too_close(std::span<const Configuration* const> states) {
+    placed.place(states);
+    const unsigned all = (1U << states.size()) - 1U;
+    unsigned close = 0;
+    open.clear();
+    for (const PlacedCell::Comparison& c : placed.comparisons()) {
+      if (close == all) return close;
+      placed.filter(c, all & ~close,
+                    [&](auto found, const auto& narrow) { decide_soon(c, found, narrow, close); });
+    }
+    for (const Open& o : open) {
+      const unsigned bit = 1U << o.lane;
+      if ((~close & bit) != 0 && closer_than_limit(o)) close |= bit;
+    }
+    return close;
+  }
+
+  // ---- One state ----
+
+  // By pair, of the groups that `wanted` names.
+  template <class Wanted>
+  void find_candidates(const Configuration& q, const Wanted& wanted) {
+    const Configuration* const state[] = {&q};
+    forward_kinematics(*bodies.cell, q, X_WL);
+    placed.place(state);
+    candidates.clear();
+    for (const PlacedCell::Comparison& c : placed.comparisons()) {
+      placed.filter(c, 1U, [&](auto found, const auto& narrow) {
+        for (const filter::Hit& hit : found) {
+          const PairId pair = narrow[static_cast<std::size_t>(hit.pair)].pair;
+          if (!wanted(bodies.group_of(pair))) continue;
+          candidates.push_back({static_cast<double>(hit.distance[0]), pair.index()});
+        }
+      });
+    }
+    std::ranges::sort(candidates, {},
+                      [](const Candidate& c) { return std::pair(c.pair, c.least_m); });
+    const auto doubled = std::ranges::unique(candidates, {}, &Candidate::pair);
+    candidates.erase(doubled.begin(), doubled.end());
+  }
+
+  // min(distance of the pair, limit)
+  [[nodiscard]] double distance(std::size_t pair, double limit_m) const {
+    const Part& a = bodies.parts[bodies.pairs[pair].a];
+    const Part& b = bodies.parts[bodies.pairs[pair].b];
+    return part_distance(bodies.bodies, {a, a.pose(X_WL)}, {b, b.pose(X_WL)}, limit_m);
+  }
+
+  // The closest pair of the group, when closer than the limit. What keeps the others from it is
+  // asked last.
+  [[nodiscard]] std::optional<NearPair> closest(const PairGroup& group, double limit_m) {
+    std::optional<NearPair> found;
+    const double asked_m = limit_m;
+    const auto begin =
+        std::ranges::lower_bound(candidates, group.pairs_begin, {}, &Candidate::pair);
+    const auto end = std::ranges::lower_bound(candidates, group.pairs_end, {}, &Candidate::pair);
+    std::sort(begin, end, [](const Candidate& x, const Candidate& y) {
+      return std::pair(x.least_m, x.pair) < std::pair(y.least_m, y.pair);
+    });
+    for (auto at = begin; at != end && at->least_m < limit_m; ++at) {
+      const double d = distance(at->pair, limit_m);
+      if (d >= limit_m) continue;
+      limit_m = d;
+      found = {PairId{static_cast<std::uint32_t>(at->pair)}, d, asked_m};
+    }
+    // Other groups are found by pair.
+    std::sort(begin, end, [](const Candidate& x, const Candidate& y) { return x.pair < y.pair; });
+    return found;
+  }
+};
+
+ClearanceQuery::ClearanceQuery(PlanningScenePtr scene)
+    : ClearanceQuery(scene, PairLimits::of(scene->cell())) {}
+ClearanceQuery::ClearanceQuery(PlanningScenePtr scene, const PairLimits& limits)
+    : scratch_(std::make_unique<Scratch>(std::move(scene), limits)) {}
+ClearanceQuery::ClearanceQuery(ClearanceQuery&&) noexcept = default;
+ClearanceQuery& ClearanceQuery::operator=(ClearanceQuery&&) noexcept = default;
+ClearanceQuery::~ClearanceQuery() = default;
+
+const PlanningScene& ClearanceQuery::scene() const { return *scratch_->scene; }
+void ClearanceQuery::set_limits(const PairLimits& limits) { scratch_->placed.set_limits(limits); }
+
+unsigned ClearanceQuery::too_close(std::span<const Configuration* const> states) {
+  return scratch_->too_close(states);
+}
+
+void ClearanceQuery::near_pairs(const Configuration& q, const std::vector<bool>& of,
+                                const std::vector<bool>& moved, std::vector<NearPair>& near) {
+  near.clear();
+  scratch_->find_candidates(
+      q, [&](const PairGroup& group) { return includes(group, of) && includes(group, moved); });
+  for (const auto& [least_m, pair] : scratch_->candidates) {
+    const PairId id{static_cast<std::uint32_t>(pair)};
+    const double limit_m = scratch_->bodies.group_of(id).limit_m(scratch_->placed.limits());
+    const double d = scratch_->distance(pair, limit_m);
+    if (d < limit_m) near.push_back({id, d, limit_m});
+  }
+}
+
+std::vector<NearPair> ClearanceQuery::near_pairs(const Configuration& q) {
+  const std::vector<bool> all(scene().cell().arms.size(), true);
+  std::vector<NearPair> near;
+  near_pairs(q, all, all, near);
+  return near;
+}
+
+bool ClearanceQuery::looks_at(PairId pair, const std::vector<bool>& of,
+                              const std::vector<bool>& moved) const {
+  const PairGroup& group = scratch_->bodies.group_of(pair);
+  return includes(group, of) && includes(group, moved);
+}
+
+std::vector<Proximity> ClearanceQuery::closest_too_close(const Configuration& q) {
+  scratch_->find_candidates(q, [](const PairGroup&) { return true; });
+  std::vector<Proximity> found;
+  for (const PairGroup& group : scratch_->bodies.groups) {
+    const auto pair = scratch_->closest(group, group.limit_m(scratch_->placed.limits()));
+    if (pair) found.push_back(describe(*pair));
+  }
+  return found;
+}
+
+std::vector<Proximity> ClearanceQuery::closest_apart(const Configuration& q, double horizon_m) {
+  const PairLimits limits = scratch_->placed.limits();
+  set_limits({horizon_m, 0.0, horizon_m});
+  using Kind = PairGroup::Kind;
+  scratch_->find_candidates(q, [](const PairGroup& group) { return group.kind != Kind::self; });
+  std::vector<Proximity> found;
+  for (const PairGroup& group : scratch_->bodies.groups) {
+    if (group.kind == Kind::self) continue;
+    // The mount is one of the things that stand still, whose group comes just before.
+    const bool goes_on = group.kind == Kind::mount && !found.empty() && !found.back().arm_b &&
+                         found.back().arm_a == group.arm;
+    const auto pair = scratch_->closest(group, goes_on ? found.back().clearance_m : horizon_m);
+    if (!pair) continue;
+    if (goes_on) found.pop_back();
+    found.push_back(describe(*pair));
+  }
+  set_limits(limits);
+  return found;
+}
+
+Proximity ClearanceQuery::describe(const NearPair& near) const {
+  const PartPair& pair = scratch_->bodies.pairs[near.pair.index()];
+  Proximity proximity = proximity_of(scratch_->bodies.parts[pair.a], scratch_->bodies.parts[pair.b],
+                                     near.clearance_m);
+  proximity.limit_m = near.limit_m;
+  return proximity;
+}
+
+bool ClearanceQuery::is_self(PairId pair) const {
+  return scratch_->bodies.group_of(pair).kind == PairGroup::Kind::self;
+}
+
+bool ClearanceQuery::is_mount(PairId pair) const {
+  return scratch_->bodies.group_of(pair).kind == PairGroup::Kind::mount;
+}
+
+}  // namespace armloom
