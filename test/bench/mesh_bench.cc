@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/collision/filter/kernel.h"
 #include "core/collision/state/clearance_query.h"
 #include "test/bench/mesh_cells.h"
 #include "test/bench/run_benchmarks.h"

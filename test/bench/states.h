@@ -5,6 +5,7 @@
 
 #include "core/collision/scene/planning_scene.h"
 #include "core/collision/state/clearance_query.h"
+#include "core/model/kinematics.h"
 #include "test/bench/moveit_way.h"
 
 namespace armloom::bench {

@@ -44,7 +44,7 @@ std::size_t Lane::squares() const {
   return sum;
 }
 
-JoinedDiagram::JoinedDiagram(const CellPtr& cell) : rest_(cell->home()), arbiter_(scene_of(cell)) {}
+JoinedDiagram::JoinedDiagram(const CellPtr& cell) : rest_(cell->home()), checker_(scene_of(cell)) {}
 
 Lane JoinedDiagram::lane_of(ArmId arm, const std::vector<Work>& work) {
   Lane lane{arm, {}};
@@ -83,7 +83,7 @@ const JoinedDiagram::Row& JoinedDiagram::between(const Lane::Leg& a, const Lane:
 }
 
 JoinedDiagram::Row JoinedDiagram::drawn(const Lane::Leg& a, const Lane::Leg& b) {
-  const Diagram diagram = arbiter_.draw(a.motion, b.motion, rest_, 0.0, kSquare, kBudget);
+  const Diagram diagram = checker_.draw({a.motion, b.motion, rest_, 0.0, kSquare, kBudget});
   std::vector<std::int64_t> conflict(a.squares * b.squares);
   std::vector<std::int64_t> free(conflict.size());
   for (const DiagramCell& cell : diagram.layers.at(0).cells) {

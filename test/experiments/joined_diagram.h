@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/collision/arbiter.h"
+#include "core/collision/check/motion_checker.h"
 #include "test/experiments/lower_bound.h"
 
 namespace armloom::experiments {
@@ -24,9 +24,9 @@ struct Lane {
 };
 
 // The coordination diagram of all motions of one arm against all of another's, in squares of
-// kSquare: the cells of the diagrams of pairs (Arbiter::draw, no wider than that where they are
-// decided; each pair of motions once) laid on them. Clearance is the cell's clearance_m, and arms
-// are exactly on their paths. Not thread-safe.
+// kSquare: the cells of the diagrams of pairs (MotionChecker::draw, no wider than that where they
+// are decided; each pair of motions once) laid on them. Clearance is the cell's clearance_m, and
+// arms are exactly on their paths. Not thread-safe.
 class JoinedDiagram {
  public:
   inline static constexpr Duration kSquare = std::chrono::milliseconds(10);
@@ -51,7 +51,7 @@ class JoinedDiagram {
   [[nodiscard]] Row drawn(const Lane::Leg& a, const Lane::Leg& b);
 
   Configuration rest_;
-  Arbiter arbiter_;
+  MotionChecker checker_;
   std::map<std::pair<const Trajectory*, const Trajectory*>, Row> blocks_;  // row by row
 };
 

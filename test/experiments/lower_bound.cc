@@ -4,6 +4,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "core/collision/filter/kernel.h"
 #include "core/collision/state/clearance_query.h"
 #include "test/experiments/open_places.h"
 

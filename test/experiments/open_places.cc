@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/collision/filter/kernel.h"
+
 namespace armloom::experiments {
 namespace {
 
@@ -13,7 +15,7 @@ ClearanceQuery check_of(const CellPtr& cell) {
   auto scene = PlanningScene::build(cell);
   if (!scene) throw std::runtime_error(scene.error().front().detail);
   return ClearanceQuery(*scene, {cell->clearance_m + OpenPlaces::kMargin_m,
-                             cell->self_clearance_m + OpenPlaces::kSelfMargin_m});
+                                 cell->self_clearance_m + OpenPlaces::kSelfMargin_m});
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "core/collision/state_check.h"
+#include "core/collision/state/clearance_query.h"
 #include "test/experiments/open_places.h"
 #include "test/experiments/shortest_way.h"
 #include "test/experiments/workloads.h"
@@ -128,7 +128,7 @@ double own_s(const std::vector<Work>& work, ArmId arm) {
 // are decided one by one, nothing is known of diagrams.
 std::optional<double> optimum_by_trying(const CellPtr& cell, const std::vector<Work>& work,
                                         Duration step) {
-  StateCheck check(*PlanningScene::build(cell));
+  ClearanceQuery check(*PlanningScene::build(cell));
   std::vector<std::vector<Configuration>> moments(2);
   for (const Work& part : work) {
     for (Duration time{}; time < part.motion->duration(); time += step) {

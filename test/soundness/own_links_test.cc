@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "core/collision/arbiter.h"
+#include "core/collision/check/motion_checker.h"
 #include "test/bench/states.h"
 #include "test/collision/small_cell.h"
 #include "test/soundness/concave_meshes.h"
@@ -28,7 +28,7 @@ CellPtr folding_arm() {
 TEST(OwnLinks, KeepTheirDistanceWithJointsOffTheirPaths) {
   const CellPtr cell = folding_arm();
   const PlanningScenePtr scene = PlanningScene::build(cell).value();
-  Arbiter arbiter(scene);
+  MotionChecker checker(scene);
   bench::ExactScene exact(cell);
   std::mt19937_64 random(57);
   const std::vector<double> straight(kJoints, 0.0);
@@ -37,8 +37,7 @@ TEST(OwnLinks, KeepTheirDistanceWithJointsOffTheirPaths) {
     for (const double q : bent) end.push_back(share * q);
     const Motion motion{
         JobId{1}, small::sweep(*cell, {ArmId{0}}, straight, end, std::chrono::seconds(2)), {}};
-    return arbiter
-               .judge({1, TimePoint{}, {motion}, {}, cell->home(), Certified{{}, false, kOff_rad}})
+    return checker.judge({1, TimePoint{}, {motion}, {}, cell->home(), Coordinated{kOff_rad}})
                .kind == Verdict::Kind::free;
   };
   int folded = 0;
