@@ -47,6 +47,8 @@ export interface components {
                  * @enum {string}
                  */
                 on_idle_blocker: "report" | "park";
+                /** @description Of each arm so many jobs are admitted together, the one under way included; who passes first is chosen for all of them (coordinated only). */
+                horizon_legs: number;
             };
             /** @description The watch over the measured state of all arms. */
             monitor: {
