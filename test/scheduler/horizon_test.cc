@@ -93,6 +93,23 @@ TEST_F(Horizon, WhoStallsLosesItsTurn) {
   EXPECT_LT(bench.authority(first), 4s);
 }
 
+// Nearer to the place than the other one, which goes slowly: if it went on now, it would be first.
+TEST_F(Horizon, WhoStallsIsExpectedToStandOn) {
+  const auto [first, second] = meet();
+  for (Duration progress = 100ms; progress <= 1600ms; progress += 100ms) {
+    bench.progressed(first, progress + 800ms, now += 50ms);
+    bench.progressed(second, progress, now += 50ms);
+    bench.step(Wake{}, now);
+  }
+  for (Duration progress = 1610ms; progress <= 2s; progress += 10ms) {
+    bench.progressed(second, progress, now += 100ms);
+    bench.step(Wake{}, now);
+  }
+  ASSERT_LT(bench.authority(first), 4s);
+  bench.progressed(second, 3800ms, now += 1ms);  // before anything is weighed again
+  EXPECT_GT(bench.authority(second), 4s);
+}
+
 TEST_F(Horizon, WhoIsStoppedLosesItsTurn) {
   const auto [first, second] = meet();
   bench.step(Stop{{ArmId{0}}, "operator"}, now += 1ms);
