@@ -10,6 +10,7 @@
 #include "core/arm/simulated_arm.h"
 #include "core/collision/state/check_home.h"
 #include "core/executive/executive_impl.h"
+#include "core/executive/timeline.h"
 
 namespace armloom {
 namespace {
@@ -268,6 +269,9 @@ Result<void> Executive::remove_fault(std::uint64_t id) { return impl_->remove_fa
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
 Snapshot Executive::snapshot(std::size_t ended_max) const { return impl_->snapshot(ended_max); }
 std::vector<ArmView> Executive::arms() const { return impl_->arms(); }
+TimelineView Executive::timeline() const {
+  return timeline_of(impl_->scheduler_, impl_->now_, *impl_->cell_, *impl_);
+}
 TimePoint Executive::now() const { return impl_->now_; }
 bool Executive::all_ended() const { return impl_->active_ == 0; }
 bool Executive::settled() const { return impl_->settled(); }

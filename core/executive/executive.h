@@ -20,6 +20,8 @@
 
 namespace armloom {
 
+struct TimelineView;
+
 // A job as a client asks for it, its JSON already read.
 struct JobRequest {
   std::string key;  // the client's id; empty: one is given ("job-17")
@@ -179,6 +181,8 @@ class Executive {
   // With the `ended_max` jobs that ended last, at most.
   [[nodiscard]] Snapshot snapshot(std::size_t ended_max = ~std::size_t{0}) const;
   [[nodiscard]] std::vector<ArmView> arms() const;
+  // When each arm is expected to do what is admitted (timeline.h).
+  [[nodiscard]] TimelineView timeline() const;
   [[nodiscard]] TimePoint now() const;
   [[nodiscard]] bool all_ended() const;  // no job is active
   // Time alone changes nothing any more: every arm stands until it gets a command, and no timeout

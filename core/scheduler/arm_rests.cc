@@ -66,8 +66,8 @@ void ArmRests::rest_at_goal(const WaitingLeg& leg) {
 
 std::optional<Wait> ArmRests::stop_of(const Job& job) const {
   for (ArmId arm : job.trajectory->arms()) {
-    const auto& cause = stopped_[arm.index()];
-    if (cause) return Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = *cause};
+    const auto& stop = stopped_[arm.index()];
+    if (stop) return Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop->cause};
   }
   return std::nullopt;
 }

@@ -139,7 +139,8 @@ void come_to_rest(State& state, Record& record, const MotionReport& report) {
     state.arms.rest_at_goal(record.leg);
     end(state, record, JobState::succeeded, Reason::completed, "");
   } else if (report.kind == MotionReport::Kind::faulted) {
-    for (ArmId arm : job.trajectory->arms()) state.arms.stop(arm, "fault: " + report.detail);
+    const std::string cause = "fault: " + report.detail;
+    for (ArmId arm : job.trajectory->arms()) state.arms.stop(arm, cause, state.now);
     end(state, record, JobState::failed, Reason::arm_fault, report.detail);
   } else if (after.then != Then::hold) {
     end_as(state, record, after, "braked on its path");
@@ -162,7 +163,7 @@ void stop_arms(State& state, const Stop& stop) {
   ++state.version;  // an answer that is under way shall start nothing on these arms
   state.lanes.renew_later();
   for (ArmId arm : stop.arms) {
-    if (!state.arms.is_stopped(arm)) state.arms.stop(arm, stop.cause);
+    if (!state.arms.is_stopped(arm)) state.arms.stop(arm, stop.cause, state.now);
     if (state.jobs.queue(arm).empty()) continue;
     Record& record = state.jobs.at(state.jobs.queue(arm).front());
     if (record.job.in<Moving>() == nullptr) continue;  // undispatched: keeps its place

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scheduler/admission.h"
+#include "core/scheduler/horizon/timeline.h"
 #include "core/scheduler/inputs.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/state.h"
@@ -48,6 +49,11 @@ class Scheduler {
   // is admitted, from now. Nothing: not, as things stand.
   [[nodiscard]] std::optional<Duration> earliest_start(const Question& question,
                                                        const Verdict& verdict) const;
+
+  // When what is admitted is expected to move.
+  [[nodiscard]] PredictedTimeline timeline(TimePoint now) const {
+    return predicted_timeline(state_, now);
+  }
 
   [[nodiscard]] const Job* find(JobId job) const;   // null: unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission

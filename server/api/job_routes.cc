@@ -6,6 +6,7 @@
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job.h"
+#include "server/messages/timeline.h"
 
 namespace armloom {
 namespace {
@@ -103,6 +104,14 @@ void get_queue(Call call) {
       });
 }
 
+void get_timeline(Call call) {
+  ask(
+      call.parts, [](Executive& executive) { return executive.timeline(); },
+      [respond = call.respond](const TimelineView& timeline) {
+        respond(answer(200, timeline_format(), timeline));
+      });
+}
+
 Route of_one(const char* method, const char* path, const char* id, const char* summary) {
   return {.method = method, .path = api_path(path), .id = id, .tag = "jobs", .summary = summary};
 }
@@ -155,7 +164,17 @@ std::vector<Route> job_routes() {
   queue.outcomes = {
       outcome(200, "Queue, backlog with reasons, scheduled, running", queue_format())};
   queue.run = get_queue;
-  return {list, get, cancel, diagram, queue};
+
+  Route timeline = of_one("GET", "/timeline", "getTimeline", "When each arm is expected to move");
+  timeline.text =
+      "Of every arm the legs that are admitted, with the times that follow from who passes first, "
+      "if everything goes as fast as its trajectory says; their pauses, and for whom. What stands "
+      "for a reason of its own (late, stalled, stopped until it is resumed) is expected to do so "
+      "for as long again as it has. Orders may be chosen anew when something comes otherwise, or "
+      "something else comes: a prediction, no promise.";
+  timeline.outcomes = {outcome(200, "Lane by lane, as things are", timeline_format())};
+  timeline.run = get_timeline;
+  return {list, get, cancel, diagram, queue, timeline};
 }
 
 }  // namespace armloom

@@ -23,14 +23,13 @@ std::optional<TimePoint> stands_since(const Job& job) {
   return stopped ? std::optional(job.progress_seen_at) : std::nullopt;
 }
 
-// Zero: it moves, or waits for others.
-Duration stands_for(const State& state, const Job& job) {
-  const auto since = state.policy->weighs_again() ? stands_since(job) : std::nullopt;
-  const Duration stood = since ? state.now - *since : Duration{};
+}  // namespace
+
+Duration stood_for(const Job& job, TimePoint now) {
+  const auto since = stands_since(job);
+  const Duration stood = since ? now - *since : Duration{};
   return stood < kStandsFrom ? Duration{} : stood;
 }
-
-}  // namespace
 
 void prepare_choice(State& state, const std::vector<JobId>& jobs) {
   std::vector<Duration> work_behind = state.jobs.work();
@@ -38,7 +37,8 @@ void prepare_choice(State& state, const std::vector<JobId>& jobs) {
   const std::vector<CoordinatedMotion> motions = state.graph.motions();
   for (const CoordinatedMotion& motion : motions) {
     const Record& record = state.jobs.at(motion.job);
-    const Duration stands = stands_for(state, record.job);
+    const Duration stands =
+        state.policy->weighs_again() ? stood_for(record.job, state.now) : Duration{};
     const bool is_aged =
         record.ages_from && state.now - *record.ages_from >= state.cell->scheduling.aging;
     state.graph.set_outlook(motion.job, is_aged && stands <= Duration{}, stands);

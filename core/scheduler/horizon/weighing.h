@@ -14,6 +14,10 @@ void weigh_again(State& state);
 // When that is to be looked at without another input; nothing: never.
 [[nodiscard]] std::optional<TimePoint> weighs_next(const State& state);
 
+// How long its arms have stood for no reason of ours: late, stalled, stopped. Zero: it moves, or
+// waits for others.
+[[nodiscard]] Duration stood_for(const Job& job, TimePoint now);
+
 // Before orders are chosen for what is admitted and these jobs: what waits behind all of them
 // counts for the choice, what stands though nothing of ours holds it is expected to do so for as
 // long again, and who has been overtaken for long is overtaken no more.

@@ -115,11 +115,26 @@ std::optional<Blocker> PrecedenceGraph::held_back(JobId job) const {
   for (const Precedence& precedence : precedences_) {
     if (precedence.second() != job) continue;
     if (precedence.limit(find(precedence.first())->progress) != at) continue;
-    const ConflictRegion& region = precedence.region();
-    return Blocker{job,           precedence.first(), std::nullopt, turned_around(region.proximity),
-                   region.time_b, region.time_a};
+    return blocker_of(precedence);
   }
   return std::nullopt;
+}
+
+std::optional<Blocker> PrecedenceGraph::rests_ahead(JobId job) const {
+  const CoordinatedMotion* found = find(job);
+  const Blockade* blockade = found != nullptr ? nearest_blockade(*found) : nullptr;
+  return blockade != nullptr ? std::optional(blockade->evidence) : std::nullopt;
+}
+
+std::vector<Dependency> PrecedenceGraph::dependencies() const {
+  const auto index = [this](JobId job) {
+    return static_cast<std::size_t>(find(job) - motions_.data());
+  };
+  std::vector<Dependency> dependencies;
+  for (const Precedence& precedence : precedences_) {
+    dependencies.push_back({index(precedence.first()), index(precedence.second()), &precedence});
+  }
+  return dependencies;
 }
 
 bool PrecedenceGraph::is_held_by(JobId job, const std::vector<ArmId>& arms) const {
@@ -136,14 +151,7 @@ bool PrecedenceGraph::is_acyclic() const {
   for (std::size_t m = 0; m < motions_.size(); ++m) {
     ahead.push_back({motions_[m].progress, motions_[m].duration, chains.before(m)});
   }
-  const auto index = [this](JobId job) {
-    return static_cast<std::size_t>(find(job) - motions_.data());
-  };
-  std::vector<Dependency> dependencies;
-  for (const Precedence& precedence : precedences_) {
-    dependencies.push_back({index(precedence.first()), index(precedence.second()), &precedence});
-  }
-  return predict(ahead, dependencies).stuck.empty();
+  return predict(ahead, dependencies()).stuck.empty();
 }
 
 void PrecedenceGraph::granted(JobId job, Duration authority) {
@@ -242,14 +250,27 @@ void PrecedenceGraph::erase(JobId job) {
   tell_holds();
 }
 
+const PrecedenceGraph::Blockade* PrecedenceGraph::nearest_blockade(
+    const CoordinatedMotion& motion) const {
+  const Blockade* nearest = nullptr;
+  for (const Blockade& blockade : blockades_) {
+    if (blockade.job != motion.job || motion.progress >= blockade.until) continue;
+    if (nearest == nullptr || blockade.limit < nearest->limit) nearest = &blockade;
+  }
+  return nearest;
+}
+
 void PrecedenceGraph::tell_holds() {
   for (CoordinatedMotion& motion : motions_) {
-    motion.held_at.reset();
-    for (const Blockade& blockade : blockades_) {
-      if (blockade.job != motion.job || motion.progress >= blockade.until) continue;
-      motion.held_at = std::min(motion.held_at.value_or(blockade.limit), blockade.limit);
-    }
+    const Blockade* nearest = nearest_blockade(motion);
+    motion.held_at = nearest != nullptr ? std::optional(nearest->limit) : std::nullopt;
   }
+}
+
+Blocker blocker_of(const Precedence& precedence) {
+  const ConflictRegion& region = precedence.region();
+  return {precedence.second(), precedence.first(), std::nullopt, turned_around(region.proximity),
+          region.time_b,       region.time_a};
 }
 
 }  // namespace armloom

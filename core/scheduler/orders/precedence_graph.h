@@ -40,6 +40,10 @@ class PrecedenceGraph {
   [[nodiscard]] Duration limit(JobId job) const;
   // What holds it at its limit; nothing: it may go to its end, or waits for its own arm.
   [[nodiscard]] std::optional<Blocker> held_back(JobId job) const;
+  // What rests in its way at its held_at, for good as things are; nothing: nothing does.
+  [[nodiscard]] std::optional<Blocker> rests_ahead(JobId job) const;
+  // Its precedences between its motions by their indices, for predict().
+  [[nodiscard]] std::vector<Dependency> dependencies() const;
   // Whether one of the arms rests in the way of the motion.
   [[nodiscard]] bool is_held_by(JobId job, const std::vector<ArmId>& arms) const;
   // Whether all come to their ends by their orders, but for arms that rest in the way.
@@ -73,6 +77,7 @@ class PrecedenceGraph {
     std::vector<ArmId> arms;
     Duration at, farthest;  // arms of one motion may rest apart on it
   };
+  [[nodiscard]] const Blockade* nearest_blockade(const CoordinatedMotion& motion) const;
   void block_others(const CoordinatedMotion& motion, const Rest& rest);
   void erase(JobId job);
   void tell_holds();
@@ -82,5 +87,8 @@ class PrecedenceGraph {
   std::vector<Blockade> blockades_;
   std::vector<Duration> work_behind_;
 };
+
+// That the second waits for the first.
+[[nodiscard]] Blocker blocker_of(const Precedence& precedence);
 
 }  // namespace armloom

@@ -1,0 +1,148 @@
+#include "core/scheduler/horizon/timeline.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/scheduler/horizon/weighing.h"
+#include "core/scheduler/orders/motion_chains.h"
+#include "core/scheduler/orders/prediction.h"
+#include "core/scheduler/policy.h"
+#include "core/scheduler/waiting/waits.h"
+
+namespace armloom {
+namespace {
+
+// As stood_for(), and where a stop keeps it from being told to its arms.
+Duration expected_to_stand(const State& state, const Job& job, TimePoint now) {
+  Duration stands = stood_for(job, now);
+  if (job.in<Admitted>() == nullptr) return stands;
+  for (ArmId arm : job.trajectory->arms()) {
+    const auto since = state.arms.stopped_since(arm);
+    if (since && state.jobs.queue(arm).front() == job.id) stands = std::max(stands, now - *since);
+  }
+  return stands;
+}
+
+// Brakes, and will not go on.
+bool is_given_up(const Job& job) {
+  const auto* braking = job.in<Braking>();
+  return braking != nullptr && braking->after.then != AfterStop::Then::hold;
+}
+
+// What is predicted of all admitted motions, read leg by leg.
+class Timetable {
+ public:
+  Timetable(const State& state, TimePoint now)
+      : state_(state),
+        now_(now),
+        motions_(state.graph.motions()),
+        chains_(motions_),
+        dependencies_(state.graph.dependencies()) {
+    std::vector<MotionAhead> ahead;
+    for (std::size_t m = 0; m < motions_.size(); ++m) {
+      stands_.push_back(expected_to_stand(state, job(m), now));
+      ahead.push_back({.progress = motions_[m].progress,
+                       .duration = motions_[m].duration,
+                       .after = chains_.before(m),
+                       .held_at = motions_[m].held_at,
+                       .stands_for = stands_[m]});
+    }
+    prediction_ = predict(ahead, dependencies_);
+  }
+
+  [[nodiscard]] PredictedLeg leg(std::size_t m) const {
+    const bool stuck = is_stuck(m);
+    PredictedLeg leg{.job = motions_[m].job, .starts = starts(m), .ends = {}, .pauses = pauses(m)};
+    if (!stuck && !is_given_up(job(m))) leg.ends = now_ + prediction_.ends[m];
+    if (stuck) leg.pauses.push_back(last_pause(m));
+    return leg;
+  }
+
+ private:
+  [[nodiscard]] const Job& job(std::size_t m) const { return state_.jobs.at(motions_[m].job).job; }
+
+  [[nodiscard]] bool is_stuck(std::size_t m) const {
+    return std::ranges::binary_search(prediction_.stuck, m);
+  }
+
+  [[nodiscard]] std::optional<TimePoint> starts(std::size_t m) const {
+    if (job(m).has_started()) return job(m).times.started_at;
+    const auto leaves = prediction_.goes_beyond(m, motions_[m].progress);
+    return leaves ? std::optional(now_ + *leaves) : std::nullopt;
+  }
+
+  // Those that end.
+  [[nodiscard]] std::vector<PredictedPause> pauses(std::size_t m) const {
+    std::vector<PredictedPause> pauses;
+    const auto stages = prediction_.stages(m);
+    for (std::size_t i = 1; i < stages.size(); ++i) {
+      const Duration at = stages[i].progress, from = stages[i - 1].time, to = stages[i].time;
+      if (stages[i - 1].progress < at || from >= to) continue;
+      const bool of_its_own = i == 1 && stands_[m] > Duration{};
+      const Duration loss = at > Duration{} ? kPauseLoss : Duration{};
+      pauses.push_back({now_ + from, now_ + to, at,
+                        of_its_own ? state_.arms.stop_of(job(m)) : waits_on(m, at, to - loss)});
+    }
+    return pauses;
+  }
+
+  // Of one that is stuck: where it comes to stand.
+  [[nodiscard]] PredictedPause last_pause(std::size_t m) const {
+    const auto stages = prediction_.stages(m);
+    if (stages.empty()) return {now_, std::nullopt, motions_[m].progress, behind(m)};
+    const auto [at, from] = stages.back();
+    const auto rests = state_.graph.rests_ahead(motions_[m].job);
+    const bool is_blocked = rests && *motions_[m].held_at <= at;
+    return {now_ + from, std::nullopt, at,
+            is_blocked ? wait_for(*rests) : waits_on(m, at, std::nullopt)};
+  }
+
+  // The motion before it on an arm never ends.
+  [[nodiscard]] std::optional<Wait> behind(std::size_t m) const {
+    for (const std::size_t before : chains_.before(m)) {
+      if (is_stuck(before)) return Wait{.kind = Wait::Kind::order, .job = motions_[before].job};
+    }
+    return std::nullopt;
+  }
+
+  // Whom it waits for where it stands, until that one opens the way; nothing: who never does.
+  [[nodiscard]] std::optional<Wait> waits_on(std::size_t m, Duration at,
+                                             std::optional<Duration> opens) const {
+    for (const auto& [first, second, precedence] : dependencies_) {
+      if (second != m) continue;
+      for (const Precedence::Step& step : precedence->steps()) {
+        if (step.limit > at || step.until <= motions_[first].progress) continue;
+        const Duration until = std::min(step.until, motions_[first].duration);
+        if (prediction_.comes_to(first, until) == opens) return wait_for(blocker_of(*precedence));
+      }
+    }
+    return std::nullopt;
+  }
+
+  const State& state_;
+  TimePoint now_;
+  const std::vector<CoordinatedMotion>& motions_;
+  MotionChains chains_;
+  std::vector<Dependency> dependencies_;
+  std::vector<Duration> stands_;
+  Prediction prediction_;
+};
+
+}  // namespace
+
+PredictedTimeline predicted_timeline(const State& state, TimePoint now) {
+  PredictedTimeline timeline{
+      .now = now, .horizon = state.policy->horizon(), .legs = {}, .waiting = {}};
+  const Timetable timetable(state, now);
+  for (std::size_t m = 0; m < state.graph.motions().size(); ++m) {
+    timeline.legs.push_back(timetable.leg(m));
+  }
+  for (const auto& queue : state.jobs.queues()) {
+    const auto waits =
+        std::ranges::count_if(queue, [&](JobId job) { return !state.graph.holds(job); });
+    timeline.waiting.push_back(static_cast<std::size_t>(waits));
+  }
+  return timeline;
+}
+
+}  // namespace armloom

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "core/executive/timeline.h"
+#include "server/codec/object_format.h"
+
+namespace armloom {
+
+// The answer to GET /timeline.
+[[nodiscard]] FormatPtr<TimelineView> timeline_format();
+
+}  // namespace armloom

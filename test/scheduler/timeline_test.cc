@@ -1,0 +1,160 @@
+// What the scheduler expects of everything admitted: told ahead, and then as it came.
+#include <gmock/gmock.h>
+
+#include "test/scheduler/ideal_arms.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr Duration kAtMost = 200ms;  // the two may differ by
+constexpr Duration kMoves = 10s;
+
+// They cross in the middle of their ways.
+const Crossing kCross{ArmId{0}, 0.4, 0.6, ArmId{1}, 0.4, 0.6};
+
+CellPtr cell_with(std::size_t arms, int horizon_legs) {
+  auto cell = std::make_shared<Cell>(*one_joint_arms(arms));
+  cell->scheduling.horizon_legs = horizon_legs;
+  return cell;
+}
+
+struct Timeline : ::testing::Test {
+  void start(const char* policy, int horizon_legs, std::map<JobId, Habits> habits = {},
+             std::vector<Crossing> crossings = {kCross}) {
+    const CellPtr cell = cell_with(2, horizon_legs);
+    arms = std::make_unique<IdealArms>(cell, std::move(*make_policy(policy, *cell)),
+                                       Crossings(std::move(crossings)), [habits](JobId job) {
+                                         const auto own = habits.find(job);
+                                         return own == habits.end() ? Habits{} : own->second;
+                                       });
+  }
+  JobId submit(std::uint32_t arm, double from, double to, Duration duration = kMoves) {
+    return arms->submit({JobId{0}, move({arm}, from, to, duration), 0, 600s});
+  }
+  PredictedTimeline told() const { return arms->scheduler.timeline(arms->now()); }
+  PredictedLeg leg(JobId job) const {
+    const auto legs = told().legs;
+    const auto found = std::ranges::find(legs, job, &PredictedLeg::job);
+    if (found == legs.end()) throw std::runtime_error("no such leg");
+    return *found;
+  }
+
+  std::unique_ptr<IdealArms> arms;
+};
+
+void expect_near(TimePoint told, TimePoint came) {
+  EXPECT_LE(std::chrono::abs(told - came), kAtMost)
+      << to_seconds(told.time_since_epoch()) << " was told, " << to_seconds(came.time_since_epoch())
+      << " it was";
+}
+
+// Under every policy that moves both at once, and for whoever of the two waits.
+TEST_F(Timeline, TellsWhenWhoWaitsGoesOnAndForWhom) {
+  for (const char* policy : {"coordinated", "earliest_start"}) {
+    SCOPED_TRACE(policy);
+    start(policy, 1);
+    const std::array jobs{submit(0, 0, 1), submit(1, 0, 1)};
+    arms->run_until(at(1s));
+    ASSERT_THAT(told().legs, SizeIs(2));
+    const std::array legs{leg(jobs[0]), leg(jobs[1])};
+    const std::size_t second = legs[0].pauses.empty() ? 1 : 0;
+    EXPECT_THAT(legs[1 - second].pauses, IsEmpty());
+    ASSERT_THAT(legs[second].pauses, SizeIs(1));
+    const ArmId second_arm{static_cast<std::uint32_t>(second)};
+    const PredictedPause& pause = legs[second].pauses.front();
+    EXPECT_EQ(pause.waits_on->kind, Wait::Kind::job);
+    EXPECT_EQ(pause.waits_on->job, jobs[1 - second]);
+    EXPECT_LT(place_of(*arms->job(jobs[second]).trajectory, second_arm, pause.at), 0.4 + 1e-3)
+        << "short of where they cross";
+    arms->run_until(*pause.to - kPauseLoss - kAtMost);
+    EXPECT_LE(arms->job(jobs[second]).progress, pause.at);
+    arms->run();
+    for (const std::size_t j : {0U, 1U}) {
+      expect_near(*legs[j].ends, *arms->job(jobs[j]).ended_at() +
+                                     (j == second && pause.at > 0s ? kPauseLoss : Duration{}));
+      expect_near(*legs[j].starts, *arms->job(jobs[j]).times.started_at);
+    }
+  }
+}
+
+TEST_F(Timeline, HasAsManyLegsAsThePolicyLooksAheadAndCountsTheOthers) {
+  start("coordinated", 3);
+  std::vector<JobId> jobs;
+  for (int i = 0; i < 5; ++i) jobs.push_back(submit(0, i % 2, 1 - i % 2, 2s));
+  arms->run_until(at(1s));
+  const PredictedTimeline timeline = told();
+  EXPECT_EQ(timeline.horizon, 3U);
+  EXPECT_THAT(timeline.waiting, ElementsAre(2, 0));
+  ASSERT_THAT(timeline.legs, SizeIs(3));
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(timeline.legs[i].job, jobs[i]);
+    EXPECT_THAT(timeline.legs[i].pauses, IsEmpty()) << "its turn is no pause";
+    if (i > 0) EXPECT_EQ(timeline.legs[i].starts, timeline.legs[i - 1].ends);
+  }
+  arms->run();
+  expect_near(*timeline.legs[2].ends, *arms->job(jobs[2]).ended_at());
+}
+
+TEST_F(Timeline, UnderTimedDiscreteMotionsJustRun) {
+  start("timed_discrete", 1, {}, {});
+  const JobId job = submit(0, 0, 1);
+  arms->run_until(at(2s));
+  EXPECT_THAT(leg(job).pauses, IsEmpty());
+  expect_near(*leg(job).ends, TimePoint(kMoves));
+}
+
+TEST_F(Timeline, WhoStallsIsExpectedToDoSoForAsLongAgain) {
+  start("certified", 1, {{JobId{1}, {.stalls_at = 2s, .stalls_for = 20s}}});
+  const JobId job = submit(0, 0, 1);
+  arms->run_until(at(8s));  // it has stood for 6 s
+  const PredictedLeg leg = this->leg(job);
+  ASSERT_THAT(leg.pauses, SizeIs(1));
+  EXPECT_EQ(leg.pauses[0].waits_on, std::nullopt);
+  expect_near(*leg.pauses[0].to, at(14s));
+  expect_near(*leg.ends, at(22s));
+}
+
+TEST_F(Timeline, SoIsAnArmThatIsStoppedWithItsLegsToCome) {
+  start("coordinated", 2);
+  const JobId first = submit(0, 0, 1), next = submit(0, 1, 0);
+  arms->run_until(at(2s));
+  arms->input(Stop{{ArmId{0}}, "somebody came"});
+  arms->run_until(at(5s));
+  const PredictedLeg leg = this->leg(first);
+  ASSERT_THAT(leg.pauses, SizeIs(1));
+  EXPECT_EQ(leg.pauses[0].waits_on->kind, Wait::Kind::stop);
+  EXPECT_EQ(leg.pauses[0].waits_on->detail, "somebody came");
+  expect_near(*leg.ends, at(16s));
+  expect_near(*this->leg(next).ends, at(26s));
+}
+
+// The arm came to rest in the other one's way, and no job moves it.
+TEST_F(Timeline, WhoIsHeldForGoodHasNoEndNorWhatFollowsIt) {
+  start("coordinated", 2);
+  const JobId first = submit(0, 0, 1);
+  arms->run_until(at(100ms));
+  const JobId second = submit(1, 0, 1), follows = submit(1, 1, 0);
+  arms->run_until(at(4800ms));  // it is there
+  ASSERT_TRUE(leg(second).ends);
+  arms->input(Cancel{first});
+  arms->run_until(at(6s));
+  const PredictedLeg held = leg(second);
+  EXPECT_EQ(held.ends, std::nullopt);
+  ASSERT_FALSE(held.pauses.empty());
+  EXPECT_EQ(held.pauses.back().to, std::nullopt);
+  EXPECT_EQ(held.pauses.back().waits_on->kind, Wait::Kind::arm);
+  EXPECT_EQ(held.pauses.back().waits_on->arm, ArmId{0});
+  const PredictedLeg behind = leg(follows);
+  EXPECT_EQ(behind.starts, std::nullopt);
+  EXPECT_EQ(behind.ends, std::nullopt);
+  ASSERT_THAT(behind.pauses, SizeIs(1));
+  EXPECT_EQ(behind.pauses[0].waits_on->kind, Wait::Kind::order);
+  EXPECT_EQ(behind.pauses[0].waits_on->job, second);
+}
+
+}  // namespace
+}  // namespace armloom
