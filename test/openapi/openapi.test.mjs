@@ -134,6 +134,7 @@ test('What only reads', async () => {
   await call(200, 'GET', `${v1}/arms/{name}`, {args: {name: 'left'}});
   await call(404, 'GET', `${v1}/arms/{name}`, {args: {name: 'no body'}});
   await call(200, 'GET', `${v1}/queue`);
+  await call(200, 'GET', `${v1}/timeline`);
   await call(200, 'GET', `${v1}/scene`);
   await call(200, 'GET', `${v1}/jobs`, {query: '?state=running&arm=left&limit=7'});
   for (const query of ['?limit=0', '?state=tired', '?arm=none', '?cursor=x']) {

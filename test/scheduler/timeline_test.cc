@@ -136,9 +136,9 @@ TEST_F(Timeline, SoIsAnArmThatIsStoppedWithItsLegsToCome) {
 TEST_F(Timeline, WhoIsHeldForGoodHasNoEndNorWhatFollowsIt) {
   start("coordinated", 2);
   const JobId first = submit(0, 0, 1);
-  arms->run_until(at(100ms));
+  arms->run_until(at(4s));
   const JobId second = submit(1, 0, 1), follows = submit(1, 1, 0);
-  arms->run_until(at(4800ms));  // it is there
+  arms->run_until(at(5200ms));  // it is there
   ASSERT_TRUE(leg(second).ends);
   arms->input(Cancel{first});
   arms->run_until(at(6s));
