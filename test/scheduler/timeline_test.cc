@@ -93,7 +93,8 @@ TEST_F(Timeline, HasAsManyLegsAsThePolicyLooksAheadAndCountsTheOthers) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(timeline.legs[i].job, jobs[i]);
     EXPECT_THAT(timeline.legs[i].pauses, IsEmpty()) << "its turn is no pause";
-    if (i > 0) EXPECT_EQ(timeline.legs[i].starts, timeline.legs[i - 1].ends);
+    if (i == 0) continue;
+    EXPECT_EQ(timeline.legs[i].starts, timeline.legs[i - 1].ends);
   }
   arms->run();
   expect_near(*timeline.legs[2].ends, *arms->job(jobs[2]).ended_at());
