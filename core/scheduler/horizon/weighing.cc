@@ -58,8 +58,11 @@ void weigh_again(State& state) {
   const std::vector<CoordinatedMotion> nobody;
   const std::vector<PairRegions> nothing;
   const PassingOrders orders = state.policy->decide(state.graph.question(nobody, nothing));
-  if (orders.blockers.empty()) state.graph.admit(nobody, orders);
-  state.expected.renew(state.graph.motions(), orders.prediction, state.now);
+  const std::size_t motions = state.graph.motions().size();
+  // None found, as when admitted motions wait for each other: then the orders of before stand.
+  const bool found = orders.blockers.empty() && orders.prediction.ends.size() == motions;
+  if (found) state.graph.admit(nobody, orders);
+  state.expected.renew(found ? state.graph.motions() : nobody, orders.prediction, state.now);
 }
 
 // Who moves may be late. Who was stopped may stand for longer than expected, while another one
