@@ -46,6 +46,8 @@ class OpenOrders {
 
   [[nodiscard]] const std::vector<CoordinatedMotion>& motions() const { return motions_; }
   [[nodiscard]] std::size_t first_candidate() const { return first_candidate_; }
+  // No other motion of its arms comes before it.
+  [[nodiscard]] bool leads(std::size_t motion) const { return chains_.before(motion).empty(); }
   // Those of the past first, `decided` of them.
   [[nodiscard]] const std::vector<OpenOrder>& orders() const { return orders_; }
   [[nodiscard]] std::size_t decided() const { return decided_; }

@@ -15,10 +15,12 @@ constexpr double kLeast_s = 1e-3;  // what is nearer is as good
 
 OrderSearch::OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind)
     : open_(open), work_behind_(work_behind) {
+  const auto& motions = open.motions();
   std::set<int, std::greater<>> priorities;
-  for (const CoordinatedMotion& motion : open.motions()) priorities.insert(motion.priority);
-  for (const CoordinatedMotion& motion : open.motions()) {
-    const auto level = std::distance(priorities.begin(), priorities.find(motion.priority));
+  for (const CoordinatedMotion& motion : motions) priorities.insert(motion.priority);
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    const int priority = open.leads(m) ? motions[m].priority : *priorities.rbegin();
+    const auto level = std::distance(priorities.begin(), priorities.find(priority));
     level_.push_back(static_cast<std::size_t>(level));
   }
   levels_ = priorities.size();
