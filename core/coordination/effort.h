@@ -8,8 +8,8 @@
 namespace armloom {
 
 // A job is not put off because the budget of evaluations has ended: its question is asked again
-// with a larger one, up to kEffortMax times the usual. What has been learnt is kept (motion_store.h), so
-// that each asking goes on where the one before it ended.
+// with a larger one, up to kEffortMax times the usual. What has been learnt is kept
+// (motion_store.h), so that each asking goes on where the one before it ended.
 inline constexpr std::uint64_t kEffortGrowth = 4;
 inline constexpr std::uint64_t kEffortMax = 16;
 

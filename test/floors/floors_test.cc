@@ -96,10 +96,14 @@ TEST(Floors, AreKeptByEveryFile) {
 }
 
 TEST(Floors, ABreachIsFound) {
-  EXPECT_FALSE(breaches_in("core/scheduler/x.cc", "#include \"core/collision/check/motion_checker.h\"\n").empty());
+  EXPECT_FALSE(
+      breaches_in("core/scheduler/x.cc", "#include \"core/collision/check/motion_checker.h\"\n")
+          .empty());
   EXPECT_FALSE(
       breaches_in("core/scheduler/p/x.cc", "#include \"core/monitor/monitor.h\"\n").empty());
-  EXPECT_FALSE(breaches_in("core/audit/x.cc", "#include \"core/collision/check/motion_checker.h\"\n").empty());
+  EXPECT_FALSE(
+      breaches_in("core/audit/x.cc", "#include \"core/collision/check/motion_checker.h\"\n")
+          .empty());
   EXPECT_FALSE(breaches_in("server/x.cc", "#include \"core/scheduler/job.h\"\n").empty());
   EXPECT_FALSE(breaches_in("core/monitor/x.cc", "auto t = Clock::now();\n").empty());
   EXPECT_FALSE(breaches_in("core/executive/x.cc", "#include <nlohmann/json.hpp>\n").empty());

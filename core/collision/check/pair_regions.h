@@ -22,7 +22,8 @@ namespace armloom {
 // is an end of one of their axes; but for those that share an arm with the candidate: there it
 // counts as an arm at rest.
 //
-// A pair that is too close where both stand now may part (motion_checker.h); there, neither is to come.
+// A pair that is too close where both stand now may part (motion_checker.h); there, neither is to
+// come.
 class PairRegionSearch {
  public:
   // `store` and `question` outlive it; no question is begun in the store meanwhile.

@@ -17,7 +17,8 @@ namespace armloom {
 // A budget of predictions bounds it; what is best by then counts. Deterministic.
 //
 // Cost: when the last arm has done its work, what waits behind included, and kWeightOfSum times the
-// sum of the arms' ends; of motions of larger priority first, once they are the first of their arms.
+// sum of the arms' ends; of motions of larger priority first, once they are the first of their
+// arms.
 class OrderSearch {
  public:
   inline static constexpr double kWeightOfSum = 0.3;
