@@ -47,7 +47,6 @@ class JobBook {
   // Precondition of both: it has ended. Jobs that named it in `after` are returned by end().
   void forget(JobId job);
 
-  [[nodiscard]] bool knows(JobId job) const { return records_.contains(job); }
   [[nodiscard]] bool is_active(JobId job) const { return active_.contains(job); }
   [[nodiscard]] Record* find(JobId job);
   [[nodiscard]] const Record* find(JobId job) const;
@@ -80,7 +79,6 @@ class JobBook {
 
   // For clients, or for whoever explains waits: it, or what is before it, is not as it was told.
   void changed(const Record& record) { changed_.insert(record.job.id); }
-  void explain_anew(JobId job) { unexplained_.insert(job); }
   [[nodiscard]] bool has_changes() const { return !changed_.empty(); }
   [[nodiscard]] std::set<JobId> take_changed() { return std::exchange(changed_, {}); }
   [[nodiscard]] std::set<JobId> take_unexplained() { return std::exchange(unexplained_, {}); }

@@ -43,7 +43,8 @@ struct MovingPair {
   void state_at(double t_s, double ahead_candidate_s, double ahead_other_s, Configuration& q) const;
 };
 
-// Pairs that keep the cell's clearance at the question's instant (others may part, arbiter.h).
+// Pairs that keep the cell's clearance at the question's instant (others may part,
+// OrientedDiagram).
 [[nodiscard]] std::vector<MovingPair> random_pairs(bench::ExactScene& exact, const Pool& pool,
                                                    std::size_t count, std::uint64_t seed);
 

@@ -34,8 +34,7 @@ Duration stood_for(const Job& job, TimePoint now) {
 void prepare_choice(State& state, const std::vector<JobId>& jobs) {
   std::vector<Duration> work_behind = state.jobs.work();
   std::vector<JobId> in_front = jobs;
-  const std::vector<CoordinatedMotion> motions = state.graph.motions();
-  for (const CoordinatedMotion& motion : motions) {
+  for (const CoordinatedMotion& motion : state.graph.motions()) {
     const Record& record = state.jobs.at(motion.job);
     const Duration stands =
         state.policy->weighs_again() ? stood_for(record.job, state.now) : Duration{};

@@ -164,7 +164,6 @@ bool OpenOrders::allowed(const OrderChoice& choice, bool a_first) const {
 }
 
 void OpenOrders::set(OrderChoice& choice, bool value, bool at_start) {
-  choice.value = value;
   choice.at_start = at_start;
   for (const Member& member : choice.members) {
     orders_[member.order].a_first = value != member.turned;

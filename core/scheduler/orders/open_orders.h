@@ -33,8 +33,7 @@ struct OrderChoice {
   };
   std::vector<Member> members;
   std::vector<bool> options = {};  // values of "a goes first" of the first member, preferred first
-  bool value = true;
-  bool at_start = false;
+  bool at_start = false;           // as it is set
 };
 
 // Who may pass first in all regions of what is admitted and of candidates: what a search for orders
