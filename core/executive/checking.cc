@@ -10,7 +10,7 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
   auto prepared = prepare(std::move(request), ahead);
   if (!prepared) return done(failure(std::move(prepared.error())));
   std::vector<Submit> jobs;
-  std::uint64_t next = next_job_;
+  std::uint64_t next = scheduler_.next_job().value();
   for (TrajectoryPtr& back : prepared->returns) {
     jobs.push_back(return_of(std::move(back), prepared->priority));
   }

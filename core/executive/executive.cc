@@ -72,7 +72,6 @@ void Executive::Impl::step(const Input& input) {
   for (const Effect& effect : effects) carry_out(effect);
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
   tell_queue();
-  for (const YieldMove& aside : std::exchange(asides_, {})) carry_out(aside);
 }
 
 // What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
@@ -98,7 +97,7 @@ void Executive::Impl::carry_out(const Effect& effect) {
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {
     motions_.grant(*grant);
   } else if (const auto* aside = std::get_if<YieldMove>(&effect)) {
-    asides_.push_back(*aside);
+    note_aside(*aside);
   } else if (const auto* brake = std::get_if<Brake>(&effect)) {
     motions_.brake(brake->job);
   } else if (const auto* release = std::get_if<Release>(&effect)) {

@@ -110,7 +110,8 @@ class Executive::Impl final : public JobNames {
   JobId enter(Submit submitted, std::string key, std::string name);
   [[nodiscard]] Submit submission(Prepared prepared) const;
   [[nodiscard]] Submit return_of(TrajectoryPtr back, int priority) const;
-  void remember_way_back(const YieldMove& aside);
+  void remember_way_back(ArmId arm, const Trajectory& way);
+  void label(JobId id, std::string key, std::string name);
   [[nodiscard]] Ahead ahead_now() const;
   std::vector<TrajectoryPtr> returns_for(const Trajectory& motion, Ahead& ahead) const;
   std::string own_key();
@@ -120,7 +121,7 @@ class Executive::Impl final : public JobNames {
   std::string free_key(JobId id) const;
 
   void carry_out(const Effect& effect);
-  void carry_out(const YieldMove& aside);
+  void note_aside(const YieldMove& aside);
   void watch();
   void tell_tick();
   static ClearanceQuery monitored(const PlanningScenePtr& scene);
@@ -148,10 +149,8 @@ class Executive::Impl final : public JobNames {
   std::unordered_map<std::string, JobId> ids_;
   std::unordered_map<JobId, Label> labels_;
   std::deque<JobId> ended_;  // oldest first
-  std::uint64_t next_job_ = 1;
   std::uint64_t next_fault_ = 1;
   std::uint64_t next_aside_ = 1;
-  std::vector<YieldMove> asides_;  // of the present step
   std::map<ArmId, TrajectoryPtr> ways_back_;
   std::uint64_t seq_ = 0;
   bool told_rest_ = false;

@@ -6,7 +6,6 @@
 
 #include "core/base/told.h"
 #include "core/executive/executive_impl.h"
-#include "core/scheduler/yielding/making_way.h"
 #include "core/trajectory/joint_line.h"
 
 namespace armloom {
@@ -183,13 +182,17 @@ JobView Executive::Impl::accept(Prepared prepared) {
 
 // Under the next id; an empty key: one is given.
 JobId Executive::Impl::enter(Submit submitted, std::string key, std::string name) {
-  const JobId id = submitted.job = JobId{next_job_++};
+  const JobId id = submitted.job = scheduler_.next_job();
   if (key.empty()) key = free_key(id);
+  label(id, std::move(key), std::move(name));
+  step(submitted);
+  return id;
+}
+
+void Executive::Impl::label(JobId id, std::string key, std::string name) {
   ids_.emplace(key, id);
   labels_.emplace(id, Label{std::move(key), std::move(name)});
   ++active_;
-  step(submitted);
-  return id;
 }
 
 Submit Executive::Impl::submission(Prepared prepared) const {
@@ -214,27 +217,24 @@ Submit Executive::Impl::return_of(TrajectoryPtr back, int priority) const {
           .system_job = true};
 }
 
-void Executive::Impl::carry_out(const YieldMove& aside) {
+void Executive::Impl::note_aside(const YieldMove& aside) {
   const std::string arm = cell_->arm(aside.arm).name;
-  make_way(scheduler_, aside, cell_->scheduling.backlog_timeout, [&](Submit way) {
-    if (!aside.before) remember_way_back(aside);
-    std::string name = way.lets_pass ? arm + " returns to where it stood"
-                                     : arm + " moves aside for " + key(aside.blocked_job);
-    return enter(std::move(way), own_key(), std::move(name));
-  });
+  label(aside.job, own_key(),
+        aside.returns ? arm + " returns to where it stood"
+                      : arm + " moves aside for " + key(aside.blocked_job));
+  if (!aside.in_ring) remember_way_back(aside.arm, *scheduler_.find(aside.job)->trajectory);
 }
 
 // Where the clients of an arm left it, however often it goes aside.
-void Executive::Impl::remember_way_back(const YieldMove& aside) {
-  const Trajectory& way = *aside.trajectory;
+void Executive::Impl::remember_way_back(ArmId arm, const Trajectory& way) {
   TrajectoryPtr back = retraced(way);
-  if (const auto before = ways_back_.find(aside.arm); before != ways_back_.end()) {
+  if (const auto before = ways_back_.find(arm); before != ways_back_.end()) {
     const Trajectory& old = *before->second;
     if (old.joints() == way.joints()) {
       if (auto line = joint_line(*cell_, way.joints(), way.goal(), old.goal())) back = *line;
     }
   }
-  ways_back_[aside.arm] = std::move(back);
+  ways_back_[arm] = std::move(back);
 }
 
 // Of a job of the server's own.

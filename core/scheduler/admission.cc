@@ -12,6 +12,7 @@
 #include "core/scheduler/putting_off.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/waiting/waits.h"
+#include "core/scheduler/yielding/making_way.h"
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
@@ -77,10 +78,6 @@ void admit(State& state, const std::vector<JobId>& jobs, std::vector<Coordinated
 }
 
 }  // namespace
-
-bool Admission::is_about(JobId job) const {
-  return open_ && std::ranges::find(open_->jobs, job) != open_->jobs.end();
-}
 
 // ---- What is asked ----
 
@@ -158,8 +155,8 @@ void Admission::answer_yield(State& state, const Verdict& verdict, YieldTrial mo
   }
   note_tried(state, move, passes);
   if (!passes) return;
-  state.effects.push_back(YieldMove{move.arm, move.blocked_job, move.way, move.before});
-  if (move.before) cycles.opens(*move.before);
+  send_aside(state, move);
+  if (move.before) cycles.has_opened(state, *move.before);
 }
 
 void Admission::answer_start(State& state, const Verdict& verdict, const std::vector<JobId>& jobs) {

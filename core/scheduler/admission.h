@@ -20,8 +20,6 @@ class Admission {
   // The answer to the open question. One on an older version is void and asked again.
   void on(const Judged& input, State& state, WaitCycles& cycles);
 
-  [[nodiscard]] bool is_about(JobId job) const;
-
  private:
   enum class Purpose {
     start,    // of a job that waits

@@ -16,21 +16,14 @@ namespace armloom {
 
 // ---- Inputs: everything that can happen to the scheduler. Time comes beside them, in step(). ----
 
-// A valid job arrives. Ids are given by the caller, larger than any before.
+// A valid job arrives. Its id is larger than any before (Scheduler::next_job()).
 struct Submit {
   JobId job;
   TrajectoryPtr trajectory;
   int priority = 0;  // larger goes first
   Duration backlog_timeout;
   std::vector<JobId> after = {};  // active jobs that have to succeed first; smaller ids than `job`
-  bool system_job =
-      false;  // the caller's, for a YieldMove: in a ring it gives way to jobs of clients
-  // For a YieldMove: the job that it is to help. What goes aside for this one, goes for that.
-  std::optional<JobId> on_behalf_of = {};
-  // For a YieldMove of an arm that has jobs: it takes its place before this one of its arm ...
-  std::optional<JobId> before = {};
-  // ... and does not begin while this one waits.
-  std::optional<JobId> lets_pass = {};
+  bool system_job = false;        // the caller's own: in a ring it gives way to jobs of clients
 };
 struct Cancel {
   JobId job;
@@ -100,16 +93,16 @@ struct Grant {
 struct Brake {
   JobId job;
 };
-// An arm rests in this job's way: come back at once with Submit of a job of one's own that has this
-// motion. If the arm has a job, `before`, the two wait for each other in a ring: the motion takes
-// its place before that job, and behind it a second one, back to where the arm stands now, that
-// comes after the first and lets the other pass. The first helps `blocked_job`, the second
-// `before`.
+// An arm rests in `blocked_job`'s way: from now on the scheduler has a job of its own that sends it
+// aside. If the arm has a job, the two wait for each other in a ring: the motion takes its place
+// before that job, and behind it comes a second one, `returns`, back to where the arm stands now,
+// which lets the other pass first. Said before these jobs' first JobChanged.
 struct YieldMove {
+  JobId job;
   ArmId arm;
   JobId blocked_job;
-  TrajectoryPtr trajectory;
-  std::optional<JobId> before = {};
+  bool in_ring = false;
+  bool returns = false;
 };
 // The job has ended and its arms are at rest: the controllers drop its motion.
 struct Release {

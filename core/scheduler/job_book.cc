@@ -31,9 +31,8 @@ bool leads_to(const JobPhase& from, const JobPhase& to) {
 
 Record& JobBook::add(Record record) {
   const Job& job = record.job;
-  if (!records_.empty() && job.id <= records_.rbegin()->first) {
-    throw std::invalid_argument("Submit: ids must grow");
-  }
+  if (job.id < next_id()) throw std::invalid_argument("Submit: ids must grow");
+  last_id_ = job.id.value();
   for (ArmId arm : job.trajectory->arms()) {
     auto& queue = queues_[arm.index()];
     queue.insert(record.before ? std::ranges::find(queue, *record.before) : queue.end(), job.id);

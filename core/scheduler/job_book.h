@@ -25,9 +25,10 @@ struct YieldsTried {
 struct Record {
   Job job;
   WaitingLeg leg;
-  JobId on_behalf_of{0};           // Submit::on_behalf_of, and whom that was sent for; else itself
-  std::optional<JobId> before;     // Submit::before
-  std::optional<JobId> lets_pass;  // Submit::lets_pass
+  // Of moves aside. The client's job that this one is to help; else itself.
+  JobId on_behalf_of{0};
+  std::optional<JobId> before = {};     // it took its place before this one of its arm
+  std::optional<JobId> lets_pass = {};  // and does not begin while this one waits
   std::optional<TimePoint> ages_from;   // first in conflict, or first without a place
   Version checked_at = 0;               // admitted: the version on which it was last found free
   Duration farthest{};                  // MotionReport::farthest of the last rest
@@ -44,6 +45,7 @@ class JobBook {
   // Ids grow (throws std::invalid_argument). It comes to the end of its arms' queues, or before
   // record.before where that stands.
   Record& add(Record record);
+  [[nodiscard]] JobId next_id() const { return JobId{last_id_ + 1}; }
   // Precondition of both: it has ended. Jobs that named it in `after` are returned by end().
   void forget(JobId job);
 
@@ -85,6 +87,7 @@ class JobBook {
 
  private:
   std::map<JobId, Record> records_;
+  std::uint64_t last_id_ = 0;
   std::set<JobId> active_;
   std::set<JobId> past_queue_;
   std::map<JobId, std::vector<JobId>> followers_;  // those that name it in Submit::after

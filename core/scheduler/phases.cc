@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace armloom {
@@ -56,6 +57,22 @@ void rest_at_start(State& state, Record& record) {
 }
 
 }  // namespace
+
+Record record_of(State& state, const Submit& job) {
+  if (!job.trajectory) throw std::invalid_argument("Submit: no trajectory");
+  Record record{.job = {.id = job.job,
+                        .trajectory = job.trajectory,
+                        .priority = job.priority,
+                        .backlog_timeout = job.backlog_timeout,
+                        .after = job.after,
+                        .system_job = job.system_job},
+                .leg = state.arms.leg_of(*state.cell, job.job, *job.trajectory),
+                .on_behalf_of = job.job};
+  record.job.times.submitted_at = state.now;
+  return record;
+}
+
+void add(State& state, Record record) { state.lanes.add(state.jobs.add(std::move(record))); }
 
 void enter(State& state, Record& record, JobPhase phase) {
   const JobPhase before = record.job.phase;

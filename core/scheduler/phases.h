@@ -8,6 +8,11 @@ namespace armloom {
 
 // How jobs pass from phase to phase, with all that follows for lanes, orders and versions.
 
+// A job comes: a record of it, to be added as it is or with a place of its own.
+[[nodiscard]] Record record_of(State& state, const Submit& job);
+// At the end of its lanes, or before Record::before.
+void add(State& state, Record record);
+
 // The table in job.h; anything else throws std::logic_error.
 void enter(State& state, Record& record, JobPhase phase);
 // Nobody waits for a job that has ended: those that named it in `after` go on, or fail with it.

@@ -9,7 +9,6 @@
 #include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/invariants.h"
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/phases.h"
 #include "core/scheduler/waiting/turns.h"
 
 namespace armloom {
@@ -54,6 +53,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 
   // What clients see comes first, so that an event is told before its consequences.
   std::vector<Effect> result;
+  for (const YieldMove& move : std::exchange(state_.sent_aside, {})) result.push_back(move);
   for (JobId job : state_.jobs.take_changed()) result.push_back(JobChanged{job});
   std::ranges::move(std::exchange(state_.effects, {}), std::back_inserter(result));
   return result;
@@ -106,28 +106,6 @@ void Scheduler::ask_for_wake() {
 }
 
 // ---- Inputs ----
-
-void Scheduler::on(const Submit& input) {
-  if (!input.trajectory) throw std::invalid_argument("Submit: no trajectory");
-  Record record{.job = {.id = input.job,
-                        .trajectory = input.trajectory,
-                        .priority = input.priority,
-                        .backlog_timeout = input.backlog_timeout,
-                        .after = input.after,
-                        .system_job = input.system_job},
-                .leg = state_.arms.leg_of(*state_.cell, input.job, *input.trajectory),
-                .on_behalf_of = input.job,
-                .before = input.before,
-                .lets_pass = input.lets_pass};
-  record.job.times.submitted_at = state_.now;
-  const Record* helped = input.on_behalf_of ? state_.jobs.find(*input.on_behalf_of) : nullptr;
-  if (helped != nullptr) record.on_behalf_of = helped->on_behalf_of;
-  state_.lanes.add(state_.jobs.add(std::move(record)));
-  if (!input.before) return;
-  // It takes its place before a job that was in a ring: an arm of that goes aside now.
-  if (admission_.is_about(*input.before)) ++state_.version;  // the answer shall not start that
-  cycles_.has_opened(state_, *input.before);
-}
 
 void Scheduler::on(const Cancel& input) {
   Record* record = state_.jobs.find(input.job);

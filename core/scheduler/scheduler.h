@@ -7,6 +7,7 @@
 #include "core/scheduler/admission.h"
 #include "core/scheduler/horizon/timeline.h"
 #include "core/scheduler/inputs.h"
+#include "core/scheduler/phases.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/state.h"
 #include "core/scheduler/waiting/wait_cycles.h"
@@ -44,6 +45,8 @@ class Scheduler {
   // there.
   [[nodiscard]] Configuration predicted_rest() const;
 
+  // What the next job is to be called: not what an effect has called one of the scheduler's own.
+  [[nodiscard]] JobId next_job() const { return state_.jobs.next_id(); }
   [[nodiscard]] const Policy& policy() const { return *state_.policy; }
   // By the clock, of the one candidate of a question that is open: when it could begin beside what
   // is admitted, from now. Nothing: not, as things stand.
@@ -65,7 +68,7 @@ class Scheduler {
   void forget(JobId ended);
 
  private:
-  void on(const Submit& input);
+  void on(const Submit& input) { add(state_, record_of(state_, input)); }
   void on(const Cancel& input);
   void on(const Judged& input) { admission_.on(input, state_, cycles_); }
   void on(const MotionReport& input);

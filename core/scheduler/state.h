@@ -36,6 +36,7 @@ struct State {
   Version version = 1;        // of what is admitted, and of where arms rest
   Version recheck_epoch = 0;  // the last version that began with another scene
   TimePoint now{};            // of the present step
+  std::vector<YieldMove> sent_aside = {};
   std::vector<Effect> effects = {};
 
   State(CellPtr description, std::shared_ptr<const Policy> chosen, Configuration rest)

@@ -4,36 +4,21 @@
 #include <utility>
 
 #include "core/scheduler/waiting/waits.h"
-#include "core/scheduler/yielding/making_way.h"
 
 namespace armloom {
 
 Trial::Trial(Scheduler scheduler, std::optional<Question> open, const std::vector<Submit>& jobs,
              TimePoint now)
-    : scheduler_(std::move(scheduler)),
-      job_(jobs.back().job),
-      last_id_(job_.value()),
-      now_(now),
-      open_(std::move(open)) {
+    : scheduler_(std::move(scheduler)), job_(jobs.back().job), now_(now), open_(std::move(open)) {
   for (const Submit& job : jobs) step(job);
 }
 
 void Trial::step(const Input& input) {
-  std::vector<YieldMove> asides;
   for (Effect& effect : scheduler_.step(input, now_)) {
     if (auto* judge = std::get_if<Judge>(&effect)) open_ = std::move(judge->question);
-    if (auto* aside = std::get_if<YieldMove>(&effect)) asides.push_back(std::move(*aside));
   }
   const Job* job = scheduler_.find(job_);
   if (job != nullptr && !job->waits_on.empty()) waits_ = job->waits_on;
-  for (const YieldMove& aside : asides) {
-    const Duration as_helped = scheduler_.find(aside.blocked_job)->backlog_timeout;
-    make_way(scheduler_, aside, as_helped, [this](Submit way) {
-      way.job = JobId{++last_id_};
-      step(way);
-      return way.job;
-    });
-  }
 }
 
 bool Trial::is_decided() const {

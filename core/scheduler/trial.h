@@ -42,7 +42,6 @@ class Trial {
 
   Scheduler scheduler_;
   JobId job_;
-  std::uint64_t last_id_;
   TimePoint now_;
   std::optional<Question> open_;
   int judgements_ = 0;

@@ -147,8 +147,7 @@ class Bench {
     step(MotionReport{job, MotionReport::Kind::stopped, progress, state.position}, now);
   }
 
-  JobId next_id() { return JobId{++last_}; }
-  [[nodiscard]] JobId id_of_next() const { return JobId{last_ + 1}; }
+  [[nodiscard]] JobId next_id() const { return scheduler.next_job(); }
   JobState state(JobId job) const { return scheduler.find(job)->state(); }
   const Job& job(JobId id) const { return *scheduler.find(id); }
   // How far its arms may go, as they were told last.
@@ -171,8 +170,6 @@ class Bench {
 
  private:
   virtual void heard(const Effect& /*effect*/) {}
-
-  std::uint64_t last_ = 0;
 };
 
 // Under certified: an arm half a second on its way, and another one whose region with it this is.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/scheduler/yielding/making_way.h"
-
 namespace armloom {
 namespace {
 
@@ -26,12 +24,9 @@ IdealArms::IdealArms(const CellPtr& description, std::unique_ptr<const Policy> p
 JobId IdealArms::submit(Submit submitted) {
   const std::vector<JobId> after = submitted.after;
   const std::vector<ArmId> arms = submitted.trajectory->arms();
-  const bool own = submitted.system_job;
   submitted.job = next_id();
   after_[submitted.job] = after;
-  if (!own) {
-    for (const ArmId arm : arms) of_arm_[arm].push_back(submitted.job);
-  }
+  for (const ArmId arm : arms) of_arm_[arm].push_back(submitted.job);
   take(submitted);
   return submitted.job;
 }
@@ -103,12 +98,6 @@ void IdealArms::run(std::size_t events_max) {
 
 void IdealArms::take(const Input& input) {
   step(input, now_);
-  while (!asides.empty()) {
-    const YieldMove aside = asides.front();
-    asides.erase(asides.begin());
-    make_way(scheduler, aside, job(aside.blocked_job).backlog_timeout,
-             [this](Submit way) { return submit(std::move(way)); });
-  }
   check();
 }
 
@@ -185,6 +174,8 @@ void IdealArms::come_to_rest(const Moving& arm, MotionReport::Kind kind) {
 // ---- What the scheduler says ----
 
 void IdealArms::heard(const Effect& effect) {
+  if (const auto* aside = std::get_if<YieldMove>(&effect))
+    after_[aside->job] = job(aside->job).after;
   if (const auto* dispatch = std::get_if<Dispatch>(&effect)) on(*dispatch);
   if (const auto* grant = std::get_if<Grant>(&effect)) on(*grant);
   if (const auto* brake = std::get_if<Brake>(&effect)) on(*brake);

@@ -154,33 +154,16 @@ struct Parking : Bench {
     answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
     answer_conflict(at(2ms), Conflict::With::rest, {}, ArmId{0});
   }
-  // What the caller does on YieldMove.
-  void make_way(TimePoint now) {
-    ASSERT_EQ(asides.size(), 1u);
-    const YieldMove& aside = asides.front();
-    way = submit(Submit{.job = b,
-                        .trajectory = aside.trajectory,
-                        .backlog_timeout = 60s,
-                        .system_job = true,
-                        .before = aside.before},
-                 now);
-    back = submit(Submit{.job = b,
-                         .trajectory = retraced(*aside.trajectory),
-                         .backlog_timeout = 60s,
-                         .after = {way},
-                         .system_job = true,
-                         .before = aside.before,
-                         .lets_pass = aside.blocked_job},
-                  now);
-  }
   void answer_way_and_passing() {
     answer_free(at(3ms));
     answer_free(at(4ms));
+    ASSERT_EQ(asides.size(), 2u);
+    way = asides[0].job;
+    back = asides[1].job;
   }
   // The arm stands aside; nothing is decided about a since then.
   void go_aside() {
     answer_way_and_passing();
-    make_way(at(4ms));
     ASSERT_EQ(question->candidates.front().job, way);
     answer_free(at(5ms));
     progressed(way, 0ms, at(10ms));
@@ -204,13 +187,19 @@ TEST(RingUnderPark, AsksForTheWayAndThenForThePassingBeforeAnythingElse) {
   EXPECT_THAT(bench.asides, IsEmpty());
 }
 
-TEST(RingUnderPark, TheMoveAsideNamesTheJobThatItGoesBefore) {
+TEST(RingUnderPark, TheArmGoesAsideAndComesBackByJobsOfTheSchedulersOwn) {
   Parking bench;
   bench.answer_way_and_passing();
-  ASSERT_EQ(bench.asides.size(), 1u);
-  EXPECT_EQ(bench.asides[0].arm, ArmId{1});
-  EXPECT_EQ(bench.asides[0].blocked_job, bench.a);
-  EXPECT_EQ(bench.asides[0].before, bench.b);
+  for (const YieldMove& aside : bench.asides) {
+    EXPECT_EQ(aside.arm, ArmId{1});
+    EXPECT_EQ(aside.blocked_job, bench.a);
+    EXPECT_TRUE(aside.in_ring);
+  }
+  EXPECT_FALSE(bench.asides[0].returns);
+  EXPECT_TRUE(bench.asides[1].returns);
+  EXPECT_NEAR(bench.job(bench.way).trajectory->goal()[0], -1.0, 1e-9);
+  EXPECT_NEAR(bench.job(bench.back).trajectory->goal()[0], 0.0, 1e-9);
+  EXPECT_TRUE(bench.job(bench.way).system_job);
 }
 
 TEST(RingUnderPark, NobodyFailsWhileAWayIsAskedFor) {
@@ -222,7 +211,7 @@ TEST(RingUnderPark, NobodyFailsWhileAWayIsAskedFor) {
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
   bench.answer_free(at(9001ms));
-  bench.step(Wake{}, at(9100ms));  // the caller has not come back yet
+  bench.step(Wake{}, at(9100ms));
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
 }
 
@@ -250,7 +239,6 @@ TEST(RingUnderPark, AStoppedArmGoesNowhere) {
 TEST(RingUnderPark, ThePairTakesItsPlaceBeforeTheJob) {
   Parking bench;
   bench.answer_way_and_passing();
-  bench.make_way(at(4ms));
   EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
   EXPECT_THAT(bench.job(bench.b).ring, IsEmpty());
   ASSERT_FALSE(bench.job(bench.b).waits_on.empty());
@@ -268,7 +256,6 @@ TEST(RingUnderPark, ThePairChangesNothingAboutWhereArmsWillStand) {
   const Configuration before = bench.scheduler.predicted_rest();
   EXPECT_DOUBLE_EQ(before[1], 2.0);
   bench.answer_way_and_passing();
-  bench.make_way(at(4ms));
   EXPECT_EQ(bench.scheduler.predicted_rest(), before);
   bench.step(Cancel{next}, at(5ms));
   EXPECT_DOUBLE_EQ(bench.scheduler.predicted_rest()[1], 1.0);
@@ -320,10 +307,9 @@ TEST(RingUnderPark, TheReturnIsJudgedWhenTheOtherFails) {
 TEST(RingUnderPark, WithAMoveAsideInItFailsThatAndNoClientsJob) {
   Parking bench;
   bench.answer_way_and_passing();
-  bench.make_way(at(4ms));
   bench.answer_conflict(at(6ms), Conflict::With::rest, {}, ArmId{0});  // the way waits for a's arm
   EXPECT_THAT(bench.job(bench.a).ring, ElementsAre(bench.a, bench.way));
-  EXPECT_EQ(bench.asides.size(), 1u);
+  EXPECT_EQ(bench.asides.size(), 2u);
   bench.step(Wake{}, at(7ms));
   EXPECT_EQ(bench.job(bench.way).reason(), Reason::deadlock);
   EXPECT_EQ(bench.job(bench.back).reason(), Reason::predecessor_failed);
@@ -366,9 +352,7 @@ TEST(RingUnderPark, WithAMoveAsideThatAClientCountsOnFailsTheOther) {
   bench.answer_free(at(2ms));  // the way
   bench.answer_free(at(3ms));  // the passing
   ASSERT_EQ(bench.asides.size(), 1u);
-  const TrajectoryPtr aside = bench.asides[0].trajectory;
-  const JobId way = bench.submit(
-      Submit{.job = a, .trajectory = aside, .backlog_timeout = 60s, .system_job = true}, at(3ms));
+  const JobId way = bench.asides[0].job;
   const JobId counts = bench.submit(move({1}, -1, 0.5, 2s), at(3ms));
   bench.answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{0});
   EXPECT_THAT(bench.job(a).ring, ElementsAre(a, way));
@@ -387,12 +371,7 @@ struct Chain : Bench {
     answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
     answer_free(at(2ms));  // the way
     answer_free(at(3ms));  // the passing
-    way = submit(Submit{.job = a,
-                        .trajectory = asides.at(0).trajectory,
-                        .backlog_timeout = 60s,
-                        .system_job = true,
-                        .on_behalf_of = a},
-                 at(3ms));
+    way = asides.at(0).job;
     answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{2});
   }
   // Whether arm 2 is asked about.
@@ -414,25 +393,33 @@ TEST(MovingAside, ForWhatHelpsAJobEndsWithThatJob) {
   EXPECT_EQ(bench.state(bench.way), JobState::backlogged);
 }
 
-// Every other job that helps a finds arm 2 asked before.
+// However often arm 1 is sent back by its client, and goes aside again: every other job that helps
+// a finds arm 2 asked before.
 TEST(MovingAside, ForWhatHelpsAJobCountsAsForThatJob) {
   Chain bench;
   int asked = 0;
-  for (Duration now = 10ms; now < 1s; now += 10ms) {
+  double stands = 0.0;
+  std::optional<JobId> sent;
+  for (Duration now = 10ms; now < 2s; now += 10ms) {
     if (bench.asks_for_arm_2()) {
       ++asked;
       bench.answer_conflict(at(now), Conflict::With::scene);
-    } else if (bench.question) {
-      const bool is_a = bench.question->candidates.front().job == bench.a;
-      bench.answer_conflict(at(now), Conflict::With::rest, {}, ArmId{is_a ? 1u : 2u});
-    } else {  // the same again
-      bench.step(Cancel{bench.way}, at(now));
-      bench.way = bench.submit(Submit{.job = bench.a,
-                                      .trajectory = bench.asides.at(0).trajectory,
-                                      .backlog_timeout = 60s,
-                                      .system_job = true,
-                                      .on_behalf_of = bench.a},
-                               at(now));
+    } else if (!bench.question) {
+      if (!is_terminal(bench.state(bench.asides.back().job))) {
+        bench.step(Cancel{bench.asides.back().job}, at(now));
+      }
+      sent = bench.submit(move({1}, stands, stands + 0.1, 1s), at(now));
+    } else if (const JobId about = bench.question->candidates.front().job; about == sent) {
+      bench.answer_free(at(now));
+      bench.progressed(*sent, 0ms, at(now));
+      bench.finished(*sent, at(now));
+      stands += 0.1;
+    } else if (about == JobId{0}) {
+      bench.answer_free(at(now));
+    } else if (about == bench.a && std::abs(bench.question->rest[1] - stands) > 1e-9) {
+      bench.answer_free(at(now));  // arm 1 stands aside
+    } else {
+      bench.answer_conflict(at(now), Conflict::With::rest, {}, ArmId{about == bench.a ? 1u : 2u});
     }
   }
   EXPECT_EQ(asked, 8);

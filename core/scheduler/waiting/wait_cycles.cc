@@ -90,7 +90,7 @@ void WaitCycles::settle(State& state) {
   for (Named& named : std::exchange(named_, {})) {
     const bool stood = ring_stands(state, named.ring, named.epoch);
     named.way_out = stood && yield_in(state, named.ring).has_value();
-    if (named.way_out || (stood && named.opens)) {
+    if (named.way_out) {
       named_.push_back(std::move(named));
       continue;
     }
@@ -100,19 +100,14 @@ void WaitCycles::settle(State& state) {
 }
 
 bool WaitCycles::is_one_to_settle() const {
-  return std::ranges::any_of(named_, [](const Named& n) { return !n.way_out && !n.opens; });
+  return std::ranges::any_of(named_, [](const Named& n) { return !n.way_out; });
 }
 
 std::optional<YieldTrial> WaitCycles::next_yield(const State& state) const {
   for (const Named& named : named_) {
-    if (named.opens) continue;
     if (auto move = yield_in(state, named.ring)) return move;
   }
   return std::nullopt;
-}
-
-void WaitCycles::opens(JobId before) {
-  for (Named& named : named_) named.opens |= contains(named.ring, before);
 }
 
 void WaitCycles::has_opened(State& state, JobId before) {

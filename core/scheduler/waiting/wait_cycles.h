@@ -22,8 +22,7 @@ class WaitCycles {
 
   // The first way in which an arm of one of them could go aside.
   [[nodiscard]] std::optional<YieldTrial> next_yield(const State& state) const;
-  // Asked for: an arm is to go aside before this job of its own. It goes.
-  void opens(JobId before);
+  // An arm goes aside before this job of its own.
   void has_opened(State& state, JobId before);
 
  private:
@@ -31,7 +30,6 @@ class WaitCycles {
     WaitCycle ring;
     Version epoch;         // State::recheck_epoch when it was found
     bool way_out = false;  // an arm of it may go aside
-    bool opens = false;    // and does
   };
   std::vector<Named> named_;  // told in an earlier step
 };

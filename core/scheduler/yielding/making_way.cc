@@ -1,31 +1,38 @@
 #include "core/scheduler/yielding/making_way.h"
 
+#include <utility>
+
+#include "core/scheduler/phases.h"
 #include "core/trajectory/joint_line.h"
 
 namespace armloom {
+namespace {
 
-void make_way(const Scheduler& scheduler, const YieldMove& aside, Duration backlog_timeout,
-              const std::function<JobId(Submit)>& submit) {
-  const auto goes_on = [&](JobId id) {
-    const Job* known = scheduler.find(id);
-    return known != nullptr && !known->has_ended();
-  };
-  if (!goes_on(aside.blocked_job) || (aside.before && !goes_on(*aside.before))) return;
-  Submit way{.job = JobId{0},
-             .trajectory = aside.trajectory,
-             .priority = scheduler.find(aside.blocked_job)->priority,
-             .backlog_timeout = backlog_timeout,
-             .system_job = true,
-             .on_behalf_of = aside.blocked_job,
-             .before = aside.before};
-  Submit back = way;
-  const JobId goes = submit(std::move(way));
-  if (!aside.before) return;
-  back.trajectory = retraced(*aside.trajectory);
-  back.after = {goes};
-  back.on_behalf_of = aside.before;
-  back.lets_pass = aside.blocked_job;
-  (void)submit(std::move(back));
+JobId add_own(State& state, const YieldTrial& move, TrajectoryPtr way, std::optional<JobId> goes) {
+  const JobId id = state.jobs.next_id();
+  const JobId helped = goes ? *move.before : move.blocked_job;
+  Record record = record_of(state, {.job = id,
+                                    .trajectory = std::move(way),
+                                    .priority = state.jobs.at(move.blocked_job).job.priority,
+                                    .backlog_timeout = state.cell->scheduling.backlog_timeout,
+                                    .system_job = true});
+  record.on_behalf_of = state.jobs.at(helped).on_behalf_of;
+  record.before = move.before;
+  if (goes) {
+    record.job.after = {*goes};
+    record.lets_pass = move.blocked_job;
+  }
+  add(state, std::move(record));
+  state.sent_aside.push_back(
+      {id, move.arm, move.blocked_job, move.before.has_value(), goes.has_value()});
+  return id;
+}
+
+}  // namespace
+
+void send_aside(State& state, const YieldTrial& move) {
+  const JobId goes = add_own(state, move, move.way, std::nullopt);
+  if (move.before) (void)add_own(state, move, retraced(*move.way), goes);
 }
 
 }  // namespace armloom

@@ -128,6 +128,7 @@ Question question_about(const State& state, const YieldTrial& move) {
 }
 
 bool is_as_asked(const State& state, const YieldTrial& move) {
+  if (!state.jobs.is_active(move.blocked_job)) return false;
   const auto& queue = state.jobs.queue(move.arm);
   return move.before ? !queue.empty() && queue.front() == *move.before : queue.empty();
 }

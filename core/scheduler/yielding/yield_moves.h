@@ -28,7 +28,7 @@ struct YieldTrial {
 
 // First whether the way itself will be free, then whether the job would find the arm gone.
 [[nodiscard]] Question question_about(const State& state, const YieldTrial& move);
-// The arm has got no job meanwhile, nor lost the one that it is to go before.
+// The job still waits; the arm has got none meanwhile, nor lost the one that it is to go before.
 [[nodiscard]] bool is_as_asked(const State& state, const YieldTrial& move);
 // Whether nothing that stays keeps the arm from its way, or, where that is free, the job from its
 // own: an object, the moving arm itself, an arm of the ring; or the arm that has gone aside.
