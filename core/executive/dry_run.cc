@@ -60,9 +60,10 @@ class Plan final : public JobNames {
                 "no job before this one has the id \"" + key + "\"", key});
       }
     }
-    auto trajectory = validate(timed.job.trajectory, cell_);
+    const auto motion = timed.job.motions().front();  // as if that were chosen
+    auto trajectory = validate(motion.motion, cell_);
     Problems found = trajectory ? Problems{} : std::move(trajectory.error());
-    for (Problem& problem : found) problem.pointer.insert(0, "/trajectory");
+    for (Problem& problem : found) problem.pointer.insert(0, motion.place);
     if (trajectory) find_start_elsewhere(cell_, **trajectory, rest_, found);
     for (Problem& problem : found) refuse(std::move(problem));
     if (problems.size() > before) {
@@ -140,6 +141,7 @@ std::optional<JobId> place_taken(const Question& question, const CellPtr& cell,
     Record& record =
         state.jobs.add({.job = {.id = motion.job, .trajectory = motion.trajectory},
                         .leg = state.arms.leg_of(*cell, motion.job, *motion.trajectory),
+                        .turn = motion.job,
                         .on_behalf_of = motion.job});
     if (motion.job == question.candidates.front().job) continue;
     state.jobs.enter(record, Admitted{});

@@ -27,6 +27,13 @@ struct WaitView {
   std::optional<double> clearance_m;
   std::string detail;
 };
+// That it was taken before others, or by one of several arms (scheduler/job.h, Choice).
+struct ChoiceView {
+  std::vector<std::string> among;  // keys of jobs, or names of arms
+  std::string taken;               // of these
+  std::optional<double> saves_s;
+  std::string detail;  // one sentence
+};
 struct JobView {
   JobId id{0};
   std::string key;   // the "id" that clients use
@@ -43,6 +50,9 @@ struct JobView {
   Duration duration{};
   bool stopping = false;
   std::vector<WaitView> waits_on;
+  std::vector<std::string> alternatives;  // names of arms of which one does it
+  bool any_order = false;
+  std::optional<ChoiceView> choice;
   std::vector<std::string> ring;  // keys: the deadlock that it is part of, itself first
   std::optional<Reason> reason;   // when ended
   std::string detail;

@@ -23,13 +23,29 @@ namespace armloom {
 struct TimelineView;
 
 // A job as a client asks for it, its JSON already read.
+// Whether jobs of one arm that begin and end at one place have to run in the order in which they
+// came. They may change places with each other where each of them says `any`.
+enum class JobOrder { as_given, any };
+[[nodiscard]] const char* to_string(JobOrder order);
+
 struct JobRequest {
   std::string key;  // the client's id; empty: one is given ("job-17")
   std::string name;
-  TrajectoryRequest trajectory;
+  TrajectoryRequest trajectory;  // not read where there are alternatives
+  // The same work by several arms, of which one will do it: each moves one arm, and back to where
+  // it begins. None, or at least two.
+  std::vector<TrajectoryRequest> alternatives = {};
+  JobOrder order = JobOrder::as_given;
   int priority = 0;
   std::optional<Duration> backlog_timeout;  // absent: the cell's
   std::vector<std::string> after;           // keys of jobs that have to succeed first
+
+  // The trajectory, or the alternatives, each with its place in the request ("/alternatives/0").
+  struct PlacedMotion {
+    std::string place;
+    const TrajectoryRequest& motion;
+  };
+  [[nodiscard]] std::vector<PlacedMotion> motions() const;
 };
 
 // Where judgements are computed. Called on the strand; `done` must be called exactly once, on the

@@ -91,7 +91,8 @@ class Executive::Impl final : public JobNames {
   struct Prepared {
     std::string key;  // empty: one is to be given
     std::string name;
-    TrajectoryPtr trajectory;
+    std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; the only one, mostly
+    JobOrder order;
     int priority;
     Duration backlog_timeout;
     std::vector<std::string> after;
@@ -104,6 +105,9 @@ class Executive::Impl final : public JobNames {
     std::map<ArmId, TrajectoryPtr> ways_back;  // of arms that were sent aside
   };
   Result<Prepared> prepare(JobRequest request, Ahead& ahead) const;
+  [[nodiscard]] std::vector<TrajectoryPtr> read_motions(const JobRequest& request, Ahead& ahead,
+                                                        std::vector<TrajectoryPtr>& returns,
+                                                        Problems& problems) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   JobView accept(Prepared prepared);
   void walk(std::shared_ptr<Trial> trial, std::function<void(Result<CheckView>)> done);

@@ -11,9 +11,41 @@
 namespace armloom {
 namespace {
 
+constexpr double kSamePlace = 1e-6;  // rad, m: what the scheduler takes to be one place
+
 Problems prefixed(const std::string& prefix, Problems problems) {
   for (Problem& problem : problems) problem.pointer.insert(0, prefix);
   return problems;
+}
+
+// Each moves one arm, not another one's, and leaves it where it was: so the next job of an arm that
+// does not get this one can begin there.
+void find_no_alternatives(const Cell& cell, const std::vector<TrajectoryPtr>& motions,
+                          Problems& problems) {
+  std::vector<ArmId> arms;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const Trajectory& motion = *motions[i];
+    const std::string place = "/alternatives/" + std::to_string(i);
+    const ArmId arm = motion.arms().front();
+    const std::string& name = cell.arm(arm).name;
+    if (motion.arms().size() > 1 || std::ranges::find(arms, arm) != arms.end()) {
+      problems.push_back({ProblemKind::invalid, "bad-alternative", place + "/joint_names",
+                          "each alternative moves one arm, that no other alternative moves", name});
+    }
+    arms.push_back(arm);
+    for (std::size_t j = 0; j < motion.joints().size(); ++j) {
+      const auto index = static_cast<Eigen::Index>(j);
+      const double off = motion.goal()[index] - motion.start()[index];
+      if (std::abs(off) <= kSamePlace) continue;
+      problems.push_back({ProblemKind::invalid, "alternative-ends-elsewhere",
+                          place + "/points/" + std::to_string(motion.segments().size()) +
+                              "/positions/" + std::to_string(j),
+                          cell.joint(motion.joints()[j]).name +
+                              ": an alternative has to end where it begins, as the next job of " +
+                              name + " cannot know whether it is taken",
+                          motion.goal()[index]});
+    }
+  }
 }
 
 Problem key_in_use(const std::string& key) {
@@ -22,6 +54,17 @@ Problem key_in_use(const std::string& key) {
 }
 
 }  // namespace
+
+const char* to_string(JobOrder order) { return order == JobOrder::any ? "any" : "as_given"; }
+
+std::vector<JobRequest::PlacedMotion> JobRequest::motions() const {
+  if (alternatives.empty()) return {{"/trajectory", trajectory}};
+  std::vector<PlacedMotion> all;
+  for (std::size_t i = 0; i < alternatives.size(); ++i) {
+    all.push_back({"/alternatives/" + std::to_string(i), alternatives[i]});
+  }
+  return all;
+}
 
 Result<JobView> Executive::Impl::submit(JobRequest request) {
   Ahead ahead = ahead_now();
@@ -79,30 +122,39 @@ Result<Executive::Impl::Prepared> Executive::Impl::prepare(JobRequest request, A
       ids_.contains(request.key) || std::ranges::find(ahead.keys, request.key) != ahead.keys.end();
   if (!request.key.empty() && taken) problems.push_back(key_in_use(request.key));
   find_bad_after(request, ahead, problems);
-  auto trajectory = validate(request.trajectory, *cell_);
-  if (!trajectory) {
-    for (Problem& p : prefixed("/trajectory", std::move(trajectory.error()))) {
-      problems.push_back(std::move(p));
-    }
-  } else {
-    returns = returns_for(**trajectory, ahead);
-    find_start_elsewhere(*cell_, **trajectory, ahead.rest, problems);
-  }
+  std::vector<TrajectoryPtr> motions = read_motions(request, ahead, returns, problems);
   if (!problems.empty()) return failure(std::move(problems));
 
-  const Trajectory& motion = **trajectory;
+  const Trajectory& motion = *motions.front();
   for (std::size_t j = 0; j < motion.joints().size(); ++j) {
     ahead.rest[static_cast<Eigen::Index>(motion.joints()[j].index())] =
         motion.goal()[static_cast<Eigen::Index>(j)];
   }
   ahead.keys.push_back(request.key);
-  return Prepared{std::move(request.key),
-                  std::move(request.name),
-                  std::move(*trajectory),
-                  request.priority,
-                  request.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
-                  std::move(request.after),
-                  std::move(returns)};
+  return Prepared{
+      std::move(request.key),   std::move(request.name),
+      std::move(motions),       request.order,
+      request.priority,         request.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
+      std::move(request.after), std::move(returns)};
+}
+
+// Its trajectory, or its alternatives; and what has to move first so that they can begin.
+std::vector<TrajectoryPtr> Executive::Impl::read_motions(const JobRequest& request, Ahead& ahead,
+                                                         std::vector<TrajectoryPtr>& returns,
+                                                         Problems& problems) const {
+  std::vector<TrajectoryPtr> motions;
+  for (const auto& [place, asked] : request.motions()) {
+    auto motion = validate(asked, *cell_);
+    Problems found = motion ? Problems{} : std::move(motion.error());
+    if (motion) {
+      for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
+      find_start_elsewhere(*cell_, **motion, ahead.rest, found);
+      motions.push_back(std::move(*motion));
+    }
+    for (Problem& p : prefixed(place, std::move(found))) problems.push_back(std::move(p));
+  }
+  if (problems.empty() && motions.size() > 1) find_no_alternatives(*cell_, motions, problems);
+  return motions;
 }
 
 // Clients know arms where they left them: one that was sent aside returns there for a job that
@@ -201,11 +253,14 @@ Submit Executive::Impl::submission(Prepared prepared) const {
     const JobId job = ids_.at(before);
     if (!is_terminal(scheduler_.find(job)->state())) after.push_back(job);
   }
-  return {.job = JobId{0},
-          .trajectory = std::move(prepared.trajectory),
-          .priority = prepared.priority,
-          .backlog_timeout = prepared.backlog_timeout,
-          .after = std::move(after)};
+  Submit job{.job = JobId{0},
+             .trajectory = prepared.alternatives.front(),
+             .priority = prepared.priority,
+             .backlog_timeout = prepared.backlog_timeout,
+             .after = std::move(after),
+             .any_order = prepared.order == JobOrder::any};
+  if (prepared.alternatives.size() > 1) job.alternatives = std::move(prepared.alternatives);
+  return job;
 }
 
 // Of an arm that was sent aside, before a job of this priority.

@@ -1,5 +1,6 @@
 #include "core/executive/views.h"
 
+#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -59,6 +60,30 @@ WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names) {
   return view;
 }
 
+namespace {
+
+ChoiceView view_of(const Job& job, const Choice& choice, const Cell& cell, const JobNames& names) {
+  ChoiceView view;
+  for (JobId other : choice.jobs) view.among.push_back(names.key(other));
+  for (ArmId arm : choice.arms) view.among.push_back(cell.arm(arm).name);
+  const bool by_arm = !choice.arms.empty();
+  view.taken = by_arm ? cell.arm(job.trajectory->arms().front()).name : names.key(job.id);
+  const std::string& first = view.among.front();
+  if (view.taken == first) {
+    view.detail = "no other one makes the plan shorter";
+  } else if (!choice.saves) {
+    view.detail = first + " could not go as things stood";
+  } else {
+    view.saves_s = to_seconds(*choice.saves);
+    char text[64];
+    std::snprintf(text, sizeof text, "the plan costs %.2f s less than with ", *view.saves_s);
+    view.detail = text + first;
+  }
+  return view;
+}
+
+}  // namespace
+
 JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   JobView view{.id = job.id,
                .key = names.key(job.id),
@@ -72,11 +97,16 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .ended_at = job.ended_at(),
                .duration = job.trajectory->duration(),
                .stopping = job.stopping(),
+               .any_order = job.any_order,
                .reason = job.reason(),
                .detail = job.detail()};
   view.progress = to_seconds(job.progress) / to_seconds(job.trajectory->duration());
   for (ArmId arm : job.trajectory->arms()) view.arms.push_back(cell.arm(arm).name);
   for (const Wait& wait : job.waits_on) view.waits_on.push_back(view_of(wait, cell, names));
+  for (const TrajectoryPtr& other : job.alternatives) {
+    view.alternatives.push_back(cell.arm(other->arms().front()).name);
+  }
+  if (job.choice) view.choice = view_of(job, *job.choice, cell, names);
   for (JobId on_it : job.ring) view.ring.push_back(names.key(on_it));
   if (job.reason() == Reason::deadlock) view.detail = deadlock_text(view.ring, cell);
   if (job.reason() == Reason::backlog_timeout) {  // what it waited for in vain

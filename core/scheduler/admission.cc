@@ -86,27 +86,28 @@ bool Admission::ask_next(State& state, const WaitCycles& cycles) {
   bool put_off = false;
   if (const auto recheck = next_recheck(state)) {
     ask(state, {*recheck}, Purpose::recheck);
-  } else if (auto opens = cycles.next_yield(state)) {
-    ask_yield(state, std::move(*opens));
-  } else {
-    auto candidate = Turns(state).next();
-    while (candidate && waits_for_sequence(state, *candidate)) {
-      put_off = true;
-      candidate = Turns(state).next();
-    }
-    if (candidate) {
-      ask(state, {*candidate}, Purpose::start);
-    } else if (auto idle = next_yield(state)) {
-      ask_yield(state, std::move(*idle));
-    }
+    return put_off;
   }
+  if (auto opens = cycles.next_yield(state)) {
+    ask_yield(state, std::move(*opens));
+    return put_off;
+  }
+  while (const auto turn = Turns(state).next()) {
+    const bool is_choice = choosing_.begin(state, *turn);
+    if (!waits_for_sequence(state, choosing_.job())) {
+      ask(state, {choosing_.job()}, is_choice ? Purpose::option : Purpose::start);
+      return put_off;
+    }
+    put_off = true;
+  }
+  if (auto idle = next_yield(state)) ask_yield(state, std::move(*idle));
   return put_off;
 }
 
 void Admission::ask(State& state, std::vector<JobId> jobs, Purpose purpose) {
   Question question = question_now(state, jobs);
   std::vector<Passage> unknown;
-  if (purpose == Purpose::start) {
+  if (purpose == Purpose::start || purpose == Purpose::option) {
     question.effort = state.jobs.at(jobs.front()).effort;
     auto outlook = state.lanes.after(jobs, state.jobs, state.arms);
     unknown = std::move(outlook.unknown);
@@ -140,6 +141,8 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
       if (input.verdict.kind != Verdict::Kind::free) hold_back(state, record, input.verdict);
       return;
     }
+    case Purpose::option:
+      return answer_option(state, input.verdict);
     case Purpose::start:
       return answer_start(state, input.verdict, question.jobs);
   }
@@ -157,6 +160,16 @@ void Admission::answer_yield(State& state, const Verdict& verdict, YieldTrial mo
   if (!passes) return;
   send_aside(state, move);
   if (move.before) cycles.has_opened(state, *move.before);
+}
+
+void Admission::answer_option(State& state, Verdict verdict) {
+  if (choosing_.rate(state, std::move(verdict))) {
+    return ask(state, {choosing_.job()}, Purpose::option);
+  }
+  const auto best = choosing_.decide(state);
+  if (best) return answer_start(state, *best, {choosing_.job()});
+  Record& record = state.jobs.at(choosing_.job());
+  wait_in_turn(state, record, *state.jobs.before(record.job));
 }
 
 void Admission::answer_start(State& state, const Verdict& verdict, const std::vector<JobId>& jobs) {

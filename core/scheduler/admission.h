@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/scheduler/state.h"
+#include "core/scheduler/waiting/choosing.h"
 #include "core/scheduler/waiting/wait_cycles.h"
 #include "core/scheduler/yielding/yield_moves.h"
 
@@ -23,6 +24,7 @@ class Admission {
  private:
   enum class Purpose {
     start,    // of a job that waits
+    option,   // the same, of one of several that could take a turn
     recheck,  // of a motion that is under way or scheduled
     yield,    // whether an arm could go aside, and the job then pass
   };
@@ -42,12 +44,14 @@ class Admission {
   void ask(State& state, std::vector<JobId> jobs, Purpose purpose);
   void ask_yield(State& state, YieldTrial move);
   void answer_yield(State& state, const Verdict& verdict, YieldTrial move, WaitCycles& cycles);
+  void answer_option(State& state, Verdict verdict);
   void answer_start(State& state, const Verdict& verdict, const std::vector<JobId>& jobs);
   void decide(State& state, const Verdict& verdict, const std::vector<JobId>& jobs);
   [[nodiscard]] bool leaves_a_sequence(State& state, const std::vector<JobId>& jobs);
   [[nodiscard]] bool tries_together(State& state, const std::vector<JobId>& jobs, bool can_go);
 
   std::optional<OpenQuestion> open_;
+  Choosing choosing_;
   std::optional<Together> together_;
 };
 

@@ -24,6 +24,11 @@ struct Submit {
   Duration backlog_timeout;
   std::vector<JobId> after = {};  // active jobs that have to succeed first; smaller ids than `job`
   bool system_job = false;        // the caller's own: in a ring it gives way to jobs of clients
+  // Jobs of one arm that say so, and begin and end at one place, may be taken in another order.
+  bool any_order = false;
+  // The same work by one of several arms, `trajectory` first; none, or two or more. Each moves one
+  // arm, of which no other one is, and ends where it begins.
+  std::vector<TrajectoryPtr> alternatives = {};
 };
 struct Cancel {
   JobId job;

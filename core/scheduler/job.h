@@ -123,6 +123,15 @@ struct JobTimes {
   std::optional<TimePoint> started_at;  // it has moved
 };
 
+// That a job was taken among several, or on one of several arms, and what for.
+struct Choice {
+  std::vector<JobId> jobs = {};          // that could have gone, it among them; by turn
+  std::vector<ArmId> arms = {};          // alternatives: on which it could have gone
+  std::optional<JobId> instead_of = {};  // whose turn it was; nothing: its own
+  // By so much the plan's cost is less than with what came first; nothing: that could not go.
+  std::optional<Duration> saves = {};
+};
+
 // A job as the scheduler knows it. Read-only for everyone else.
 struct Job {
   JobId id;
@@ -131,6 +140,11 @@ struct Job {
   Duration backlog_timeout{};
   std::vector<JobId> after = {};  // those that have not ended yet
   bool system_job = false;        // the server's: a move aside
+  bool any_order = false;         // Submit::any_order
+  std::vector<TrajectoryPtr> alternatives =
+      {};  // `trajectory` is one of them: until it is admitted
+           // it is as good as chosen, but may be another
+  std::optional<Choice> choice = {};
   JobPhase phase = Queued{};
   JobTimes times = {};
   Duration progress{};           // trajectory time, last measured

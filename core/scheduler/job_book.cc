@@ -39,6 +39,7 @@ Record& JobBook::add(Record record) {
     work_[arm.index()] += job.trajectory->duration();
   }
   active_.insert(job.id);
+  if (!job.alternatives.empty()) undecided_.insert(job.id);
   unexplained_.insert(job.id);
   if (record.before) unexplained_.insert(*record.before);
   ++priorities_[job.priority];
@@ -74,6 +75,12 @@ bool JobBook::is_first(const Job& job) const {
                              [&](ArmId arm) { return queue(arm).front() == job.id; });
 }
 
+std::optional<JobId> JobBook::before(const Job& job) const {
+  const auto& own = queue(job.trajectory->arms().front());
+  const auto place = std::ranges::find(own, job.id);
+  return place == own.begin() ? std::nullopt : std::optional(*std::prev(place));
+}
+
 bool JobBook::at_head(const Record& record) const {
   return record.job.after.empty() && !lets_another_pass(record) && is_first(record.job);
 }
@@ -82,8 +89,8 @@ bool JobBook::lets_another_pass(const Record& record) const {
   return record.lets_pass && is_active(*record.lets_pass) && at(*record.lets_pass).job.is_waiting();
 }
 
-// By submission, but for those that took their places before others: these stand first of their
-// arms, in the order in which they came.
+// By turn, but for those that took their places before others: these stand first of their arms, in
+// the order in which they came.
 std::vector<JobId> JobBook::in_turn(const std::set<JobId>& jobs) const {
   std::map<JobId, JobId> behind;  // the first job of the arm that did not
   for (const auto& queue : queues_) {
@@ -93,13 +100,54 @@ std::vector<JobId> JobBook::in_turn(const std::set<JobId>& jobs) const {
     for (auto id = queue.begin(); id != first; ++id) behind.emplace(*id, *first);
   }
   std::vector<JobId> sorted(jobs.begin(), jobs.end());
-  if (behind.empty()) return sorted;
-  std::ranges::sort(sorted, {}, [&behind](JobId id) {
+  const auto turn = [this](JobId id) { return at(id).turn; };
+  if (behind.empty() && std::ranges::is_sorted(sorted, {}, turn)) return sorted;
+  std::ranges::sort(sorted, {}, [&](JobId id) {
     const auto first = behind.find(id);
     const bool placed = first != behind.end();
-    return std::tuple(placed ? first->second : id, !placed, id);
+    return std::tuple(placed ? turn(first->second) : turn(id), !placed, turn(id));
   });
   return sorted;
+}
+
+void JobBook::exchange(Record& a, Record& b) {
+  std::swap(a.turn, b.turn);
+  for (ArmId arm : a.job.trajectory->arms()) {
+    auto& queue = queues_[arm.index()];
+    std::iter_swap(std::ranges::find(queue, a.job.id), std::ranges::find(queue, b.job.id));
+  }
+  for (const Record* record : {&a, &b}) explain_with_next(record->job);
+}
+
+void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
+  Job& job = record.job;
+  explain_with_next(job);
+  for (ArmId arm : job.trajectory->arms()) {
+    auto& queue = queues_[arm.index()];
+    queue.erase(std::ranges::find(queue, job.id));
+    work_[arm.index()] -= job.trajectory->duration();
+  }
+  job.trajectory = std::move(trajectory);
+  record.leg = std::move(leg);
+  for (ArmId arm : job.trajectory->arms()) {
+    auto& queue = queues_[arm.index()];
+    const auto later = [&](JobId id) {
+      return at(id).job.in<Queued>() != nullptr && at(id).turn > record.turn;
+    };
+    queue.insert(std::ranges::find_if(queue, later), job.id);
+    work_[arm.index()] += job.trajectory->duration();
+  }
+  explain_with_next(job);
+}
+
+// What comes next on its arms may have waited for it, or does now.
+void JobBook::explain_with_next(const Job& job) {
+  unexplained_.insert(job.id);
+  for (ArmId arm : job.trajectory->arms()) {
+    const auto& queue = queues_[arm.index()];
+    const auto next = std::ranges::find(queue, job.id) + 1;
+    if (next != queue.end()) unexplained_.insert(*next);
+  }
 }
 
 void JobBook::enter(Record& record, JobPhase phase) {
@@ -110,17 +158,14 @@ void JobBook::enter(Record& record, JobPhase phase) {
                            std::to_string(phase.index()));
   }
   job.phase = std::move(phase);
+  const bool is_decided = job.alternatives.empty() || job.in<Queued>() == nullptr;
+  is_decided ? (void)undecided_.erase(job.id) : (void)undecided_.insert(job.id);
   if (job.state() == JobState::queued || job.has_ended()) {
     past_queue_.erase(job.id);
   } else {
     past_queue_.insert(job.id);
   }
-  unexplained_.insert(job.id);
-  for (ArmId arm : job.trajectory->arms()) {  // what comes next may have waited for it, or does now
-    const auto& queue = queues_[arm.index()];
-    const auto next = std::ranges::find(queue, job.id) + 1;
-    if (next != queue.end()) unexplained_.insert(*next);
-  }
+  explain_with_next(job);
 }
 
 std::vector<JobId> JobBook::end(Record& record, Ended how) {

@@ -25,6 +25,8 @@ struct YieldsTried {
 struct Record {
   Job job;
   WaitingLeg leg;
+  JobId turn;  // whose place in the order of submission it has: its own, unless jobs changed places
+  std::optional<TimePoint> overtaken_at = {};  // first, by one that took its turn
   // Of moves aside. The client's job that this one is to help; else itself.
   JobId on_behalf_of{0};
   std::optional<JobId> before = {};     // it took its place before this one of its arm
@@ -64,9 +66,18 @@ class JobBook {
   [[nodiscard]] const std::vector<std::deque<JobId>>& queues() const { return queues_; }
   [[nodiscard]] const std::deque<JobId>& queue(ArmId arm) const { return queues_[arm.index()]; }
   [[nodiscard]] bool is_first(const Job& job) const;  // of all its arms
+  // On the first of its arms; nothing: none.
+  [[nodiscard]] std::optional<JobId> before(const Job& job) const;
   // That would not keep it waiting: first of its arms, all in `after` ended, none let pass.
   [[nodiscard]] bool at_head(const Record& record) const;
   [[nodiscard]] bool lets_another_pass(const Record& record) const;
+  // Two that wait change places; precondition: they move the same arms.
+  void exchange(Record& a, Record& b);
+  // The other trajectory, of other arms, behind what is admitted there and what came before it.
+  // Precondition: it waits.
+  void take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg);
+  // That could still go on other arms.
+  [[nodiscard]] const std::set<JobId>& undecided() const { return undecided_; }
   // The same jobs, each after those before it.
   [[nodiscard]] std::vector<JobId> in_turn(const std::set<JobId>& jobs) const;
   // Per arm: of its active jobs.
@@ -86,10 +97,13 @@ class JobBook {
   [[nodiscard]] std::set<JobId> take_unexplained() { return std::exchange(unexplained_, {}); }
 
  private:
+  void explain_with_next(const Job& job);
+
   std::map<JobId, Record> records_;
   std::uint64_t last_id_ = 0;
   std::set<JobId> active_;
   std::set<JobId> past_queue_;
+  std::set<JobId> undecided_;
   std::map<JobId, std::vector<JobId>> followers_;  // those that name it in Submit::after
   std::map<int, std::size_t> priorities_;          // how many active jobs have it
   std::vector<std::deque<JobId>> queues_;

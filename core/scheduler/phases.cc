@@ -65,8 +65,11 @@ Record record_of(State& state, const Submit& job) {
                         .priority = job.priority,
                         .backlog_timeout = job.backlog_timeout,
                         .after = job.after,
-                        .system_job = job.system_job},
+                        .system_job = job.system_job,
+                        .any_order = job.any_order,
+                        .alternatives = job.alternatives},
                 .leg = state.arms.leg_of(*state.cell, job.job, *job.trajectory),
+                .turn = job.job,
                 .on_behalf_of = job.job};
   record.job.times.submitted_at = state.now;
   return record;

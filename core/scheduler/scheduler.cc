@@ -9,6 +9,7 @@
 #include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/invariants.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
 
 namespace armloom {
@@ -88,8 +89,9 @@ void Scheduler::fail_impossible_starts() {
     const Job& job = head.job;
     if (!job.is_waiting() || job.has_started() || !state_.jobs.at_head(head)) continue;
     if (auto mismatch = state_.arms.start_mismatch(*state_.cell, *job.trajectory)) {
-      end(state_, head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));
       unchanged = 0;
+      if (begins_on_other_arm(state_, head)) continue;
+      end(state_, head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));
     }
   }
 }

@@ -22,14 +22,16 @@ Problems read_trajectories(JobsFile& file, const Cell& cell) {
       faults.push_back(Problem{ProblemKind::conflict, "id-in-use", place + "/id",
                                "the id is used by an earlier job of the file", key});
     }
-    if (auto trajectory = validate(file.jobs[i].job.trajectory, cell)) {
-      file.trajectories.push_back(std::move(*trajectory));
-    } else {
-      for (Problem problem : trajectory.error()) {
-        problem.pointer = place + "/trajectory" + problem.pointer;
+    std::vector<TrajectoryPtr> motions;
+    for (const auto& [where, asked] : file.jobs[i].job.motions()) {
+      auto motion = validate(asked, cell);
+      if (motion) motions.push_back(std::move(*motion));
+      for (Problem problem : motion ? Problems{} : motion.error()) {
+        problem.pointer = place + where + problem.pointer;
         faults.push_back(std::move(problem));
       }
     }
+    if (!motions.empty()) file.trajectories.push_back(std::move(motions.front()));
   }
   return faults;
 }
@@ -80,8 +82,11 @@ TimePoint time_limit(const std::vector<TimedJob>& jobs, const std::vector<FaultR
     limit_s += to_seconds(fault.lasting.value_or(Duration{}));
   }
   for (const TimedJob& timed : jobs) {
-    const auto& points = timed.job.trajectory.points;
-    const double duration_s = points.empty() ? 0.0 : points.back().time_from_start_s;
+    double duration_s = 0.0;
+    for (const auto& [place, motion] : timed.job.motions()) {
+      if (motion.points.empty()) continue;
+      duration_s = std::max(duration_s, motion.points.back().time_from_start_s);
+    }
     limit_s += to_seconds(timed.job.backlog_timeout.value_or(cell.scheduling.backlog_timeout)) +
                duration_s * cell.execution.duration_scaling +
                to_seconds(cell.execution.duration_margin);

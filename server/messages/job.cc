@@ -42,6 +42,24 @@ FormatPtr<JobResult> result_format() {
   });
 }
 
+FormatPtr<ChoiceView> choice_format() {
+  return object<ChoiceView>({
+      told("among", &ChoiceView::among, list(text()),
+           "Jobs that could have taken the turn, or arms that could have done it: as it was first"),
+      told("taken", &ChoiceView::taken, text(), "One of these"),
+      told("saves_s", &ChoiceView::saves_s, nullable(number(kAnyNumber)),
+           "By so much the plan costs less than with the first; null: that is taken, or could not "
+           "go"),
+      told("detail", &ChoiceView::detail, text()),
+  });
+}
+std::optional<JobOrder> order_of(const JobView& job) {
+  return job.any_order ? std::optional(JobOrder::any) : std::nullopt;
+}
+std::optional<std::vector<std::string>> alternatives_of(const JobView& job) {
+  return job.alternatives.empty() ? std::nullopt : std::optional(job.alternatives);
+}
+
 std::optional<std::string> detail_of(const WaitView& wait) {
   return wait.detail.empty() ? std::nullopt : std::optional(wait.detail);
 }
@@ -168,6 +186,12 @@ FormatPtr<JobView> job_format() {
           told("duration_s", &View::duration, seconds(kPositive), "Of the trajectory"),
           told("stopping", &View::stopping, flag(), "Brakes on its path"),
           told("waits_on", &View::waits_on, list(wait_format()), "Empty when it does not wait"),
+          told_if("order", order_of, choice<JobOrder>({JobOrder::any}, to_string),
+                  "It may change places with others of its arm that say so"),
+          told_if("alternatives", alternatives_of, list(text()),
+                  "Arms of which one does it; `arms` is that one, or the likeliest while it waits"),
+          told_if("choice", &View::choice, choice_format(),
+                  "Why it was taken before others, or by this arm"),
           told("ring", &View::ring, list(text()),
                "The deadlock that it is part of, itself first: each waits for the next one, the "
                "last for the first. Else empty"),

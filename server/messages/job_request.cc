@@ -47,8 +47,12 @@ FormatPtr<std::string> name_format() {
                        {{"maxLength", kJobNameMax}}});
 }
 
-// The jobs of a batch, read after "atomic": alone each has its own answer, with places in its own
-// body.
+FormatPtr<JobOrder> order_format() {
+  return choice<JobOrder>({JobOrder::as_given, JobOrder::any}, to_string);
+}
+
+// The jobs of a batch, read after "atomic" and "order": alone each has its own answer, with places
+// in its own body.
 class BatchJobs final : public Part<BatchRequest> {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("jobs"); }
@@ -56,7 +60,7 @@ class BatchJobs final : public Part<BatchRequest> {
     object.required("jobs", [&](const JsonNode& n) {
       if (!n.array() || !is_readable(n, size_)) return;
       check_fewest(n, size_);
-      n.each([&](const JsonNode& job) { batch.jobs.push_back(entry(job, batch.atomic)); });
+      n.each([&](const JsonNode& job) { batch.jobs.push_back(entry(job, batch)); });
     });
   }
   void describe(Schema& object, const BatchRequest&, Way way) const override {
@@ -65,11 +69,17 @@ class BatchJobs final : public Part<BatchRequest> {
   }
 
  private:
-  static BatchRequest::Entry entry(const JsonNode& node, bool atomic) {
-    if (!atomic) return {read_job(node.raw()), node.raw().dump()};
+  static BatchRequest::Entry entry(const JsonNode& node, const BatchRequest& batch) {
+    nlohmann::json body = node.raw();
+    const bool adds_order =
+        batch.order != JobOrder::as_given && body.is_object() && !body.contains("order");
+    if (adds_order) body["order"] = to_string(batch.order);
+    std::string text = body.dump();
+    if (!batch.atomic) return {read_job(body), std::move(text)};
     JobRequest job;
     job_request_format()->read(node, job);
-    return {std::move(job), node.raw().dump()};
+    if (adds_order) job.order = batch.order;
+    return {std::move(job), std::move(text)};
   }
 
   const ListSize size_{.fewest = 1, .most = kBatchMax, .noun = "jobs"};
@@ -119,8 +129,20 @@ FormatPtr<JobRequest> job_request_format() {
           not_served<Request>(
               {"steps", "not-served",
                "\"steps\" are not served by this version; give one \"trajectory\""}),
-          unless("steps", required("trajectory", &Request::trajectory, trajectory_request_format(),
-                                   "The motion")),
+          field(
+              "order", &Request::order,
+              choice<JobOrder>({JobOrder::as_given, JobOrder::any}, to_string),
+              "\"any\": jobs of one arm that begin and end at one place, and say so, may be taken "
+              "in another order"),
+          unless("steps",
+                 unless("alternatives", required("trajectory", &Request::trajectory,
+                                                 trajectory_request_format(), "The motion"))),
+          field("alternatives", &Request::alternatives,
+                list(trajectory_request_format(),
+                     {.fewest = 2, .most = kAlternativesMax, .noun = "trajectories"}),
+                "Instead of a trajectory: the same work by several arms, each back to where it "
+                "begins; one of them does it"),
+          at_most_one<Request>({"trajectory", "alternatives"}),
           // Read after the trajectory, which it stretches.
           std::make_shared<MemberPart<Request, double>>(
               MemberText{
@@ -129,7 +151,10 @@ FormatPtr<JobRequest> job_request_format() {
                   "stretched in time before anything is checked",
                   Need::optional, Schema(1)},
               number({0.001, 1.0}), [](const Request&) { return std::optional<double>(); },
-              [](Request& request, double factor) { slow_down(request.trajectory, factor); }),
+              [](Request& request, double factor) {
+                slow_down(request.trajectory, factor);
+                for (TrajectoryRequest& other : request.alternatives) slow_down(other, factor);
+              }),
       }));
   return format;
 }
@@ -139,6 +164,8 @@ FormatPtr<BatchRequest> batch_request_format() {
       named("BatchRequest", "",
             object<BatchRequest>({
                 field("atomic", &BatchRequest::atomic, flag(), "All admitted or none"),
+                field("order", &BatchRequest::order, order_format(),
+                      "Of every job that does not say it itself"),
                 std::make_shared<BatchJobs>(),
             }));
   return format;

@@ -22,6 +22,7 @@ inline constexpr std::size_t kJobKeyMax = 128;
 inline constexpr std::size_t kJobNameMax = 256;
 inline constexpr std::size_t kAfterMax = 100;   // predecessors of one job
 inline constexpr std::size_t kBatchMax = 1000;  // jobs of one batch
+inline constexpr std::size_t kAlternativesMax = 8;
 
 // The body of POST /jobs: its shape only; limits, names and times are validate()'s. All
 // faults are returned, at most JsonNode::kFaultsMax.
@@ -41,6 +42,7 @@ struct BatchRequest {
     std::string text;  // the body of this job
   };
   bool atomic = true;
+  JobOrder order = JobOrder::as_given;
   std::vector<Entry> jobs;
 };
 [[nodiscard]] FormatPtr<BatchRequest> batch_request_format();

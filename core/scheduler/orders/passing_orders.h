@@ -42,14 +42,8 @@ struct PassingOrders {
                                   // open it; ascending
 };
 
-// Finds the orders under which everything comes to its end, and of these the ones that cost least:
-// the sum over arms of when each has done what is admitted, and when the last one has done its work
-// (what waits behind counted); motions of larger priority before others. Orders of before are
-// turned where that helps.
-//
-// All assignments are tried for up to kTriedInFull free choices; beyond that, single choices are
-// changed while that helps.
-inline constexpr std::size_t kTriedInFull = 5;
+// The orders under which everything comes to its end that cost least (order_search.h). Orders of
+// before are turned where that helps.
 [[nodiscard]] PassingOrders cheapest_orders(const OrderQuestion& question);
 
 // Of one candidate: the orders in which all go on by the clock. What is admitted is predicted; the

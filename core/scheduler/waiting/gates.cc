@@ -6,6 +6,7 @@
 
 #include "core/scheduler/authority.h"
 #include "core/scheduler/policy.h"
+#include "core/scheduler/waiting/options.h"
 
 namespace armloom {
 namespace {
@@ -37,10 +38,12 @@ bool is_next(const State& state, const Record& record, ArmId arm) {
 
 // Which job stands before it, on the first of its arms where one does and has to go first.
 Closed behind(const Turns& turns, const Record& record) {
+  if (has_turn_on_some_arm(turns.state(), record)) return std::nullopt;
   for (ArmId arm : record.job.trajectory->arms()) {
     if (is_next(turns.state(), record, arm)) continue;
     const auto& queue = turns.state().jobs.queue(arm);
-    return order(*std::next(std::find(queue.rbegin(), queue.rend(), record.job.id)), arm);
+    const auto before = std::next(std::find(queue.rbegin(), queue.rend(), record.job.id));
+    if (before != queue.rend()) return order(*before, arm);
   }
   return std::nullopt;
 }
@@ -74,6 +77,7 @@ void add_lets_pass(const State& state, const Record& record, Edges& edges) {
 }
 
 Closed stop(const Turns& turns, const Record& record) {
+  if (has_turn_on_some_arm(turns.state(), record)) return std::nullopt;
   return only(turns.state().arms.stop_of(record.job));
 }
 

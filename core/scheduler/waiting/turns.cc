@@ -1,6 +1,7 @@
 #include "core/scheduler/waiting/turns.h"
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 #include "core/scheduler/policy.h"
@@ -29,6 +30,9 @@ bool waits_beyond_turns(const State& state, const Record& record) {
     return !moves && !has_to_move_first(state, wait);
   });
 }
+
+// Of jobs that other arms could do so many are looked at, though others come before them.
+constexpr std::size_t kUndecidedMax = 16;
 
 // Of an arm's jobs the first that is not admitted; nothing: all are.
 std::optional<JobId> first_that_waits(const State& state, const std::deque<JobId>& queue) {
@@ -100,17 +104,19 @@ std::optional<JobId> Turns::next() const {
     const bool b_held = b.job.in<Held>() != nullptr;
     if (a_held != b_held) return a_held;
     if (urgency.empty() || urgency.at(a.job.id) == urgency.at(b.job.id)) {
-      return a.job.id < b.job.id;
+      return a.turn < b.turn;
     }
     return urgency.at(a.job.id) > urgency.at(b.job.id);
   };
-  for (const auto& queue : state_.jobs.queues()) {
-    const auto first = first_that_waits(state_, queue);
-    if (!first) continue;
-    const Record& record = state_.jobs.at(*first);
-    if (closed_gate(*this, record)) continue;
+  const auto consider = [&](JobId job) {
+    const Record& record = state_.jobs.at(job);
+    if (closed_gate(*this, record)) return;
     if (best == nullptr || goes_before(record, *best)) best = &record;
+  };
+  for (const auto& queue : state_.jobs.queues()) {
+    if (const auto first = first_that_waits(state_, queue)) consider(*first);
   }
+  std::ranges::for_each(state_.jobs.undecided() | std::views::take(kUndecidedMax), consider);
   return best != nullptr ? std::optional(best->job.id) : std::nullopt;
 }
 

@@ -1,0 +1,140 @@
+#include "core/scheduler/waiting/choosing.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/scheduler/horizon/weighing.h"
+#include "core/scheduler/motion_questions.h"
+#include "core/scheduler/orders/order_search.h"
+#include "core/scheduler/policy.h"
+
+namespace armloom {
+namespace {
+
+// Of the plan: what is admitted as predicted, with `candidate` last; then what waits.
+double cost_of(const State& state, const Job* candidate, const Prediction& prediction) {
+  std::vector<double> ends(state.cell->arms.size(), 0.0);
+  std::vector<Duration> behind = state.jobs.work();
+  const auto count = [&](const Trajectory& trajectory, Duration end) {
+    for (ArmId arm : trajectory.arms()) {
+      ends[arm.index()] = std::max(ends[arm.index()], to_seconds(end));
+      behind[arm.index()] -= trajectory.duration();
+    }
+  };
+  const auto& motions = state.graph.motions();
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    count(*state.jobs.at(motions[m].job).job.trajectory, prediction.ends[m]);
+  }
+  if (candidate != nullptr) count(*candidate->trajectory, prediction.ends[motions.size()]);
+  double last = 0.0, sum = 0.0;
+  for (std::size_t arm = 0; arm < ends.size(); ++arm) {
+    const double end = ends[arm] + to_seconds(behind[arm]);
+    last = std::max(last, end);
+    sum += end;
+  }
+  return last + OrderSearch::kWeightOfSum * sum;
+}
+
+PassingOrders orders_with(State& state, const std::vector<CoordinatedMotion>& candidates,
+                          const std::vector<PairRegions>& regions) {
+  return state.policy->decide(state.graph.question(candidates, regions));
+}
+
+// Nothing: it cannot go as things are.
+std::optional<double> cost_with(State& state, JobId job, const Verdict& verdict) {
+  if (verdict.kind != Verdict::Kind::free) return std::nullopt;
+  prepare_choice(state, {job});
+  const Job& candidate = state.jobs.at(job).job;
+  const PassingOrders orders = orders_with(state, {as_candidate(candidate)}, verdict.regions);
+  if (!orders.blockers.empty()) return std::nullopt;
+  return cost_of(state, &candidate, orders.prediction);
+}
+
+// It waits behind others of its arm: no less than if nothing met it.
+std::optional<double> cost_behind_others(State& state) {
+  prepare_choice(state, {});
+  const PassingOrders orders = orders_with(state, {}, {});
+  if (orders.prediction.ends.size() != state.graph.motions().size()) return std::nullopt;
+  return cost_of(state, nullptr, orders.prediction);
+}
+
+}  // namespace
+
+bool Choosing::begin(State& state, JobId turn) {
+  options_ = options_of(state, turn);
+  rated_.clear();
+  at_ = 0;
+  give_turn(state, turn, options_.front());
+  if (options_.size() > 1 && comes_to_one_that_goes(state)) return true;
+  give(state, 0);
+  return false;
+}
+
+// The others are rated on the way.
+bool Choosing::comes_to_one_that_goes(State& state) {
+  for (; rated_.size() < options_.size(); rated_.push_back({cost_behind_others(state), {}})) {
+    give(state, rated_.size());
+    if (options_[at_].goes_now) return true;
+  }
+  return false;
+}
+
+void Choosing::give(State& state, std::size_t option) {
+  give_turn(state, job(), options_[option]);
+  at_ = option;
+}
+
+bool Choosing::rate(State& state, Verdict verdict) {
+  const std::optional<double> cost = cost_with(state, job(), verdict);
+  rated_.push_back({cost, std::move(verdict)});
+  return comes_to_one_that_goes(state);
+}
+
+// Where none can go: the first that was asked about.
+std::size_t Choosing::best() const {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const auto cost = [&](std::size_t i) { return rated_[i].cost.value_or(kNever); };
+  std::size_t best = 0;
+  double least = cost(0) - to_seconds(kWorthwhile);
+  for (std::size_t i = 1; i < options_.size(); ++i) {
+    if (cost(i) >= least) continue;
+    best = i;
+    least = cost(i);
+  }
+  if (cost(best) < kNever) return best;
+  const auto asked =
+      std::ranges::find_if(rated_, [](const Rating& r) { return r.verdict.has_value(); });
+  return static_cast<std::size_t>(asked - rated_.begin());
+}
+
+std::optional<Verdict> Choosing::decide(State& state) {
+  const std::size_t chosen = best();
+  give(state, chosen);
+  note(state, chosen);
+  return std::move(rated_[chosen].verdict);
+}
+
+void Choosing::note(State& state, std::size_t best) const {
+  Record& taker = state.jobs.at(options_[best].job);
+  Choice choice;
+  for (const Option& option : options_) {
+    if (taker.job.alternatives.empty()) {
+      choice.jobs.push_back(option.job);
+    } else {
+      choice.arms.push_back(taker.job.alternatives[option.alternative]->arms().front());
+    }
+  }
+  if (const auto first = options_.front().job; first != taker.job.id) {
+    choice.instead_of = first;
+    auto& overtaken_at = state.jobs.at(first).overtaken_at;
+    if (!overtaken_at) overtaken_at = state.now;
+  }
+  if (rated_[best].cost && rated_.front().cost) {
+    choice.saves = from_seconds(*rated_.front().cost - *rated_[best].cost);
+  }
+  taker.job.choice = std::move(choice);
+  state.jobs.changed(taker);
+}
+
+}  // namespace armloom
