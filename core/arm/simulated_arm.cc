@@ -19,7 +19,7 @@ SimulatedArm::SimulatedArm(CellPtr cell, ArmId arm, Eigen::VectorXd q_start, std
     : cell_(std::move(cell)),
       joints_(cell_->arm(arm).joints),
       gaussian_(seed),
-      law_(cell_),
+      motion_(cell_),
       position_(std::move(q_start)) {
   const Arm& description = cell_->arm(arm);
   joints_.insert(joints_.end(), description.gripper_joints.begin(),
@@ -76,12 +76,8 @@ void SimulatedArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration 
   rows_ = std::move(rows);
   offset_ = std::move(offset);
   has_offset_ = away > 0.0;
-  law_.follow(trajectory_);
+  motion_.follow(trajectory_, from_progress, authority);
   start_at_ = start_at;
-  authority_ = std::max(authority, from_progress);
-  curve_.compute(law_, from_progress, std::min(authority_, trajectory_->duration()));
-  curve_stale_ = false;
-  rate_ = 0.0;
   feedback_.phase = Phase::waiting;
   feedback_.commanded_progress = from_progress;
   feedback_.measured_progress = from_progress;
@@ -89,25 +85,7 @@ void SimulatedArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration 
 
 void SimulatedArm::grant(Duration authority) {
   if (!trajectory_) throw std::logic_error("SimulatedArm::grant: no motion");
-  if (!under_way()) return;
-  if (authority < authority_ && authority < trajectory_->duration()) {
-    // Where the arm would come to rest if it braked from the next tick on.
-    Duration stop = feedback_.commanded_progress;
-    double rate = rate_;
-    while (rate > 0.0 && stop < trajectory_->duration()) {
-      const Step step = braked(stop, rate, to_seconds(kControlPeriod));
-      stop += from_seconds(step.progress_s);
-      rate = step.rate;
-    }
-    authority = std::max(authority, std::min(stop, authority_));
-    authority_ = authority;
-    curve_.compute(law_, feedback_.commanded_progress,
-                   std::min(authority_, trajectory_->duration()));
-    curve_stale_ = false;
-    return;
-  }
-  curve_stale_ = curve_stale_ || authority != authority_;
-  authority_ = authority;
+  if (under_way()) motion_.grant(authority);
 }
 
 void SimulatedArm::brake() {
@@ -143,8 +121,8 @@ const ArmFeedback& SimulatedArm::tick(TimePoint now) {
 
 bool SimulatedArm::stands() const {
   if (!under_way() || feedback_.phase == Phase::waiting) return true;
-  return feedback_.phase == Phase::moving && rate_ == 0.0 && !has_offset_ &&
-         feedback_.commanded_progress >= std::min(authority_, trajectory_->duration()) &&
+  return feedback_.phase == Phase::moving && motion_.rate() == 0.0 && !has_offset_ &&
+         motion_.progress() >= motion_.end() &&
          feedback_.measured_progress == feedback_.commanded_progress;
 }
 
@@ -156,91 +134,15 @@ void SimulatedArm::begin(TimePoint now, TimePoint previous) {
 
 void SimulatedArm::advance(Duration period) {
   const Duration before = feedback_.commanded_progress;
-  command(period);
+  motion_.advance(period, feedback_.phase == Phase::braking);
+  feedback_.commanded_progress = motion_.progress();
   const bool moved = feedback_.measured_progress != feedback_.commanded_progress || has_offset_;
   if (moved) {
     lag_behind(before, period);
     place();
   }
-  if (rate_ == 0.0) settle();
+  if (motion_.rate() == 0.0) settle();
   if (moved && noise_ <= 0.0) feedback_.measured = position_;
-}
-
-void SimulatedArm::command(Duration period) {
-  Duration& progress = feedback_.commanded_progress;
-  const Duration end = std::min(authority_, trajectory_->duration());
-  if (progress >= end) {
-    rate_ = 0.0;
-    return;
-  }
-  const bool braking = feedback_.phase == Phase::braking;
-  if (!braking) refresh_curve(progress + period);
-  const bool bound = authority_ < trajectory_->duration();
-  if (rate_ == 0.0 && progress == Duration{} && !braking) {
-    rate_ = bound ? std::sqrt(curve_.rate_squared(0.0)) : 1.0;  // the path itself starts at rest
-  }
-  if (rate_ == 1.0 && !braking && (!bound || progress + period <= curve_.free_until())) {
-    progress = std::min(progress + period, end);  // in whole nanoseconds: the planned duration
-  } else {
-    const double period_s = to_seconds(period);
-    const Step step = braking ? braked(progress, rate_, period_s) : next_step(period_s);
-    rate_ = step.rate;
-    progress = std::min(progress + from_seconds(step.progress_s), end);
-  }
-  if (progress == end) rate_ = 0.0;
-}
-
-// A brake that ends within the tick covers its triangle only.
-SimulatedArm::Step SimulatedArm::braked(Duration progress, double rate, double period_s) {
-  if (period_s <= 0.0) return {rate, 0.0};
-  const Duration last = std::min(progress + from_seconds(rate * period_s), trajectory_->duration());
-  const double change = law_.brake({progress, rate}, {last, rate});
-  const double rate_after = rate + change * period_s;
-  if (rate_after <= 0.0) return {0.0, rate * rate / (-2.0 * change)};
-  return {rate_after, 0.5 * (rate + rate_after) * period_s};
-}
-
-SimulatedArm::Step SimulatedArm::next_step(double period_s) {
-  Step fastest{rate_, rate_ * period_s};
-  if (rate_ < 1.0 && period_s > 0.0) {
-    const double change = law_.rise({feedback_.commanded_progress, rate_}, period_s);
-    const double rate_after = rate_ + change * period_s;
-    if (rate_after <= 1.0) {
-      fastest = {rate_after, 0.5 * (rate_ + rate_after) * period_s};
-    } else {
-      const double rising_s = (1.0 - rate_) / change;
-      fastest = {1.0, 0.5 * (rate_ + 1.0) * rising_s + (period_s - rising_s)};
-    }
-  }
-  if (authority_ >= trajectory_->duration()) return fastest;
-  return below_curve(fastest, period_s);
-}
-
-SimulatedArm::Step SimulatedArm::below_curve(Step fastest, double period_s) {
-  const double here_s = to_seconds(feedback_.commanded_progress);
-  const auto above = [&](double rate, double progress_s) {
-    return rate * rate > curve_.rate_squared(here_s + progress_s);
-  };
-  if (!above(fastest.rate, fastest.progress_s)) return fastest;
-
-  const double left_s = to_seconds(authority_) - here_s;
-  if (left_s <= 0.5 * rate_ * period_s) return {0.0, left_s};  // rest falls within this tick
-  const auto covered = [&](double rate) { return 0.5 * (rate_ + rate) * period_s; };
-  double low = 0.0;  // the curve falls along the path: one crossing
-  double high = fastest.rate;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (low + high);
-    (above(middle, covered(middle)) ? high : low) = middle;
-  }
-  const Step strongest = braked(feedback_.commanded_progress, rate_, period_s);
-  return strongest.rate > low ? strongest : Step{low, covered(low)};
-}
-
-void SimulatedArm::refresh_curve(Duration horizon) {
-  if (!curve_stale_ || authority_ >= trajectory_->duration()) return;
-  if (rate_ > 0.0 && horizon <= curve_.free_until()) return;
-  curve_.compute(law_, feedback_.commanded_progress, authority_);
-  curve_stale_ = false;
 }
 
 // m' = (s - m) / lag, solved exactly for s moving evenly through the tick.

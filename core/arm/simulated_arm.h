@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "core/arm/arm_controller.h"
-#include "core/arm/braking_curve.h"
+#include "core/arm/commanded_progress.h"
 #include "core/arm/gaussian_noise.h"
-#include "core/arm/rate_law.h"
 #include "core/model/cell.h"
 
 namespace armloom {
@@ -43,19 +42,8 @@ class SimulatedArm final : public ArmController {
   const ArmFeedback& tick(TimePoint now) override;
 
  private:
-  // What the rate law makes of one tick.
-  struct Step {
-    double rate;        // at the end of the tick
-    double progress_s;  // ground covered in it
-  };
-
   void begin(TimePoint now, TimePoint previous);
   void advance(Duration period);
-  void command(Duration period);
-  [[nodiscard]] Step next_step(double period_s);
-  [[nodiscard]] Step braked(Duration progress, double rate, double period_s);
-  [[nodiscard]] Step below_curve(Step fastest, double period_s);
-  void refresh_curve(Duration horizon);
   void lag_behind(Duration commanded_before, Duration period);
   void settle();
   void place();    // position_ from the measured progress
@@ -69,16 +57,12 @@ class SimulatedArm final : public ArmController {
   double noise_;
   double start_tolerance_;
   GaussianNoise gaussian_;
-  RateLaw law_;
-  BrakingCurve curve_;
-  bool curve_stale_ = true;  // the authority has grown since; the curve is still on the safe side
+  CommandedProgress motion_;
 
   TrajectoryPtr trajectory_;
   std::vector<Eigen::Index> rows_;  // of the trajectory, for each of joints_; -1: not in it
   TimePoint start_at_{};
   TimePoint last_tick_{};
-  Duration authority_{};
-  double rate_ = 0.0;  // commanded, 0..1
 
   Eigen::VectorXd position_;  // of joints_: where the arm truly is
   Eigen::VectorXd offset_;    // of joints_: what is left of the distance to the path at the start

@@ -240,4 +240,14 @@ tl::expected<ConvexHull, std::string> convex_hull(const std::vector<Eigen::Vecto
   return hull_of(*facets, source);
 }
 
+double volume_m3(const ConvexHull& hull) {
+  double sum = 0.0;
+  for (const auto& face : hull.faces) {
+    const Eigen::Vector3d a = hull.vertices[face[0]] - hull.vertices[0];
+    const Eigen::Vector3d b = hull.vertices[face[1]] - hull.vertices[0];
+    sum += a.dot(b.cross(hull.vertices[face[2]] - hull.vertices[0]));
+  }
+  return sum / 6.0;
+}
+
 }  // namespace armloom

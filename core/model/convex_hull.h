@@ -30,4 +30,6 @@ inline constexpr double kHullTolerance_m = 1e-6;
 [[nodiscard]] tl::expected<ConvexHull, std::string> convex_hull(
     const std::vector<Eigen::Vector3d>& points);
 
+[[nodiscard]] double volume_m3(const ConvexHull& hull);
+
 }  // namespace armloom

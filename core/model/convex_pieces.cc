@@ -3,30 +3,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <optional>
-#include <tuple>
 #include <utility>
+
+#include "core/model/best_cut.h"
 
 namespace armloom {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
-
-constexpr int kOffsets = 7;        // cuts tried along an axis, before the best is refined
-constexpr int kRefinements = 5;    // each halves the distance to the next cut tried
-constexpr double kBeside = 1e-5;   // of the extent: a cut passes a face at this distance
-constexpr int kEstimateFrom = 80;  // directions whose farthest points stand for a side
 constexpr int kEscapeDirections = 40;
-
-// Convex polygons, corner after corner; the i-th ends before ends[i].
-struct Polygons {
-  Points corners;
-  std::vector<std::size_t> ends;
-};
 
 // A box of space and what lies of the surface in it.
 struct Cell3 {
@@ -35,68 +22,6 @@ struct Cell3 {
   ConvexHull hull;
   double volume_m3 = 0.0;
 };
-
-struct Cut {
-  Eigen::Index axis = 0;
-  double at = 0.0;
-  double volume_m3 = std::numeric_limits<double>::infinity();  // of both sides, estimated
-};
-
-Points unit_spread(int count) {
-  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  Points directions;
-  for (int i = 0; i < count; ++i) {
-    const double z = 1.0 - (2.0 * i + 1.0) / count;
-    const double r = std::sqrt(1.0 - z * z);
-    directions.emplace_back(r * std::cos(turn * i), r * std::sin(turn * i), z);
-  }
-  return directions;
-}
-
-// The part with sign * (x - at) >= 0 along the axis (Sutherland and Hodgman).
-Polygons clipped(const Polygons& polygons, Eigen::Index axis, double at, double sign) {
-  Polygons kept;
-  kept.corners.reserve(polygons.corners.size());
-  std::size_t begin = 0;
-  for (const std::size_t end : polygons.ends) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3d& p = polygons.corners[i];
-      const Eigen::Vector3d& next = polygons.corners[i + 1 < end ? i + 1 : begin];
-      const double d = sign * (p[axis] - at);
-      const double d_next = sign * (next[axis] - at);
-      if (d >= 0.0) kept.corners.push_back(p);
-      if ((d > 0.0 && d_next < 0.0) || (d < 0.0 && d_next > 0.0)) {
-        Eigen::Vector3d crossing = p + d / (d - d_next) * (next - p);
-        crossing[axis] = at;
-        kept.corners.push_back(crossing);
-      }
-    }
-    if (kept.corners.size() > (kept.ends.empty() ? 0 : kept.ends.back())) {
-      kept.ends.push_back(kept.corners.size());
-    }
-    begin = end;
-  }
-  return kept;
-}
-
-double estimated_volume(const Points& points) {
-  static const Points kDirections = unit_spread(kEstimateFrom);
-  if (points.empty()) return 0.0;
-  Points farthest;
-  for (const Eigen::Vector3d& n : kDirections) {
-    const Eigen::Vector3d* best = &points.front();
-    double reach = n.dot(*best);
-    for (const Eigen::Vector3d& p : points) {
-      const double r = n.dot(p);
-      if (r <= reach) continue;
-      reach = r;
-      best = &p;
-    }
-    farthest.push_back(*best);
-  }
-  const auto hull = convex_hull(farthest);
-  return hull ? volume_m3(*hull) : std::numeric_limits<double>::infinity();
-}
 
 // Whether the ray may hit the triangle; a doubt is a yes.
 bool may_hit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
@@ -141,80 +66,6 @@ Points enclosed_corners(const Eigen::AlignedBox3d& box, const MeshData& mesh) {
   return corners;
 }
 
-// A surface, and its corners once each.
-struct Estimated {
-  const Polygons& surface;
-  Points corners;
-};
-
-Estimated without_doubles(const Polygons& surface) {
-  Estimated estimated{surface, surface.corners};
-  Points& corners = estimated.corners;
-  std::sort(corners.begin(), corners.end(), [](const auto& a, const auto& b) {
-    return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
-  });
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  return estimated;
-}
-
-// Of the hulls of what lies on either side.
-double estimated_volume(const Estimated& cell, Eigen::Index axis, double at) {
-  Points low;
-  Points high;
-  for (const Eigen::Vector3d& p : cell.corners) (p[axis] < at ? low : high).push_back(p);
-  std::size_t begin = 0;
-  for (const std::size_t end : cell.surface.ends) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3d& p = cell.surface.corners[i];
-      const Eigen::Vector3d& next = cell.surface.corners[i + 1 < end ? i + 1 : begin];
-      if (!(p[axis] < at && next[axis] > at)) continue;  // its neighbour has it the other way
-      low.push_back(p + (at - p[axis]) / (next[axis] - p[axis]) * (next - p));
-      high.push_back(low.back());
-    }
-    begin = end;
-  }
-  return estimated_volume(low) + estimated_volume(high);
-}
-
-// The best cut at one of the places, if it is better.
-void try_cuts(const Estimated& cell, Eigen::Index axis, const std::vector<double>& places,
-              Cut& best) {
-  for (const double at : places) {
-    const double volume = estimated_volume(cell, axis, at);
-    if (volume < best.volume_m3) best = {axis, at, volume};
-  }
-}
-
-// Just before and behind the corner of the surface that is next to the cut: concave edges are
-// where a cut gains most.
-std::vector<double> beside_corner(const Points& corners, const Cut& cut, double extent) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3d& p : corners) {
-    if (std::abs(p[cut.axis] - cut.at) < std::abs(nearest - cut.at)) nearest = p[cut.axis];
-  }
-  return {nearest - kBeside * extent, nearest + kBeside * extent};
-}
-
-Cut best_cut(const Polygons& surface) {
-  const Estimated cell = without_doubles(surface);
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3d& p : cell.corners) bounds.extend(p);
-  Cut best;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double spacing = bounds.sizes()[axis] / (kOffsets + 1);
-    std::vector<double> places;
-    for (int i = 1; i <= kOffsets; ++i) places.push_back(bounds.min()[axis] + i * spacing);
-    try_cuts(cell, axis, places, best);
-  }
-  double step = bounds.sizes()[best.axis] / (kOffsets + 1);
-  for (int i = 0; i < kRefinements; ++i) {
-    step *= 0.5;
-    try_cuts(cell, best.axis, {best.at - step, best.at + step}, best);
-  }
-  try_cuts(cell, best.axis, beside_corner(cell.corners, best, bounds.sizes()[best.axis]), best);
-  return best;
-}
-
 // By its triangles' orientation; wrong when they overlap or are not of one mind.
 double enclosed_volume(const MeshData& mesh) {
   double sum = 0.0;
@@ -228,7 +79,7 @@ double enclosed_volume(const MeshData& mesh) {
 }
 
 std::optional<Cell3> side_of(const Cell3& cell, const Cut& cut, double sign, const MeshData& mesh) {
-  Cell3 side{cell.box, clipped(cell.surface, cut.axis, cut.at, sign), {}, 0.0};
+  Cell3 side{cell.box, clipped(cell.surface, cut, sign), {}, 0.0};
   (sign > 0.0 ? side.box.min() : side.box.max())[cut.axis] = cut.at;
   Points points = side.surface.corners;
   const Points corners = enclosed_corners(side.box, mesh);
@@ -269,16 +120,6 @@ Cell3 whole(const MeshData& mesh) {
 }
 
 }  // namespace
-
-double volume_m3(const ConvexHull& hull) {
-  double sum = 0.0;
-  for (const auto& face : hull.faces) {
-    const Eigen::Vector3d a = hull.vertices[face[0]] - hull.vertices[0];
-    const Eigen::Vector3d b = hull.vertices[face[1]] - hull.vertices[0];
-    sum += a.dot(b.cross(hull.vertices[face[2]] - hull.vertices[0]));
-  }
-  return sum / 6.0;
-}
 
 std::vector<ConvexHull> convex_pieces(const MeshData& mesh) {
   if (mesh.triangles.size() > kMaxTrianglesCut || !is_closed(mesh.triangles)) return {mesh.hull};

@@ -30,7 +30,4 @@ inline constexpr std::size_t kMaxTrianglesCut = 20'000;
 // A ring is not cut: no single cut of it gains anything.
 [[nodiscard]] std::vector<ConvexHull> convex_pieces(const MeshData& mesh);
 
-// Of the polytope.
-[[nodiscard]] double volume_m3(const ConvexHull& hull);
-
 }  // namespace armloom

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string_view>
 
@@ -125,8 +126,20 @@ class JointReader {
       report(at_line(file_, value.Mark()), "not-a-number",
              std::string(key) + " is '" + scalar_of(value) + "', not a finite number",
              scalar_of(value), joint_.faults);
+      return std::nullopt;
     }
-    return read;
+    return in_radians(key, value, *read);
+  }
+
+  // ROS has tags for angles: !degrees 90.
+  std::optional<double> in_radians(const char* key, const YAML::Node& value, double read) {
+    const std::string& tag = value.Tag();
+    if (tag == "!degrees") return read * std::numbers::pi / 180.0;
+    if (!tag.starts_with('!') || tag == "!" || tag == "!radians") return read;
+    report(at_line(file_, value.Mark()), "unknown-tag",
+           std::string(key) + " has the tag " + tag + ", known here are !degrees and !radians", tag,
+           joint_.faults);
+    return std::nullopt;
   }
 
   std::optional<double> positive(const char* key, const char* because) {

@@ -61,8 +61,12 @@ std::optional<std::string> load_robot_file(const std::filesystem::path& path,
   auto text = read_text_file(path, pointer, whose);
   if (text && path.extension() == ".xacro") {
     auto expanded = expand_xacro(path);
+    if (expanded && !expanded->said.empty())
+      findings.warn(Problem{ProblemKind::invalid, "xacro-warns", pointer,
+                            whose + ": " + path.string() + ": xacro says: " + expanded->said,
+                            path.string()});
     if (expanded)
-      text = *std::move(expanded);
+      text = std::move(expanded->text);
     else
       text = failure(Problem{ProblemKind::invalid, "xacro-failed", pointer,
                              whose + ": cannot expand " + path.string() + ": " + expanded.error(),

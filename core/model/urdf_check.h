@@ -53,9 +53,9 @@ void check_link(const tinyxml2::XMLElement& link, const XmlPlace& place, const M
                 UrdfNotes& notes, tinyxml2::XMLElement& to);
 
 // Joints must connect known links, all links hang in one tree under one root, and a mimic joint
-// follow a movable joint that is no mimic. Where that is not so it is told, and `mended` is
-// patched: every name of the file that occurs is in it, so that other files' names can still be
-// looked up.
+// follow a movable joint, through other mimics or not. Where that is not so it is told, and
+// `mended` is patched: every name of the file that occurs is in it, so that other files' names can
+// still be looked up.
 void check_urdf_tree(tinyxml2::XMLElement& mended, const std::string& file, UrdfNotes& notes,
                      Findings& findings);
 

@@ -59,7 +59,8 @@ bool copy_shape(const XMLElement& shape, const XmlPlace& place, const MeshFolder
   }
   place.at(shape).report("unsupported-shape",
                          "collision geometry <" + std::string(kind) +
-                             "> is not supported (box, cylinder, sphere, mesh are)",
+                             "> is not supported (box, cylinder, sphere, mesh are; a capsule is a "
+                             "cylinder and two spheres)",
                          std::string(kind), ProblemKind::unsupported);
   return false;
 }

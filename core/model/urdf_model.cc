@@ -90,6 +90,16 @@ void take_joint(const urdf::Joint& joint, UrdfNotes::Joint notes, TreeLink& link
   link.limits.faults = std::move(notes.faults);
 }
 
+// Through all the mimics that it follows, which do not go in a ring (urdf_check.h).
+TreeLink::Mimic mimic_of(const urdf::Joint& joint, const urdf::ModelInterface& model,
+                         const RobotTree& tree) {
+  const urdf::JointMimic& own = *joint.mimic;
+  const urdf::Joint& followed = *model.joints_.at(own.joint_name);
+  if (!followed.mimic) return {tree.by_joint.at(own.joint_name), own.multiplier, own.offset};
+  const TreeLink::Mimic far = mimic_of(followed, model, tree);
+  return {far.driver, own.multiplier * far.multiplier, own.multiplier * far.offset + own.offset};
+}
+
 RobotTree tree_of(const urdf::ModelInterface& model, UrdfNotes notes) {
   RobotTree tree;
   tree.name = model.getName();
@@ -125,9 +135,7 @@ RobotTree tree_of(const urdf::ModelInterface& model, UrdfNotes notes) {
       open.emplace_back(child->get(), index);
   }
   for (const auto& [name, joint] : model.joints_) {
-    if (const auto& mimic = joint->mimic)
-      tree.links[tree.by_joint.at(name)].mimic =
-          TreeLink::Mimic{tree.by_joint.at(mimic->joint_name), mimic->multiplier, mimic->offset};
+    if (joint->mimic) tree.links[tree.by_joint.at(name)].mimic = mimic_of(*joint, model, tree);
   }
   return tree;
 }

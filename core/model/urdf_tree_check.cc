@@ -171,12 +171,20 @@ class TreeMender {
     if (driver == joints_.end())
       return refuse("unknown-joint", "mimic joint " + followed + " does not exist" +
                                          did_you_mean(followed, joints_));
-    if (followed == name) return refuse("mimic-chain", "the joint mimics itself");
-    if (driver->second->FirstChildElement("mimic") != nullptr)
-      return refuse("mimic-chain", "mimic joint " + followed + " is a mimic itself");
+    if (followed == name) return refuse("mimic-ring", "the joint mimics itself");
     if (driver->second->Attribute("type", "fixed") != nullptr)
       return refuse("mimic-fixed", "mimic joint " + followed + " is fixed");
-    return true;
+    // Farther on, what is wrong is told with the joint whose mimic it is.
+    std::set<std::string> passed{name};
+    for (auto next = driver; next != joints_.end() && !next->second->Attribute("type", "fixed");) {
+      const auto* mimic = next->second->FirstChildElement("mimic");
+      if (mimic == nullptr) return true;
+      if (!passed.insert(next->first).second)
+        return refuse("mimic-ring",
+                      "mimic joint " + followed + " and those that it follows go in a ring");
+      next = joints_.find(mimic->Attribute("joint"));
+    }
+    return false;
   }
 
   void make_one_tree() {

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <sstream>
 
 #include "core/model/text_file.h"
 
@@ -95,19 +96,28 @@ int start(const std::string& file, const Pipe& out, const Pipe& err, pid_t& chil
   return error;
 }
 
-// The last line that is not empty: where a Python program says what was wrong.
-std::string last_line(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  const auto line = text.rfind('\n');
-  return line == std::string::npos ? text : text.substr(line + 1);
+// What a program says on its standard error, in one line. xacro says first what is wrong and then
+// where; of a traceback of Python only the last line is of use.
+std::string in_one_line(const std::string& text) {
+  constexpr std::size_t kMost = 1000;
+  std::istringstream lines(text);
+  std::string all;
+  for (std::string line; std::getline(lines, line);) {
+    const auto begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string::npos) continue;
+    if (text.starts_with("Traceback")) all.clear();
+    all += (all.empty() ? "" : "; ") + line.substr(begin);
+  }
+  if (all.size() > kMost) all.replace(kMost, std::string::npos, "...");
+  return all;
 }
 
 }  // namespace
 
-tl::expected<std::string, std::string> expand_xacro(const std::filesystem::path& file,
-                                                    std::chrono::seconds at_most) {
+tl::expected<ExpandedXacro, std::string> expand_xacro(const std::filesystem::path& file,
+                                                      std::chrono::seconds at_most) {
   const auto refuse = [](std::string why) { return tl::unexpected(std::move(why)); };
-  // Absolute: a name that begins with - would be an option, one with := an argument.
+  // Absolute: a name that begins with - would be an option.
   const std::string path = std::filesystem::absolute(file).string();
   Pipe out;
   Pipe err;
@@ -132,9 +142,10 @@ tl::expected<std::string, std::string> expand_xacro(const std::filesystem::path&
     return refuse("xacro printed more than " + std::to_string(kMaxRobotFileBytes) + " bytes");
   if (!output.in_time)
     return refuse("xacro took more than " + std::to_string(at_most.count()) + " s");
+  std::string said = in_one_line(output.err);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    return refuse("xacro says: " + last_line(std::move(output.err)));
-  return std::move(output.out);
+    return refuse(said.empty() ? "xacro fails and says nothing" : "xacro says: " + said);
+  return ExpandedXacro{std::move(output.out), std::move(said)};
 }
 
 }  // namespace armloom

@@ -73,7 +73,7 @@ class Hall {
         running_(policy == "lockstep" ? 0 : kRunning),
         share_(share),
         cell_(grid_of_pandas(kColumns, kRows, kSpacing_m)),
-        arbiter_(*PlanningScene::build(cell_)),
+        checker_(*PlanningScene::build(cell_)),
         chooses_(*PlanningScene::build(cell_)),
         scheduler_(cell_, std::move(*make_policy(policy, *cell_)), cell_->home()) {
     if (policy != "sequential") fill();
@@ -185,7 +185,7 @@ class Hall {
     if (!question_) return false;
     const Question question = std::move(*question_);
     question_.reset();
-    step(Judged{arbiter_.judge(question)});
+    step(Judged{checker_.judge(question)});
     return true;
   }
   void answer_all() {
@@ -197,7 +197,7 @@ class Hall {
   std::size_t running_;
   double share_;
   CellPtr cell_;
-  MotionChecker arbiter_;
+  MotionChecker checker_;
   MotionChecker chooses_;  // knows nothing to the other one's advantage
   Scheduler scheduler_;
   std::map<TrajectoryPtr, TrajectoryPtr> random_;  // what a motion was made of

@@ -46,18 +46,18 @@ void per_admission(benchmark::State& run, const Motions& motions, std::size_t ca
   Verdict verdict{Verdict::Kind::undecided, 0, {}, std::nullopt, 0};
   for (auto _ : run) {
     run.PauseTiming();
-    MotionChecker arbiter(scene);
+    MotionChecker checker(scene);
     if (running && motions.trajectories.size() > 1) {
       Question before = admission(motions, candidate == 0 ? 1 : 0, method);
       std::erase_if(before.others, [&](const Motion& other) {
         return other.trajectory == motions.trajectories[candidate];
       });
-      benchmark::DoNotOptimize(arbiter.judge(before));
+      benchmark::DoNotOptimize(checker.judge(before));
     }
     run.ResumeTiming();
-    verdict = arbiter.judge(question);
+    verdict = checker.judge(question);
     run.PauseTiming();
-    arbiter = MotionChecker(scene);  // what it holds is let go outside of the measurement
+    checker = MotionChecker(scene);  // what it holds is let go outside of the measurement
     run.ResumeTiming();
   }
   run.counters["evaluations"] = static_cast<double>(verdict.evaluations);
@@ -103,14 +103,14 @@ void regions_of_pairs(benchmark::State& run) {
   }
   double evaluations = 0.0, regions = 0.0, blocked = 0.0, asked = 0.0;
   std::size_t next = 0;
-  std::optional<MotionChecker> arbiter;
+  std::optional<MotionChecker> checker;
   while (run.KeepRunning()) {
     run.PauseTiming();
     const Question& question = pairs[next];
     next = (next + 1) % pairs.size();
-    arbiter.emplace(scene);
+    checker.emplace(scene);
     run.ResumeTiming();
-    const Verdict verdict = arbiter->judge(question);
+    const Verdict verdict = checker->judge(question);
     run.PauseTiming();
     asked += 1.0;
     evaluations += static_cast<double>(verdict.evaluations);

@@ -1,4 +1,4 @@
-// What the arbiter says of spheres on rails, whose conflicts are known in closed form.
+// What the checker says of spheres on rails, whose conflicts are known in closed form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ struct Rails {
     cell = small::shared(std::move(made));
     question.rest = cell->home();
     question.method = Coordinated{kTracking_m};
-    arbiter.emplace(*PlanningScene::build(cell));
+    checker.emplace(*PlanningScene::build(cell));
   }
 
   // At constant speed; all arms the same way.
@@ -72,10 +72,10 @@ struct Rails {
     motion.to_come = true;
     return motion;
   }
-  [[nodiscard]] Verdict judge() { return arbiter->judge(question); }
+  [[nodiscard]] Verdict judge() { return checker->judge(question); }
 
   CellPtr cell;
-  std::optional<MotionChecker> arbiter;
+  std::optional<MotionChecker> checker;
   Question question{};
 };
 

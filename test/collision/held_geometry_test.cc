@@ -299,7 +299,7 @@ TEST(HeldObjects, AreAllThatIsCloseToAHandThatIsAlone) {
 // What is certified stays free at every millisecond, with what the arms hold.
 TEST(HeldObjects, KeepTheClearanceAllAlongSweptMotions) {
   Holding h;
-  MotionChecker arbiter(h.scene);
+  MotionChecker motion_checker(h.scene);
   MotionChecker of_bare(h.bare);
   small::ScaledQuery checker(h.scene);
   int free = 0;
@@ -324,7 +324,7 @@ TEST(HeldObjects, KeepTheClearanceAllAlongSweptMotions) {
                                     towards(ArmId{1}, to, 0.3), 3s),
                        500ms};
     const Question question{1, at(0s), {candidate}, {other}, home, Swept{0.0}};
-    const Verdict verdict = arbiter.judge(question);
+    const Verdict verdict = motion_checker.judge(question);
     if (verdict.kind != Verdict::Kind::free) {
       because_held += of_bare.judge(question).kind == Verdict::Kind::free ? 1 : 0;
       continue;

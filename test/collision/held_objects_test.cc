@@ -63,17 +63,17 @@ Question question_of(const Configuration& rest, TrajectoryPtr candidate) {
   return {1, at(0s), {{kJob, std::move(candidate), 0s}}, {}, rest, TimedDiscrete{20ms}};
 }
 
-// One arbiter sees the arms bare, holding, and bare again: only the second is a conflict, and it
+// One checker sees the arms bare, holding, and bare again: only the second is a conflict, and it
 // names this counterpart.
 void expect_only_held_conflicts(const PlanningScenePtr& bare, const PlanningScenePtr& held,
                                 Question question, const Proximity& expected, With with) {
   for (const CheckMethod& method : methods()) {
     question.method = method;
     SCOPED_TRACE(method.index());
-    MotionChecker arbiter(bare);
-    EXPECT_EQ(arbiter.judge(question).kind, Verdict::Kind::free);
-    arbiter.look_at(held);
-    const Verdict verdict = arbiter.judge(question);
+    MotionChecker motion_checker(bare);
+    EXPECT_EQ(motion_checker.judge(question).kind, Verdict::Kind::free);
+    motion_checker.look_at(held);
+    const Verdict verdict = motion_checker.judge(question);
     EXPECT_EQ(verdict.kind, Verdict::Kind::conflict);
     ASSERT_FALSE(verdict.conflicts.empty());
     const Conflict& found = verdict.conflicts.front();
@@ -86,8 +86,8 @@ void expect_only_held_conflicts(const PlanningScenePtr& bare, const PlanningScen
     EXPECT_EQ(found.proximity.held_a, expected.held_a);
     EXPECT_EQ(found.proximity.held_b, expected.held_b);
     EXPECT_LT(found.proximity.clearance_m, bare->cell().clearance_m);
-    arbiter.look_at(bare);
-    EXPECT_EQ(arbiter.judge(question).kind, Verdict::Kind::free);
+    motion_checker.look_at(bare);
+    EXPECT_EQ(motion_checker.judge(question).kind, Verdict::Kind::free);
   }
 }
 
@@ -162,11 +162,11 @@ TEST(HeldObject, MayTouchWhatItsTouchNames) {
   const Folding folding;
   Attachment rod = rod_at(*folding.cell, "rod", "a_link3", 0.3, 0.5);
   rod.touch = {link(*folding.cell, "a_link1")};
-  MotionChecker arbiter(holding(folding.bare, {rod}));
+  MotionChecker motion_checker(holding(folding.bare, {rod}));
   for (const CheckMethod& method : methods()) {
     Question question = folding.question;
     question.method = method;
-    EXPECT_EQ(arbiter.judge(question).kind, Verdict::Kind::free) << method.index();
+    EXPECT_EQ(motion_checker.judge(question).kind, Verdict::Kind::free) << method.index();
   }
 }
 

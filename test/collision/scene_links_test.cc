@@ -204,7 +204,7 @@ TEST(SceneLinks, OfAMountMayBeGivenAClearanceOfTheirOwn) {
   const auto stops = checker.all_closer_than(tip_from_wall(*cell, 0.0039), 0.01);
   ASSERT_EQ(stops.size(), 1U);
   EXPECT_NEAR(stops.front().limit_m, 0.004, 1e-12);
-  MotionChecker arbiter(scene);
+  MotionChecker motion_checker(scene);
   const Question asked{
       .version = 1,
       .start_at = TimePoint{},
@@ -212,7 +212,7 @@ TEST(SceneLinks, OfAMountMayBeGivenAClearanceOfTheirOwn) {
       .others = {},
       .rest = cell->home(),
       .method = Swept{0.001}};
-  const Verdict verdict = arbiter.judge(asked);
+  const Verdict verdict = motion_checker.judge(asked);
   EXPECT_EQ(verdict.kind, Verdict::Kind::free);
   EXPECT_EQ(verdict.clearance_bound_m, 0.008);
 }
@@ -253,7 +253,7 @@ TEST(ClearanceBound, IsNoMoreThanWhatEveryPairWasHeldTo) {
     const Configuration q = tip_from_wall(*cell, 0.01);
     for (const CheckMethod& method : methods()) {
       if (std::holds_alternative<TimedDiscrete>(method)) continue;
-      MotionChecker arbiter(scene_of(cell));
+      MotionChecker motion_checker(scene_of(cell));
       Question asked{
           .version = 1,
           .start_at = TimePoint{},
@@ -261,12 +261,12 @@ TEST(ClearanceBound, IsNoMoreThanWhatEveryPairWasHeldTo) {
           .others = {},
           .rest = cell->home(),
           .method = method};
-      const Verdict parts = arbiter.judge(asked);
+      const Verdict parts = motion_checker.judge(asked);
       ASSERT_EQ(parts.kind, Verdict::Kind::free) << method.index();
       ASSERT_TRUE(parts.clearance_bound_m);
       EXPECT_NEAR(*parts.clearance_bound_m, OrientedDiagram::kPartingShare * 0.01, 1e-6);
       asked.candidates = {{JobId{1}, small::sweep(*cell, {kA}, {0.0, 0.0}, {-0.5, 0.0}, 2s), 0s}};
-      EXPECT_EQ(arbiter.judge(asked).clearance_bound_m, 0.02);
+      EXPECT_EQ(motion_checker.judge(asked).clearance_bound_m, 0.02);
     }
   }
 }

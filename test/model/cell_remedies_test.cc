@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/model/kinematics.h"
 #include "test/model/test_cells.h"
@@ -63,6 +64,56 @@ TEST(JointLimitsFile, IsFoundUnderTheNamesOfRos2Parameters) {
       "/**:\n  ros__parameters:\n    robot_description_planning:\n      joint_limits:\n"
       "        l_turn: {has_velocity_limits: true, max_velocity: 1}\n"));
   EXPECT_EQ(joint_of(*cell, "t_l_turn").velocity_max, 1.0);
+}
+
+TEST(JointLimitsFile, MayHaveAnglesInDegrees) {
+  const ScratchFolder folder;
+  const CellPtr cell = build_or_fail(with_limits_file(
+      folder,
+      "joint_limits:\n  l_turn: {max_velocity: !degrees 45, max_acceleration: !radians 2,\n"
+      "    max_position: !degrees 90, min_position: !!float -1, max_jerk: '7'}\n"));
+  const Joint& turn = joint_of(*cell, "t_l_turn");
+  EXPECT_DOUBLE_EQ(turn.velocity_max, std::numbers::pi / 4);
+  EXPECT_EQ(turn.acceleration_max, 2.0);
+  EXPECT_DOUBLE_EQ(turn.upper, std::numbers::pi / 2);
+  EXPECT_EQ(turn.lower, -1.0);
+  EXPECT_EQ(turn.jerk_max, 7.0);
+  EXPECT_THAT(
+      problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: {max_velocity: !rpm 10}\n")),
+      HasSubstr("joint_limits.yaml:2: max_velocity has the tag !rpm, known here are "
+                "!degrees and !radians"));
+}
+
+TEST(Mimic, OfAMimicFollowsTheFirstOne) {
+  const ScratchFolder folder;
+  CellDescription description = two_arms_description();
+  description.robots[0].urdf = folder.write(
+      "twin.urdf",
+      file_with(data_file("two_arms.urdf"), "<link name=\"r1\"/>",
+                "<link name=\"r1\"/><link name=\"l_finger3\"/>"
+                "<joint name=\"a_third\" type=\"prismatic\"><parent link=\"l_hand\"/>"
+                "<child link=\"l_finger3\"/><axis xyz=\"1 0 0\"/>"
+                "<limit lower=\"-1\" upper=\"1\" effort=\"20\" velocity=\"0.4\"/>"
+                "<mimic joint=\"l_grip_mirror\" multiplier=\"-3\" offset=\"0.01\"/></joint>"));
+  const CellPtr cell = build_or_fail(description);
+  const Link& third = cell->links[cell->find_link("t_l_finger3")->index()];
+  EXPECT_EQ(third.driver, cell->find_joint("t_l_grip"));
+  EXPECT_DOUBLE_EQ(third.multiplier, -3.0 * 2.0);
+  EXPECT_DOUBLE_EQ(third.offset, -3.0 * 0.001 + 0.01);
+}
+
+TEST(Mimic, InARingIsToldOfEach) {
+  const ScratchFolder folder;
+  CellDescription description = two_arms_description();
+  description.robots[0].urdf = folder.write(
+      "twin.urdf",
+      file_with(data_file("two_arms.urdf"), "name=\"l_grip\" type=\"prismatic\">",
+                "name=\"l_grip\" type=\"prismatic\"><mimic joint=\"l_grip_mirror\"/>"));
+  const std::string problems = problems_of(description);
+  EXPECT_THAT(problems, HasSubstr("twin.urdf:36: joint l_grip: mimic joint l_grip_mirror and those "
+                                  "that it follows go in a ring"));
+  EXPECT_THAT(problems, HasSubstr("twin.urdf:40: joint l_grip_mirror: mimic joint l_grip and those "
+                                  "that it follows go in a ring"));
 }
 
 TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {

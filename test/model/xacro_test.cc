@@ -29,12 +29,37 @@ class Xacro : public testing::Test {
 
 TEST_F(Xacro, GetsTheFileAsOneArgumentAndGivesWhatItPrints) {
   install("cat \"$1\"; test $# = 1");
-  EXPECT_EQ(expand_xacro(file_), "<robot/>");
+  EXPECT_EQ(expand_xacro(file_)->text, "<robot/>");
+  EXPECT_EQ(expand_xacro(file_)->said, "");
 }
 
-TEST_F(Xacro, SaysItsLastLineWhenItFails) {
-  install("echo Traceback >&2; echo 'undefined macro: arm' >&2; exit 2");
-  EXPECT_EQ(expand_xacro(file_).error(), "xacro says: undefined macro: arm");
+// As xacro prints it: what is wrong first, where last.
+TEST_F(Xacro, IsToldWholeWhenItFails) {
+  install(
+      "echo 'error: undefined macro: arm' >&2; echo \"when processing file: a.xacro\" >&2; exit 2");
+  EXPECT_EQ(expand_xacro(file_).error(),
+            "xacro says: error: undefined macro: arm; when processing file: a.xacro");
+  install(
+      "echo 'XML parsing error: no element found: line 2' >&2; echo >&2; echo 'Check that:' >&2; "
+      "echo ' - Your XML is well-formed' >&2; exit 2");
+  EXPECT_EQ(expand_xacro(file_).error(),
+            "xacro says: XML parsing error: no element found: line 2; Check that:; - Your XML is "
+            "well-formed");
+  install("exit 3");
+  EXPECT_EQ(expand_xacro(file_).error(), "xacro fails and says nothing");
+}
+
+TEST_F(Xacro, WithoutItsPackagesSaysWhatPythonSaysLast) {
+  install(
+      "echo 'Traceback (most recent call last):' >&2; echo '  File \"x\", line 1' >&2; "
+      "echo \"ModuleNotFoundError: No module named 'xacro'\" >&2; exit 1");
+  EXPECT_EQ(expand_xacro(file_).error(),
+            "xacro says: ModuleNotFoundError: No module named 'xacro'");
+}
+
+TEST_F(Xacro, ThatSaysMuchIsCutOff) {
+  install("seq -s e 5000 | tr -d 0-9 >&2; exit 2");
+  EXPECT_EQ(expand_xacro(file_).error(), "xacro says: " + std::string(1000, 'e') + "...");
 }
 
 TEST_F(Xacro, IsEndedAtItsTimeAndItsLength) {
@@ -60,6 +85,16 @@ TEST_F(Xacro, ExpandsTheFilesOfARobot) {
       folder_.write("twin.urdf.xacro",
                     file_with(data_file("two_arms.urdf"), "lower=\"-2\"", "lower=\"@lower@\""));
   EXPECT_EQ(build_or_fail(cell)->joint(JointId(1)).lower, -2.0);
+}
+
+// An include that matches no file leaves out what it should have brought.
+TEST_F(Xacro, ThatWarnsIsPassedOn) {
+  install("cat \"$1\"; echo 'warning: matched no files.' >&2");
+  CellDescription cell = two_arms_description();
+  cell.robots[0].urdf = folder_.write(
+      "twin.urdf.xacro", file_with(data_file("two_arms.urdf"), "lower=\"-2\"", "lower=\"-1\""));
+  EXPECT_THAT(warnings_of(cell),
+              HasSubstr("twin.urdf.xacro: xacro says: warning: matched no files."));
 }
 
 }  // namespace

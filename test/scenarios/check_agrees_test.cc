@@ -51,13 +51,13 @@ class Judges final : public JudgePool {
     if (asked.empty()) return false;
     const Asked first = std::move(asked.front());
     asked.pop_front();
-    if (!arbiter_) arbiter_.emplace(first.scene);
-    arbiter_->look_at(first.scene);
-    first.done(arbiter_->judge(first.question));
+    if (!checker_) checker_.emplace(first.scene);
+    checker_->look_at(first.scene);
+    first.done(checker_->judge(first.question));
     return true;
   }
 
-  std::optional<MotionChecker> arbiter_;
+  std::optional<MotionChecker> checker_;
   std::deque<Asked> of_check_, of_scheduler_;
   bool checking_ = false;
 };

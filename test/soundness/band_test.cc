@@ -21,12 +21,12 @@ struct Scenery {
       : exact(bench::two_pandas()),
         pool(exact, 40, 21),
         pairs(random_pairs(exact, pool, 400, 22)),
-        arbiter(exact.scene) {}
+        checker(exact.scene) {}
 
   bench::ExactScene exact;
   Pool pool;
   std::vector<MovingPair> pairs;
-  MotionChecker arbiter;
+  MotionChecker checker;
 };
 
 Scenery& scenery() {
@@ -41,7 +41,7 @@ TEST(HardlyFree, PairsKeepTheClearanceAtEverySampledInstant) {
   std::size_t found = 0;
   std::size_t tight = 0;
   for (const MovingPair& pair : s.pairs) {
-    const Verdict regions = s.arbiter.judge(pair.question(s.exact.cell(), Coordinated{0.0}));
+    const Verdict regions = s.checker.judge(pair.question(s.exact.cell(), Coordinated{0.0}));
     const auto later = hardly_free(regions, pair);
     if (!later) continue;
     const Truth truth = sampler.of(*later);
@@ -62,7 +62,7 @@ TEST(Swept, MotionsKeepTheClearanceInAnyCombinationOfPlaces) {
   std::size_t free = 0;
   double closest_m = kHorizonOfAttack_m;
   for (const MovingPair& pair : s.pairs) {
-    if (between_motions(s.arbiter.judge(pair.question(cell, Swept{kTracking_rad})))) continue;
+    if (between_motions(s.checker.judge(pair.question(cell, Swept{kTracking_rad})))) continue;
     ++free;
     const Attack found = attack(s.exact, pair, kTracking_rad, kHorizonOfAttack_m, random);
     closest_m = std::min(closest_m, found.distance_m);

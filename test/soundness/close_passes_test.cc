@@ -21,15 +21,15 @@ TEST(ClosePasses, AreDecidedWhenTheBudgetIsRaised) {
   std::size_t open = 0;
   std::size_t left = 0;
   for (const MovingPair& pair : random_pairs(exact, pool, 400, 78)) {
-    MotionChecker arbiter(exact.scene);
+    MotionChecker checker(exact.scene);
     Question question = pair.question(*shared, Swept{.tracking_error = 0.0});
-    Verdict verdict = arbiter.judge(question);
+    Verdict verdict = checker.judge(question);
     if (verdict.kind == Verdict::Kind::undecided) ++open;
     while (verdict.kind == Verdict::Kind::undecided) {
       const auto effort = larger_effort(verdict, question.effort);
       if (!effort) break;
       question.effort = *effort;
-      verdict = arbiter.judge(question);
+      verdict = checker.judge(question);
     }
     left += verdict.kind == Verdict::Kind::undecided ? 1 : 0;
   }

@@ -54,8 +54,8 @@ TEST(InStep, ArmsKeepTheClearanceHoweverFarOneIsBehind) {
   for (const double side : {1.0, -1.0}) {
     const auto kind_of = [&](double ahead_m) {
       const Motion both{JobId{1}, crossing(*cell, side * ahead_m), {}};
-      MotionChecker arbiter(PlanningScene::build(cell).value());
-      return arbiter.judge({1, TimePoint{}, {both}, {}, cell->home(), Coordinated{kTracking_m}})
+      MotionChecker checker(PlanningScene::build(cell).value());
+      return checker.judge({1, TimePoint{}, {both}, {}, cell->home(), Coordinated{kTracking_m}})
           .kind;
     };
     EXPECT_EQ(kind_of(least_m + 0.003), Verdict::Kind::free) << side;

@@ -52,11 +52,11 @@ class Attack {
 
   Tally run() {
     const Pool pool(exact_, 40, 32);
-    MotionChecker arbiter(exact_.scene);
+    MotionChecker checker(exact_.scene);
     for (const MovingPair& pair : random_pairs(exact_, pool, 2 * kPairs, 33)) {
       if (tally_.pairs == kPairs) break;
       const Verdict verdict =
-          arbiter.judge(pair.question(exact_.cell(), Coordinated{kTracking_rad}));
+          checker.judge(pair.question(exact_.cell(), Coordinated{kTracking_rad}));
       if (verdict.kind != Verdict::Kind::free) continue;  // one alone
       ++tally_.pairs;
       attack(pair, between_motions_of(verdict));

@@ -122,9 +122,9 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
   const Cell& cell = exact.cell();
   const Pool pool(exact, std::clamp<std::size_t>(count / 5, 40, 400), seed);
   TruthSampler sampler(exact);
-  MotionChecker arbiter(exact.scene);
+  MotionChecker checker(exact.scene);
   const PlanningScenePtr without = scene_without_clearance(cell);
-  MotionChecker arbiter_without(without);
+  MotionChecker checker_without(without);
   bench::ExactScene exact_without(CellPtr(without, &without->cell()));  // the scene owns the cell
   Report report;
   for (const double step_s : steps_s) report.discrete.push_back({step_s, {}, {}});
@@ -134,11 +134,11 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
     // What the candidate does to itself and to what stands still is asked, and kept, before.
     Question alone = pair.question(cell, kExactly);
     alone.others.clear();
-    static_cast<void>(arbiter.judge(alone));
-    measure_certified(pair, truth, arbiter.judge(pair.question(cell, kExactly)), cell.clearance_m,
+    static_cast<void>(checker.judge(alone));
+    measure_certified(pair, truth, checker.judge(pair.question(cell, kExactly)), cell.clearance_m,
                       report);
     if (truth.smallest_m > 0.0) continue;
-    if (!first_in_regions_s(arbiter_without.judge(pair.question(cell, kExactly)), pair)) {
+    if (!first_in_regions_s(checker_without.judge(pair.question(cell, kExactly)), pair)) {
       ++report.missed_collisions;
       report.failures.push_back("pair " + std::to_string(report.pairs - 1) +
                                 ": without a clearance called free");
@@ -149,10 +149,10 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
       const auto free = [&](MotionChecker& by) {
         return between_motions(by.judge(pair.question(cell, method))) == nullptr;
       };
-      if (!free(arbiter_without)) continue;  // a clearance does not make it miss more
+      if (!free(checker_without)) continue;  // a clearance does not make it miss more
       if (contact_s < 0.0) contact_s = contact_time_s(pair, exact_without);
       note_missed(row.without, truth.smallest_m, contact_s);
-      if (free(arbiter)) note_missed(row.with_clearance, truth.smallest_m, contact_s);
+      if (free(checker)) note_missed(row.with_clearance, truth.smallest_m, contact_s);
     }
   }
   return report;

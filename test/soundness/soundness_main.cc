@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   try {
     const std::string_view what = argc > 1 ? argv[1] : "pairs";
     const std::uint64_t seed = number(argc, argv, 3, 6);
-    if (what == "filter") return filters(number(argc, argv, 2, 1'000'000), seed) ? 0 : 1;
+    if (what == "filter") return filters(number(argc, argv, 2, 200'000), seed) ? 0 : 1;
     if (what == "pairs") return pairs(number(argc, argv, 2, 3000), seed) ? 0 : 1;
     if (what == "open") return open(number(argc, argv, 2, 1500), number(argc, argv, 3, 77)) ? 0 : 1;
     if (what == "surfaces") {

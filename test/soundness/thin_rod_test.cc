@@ -32,13 +32,13 @@ Question crossing(const Cell& cell, Duration offset, const CheckMethod& method) 
 
 TEST(ThinRod, CrossedBetweenTwoSamplesIsFoundByCertifiedChecksOnly) {
   const CellPtr cell = two_rods();
-  MotionChecker arbiter(PlanningScene::build(cell).value());
+  MotionChecker checker(PlanningScene::build(cell).value());
   const Duration offset = 22ms;
   for (const Duration step : {100ms, 50ms}) {
-    EXPECT_EQ(arbiter.judge(crossing(*cell, offset, TimedDiscrete{step})).kind,
+    EXPECT_EQ(checker.judge(crossing(*cell, offset, TimedDiscrete{step})).kind,
               Verdict::Kind::free);
   }
-  const Verdict verdict = arbiter.judge(crossing(*cell, offset, Coordinated{0.0}));
+  const Verdict verdict = checker.judge(crossing(*cell, offset, Coordinated{0.0}));
   ASSERT_EQ(verdict.kind, Verdict::Kind::free);
   ASSERT_EQ(verdict.regions.size(), 1U);
   ASSERT_EQ(verdict.regions[0].regions.size(), 1U);
@@ -46,7 +46,7 @@ TEST(ThinRod, CrossedBetweenTwoSamplesIsFoundByCertifiedChecksOnly) {
   EXPECT_LT(region.proximity.clearance_m, cell->clearance_m);
   EXPECT_LE(region.boxes.front().from_a, 222ms);
   EXPECT_GE(region.boxes.back().to_a, 222ms);
-  EXPECT_EQ(arbiter.judge(crossing(*cell, offset, Swept{0.0})).kind, Verdict::Kind::conflict);
+  EXPECT_EQ(checker.judge(crossing(*cell, offset, Swept{0.0})).kind, Verdict::Kind::conflict);
 }
 
 }  // namespace

@@ -52,13 +52,13 @@ OpenPairs find_open(std::size_t count, std::uint64_t seed, const CheckMethod& me
   OpenPairs found;
   double evaluations = 0.0;
   for (const MovingPair& pair : random_pairs(exact, pool, count, seed + 1)) {
-    MotionChecker arbiter(exact.scene);
+    MotionChecker checker(exact.scene);
     Question question = pair.question(*shared, method);
-    Verdict verdict = arbiter.judge(question);
+    Verdict verdict = checker.judge(question);
     std::uint64_t cost = verdict.evaluations;
     while (const auto effort = larger_effort(verdict, question.effort)) {
       question.effort = *effort;
-      verdict = arbiter.judge(question);
+      verdict = checker.judge(question);
       cost += verdict.evaluations;
     }
     evaluations += static_cast<double>(cost);

@@ -1,6 +1,7 @@
 #include "core/collision/state/clearance_query.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "core/collision/state/placed_cell.h"
@@ -24,6 +25,7 @@ struct ClearanceQuery::Scratch {
     PlacedPart b;
     double limit_m;
     std::size_t lane;
+    float least_m;  // of the capsules
   };
   // A pair that the filter leaves open in a single state.
   struct Candidate {
@@ -34,7 +36,8 @@ struct ClearanceQuery::Scratch {
   PlanningScenePtr scene;
   const PlanningScene::Bodies& bodies;
   PlacedCell placed;
-  std::vector<Open> open;  // of meshes, which take long
+  std::vector<Open> open;          // of meshes, which take long
+  std::vector<std::size_t> order;  // of these: where capsules overlap most, the first is often it
   LinkPoses X_WL;
   std::vector<Candidate> candidates;
 
@@ -57,7 +60,7 @@ struct ClearanceQuery::Scratch {
         const unsigned bit = 1U << lane;
         if ((hit.lanes & ~close & bit) == 0) continue;
         const Open o{placed.part(c.a, pair.part_a, lane), placed.part(c.b, pair.part_b, lane),
-                     pair.limit_m, lane};
+                     pair.limit_m, lane, hit.distance[lane]};
         const bool meshes = o.a.part.has_pieces || o.b.part.has_pieces;
         if (meshes ? parts_surely_closer_than(bodies.bodies, o.a, o.b, o.limit_m)
                    : closer_than_limit(o)) {
@@ -79,7 +82,11 @@ struct ClearanceQuery::Scratch {
       placed.filter(c, all & ~close,
                     [&](auto found, const auto& narrow) { decide_soon(c, found, narrow, close); });
     }
-    for (const Open& o : open) {
+    order.resize(open.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t i) { return open[i].least_m; });
+    for (const std::size_t i : order) {
+      const Open& o = open[i];
       const unsigned bit = 1U << o.lane;
       if ((~close & bit) != 0 && closer_than_limit(o)) close |= bit;
     }

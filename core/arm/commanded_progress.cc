@@ -1,0 +1,116 @@
+#include "core/arm/commanded_progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/arm/arm_controller.h"
+
+namespace armloom {
+
+void CommandedProgress::follow(TrajectoryPtr trajectory, Duration from, Duration authority) {
+  trajectory_ = std::move(trajectory);
+  law_.follow(trajectory_);
+  progress_ = from;
+  authority_ = std::max(authority, from);
+  rate_ = 0.0;
+  compute_curve();
+}
+
+void CommandedProgress::grant(Duration authority) {
+  if (authority < authority_ && authority < trajectory_->duration()) {
+    // Where the arm would come to rest if it braked from the next tick on.
+    Duration stop = progress_;
+    double rate = rate_;
+    while (rate > 0.0 && stop < trajectory_->duration()) {
+      const Step step = braked(stop, rate, to_seconds(kControlPeriod));
+      stop += from_seconds(step.progress_s);
+      rate = step.rate;
+    }
+    authority_ = std::max(authority, std::min(stop, authority_));
+    compute_curve();
+    return;
+  }
+  curve_stale_ = curve_stale_ || authority != authority_;
+  authority_ = authority;
+}
+
+void CommandedProgress::compute_curve() {
+  curve_.compute(law_, progress_, end());
+  curve_stale_ = false;
+}
+
+void CommandedProgress::advance(Duration period, bool braking) {
+  if (progress_ >= end()) {
+    rate_ = 0.0;
+    return;
+  }
+  if (!braking) refresh_curve(progress_ + period);
+  const bool bound = authority_ < trajectory_->duration();
+  if (rate_ == 0.0 && progress_ == Duration{} && !braking) {
+    rate_ = bound ? std::sqrt(curve_.rate_squared(0.0)) : 1.0;  // the path itself starts at rest
+  }
+  if (rate_ == 1.0 && !braking && (!bound || progress_ + period <= curve_.free_until())) {
+    progress_ = std::min(progress_ + period, end());  // in whole nanoseconds: the planned duration
+  } else {
+    const double period_s = to_seconds(period);
+    const Step step = braking ? braked(progress_, rate_, period_s) : next_step(period_s);
+    rate_ = step.rate;
+    progress_ = std::min(progress_ + from_seconds(step.progress_s), end());
+  }
+  if (progress_ == end()) rate_ = 0.0;
+}
+
+// A brake that ends within the tick covers its triangle only.
+CommandedProgress::Step CommandedProgress::braked(Duration progress, double rate, double period_s) {
+  if (period_s <= 0.0) return {rate, 0.0};
+  const Duration last = std::min(progress + from_seconds(rate * period_s), trajectory_->duration());
+  const double change = law_.brake({progress, rate}, {last, rate});
+  const double rate_after = rate + change * period_s;
+  if (rate_after <= 0.0) return {0.0, rate * rate / (-2.0 * change)};
+  return {rate_after, 0.5 * (rate + rate_after) * period_s};
+}
+
+CommandedProgress::Step CommandedProgress::next_step(double period_s) {
+  Step fastest{rate_, rate_ * period_s};
+  if (rate_ < 1.0 && period_s > 0.0) {
+    const double change = law_.rise({progress_, rate_}, period_s);
+    const double rate_after = rate_ + change * period_s;
+    if (rate_after <= 1.0) {
+      fastest = {rate_after, 0.5 * (rate_ + rate_after) * period_s};
+    } else {
+      const double rising_s = (1.0 - rate_) / change;
+      fastest = {1.0, 0.5 * (rate_ + 1.0) * rising_s + (period_s - rising_s)};
+    }
+  }
+  if (authority_ >= trajectory_->duration()) return fastest;
+  return below_curve(fastest, period_s);
+}
+
+CommandedProgress::Step CommandedProgress::below_curve(Step fastest, double period_s) {
+  const double here_s = to_seconds(progress_);
+  const auto above = [&](double rate, double progress_s) {
+    return rate * rate > curve_.rate_squared(here_s + progress_s);
+  };
+  if (!above(fastest.rate, fastest.progress_s)) return fastest;
+
+  const double left_s = to_seconds(authority_) - here_s;
+  if (left_s <= 0.5 * rate_ * period_s) return {0.0, left_s};  // rest falls within this tick
+  const auto covered = [&](double rate) { return 0.5 * (rate_ + rate) * period_s; };
+  double low = 0.0;  // the curve falls along the path: one crossing
+  double high = fastest.rate;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (above(middle, covered(middle)) ? high : low) = middle;
+  }
+  const Step strongest = braked(progress_, rate_, period_s);
+  return strongest.rate > low ? strongest : Step{low, covered(low)};
+}
+
+void CommandedProgress::refresh_curve(Duration horizon) {
+  if (!curve_stale_ || authority_ >= trajectory_->duration()) return;
+  if (rate_ > 0.0 && horizon <= curve_.free_until()) return;
+  compute_curve();
+}
+
+}  // namespace armloom
