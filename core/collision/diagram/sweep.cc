@@ -112,4 +112,16 @@ double Sweep::reach(std::span<const Vector3d> p_W, double radius_m) const {
   return largest + round(radius_m) + remainder(p_W.front(), size_m + radius_m);
 }
 
+double Sweep::excess(std::span<const Vector3d> p_W, double radius_m) const {
+  Vector3d center_W = Vector3d::Zero();
+  for (const Vector3d& p : p_W) center_W += p / static_cast<double>(p_W.size());
+  double largest = 0.0;
+  double size_m = 0.0;
+  for (const Vector3d& p : p_W) {
+    largest = std::max(largest, at(p) - n_.dot(p));
+    size_m = std::max(size_m, (p - center_W).norm());
+  }
+  return largest + round(radius_m) + remainder(center_W, size_m + radius_m);
+}
+
 }  // namespace armloom

@@ -41,6 +41,9 @@ class Sweep {
   [[nodiscard]] double reach(const ConvexShape& body, const PlacedConvexShape& placed) const;
   // The same over all points within radius_m of the hull of these.
   [[nodiscard]] double reach(std::span<const Eigen::Vector3d> p_W, double radius_m) const;
+  // At least the largest n . (x - p) over the points p of the hull and x within radius_m of where p
+  // comes to be.
+  [[nodiscard]] double excess(std::span<const Eigen::Vector3d> p_W, double radius_m) const;
 
  private:
   struct Moment {       // of an axis that turns

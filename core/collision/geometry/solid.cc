@@ -25,7 +25,7 @@ bool lies_inside(const SurfaceTree& inner, const SurfaceTree& outer,
 
 double distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
                 const Eigen::Isometry3d& X_WB, double limit_m, double enough_m,
-                const TrianglesKept* kept = nullptr) {
+                const KeptApart* kept = nullptr) {
   const double radii_m = a.radius_m + b.radius_m;
   if (limit_m + radii_m <= 0.0) return limit_m;
   const Eigen::Isometry3d X_AB = X_WA.inverse(Eigen::Isometry) * X_WB;
@@ -71,14 +71,8 @@ std::optional<Vector3d> direction_apart(const Solid& a, const Eigen::Isometry3d&
 }
 
 bool all_apart(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
-               const Eigen::Isometry3d& X_WB, double within_m, const TrianglesKept& kept) {
-  const TrianglesKept kept_in_a = [&](TrianglePoints at_a, TrianglePoints at_b,
-                                      const Vector3d& n_A) {
-    for (Vector3d& p : at_a) p = X_WA * p;
-    for (Vector3d& p : at_b) p = X_WA * p;
-    return kept(at_a, at_b, X_WA.linear() * n_A);
-  };
-  return distance(a, X_WA, b, X_WB, within_m, within_m, &kept_in_a) >= within_m;
+               const Eigen::Isometry3d& X_WB, double within_m, const KeptApart& kept) {
+  return distance(a, X_WA, b, X_WB, within_m, within_m, &kept) >= within_m;
 }
 
 }  // namespace armloom
