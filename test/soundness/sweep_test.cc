@@ -206,6 +206,7 @@ TEST(Sweeps, OfSurfacesAreNeverUndercut) {
     const double limit_m = uniform(random, 0.001, 0.1);
     const MovingSolid moving_a{a, two.X_WA * a.X_PT, two.axes_a};
     const MovingSolid moving_b{b, two.X_WB * b.X_PT, two.axes_b};
+    if (solid_distance(a, moving_a.X_WT, b, moving_b.X_WT, limit_m) < limit_m) continue;
     if (!surfaces_keep_apart(moving_a, moving_b, limit_m, 10.0)) continue;
     ++said;
     for (int k = 0; k < 10; ++k) {

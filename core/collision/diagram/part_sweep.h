@@ -20,10 +20,11 @@ struct MovingPart {
 // each two bodies, or triangles of surfaces, there is a direction across which one never reaches
 // within limit_m of the other (Sweep). Those that are enough_m apart already are not looked at;
 // that this is enough is the caller's to know. May say no where yes is true, never the reverse.
+// Precondition: they are apart here (part_distance() is above zero).
 [[nodiscard]] bool keep_apart(const std::vector<ConvexShape>& bodies, const MovingPart& a,
                               const MovingPart& b, double limit_m, double enough_m);
 
-// The same of two surfaces; each stands at X_WT.
+// The same of two surfaces; each stands at X_WT. Precondition: neither is inside of the other here.
 struct MovingSolid {
   const Solid& solid;
   Eigen::Isometry3d X_WT;

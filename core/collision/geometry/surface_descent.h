@@ -16,7 +16,7 @@ class KeptApart {
   virtual ~KeptApart() = default;
   // Two triangles, with the direction that parts them (TriangleGap).
   [[nodiscard]] virtual bool keeps(const TrianglePoints& a, const TrianglePoints& b,
-                                   const Eigen::Vector3d& n) const = 0;
+                                   const Eigen::Vector3d& n) = 0;
   // Of both surfaces whatever is so far apart along n.
   [[nodiscard]] virtual double enough_along(const Eigen::Vector3d& n) const = 0;
 };
@@ -30,7 +30,7 @@ class SurfaceDescent {
   SurfaceDescent(const SurfaceTree& a, const SurfaceTree& b, const Eigen::Isometry3d& X_AB,
                  double limit_m, double enough_m);
 
-  void pass_over(const KeptApart* kept) { kept_ = kept; }
+  void pass_over(KeptApart* kept) { kept_ = kept; }
   // min(distance, limit), never larger than the true one; above enough_m less than 1e-9 m below it.
   [[nodiscard]] double run();
   // After run(), of surfaces apart and below the limit: the direction from a to b of the nearest
@@ -74,7 +74,7 @@ class SurfaceDescent {
   double best_m_;
   double enough_m_;
   double roots_m_ = 0.0;
-  const KeptApart* kept_ = nullptr;
+  KeptApart* kept_ = nullptr;
   double kept_along_m_;  // what is so far apart along n_A_ is left out
   // Pairs of triangles that were measured, as several leaves may have them: the last at each place,
   // plus one.
