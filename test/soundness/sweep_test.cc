@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/collision/diagram/part_sweep.h"
 #include "core/collision/geometry/exact_distance.h"
@@ -40,19 +41,23 @@ Isometry3d any_pose(std::mt19937_64& random, const Vector3d& at) {
 // Up to seven joints, mostly turning, about axes up to a metre away.
 std::vector<MovingAxis> any_axes(std::mt19937_64& random, double span_max) {
   std::vector<MovingAxis> axes(random() % 8);
+  const bool drift = random() % 2 == 0;
   for (MovingAxis& axis : axes) {
     axis = {any_direction(random), any_vector(random, 0.7), uniform(random, 0.0, span_max),
             random() % 5 == 0};
+    if (drift)
+      axis.drift = uniform(random, -1.0, 1.0) * std::exchange(axis.loose, 0.1 * axis.loose);
   }
   return axes;
 }
 
-// The motion of what the axes carry when each is off by its share of its span.
+// The motion of what the axes carry when each is off by its share of what is loose and all by the
+// last share of their drifts.
 Isometry3d moved(const std::vector<MovingAxis>& axes, const std::vector<double>& share) {
   Isometry3d E = Isometry3d::Identity();
   for (std::size_t j = 0; j < axes.size(); ++j) {
     const MovingAxis& axis = axes[j];
-    const double off = share[j] * axis.span;
+    const double off = share[j] * axis.loose + share.back() * axis.drift;
     if (axis.prismatic) {
       E.translate(Vector3d(off * axis.z_W));
     } else {
@@ -124,7 +129,7 @@ struct Two {
 };
 
 std::vector<double> any_share(std::mt19937_64& random, std::size_t joints) {
-  std::vector<double> share(joints);
+  std::vector<double> share(joints + 1);
   const bool corner = random() % 2 == 0;
   for (double& s : share) {
     s = corner ? (random() % 2 == 0 ? -1.0 : 1.0) : uniform(random, -1.0, 1.0);
