@@ -163,6 +163,7 @@ void Admission::answer_yield(State& state, const Verdict& verdict, YieldTrial mo
 }
 
 void Admission::answer_option(State& state, Verdict verdict) {
+  if (!choosing_.stands(state)) return;
   if (choosing_.rate(state, std::move(verdict))) {
     return ask(state, {choosing_.job()}, Purpose::option);
   }

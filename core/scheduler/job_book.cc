@@ -36,8 +36,8 @@ Record& JobBook::add(Record record) {
   for (ArmId arm : job.trajectory->arms()) {
     auto& queue = queues_[arm.index()];
     queue.insert(record.before ? std::ranges::find(queue, *record.before) : queue.end(), job.id);
-    work_[arm.index()] += job.trajectory->duration();
   }
+  count(job, work_, 1);
   active_.insert(job.id);
   if (!job.alternatives.empty()) undecided_.insert(job.id);
   unexplained_.insert(job.id);
@@ -75,6 +75,23 @@ bool JobBook::is_first(const Job& job) const {
                              [&](ArmId arm) { return queue(arm).front() == job.id; });
 }
 
+void JobBook::count(const Job& job, std::vector<Duration>& work, int sign) {
+  if (job.alternatives.empty() || job.in<Queued>() == nullptr) {
+    for (ArmId arm : job.trajectory->arms()) work[arm.index()] += sign * job.trajectory->duration();
+    return;
+  }
+  const auto share = static_cast<int>(job.alternatives.size());
+  for (const TrajectoryPtr& one : job.alternatives) {
+    for (ArmId arm : one->arms()) work[arm.index()] += sign * (one->duration() / share);
+  }
+}
+
+std::vector<Duration> JobBook::work_behind(const std::vector<JobId>& in_front) const {
+  std::vector<Duration> work = work_;
+  for (JobId id : in_front) count(at(id).job, work, -1);
+  return work;
+}
+
 std::optional<JobId> JobBook::before(const Job& job) const {
   const auto& own = queue(job.trajectory->arms().front());
   const auto place = std::ranges::find(own, job.id);
@@ -110,13 +127,19 @@ std::vector<JobId> JobBook::in_turn(const std::set<JobId>& jobs) const {
   return sorted;
 }
 
-void JobBook::exchange(Record& a, Record& b) {
-  std::swap(a.turn, b.turn);
-  for (ArmId arm : a.job.trajectory->arms()) {
+void JobBook::put_in_order(const std::vector<JobId>& jobs) {
+  const auto is_one = [&](JobId id) { return std::ranges::find(jobs, id) != jobs.end(); };
+  for (ArmId arm : at(jobs.front()).job.trajectory->arms()) {
     auto& queue = queues_[arm.index()];
-    std::iter_swap(std::ranges::find(queue, a.job.id), std::ranges::find(queue, b.job.id));
+    std::ranges::copy(jobs, std::ranges::find_if(queue, is_one));
   }
-  for (const Record* record : {&a, &b}) explain_with_next(record->job);
+  std::vector<JobId> turns;
+  for (JobId id : jobs) turns.push_back(at(id).turn);
+  std::ranges::sort(turns);
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    at(jobs[i]).turn = turns[i];
+    explain_with_next(at(jobs[i]).job);
+  }
 }
 
 void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
@@ -125,7 +148,6 @@ void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
   for (ArmId arm : job.trajectory->arms()) {
     auto& queue = queues_[arm.index()];
     queue.erase(std::ranges::find(queue, job.id));
-    work_[arm.index()] -= job.trajectory->duration();
   }
   job.trajectory = std::move(trajectory);
   record.leg = std::move(leg);
@@ -135,7 +157,6 @@ void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
       return at(id).job.in<Queued>() != nullptr && at(id).turn > record.turn;
     };
     queue.insert(std::ranges::find_if(queue, later), job.id);
-    work_[arm.index()] += job.trajectory->duration();
   }
   explain_with_next(job);
 }
@@ -157,7 +178,9 @@ void JobBook::enter(Record& record, JobPhase phase) {
                            std::to_string(job.phase.index()) + " to " +
                            std::to_string(phase.index()));
   }
+  if (!job.alternatives.empty()) count(job, work_, -1);
   job.phase = std::move(phase);
+  if (!job.alternatives.empty()) count(job, work_, 1);
   const bool is_decided = job.alternatives.empty() || job.in<Queued>() == nullptr;
   is_decided ? (void)undecided_.erase(job.id) : (void)undecided_.insert(job.id);
   if (job.state() == JobState::queued || job.has_ended()) {
@@ -179,8 +202,8 @@ std::vector<JobId> JobBook::end(Record& record, Ended how) {
     auto& queue = queues_[arm.index()];
     const auto next = queue.erase(std::ranges::find(queue, job.id));
     if (next != queue.end()) unexplained_.insert(*next);
-    work_[arm.index()] -= job.trajectory->duration();
   }
+  count(job, work_, -1);
   active_.erase(job.id);
   unexplained_.erase(job.id);
   if (--priorities_.at(job.priority) == 0) priorities_.erase(job.priority);

@@ -71,8 +71,8 @@ class JobBook {
   // That would not keep it waiting: first of its arms, all in `after` ended, none let pass.
   [[nodiscard]] bool at_head(const Record& record) const;
   [[nodiscard]] bool lets_another_pass(const Record& record) const;
-  // Two that wait change places; precondition: they move the same arms.
-  void exchange(Record& a, Record& b);
+  // These follow each other on the same arms and wait: now in this order.
+  void put_in_order(const std::vector<JobId>& jobs);
   // The other trajectory, of other arms, behind what is admitted there and what came before it.
   // Precondition: it waits.
   void take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg);
@@ -80,8 +80,9 @@ class JobBook {
   [[nodiscard]] const std::set<JobId>& undecided() const { return undecided_; }
   // The same jobs, each after those before it.
   [[nodiscard]] std::vector<JobId> in_turn(const std::set<JobId>& jobs) const;
-  // Per arm: of its active jobs.
-  [[nodiscard]] const std::vector<Duration>& work() const { return work_; }
+  // Per arm: of its active jobs but these. A job that could still go on several arms counts as
+  // shared by them.
+  [[nodiscard]] std::vector<Duration> work_behind(const std::vector<JobId>& in_front) const;
   [[nodiscard]] bool all_as_urgent() const { return priorities_.size() <= 1; }
 
   // A transition of the table in job.h; any other one throws std::logic_error.
@@ -98,6 +99,8 @@ class JobBook {
 
  private:
   void explain_with_next(const Job& job);
+  // To, or from, the work of the arms that it may be done by.
+  static void count(const Job& job, std::vector<Duration>& work, int sign);
 
   std::map<JobId, Record> records_;
   std::uint64_t last_id_ = 0;

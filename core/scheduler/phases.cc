@@ -56,19 +56,31 @@ void rest_at_start(State& state, Record& record) {
   record.checked_at = 0;
 }
 
+// For the time being with the arm that has least to do.
+const TrajectoryPtr& likeliest(const State& state, const Submit& job) {
+  if (job.alternatives.empty()) return job.trajectory;
+  return *std::ranges::min_element(job.alternatives, {}, [&](const TrajectoryPtr& motion) {
+    const auto& queue = state.jobs.queue(motion->arms().front());
+    Duration work{};
+    for (JobId id : queue) work += state.jobs.at(id).job.trajectory->duration();
+    return work;
+  });
+}
+
 }  // namespace
 
 Record record_of(State& state, const Submit& job) {
   if (!job.trajectory) throw std::invalid_argument("Submit: no trajectory");
+  const TrajectoryPtr& motion = likeliest(state, job);
   Record record{.job = {.id = job.job,
-                        .trajectory = job.trajectory,
+                        .trajectory = motion,
                         .priority = job.priority,
                         .backlog_timeout = job.backlog_timeout,
                         .after = job.after,
                         .system_job = job.system_job,
                         .any_order = job.any_order,
                         .alternatives = job.alternatives},
-                .leg = state.arms.leg_of(*state.cell, job.job, *job.trajectory),
+                .leg = state.arms.leg_of(*state.cell, job.job, *motion),
                 .turn = job.job,
                 .on_behalf_of = job.job};
   record.job.times.submitted_at = state.now;

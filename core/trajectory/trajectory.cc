@@ -186,4 +186,29 @@ void Trajectory::enclose_positions(Duration from, Duration to, Eigen::VectorXd& 
   }
 }
 
+void Trajectory::enclose_about_line(Duration from, Duration to, AboutLine& line) const {
+  const Duration middle = from + (to - from) / 2;
+  sample_positions(middle, line.position);
+  line.velocity.setZero(line.position.size());
+  line.off.setZero(line.position.size());
+  if (from == to) return;
+  const Segment& passed = segments_[segment_at(std::min(middle, duration_ - Duration(1)))];
+  velocities_at(passed.coefficients, to_seconds(middle - passed.start), line.velocity);
+  for (std::size_t i = segment_at(std::min(from, duration_ - Duration(1)));
+       i < segments_.size() && segments_[i].start < to; ++i) {
+    const Segment& segment = segments_[i];
+    const Duration first = std::max(from - segment.start, Duration::zero());
+    const Duration last = std::min(to - segment.start, segment.duration);
+    const double h = 0.5 * to_seconds(last - first);
+    const double at = to_seconds(first) + h;  // of the segment
+    const double ahead = to_seconds(segment.start - middle) + at;
+    for (Eigen::Index j = 0; j < line.off.size(); ++j) {
+      auto p = shifted(segment.coefficients, j, at);
+      const double there = std::abs(p[0] - line.position[j] - line.velocity[j] * ahead);
+      p[1] -= line.velocity[j];
+      line.off[j] = std::max(line.off[j], there + swing(p, h));
+    }
+  }
+}
+
 }  // namespace armloom

@@ -65,6 +65,13 @@ class Trajectory {
   // Sound but for rounding (1e-12). Precondition: from <= to.
   void enclose_positions(Duration from, Duration to, Eigen::VectorXd& lower,
                          Eigen::VectorXd& upper) const;
+  // How far any position between two instants is at most from the line through the middle of these
+  // with the velocity there: |q(t) - position - velocity (t - middle)| <= off, t from `from` to
+  // `to`. Sizes and rounding as above. Precondition: 0 <= from <= to <= duration.
+  struct AboutLine {
+    Eigen::VectorXd position, velocity, off;
+  };
+  void enclose_about_line(Duration from, Duration to, AboutLine& line) const;
 
  private:
   // Precondition: 0 <= progress < duration.

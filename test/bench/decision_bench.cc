@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -16,6 +18,7 @@
 #include <vector>
 
 #include "core/collision/check/motion_checker.h"
+#include "core/collision/diagram/motion_store.h"
 #include "core/collision/scene/planning_scene.h"
 #include "core/scheduler/scheduler.h"
 #include "core/trajectory/validate.h"
@@ -28,13 +31,25 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kColumns = 8, kRows = 6;
-constexpr double kSpacing_m = 1.2;
 constexpr double kReach = 0.5;
 // Of a random motion, about home: with the half neighbours stay clear, with all of it they cross.
 constexpr double kShare = 0.5, kCrossingShare = 1.0;
-constexpr std::size_t kAdmitted = 45, kRunning = 15, kWaiting = 200;
+constexpr std::size_t kAdmitted = 45, kRunning = 15;
 constexpr std::size_t kFree[] = {18, 28, 29};  // arms in the middle: theirs are the candidates
-constexpr std::size_t kDecisions = 300;
+constexpr std::size_t kDecisions = 300, kDecisionsOfGrowth = 100;
+
+// What the time may grow with.
+struct Load {
+  double spacing_m = 1.2;
+  std::size_t waiting = 200;
+  int horizon_legs = SchedulingSettings{}.horizon_legs;
+};
+
+CellPtr hall_of(const Load& load) {
+  Cell cell = *grid_of_pandas(kColumns, kRows, load.spacing_m);
+  cell.scheduling.horizon_legs = load.horizon_legs;
+  return std::make_shared<const Cell>(std::move(cell));
+}
 
 // The waypoints of `motion`, its deviation from its start shrunk to `share` and begun at home;
 // backwards: from its goal to home. None: it leaves its limits.
@@ -68,12 +83,18 @@ double processor_ms() {
 
 class Hall {
  public:
-  Hall(const std::string& policy, double share)
+  Hall(const std::string& policy, double share, const Load& load)
       : looks_ahead_(policy == "coordinated"),
         running_(policy == "lockstep" ? 0 : kRunning),
+        waiting_(load.waiting),
         share_(share),
+<<<<<<< HEAD
         cell_(grid_of_pandas(kColumns, kRows, kSpacing_m)),
         checker_(*PlanningScene::build(cell_)),
+=======
+        cell_(hall_of(load)),
+        arbiter_(*PlanningScene::build(cell_)),
+>>>>>>> fast
         chooses_(*PlanningScene::build(cell_)),
         scheduler_(cell_, std::move(*make_policy(policy, *cell_)), cell_->home()) {
     if (policy != "sequential") fill();
@@ -88,6 +109,19 @@ class Hall {
       random_[*found] = random;
       return *found;
     }
+  }
+
+  // Arms that a candidate's arm can come close to.
+  [[nodiscard]] double in_reach() const {
+    const MotionStore store(*PlanningScene::build(cell_));
+    double all = 0.0;
+    for (const std::size_t arm : kFree) {
+      for (std::uint32_t other = 0; other < cell_->arms.size(); ++other) {
+        const ArmId own{static_cast<std::uint32_t>(arm)};
+        if (other != arm && !store.out_of_reach(own, ArmId{other})) all += 1.0;
+      }
+    }
+    return all / static_cast<double>(std::size(kFree));
   }
 
   // Submit, and whatever is asked and answered until the job is admitted or in the backlog.
@@ -142,8 +176,8 @@ class Hall {
         if (admitted++ < running_) run(job);
       }
     }
-    for (std::size_t round = 0; waiting < kWaiting; ++round) {
-      for (std::uint32_t i = 0; i < out.size() && waiting < kWaiting; ++i) {
+    for (std::size_t round = 0; waiting < waiting_; ++round) {
+      for (std::uint32_t i = 0; i < out.size() && waiting < waiting_; ++i) {
         if (!out[i]) continue;
         const bool back = round % 2 == 0;
         submit(back ? *from_home(*cell_, ArmId{i}, *random_.at(out[i]), share_, true) : out[i]);
@@ -155,7 +189,7 @@ class Hall {
     const bool as_wanted =
         count(JobState::running) == running_ &&
         (looks_ahead_ || count(JobState::scheduled) == scheduled) &&
-        count(JobState::scheduled) + count(JobState::queued) == scheduled + kWaiting;
+        count(JobState::scheduled) + count(JobState::queued) == scheduled + waiting_;
     if (!as_wanted) throw std::runtime_error("the hall is not as it was to be");
   }
 
@@ -195,6 +229,7 @@ class Hall {
 
   bool looks_ahead_;
   std::size_t running_;
+  std::size_t waiting_;
   double share_;
   CellPtr cell_;
   MotionChecker checker_;
@@ -207,12 +242,13 @@ class Hall {
   std::uint64_t seed_ = 0;
 };
 
-void decision(benchmark::State& state, const std::string& policy, double share) {
-  Hall hall(policy, share);
+void decision(benchmark::State& state, const std::string& policy, double share, const Load& load,
+              std::size_t decisions) {
+  Hall hall(policy, share, load);
   std::vector<double> took_ms;
   double admitted = 0.0, questions = 0.0;
   for (auto _ : state) {
-    for (std::size_t i = 0; i < kDecisions; ++i) {
+    for (std::size_t i = 0; i < decisions; ++i) {
       const ArmId arm{static_cast<std::uint32_t>(kFree[i % std::size(kFree)])};
       const TrajectoryPtr motion = hall.new_motion(arm);
       const Hall::Decision decided = hall.decide(motion);
@@ -229,6 +265,19 @@ void decision(benchmark::State& state, const std::string& policy, double share) 
   state.counters["admitted"] = admitted / count;
   state.counters["scheduled"] = static_cast<double>(hall.count(JobState::scheduled));
   state.counters["questions"] = questions / count;
+  state.counters["in_reach"] = hall.in_reach();
+  state.counters["waiting"] = static_cast<double>(load.waiting);
+  state.counters["horizon_legs"] = static_cast<double>(load.horizon_legs);
+}
+
+// Rows "growth/": one of the three grows, the others stay (growth.py makes the README's table).
+void register_growth(const std::string& policy, double share, const std::string& name,
+                     const Load& load) {
+  benchmark::RegisterBenchmark(
+      ("growth/" + name).c_str(),
+      [=](auto& state) { decision(state, policy, share, load, kDecisionsOfGrowth); })
+      ->Iterations(1)
+      ->Unit(benchmark::kMillisecond);
 }
 
 const bool kRegistered = [] {
@@ -236,11 +285,25 @@ const bool kRegistered = [] {
        {"sequential", "lockstep", "reservation", "certified", "earliest_start", "coordinated"}) {
     for (const auto& [name, share] :
          {std::pair("decision/", kShare), {"crossing/", kCrossingShare}}) {
-      benchmark::RegisterBenchmark((std::string(name) + policy).c_str(),
-                                   [policy, share](auto& state) { decision(state, policy, share); })
+      benchmark::RegisterBenchmark(
+          (std::string(name) + policy).c_str(),
+          [policy, share](auto& state) { decision(state, policy, share, {}, kDecisions); })
           ->Iterations(1)
           ->Unit(benchmark::kMillisecond);
     }
+  }
+  for (const int legs : {1, 2, 3, 4, 6, 8, 12}) {
+    register_growth("coordinated", kShare, "horizon:" + std::to_string(legs),
+                    {.horizon_legs = legs});
+  }
+  for (const std::size_t waiting : {0, 50, 100, 200, 400, 800}) {
+    register_growth("coordinated", kShare, "waiting:" + std::to_string(waiting),
+                    {.waiting = waiting});
+  }
+  for (const double spacing_m : {2.4, 1.8, 1.5, 1.2, 1.0}) {
+    register_growth("coordinated", kShare,
+                    "spacing_cm:" + std::to_string(std::lround(100.0 * spacing_m)),
+                    {.spacing_m = spacing_m});
   }
   return true;
 }();

@@ -24,10 +24,6 @@ std::size_t size_of(const ChosenMoments& chosen) {
                                   std::ranges::count(chosen.columns, 1));
 }
 
-const WorkloadKind& kind_of(const std::string& name) {
-  return *std::ranges::find(workload_kinds(), name, &WorkloadKind::name);
-}
-
 TEST(Exclusion, OfABlockIsItsRowsAndColumns) {
   const ChosenMoments chosen = largest_exclusion(table_of(4,
                                                           "....."
@@ -95,7 +91,7 @@ TEST(Exclusion, CountsTheTimeBetweenChosenNeighboursOfOneMotion) {
 
 TEST(LowerBound, OfTwoArmsInOneFixtureIsTheSumOfTheirTimesThere) {
   // Each of the two stands for 2 s and more where the other one would hit it.
-  const Workload workload = kind_of("one_fixture").make(1);
+  const Workload workload = workload_kind("one_fixture").make(1);
   std::vector<Work> work;
   double inside_s = 0.0;
   double all_s = 0.0;
@@ -121,7 +117,7 @@ TEST(LowerBound, OfTwoArmsInOneFixtureIsTheSumOfTheirTimesThere) {
 }
 
 TEST(LowerBound, OfArmsThatNeverMeetIsTheBusiestOnesOwnWork) {
-  const Workload workload = kind_of("apart").make(1);
+  const Workload workload = workload_kind("apart").make(1);
   std::vector<Work> work;
   double left_s = 0.0;
   for (const PlannedJob& job : workload.jobs) {
@@ -139,7 +135,7 @@ TEST(Workloads, ShortTasksTakeAThirdOfTheLongOnesAndAsMuchTogether) {
     Duration shorts{};
     Duration longs{};
     int count = 0;
-    for (const PlannedJob& job : kind_of("short_beside_long").make(seed).jobs) {
+    for (const PlannedJob& job : workload_kind("short_beside_long").make(seed).jobs) {
       if (job.kind == "short") shorts += job.trajectory->duration();
       if (job.kind == "long") longs += job.trajectory->duration();
       count += job.kind == "short" ? 1 : job.kind == "long" ? -3 : 0;
@@ -151,14 +147,15 @@ TEST(Workloads, ShortTasksTakeAThirdOfTheLongOnesAndAsMuchTogether) {
 
 TEST(Workloads, AreTheSameForASeedAndOthersForAnother) {
   const auto first_goal = [](std::uint64_t seed) {
-    return Eigen::VectorXd(kind_of("pick_and_place").make(seed).jobs.front().trajectory->goal());
+    return Eigen::VectorXd(
+        workload_kind("pick_and_place").make(seed).jobs.front().trajectory->goal());
   };
   EXPECT_EQ(first_goal(5), first_goal(5));
   EXPECT_NE(first_goal(5), first_goal(6));
 }
 
 TEST(Experiments, RepeatByteForByteWhateverTheThreads) {
-  Plan plan{{kind_of("one_fixture")}, {"certified", "earliest_start"}, 2, 1};
+  Plan plan{{workload_kind("one_fixture")}, {"certified", "earliest_start"}, 2, 1};
   const std::string once = results_csv(run_all(plan).rows);
   plan.threads = 2;
   EXPECT_EQ(results_csv(run_all(plan).rows), once);
@@ -176,7 +173,7 @@ RunRow row(const std::string& policy, double makespan_s) {
 
 std::vector<bool> verdicts(const std::vector<RunRow>& rows) {
   std::vector<bool> holds;
-  for (const Claim& claim : claims(Plan{{kind_of("pick_and_place")}}, rows, "coordinated")) {
+  for (const Claim& claim : claims(Plan{{workload_kind("pick_and_place")}}, rows, "coordinated")) {
     holds.push_back(claim.holds);
   }
   return holds;
@@ -208,7 +205,7 @@ TEST(Claims, CompareSeedBySeedAndWithTheOptimum) {
 }
 
 TEST(Delays, TakeTheTimeThatTheySay) {
-  Workload workload = kind_of("shuttles").make(1);
+  Workload workload = workload_kind("shuttles").make(1);
   workload.jobs.erase(workload.jobs.begin() + 4, workload.jobs.end());
   const double before_s = run_policy(workload, "shuttles", "sequential", 1, {}).row.makespan_s;
   workload.jobs[2].delay = JobDelay{1.0, 0.5};

@@ -19,9 +19,10 @@ struct SeedRuns {
 SeedRuns run_seed(const WorkloadKind& kind, std::uint64_t seed,
                   const std::vector<std::string>& policies) {
   const Workload workload = kind.make(seed);
+  const Workload given =
+      kind.freed_from.empty() ? workload : workload_kind(kind.freed_from).make(seed);
   std::vector<Work> work;
-  for (const PlannedJob& job : workload.jobs)
-    work.push_back({job.arm, job.trajectory, job.timed.at});
+  for (const PlannedJob& job : given.jobs) work.push_back({job.arm, job.trajectory, job.timed.at});
   const Limits limits{lower_bound(workload.cell, work, kMoment), optimum(workload.cell, work)};
   SeedRuns done{workload.cell, {}};
   if (!workload.one_arm.empty()) {

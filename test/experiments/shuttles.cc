@@ -1,7 +1,10 @@
 #include "test/experiments/shuttles.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
+#include <string>
+#include <utility>
 
 namespace armloom::experiments {
 namespace {
@@ -33,24 +36,90 @@ constexpr Pose kRight[] = {
     {0.0, -0.5, 0.0, -2.9, 0.0, 2.4, 0.0},
     {0.0, 0.0, 0.0, -2.6, 0.0, 2.5, 0.0},
 };
+constexpr std::span<const Pose> kPoses[] = {kLeft, kRight};
+constexpr int kVisits = 12;
+constexpr int kToGive = 15;
+constexpr int kOwn = 5;
 constexpr int kMoreTrips = 10;
 constexpr int kFewerTrips = 8;
+
+std::size_t drawn(JobMaker& maker, ArmId arm) {
+  return maker.random()() % kPoses[arm.index()].size();
+}
+Eigen::VectorXd pose_of(ArmId arm, std::size_t pose) {
+  const Pose& q = kPoses[arm.index()][pose];
+  return Eigen::VectorXd::Map(q.data(), q.size());
+}
+void add_visit(JobMaker& maker, ArmId arm, std::size_t pose) {
+  maker.add_trip(arm, {{"visit", {{pose_of(arm, pose)}, {maker.home(arm)}}}});
+}
+
+// For each of the visits those of which one is to be made: of every arm, or of the one that has
+// visits of its own.
+std::vector<std::vector<PlannedJob>> visits_to_give(const CellPtr& cell, std::uint64_t seed) {
+  std::vector<std::vector<PlannedJob>> all;
+  JobMaker maker(cell, seed);
+  const ArmId busier(seed % 2 == 1 ? 0 : 1);
+  for (int visit = 0; visit < kToGive + kOwn; ++visit) {
+    const bool own = visit % 4 == 3;
+    for (std::uint32_t arm = 0; arm < std::size(kPoses); ++arm) {
+      if (!own || ArmId(arm) == busier) add_visit(maker, ArmId(arm), drawn(maker, ArmId(arm)));
+    }
+    std::vector<PlannedJob> jobs = maker.take();
+    std::ranges::sort(jobs, {}, &PlannedJob::arm);
+    for (PlannedJob& job : jobs) job.timed.job.key = "visit-" + std::to_string(visit + 1);
+    all.push_back(std::move(jobs));
+  }
+  return all;
+}
 
 }  // namespace
 
 std::vector<PlannedJob> shuttle_jobs(const CellPtr& cell, std::uint64_t seed) {
   JobMaker maker(cell, seed);
-  const std::array<std::span<const Pose>, 2> poses = {kLeft, kRight};
-  for (std::uint32_t i = 0; i < poses.size(); ++i) {
+  for (std::uint32_t i = 0; i < std::size(kPoses); ++i) {
     const ArmId arm(i);
     const int trips = seed % 2 == 1 - i ? kMoreTrips : kFewerTrips;
     for (int trip = 0; trip < trips; ++trip) {
-      const Pose& drawn = poses[i][maker.random()() % poses[i].size()];
-      const Eigen::VectorXd pose = Eigen::VectorXd::Map(drawn.data(), drawn.size());
-      maker.add_trip(arm, {{"out", {{pose}}}, {"home", {{maker.home(arm)}}}});
+      maker.add_trip(arm,
+                     {{"out", {{pose_of(arm, drawn(maker, arm))}}}, {"home", {{maker.home(arm)}}}});
     }
   }
   return maker.take(2);
+}
+
+std::vector<PlannedJob> visits(const CellPtr& cell, std::uint64_t seed) {
+  JobMaker maker(cell, seed);
+  for (std::uint32_t i = 0; i < std::size(kPoses); ++i) {
+    const ArmId arm(i);
+    std::vector<std::size_t> poses;
+    for (int visit = 0; visit < kVisits; ++visit) poses.push_back(drawn(maker, arm));
+    std::ranges::sort(poses);
+    for (const std::size_t pose : poses) add_visit(maker, arm, pose);
+  }
+  return maker.take();
+}
+
+std::vector<PlannedJob> visits_in_turn(const CellPtr& cell, std::uint64_t seed) {
+  std::vector<PlannedJob> jobs;
+  std::size_t given = 0;
+  for (std::vector<PlannedJob>& either : visits_to_give(cell, seed)) {
+    jobs.push_back(std::move(either.size() > 1 ? either[given++ % either.size()] : either.front()));
+  }
+  return jobs;
+}
+
+std::vector<PlannedJob> visits_by_either(const CellPtr& cell, std::uint64_t seed) {
+  std::vector<PlannedJob> jobs;
+  for (std::vector<PlannedJob>& either : visits_to_give(cell, seed)) {
+    PlannedJob& job = jobs.emplace_back(either.front());
+    if (either.size() == 1) continue;
+    for (PlannedJob& one : either) {
+      job.timed.job.alternatives.push_back(std::move(one.timed.job.trajectory));
+    }
+    job.timed.job.trajectory = {};
+  }
+  return jobs;
 }
 
 }  // namespace armloom::experiments

@@ -300,9 +300,16 @@ Workload apart(std::uint64_t seed) {
   return workload;
 }
 
-Workload shuttles(std::uint64_t seed) {
+template <std::vector<PlannedJob> (*jobs)(const CellPtr&, std::uint64_t)>
+Workload of_two_pandas(std::uint64_t seed) {
   Workload workload{config("two_pandas")};
-  workload.jobs = shuttle_jobs(workload.cell, seed);
+  workload.jobs = jobs(workload.cell, seed);
+  return workload;
+}
+
+Workload visits_in_any_order(std::uint64_t seed) {
+  Workload workload = of_two_pandas<visits>(seed);
+  for (PlannedJob& job : workload.jobs) job.timed.job.order = JobOrder::any;
   return workload;
 }
 
@@ -322,14 +329,28 @@ const std::vector<WorkloadKind>& workload_kinds() {
       {"four_pandas", "Pick and place, four Pandas", true, four_pandas},
       {"short_beside_long", "Short beside long tasks, two Pandas", true, short_beside_long},
       {"random_mix", "A random mix that arrives over time, two Pandas", true, random_mix},
-      {"shuttles", "To and fro between home and poses in the middle, two Pandas", false, shuttles},
+      {"shuttles", "To and fro between home and poses in the middle, two Pandas", false,
+       of_two_pandas<shuttle_jobs>},
       {"one_fixture", "One fixture for both arms: hardly pays", false, one_fixture},
       {"apart", "Arms that never meet, in takt: does not pay", false, apart},
-      {"shuttles_delayed", "To and fro, some jobs late and slow", false, delayed<shuttles>, true},
+      {"shuttles_delayed", "To and fro, some jobs late and slow", false,
+       delayed<of_two_pandas<shuttle_jobs>>, true},
       {"pick_and_place_delayed", "Pick and place, some jobs late and slow", false,
        delayed<pick_and_place>, true},
+      {"visits", "Visits of poses in the middle, one kind after the other, two Pandas", false,
+       of_two_pandas<visits>},
+      {"visits_any", "The same visits in any order", false, visits_in_any_order, false, "visits"},
+      {"in_turn",
+       "Visits that either arm could make, given to them in turn; some that one arm has to make",
+       false, of_two_pandas<visits_in_turn>},
+      {"either", "The same visits by whichever arm the plan gives them to", false,
+       of_two_pandas<visits_by_either>, false, "in_turn"},
   };
   return kinds;
+}
+
+const WorkloadKind& workload_kind(const std::string& name) {
+  return *std::ranges::find(workload_kinds(), name, &WorkloadKind::name);
 }
 
 }  // namespace armloom::experiments

@@ -25,9 +25,14 @@ struct WorkloadKind {
   Workload (*make)(std::uint64_t seed);
   // Some jobs are late and slow: the optimum knows of none.
   bool delayed = false;
+  // The workload whose jobs these are, but for what the scheduler may choose itself: the optimum
+  // and the bounds are of that one. Empty: none.
+  std::string freed_from = {};
 };
 
 // Throw std::runtime_error when a cell does not read, or no open task is found.
 [[nodiscard]] const std::vector<WorkloadKind>& workload_kinds();
+// Precondition: there is one of this name.
+[[nodiscard]] const WorkloadKind& workload_kind(const std::string& name);
 
 }  // namespace armloom::experiments

@@ -39,6 +39,15 @@ inline TrajectoryPtr move(const std::vector<std::uint32_t>& arms, double from, d
               duration);
 }
 
+// One arm from `home` to `there` and back.
+inline TrajectoryPtr visit(std::uint32_t arm, double home, double there, Duration duration) {
+  const auto out = move({arm}, home, there, duration / 2),
+             back = move({arm}, there, home, duration / 2);
+  std::vector<Segment> segments{out->segments().front(), back->segments().front()};
+  segments[1].start = segments[0].duration;
+  return std::make_shared<const Trajectory>(out->joints(), out->arms(), std::move(segments));
+}
+
 // One conflict region of these boxes (times of the first motion, then of the second), by hand.
 template <typename... Boxes>
 ConflictRegion region(const Boxes&... boxes) {

@@ -34,28 +34,45 @@ double time_share(double way_share) {
   return 0.5 * (low + high);
 }
 
+}  // namespace
+
+double place_of(const Trajectory& motion, ArmId arm, Duration progress) {
+  Eigen::VectorXd position;
+  motion.sample_positions(progress, position);
+  return position[row_of(motion, arm)];
+}
+
+namespace {
+
 struct Span {
   Duration from, to;
 };
 
-// When the arm is in the stretch.
-std::optional<Span> span_in(const Trajectory& motion, ArmId arm, Stretch stretch) {
-  const double start = motion.start()[row_of(motion, arm)];
-  const double goal = motion.goal()[row_of(motion, arm)];
+// When the arm is in the stretch on its way from `start` to `goal`, from rest to rest in T.
+std::optional<Span> span_on_line(double start, double goal, Duration T, Stretch stretch) {
   if (std::max(start, goal) < stretch.from || std::min(start, goal) > stretch.to) {
     return std::nullopt;
   }
-  const double T = to_seconds(motion.duration());
-  if (std::abs(goal - start) < 1e-9) return Span{Duration{}, motion.duration()};
+  if (std::abs(goal - start) < 1e-9) return Span{Duration{}, T};
   const double enters = ((goal > start ? stretch.from : stretch.to) - start) / (goal - start);
   const double leaves = ((goal > start ? stretch.to : stretch.from) - start) / (goal - start);
-  Span span{Duration{}, motion.duration()};
-  if (enters > 0.0)
-    span.from = std::max(Duration{}, from_seconds(T * time_share(enters)) - kLarger);
-  if (leaves < 1.0) {
-    span.to = std::min(motion.duration(), from_seconds(T * time_share(leaves)) + kLarger);
-  }
+  const auto when = [&](double share) { return from_seconds(to_seconds(T) * time_share(share)); };
+  Span span{Duration{}, T};
+  if (enters > 0.0) span.from = std::max(Duration{}, when(enters) - kLarger);
+  if (leaves < 1.0) span.to = std::min(T, when(leaves) + kLarger);
   return span;
+}
+
+// When the arm is in the stretch, line by line.
+std::vector<Span> spans_in(const Trajectory& motion, ArmId arm, Stretch stretch) {
+  std::vector<Span> spans;
+  for (const Segment& line : motion.segments()) {
+    const Duration end = line.start + line.duration;
+    const auto span = span_on_line(place_of(motion, arm, line.start), place_of(motion, arm, end),
+                                   line.duration, stretch);
+    if (span) spans.push_back({line.start + span->from, line.start + span->to});
+  }
+  return spans;
 }
 
 bool touch(const ProgressBox& x, const ProgressBox& y) {
@@ -67,12 +84,6 @@ Proximity proximity_of(ArmId a, ArmId b) {
 }
 
 }  // namespace
-
-double place_of(const Trajectory& motion, ArmId arm, Duration progress) {
-  Eigen::VectorXd position;
-  motion.sample_positions(progress, position);
-  return position[row_of(motion, arm)];
-}
 
 bool Crossings::meet(ArmId a, Stretch of_a, ArmId b, Stretch of_b) const {
   if (b < a) return meet(b, of_b, a, of_a);
@@ -106,10 +117,12 @@ std::vector<Crossings::Box> Crossings::boxes(const Motion& a, const Motion& b) c
   std::vector<Box> boxes;
   const auto add = [&](ArmId arm_a, Stretch of_a, ArmId arm_b, Stretch of_b) {
     if (!moves(a, arm_a) || !moves(b, arm_b)) return;
-    const auto span_a = span_in(*a.trajectory, arm_a, of_a);
-    const auto span_b = span_in(*b.trajectory, arm_b, of_b);
-    if (!span_a || !span_b || span_a->to < a.progress || span_b->to < b.progress) return;
-    boxes.push_back({{span_a->from, span_a->to, span_b->from, span_b->to}, arm_a, arm_b});
+    for (const Span& span_a : spans_in(*a.trajectory, arm_a, of_a)) {
+      for (const Span& span_b : spans_in(*b.trajectory, arm_b, of_b)) {
+        if (span_a.to < a.progress || span_b.to < b.progress) continue;
+        boxes.push_back({{span_a.from, span_a.to, span_b.from, span_b.to}, arm_a, arm_b});
+      }
+    }
   };
   for (const Crossing& c : table_) {
     add(c.a, {c.from_a, c.to_a}, c.b, {c.from_b, c.to_b});
@@ -122,9 +135,9 @@ std::vector<Crossings::Box> Crossings::boxes(const Motion& a, Standing b) const 
   std::vector<Box> boxes;
   const auto add = [&](ArmId arm_a, Stretch of_a, ArmId arm_b, Stretch of_b) {
     if (!moves(a, arm_a) || arm_b != b.arm || b.q <= of_b.from || b.q >= of_b.to) return;
-    const auto span = span_in(*a.trajectory, arm_a, of_a);
-    if (span && span->to >= a.progress)
-      boxes.push_back({{span->from, span->to, {}, {}}, arm_a, arm_b});
+    for (const Span& span : spans_in(*a.trajectory, arm_a, of_a)) {
+      if (span.to >= a.progress) boxes.push_back({{span.from, span.to, {}, {}}, arm_a, arm_b});
+    }
   };
   for (const Crossing& c : table_) {
     add(c.a, {c.from_a, c.to_a}, c.b, {c.from_b, c.to_b});
@@ -136,8 +149,8 @@ std::vector<Crossings::Box> Crossings::boxes(const Motion& a, Standing b) const 
 bool Crossings::meets_object(const Motion& motion) const {
   return std::ranges::any_of(objects_, [&](const Object& object) {
     if (!moves(motion, object.arm)) return false;
-    const auto span = span_in(*motion.trajectory, object.arm, {object.from, object.to});
-    return span && span->to >= motion.progress;
+    const auto spans = spans_in(*motion.trajectory, object.arm, {object.from, object.to});
+    return std::ranges::any_of(spans, [&](const Span& s) { return s.to >= motion.progress; });
   });
 }
 

@@ -30,7 +30,7 @@ struct Stretch {
 
 // The geometry of a cell of one-joint arms as a table, and its answers to questions of every
 // method, by the rules of core/collision: exact, but for boxes that are a microsecond too large.
-// Motions go straight from place to place (`move` of bench_cell.h).
+// Motions go straight from place to place (`move` and `visit` of bench_cell.h).
 class Crossings {
  public:
   explicit Crossings(std::vector<Crossing> table = {}) : table_(std::move(table)) {}

@@ -102,7 +102,7 @@ class IdealArms : public Bench {
   std::vector<Moving> moving_;
   TimePoint answer_at_ = kNever;
   std::map<JobId, std::vector<JobId>> after_;
-  std::map<ArmId, std::vector<JobId>> of_arm_;  // of clients, as submitted
+  std::map<ArmId, std::vector<JobId>> of_arm_;  // of clients, in an order that has to be kept
   std::map<JobId, std::size_t> times_dispatched_, times_released_;
 };
 

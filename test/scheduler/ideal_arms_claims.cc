@@ -72,8 +72,16 @@ std::pair<Stretch, JobId> IdealArms::stretch_of(ArmId arm) const {
     const auto& arms = moving.motion->arms();
     if (std::ranges::find(arms, arm) == arms.end()) continue;
     const double now = place_of(*moving.motion, arm, moving.reported);
-    const double then = place_of(*moving.motion, arm, moving.authority);
-    return {{std::min(now, then), std::max(now, then)}, moving.job};
+    Stretch stretch{now, now};
+    const auto comes_to = [&](Duration progress) {
+      const double place = place_of(*moving.motion, arm, progress);
+      stretch = {std::min(stretch.from, place), std::max(stretch.to, place)};
+    };
+    for (const Segment& line : moving.motion->segments()) {
+      if (line.start > moving.reported && line.start < moving.authority) comes_to(line.start);
+    }
+    comes_to(moving.authority);
+    return {stretch, moving.job};
   }
   return {{q_[arm.index()], q_[arm.index()]}, JobId{0}};
 }

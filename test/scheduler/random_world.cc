@@ -75,6 +75,10 @@ Habits World::habits() {
 std::optional<Submit> World::draw(bool any) {
   const Configuration rest = bench_.scheduler.predicted_rest();
   for (int tries = 0; tries < 30; ++tries) {
+    if (disturbances_.choices && random_() % 2 == 0) {
+      if (auto job = draw_visit(rest, any)) return job;
+      continue;
+    }
     std::vector<std::uint32_t> arms{static_cast<std::uint32_t>(random_() % arms_)};
     const auto second = static_cast<std::uint32_t>(random_() % arms_);
     if (random_() % 6 == 0 && second > arms[0]) arms.push_back(second);
@@ -95,6 +99,23 @@ std::optional<Submit> World::draw(bool any) {
     return job;
   }
   return std::nullopt;
+}
+
+// In any order, or by any arm that can.
+std::optional<Submit> World::draw_visit(const Configuration& rest, bool any) {
+  const bool by_any = random_() % 2 == 0;
+  const auto first = static_cast<std::uint32_t>(random_() % arms_);
+  Submit job{JobId{0}, nullptr, static_cast<int>(random_() % 2), 1'000'000s};
+  if (disturbances_.cancels) job.backlog_timeout = 20s + up_to(100s);
+  for (std::uint32_t arm = by_any ? 0 : first; arm < (by_any ? arms_ : first + 1); ++arm) {
+    const auto motion = visit(arm, rest[arm], place(), 1s + up_to(4s));
+    if (any || bench_.crossings.free_beside(*motion, rest)) job.alternatives.push_back(motion);
+  }
+  if (job.alternatives.empty()) return std::nullopt;
+  job.trajectory = job.alternatives.front();
+  if (job.alternatives.size() == 1) job.alternatives.clear();
+  job.any_order = job.alternatives.empty();
+  return job;
 }
 
 JobId World::submit(Submit job) {

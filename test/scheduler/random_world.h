@@ -18,6 +18,7 @@ struct Disturbances {
   bool cancels = false;
   bool scenes = false;
   bool parks = false;
+  bool choices = false;  // some jobs may be done in any order, or by any of several arms
 };
 
 // A random workload of two to four arms of one joint that share places by a table, alone and in
@@ -40,6 +41,7 @@ class World {
 
  private:
   CellPtr cell();
+  [[nodiscard]] std::optional<Submit> draw_visit(const Configuration& rest, bool any);
   double place() { return 0.01 * static_cast<double>(random_() % 101); }
   Duration up_to(Duration most);
   std::vector<Crossing> table();

@@ -81,5 +81,22 @@ TEST_P(Worlds, WhereArmsGoAsideEveryJobEndsOnce) {
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
+// Of jobs in any order, and of jobs that any of several arms can do.
+TEST_P(Worlds, WhatMayBeChosenIsDoneToo) {
+  EXPECT_GT(run(200, {.delays = true, .choices = true}, true)[JobState::succeeded], 1000);
+}
+
+TEST_P(Worlds, WhateverIsCanceledOfWhatMayBeChosenEveryJobEndsOnce) {
+  auto ended = run(200,
+                   {.delays = true,
+                    .stops = true,
+                    .cancels = true,
+                    .scenes = true,
+                    .parks = true,
+                    .choices = true},
+                   false);
+  EXPECT_GT(ended[JobState::succeeded], 500);
+}
+
 }  // namespace
 }  // namespace armloom

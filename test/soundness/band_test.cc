@@ -64,10 +64,12 @@ TEST(Swept, MotionsKeepTheClearanceInAnyCombinationOfPlaces) {
   for (const MovingPair& pair : s.pairs) {
     if (between_motions(s.checker.judge(pair.question(cell, Swept{kTracking_rad})))) continue;
     ++free;
-    const Attack found = attack(s.exact, pair, kTracking_rad, kHorizonOfAttack_m, random);
-    closest_m = std::min(closest_m, found.distance_m);
-    EXPECT_GE(found.distance_m, cell.clearance_m - kRounding_m)
-        << "at " << found.candidate_s << " and " << found.other_s << " s";
+    for (int again = 0; again < 4; ++again) {
+      const Attack found = attack(s.exact, pair, kTracking_rad, kHorizonOfAttack_m, random);
+      closest_m = std::min(closest_m, found.distance_m);
+      EXPECT_GE(found.distance_m, cell.clearance_m - kRounding_m)
+          << "at " << found.candidate_s << " and " << found.other_s << " s";
+    }
   }
   std::cout << free << " free, closest " << closest_m << " m\n";
   EXPECT_GE(free, 40U);

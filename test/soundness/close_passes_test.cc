@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <iostream>
 #include <memory>
 
 #include "core/collision/check/motion_checker.h"
@@ -10,17 +11,17 @@
 namespace armloom::soundness {
 namespace {
 
-// Two Pandas that have to keep 5 mm only, and keep to their paths exactly. What stays open of
+// Two Pandas that have to keep 1 mm only, and keep to their paths exactly. What stays open of
 // joints that are off their paths: open_pairs_test.cc.
 TEST(ClosePasses, AreDecidedWhenTheBudgetIsRaised) {
   Cell cell = *bench::two_pandas();
-  cell.clearance_m = 0.005;
+  cell.clearance_m = 0.001;
   const auto shared = std::make_shared<const Cell>(std::move(cell));
   bench::ExactScene exact(shared);
   const Pool pool(exact, 16, 77);
   std::size_t open = 0;
   std::size_t left = 0;
-  for (const MovingPair& pair : random_pairs(exact, pool, 400, 78)) {
+  for (const MovingPair& pair : random_pairs(exact, pool, 1500, 78)) {
     MotionChecker checker(exact.scene);
     Question question = pair.question(*shared, Swept{.tracking_error = 0.0});
     Verdict verdict = checker.judge(question);
@@ -33,7 +34,8 @@ TEST(ClosePasses, AreDecidedWhenTheBudgetIsRaised) {
     }
     left += verdict.kind == Verdict::Kind::undecided ? 1 : 0;
   }
-  EXPECT_GE(open, 5U);
+  std::cout << open << " open at first\n";
+  EXPECT_GE(open, 3U);
   EXPECT_EQ(left, 0U);
 }
 

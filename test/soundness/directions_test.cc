@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "core/collision/filter/arm_kinematics.h"
@@ -21,9 +23,11 @@ constexpr double kMargin_m = 2e-6;
 class Arm {
  public:
   Arm(std::mt19937_64& random, double span_max) : linkage_(random), view_(linkage_.view()) {
+    const bool drifts = random() % 2 == 0;
     for (int j = 0; j < linkage_.joints; ++j) {
       middle_.push_back(uniform(random, -3.0, 3.0));
       most_.push_back(random() % 4 == 0 ? 0.0 : uniform(random, 0.0, span_max));
+      drift_.push_back(drifts ? uniform(random, -1.0, 1.0) : 0.0);
     }
     const std::size_t frames = linkage_.frames.size();
     axes_.resize(frames * 6 * kLanes);
@@ -34,17 +38,27 @@ class Arm {
     for (const filter::Frame& frame : linkage_.frames) {
       const double m = most_[static_cast<std::size_t>(frame.joint)] * std::abs(frame.multiplier);
       spans_.insert(spans_.end(), kLanes, round_up(m));
+      const auto joint = static_cast<std::size_t>(frame.joint);
+      const auto drift = static_cast<float>(drift_[joint] * most_[joint] * frame.multiplier);
+      drifts_.insert(drifts_.end(), kLanes, drift);
+      looses_.insert(looses_.end(), kLanes,
+                     round_up((1.0 - std::abs(drift_[joint])) * m + 1e-6 * std::abs(drift)));
     }
   }
 
-  // Every joint anywhere within its span, mostly at an end of it; in the first lane at rest.
+  // Every joint anywhere within its span, as far as drifts allow, mostly at an end of it; in the
+  // first lane at rest.
   void move(std::mt19937_64& random) {
     std::vector<double> q;
+    std::array<double, kLanes> share;  // of all drifts
+    for (double& s : share) s = random() % 2 == 0 ? uniform(random, -1.0, 1.0) : 1.0;
     for (std::size_t j = 0; j < middle_.size(); ++j) {
       q.push_back(middle_[j]);
       for (int lane = 1; lane < kLanes; ++lane) {
-        const double end = random() % 2 == 0 ? most_[j] : -most_[j];
-        q.push_back(middle_[j] + (random() % 4 == 0 ? uniform(random, -1.0, 1.0) : 1.0) * end);
+        const double end = random() % 2 == 0 ? 1.0 : -1.0;
+        const double loose = (random() % 4 == 0 ? uniform(random, -1.0, 1.0) : 1.0) * end;
+        q.push_back(middle_[j] + most_[j] * (share[static_cast<std::size_t>(lane)] * drift_[j] +
+                                             (1.0 - std::abs(drift_[j])) * loose));
       }
     }
     const filter::Kernel& kernel = filter::best_kernel();
@@ -56,7 +70,7 @@ class Arm {
   [[nodiscard]] const RandomLinkage& linkage() const { return linkage_; }
   [[nodiscard]] filter::Side side() const { return {capsules_.data(), suffix_.data(), nullptr}; }
   [[nodiscard]] filter::Joints joints() const {
-    return {&view_, axes_.data(), spans_.data(), bends_.data()};
+    return {&view_, axes_.data(), drifts_.data(), looses_.data(), bends_.data()};
   }
   [[nodiscard]] CenteredSegment segment(int capsule, int lane) const {
     CenteredSegment segment;
@@ -74,7 +88,8 @@ class Arm {
   RandomLinkage linkage_;
   filter::ArmKinematics view_;
   std::vector<double> middle_, most_, frames_;
-  std::vector<float> axes_, capsules_, suffix_, bends_, spans_;
+  std::vector<double> drift_;  // the share of most_ that all joints go together
+  std::vector<float> axes_, capsules_, suffix_, bends_, spans_, drifts_, looses_;
 };
 
 struct Tally {

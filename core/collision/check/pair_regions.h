@@ -41,7 +41,11 @@ class PairRegionSearch {
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
   inline static constexpr CoordinationDiagram::Resolution kResolution{
-      .coarse = std::chrono::milliseconds(80), .fine = std::chrono::milliseconds(25)};
+      .coarse = std::chrono::milliseconds(160),
+      .fine = std::chrono::milliseconds(80),
+      .passing = {.fine = std::chrono::milliseconds(25),
+                  .coarse = std::chrono::milliseconds(160),
+                  .slope = 0.5}};
   // Of two arms, for each second of both motions together.
   inline static constexpr double kCells = 500.0;
   // Where no conflict is proven it may be a close pass: there, down to here, at as many cells more;

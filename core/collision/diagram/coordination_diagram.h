@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/collision/diagram/passing_edges.h"
 #include "core/collision/diagram/progress_band.h"
 #include "core/collision/diagram/tube_pair.h"
 #include "core/coordination/conflict_region.h"
@@ -55,11 +56,12 @@ class CoordinationDiagram {
 
   // Finds where what is free of the rectangle of what remains of both motions ends: what is not
   // borders on it, or on where both stand now, in cells no wider than `fine`, or `coarse` where
-  // their middle is proven to be a conflict. What lies behind them is not looked at: no motion gets
-  // there.
+  // their middle is proven to be a conflict, and where motions pass it as fine as `passing` says.
+  // What lies behind them is not looked at: no motion gets there.
   struct Resolution {
     Duration coarse;
     Duration fine;
+    PassingResolution passing;
   };
   std::uint64_t refine_outline(Duration now_a, Duration now_b, const Resolution& resolution,
                                std::uint64_t budget);
@@ -138,6 +140,12 @@ class CoordinationDiagram {
   template <class Expand, class Follow>
   std::uint64_t refine_from(std::vector<int> leaves, std::uint64_t budget, const Expand& expand,
                             const Follow& follow);
+  std::uint64_t refine_passing_edges(Duration now_a, Duration now_b,
+                                     const PassingResolution& resolution, std::uint64_t budget);
+  void split_passing_edge(const CoarseLeaf& leaf, std::vector<int>& unknown);
+  [[nodiscard]] std::vector<OpenLeaf> open_leaves(Duration now_a, Duration now_b) const;
+  [[nodiscard]] bool is_outlined(Duration now_a, Duration now_b,
+                                 const Resolution& resolution) const;
   [[nodiscard]] bool remains(const Cell& cell, Duration now_a, Duration now_b) const;
   template <class Visit>
   bool leaves_at(const Cell& of, const Visit& visit) const;

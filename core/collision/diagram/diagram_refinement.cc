@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/collision/diagram/coordination_diagram.h"
+#include "core/collision/diagram/passing_edges.h"
 
 namespace armloom {
 
@@ -75,11 +76,7 @@ bool CoordinationDiagram::leaves_at(const Cell& of, const Visit& visit) const {
 std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b,
                                                   const Resolution& resolution,
                                                   std::uint64_t budget) {
-  if (outlined_ && outlined_->now_a <= now_a && outlined_->now_b <= now_b &&
-      outlined_->resolution.coarse <= resolution.coarse &&
-      outlined_->resolution.fine <= resolution.fine) {
-    return 0;
-  }
+  if (is_outlined(now_a, now_b, resolution)) return 0;
   std::uint64_t looked_at = refine(now_a, now_b, kWide, budget);
   // A motion that is still to come finds the other one anywhere on its way: hence the edges.
   const auto may_be_entered = [&](const Cell& cell) {
@@ -123,8 +120,76 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
   if (looked_at < budget) {
     looked_at += refine_from(std::move(border), budget - looked_at, expand, follow);
   }
+  if (looked_at < budget) {
+    looked_at += refine_passing_edges(now_a, now_b, resolution.passing, budget - looked_at);
+  }
   if (looked_at < budget) outlined_ = {now_a, now_b, resolution};
   return looked_at;
+}
+
+// Whether a refinement of before holds, where both stand now too.
+bool CoordinationDiagram::is_outlined(Duration now_a, Duration now_b,
+                                      const Resolution& resolution) const {
+  if (!outlined_ || outlined_->now_a > now_a || outlined_->now_b > now_b) return false;
+  const Resolution& before = outlined_->resolution;
+  if (before.coarse > resolution.coarse || before.fine > resolution.fine) return false;
+  if (before.passing.fine > resolution.passing.fine) return false;
+  const auto blurs = [&](const OpenLeaf& leaf) {
+    const bool here = leaf.box.from_a <= now_a && leaf.box.from_b <= now_b;
+    return here && leaf.refinable && wider(at(leaf.cell), resolution.passing.fine);
+  };
+  return std::ranges::none_of(open_leaves(now_a, now_b), blurs);
+}
+
+// What remains and is not known to be free.
+std::vector<OpenLeaf> CoordinationDiagram::open_leaves(Duration now_a, Duration now_b) const {
+  std::vector<OpenLeaf> leaves;
+  for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
+    const Cell& cell = at(i);
+    if (cell.state == CellState::inner || cell.state == CellState::free) continue;
+    if (!remains(cell, now_a, now_b)) continue;
+    const bool refinable = cell.state == CellState::mixed || cell.state == CellState::unknown;
+    leaves.push_back({i, box_of(cell), refinable, proven(cell) != nullptr});
+  }
+  return leaves;
+}
+
+// Of the children those are looked at that bear on where a motion passes: the corner, and its
+// neighbours, which cannot be free where their common corner is in conflict.
+void CoordinationDiagram::split_passing_edge(const CoarseLeaf& leaf, std::vector<int>& unknown) {
+  const bool middle_is_open = proven(at(leaf.cell)) == nullptr;
+  split_if_coarse(leaf.cell, leaf.allowed);
+  const Cell cell = at(leaf.cell);
+  if (cell.state != CellState::inner) return;
+  // In order: along B, then along A. The corner (to_a, from_b) is the one where A passes first.
+  const int a_first = cell.split_a ? (cell.split_b ? 2 : 1) : 0;
+  const int b_first = cell.split_b ? 1 : 0;
+  for (int child = 0; child < cell.child_count(); ++child) {
+    const bool wanted = (leaf.a_first && child == a_first) || (leaf.b_first && child == b_first) ||
+                        (middle_is_open && child != a_first && child != b_first);
+    if (wanted) unknown.push_back(cell.children + child);
+  }
+}
+
+std::uint64_t CoordinationDiagram::refine_passing_edges(Duration now_a, Duration now_b,
+                                                        const PassingResolution& resolution,
+                                                        std::uint64_t budget) {
+  const ProgressBox remaining{now_a, a_->duration(), now_b, b_->duration()};
+  bool ended = false;
+  const auto expand = [&](const std::vector<int>&, std::vector<int>& unknown) {
+    const auto coarse = coarse_leaves(open_leaves(now_a, now_b), remaining, resolution);
+    ended = coarse.empty();
+    for (const CoarseLeaf& leaf : coarse) {
+      if (at(leaf.cell).state == CellState::unknown) {
+        unknown.push_back(leaf.cell);
+      } else {
+        split_passing_edge(leaf, unknown);
+      }
+    }
+    std::erase_if(unknown, [&](int leaf) { return !remains(at(leaf), now_a, now_b); });
+  };
+  const auto follow = [&](const std::vector<int>&) { return std::vector<int>(ended ? 0 : 1); };
+  return refine_from({0}, budget, expand, follow);
 }
 
 std::vector<CoordinationDiagram::Blocked> CoordinationDiagram::blocked(Duration now_a,

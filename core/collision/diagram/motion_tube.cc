@@ -19,20 +19,23 @@ std::size_t lane_size(std::size_t rows) { return rows * static_cast<std::size_t>
 
 struct MotionTube::Scratch {
   std::vector<double> q;
-  std::vector<float> joint_span;  // [row][kLanes]
-  std::vector<float> span;        // [frame][kLanes]
+  std::vector<float> joint_span, joint_drift, joint_loose;  // [row][kLanes]
+  std::vector<float> span, drift, loose;                    // [frame][kLanes]
   std::vector<float> suffix;
   std::vector<int> capsule_rows;  // in Block::inflation
   std::vector<filter::Hit> hits;
   Eigen::VectorXd position, lower, upper;
+  Trajectory::AboutLine line;
 };
 
 std::shared_ptr<MotionTube::Scratch> MotionTube::make_scratch(const ArmGeometry& geometry) {
   const ArmKinematics& arm = geometry.linkage;
   auto s = std::make_shared<Scratch>();
   s->q.resize(lane_size(arm.joints().size()));
-  s->joint_span.resize(lane_size(arm.joints().size()));
-  s->span.resize(lane_size(arm.frames().size()));
+  for (auto* rows : {&s->joint_span, &s->joint_drift, &s->joint_loose}) {
+    rows->resize(lane_size(arm.joints().size()));
+  }
+  for (auto* rows : {&s->span, &s->drift, &s->loose}) rows->resize(lane_size(arm.frames().size()));
   s->suffix.resize(lane_size(static_cast<std::size_t>(arm.suffix_rows())));
   s->capsule_rows.resize(arm.capsules().size());
   std::iota(s->capsule_rows.begin(), s->capsule_rows.end(), 0);
@@ -85,25 +88,35 @@ void MotionTube::place(std::span<const int> nodes) {
   if (count > 0) place_batch({batch, count});
 }
 
-// The configuration in the middle of the interval, and how far each joint may be from it.
+// The configuration in the middle of the interval, and how far each joint may be from it: at all,
+// and from a line through it.
 void MotionTube::fill_lane(int node, int lane) {
   Scratch& s = *scratch_;
   if (trajectory_) {
-    trajectory_->sample_positions(middle(node), s.position);
+    trajectory_->enclose_about_line(from(node), to(node), s.line);
     trajectory_->enclose_positions(from(node), to(node), s.lower, s.upper);
   }
+  // Nodes are cut in whole nanoseconds: neither half is longer than this.
+  const double half_s = 0.5 * to_seconds(width(node)) + 1e-9;
   for (std::size_t row = 0; row < rest_.size(); ++row) {
     const std::size_t place = lane_size(row) + static_cast<std::size_t>(lane);
     const int column = column_[row];
     double span = tracking_error_;
+    double loose = tracking_error_;
+    double drift = 0.0;
     if (column < 0) {
       s.q[place] = rest_[row];
     } else {
-      const double q = s.position[column];
+      const double q = s.line.position[column];
       s.q[place] = q;
       span += std::max(s.upper[column] - q, q - s.lower[column]) + kRounding;
+      drift = s.line.velocity[column] * half_s;
+      // The rounding of a drift to float is far below a millionth of it.
+      loose += s.line.off[column] + kRounding + 1e-6 * std::abs(drift);
     }
-    s.joint_span[place] = round_up(span);
+    s.joint_span[place] = std::max(round_up(span), round_up(std::abs(drift) + loose));
+    s.joint_drift[place] = static_cast<float>(drift);
+    s.joint_loose[place] = round_up(loose);
   }
 }
 
@@ -120,16 +133,21 @@ void MotionTube::place_batch(std::span<const int> nodes) {
     for (std::size_t row = 0; row < rest_.size(); ++row) {  // an unused lane: as the last one
       const std::size_t to = lane_size(row) + static_cast<std::size_t>(lane);
       s.q[to] = s.q[lane_size(row) + i];
-      s.joint_span[to] = s.joint_span[lane_size(row) + i];
+      for (auto* rows : {&s.joint_span, &s.joint_drift, &s.joint_loose}) {
+        (*rows)[to] = (*rows)[lane_size(row) + i];
+      }
     }
   }
   for (std::size_t f = 0; f < arm.frames().size(); ++f) {
     const filter::Frame& frame = arm.frames()[f];
     const float scale = round_up(std::abs(frame.multiplier));
+    const auto factor = static_cast<float>(frame.multiplier);
     for (int lane = 0; lane < kLanes; ++lane) {
       const auto l = static_cast<std::size_t>(lane);
-      s.span[lane_size(f) + l] =
-          scale * s.joint_span[lane_size(static_cast<std::size_t>(frame.joint)) + l] * 1.000001F;
+      const std::size_t joint = lane_size(static_cast<std::size_t>(frame.joint)) + l;
+      s.span[lane_size(f) + l] = scale * s.joint_span[joint] * 1.000001F;
+      s.drift[lane_size(f) + l] = factor * s.joint_drift[joint];
+      s.loose[lane_size(f) + l] = scale * s.joint_loose[joint] * 1.000001F;
     }
   }
   const std::size_t capsules = arm.capsules().size();
@@ -140,7 +158,8 @@ void MotionTube::place_batch(std::span<const int> nodes) {
   block.ball.resize(lane_size(4));
   block.frames.resize(lane_size(arm.frames().size() * 12));
   block.axes.resize(lane_size(arm.frames().size() * 6));
-  block.spans = s.span;
+  block.drifts = s.drift;
+  block.looses = s.loose;
   block.bends.resize(lane_size(capsules));
   kernel.place(arm.view(), s.q.data(),
                {block.frames.data(), block.axes.data(), block.capsules.data()});
@@ -179,12 +198,13 @@ void MotionTube::axes_of(int node, int frame, std::size_t skipped,
     const auto at = static_cast<std::size_t>(f);
     const double* X = place.frames() + lane_size(12 * at);
     MovingAxis axis{
-        .z_W = {}, .p_WO = {}, .span = 0.0, .prismatic = linkage().frames()[at].prismatic};
+        .z_W = {}, .p_WO = {}, .loose = 0.0, .prismatic = linkage().frames()[at].prismatic};
     for (int k = 0; k < 3; ++k) {
       axis.z_W[k] = X[lane_size(static_cast<std::size_t>(6 + k))];
       axis.p_WO[k] = X[lane_size(static_cast<std::size_t>(9 + k))];
     }
-    axis.span = static_cast<double>(place.block->spans[lane_size(at) + place.lane]);
+    axis.loose = static_cast<double>(place.block->looses[lane_size(at) + place.lane]);
+    axis.drift = static_cast<double>(place.block->drifts[lane_size(at) + place.lane]);
     axes.push_back(axis);
   }
 }

@@ -49,7 +49,8 @@ class MotionTube : public TimeTree {
     std::vector<float> ball;       // [4][kLanes], filter::Side::ball
     std::vector<double> frames;    // [frame][12][kLanes]
     std::vector<float> axes;       // [frame][6][kLanes], filter::Placed::axes
-    std::vector<float> spans;      // [frame][kLanes]: how far its joint may be off, rad or m
+    std::vector<float> drifts;     // [frame][kLanes]: filter::Joints::drift, of its joint, rad or m
+    std::vector<float> looses;     // filter::Joints::loose
     std::vector<float> bends;      // [capsule][kLanes], filter::Joints::bend
   };
   struct Place {

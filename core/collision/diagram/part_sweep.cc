@@ -1,5 +1,6 @@
 #include "core/collision/diagram/part_sweep.h"
 
+#include <array>
 #include <optional>
 
 #include "core/collision/state/part_groups.h"
@@ -41,19 +42,58 @@ bool groups_keep_apart(const std::vector<ConvexShape>& bodies, const MovingPart&
   return true;
 }
 
-// Their surfaces: where no two triangles can meet, neither comes to be inside of the other.
-bool surfaces_keep_apart(const MovingPart& a, const PartGroups& of_a, const MovingPart& b,
-                         const PartGroups& of_b, double limit_m, double enough_m) {
-  const Solid& solid_a = of_a.solid();
-  const Solid& solid_b = of_b.solid();
-  const auto kept = [&](const TrianglePoints& at_a, const TrianglePoints& at_b,
-                        const Vector3d& n_W) {
-    return -Sweep(a.axes, n_W).reach(at_a, solid_a.radius_m) -
-               Sweep(b.axes, -n_W).reach(at_b, solid_b.radius_m) >=
-           limit_m;
+// Most cells that are free are known to be after some hundred triangles; of those that need more,
+// halves are soon decided.
+constexpr int kMostAsked = 500;
+
+// The surfaces of two parts, everything in the frame of the first one's tree, T.
+class SweptSurfaces final : public KeptApart {
+ public:
+  SweptSurfaces(const MovingSolid& a, const MovingSolid& b, double limit_m)
+      : limit_m_(limit_m),
+        a_(a, a.X_WT.inverse(Eigen::Isometry)),
+        b_(b, a.X_WT.inverse(Eigen::Isometry)) {}
+
+  [[nodiscard]] bool keeps(const TrianglePoints& at_a, const TrianglePoints& at_b,
+                           const Vector3d& n_T) override {
+    if (++asked_ > kMostAsked) return false;
+    return -Sweep(a_.axes, n_T).reach(at_a, a_.radius_m) -
+               Sweep(b_.axes, -n_T).reach(at_b, b_.radius_m) >=
+           limit_m_;
+  }
+  [[nodiscard]] double enough_along(const Vector3d& n_T) const override {
+    return limit_m_ + Sweep(a_.axes, n_T).excess(a_.corners, a_.radius_m) +
+           Sweep(b_.axes, -n_T).excess(b_.corners, b_.radius_m);
+  }
+
+ private:
+  struct Side {
+    std::vector<MovingAxis> axes;
+    std::array<Vector3d, 8> corners;  // of a box around the tree
+    double radius_m;
+
+    Side(const MovingSolid& moving, const Eigen::Isometry3d& X_TW)
+        : axes(moving.axes.begin(), moving.axes.end()), radius_m(moving.solid.radius_m) {
+      for (MovingAxis& axis : axes) {
+        axis.z_W = X_TW.linear() * axis.z_W;
+        axis.p_WO = X_TW * axis.p_WO;
+      }
+      const SurfaceTree::Box& root = moving.solid.tree->root;
+      const Eigen::Isometry3d X_TS = X_TW * moving.X_WT;
+      for (unsigned corner = 0; corner < corners.size(); ++corner) {
+        Vector3d p = root.half.cast<double>();
+        for (unsigned k = 0; k < 3; ++k) {
+          if ((corner >> k & 1U) != 0) p[k] = -p[k];
+        }
+        corners[corner] = X_TS * (root.center.cast<double>() + p);
+      }
+    }
   };
-  return all_apart(solid_a, of_a.X_WT(), solid_b, of_b.X_WT(), enough_m, kept);
-}
+
+  double limit_m_;
+  Side a_, b_;
+  int asked_ = 0;
+};
 
 }  // namespace
 
@@ -64,13 +104,23 @@ double swept_gap(const ConvexShape& a, const PlacedConvexShape& at_a,
   return -Sweep(axes_a, n_W).reach(a, at_a) - Sweep(axes_b, -n_W).reach(b, at_b);
 }
 
+// Where no two triangles can meet, neither comes to be inside of the other that was not there
+// before.
+bool surfaces_keep_apart(const MovingSolid& a, const MovingSolid& b, double limit_m,
+                         double enough_m) {
+  SweptSurfaces swept(a, b, limit_m);
+  return surfaces_apart(a.solid, a.X_WT, b.solid, b.X_WT, enough_m, swept);
+}
+
 bool keep_apart(const std::vector<ConvexShape>& bodies, const MovingPart& a, const MovingPart& b,
                 double limit_m, double enough_m) {
   for (PartGroups of_a(bodies, a.at); !of_a.ended(); of_a.next()) {
     for (PartGroups of_b(bodies, b.at); !of_b.ended(); of_b.next()) {
       if (groups_keep_apart(bodies, a, of_a, b, of_b, limit_m, enough_m)) continue;
       if (!of_a.are_pieces() && !of_b.are_pieces()) return false;
-      if (!surfaces_keep_apart(a, of_a, b, of_b, limit_m, enough_m)) return false;
+      const MovingSolid solid_a{of_a.solid(), of_a.X_WT(), a.axes};
+      const MovingSolid solid_b{of_b.solid(), of_b.X_WT(), b.axes};
+      if (!surfaces_keep_apart(solid_a, solid_b, limit_m, enough_m)) return false;
     }
   }
   return true;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/collision/diagram/sweep.h"
+#include "core/collision/geometry/solid.h"
 #include "core/collision/state/part_distance.h"
 
 namespace armloom {
@@ -19,8 +20,18 @@ struct MovingPart {
 // each two bodies, or triangles of surfaces, there is a direction across which one never reaches
 // within limit_m of the other (Sweep). Those that are enough_m apart already are not looked at;
 // that this is enough is the caller's to know. May say no where yes is true, never the reverse.
+// Precondition: they are apart here (part_distance() is above zero).
 [[nodiscard]] bool keep_apart(const std::vector<ConvexShape>& bodies, const MovingPart& a,
                               const MovingPart& b, double limit_m, double enough_m);
+
+// The same of two surfaces; each stands at X_WT. Precondition: neither is inside of the other here.
+struct MovingSolid {
+  const Solid& solid;
+  Eigen::Isometry3d X_WT;
+  std::span<const MovingAxis> axes;
+};
+[[nodiscard]] bool surfaces_keep_apart(const MovingSolid& a, const MovingSolid& b, double limit_m,
+                                       double enough_m);
 
 // The gap along n (of unit length, from a to b) that two bodies keep so; negative: they may
 // overlap.

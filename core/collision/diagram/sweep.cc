@@ -18,18 +18,24 @@ Sweep::Sweep(std::span<const MovingAxis> axes, const Vector3d& n_W) : axes_(axes
   moments_.reserve(axes.size());
   for (const MovingAxis& axis : axes) {
     if (axis.prismatic) {
-      shifts_m_ += axis.span * std::abs(n_.dot(axis.z_W));
+      shifts_m_ += axis.loose * std::abs(n_.dot(axis.z_W));
+      drift_.offset -= axis.drift * n_.dot(axis.z_W);
       continue;
     }
-    const Vector3d m = axis.span * n_.cross(axis.z_W);
-    moments_.push_back({m, m.dot(axis.p_WO)});
-    turn_ += m.norm();
+    const Vector3d across = n_.cross(axis.z_W);
+    const double offset = across.dot(axis.p_WO);
+    moments_.push_back({axis.loose * across, axis.loose * offset});
+    drift_.m += axis.drift * across;
+    drift_.offset += axis.drift * offset;
+    turn_ += axis.span() * across.norm();
   }
 }
 
 // n . p with what the joints may add to it, to first order.
-double Sweep::at(const Vector3d& p_W) const {
-  double sum = n_.dot(p_W) + shifts_m_;
+double Sweep::at(const Vector3d& p_W) const { return n_.dot(p_W) + added(p_W); }
+
+double Sweep::added(const Vector3d& p_W) const {
+  double sum = shifts_m_ + std::abs(drift_.m.dot(p_W) - drift_.offset);
   for (const Moment& moment : moments_) sum += std::abs(moment.m.dot(p_W) - moment.offset);
   return sum;
 }
@@ -44,12 +50,12 @@ double Sweep::remainder(const Vector3d& center_W, double radius_m) const {
   double turned = 0.0;  // by the axes before
   for (const MovingAxis& axis : axes_) {
     if (axis.prismatic) {
-      sum += axis.span * turned;
+      sum += axis.span() * turned;
       continue;
     }
     const double lever_m = axis.z_W.cross(center_W - axis.p_WO).norm() + radius_m;
-    sum += axis.span * lever_m * (0.5 * axis.span + turned);
-    turned += axis.span;
+    sum += axis.span() * lever_m * (0.5 * axis.span() + turned);
+    turned += axis.span();
   }
   return sum + kRounding_m;
 }
@@ -58,7 +64,7 @@ double Sweep::remainder(const Vector3d& center_W, double radius_m) const {
 double Sweep::of_cylinder(const ConvexShape& body, const PlacedConvexShape& placed) const {
   const Vector3d along = placed.X_WS.linear().col(2);
   const Vector3d across = n_ - n_.dot(along) * along;
-  double squared = across.squaredNorm() + turn_ * turn_;
+  double squared = across.squaredNorm() + turn_ * turn_ + 2.0 * std::abs(across.dot(drift_.m));
   for (const Moment& moment : moments_) squared += 2.0 * std::abs(across.dot(moment.m));
   const Vector3d& center = placed.segment.center;
   return std::max(at(center + placed.segment.half), at(center - placed.segment.half)) +
@@ -110,6 +116,18 @@ double Sweep::reach(std::span<const Vector3d> p_W, double radius_m) const {
     size_m = std::max(size_m, (p - p_W.front()).norm());
   }
   return largest + round(radius_m) + remainder(p_W.front(), size_m + radius_m);
+}
+
+double Sweep::excess(std::span<const Vector3d> p_W, double radius_m) const {
+  Vector3d center_W = Vector3d::Zero();
+  for (const Vector3d& p : p_W) center_W += p / static_cast<double>(p_W.size());
+  double largest = 0.0;
+  double size_m = 0.0;
+  for (const Vector3d& p : p_W) {
+    largest = std::max(largest, added(p));
+    size_m = std::max(size_m, (p - center_W).norm());
+  }
+  return largest + round(radius_m) + remainder(center_W, size_m + radius_m);
 }
 
 }  // namespace armloom

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -9,12 +10,16 @@
 namespace armloom {
 
 // A joint that carries a part: its axis in the world at the configuration at hand, and how far the
-// joint may be from there.
+// joint may be from there: by s * drift + e, the same s of all joints of the part from -1 to 1 (the
+// motion is a line in joint space, nearly), and |e| <= loose.
 struct MovingAxis {
   Eigen::Vector3d z_W;
   Eigen::Vector3d p_WO;  // a point of the axis; not read where it is prismatic
-  double span;           // rad, m
+  double loose;          // rad, m
   bool prismatic;
+  double drift = 0.0;
+
+  [[nodiscard]] double span() const { return std::abs(drift) + loose; }
 };
 
 // How far a part may reach along one direction n, wherever the joints that carry it are within
@@ -30,8 +35,10 @@ struct MovingAxis {
 // times |v|. Hence along n at most
 //   sum_j s_j |n . (z_j x r_j)|  +  sum_j s_j l_j (s_j / 2 + sum_{i<j} s_i),   l_j = |z_j x r_j|,
 // for |d_j| <= s_j of any size; of a shift |n . z_j| takes the place of the first factor, 1 that of
-// l_j, and its own s_j does not turn. The first sum is convex in p: over a convex body it is
-// largest in a corner.
+// l_j, and its own s_j does not turn. Where d_j = s drift_j + e_j, the first sum is at most
+//   |sum_j drift_j n . (z_j x r_j)| + sum_j loose_j |n . (z_j x r_j)|:
+// joints that move against each other take from each other. It is convex in p: over a convex body
+// it is largest in a corner.
 class Sweep {
  public:
   // n of unit length; axes base to tip, which must outlive the sweep.
@@ -41,12 +48,16 @@ class Sweep {
   [[nodiscard]] double reach(const ConvexShape& body, const PlacedConvexShape& placed) const;
   // The same over all points within radius_m of the hull of these.
   [[nodiscard]] double reach(std::span<const Eigen::Vector3d> p_W, double radius_m) const;
+  // At least the largest n . (x - p) over the points p of the hull and x within radius_m of where p
+  // comes to be.
+  [[nodiscard]] double excess(std::span<const Eigen::Vector3d> p_W, double radius_m) const;
 
  private:
   struct Moment {       // of an axis that turns
     Eigen::Vector3d m;  // s (n x z): s n . (z x (p - o)) = m . p - offset
     double offset;
   };
+  [[nodiscard]] double added(const Eigen::Vector3d& p_W) const;
   [[nodiscard]] double at(const Eigen::Vector3d& p_W) const;
   [[nodiscard]] double of_cylinder(const ConvexShape& body, const PlacedConvexShape& placed) const;
   [[nodiscard]] double of_box(const ConvexShape& body, const PlacedConvexShape& placed) const;
@@ -56,9 +67,10 @@ class Sweep {
 
   std::span<const MovingAxis> axes_;
   Eigen::Vector3d n_;
-  std::vector<Moment> moments_;
-  double shifts_m_ = 0.0;  // of the prismatic joints, along n
-  double turn_ = 0.0;      // the sum of |m|
+  std::vector<Moment> moments_;                 // of what is loose
+  Moment drift_{Eigen::Vector3d::Zero(), 0.0};  // of all drifts together, shifts too
+  double shifts_m_ = 0.0;                       // loose, of the prismatic joints, along n
+  double turn_ = 0.0;  // how far all of it may slope: the sum of |m| over whole spans
 };
 
 }  // namespace armloom

@@ -18,7 +18,7 @@ using Block = MotionTube::Block;
 
 // Nodes of one tube that lie apart, side by side.
 struct TubePair::Gathered {
-  std::vector<float> capsules, inflation, ball, axes, spans, bends;  // as MotionTube::Block
+  std::vector<float> capsules, inflation, ball, axes, drifts, looses, bends;  // MotionTube::Block
 };
 
 // What is at hand: nodes to be filtered, what is open of one of them, one state.
@@ -71,8 +71,8 @@ struct TubePair::Batch {
   // Nothing moves what stands still.
   [[nodiscard]] filter::Joints joints(const filter::ArmKinematics& linkage) const {
     if (linkage.frame_count == 0) return {};
-    return {&linkage, rows(&Block::axes, to.axes), rows(&Block::spans, to.spans),
-            rows(&Block::bends, to.bends)};
+    return {&linkage, rows(&Block::axes, to.axes), rows(&Block::drifts, to.drifts),
+            rows(&Block::looses, to.looses), rows(&Block::bends, to.bends)};
   }
 };
 

@@ -66,8 +66,11 @@ struct Side {
 struct Joints {
   const ArmKinematics* linkage;  // null: nothing does
   const float* axes;             // as Placed::axes
-  const float* span;             // as inflate() takes it
-  const float* bend;             // as inflate() makes it
+  // Of the frame's joint, [frame][kLanes]: it is off by s * drift + e, the same s for all of them
+  // from -1 to 1, |e| <= loose; |drift| + loose is no more than the span by much.
+  const float* drift;
+  const float* loose;
+  const float* bend;  // as inflate() makes it, of spans |drift| + loose or more
 };
 
 // Two capsules to compare, with what does not change. Rows of the sides' inflation arrays say how

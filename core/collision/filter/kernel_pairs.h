@@ -43,25 +43,35 @@ inline F reach_along(const Joints& joints, int c, const Vec<F>& d, const Vec<F>&
   if (joints.linkage == nullptr) return F::abs(along);
   const Capsule& capsule = joints.linkage->capsules[c];
   const int* ancestors = joints.linkage->ancestors + capsule.ancestors_begin;
-  F shifts = F::all(0.0F);
-  F ahead = along;                  // of the end at center + half
-  F behind = F::all(0.0F) - along;  // of the other one
+  const F zero = F::all(0.0F);
+  F ahead = zero;   // of the end at center + half
+  F behind = zero;  // of the other one
+  F drift_ahead = zero;
+  F drift_behind = zero;
   for (int k = 0; k < capsule.depth; ++k) {
     const int f = ancestors[k];
     const Vec<F> axis = Vec<F>::load(joints.axes + (f * 6 + 3) * kLanes + l);
-    const F span = F::load(joints.span + f * kLanes + l);
+    const F drift = F::load(joints.drift + f * kLanes + l);
+    const F loose = F::load(joints.loose + f * kLanes + l);
     if (joints.linkage->frames[f].prismatic) {
-      shifts = shifts + span * F::abs(dot(d, axis));
+      const F shift = dot(d, axis);
+      drift_ahead = drift_ahead + drift * shift;
+      drift_behind = drift_behind + drift * shift;
+      ahead = ahead + loose * F::abs(shift);
+      behind = behind + loose * F::abs(shift);
       continue;
     }
     const Vec<F> moment = cross(d, axis);
     const F middle = dot(moment, minus(center, Vec<F>::load(joints.axes + f * 6 * kLanes + l)));
     const F end = dot(moment, half);
-    ahead = ahead + span * F::abs(middle + end);
-    behind = behind + span * F::abs(middle - end);
+    drift_ahead = drift_ahead + drift * (middle + end);
+    drift_behind = drift_behind + drift * (middle - end);
+    ahead = ahead + loose * F::abs(middle + end);
+    behind = behind + loose * F::abs(middle - end);
   }
-  return (F::max(ahead, behind) + shifts) * F::all(1.00001F) +
-         F::load(joints.bend + c * kLanes + l);
+  ahead = ahead + along + F::abs(drift_ahead);
+  behind = behind - along + F::abs(drift_behind);
+  return F::max(ahead, behind) * F::all(1.00001F) + F::load(joints.bend + c * kLanes + l);
 }
 
 // Roundings: as axis_gap() but for the direction's, once more; those of moments are in `bend`.

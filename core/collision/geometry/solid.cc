@@ -24,17 +24,15 @@ bool lies_inside(const SurfaceTree& inner, const SurfaceTree& outer,
 }
 
 double distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
-                const Eigen::Isometry3d& X_WB, double limit_m, double enough_m,
-                const TrianglesKept* kept = nullptr) {
+                const Eigen::Isometry3d& X_WB, double limit_m, double enough_m) {
   const double radii_m = a.radius_m + b.radius_m;
   if (limit_m + radii_m <= 0.0) return limit_m;
   const Eigen::Isometry3d X_AB = X_WA.inverse(Eigen::Isometry) * X_WB;
-  if (a.inner.surely_meet(b.inner, X_AB, kept == nullptr ? enough_m : 0.0)) {
+  if (a.inner.surely_meet(b.inner, X_AB, enough_m)) {
     return std::min(limit_m, 0.0);
   }
   const double within_m = limit_m + radii_m;
   SurfaceDescent descent(*a.tree, *b.tree, X_AB, within_m, enough_m + radii_m);
-  descent.pass_over(kept);
   const double closest_m = descent.run();
   const double found_m = closest_m < within_m ? std::min(closest_m - radii_m, limit_m) : limit_m;
   if (found_m <= 0.0) return std::min(limit_m, 0.0);
@@ -70,15 +68,13 @@ std::optional<Vector3d> direction_apart(const Solid& a, const Eigen::Isometry3d&
   return X_WA.linear() * descent.direction();
 }
 
-bool all_apart(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
-               const Eigen::Isometry3d& X_WB, double within_m, const TrianglesKept& kept) {
-  const TrianglesKept kept_in_a = [&](TrianglePoints at_a, TrianglePoints at_b,
-                                      const Vector3d& n_A) {
-    for (Vector3d& p : at_a) p = X_WA * p;
-    for (Vector3d& p : at_b) p = X_WA * p;
-    return kept(at_a, at_b, X_WA.linear() * n_A);
-  };
-  return distance(a, X_WA, b, X_WB, within_m, within_m, &kept_in_a) >= within_m;
+bool surfaces_apart(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+                    const Eigen::Isometry3d& X_WB, double within_m, KeptApart& kept) {
+  const double enough_m = within_m + a.radius_m + b.radius_m;
+  SurfaceDescent descent(*a.tree, *b.tree, X_WA.inverse(Eigen::Isometry) * X_WB, enough_m,
+                         enough_m);
+  descent.pass_over(&kept);
+  return descent.run() >= enough_m;
 }
 
 }  // namespace armloom

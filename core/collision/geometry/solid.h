@@ -47,11 +47,10 @@ using SolidPtr = std::shared_ptr<const Solid>;
                                                              const Solid& b,
                                                              const Eigen::Isometry3d& X_WB);
 
-// Whether every two triangles (with the radii) that are closer than within_m pass `kept`, and
-// neither solid is inside of the other: `kept` gets both in the world, and the direction from a to
-// b (TriangleGap, in the world). Ends with the first that does not.
-[[nodiscard]] bool all_apart(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
-                             const Eigen::Isometry3d& X_WB, double within_m,
-                             const TrianglesKept& kept);
+// Whether every two triangles (with the radii) that are closer than within_m are kept apart, which
+// tells of triangles without radii. Ends with the first that are not. Whether one solid is inside
+// of the other is not asked.
+[[nodiscard]] bool surfaces_apart(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+                                  const Eigen::Isometry3d& X_WB, double within_m, KeptApart& kept);
 
 }  // namespace armloom

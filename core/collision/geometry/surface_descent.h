@@ -3,17 +3,23 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
-#include <functional>
 
 #include "core/collision/geometry/triangle_distance.h"
 #include "core/model/surface_tree.h"
 
 namespace armloom {
 
-// Two triangles in the frame of A's tree, and the direction from a to b that parts them
-// (TriangleGap): whether they are left out of account.
-using TrianglesKept =
-    std::function<bool(const TrianglePoints& a, const TrianglePoints& b, const Eigen::Vector3d& n)>;
+// What of two surfaces is left out of account though it is closer than asked. All in the frame of
+// A's tree; directions of unit length, from A to B.
+class KeptApart {
+ public:
+  virtual ~KeptApart() = default;
+  // Two triangles, with the direction that parts them (TriangleGap).
+  [[nodiscard]] virtual bool keeps(const TrianglePoints& a, const TrianglePoints& b,
+                                   const Eigen::Vector3d& n) = 0;
+  // Of both surfaces whatever is so far apart along n.
+  [[nodiscard]] virtual double enough_along(const Eigen::Vector3d& n) const = 0;
+};
 
 // The distance of two surfaces (without radii): both trees from the root down, the nearer boxes
 // first, and triangles at the end. Boxes are compared in single precision, four in one step, and
@@ -24,7 +30,7 @@ class SurfaceDescent {
   SurfaceDescent(const SurfaceTree& a, const SurfaceTree& b, const Eigen::Isometry3d& X_AB,
                  double limit_m, double enough_m);
 
-  void pass_over(const TrianglesKept* kept) { kept_ = kept; }
+  void pass_over(KeptApart* kept) { kept_ = kept; }
   // min(distance, limit), never larger than the true one; above enough_m less than 1e-9 m below it.
   [[nodiscard]] double run();
   // After run(), of surfaces apart and below the limit: the direction from a to b of the nearest
@@ -48,6 +54,7 @@ class SurfaceDescent {
   };
   struct Gaps {
     Eigen::Array4f least_m;  // no distance is below it
+    Eigen::Array4f along_m;  // nor along n is any
     Eigen::Array4f order;  // what to look at first: of boxes that overlap, those that do so deeply
   };
   [[nodiscard]] static Turn turn_of(const Eigen::Isometry3d& X);
@@ -67,7 +74,8 @@ class SurfaceDescent {
   double best_m_;
   double enough_m_;
   double roots_m_ = 0.0;
-  const TrianglesKept* kept_ = nullptr;
+  KeptApart* kept_ = nullptr;
+  double kept_along_m_;  // what is so far apart along n_A_ is left out
   // Pairs of triangles that were measured, as several leaves may have them: the last at each place,
   // plus one.
   std::array<std::uint64_t, 128> measured_{};

@@ -32,7 +32,6 @@ Duration stood_for(const Job& job, TimePoint now) {
 }
 
 void prepare_choice(State& state, const std::vector<JobId>& jobs) {
-  std::vector<Duration> work_behind = state.jobs.work();
   std::vector<JobId> in_front = jobs;
   for (const CoordinatedMotion& motion : state.graph.motions()) {
     const Record& record = state.jobs.at(motion.job);
@@ -43,11 +42,7 @@ void prepare_choice(State& state, const std::vector<JobId>& jobs) {
     state.graph.set_outlook(motion.job, is_aged && stands <= Duration{}, stands);
     in_front.push_back(motion.job);
   }
-  for (JobId id : in_front) {
-    const Trajectory& trajectory = *state.jobs.at(id).job.trajectory;
-    for (ArmId arm : trajectory.arms()) work_behind[arm.index()] -= trajectory.duration();
-  }
-  state.graph.set_work_behind(std::move(work_behind));
+  state.graph.set_work_behind(state.jobs.work_behind(in_front));
 }
 
 void weigh_again(State& state) {

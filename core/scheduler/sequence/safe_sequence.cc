@@ -124,7 +124,8 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
     to_be_added.erase(leg->job);
     Leg& added = *index_.at(leg->job);
     const auto before = known.find(leg->job);
-    if (before != known.end()) added.free = std::move(before->second->free);
+    const bool is_same = before != known.end() && before->second->arms == added.arms;
+    if (is_same) added.free = std::move(before->second->free);
     const bool too_early =
         std::ranges::any_of(leg->after, [&](JobId job) { return to_be_added.contains(job); });
     if (too_early && added.placed) take_out(added);

@@ -12,21 +12,26 @@
 namespace armloom {
 namespace {
 
-// Of the plan: what is admitted as predicted, with `candidate` last; then what waits.
-double cost_of(const State& state, const Job* candidate, const Prediction& prediction) {
+// Of the plan: what is admitted goes as predicted, `job` too, or waits on its arm; then what waits.
+double cost_of(const State& state, const Job& job, const Prediction& prediction) {
+  std::vector<JobId> in_front{job.id};
   std::vector<double> ends(state.cell->arms.size(), 0.0);
-  std::vector<Duration> behind = state.jobs.work();
-  const auto count = [&](const Trajectory& trajectory, Duration end) {
+  const auto comes_to = [&](const Trajectory& trajectory, Duration end) {
     for (ArmId arm : trajectory.arms()) {
       ends[arm.index()] = std::max(ends[arm.index()], to_seconds(end));
-      behind[arm.index()] -= trajectory.duration();
     }
   };
   const auto& motions = state.graph.motions();
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    count(*state.jobs.at(motions[m].job).job.trajectory, prediction.ends[m]);
+    comes_to(*state.jobs.at(motions[m].job).job.trajectory, prediction.ends[m]);
+    in_front.push_back(motions[m].job);
   }
-  if (candidate != nullptr) count(*candidate->trajectory, prediction.ends[motions.size()]);
+  std::vector<Duration> behind = state.jobs.work_behind(in_front);
+  if (prediction.ends.size() > motions.size()) {
+    comes_to(*job.trajectory, prediction.ends.back());
+  } else {
+    for (ArmId arm : job.trajectory->arms()) behind[arm.index()] += job.trajectory->duration();
+  }
   double last = 0.0, sum = 0.0;
   for (std::size_t arm = 0; arm < ends.size(); ++arm) {
     const double end = ends[arm] + to_seconds(behind[arm]);
@@ -48,15 +53,15 @@ std::optional<double> cost_with(State& state, JobId job, const Verdict& verdict)
   const Job& candidate = state.jobs.at(job).job;
   const PassingOrders orders = orders_with(state, {as_candidate(candidate)}, verdict.regions);
   if (!orders.blockers.empty()) return std::nullopt;
-  return cost_of(state, &candidate, orders.prediction);
+  return cost_of(state, candidate, orders.prediction);
 }
 
 // It waits behind others of its arm: no less than if nothing met it.
-std::optional<double> cost_behind_others(State& state) {
-  prepare_choice(state, {});
+std::optional<double> cost_behind_others(State& state, JobId job) {
+  prepare_choice(state, {job});
   const PassingOrders orders = orders_with(state, {}, {});
   if (orders.prediction.ends.size() != state.graph.motions().size()) return std::nullopt;
-  return cost_of(state, nullptr, orders.prediction);
+  return cost_of(state, state.jobs.at(job).job, orders.prediction);
 }
 
 }  // namespace
@@ -65,7 +70,7 @@ bool Choosing::begin(State& state, JobId turn) {
   options_ = options_of(state, turn);
   rated_.clear();
   at_ = 0;
-  give_turn(state, turn, options_.front());
+  give(state, 0);
   if (options_.size() > 1 && comes_to_one_that_goes(state)) return true;
   give(state, 0);
   return false;
@@ -73,7 +78,8 @@ bool Choosing::begin(State& state, JobId turn) {
 
 // The others are rated on the way.
 bool Choosing::comes_to_one_that_goes(State& state) {
-  for (; rated_.size() < options_.size(); rated_.push_back({cost_behind_others(state), {}})) {
+  for (; rated_.size() < options_.size();
+       rated_.push_back({cost_behind_others(state, job()), {}})) {
     give(state, rated_.size());
     if (options_[at_].goes_now) return true;
   }
@@ -81,7 +87,7 @@ bool Choosing::comes_to_one_that_goes(State& state) {
 }
 
 void Choosing::give(State& state, std::size_t option) {
-  give_turn(state, job(), options_[option]);
+  give_turn(state, options_, option);
   at_ = option;
 }
 

@@ -20,6 +20,8 @@ class Choosing {
   // Whether there is more than one; then job() has the turn, and is to be asked about.
   [[nodiscard]] bool begin(State& state, JobId turn);
   [[nodiscard]] JobId job() const { return options_[at_].job; }
+  // Else it is to be begun anew: one that could have had it has ended.
+  [[nodiscard]] bool stands(const State& state) const { return stand(state, options_); }
   // The answer about that one. Whether another one is to be asked about: that has the turn now.
   [[nodiscard]] bool rate(State& state, Verdict verdict);
   // All are rated: the best one has the turn. Its answer; nothing: it waits behind others.

@@ -27,27 +27,15 @@ bool is_overtaken_no_more(const State& state, const Record& record) {
 std::vector<Option> in_any_order(const State& state, const Record& turn) {
   std::vector<Option> options{{turn.job.id}};
   if (!may_change_places(turn) || is_overtaken_no_more(state, turn)) return options;
-  for (JobId id : state.jobs.queue(turn.leg.arms.front())) {
-    if (options.size() >= kOptionsMax) break;
-    const Record& other = state.jobs.at(id);
-    const bool fits = id != turn.job.id && may_change_places(other) &&
-                      other.job.priority == turn.job.priority && other.leg.from == turn.leg.from;
-    if (fits) options.push_back({id});
+  const auto& queue = state.jobs.queue(turn.leg.arms.front());
+  for (auto id = std::ranges::find(queue, turn.job.id) + 1; id != queue.end(); ++id) {
+    const Record& other = state.jobs.at(*id);
+    const bool fits = may_change_places(other) && other.job.priority == turn.job.priority &&
+                      other.leg.from == turn.leg.from;
+    if (!fits || options.size() >= kOptionsMax) break;
+    options.push_back({*id});
   }
   return options;
-}
-
-// Where the arm stands when all that is admitted on it has ended.
-PlacePtr end_of_admitted(const State& state, ArmId arm) {
-  PlacePtr place = state.arms.place(arm);
-  for (JobId id : state.jobs.queue(arm)) {
-    const Record& record = state.jobs.at(id);
-    if (record.job.in<Queued>() != nullptr) break;
-    for (std::size_t i = 0; i < record.leg.arms.size(); ++i) {
-      if (record.leg.arms[i] == arm) place = record.leg.to[i];
-    }
-  }
-  return place;
 }
 
 bool begins_at(const State& state, const Trajectory& trajectory, const Place& place) {
@@ -63,36 +51,48 @@ bool begins_at(const State& state, const Trajectory& trajectory, const Place& pl
   return true;
 }
 
-// Whatever came before it on that arm is admitted, no more than the policy looks ahead, and leads
-// to where it begins.
-bool has_turn(const State& state, const Record& record, const Trajectory& trajectory) {
+// When it could go on the arm of this trajectory: when those have ended that are admitted there, as
+// far as the policy looks ahead; when those have gone that came before it; or not, as these lead
+// elsewhere.
+enum class When { now, later, never };
+When when_on(const State& state, const Record& record, const Trajectory& trajectory) {
   const ArmId arm = arm_of(trajectory);
-  if (state.arms.is_stopped(arm)) return false;
+  const Place* leads_to = nullptr;
   std::size_t admitted = 0;
+  bool is_next = true;
   for (JobId id : state.jobs.queue(arm)) {
     const Record& other = state.jobs.at(id);
-    if (id == record.job.id) break;
-    if (other.job.in<Queued>() == nullptr) {
-      if (!other.job.is_admitted()) return false;  // it may rest anywhere
-      if (++admitted >= state.policy->horizon()) return false;
-    } else if (other.turn < record.turn) {
-      return false;
+    const bool waits = other.job.in<Queued>() != nullptr;
+    if (id == record.job.id || (waits && other.turn > record.turn)) continue;
+    if (other.job.is_admitted()) ++admitted;
+    is_next = is_next && other.job.is_admitted();
+    for (std::size_t i = 0; i < other.leg.arms.size(); ++i) {
+      if (other.leg.arms[i] == arm) leads_to = other.leg.to[i].get();
     }
   }
-  return begins_at(state, trajectory, *end_of_admitted(state, arm));
+  const bool begins = leads_to != nullptr
+                          ? begins_at(state, trajectory, *leads_to)
+                          : !state.arms.begins_elsewhere(*state.cell, trajectory).has_value();
+  if (!begins) return When::never;
+  return is_next && admitted < state.policy->horizon() ? When::now : When::later;
+}
+
+bool has_turn(const State& state, const Record& record, const Trajectory& trajectory) {
+  return !state.arms.is_stopped(arm_of(trajectory)) &&
+         when_on(state, record, trajectory) == When::now;
 }
 
 std::vector<Option> on_several_arms(const State& state, const Record& record) {
   const auto& alternatives = record.job.alternatives;
   std::vector<Option> options;
   for (std::size_t k = 0; k < alternatives.size(); ++k) {
-    const Option option{record.job.id, k, has_turn(state, record, *alternatives[k])};
-    const bool is_now = alternatives[k] == record.job.trajectory;
-    options.insert(is_now ? options.begin() : options.end(), option);
+    const Trajectory& trajectory = *alternatives[k];
+    const When when = when_on(state, record, trajectory);
+    if (when == When::never || state.arms.is_stopped(arm_of(trajectory))) continue;
+    const bool is_home = alternatives[k] == record.job.trajectory;
+    options.insert(is_home ? options.begin() : options.end(),
+                   Option{record.job.id, k, when == When::now});
   }
-  std::erase_if(options, [&](const Option& option) {
-    return !option.goes_now && state.arms.is_stopped(arm_of(*alternatives[option.alternative]));
-  });
   return options;
 }
 
@@ -107,33 +107,51 @@ void take_arm(State& state, Record& record, const TrajectoryPtr& trajectory) {
 
 std::vector<Option> options_of(State& state, JobId turn) {
   const Record& record = state.jobs.at(turn);
-  if (record.job.in<Queued>() == nullptr) return {{turn}};
-  return record.job.alternatives.empty() ? in_any_order(state, record)
-                                         : on_several_arms(state, record);
+  const auto& alternatives = record.job.alternatives;
+  const bool waits = record.job.in<Queued>() != nullptr;
+  if (waits && alternatives.empty()) return in_any_order(state, record);
+  auto options = waits ? on_several_arms(state, record) : std::vector<Option>{};
+  if (!options.empty()) return options;
+  const auto now = std::ranges::find(alternatives, record.job.trajectory);
+  return {{turn, static_cast<std::size_t>(now - alternatives.begin())}};
 }
 
 bool has_turn_on_some_arm(const State& state, const Record& record) {
-  return std::ranges::any_of(record.job.alternatives, [&](const TrajectoryPtr& trajectory) {
-    return has_turn(state, record, *trajectory);
-  });
+  return record.job.in<Queued>() != nullptr &&
+         std::ranges::any_of(record.job.alternatives, [&](const TrajectoryPtr& trajectory) {
+           return has_turn(state, record, *trajectory);
+         });
 }
 
-void give_turn(State& state, JobId holder, const Option& option) {
-  Record& taker = state.jobs.at(option.job);
+void give_turn(State& state, const std::vector<Option>& options, std::size_t first) {
+  Record& taker = state.jobs.at(options[first].job);
   if (!taker.job.alternatives.empty()) {
-    return take_arm(state, taker, taker.job.alternatives[option.alternative]);
+    return take_arm(state, taker, taker.job.alternatives[options[first].alternative]);
   }
-  if (holder == option.job) return;
-  state.jobs.exchange(state.jobs.at(holder), taker);
+  if (options.size() == 1) return;
+  std::vector<JobId> jobs{options[first].job};
+  for (const Option& option : options) {
+    if (option.job != jobs.front()) jobs.push_back(option.job);
+  }
+  state.jobs.put_in_order(jobs);
   state.lanes.renew_later();
   auto& round = state.round.jobs;
-  if (round.erase(holder) > 0) round.insert(option.job);
+  for (const Option& option : options) {
+    if (round.erase(option.job) > 0) round.insert(jobs.front());
+  }
+}
+
+bool stand(const State& state, const std::vector<Option>& options) {
+  return std::ranges::all_of(options, [&](const Option& option) {
+    return state.jobs.is_active(option.job) &&
+           state.jobs.at(option.job).job.in<Queued>() != nullptr;
+  });
 }
 
 bool begins_on_other_arm(State& state, Record& record) {
   for (const TrajectoryPtr& other : record.job.alternatives) {
     if (record.job.in<Queued>() == nullptr) return false;
-    if (!begins_at(state, *other, *end_of_admitted(state, arm_of(*other)))) continue;
+    if (when_on(state, record, *other) == When::never) continue;
     take_arm(state, record, other);
     return true;
   }

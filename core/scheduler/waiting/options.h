@@ -7,9 +7,10 @@
 
 namespace armloom {
 
-// What could take a turn: the job whose turn it is; another one of its arm that has the same
-// priority and begins and ends where it does (Submit::any_order); or the job on another arm
-// (Submit::alternatives).
+// What could take a turn: the job whose turn it is; one of those that follow it on its arm and like
+// it may be taken in any order (Submit::any_order), have its priority, and begin and end where it
+// does; or the job on another arm (Submit::alternatives). None of these leaves an arm elsewhere, so
+// that everything else remains as possible as it was.
 struct Option {
   JobId job;
   std::size_t alternative = 0;  // index into Job::alternatives, where there are such
@@ -24,11 +25,13 @@ inline constexpr std::size_t kOptionsMax = 6;
 // The first one is how things are. Who has been overtaken for scheduling.aging is overtaken no
 // more.
 [[nodiscard]] std::vector<Option> options_of(State& state, JobId turn);
-// Of a job that waits and has alternatives: whether its turn has come on the arm of one of them.
+// It waits, has alternatives, and its turn has come on the arm of one of them.
 [[nodiscard]] bool has_turn_on_some_arm(const State& state, const Record& record);
 
-// From now on this is how things are; `holder` has the turn, and gives it away.
-void give_turn(State& state, JobId holder, const Option& option);
+// From now on this is how things are: that one first, then the others as they were.
+void give_turn(State& state, const std::vector<Option>& options, std::size_t first);
+// All of them still wait.
+[[nodiscard]] bool stand(const State& state, const std::vector<Option>& options);
 // It does not begin where its arm stands: it is done by an arm that stands where it can, if there
 // is one.
 [[nodiscard]] bool begins_on_other_arm(State& state, Record& record);

@@ -1,6 +1,7 @@
 #include "core/scheduler/waiting/turns.h"
 
 #include <algorithm>
+#include <iterator>
 #include <ranges>
 #include <utility>
 
@@ -127,6 +128,8 @@ void explain_waits(State& state) {
     if (!queue.empty()) jobs.insert(queue.front());
     if (const auto first = first_that_waits(state, queue)) jobs.insert(*first);
   }
+  std::ranges::copy(state.jobs.undecided() | std::views::take(kUndecidedMax),
+                    std::inserter(jobs, jobs.end()));
   const Turns turns(state);
   for (JobId id : jobs) {
     Record& record = state.jobs.at(id);
