@@ -1,8 +1,8 @@
 // The HTTP calls that the page makes. Every answer is a value: what was asked for, or a Problem.
 
 import {
-  parse_cell, parse_diagram, parse_job, parse_problem,
-  type Cell, type Diagram, type Job, type Parsed, type Problem,
+  parse_cell, parse_diagram, parse_forecast, parse_job, parse_problem,
+  type Cell, type Diagram, type Forecast, type Job, type Parsed, type Problem,
 } from './messages';
 
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
@@ -17,6 +17,10 @@ export class Api {
 
   async job(id: string): Promise<Answer<Job>> {
     return checked('job', await this.ask('GET', `/jobs/${encodeURIComponent(id)}`), parse_job);
+  }
+
+  async timeline(): Promise<Answer<Forecast>> {
+    return checked('timeline', await this.ask('GET', '/timeline'), parse_forecast);
   }
 
   /** Without its cells, for who has them: what lies ahead by now. */

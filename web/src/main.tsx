@@ -4,6 +4,7 @@ import { render } from 'preact';
 import { Api } from './api';
 import { backoff_ms, Connection, type SocketLike, type Timers } from './connection';
 import { install_debug_hook } from './debug';
+import { follow_timeline } from './follow_timeline';
 import { Actions } from './panels/actions';
 import { Arms } from './panels/arms';
 import { Banner } from './panels/banner';
@@ -41,6 +42,9 @@ const connection = new Connection({
 });
 const actions = new Actions(api, store, timers, () => connection.retry_now());
 
+const follow = (take: Parameters<typeof follow_timeline>[4]) =>
+  follow_timeline(api, store, timers, () => document.visibilityState === 'visible', take);
+
 async function load_cell(attempt = 1): Promise<void> {
   const answer = await api.cell();
   if (answer.ok) {
@@ -60,7 +64,7 @@ function Page() {
       <main>
         <CellPanel store={store} actions={actions} on_view={(view) => install_debug_hook(store, view)} />
         <div class="dock">
-          <Timeline store={store} />
+          <Timeline store={store} follow={follow} />
           <Notices store={store} />
         </div>
         <div class="side">

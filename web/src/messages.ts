@@ -28,6 +28,9 @@ export type DiagramLayer = Diagram['layers'][number];
 /** What the two meet if both go on from where they are. */
 export type DiagramMeeting = Schemas['DiagramMeeting'];
 export type CellState = Schemas['DiagramCell']['state'];
+/** When each arm is expected to move. */
+export type Forecast = Schemas['Timeline'];
+export type ForecastLeg = Schemas['TimelineLeg'];
 export type QueueData = Schemas['QueueIds'];
 export type MonitorData = Schemas['MonitorFinding'];
 /** RFC 9457, with the place of the fault and the value found. */
@@ -98,4 +101,5 @@ export function parse_message(text: string): ParsedMessage {
 export const parse_cell = (value: unknown): Parsed<Cell> => check('Cell', value);
 export const parse_job = (value: unknown): Parsed<Job> => check('Job', value);
 export const parse_diagram = (value: unknown): Parsed<Diagram> => check('Diagram', value);
+export const parse_forecast = (value: unknown): Parsed<Forecast> => check('Timeline', value);
 export const parse_problem = (value: unknown): Parsed<Problem> => check('Problem', value);

@@ -144,6 +144,14 @@ export interface components {
             evaluations: number;
             scene_version: number;
         };
+        /** @description Times are cell time, if not said otherwise. */
+        Timeline: {
+            now_s: number;
+            /** @description So many legs of a lane are admitted at most, the one under way included */
+            horizon_legs: number;
+            /** @description In the cell's order */
+            arms: components["schemas"]["TimelineLane"][];
+        };
         /** @description RFC 9457. */
         Problem: {
             type: string;
@@ -483,6 +491,14 @@ export interface components {
             a_s: number;
             b_s: number;
         };
+        TimelineLane: {
+            /** @description The arm */
+            name: string;
+            /** @description In the order in which they go */
+            legs: components["schemas"]["TimelineLeg"][];
+            /** @description Jobs of the arm that are not admitted, behind the horizon or for other reasons: these have no times yet */
+            waiting: number;
+        };
         Snapshot: {
             cell: string;
             policy: string;
@@ -554,8 +570,35 @@ export interface components {
                 [key: string]: number[];
             };
         };
+        /** @description A motion that is admitted. It follows the one before it on its arms; that wait is no pause. */
+        TimelineLeg: {
+            id: components["schemas"]["JobId"];
+            /** @description For people; may be empty */
+            name: string;
+            /** @description That it moves, each in its lane */
+            arms: string[];
+            state: components["schemas"]["JobState"];
+            /** @description Share of the trajectory's time, at now_s */
+            progress: number;
+            /** @description Leaves its start, or has left it; null: never, as things are */
+            starts_s: number | null;
+            /** @description null: it does not come to its end as things are; its last pause says what holds it, unless it is given up and brakes */
+            ends_s: number | null;
+            /** @description From now on */
+            pauses: components["schemas"]["TimelinePause"][];
+        };
         /** @enum {string} */
         ArmState: "idle" | "moving" | "holding" | "stopped" | "fault";
+        /** @description A leg stands, at its start or on its way. */
+        TimelinePause: {
+            from_s: number;
+            /** @description null: for ever as things are; then it is the last one */
+            to_s: number | null;
+            /** @description Where, in trajectory time */
+            at_s: number;
+            /** @description For whom; null: for a reason of its arms' own, expected to last for as long again */
+            waits_on: components["schemas"]["Wait"] | null;
+        };
     };
     responses: never;
     parameters: never;
