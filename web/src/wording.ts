@@ -1,7 +1,7 @@
 // What the page says about jobs, in words. Pure functions from the contract's data to sentences.
 
-import type { Link } from './connection';
-import { pair_of, type Clearance, type Job, type MonitorData, type WaitsOn } from './messages';
+import type { Link } from './server/connection';
+import { pair_of, type Clearance, type Job, type MonitorData, type WaitsOn } from './server/messages';
 
 /** An id short enough for a list: a long machine-made one is cut, a name that a client chose stays. */
 export function short_id(id: string): string {

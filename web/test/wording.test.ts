@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { parse_message, type Job, type MonitorData, type WaitsOn } from '../src/messages';
+import { parse_message, type Job, type MonitorData, type WaitsOn } from '../src/server/messages';
 import {
   clearance_in_words, clock, figure_in_words, found_in_words, millimetres, monitor_in_words, reason_in_words,
   result_in_words, seconds, short_id, why_mute,

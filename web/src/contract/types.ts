@@ -171,6 +171,18 @@ export interface components {
                 value: string | number | null;
             }[];
         };
+        /** @description The answer of the admission code to: what if this job came now? */
+        Verdict: {
+            /** @enum {string} */
+            verdict: "free" | "conflict" | "undecided";
+            /** @description From now; 0 when free, null when not known */
+            earliest_start_s: number | null;
+            /** @description What is proven to be kept between arms, and by arms from what stands still: the least that any such pair was held to */
+            clearance_bound_m: number | null;
+            conflicts: components["schemas"]["Wait"][];
+            evaluations: number;
+            scene_version: number;
+        };
         SnapshotEvent: {
             /**
              * Format: uuid

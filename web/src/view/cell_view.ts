@@ -1,14 +1,21 @@
 // The cell in 3D: robots where they stand, moved by pose frames, with a mark and a label per arm.
 
 import * as THREE from 'three';
-import type { Arm, Cell, SceneObject } from '../messages';
-import { arm_colour, kStateColours } from '../palette';
-import type { Store } from '../store';
+import type { Arm, Cell, SceneObject } from '../server/messages';
+import type { Camera } from '../route/address';
+import { kNothing, type Selection } from '../route/selection';
+import type { App } from '../state/app';
+import { arm_colour, ink, kStateColours, kStateGlyphs } from '../state/palette';
+import type { Store } from '../state/store';
 import type { Level } from './pace';
 import { RobotModel } from './robot';
 import { dispose, object_mesh } from './shapes';
 import { Stage } from './stage';
 import { SurfaceShelf, type Surfaces } from './surfaces';
+
+// Around the bases: a little less than an arm's reach, and as high as arms at work are.
+const kReach_m = 0.46;
+const kHeight_m = 0.85;
 
 interface Label { element: HTMLElement; name: HTMLElement; state: HTMLElement }
 
@@ -22,16 +29,53 @@ export class CellView {
   private shown_objects_: SceneObject[] | null = null;
   private readonly off_: (() => void)[];
 
-  constructor(private readonly host_: HTMLElement, private readonly store_: Store) {
+  private selection_ = kNothing;
+  private instant_s_: number | null = null;
+
+  constructor(private readonly host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router'>) {
+    const store_ = this.store_;
     this.stage_ = new Stage(host_);
     this.stage_.scene.add(this.objects_);
     this.stage_.after_draw = () => this.place_labels();
+    this.stage_.on_camera = (camera) => app_.router.look_from(camera);
     this.off_ = [store_.on_change(() => this.follow()), store_.on_frame(() => this.move())];
     this.follow();
   }
 
   close(): void {
     for (const off of this.off_) off();
+    for (const label of this.labels_.values()) label.element.remove();
+    this.stage_.close();
+  }
+
+  /** Lights up what the address points at. */
+  show_selection(selection: Selection): void {
+    this.selection_ = selection;
+    this.light_objects();
+    for (const [name, label] of this.labels_) label.element.classList.toggle('lit', selection.arms.includes(name));
+    for (const robot of this.robots_.values()) robot.show_lit(selection.arms);
+    this.stage_.invalidate();
+  }
+
+  /** Where the arms were then; null: where they are. */
+  show_instant(t_s: number | null): void {
+    this.instant_s_ = t_s;
+    this.move();
+  }
+
+  /** As an address has it; null leaves it as it is. */
+  show_camera(camera: Camera | null): void {
+    this.stage_.show_camera(camera);
+  }
+
+  show_theme(): void {
+    this.stage_.show_theme();
+    for (const arm of this.store_.arms.values()) this.show_arm(arm);
+    this.light_objects();
+  }
+
+  private get store_(): Store {
+    return this.app_.store;
   }
 
   /** So many pixels at the left are covered by a panel: the cell is shown beside it. */
@@ -110,9 +154,7 @@ export class CellView {
     this.move();
     const box = new THREE.Box3();
     for (const robot of this.robots_.values()) box.expandByObject(robot.root);
-    if (box.isEmpty()) return;
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
-    this.stage_.frame(sphere.center, 0.95 * sphere.radius);
+    if (!box.isEmpty()) this.stage_.frame(box);
   }
 
   /** Looks at the robots' bases with a little more than an arm's reach around them. */
@@ -120,9 +162,9 @@ export class CellView {
     const box = new THREE.Box3();
     for (const robot of cell.robots) box.expandByPoint(new THREE.Vector3(...robot.base.xyz));
     if (box.isEmpty()) return;
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
-    sphere.center.z += 0.3;
-    this.stage_.frame(sphere.center, sphere.radius + 0.42);
+    box.expandByVector(new THREE.Vector3(kReach_m, kReach_m, 0));
+    box.max.z += kHeight_m;
+    this.stage_.frame(box);
   }
 
   private show_objects(objects: SceneObject[]): void {
@@ -140,9 +182,25 @@ export class CellView {
     for (const object of objects) {
       const surface = object.mesh === undefined ? null : surfaces.get(object.mesh);
       const mesh = object_mesh(object, surface ?? null);
-      if (mesh) this.objects_.add(mesh);
+      if (!mesh) continue;
+      mesh.name = object.name;
+      this.objects_.add(mesh);
     }
+    this.light_objects();
     this.stage_.invalidate(true);
+  }
+
+  private light_objects(): void {
+    const colour = new THREE.Color(ink('--blue'));
+    for (const object of this.objects_.children) {
+      const lit = object.name === this.selection_.object;
+      object.traverse((node) => {
+        const material = node instanceof THREE.Mesh ? (node.material as THREE.Material) : null;
+        if (!(material instanceof THREE.MeshStandardMaterial)) return;
+        material.color.set(ink('--object'));
+        material.emissive.copy(colour).multiplyScalar(lit ? 0.45 : 0);
+      });
+    }
   }
 
   private show_arm(arm: Arm): void {
@@ -154,14 +212,16 @@ export class CellView {
       this.host_.append(label.element);
     }
     label.name.textContent = arm.name;
-    label.state.textContent = arm.state;
+    label.state.textContent = `${kStateGlyphs[arm.state]} ${arm.state}`;
+    label.element.classList.toggle('lit', this.selection_.arms.includes(arm.name));
     label.element.style.setProperty('--arm', arm_colour([...this.store_.arms.keys()], arm.name));
     label.element.style.setProperty('--state', kStateColours[arm.state]);
   }
 
   private move(): void {
     let moved = false;
-    for (const robot of this.robots_.values()) moved = robot.set_q(this.store_.q) || moved;
+    const q = this.instant_s_ === null ? this.store_.q : this.store_.trace.at(this.instant_s_) ?? this.store_.q;
+    for (const robot of this.robots_.values()) moved = robot.set_q(q) || moved;
     if (moved) this.stage_.invalidate(true);
   }
 

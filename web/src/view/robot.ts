@@ -6,12 +6,13 @@
 
 import * as THREE from 'three';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
-import type { ArmState, CellArm, CellRobot } from '../messages';
-import { kStateColours } from '../palette';
+import type { ArmState, CellArm, CellRobot } from '../server/messages';
+import { ink, kStateColours } from '../state/palette';
 import type { Surfaces } from './surfaces';
 import { mark_geometry, place } from './shapes';
 import { merge_links } from './skin';
 
+const kLitRing = 1.45;
 const kStill_rad = 1e-5;
 
 interface ArmMark {
@@ -51,10 +52,15 @@ export class RobotModel {
   show_state(arm: string, state: ArmState): void {
     const mark = this.marks_.get(arm);
     if (!mark) return;
-    mark.ring.material.color.set(kStateColours[state]);
+    mark.ring.material.color.set(ink(kStateColours[state]));
     mark.ring.material.opacity = state === 'idle' ? 0.5 : 0.95;
     const alarmed = state === 'fault' || state === 'stopped';
     this.skin_.emissive.set(alarmed ? 0x4a0d10 : 0x000000);
+  }
+
+  /** A wider ring around the arms that are looked at. */
+  show_lit(arms: readonly string[]): void {
+    for (const [arm, mark] of this.marks_) mark.ring.scale.setScalar(arms.includes(arm) ? kLitRing : 1);
   }
 
   /** The point of the world where the arm stands; null for an arm that is not this robot's. */

@@ -8,15 +8,18 @@
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { Camera } from '../route/address';
+import { ink } from '../state/palette';
+import { distance_for } from './framing';
 import { kLevels, Pace, type Level } from './pace';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
-const kFog = 0x0f1319;
 const kShadows = 0.7;
 // A drawing is waited for so long before the next one is asked for: on a busy machine drawings that are
 // asked for before the last one is done pile up, and the page answers no click until all are drawn.
 const kLongestFrame_ms = 10_000;
+const kMargin = 1.06;
 const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
 
 export class Stage {
@@ -27,8 +30,12 @@ export class Stage {
 
   private readonly renderer_: THREE.WebGLRenderer;
   private readonly controls_: OrbitControls;
-  private readonly target_ = new THREE.Vector3(0, 0, 0.4);
-  private radius_ = 1.2;
+  /** Told when the user has turned or moved the camera. */
+  on_camera: (camera: Camera) => void = () => {};
+
+  private readonly fog_ = new THREE.Fog(0x000000, 5, 14);
+  private floor_: THREE.Group | null = null;
+  private shown_box_ = new THREE.Box3(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
   private covered_px_ = 0;
   private moved_by_user_ = false;
   private frame_: number | null = null;
@@ -55,16 +62,19 @@ export class Stage {
     this.renderer_.shadowMap.autoUpdate = false;
     host_.prepend(this.renderer_.domElement);
 
-    this.scene.fog = new THREE.Fog(kFog, 5, 14);
+    this.scene.fog = this.fog_;
     this.key_light_ = add_lights(this.scene);
-    add_floor(this.scene);
+    this.show_theme();
 
     this.controls_ = new OrbitControls(this.camera, this.renderer_.domElement);
     this.controls_.maxPolarAngle = Math.PI / 2 - 0.03;
     this.controls_.minDistance = 0.5;
-    this.controls_.maxDistance = 12;
     this.controls_.addEventListener('start', () => { this.moved_by_user_ = true; });
-    this.controls_.addEventListener('change', () => this.invalidate());
+    this.controls_.addEventListener('end', () => this.on_camera(this.camera_now()));
+    this.controls_.addEventListener('change', () => {
+      this.fit_depth();
+      this.invalidate();
+    });
     new ResizeObserver(() => this.resize()).observe(host_);
     this.resize();
   }
@@ -80,12 +90,40 @@ export class Stage {
     return this.renderer_.domElement;
   }
 
-  /** Looks at a sphere (centre, radius in m) so that it fills the view; kept until the user turns it. */
-  frame(centre: THREE.Vector3, radius_m: number): void {
-    this.target_.copy(centre);
-    this.radius_ = radius_m;
-    this.moved_by_user_ = false;
-    this.resize();
+  /** Looks at a box so that it fills the view; kept until the user turns it. */
+  frame(box: THREE.Box3): void {
+    this.shown_box_ = box.clone();
+    const radius_m = box.getBoundingSphere(new THREE.Sphere()).radius;
+    this.controls_.maxDistance = Math.max(12, 8 * radius_m);
+    this.camera.far = 12 * this.controls_.maxDistance;
+    light_up(this.key_light_, box.getCenter(new THREE.Vector3()), Math.max(1.7, radius_m));
+    if (!this.moved_by_user_) this.resize();
+  }
+
+  /** As an address has it; null: as it is. */
+  show_camera(camera: Camera | null): void {
+    if (!camera || camera.every((value, i) => Math.abs(value - (this.camera_now()[i] ?? 0)) < 2e-3)) return;
+    this.moved_by_user_ = true;
+    this.camera.position.set(camera[0], camera[1], camera[2]);
+    this.controls_.target.set(camera[3], camera[4], camera[5]);
+    this.controls_.update();
+    this.invalidate();
+  }
+
+  show_theme(): void {
+    this.fog_.color.set(ink('--view-far'));
+    if (this.floor_) this.scene.remove(this.floor_);
+    this.floor_ = floor();
+    this.scene.add(this.floor_);
+    this.invalidate();
+  }
+
+  /** Lets the graphics card have its memory back. */
+  close(): void {
+    if (this.frame_ !== null) cancelAnimationFrame(this.frame_);
+    this.controls_.dispose();
+    this.renderer_.dispose();
+    this.renderer_.domElement.remove();
   }
 
   /** Moves the middle of the picture to the middle of what is not covered, and as far away as it needs. */
@@ -189,10 +227,30 @@ export class Stage {
   }
 
   private look_from_default(): void {
-    const half = this.half_angle();
-    this.camera.position.copy(this.target_).addScaledVector(kDirection, this.radius_ / Math.sin(half));
-    this.controls_.target.copy(this.target_);
+    const { clientWidth: width, clientHeight: height } = this.host_;
+    const up = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
+    const across = up * Math.max(0.2, (width - this.covered_px_) / height);
+    const middle = this.shown_box_.getCenter(new THREE.Vector3());
+    const distance = kMargin * distance_for(this.shown_box_, kDirection, { across, up });
+    this.camera.position.copy(middle).addScaledVector(kDirection, distance);
+    this.controls_.target.copy(middle);
     this.controls_.update();
+    this.fit_depth();
+  }
+
+  /** Fog begins behind what is looked at, however far away that is. */
+  private fit_depth(): void {
+    const distance = this.camera.position.distanceTo(this.controls_.target);
+    const depth = this.shown_box_.getSize(new THREE.Vector3()).length();
+    this.fog_.near = distance + 0.7 * depth;
+    this.fog_.far = 2 * distance + 4 * depth;
+    this.camera.updateProjectionMatrix();
+  }
+
+  private camera_now(): Camera {
+    const { position } = this.camera;
+    const { target } = this.controls_;
+    return [position.x, position.y, position.z, target.x, target.y, target.z];
   }
 }
 
@@ -212,27 +270,32 @@ function renders_in_software(): boolean {
 function add_lights(scene: THREE.Scene): THREE.DirectionalLight {
   scene.add(new THREE.HemisphereLight(0xe6edf7, 0x39404c, 1.7));
   const key = new THREE.DirectionalLight(0xfff6ea, 1.9);
-  key.position.set(1.1, -1.7, 4.2);
   key.castShadow = true;
   key.shadow.mapSize.set(1024, 1024);
   key.shadow.radius = 5;
   key.shadow.normalBias = 0.02;
   key.shadow.intensity = kShadows;
-  const reach_m = 1.7;
-  Object.assign(key.shadow.camera, { left: -reach_m, right: reach_m, top: reach_m, bottom: -reach_m, near: 0.5, far: 9 });
   const rim = new THREE.DirectionalLight(0xa9c8f5, 0.7);
   rim.position.set(-2.5, 2.5, 1.6);
-  scene.add(key, rim);
+  scene.add(key, key.target, rim);
   return key;
 }
 
-function add_floor(scene: THREE.Scene): void {
-  const fine = new THREE.GridHelper(16, 64, 0x222a35, 0x1a2029);
-  const coarse = new THREE.GridHelper(16, 16, 0x2b3542, 0x2b3542);
-  for (const grid of [fine, coarse]) {
-    grid.rotation.x = Math.PI / 2;
-    scene.add(grid);
-  }
+/** Its shadows reach so far around a point. */
+function light_up(light: THREE.DirectionalLight, middle: THREE.Vector3, reach_m: number): void {
+  light.target.position.copy(middle);
+  light.position.copy(middle).add(new THREE.Vector3(0.55, -0.85, 2.1).multiplyScalar(1.2 * reach_m));
+  const camera = light.shadow.camera;
+  Object.assign(camera, { left: -reach_m, right: reach_m, top: reach_m, bottom: -reach_m, near: 0.1, far: 5 * reach_m });
+  camera.updateProjectionMatrix();
+}
+
+function floor(): THREE.Group {
+  const [line, strong] = [new THREE.Color(ink('--grid')), new THREE.Color(ink('--grid-strong'))];
+  const fine = new THREE.GridHelper(24, 96, line, line);
+  const coarse = new THREE.GridHelper(24, 24, strong, strong);
+  for (const grid of [fine, coarse]) grid.rotation.x = Math.PI / 2;
   fine.position.z = -0.003;
   coarse.position.z = -0.002;
+  return new THREE.Group().add(fine, coarse);
 }

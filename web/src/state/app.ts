@@ -1,0 +1,15 @@
+// What every part of the page is given: what is known, what can be asked, where we are, how it looks.
+
+import type { Api } from '../server/api';
+import type { Router } from '../route/router';
+import type { Actions } from './actions';
+import type { Settings } from './settings';
+import type { Store } from './store';
+
+export interface App {
+  store: Store;
+  api: Api;
+  actions: Actions;
+  router: Router;
+  settings: Settings;
+}
