@@ -1,4 +1,4 @@
-// What was: the jobs that have ended, as a table, and all that the monitor and the server had to say.
+// What was: the jobs that have ended, as a table. Events stand below, in the dock.
 
 import { useState } from 'preact/hooks';
 import { matches } from '../jobs/filter';
@@ -8,7 +8,6 @@ import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
 import { use_store } from '../state/use_store';
 import { clock, result_in_words, seconds, short_id } from '../wording';
-import { NoticeList } from './notices';
 
 const kShown = 100;
 
@@ -20,8 +19,8 @@ export function HistoryPage({ app }: { app: App }) {
   const all = app.store.jobs('finished');
   const jobs = words === '' && !only_failed ? all : all.filter((job) => matches(job, words, only_failed));
   return (
-    <div class="columns history">
-      <section aria-label="Jobs that have ended">
+    <div class="history">
+      <section class="page" aria-label="Jobs that have ended">
         <h2>Ended<span class="count">{jobs.length === all.length ? all.length : `${jobs.length} of ${all.length}`}</span></h2>
         <div class="filter">
           <input type="search" placeholder="Filter: id, name, arm, state, reason" aria-label="Filter ended jobs" value={words} onInput={(event) => set_words(event.currentTarget.value)} />
@@ -35,10 +34,6 @@ export function HistoryPage({ app }: { app: App }) {
         )}
         {jobs.length > shown && <button class="more" onClick={() => set_shown(shown + 5 * kShown)}>{jobs.length - shown} more</button>}
       </section>
-      <section aria-label="Events">
-        <h2>Events<span class="count">{app.store.notices.length}</span></h2>
-        <NoticeList app={app} />
-      </section>
     </div>
   );
 }
@@ -49,12 +44,12 @@ function Line({ job, app }: { job: Job; app: App }) {
   const ran = job.started_s === null || job.ended_s === null ? '–' : seconds(job.ended_s - job.started_s);
   return (
     <tr class={job.state}>
-      <td class="mono">{job.ended_s === null ? '–' : clock(job.ended_s)}</td>
+      <td class="mono whole">{job.ended_s === null ? '–' : clock(job.ended_s)}</td>
       <td><Link app={app} to={{ page: 'job', id: job.id }}>{job.name || short_id(job.id)}</Link></td>
-      <td>{job.arms.map((arm) => <span key={arm} class="tag" style={{ '--arm': arm_colour(arms, arm) }}>{arm}</span>)}</td>
-      <td class="verdict">{job.state}</td>
-      <td class="mono">{seconds(waited_s)}</td>
-      <td class="mono">{ran}</td>
+      <td class="whole">{job.arms.map((arm) => <span key={arm} class="tag" style={{ '--arm': arm_colour(arms, arm) }}>{arm}</span>)}</td>
+      <td class="verdict whole">{job.state}</td>
+      <td class="mono whole">{seconds(waited_s)}</td>
+      <td class="mono whole">{ran}</td>
       <td>{result_in_words(job)}</td>
     </tr>
   );

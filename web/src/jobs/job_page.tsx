@@ -3,6 +3,7 @@
 
 import { useEffect } from 'preact/hooks';
 import { pretty } from '../compose/example';
+import { partner_of } from '../diagram/partner';
 import { Plot } from '../plot/plot';
 import { Link } from '../route/link';
 import type { Job, WaitsOn } from '../server/messages';
@@ -12,8 +13,8 @@ import { arm_colour } from '../state/palette';
 import { use_store } from '../state/use_store';
 import { clock, millimetres, reason_in_words, result_in_words, short_id, wait_in_words } from '../wording';
 import { Copy } from './copy';
-import { partner_of } from '../diagram/partner';
 import { curl_of, python_of } from './snippets';
+import { states_of } from './states';
 import { when_in_words } from './when';
 
 interface Props { job: Job; app: App }
@@ -52,12 +53,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
 
 function States({ job, app }: Props) {
   use_store(app.store, 'live');
-  const times: [string, number | null][] = [
-    ['submitted', job.submitted_s],
-    ...app.store.book.changes(job.id).filter(({ state }) => state !== 'running' && !is_terminal({ ...job, state })).map(({ state, t_s }): [string, number] => [state, t_s]),
-    ['started', job.started_s],
-    [is_terminal(job) ? job.state : 'ended', job.ended_s],
-  ];
+  const times = states_of(job, app.store.book.changes(job.id));
   const when = is_terminal(job) ? '' : when_in_words(job, app.store);
   return (
     <>

@@ -63,7 +63,13 @@ function Figure({ job, app }: Props) {
   return <span class="figure" title={title} data-test="figure">{text}</span>;
 }
 
+/** That others of its arm come first is said with its times, in one line. */
+function only_waits_its_turn(job: Job): boolean {
+  return job.waits_on[0]?.kind === 'order' && job.ring.length === 0 && !job.result;
+}
+
 function Reason({ job }: { job: Job }) {
+  if (only_waits_its_turn(job)) return null;
   const words = job.result ? result_in_words(job) : reason_in_words(job);
   return words === '' ? null : <span class="words" data-test="reason">{words}</span>;
 }
@@ -71,7 +77,8 @@ function Reason({ job }: { job: Job }) {
 /** Since when, when it is expected to start, when it expires. */
 function When({ job, app }: Props) {
   use_store(app.store, 'live');
-  const words = when_in_words(job, app.store);
+  const first = only_waits_its_turn(job) ? job.waits_on[0]?.id ?? null : null;
+  const words = [first === null ? '' : `after ${short_id(first)}`, when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
   return words === '' ? null : <span class="when" data-test="when">{words}</span>;
 }
 

@@ -10,6 +10,7 @@ import { clock } from '../wording';
 const kHeight_px = 170;
 const kColours = 8;
 const kDashes: readonly number[][] = [[], [8, 3], [2, 3], [10, 3, 2, 3]];
+const kBorders = ['solid', 'dashed', 'dotted', 'double'];
 
 export class Chart {
   private readonly plot_: uPlot;
@@ -50,14 +51,15 @@ function options_of(joints: readonly string[], width: number): uPlot.Options {
       { ...axis, size: 44, values: (_, ticks) => ticks.map((q) => String(Number(q.toPrecision(4)))) },
     ],
     series: [
-      { label: 't', value: (_, t_s) => (t_s === null ? '–' : clock(t_s)) },
+      { label: 'at', value: (_, t_s) => (t_s === null ? '' : clock(t_s)) },
       ...joints.map((joint, i) => ({
         label: joint.replace(/^.*_(?=joint)/, ''), width: 1.5, points: { show: false },
         stroke: ink(`--arm-${i % kColours}`), dash: kDashes[i % kDashes.length] ?? [],
-        value: (_: uPlot, q: number | null) => (q === null ? '–' : q.toFixed(3)),
+        value: (_: uPlot, q: number | null) => (q === null ? '' : q.toFixed(3)),
       })),
     ],
-    legend: { show: true, live: true },
+    // Series are counted from one: the first is time.
+    legend: { show: true, live: true, markers: { width: 2, dash: (_, i) => kBorders[(i - 1) % kBorders.length] ?? 'solid' } },
     cursor: { drag: { setScale: false, x: false, y: false } },
   };
 }

@@ -13,7 +13,7 @@ const kMaxFinished = 10_000;
 // Forgotten some at a time: to sort them costs more than to keep a few.
 const kSlack = 0.05;
 
-export function is_terminal(job: Job): boolean {
+export function is_terminal(job: Pick<Job, 'state'>): boolean {
   return kListOfState[job.state] === 'finished';
 }
 

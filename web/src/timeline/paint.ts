@@ -98,7 +98,7 @@ function draw_name(g: CanvasRenderingContext2D, row: Row, name: string): void {
   g.font = `600 ${row.height < 18 ? 10.5 : 12}px ${kFont}`;
   g.textAlign = 'left';
   g.textBaseline = 'middle';
-  g.fillText(name, 14, row.top + row.height / 2, kLeft_px - 20);
+  g.fillText(name, 14, row.bar_top + row.bar_height / 2, kLeft_px - 20);
 }
 
 function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Mark, dim: boolean, hover: boolean): void {

@@ -10,7 +10,7 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Camera } from '../route/address';
 import { ink } from '../state/palette';
-import { distance_for } from './framing';
+import { distance_for, type Opening } from './framing';
 import { kLevels, Pace, type Level } from './pace';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
@@ -97,7 +97,7 @@ export class Stage {
     this.controls_.maxDistance = Math.max(12, 8 * radius_m);
     this.camera.far = 12 * this.controls_.maxDistance;
     light_up(this.key_light_, box.getCenter(new THREE.Vector3()), Math.max(1.7, radius_m));
-    if (!this.moved_by_user_) this.resize();
+    this.resize();
   }
 
   /** As an address has it; null: as it is. */
@@ -126,17 +126,10 @@ export class Stage {
     this.renderer_.domElement.remove();
   }
 
-  /** Moves the middle of the picture to the middle of what is not covered, and as far away as it needs. */
+  /** Moves the middle of the picture to the middle of what is not covered, as small as it needs. */
   set_covered(left_px: number): void {
     if (left_px === this.covered_px_) return;
-    const half_before = this.half_angle();
     this.covered_px_ = left_px;
-    if (this.moved_by_user_) {
-      // The user's own direction is kept; what filled the free part before fills it again.
-      const further = Math.sin(half_before) / Math.sin(this.half_angle());
-      this.camera.position.sub(this.controls_.target).multiplyScalar(further).add(this.controls_.target);
-      this.controls_.update();
-    }
     this.resize();
   }
 
@@ -212,27 +205,29 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.renderer_.setSize(width, height);
     this.camera.aspect = width / height;
+    // The camera stays where it is, so that an address means the same with a pane and without.
+    this.camera.zoom = this.distance_through(0) / this.distance_through(this.covered_px_);
     this.camera.setViewOffset(width, height, -this.covered_px_ / 2, 0, width, height);
     this.camera.updateProjectionMatrix();
     if (!this.moved_by_user_) this.look_from_default();
     this.invalidate(true);
   }
 
-  /** Half of the angle under which the free part of the picture is seen, the narrower of up and across. */
-  private half_angle(): number {
-    const half_up = THREE.MathUtils.degToRad(this.camera.fov / 2);
+  /** Tangents of the half angles under which the part that is not covered is seen. */
+  private opening(covered_px: number): Opening {
     const { clientWidth: width, clientHeight: height } = this.host_;
-    const free_aspect = Math.max(0.2, (width - this.covered_px_) / height);
-    return Math.min(half_up, Math.atan(Math.tan(half_up) * free_aspect));
+    const up = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
+    return { across: up * Math.max(0.2, (width - covered_px) / height), up };
+  }
+
+  /** From where all is seen beside what is covered. */
+  private distance_through(covered_px: number): number {
+    return kMargin * distance_for(this.shown_box_, kDirection, this.opening(covered_px));
   }
 
   private look_from_default(): void {
-    const { clientWidth: width, clientHeight: height } = this.host_;
-    const up = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
-    const across = up * Math.max(0.2, (width - this.covered_px_) / height);
     const middle = this.shown_box_.getCenter(new THREE.Vector3());
-    const distance = kMargin * distance_for(this.shown_box_, kDirection, { across, up });
-    this.camera.position.copy(middle).addScaledVector(kDirection, distance);
+    this.camera.position.copy(middle).addScaledVector(kDirection, this.distance_through(0));
     this.controls_.target.copy(middle);
     this.controls_.update();
     this.fit_depth();
