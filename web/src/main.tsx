@@ -1,5 +1,6 @@
 // Puts the page together: store, server, socket, address, and what is shown of them.
 
+import { signal } from '@preact/signals';
 import { render } from 'preact';
 import { Arms } from './arms/arms';
 import { install_debug_hook, show_debug_view } from './debug';
@@ -51,7 +52,7 @@ const connection = new Connection({
   },
 });
 const app: App = {
-  store, api,
+  store, api, covered_px: signal(0),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
   router: new Router(address_bar_of(window)),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),

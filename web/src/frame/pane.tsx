@@ -1,6 +1,7 @@
 // What the address names, beside the cell or over it.
 
 import type { ComponentChildren } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
 import { ArmPage } from '../arms/arm_page';
 import { NewJob } from '../compose/new_job';
 import { DiagramPanel } from '../diagram/diagram';
@@ -15,9 +16,18 @@ const kWidths: Partial<Record<Place['page'], string>> = { pair: ' wide', job: ' 
 
 export function Pane({ app }: { app: App }) {
   const { place } = app.router.address.value;
+  const pane = useRef<HTMLElement>(null);
+  const width = kWidths[place.page] ?? '';
+  useEffect(() => {
+    const tell = () => { app.covered_px.value = pane.current ? pane.current.offsetLeft + pane.current.offsetWidth : 0; };
+    tell();
+    const observer = new ResizeObserver(tell);
+    if (pane.current) observer.observe(pane.current);
+    return () => observer.disconnect();
+  }, [app, place.page]);
   if (place.page === 'cell') return null;
   return (
-    <section class={`pane${kWidths[place.page] ?? ''}`} aria-label={place_in_words(place)} data-test={`page-${place.page}`}>
+    <section ref={pane} class={`pane${width}`} aria-label={place_in_words(place)} data-test={`page-${place.page}`}>
       <button class="close" aria-label="Close" title="Back to the cell (Escape)" onClick={() => app.router.go({ page: 'cell' })}>×</button>
       <div class="pane-body" key={JSON.stringify(place)}>{content_of(place, app)}</div>
     </section>

@@ -1,5 +1,6 @@
 // What every part of the page is given: what is known, what can be asked, where we are, how it looks.
 
+import type { Signal } from '@preact/signals';
 import type { Api } from '../server/api';
 import type { Router } from '../route/router';
 import type { Actions } from './actions';
@@ -12,4 +13,6 @@ export interface App {
   actions: Actions;
   router: Router;
   settings: Settings;
+  /** So much of the cell's left is covered by a pane. */
+  covered_px: Signal<number>;
 }

@@ -13,7 +13,6 @@ interface Props { app: App; on_view(view: CellView): void }
 export function CellPanel({ app, on_view }: Props) {
   const { store, router, settings } = app;
   const host = useRef<HTMLDivElement>(null);
-  const panel = useRef<HTMLDivElement>(null);
   const [view, set_view] = useState<CellView | null>(null);
   const [fault, set_fault] = useState<string | null>(null);
   use_store(store);
@@ -36,9 +35,11 @@ export function CellPanel({ app, on_view }: Props) {
   useEffect(() => view?.show_instant(address.t_s), [view, address.t_s]);
   useEffect(() => view?.show_camera(address.camera), [view, address.camera]);
   useEffect(() => view?.show_theme(), [view, settings.shown_theme.value]);
-  useCovered(panel, view, address.place.page);
+  // The cell steps aside for what is laid over its left; under what covers nearly all it stays as it is.
+  const covered_px = app.covered_px.value;
+  useEffect(() => view?.set_covered(covered_px < 0.75 * (host.current?.clientWidth ?? 0) ? covered_px : 0), [view, covered_px]);
   return (
-    <div ref={panel} class={`cell${store.stopped ? ' stopped' : ''}`}>
+    <div class={`cell${store.stopped ? ' stopped' : ''}`}>
       <div class="view" ref={host} role="img" aria-label="The cell in 3D: every arm where it was measured" />
       {!view && <p class="loading">{fault === null ? 'Loading the 3D view…' : `The 3D view cannot be shown here: ${fault}`}</p>}
       <ClearanceFigure app={app} />
@@ -46,22 +47,6 @@ export function CellPanel({ app, on_view }: Props) {
       {store.stopped && <div class="stopped-mark" role="status" data-test="stopped">■ Stopped. Resume lets the arms go on.</div>}
     </div>
   );
-}
-
-/** The cell steps aside for the pane that is laid over its left. */
-function useCovered(panel: { current: HTMLDivElement | null }, view: CellView | null, page: string): void {
-  useEffect(() => {
-    const step_aside = () => {
-      const cover = panel.current?.parentElement?.querySelector('.pane');
-      const [outer, inner] = [panel.current?.getBoundingClientRect().width ?? 0, cover?.getBoundingClientRect().width ?? 0];
-      // Under a pane that covers nearly all, it stays as it is.
-      view?.set_covered(cover && inner < 0.75 * outer ? inner + 14 : 0);
-    };
-    step_aside();
-    const observer = new ResizeObserver(step_aside);
-    if (panel.current) observer.observe(panel.current);
-    return () => observer.disconnect();
-  }, [view, page]);
 }
 
 function ClearanceFigure({ app }: { app: App }) {

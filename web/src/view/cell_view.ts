@@ -1,42 +1,46 @@
 // The cell in 3D: robots where they stand, moved by pose frames, with a mark and a label per arm.
 
 import * as THREE from 'three';
-import type { Arm, Cell, SceneObject } from '../server/messages';
+import type { Arm, Cell } from '../server/messages';
 import type { Camera } from '../route/address';
-import { kNothing, type Selection } from '../route/selection';
+import type { Selection } from '../route/selection';
 import type { App } from '../state/app';
-import { arm_colour, ink, kStateColours, kStateGlyphs } from '../state/palette';
+import { arm_colour, ink } from '../state/palette';
 import type { Store } from '../state/store';
 import type { Level } from './pace';
 import { RobotModel } from './robot';
-import { dispose, object_mesh } from './shapes';
+import { on_click } from './click';
+import { ArmLabels } from './labels';
+import { SceneObjects } from './scene_objects';
+import { dispose } from './shapes';
 import { Stage } from './stage';
 import { SurfaceShelf, type Surfaces } from './surfaces';
+import { ToolPath } from './tool_path';
 
 // Around the bases: a little less than an arm's reach, and as high as arms at work are.
 const kReach_m = 0.46;
 const kHeight_m = 0.85;
 
-interface Label { element: HTMLElement; name: HTMLElement; state: HTMLElement }
-
 export class CellView {
   private readonly stage_: Stage;
   private readonly robots_ = new Map<string, RobotModel>();
-  private readonly labels_ = new Map<string, Label>();
-  private objects_ = new THREE.Group();
+  private readonly paths_ = new Map<string, ToolPath>();
+  private readonly labels_: ArmLabels;
   private readonly shelf_ = new SurfaceShelf();
+  private readonly objects_: SceneObjects;
   private cell_: Cell | null = null;
-  private shown_objects_: SceneObject[] | null = null;
   private readonly off_: (() => void)[];
 
-  private selection_ = kNothing;
   private instant_s_: number | null = null;
 
-  constructor(private readonly host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router'>) {
+  constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router'>) {
     const store_ = this.store_;
     this.stage_ = new Stage(host_);
-    this.stage_.scene.add(this.objects_);
-    this.stage_.after_draw = () => this.place_labels();
+    this.labels_ = new ArmLabels(host_);
+    this.objects_ = new SceneObjects(this.shelf_, () => this.stage_.invalidate(true));
+    this.stage_.scene.add(this.objects_.group);
+    this.stage_.after_draw = () => this.labels_.place((arm) => this.where_stands(arm));
+    on_click(this.stage_.canvas, (x_px, y_px) => this.pick(x_px, y_px));
     this.stage_.on_camera = (camera) => app_.router.look_from(camera);
     this.off_ = [store_.on_change(() => this.follow()), store_.on_frame(() => this.move())];
     this.follow();
@@ -44,15 +48,14 @@ export class CellView {
 
   close(): void {
     for (const off of this.off_) off();
-    for (const label of this.labels_.values()) label.element.remove();
+    this.labels_.clear();
     this.stage_.close();
   }
 
   /** Lights up what the address points at. */
   show_selection(selection: Selection): void {
-    this.selection_ = selection;
-    this.light_objects();
-    for (const [name, label] of this.labels_) label.element.classList.toggle('lit', selection.arms.includes(name));
+    this.objects_.light(selection.object);
+    this.labels_.light(selection.arms);
     for (const robot of this.robots_.values()) robot.show_lit(selection.arms);
     this.stage_.invalidate();
   }
@@ -60,6 +63,7 @@ export class CellView {
   /** Where the arms were then; null: where they are. */
   show_instant(t_s: number | null): void {
     this.instant_s_ = t_s;
+    for (const path of this.paths_.values()) path.clear();
     this.move();
   }
 
@@ -71,7 +75,7 @@ export class CellView {
   show_theme(): void {
     this.stage_.show_theme();
     for (const arm of this.store_.arms.values()) this.show_arm(arm);
-    this.light_objects();
+    this.objects_.repaint();
   }
 
   private get store_(): Store {
@@ -112,7 +116,7 @@ export class CellView {
   private follow(): void {
     const { cell, objects, arms } = this.store_;
     if (cell && cell !== this.cell_) this.build(cell);
-    if (objects !== this.shown_objects_) this.show_objects(objects);
+    this.objects_.show(objects);
     for (const arm of arms.values()) this.show_arm(arm);
     this.move();
     this.stage_.invalidate();
@@ -167,80 +171,51 @@ export class CellView {
     this.stage_.frame(box);
   }
 
-  private show_objects(objects: SceneObject[]): void {
-    this.shown_objects_ = objects;
-    const addresses = objects.flatMap(({ mesh }) => mesh ?? []);
-    if (addresses.length === 0) return this.add_objects(objects, new Map());
-    void this.shelf_.load(addresses).then((surfaces) => {
-      if (this.shown_objects_ === objects) this.add_objects(objects, surfaces);
-    });
-  }
-
-  private add_objects(objects: SceneObject[], surfaces: Surfaces): void {
-    dispose(this.objects_);
-    this.objects_.clear();
-    for (const object of objects) {
-      const surface = object.mesh === undefined ? null : surfaces.get(object.mesh);
-      const mesh = object_mesh(object, surface ?? null);
-      if (!mesh) continue;
-      mesh.name = object.name;
-      this.objects_.add(mesh);
-    }
-    this.light_objects();
-    this.stage_.invalidate(true);
-  }
-
-  private light_objects(): void {
-    const colour = new THREE.Color(ink('--blue'));
-    for (const object of this.objects_.children) {
-      const lit = object.name === this.selection_.object;
-      object.traverse((node) => {
-        const material = node instanceof THREE.Mesh ? (node.material as THREE.Material) : null;
-        if (!(material instanceof THREE.MeshStandardMaterial)) return;
-        material.color.set(ink('--object'));
-        material.emissive.copy(colour).multiplyScalar(lit ? 0.45 : 0);
-      });
-    }
-  }
-
   private show_arm(arm: Arm): void {
     this.robots_.get(arm.robot)?.show_state(arm.name, arm.state);
-    let label = this.labels_.get(arm.name);
-    if (!label) {
-      label = make_label();
-      this.labels_.set(arm.name, label);
-      this.host_.append(label.element);
-    }
-    label.name.textContent = arm.name;
-    label.state.textContent = `${kStateGlyphs[arm.state]} ${arm.state}`;
-    label.element.classList.toggle('lit', this.selection_.arms.includes(arm.name));
-    label.element.style.setProperty('--arm', arm_colour([...this.store_.arms.keys()], arm.name));
-    label.element.style.setProperty('--state', kStateColours[arm.state]);
+    this.labels_.show(arm, [...this.store_.arms.keys()]);
   }
 
   private move(): void {
     let moved = false;
     const q = this.instant_s_ === null ? this.store_.q : this.store_.trace.at(this.instant_s_) ?? this.store_.q;
     for (const robot of this.robots_.values()) moved = robot.set_q(q) || moved;
-    if (moved) this.stage_.invalidate(true);
+    if (!moved) return;
+    this.draw_paths(this.instant_s_ ?? this.store_.t_s);
+    this.stage_.invalidate(true);
   }
 
-  private place_labels(): void {
-    for (const [name, label] of this.labels_) {
-      const robot = this.robots_.get(this.store_.arms.get(name)?.robot ?? '');
-      const foot = robot?.root.visible ? robot.foot(name) : null;
-      const p = foot ? this.stage_.to_page(foot) : null;
-      label.element.hidden = p === null;
-      if (p) label.element.style.transform = `translate(${p.x.toFixed(1)}px, ${p.y.toFixed(1)}px)`;
+  /** Where each tool has come from, in its arm's colour. */
+  private draw_paths(t_s: number): void {
+    const names = [...this.store_.arms.keys()];
+    for (const arm of this.store_.arms.values()) {
+      const p_W = this.robots_.get(arm.robot)?.tool(arm.name);
+      if (!p_W) continue;
+      let path = this.paths_.get(arm.name);
+      if (!path) {
+        path = new ToolPath();
+        this.paths_.set(arm.name, path);
+        this.stage_.scene.add(path.line);
+      }
+      path.pass(t_s, p_W, new THREE.Color(ink(arm_colour(names, arm.name))));
     }
   }
-}
 
-function make_label(): Label {
-  const element = document.createElement('div');
-  const name = document.createElement('b');
-  const state = document.createElement('span');
-  element.className = 'arm-label';
-  element.append(name, state);
-  return { element, name, state };
+  private where_stands(arm: string): { x: number; y: number } | null {
+    const robot = this.robots_.get(this.store_.arms.get(arm)?.robot ?? '');
+    const foot = robot?.root.visible ? robot.foot(arm) : null;
+    return foot ? this.stage_.to_page(foot) : null;
+  }
+
+  /** What was clicked, an arm or an object, is looked at. */
+  private pick(x_px: number, y_px: number): void {
+    const sight = this.stage_.sight(x_px, y_px);
+    const robots = [...this.robots_.values()];
+    const hit = sight.intersectObjects([...robots.map((robot) => robot.root), ...this.objects_.group.children], true)[0]?.object;
+    if (!hit) return;
+    const object = this.objects_.name_of(hit);
+    const arm = robots.map((robot) => robot.arm_of(hit)).find((name) => name !== null) ?? null;
+    if (object !== null) this.app_.router.go({ page: 'scene', name: object });
+    else if (arm !== null) this.app_.router.go({ page: 'arm', name: arm });
+  }
 }

@@ -12,10 +12,10 @@ import type { Camera } from '../route/address';
 import { ink } from '../state/palette';
 import { distance_for, type Opening } from './framing';
 import { kLevels, Pace, type Level } from './pace';
+import { add_lights, floor, kShadows, light_up } from './scenery';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
-const kShadows = 0.7;
 // A drawing is waited for so long before the next one is asked for: on a busy machine drawings that are
 // asked for before the last one is done pile up, and the page answers no click until all are drawn.
 const kLongestFrame_ms = 10_000;
@@ -69,8 +69,13 @@ export class Stage {
     this.controls_ = new OrbitControls(this.camera, this.renderer_.domElement);
     this.controls_.maxPolarAngle = Math.PI / 2 - 0.03;
     this.controls_.minDistance = 0.5;
-    this.controls_.addEventListener('start', () => { this.moved_by_user_ = true; });
-    this.controls_.addEventListener('end', () => this.on_camera(this.camera_now()));
+    let before = this.camera_now();
+    this.controls_.addEventListener('start', () => { before = this.camera_now(); });
+    this.controls_.addEventListener('end', () => {
+      if (is_same(before, this.camera_now())) return;  // it was a click
+      this.moved_by_user_ = true;
+      this.on_camera(this.camera_now());
+    });
     this.controls_.addEventListener('change', () => {
       this.fit_depth();
       this.invalidate();
@@ -102,7 +107,7 @@ export class Stage {
 
   /** As an address has it; null: as it is. */
   show_camera(camera: Camera | null): void {
-    if (!camera || camera.every((value, i) => Math.abs(value - (this.camera_now()[i] ?? 0)) < 2e-3)) return;
+    if (!camera || is_same(camera, this.camera_now())) return;
     this.moved_by_user_ = true;
     this.camera.position.set(camera[0], camera[1], camera[2]);
     this.controls_.target.set(camera[3], camera[4], camera[5]);
@@ -154,6 +159,15 @@ export class Stage {
       this.waiting_.push(done);
       this.invalidate();
     });
+  }
+
+  /** The line of sight through a point of the page, px from the view's top left. */
+  sight(x_px: number, y_px: number): THREE.Raycaster {
+    const { clientWidth: width, clientHeight: height } = this.host_;
+    const caster = new THREE.Raycaster();
+    caster.params.Line.threshold = 0.002;  // three's own is a metre
+    caster.setFromCamera(new THREE.Vector2((2 * x_px) / width - 1, 1 - (2 * y_px) / height), this.camera);
+    return caster;
   }
 
   /** Where a point of the world stands on the page, px from the view's top left; null behind the camera. */
@@ -249,6 +263,11 @@ export class Stage {
   }
 }
 
+/** As an address tells it: to the millimetre. */
+function is_same(a: Camera, b: Camera): boolean {
+  return a.every((value, i) => Math.abs(value - (b[i] ?? 0)) < 2e-3);
+}
+
 function wants_fine_picture(): boolean {
   return new URLSearchParams(window.location.search).has('fine');
 }
@@ -259,38 +278,4 @@ function renders_in_software(): boolean {
   const renderer = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|softpipe|basic render/i.test(renderer);
-}
-
-/** Answers the one that throws shadows. */
-function add_lights(scene: THREE.Scene): THREE.DirectionalLight {
-  scene.add(new THREE.HemisphereLight(0xe6edf7, 0x39404c, 1.7));
-  const key = new THREE.DirectionalLight(0xfff6ea, 1.9);
-  key.castShadow = true;
-  key.shadow.mapSize.set(1024, 1024);
-  key.shadow.radius = 5;
-  key.shadow.normalBias = 0.02;
-  key.shadow.intensity = kShadows;
-  const rim = new THREE.DirectionalLight(0xa9c8f5, 0.7);
-  rim.position.set(-2.5, 2.5, 1.6);
-  scene.add(key, key.target, rim);
-  return key;
-}
-
-/** Its shadows reach so far around a point. */
-function light_up(light: THREE.DirectionalLight, middle: THREE.Vector3, reach_m: number): void {
-  light.target.position.copy(middle);
-  light.position.copy(middle).add(new THREE.Vector3(0.55, -0.85, 2.1).multiplyScalar(1.2 * reach_m));
-  const camera = light.shadow.camera;
-  Object.assign(camera, { left: -reach_m, right: reach_m, top: reach_m, bottom: -reach_m, near: 0.1, far: 5 * reach_m });
-  camera.updateProjectionMatrix();
-}
-
-function floor(): THREE.Group {
-  const [line, strong] = [new THREE.Color(ink('--grid')), new THREE.Color(ink('--grid-strong'))];
-  const fine = new THREE.GridHelper(24, 96, line, line);
-  const coarse = new THREE.GridHelper(24, 24, strong, strong);
-  for (const grid of [fine, coarse]) grid.rotation.x = Math.PI / 2;
-  fine.position.z = -0.003;
-  coarse.position.z = -0.002;
-  return new THREE.Group().add(fine, coarse);
 }
