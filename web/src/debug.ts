@@ -44,7 +44,7 @@ export function install_debug_hook(app: App): void {
     q: () => ({ ...store.q }),
     jobs: () => store.all_jobs(),
     objects: () => [...store.objects],
-    lanes: () => known_lanes(app),
+    lanes: () => known_lanes(app, 0),
     is_drawn: () => view?.is_drawn() ?? false,
     drawn: () => view?.drawn() ?? Promise.reject(new Error('the view is not loaded yet')),
     pictures: () => view?.pictures() ?? 0,

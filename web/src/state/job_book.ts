@@ -1,5 +1,6 @@
 // The jobs that the page knows: each as last heard, the server's order of those that have not ended,
-// since when each is in its state, and when it stood on its path. Lists are sorted once per change.
+// since when each is in its state, and when it stood on its path. Those that have ended are kept in the
+// order in which they did, so that ten thousand of them cost nothing when one more is heard of.
 
 import type { Job, JobState, QueueData } from '../server/messages';
 
@@ -10,7 +11,7 @@ const kListOfState: Record<JobState, JobList> = {
   succeeded: 'finished', canceled: 'finished', expired: 'finished', failed: 'finished', interrupted: 'finished',
 };
 const kMaxFinished = 10_000;
-// Forgotten some at a time: to sort them costs more than to keep a few.
+// Forgotten some at a time.
 const kSlack = 0.05;
 
 export function is_terminal(job: Pick<Job, 'state'>): boolean {
@@ -35,9 +36,12 @@ interface Heard {
 
 export class JobBook {
   private heard_ = new Map<string, Heard>();
+  /** Of these, the ones that have not ended. */
+  private open_ = new Set<string>();
+  /** The others, oldest first. */
+  private ended_: Job[] = [];
   private order_ = new Map<string, number>();
   private lists_: Map<JobList, Job[]> | null = null;
-  private finished_ = 0;
 
   constructor(private readonly most_finished_ = kMaxFinished) {}
 
@@ -49,7 +53,8 @@ export class JobBook {
       const same_state = known?.job.state === job.state;
       return [job.id, { job, t_s, since_s: same_state ? known.since_s : null, stands: known?.stands ?? [], changes: known?.changes ?? [] }];
     }));
-    this.finished_ = jobs.filter(is_terminal).length;
+    this.open_ = new Set(jobs.filter((job) => !is_terminal(job)).map((job) => job.id));
+    this.ended_ = jobs.filter(is_terminal).sort((a, b) => ended(a) - ended(b));
     this.lists_ = null;
   }
 
@@ -63,9 +68,10 @@ export class JobBook {
     const last = stands.at(-1);
     if (job.state !== 'holding' && last && last.to_s === null) last.to_s = t_s;
     this.heard_.set(job.id, { job, t_s, since_s: same_state ? known.since_s : t_s, stands, changes });
-    if (is_terminal(job) && !(known && is_terminal(known.job))) this.finished_ += 1;
+    if (known && is_terminal(known.job)) this.ended_ = this.ended_.filter((one) => one.id !== job.id);
+    if (is_terminal(job)) this.end(job);
+    else this.open_.add(job.id);
     this.lists_ = null;
-    if (this.finished_ > this.most_finished_ * (1 + kSlack)) this.drop_oldest_finished();
   }
 
   /** What was fetched brings what events do not repeat; one of another state than the known is dropped. */
@@ -107,6 +113,17 @@ export class JobBook {
     return [...this.heard_.values()].map((heard) => heard.job);
   }
 
+  /** Those that have not ended, and those that ended at a time or later. */
+  since_time(t_s: number): Job[] {
+    const jobs = [...this.open_].flatMap((id) => this.get(id) ?? []);
+    for (let i = this.ended_.length - 1; i >= 0; i--) {
+      const job = this.ended_[i];
+      if (!job || ended(job) < t_s) break;
+      jobs.push(job);
+    }
+    return jobs;
+  }
+
   /** A list's jobs in the server's order; finished ones newest first. Not to be changed. */
   list(list: JobList): readonly Job[] {
     this.lists_ ??= this.sorted();
@@ -114,8 +131,10 @@ export class JobBook {
   }
 
   private sorted(): Map<JobList, Job[]> {
-    const lists = new Map<JobList, Job[]>();
-    for (const { job } of this.heard_.values()) {
+    const lists = new Map<JobList, Job[]>([['finished', [...this.ended_].reverse()]]);
+    for (const id of this.open_) {
+      const job = this.get(id);
+      if (!job) continue;
       const name = kListOfState[job.state];
       const list = lists.get(name);
       if (list) list.push(job);
@@ -123,15 +142,22 @@ export class JobBook {
     }
     const place = (job: Job) => this.order_.get(job.id) ?? Infinity;
     for (const [name, jobs] of lists) {
-      if (name === 'finished') jobs.sort((a, b) => (b.ended_s ?? 0) - (a.ended_s ?? 0));
-      else jobs.sort((a, b) => (place(a) - place(b)) || a.submitted_s - b.submitted_s);
+      if (name !== 'finished') jobs.sort((a, b) => (place(a) - place(b)) || a.submitted_s - b.submitted_s);
     }
     return lists;
   }
 
-  private drop_oldest_finished(): void {
-    for (const job of this.list('finished').slice(this.most_finished_)) this.heard_.delete(job.id);
-    this.finished_ = this.most_finished_;
-    this.lists_ = null;
+  /** Most end in the order in which they are heard of. */
+  private end(job: Job): void {
+    this.open_.delete(job.id);
+    let at = this.ended_.length;
+    while (at > 0 && ended(this.ended_[at - 1]) > ended(job)) at -= 1;
+    this.ended_.splice(at, 0, job);
+    if (this.ended_.length <= this.most_finished_ * (1 + kSlack)) return;
+    for (const old of this.ended_.splice(0, this.ended_.length - this.most_finished_)) this.heard_.delete(old.id);
   }
+}
+
+function ended(job: Job | undefined): number {
+  return job?.ended_s ?? 0;
 }

@@ -14,6 +14,8 @@ import { mark_in_words } from './told';
 
 const kRedraw_ms = 100;
 const kClick_px = 4;
+// A motion that ended before what is shown tells since when its arm could have gone on.
+const kBefore_s = 60;
 
 /** What is drawn and what is pointed at; changes many times a second, so no component's state. */
 interface Drawing { span: Span; lanes: Lane[]; sheet: Sheet | null; hover: Mark | null }
@@ -94,9 +96,10 @@ function drive(canvas: { current: HTMLCanvasElement | null }, store: App['store'
   };
 }
 
-export function known_lanes({ store }: Pick<App, 'store'>): Lane[] {
+/** Of what moves or waits at a time or later. */
+export function known_lanes({ store }: Pick<App, 'store'>, from_s = store.t_s): Lane[] {
   return lanes_of({
-    arms: [...store.arms.keys()], jobs: store.all_jobs(), stands: (id) => store.book.stands(id),
+    arms: [...store.arms.keys()], jobs: store.book.since_time(from_s - kBefore_s), stands: (id) => store.book.stands(id),
     forecast: store.forecast, now_s: store.t_s,
   });
 }
@@ -104,8 +107,8 @@ export function known_lanes({ store }: Pick<App, 'store'>): Lane[] {
 function draw_now(canvas: HTMLCanvasElement, drawing: Drawing, app: App): void {
   const g = fit(canvas);
   if (!g) return;
-  drawing.lanes = known_lanes(app);
   drawing.sheet = sheet_of(canvas.clientWidth, canvas.clientHeight, drawing.span, app.store.t_s);
+  drawing.lanes = known_lanes(app, drawing.sheet.from_s);
   const { jobs, arms } = selection_of(app.router.place, app.store);
   paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s: app.router.address.peek().t_s }, drawing.hover);
 }
