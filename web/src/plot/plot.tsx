@@ -28,7 +28,7 @@ export function Plot({ app, joints, label, last_s, stretch }: Props) {
     let closed = false;
     const show = () => {
       const end_s = to_s ?? store.t_s;
-      const begin_s = from_s ?? end_s - (last_s ?? 20);
+      const begin_s = from_s ?? Math.max(0, end_s - (last_s ?? 20));
       chart?.show(store.trace.between(joints, begin_s, end_s), [begin_s, Math.max(end_s, begin_s + 1)]);
     };
     void import('./chart').then((module) => {

@@ -3,7 +3,11 @@
 import type { Arm } from '../server/messages';
 import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
 
-interface Label { element: HTMLElement; name: HTMLElement; state: HTMLElement }
+const kHeight_px = 22;
+const kGap_px = 4;
+
+interface Point { x: number; y: number }
+interface Label { element: HTMLElement; name: HTMLElement; state: HTMLElement; width_px: number }
 
 export class ArmLabels {
   private readonly labels_ = new Map<string, Label>();
@@ -18,7 +22,9 @@ export class ArmLabels {
       this.host_.append(label.element);
     }
     label.name.textContent = arm.name;
-    label.state.textContent = `${kStateGlyphs[arm.state]} ${arm.state}`;
+    const state = `${kStateGlyphs[arm.state]} ${arm.state}`;
+    if (label.state.textContent !== state) label.width_px = 0;
+    label.state.textContent = state;
     label.element.style.setProperty('--arm', arm_colour(arms, arm.name));
     label.element.style.setProperty('--state', kStateColours[arm.state]);
   }
@@ -27,12 +33,20 @@ export class ArmLabels {
     for (const [name, label] of this.labels_) label.element.classList.toggle('lit', arms.includes(name));
   }
 
-  /** Puts each where the function says, px from the view's top left; null hides it. */
-  place(where: (arm: string) => { x: number; y: number } | null): void {
-    for (const [name, label] of this.labels_) {
-      const p = where(name);
+  /** Puts each where the function says, px from the view's top left, or below one that is there; null hides it. */
+  place(where: (arm: string) => Point | null): void {
+    const found = [...this.labels_].map(([name, label]) => ({ label, p: where(name) }));
+    const placed: { p: Point; width_px: number }[] = [];
+    for (const { label, p } of found.sort((a, b) => (a.p?.x ?? 0) - (b.p?.x ?? 0))) {
       label.element.hidden = p === null;
-      if (p) label.element.style.transform = `translate(${p.x.toFixed(1)}px, ${p.y.toFixed(1)}px)`;
+      if (!p) continue;
+      label.width_px ||= label.element.offsetWidth;
+      const { width_px } = label;
+      const in_the_way = (other: { p: Point; width_px: number }) =>
+        Math.abs(other.p.x - p.x) < (other.width_px + width_px) / 2 + kGap_px && Math.abs(other.p.y - p.y) < kHeight_px;
+      for (let other = placed.find(in_the_way); other; other = placed.find(in_the_way)) p.y = other.p.y + kHeight_px;
+      placed.push({ p, width_px });
+      label.element.style.transform = `translate(${p.x.toFixed(1)}px, ${p.y.toFixed(1)}px)`;
     }
   }
 
@@ -48,5 +62,5 @@ function make_label(): Label {
   const state = document.createElement('span');
   element.className = 'arm-label';
   element.append(name, state);
-  return { element, name, state };
+  return { element, name, state, width_px: 0 };
 }
