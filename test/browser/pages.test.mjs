@@ -7,10 +7,12 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { arm_now, ask, Browser, job_through, path_for, Server, web_require } from './harness.mjs';
+import { difference } from './pictures.mjs';
 
 const kStop = 'Stop all: controlled, drives stay powered';
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 const kAxe = readFileSync(web_require.resolve('axe-core/axe.min.js'), 'utf8');
+const kLeastGhost_px = 1500;
 // A name that would do something, were it taken for HTML.
 const kHostile = '<img src=x onerror="window.was_html=1"><b>&amp;';
 
@@ -34,6 +36,11 @@ async function send(arm, id, way, seconds, over = {}) {
   const { names, q } = await arm_now(page, arm);
   const { status, value } = await ask(page, 'POST', '/jobs', job_through(id, names, [q, ...way.map((to) => to ?? q)], seconds, over));
   assert.equal(status, 202, JSON.stringify(value));
+}
+
+async function view_picture() {
+  await page.evaluate(() => window.armloom.drawn());
+  return page.locator('.view canvas').screenshot();
 }
 
 const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
@@ -161,6 +168,20 @@ test('a job is judged before it is sent, a bag of jobs is taken whole', { timeou
   await page.locator('[data-test=judge]').click();
   assert.match(await page.locator('[data-test=judged]').innerText(), /free: it could start now/);
   assert.equal((await ask(page, 'GET', '/jobs/judged')).status, 404);
+
+  // Previewed: a ghost of the arm where it would be, and where it would meet what stands in its way.
+  const without = await view_picture();
+  await page.locator('[data-test=preview-time]').fill('4');
+  const ghost = await difference(chromium.context, without, await view_picture());
+  assert.ok(ghost.count > kLeastGhost_px, `${ghost.count} pixels changed`);
+  await ask(page, 'PUT', '/scene/objects/post', { box: [0.1, 0.1, 0.6], xyz: [-0.05, 0, 0.6], rpy: [0, 0, 0] });
+  await page.locator('[data-test=judge]').click();
+  await page.locator('[data-test=show-conflict]').first().click();
+  assert.match(await page.locator('[data-test=judged]').innerText(), /in conflict/);
+  await page.waitForFunction(() => { const at = Number(document.querySelector('[data-test=preview-time]').value); return at > 0.1 && at < 3.9; });
+  await page.evaluate(() => window.armloom.drawn());
+  await page.screenshot(path_for('preview-dark'));
+  await ask(page, 'DELETE', '/scene/objects/post');
   const bag = [1, 2].map((i) => ({ at: 0, job: job_through(`bag-${i}`, names, [q, q.map((v, k) => v + (k === 0 ? 0.1 * i : 0)), q], 1) }));
   await text.fill(JSON.stringify(bag));
   assert.match(await page.locator('[data-test=bag]').innerText(), /2 jobs/);

@@ -52,7 +52,7 @@ const connection = new Connection({
   },
 });
 const app: App = {
-  store, api, covered_px: signal(0),
+  store, api, covered_px: signal(0), ghost: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
   router: new Router(address_bar_of(window)),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),

@@ -2,7 +2,6 @@
 
 import type { Api } from '../server/api';
 import type { Problem, Verdict } from '../server/messages';
-import type { App } from '../state/app';
 import { millimetres, seconds, wait_in_words } from '../wording';
 import { bodies_of, type Bag } from './bag';
 import { Refused } from './refused';
@@ -21,12 +20,13 @@ export async function judge_all(bag: Bag, api: Pick<Api, 'check'>): Promise<Judg
   return judgements;
 }
 
-export function Judged({ judgements }: { judgements: Judgement[]; app: App }) {
+/** `show`: shows the motion at a time from its start. */
+export function Judged({ judgements, show }: { judgements: Judgement[]; show: ((t_s: number) => void) | null }) {
   return (
     <ul class="judged" role="status" data-test="judged">
       {judgements.map((judgement, i) => (
         <li key={i}>
-          {judgement.ok ? <Said title={judgement.title} verdict={judgement.verdict} /> : <><b>{judgement.title}</b><Refused problem={judgement.problem} /></>}
+          {judgement.ok ? <Said title={judgement.title} verdict={judgement.verdict} show={show} /> : <><b>{judgement.title}</b><Refused problem={judgement.problem} /></>}
         </li>
       ))}
     </ul>
@@ -37,7 +37,7 @@ const kWords: Record<Verdict['verdict'], string> = {
   free: '✓ free: it could start now', conflict: '✕ in conflict', undecided: '? not proven free',
 };
 
-function Said({ title, verdict }: { title: string; verdict: Verdict }) {
+function Said({ title, verdict, show }: { title: string; verdict: Verdict; show: ((t_s: number) => void) | null }) {
   const { earliest_start_s: start_s, clearance_bound_m: bound_m } = verdict;
   const later = verdict.verdict === 'free' ? '' : start_s === null ? 'Not as things stand.' : `It could start in ${seconds(start_s)}.`;
   return (
@@ -45,7 +45,14 @@ function Said({ title, verdict }: { title: string; verdict: Verdict }) {
       <div class={`verdict-word ${verdict.verdict}`}><b>{title}</b>: {kWords[verdict.verdict]}</div>
       {later !== '' && <div>{later}</div>}
       {bound_m !== null && <div class="dim small">At least {millimetres(bound_m)} are kept, proven.</div>}
-      {verdict.conflicts.map((conflict, i) => <div key={i} class="words">{wait_in_words(conflict).replace(/^waits for /, 'beside ')}</div>)}
+      {verdict.conflicts.map((conflict, i) => (
+        <div key={i} class="words">
+          {wait_in_words(conflict).replace(/^waits for /, 'beside ')}
+          {show && conflict.own_time_s !== null && (
+            <>{' '}<button class="small" data-test="show-conflict" onClick={() => show(conflict.own_time_s ?? 0)}>Show it there</button></>
+          )}
+        </div>
+      ))}
     </>
   );
 }

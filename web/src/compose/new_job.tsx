@@ -1,7 +1,7 @@
 // Compose: paste, drop or begin from an example; see it judged as things are; send it. One job, or a bag
 // of jobs, which is taken whole or not at all.
 
-import { useState } from 'preact/hooks';
+import { useMemo, useState } from 'preact/hooks';
 import { Link } from '../route/link';
 import type { Problem } from '../server/messages';
 import type { App } from '../state/app';
@@ -10,6 +10,8 @@ import { why_mute } from '../wording';
 import { read_bag, type Bag } from './bag';
 import { example_job, pretty } from './example';
 import { Judged, judge_all, type Judgement } from './judged';
+import { motion_of } from './motion';
+import { Preview, type Chosen } from './preview';
 import { Refused } from './refused';
 
 // What was typed outlives the page's pane.
@@ -27,9 +29,12 @@ export function NewJob({ app }: { app: App }) {
   const change = (next: string) => {
     draft = next;
     set_text(next);
+    set_chosen(null);
     set_outcome({ kind: 'none' });
   };
-  const bag = read_bag(text);
+  const [chosen, set_chosen] = useState<Chosen | null>(null);
+  const bag = useMemo(() => read_bag(text), [text]);
+  const motion = useMemo(() => motion_of(bag), [bag]);
   const mute = why_mute(app.store.link);
   const idle = text.trim() === '' || outcome.kind === 'busy' || mute !== null;
   const send = async () => {
@@ -59,6 +64,7 @@ export function NewJob({ app }: { app: App }) {
           void dropped(event).then((found) => { if (found !== null) change(found); });
         }}
         onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) void send(); }} />
+      {motion && <Preview motion={motion} app={app} chosen={chosen} />}
       <div class="line">
         <FileButton change={change} />
         <span class="grow dim small" data-test="bag">{bag.kind === 'bag' ? `${bag.jobs.length} jobs, taken whole or not at all` : 'Ctrl + Enter sends'}</span>
@@ -68,7 +74,7 @@ export function NewJob({ app }: { app: App }) {
         </button>
       </div>
       {outcome.kind === 'accepted' && <Accepted ids={outcome.ids} app={app} />}
-      {outcome.kind === 'judged' && <Judged judgements={outcome.judgements} app={app} />}
+      {outcome.kind === 'judged' && <Judged judgements={outcome.judgements} show={motion && bag.kind === 'one' ? (t_s) => set_chosen({ t_s }) : null} />}
       {outcome.kind === 'refused' && <Refused problem={outcome.problem} />}
     </div>
   );

@@ -13,6 +13,8 @@ export interface App {
   actions: Actions;
   router: Router;
   settings: Settings;
+  /** Joints as they would stand, shown in the cell; null: nothing is previewed. */
+  ghost: Signal<Readonly<Record<string, number>> | null>;
   /** So much of the cell's left is covered by a pane. */
   covered_px: Signal<number>;
 }

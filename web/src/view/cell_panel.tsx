@@ -34,6 +34,7 @@ export function CellPanel({ app, on_view }: Props) {
   useEffect(() => view?.show_selection(selection_of(address.place, store)), [view, address.place, store.arms]);
   useEffect(() => view?.show_instant(address.t_s), [view, address.t_s]);
   useEffect(() => view?.show_camera(address.camera), [view, address.camera]);
+  useEffect(() => view?.show_ghost(app.ghost.value), [view, app.ghost.value]);
   useEffect(() => view?.show_theme(), [view, settings.shown_theme.value]);
   // The cell steps aside for what is laid over its left; under what covers nearly all it stays as it is.
   const covered_px = app.covered_px.value;

@@ -10,6 +10,7 @@ import type { Store } from '../state/store';
 import type { Level } from './pace';
 import { RobotModel } from './robot';
 import { on_click } from './click';
+import { Ghosts } from './ghosts';
 import { ArmLabels } from './labels';
 import { SceneObjects } from './scene_objects';
 import { dispose } from './shapes';
@@ -24,6 +25,8 @@ const kHeight_m = 0.85;
 export class CellView {
   private readonly stage_: Stage;
   private readonly robots_ = new Map<string, RobotModel>();
+  private readonly ghosts_ = new Ghosts();
+  private surfaces_: Surfaces = new Map();
   private readonly paths_ = new Map<string, ToolPath>();
   private readonly labels_: ArmLabels;
   private readonly shelf_ = new SurfaceShelf();
@@ -38,7 +41,7 @@ export class CellView {
     this.stage_ = new Stage(host_);
     this.labels_ = new ArmLabels(host_);
     this.objects_ = new SceneObjects(this.shelf_, () => this.stage_.invalidate(true));
-    this.stage_.scene.add(this.objects_.group);
+    this.stage_.scene.add(this.objects_.group, this.ghosts_.group);
     this.stage_.after_draw = () => this.labels_.place((arm) => this.where_stands(arm));
     on_click(this.stage_.canvas, (x_px, y_px) => this.pick(x_px, y_px));
     this.stage_.on_camera = (camera) => app_.router.look_from(camera);
@@ -65,6 +68,14 @@ export class CellView {
     this.instant_s_ = t_s;
     for (const path of this.paths_.values()) path.clear();
     this.move();
+  }
+
+  /** Arms as they would stand with these joints; null: no ghost. */
+  show_ghost(q: Readonly<Record<string, number>> | null): void {
+    if (!this.cell_) return;
+    const names = [...this.store_.arms.keys()];
+    this.ghosts_.show(q, this.store_.q, this.cell_, this.surfaces_, (arm) => ink(arm_colour(names, arm)));
+    this.stage_.invalidate();
   }
 
   /** As an address has it; null leaves it as it is. */
@@ -129,6 +140,7 @@ export class CellView {
       this.stage_.scene.remove(robot.root);
     }
     this.robots_.clear();
+    this.ghosts_.clear();
     this.frame_cell(cell);
     const addresses = cell.robots.flatMap((robot) => Object.values(robot.meshes));
     if (addresses.length === 0) return this.add_robots(cell, new Map());
@@ -141,6 +153,7 @@ export class CellView {
   }
 
   private add_robots(cell: Cell, surfaces: Surfaces): void {
+    this.surfaces_ = surfaces;
     for (const robot of cell.robots) {
       try {
         const model = new RobotModel(robot, surfaces);
