@@ -51,6 +51,12 @@ export function wait_in_words(w: WaitsOn): string {
   }
 }
 
+/** What a job that was only asked about would meet. */
+export function conflict_in_words(w: WaitsOn): string {
+  const how = approach(w);
+  return how === '' ? `beside ${subject(w)}` : `beside ${subject(w)}, ${how}`;
+}
+
 function subject(w: WaitsOn): string {
   if (w.kind === 'arm') return w.arm ? `arm ${w.arm}` : 'an arm at rest';
   if (w.kind === 'object') return w.id ?? w.links[1] ?? 'an object';

@@ -2,7 +2,7 @@
 
 import type { Api } from '../server/api';
 import type { Problem, Verdict } from '../server/messages';
-import { millimetres, seconds, wait_in_words } from '../wording';
+import { conflict_in_words, millimetres, seconds } from '../wording';
 import { bodies_of, type Bag } from './bag';
 import { Refused } from './refused';
 
@@ -47,7 +47,7 @@ function Said({ title, verdict, show }: { title: string; verdict: Verdict; show:
       {bound_m !== null && <div class="dim small">At least {millimetres(bound_m)} are kept, proven.</div>}
       {verdict.conflicts.map((conflict, i) => (
         <div key={i} class="words">
-          {wait_in_words(conflict).replace(/^waits for /, 'beside ')}
+          {conflict_in_words(conflict)}
           {show && conflict.own_time_s !== null && (
             <>{' '}<button class="small" data-test="show-conflict" onClick={() => show(conflict.own_time_s ?? 0)}>Show it there</button></>
           )}
