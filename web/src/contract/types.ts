@@ -115,6 +115,23 @@ export interface components {
             stopping: boolean;
             /** @description Empty when it does not wait */
             waits_on: components["schemas"]["Wait"][];
+            /**
+             * @description It may change places with others of its arm that say so
+             * @enum {string}
+             */
+            order?: "any";
+            /** @description Arms of which one does it; `arms` is that one, or the likeliest while it waits */
+            alternatives?: string[];
+            /** @description Why it was taken before others, or by this arm */
+            choice?: {
+                /** @description Jobs that could have taken the turn, or arms that could have done it: as it was first */
+                among: string[];
+                /** @description One of these */
+                taken: string;
+                /** @description By so much the plan costs less than with the first; null: that is taken, or could not go */
+                saves_s: number | null;
+                detail: string;
+            };
             /** @description The deadlock that it is part of, itself first: each waits for the next one, the last for the first. Else empty */
             ring: string[];
             /** @description null until terminal */
