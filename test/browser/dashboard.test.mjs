@@ -99,6 +99,7 @@ test('the diagram of two jobs that cross is red where they conflict', { timeout:
     const { names, q } = await arm_now(arm);
     await post(job_through(id, names, [q, kMiddle, q], seconds));
   };
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 0.25 });  // a busy machine is given the time to look
   await reach('cross-left', 'left', 10);
   await page.locator('[data-test=list-running] [data-test="job-cross-left"]').waitFor();
   await reach('cross-right', 'right', 10);
@@ -117,9 +118,11 @@ test('the diagram of two jobs that cross is red where they conflict', { timeout:
   const moved = await difference(browser, first, await diagram.screenshot());
   assert.ok(moved.count > 20, `${moved.count} pixels changed while the left arm moved`);
 
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 2 });
   // The rest is free once the first has come home: the second starts by itself.
   await page.locator('[data-test=list-running] [data-test="job-cross-right"]').waitFor({ timeout: 40_000 });
   await page.screenshot(path_for('diagram-later'));
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 1 });
   await page.evaluate(() => fetch('/api/v1/jobs/cross-right', { method: 'DELETE' }));
   await page.locator('[data-test=list-finished] [data-test="job-cross-right"]').waitFor();
   await page.getByRole('button', { name: 'Close', exact: true }).click();
