@@ -1,33 +1,14 @@
 // The dashboard in a real browser beside a real server: both arms are drawn, a job that is pasted
 // into the page appears, moves its arm and finishes; a refusal, a stop and a lost server are shown.
 //
-//   node --test test/browser/dashboard.test.mjs      (after the server and web/dist were built)
-//
-//   ARMLOOM_BINARY          the server's binary, default build/armloom
-//   ARMLOOM_CHROMIUM        the browser, default /usr/bin/chromium
-//   ARMLOOM_SCREENSHOT_DIR  where pictures of the page go; none are kept without it
+//   node --test test/browser/dashboard.test.mjs      (after the server and web/dist were built; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { tmpdir } from 'node:os';
-import { dirname, join, resolve } from 'node:path';
 import { after, before, test } from 'node:test';
-import { fileURLToPath } from 'node:url';
+import { arm_now as arm_of, ask as ask_server, Browser, job_through, path_for, Server } from './harness.mjs';
 import { difference, pixels_like } from './pictures.mjs';
 
-const kRoot = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
-const { chromium } = createRequire(join(kRoot, 'web/package.json'))('playwright-core');
-
-const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kRoot, 'build/armloom'));
-const kChromium = process.env.ARMLOOM_CHROMIUM ?? '/usr/bin/chromium';
-const kPictures = process.env.ARMLOOM_SCREENSHOT_DIR;
-const kFlags = [
-  '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox', '--disable-quic', '--no-first-run',
-  '--disable-background-networking', '--disable-component-update', '--disable-sync',
-];
-const kPatience_ms = 20_000;
 // A robot of the cell covers several thousand pixels of the view; labels and text far fewer.
 const kLeastRobot_px = 3000;
 const kLeastObject_px = 1500;
@@ -38,37 +19,23 @@ const kLeastArea_px = 2000;
 // Joints of a Panda that reaches into the middle; not for both arms at once.
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
-let server;
-let server_output = '';
+// certified: two jobs that cross show a backlog; the default would schedule the second.
+const server = new Server('config/two_pandas.json', 'certified');
+const chromium = new Browser();
+const { errors } = chromium;
 let browser;
-let profile;
 let page;
-const errors = [];
 
 before(async () => {
-  // certified: two jobs that cross show a backlog; the default would schedule the second.
-  server = spawn(kBinary, ['serve', '--cell', 'config/two_pandas.json', '--policy', 'certified', '--listen', '127.0.0.1:0'], { cwd: kRoot });
-  server.on('error', (error) => { server_output += String(error); });
-  for (const stream of [server.stdout, server.stderr]) stream.on('data', (data) => { server_output += data; });
-  const url = await address_of_server();
-
-  profile = mkdtempSync(join(tmpdir(), 'armloom-browser-'));
-  browser = await chromium.launchPersistentContext(profile, {
-    executablePath: kChromium, args: kFlags, viewport: { width: 1440, height: 900 },
-  });
-  page = browser.pages()[0] ?? await browser.newPage();
-  page.setDefaultTimeout(kPatience_ms);
-  page.on('console', (message) => { if (message.type() === 'error') errors.push(message.text()); });
-  page.on('pageerror', (error) => errors.push(String(error)));
-  await page.goto(url, { timeout: 60_000 });  // a busy machine draws the first picture slowly
-  await page.locator('[data-test=link].open').waitFor();
-  await page.waitForFunction(() => window.armloom?.is_drawn());
+  const url = await server.start();
+  page = await chromium.open();
+  browser = chromium.context;
+  await chromium.visit(url);
 }, { timeout: 90_000 });
 
 after(async () => {
-  await browser?.close();
-  await end_server();
-  if (profile) rmSync(profile, { recursive: true, force: true });
+  await chromium.close();
+  await server.end();
 }, { timeout: 30_000 });
 
 test('both arms are drawn, the left one left of the right one', { timeout: 60_000 }, async () => {
@@ -105,7 +72,7 @@ test('the example moves an idle arm and brings it back', { timeout: 60_000 }, as
   await open_form();
   await page.locator('[data-test=example-right]').click();
   await page.locator('[data-test=send]').click();
-  const id = await page.locator('[data-test=accepted] button').innerText();
+  const id = await page.locator('[data-test=accepted] a').innerText();
   const finished = page.locator(`[data-test=list-finished] [data-test="job-${id}"]`);
   await finished.waitFor();
   assert.equal(await finished.getAttribute('data-state'), 'succeeded');
@@ -115,8 +82,8 @@ test('details of a running job show how far it is', { timeout: 60_000 }, async (
   await open_form();
   await page.locator('[data-test=example-right]').click();
   await page.locator('[data-test=send]').click();
-  const id = await page.locator('[data-test=accepted] button').innerText();
-  await page.locator('[data-test=accepted] button').click();
+  const id = await page.locator('[data-test=accepted] a').innerText();
+  await page.locator('[data-test=accepted] a').click();
   await page.waitForFunction(() => {
     const { state, progress } = JSON.parse(document.querySelector('[data-test=raw]')?.textContent ?? '{}');
     return state === 'running' && progress > 0;
@@ -130,11 +97,9 @@ test('details of a running job show how far it is', { timeout: 60_000 }, async (
 test('the diagram of two jobs that cross is red where they conflict', { timeout: 90_000 }, async () => {
   const reach = async (id, arm, seconds) => {
     const { names, q } = await arm_now(arm);
-    const rest = q.map(() => 0);
-    const point = (positions, sec) => ({ positions, velocities: rest, accelerations: rest, time_from_start: { sec, nanosec: 0 } });
-    const points = [point(q, 0), point(kMiddle, seconds), point(q, 2 * seconds)];
-    await post({ id, trajectory: { joint_names: names, points } });
+    await post(job_through(id, names, [q, kMiddle, q], seconds));
   };
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 0.25 });  // a busy machine is given the time to look
   await reach('cross-left', 'left', 10);
   await page.locator('[data-test=list-running] [data-test="job-cross-left"]').waitFor();
   await reach('cross-right', 'right', 10);
@@ -153,9 +118,11 @@ test('the diagram of two jobs that cross is red where they conflict', { timeout:
   const moved = await difference(browser, first, await diagram.screenshot());
   assert.ok(moved.count > 20, `${moved.count} pixels changed while the left arm moved`);
 
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 2 });
   // The rest is free once the first has come home: the second starts by itself.
   await page.locator('[data-test=list-running] [data-test="job-cross-right"]').waitFor({ timeout: 40_000 });
   await page.screenshot(path_for('diagram-later'));
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 1 });
   await page.evaluate(() => fetch('/api/v1/jobs/cross-right', { method: 'DELETE' }));
   await page.locator('[data-test=list-finished] [data-test="job-cross-right"]').waitFor();
   await page.getByRole('button', { name: 'Close', exact: true }).click();
@@ -201,7 +168,7 @@ test('stop answers within a second on a busy machine', { timeout: 120_000 }, asy
     await page.locator('[data-test=list-running] [data-test="job-busy-there"]').waitFor({ timeout: 40_000 });
     // The view has seen some slow drawings.
     await page.waitForFunction((from) => window.armloom.pictures() >= from + 6, await page.evaluate(() => window.armloom.pictures()), { timeout: 60_000 });
-    const button = await page.getByRole('button', { name: 'Stop', exact: true }).boundingBox();
+    const button = await page.getByRole('button', { name: 'Stop all: controlled, drives stay powered' }).boundingBox();
     // From the click as the browser got it to the mark on the page, in the browser's own time. It listens
     // before it is clicked: on a busy machine what is sent later may arrive first.
     await page.evaluate(() => { window.answered_ms = new Promise((done) => {
@@ -226,14 +193,14 @@ test('stop answers within a second on a busy machine', { timeout: 120_000 }, asy
 });
 
 test('stop holds the cell and resume frees it', { timeout: 30_000 }, async () => {
-  await page.getByRole('button', { name: 'Stop', exact: true }).click();
+  await page.getByRole('button', { name: 'Stop all: controlled, drives stay powered' }).click();
   await page.locator('[data-test=stopped]').waitFor();
   await page.getByRole('button', { name: 'Resume', exact: true }).click();
   await page.locator('[data-test=stopped]').waitFor({ state: 'detached' });
 });
 
 test('a banner says that the server is gone', { timeout: 30_000 }, async () => {
-  await end_server();
+  await server.end();
   await page.locator('[data-test=lost]').waitFor();
   await page.screenshot(path_for('lost'));
 });
@@ -250,20 +217,16 @@ async function send(job) {
   await page.locator('[data-test=send]').click();
 }
 
-const post = (job) => page.evaluate(async (body) => {
-  const answer = await fetch('/api/v1/jobs', { method: 'POST', headers: { 'content-type': 'application/json' }, body });
-  if (answer.status !== 202) throw new Error(await answer.text());
-}, JSON.stringify(job));
+async function post(job) {
+  const { status, value } = await ask_server(page, 'POST', '/jobs', job);
+  assert.equal(status, 202, JSON.stringify(value));
+}
 
-const ask_status = (method, path) =>
-  page.evaluate(async ([method, path]) => (await fetch(`/api/v1${path}`, { method })).status, [method, path]);
+const ask_status = async (method, path) => (await ask_server(page, method, path)).status;
 
 /** Asks the server for a change of the scene, and waits until the page knows so many objects. */
 async function ask(method, path, body, count) {
-  const status = await page.evaluate(async ([method, path, body]) => {
-    const headers = { 'content-type': 'application/json' };
-    return (await fetch(`/api/v1${path}`, { method, headers, body: JSON.stringify(body) })).status;
-  }, [method, path, body]);
+  const { status } = await ask_server(page, method, path, body);
   assert.ok(status < 300, `${method} ${path}: ${status}`);
   await page.waitForFunction(([body, count]) => {
     const objects = window.armloom.objects();
@@ -271,24 +234,13 @@ async function ask(method, path, body, count) {
   }, [body, count]);
 }
 
-function arm_now(arm) {
-  return page.evaluate((arm) => {
-    const all = window.armloom.q();
-    const names = Object.keys(all).filter((name) => name.startsWith(`${arm}_panda_joint`)).sort();
-    return { names, q: names.map((name) => all[name]) };
-  }, arm);
-}
-
+const arm_now = (arm) => arm_of(page, arm);
 const left_arm = () => arm_now('left');
 
 /** Turns the first joint by `angle` in `seconds`, at rest at both ends. */
 function swing_job(id, names, q, angle, seconds) {
-  const rest = q.map(() => 0);
-  const point = (positions, sec) => ({
-    positions, velocities: rest, accelerations: rest, time_from_start: { sec, nanosec: 0 },
-  });
   const there = q.map((value, i) => (i === 0 ? value + angle : value));
-  return { id, name: 'swing', trajectory: { joint_names: names, points: [point(q, 0), point(there, seconds)] } };
+  return job_through(id, names, [q, there], seconds, { name: 'swing' });
 }
 
 /** The view as a PNG, after what changed has been drawn. */
@@ -304,37 +256,4 @@ async function pixels_of(robot, whole) {
   const without = await picture(`without-${robot}`);
   await page.evaluate((name) => window.armloom.set_robot_visible(name, true), robot);
   return difference(browser, whole, without);
-}
-
-function path_for(name) {
-  if (!kPictures) return {};
-  mkdirSync(kPictures, { recursive: true });
-  return { path: join(kPictures, `${name}.png`) };
-}
-
-// ---- the server ----
-
-/** Where the server listens, at a port that the system gave, as it says itself. */
-function address_of_server() {
-  return new Promise((done, fail) => {
-    const lost = () => fail(new Error(`the server did not come up: ${kBinary}\n${server_output}`));
-    const timer = setTimeout(lost, kPatience_ms);
-    server.once('exit', lost);
-    server.stdout.on('data', () => {
-      const url = /dashboard: (http:\/\/127\.0\.0\.1:\d+\/)/.exec(server_output)?.[1];
-      if (!url) return;
-      clearTimeout(timer);
-      server.off('exit', lost);
-      done(url);
-    });
-  });
-}
-
-async function end_server() {
-  if (!server?.pid || server.exitCode !== null || server.signalCode !== null) return;
-  const ended = new Promise((done) => server.once('exit', done));
-  server.kill('SIGTERM');
-  const hard = setTimeout(() => server.kill('SIGKILL'), 5000);
-  await ended;
-  clearTimeout(hard);
 }

@@ -3,6 +3,7 @@
 //   armloom.q()                           joint name -> measured position
 //   armloom.jobs()                        every job that the page knows, as the server wrote it
 //   armloom.objects()                     the objects of the scene
+//   armloom.lanes()                       what the timeline shows of each arm
 //   armloom.is_drawn()                    whether every robot of the cell stands in the view
 //   armloom.drawn()                       a promise, kept once all that changed has been drawn
 //   armloom.pictures()                    how many have been drawn
@@ -10,7 +11,8 @@
 //   armloom.set_robot_visible(name, yes)  draws the cell with or without one robot, so that a
 //                                         picture of each tells which pixels are that robot's
 
-import type { Store } from './store';
+import type { App } from './state/app';
+import { known_lanes } from './timeline/timeline';
 import type { CellView } from './view/cell_view';
 import type { Level } from './view/pace';
 
@@ -18,10 +20,11 @@ export interface DebugHook {
   q(): Record<string, number>;
   jobs(): unknown[];
   objects(): unknown[];
+  lanes(): unknown[];
   is_drawn(): boolean;
   drawn(): Promise<void>;
   pictures(): number;
-  level(): Level;
+  level(): Level | null;
   set_robot_visible(name: string, visible: boolean): void;
 }
 
@@ -29,15 +32,23 @@ declare global {
   interface Window { armloom?: DebugHook }
 }
 
-export function install_debug_hook(store: Store, view: CellView): void {
+let view: CellView | null = null;
+
+export function show_debug_view(shown: CellView): void {
+  view = shown;
+}
+
+export function install_debug_hook(app: App): void {
+  const { store } = app;
   window.armloom = {
     q: () => ({ ...store.q }),
     jobs: () => store.all_jobs(),
     objects: () => [...store.objects],
-    is_drawn: () => view.is_drawn(),
-    drawn: () => view.drawn(),
-    pictures: () => view.pictures(),
-    level: () => view.level(),
-    set_robot_visible: (name, visible) => view.set_robot_visible(name, visible),
+    lanes: () => known_lanes(app, 0),
+    is_drawn: () => view?.is_drawn() ?? false,
+    drawn: () => view?.drawn() ?? Promise.reject(new Error('the view is not loaded yet')),
+    pictures: () => view?.pictures() ?? 0,
+    level: () => view?.level() ?? null,
+    set_robot_visible: (name, visible) => view?.set_robot_visible(name, visible),
   };
 }

@@ -1,21 +1,33 @@
-// Puts the page together: store, server, socket, view.
+// Puts the page together: store, server, socket, address, and what is shown of them.
 
+import { signal } from '@preact/signals';
 import { render } from 'preact';
-import { Api } from './api';
-import { backoff_ms, Connection, type SocketLike, type Timers } from './connection';
-import { install_debug_hook } from './debug';
-import { Actions } from './panels/actions';
-import { Arms } from './panels/arms';
-import { Banner } from './panels/banner';
-import { CellPanel } from './panels/cell_panel';
-import { Header } from './panels/header';
-import { Jobs } from './panels/jobs';
-import { Notices } from './panels/notices';
-import { Timeline } from './panels/timeline';
-import { Store } from './store';
+import { Arms } from './arms/arms';
+import { install_debug_hook, show_debug_view } from './debug';
+import { Banner } from './frame/banner';
+import { Header } from './frame/header';
+import { Pane } from './frame/pane';
+import { listen_to_keys } from './frame/shortcuts';
+import { use_staleness } from './frame/staleness';
+import { Notices } from './history/notices';
+import { Jobs } from './jobs/jobs';
+import { place_in_words } from './route/address';
+import { address_bar_of, Router } from './route/router';
+import { Api } from './server/api';
+import { backoff_ms, Connection, type SocketLike, type Timers } from './server/connection';
+import { follow_timeline } from './server/follow_timeline';
+import { Actions } from './state/actions';
+import type { App } from './state/app';
+import { Settings } from './state/settings';
+import { Store } from './state/store';
+import { use_store } from './state/use_store';
+import './style/tokens.css';
 import './style/base.css';
 import './style/layout.css';
 import './style/panels.css';
+import './style/pages.css';
+import { Timeline } from './timeline/timeline';
+import { CellPanel } from './view/cell_panel';
 
 const kBase = '/api/v1';
 
@@ -39,13 +51,25 @@ const connection = new Connection({
     if (store.reject(kind)) console.warn(`${kind} message (further ones are only counted): ${what}`);
   },
 });
-const actions = new Actions(api, store, timers, () => connection.retry_now());
+const app: App = {
+  store, api, covered_px: signal(0), ghost: signal(null),
+  actions: new Actions(api, store, timers, () => connection.retry_now()),
+  router: new Router(address_bar_of(window)),
+  settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),
+};
+
+function shelf(): Storage | null {
+  try {
+    return window.localStorage;
+  } catch {
+    return null;  // some browsers forbid it
+  }
+}
 
 async function load_cell(attempt = 1): Promise<void> {
   const answer = await api.cell();
   if (answer.ok) {
     store.set_cell(answer.value);
-    document.title = `${answer.value.name} · Armloom`;
     return;
   }
   store.set_cell_fault(answer.problem.detail ?? answer.problem.title);
@@ -53,26 +77,35 @@ async function load_cell(attempt = 1): Promise<void> {
 }
 
 function Page() {
+  const stale = use_staleness(store) !== null || store.link.status === 'lost';
+  use_store(store);
+  document.title = `${place_in_words(app.router.address.value.place)} · ${store.cell?.name ?? 'Armloom'}`;
   return (
     <>
-      <Header store={store} actions={actions} />
-      <Banner store={store} actions={actions} />
-      <main>
-        <CellPanel store={store} actions={actions} on_view={(view) => install_debug_hook(store, view)} />
-        <div class="dock">
-          <Timeline store={store} />
-          <Notices store={store} />
+      <Header app={app} />
+      <Banner app={app} />
+      <div class={`body${stale ? ' stale' : ''}`}>
+        <main>
+          <CellPanel app={app} on_view={show_debug_view} />
+          <Pane app={app} />
+        </main>
+        <div class="dock" style={{ '--lanes': String(store.arms.size) }}>
+          <Timeline app={app} />
+          <Notices app={app} />
         </div>
-        <div class="side">
-          <Arms store={store} />
-          <Jobs store={store} actions={actions} />
-        </div>
-      </main>
+        <aside class="side" aria-label="Arms and jobs">
+          <Arms app={app} />
+          <Jobs app={app} />
+        </aside>
+      </div>
     </>
   );
 }
 
 const root = document.getElementById('app');
 if (root) render(<Page />, root);
+install_debug_hook(app);
+listen_to_keys(app, window);
 void load_cell();
 connection.start();
+follow_timeline(api, store, timers, () => document.visibilityState === 'visible');

@@ -1,7 +1,7 @@
 // What the page says about jobs, in words. Pure functions from the contract's data to sentences.
 
-import type { Link } from './connection';
-import { pair_of, type Clearance, type Job, type MonitorData, type WaitsOn } from './messages';
+import type { Link } from './server/connection';
+import { pair_of, type Clearance, type Job, type MonitorData, type WaitsOn } from './server/messages';
 
 /** An id short enough for a list: a long machine-made one is cut, a name that a client chose stays. */
 export function short_id(id: string): string {
@@ -49,6 +49,12 @@ export function wait_in_words(w: WaitsOn): string {
     case 'capacity': return w.id ? `waits until ${who} has ended: one at a time` : 'waits for a free place';
     case 'stop': return `waits for resume: ${w.arm ?? 'the cell'} is stopped${w.detail ? ` (${w.detail})` : ''}`;
   }
+}
+
+/** What a job that was only asked about would meet. */
+export function conflict_in_words(w: WaitsOn): string {
+  const how = approach(w);
+  return how === '' ? `beside ${subject(w)}` : `beside ${subject(w)}, ${how}`;
 }
 
 function subject(w: WaitsOn): string {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { Api } from '../src/api';
+import { Api } from '../src/server/api';
 import { job_json } from './samples';
 
 function api_that_answers(status: number, body: string) {

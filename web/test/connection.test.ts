@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import { backoff_ms, Connection, type Link, type SocketLike } from '../src/connection';
-import type { Message } from '../src/messages';
+import { backoff_ms, Connection, type Link, type SocketLike } from '../src/server/connection';
+import type { Message } from '../src/server/messages';
 import { envelope, frame, kStream, snapshot } from './samples';
 
 class FakeSocket implements SocketLike {

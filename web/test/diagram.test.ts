@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { Api } from '../src/api';
-import { evidence_in_words, evidence_of, plan_from, plan_in_words, shares } from '../src/diagram';
-import { parse_diagram, parse_job, type Diagram, type Job } from '../src/messages';
+import { Api } from '../src/server/api';
+import { evidence_in_words, evidence_of, plan_from, plan_in_words, shares } from '../src/diagram/reading';
+import { parse_diagram, parse_job, type Diagram, type Job } from '../src/server/messages';
 import { diagram_json, job_json, wait_json } from './samples';
 
 type Cells = Parameters<typeof diagram_json>[0];

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { example_job, pretty, quintic_duration_s } from '../src/example';
-import { parse_message, type CellJoint } from '../src/messages';
+import { example_job, pretty, quintic_duration_s } from '../src/compose/example';
+import { parse_message, type CellJoint } from '../src/server/messages';
 import { arm_json, envelope } from './samples';
 
 function arm() {

@@ -1,8 +1,8 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { Answer } from '../src/api';
-import { follow_job } from '../src/follow_job';
-import { parse_job, parse_message, type Job } from '../src/messages';
-import { Store } from '../src/store';
+import type { Answer } from '../src/server/api';
+import { follow_job } from '../src/server/follow_job';
+import { parse_job, parse_message, type Job } from '../src/server/messages';
+import { Store } from '../src/state/store';
 import { envelope, job_json, snapshot } from './samples';
 
 let store: Store;

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { pair_of, parse_cell, parse_message, parse_problem, range_of, shape_of, type Message } from '../src/messages';
+import { pair_of, parse_cell, parse_message, parse_problem, range_of, shape_of, type Message } from '../src/server/messages';
 import { arm_json, envelope, frame, job_json, snapshot, wait_json } from './samples';
 
 function good(text: string): Message {

@@ -1,7 +1,14 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import { parse_job, parse_message, type Job } from '../src/messages';
-import { Store, type JobList } from '../src/store';
+import { parse_job, parse_message, type Job } from '../src/server/messages';
+import { Store } from '../src/state/store';
+import { JobBook, type JobList } from '../src/state/job_book';
 import { arm_json, envelope, frame, job_json, snapshot } from './samples';
+
+const job = (id: string, over: object): Job => {
+  const parsed = parse_job(job_json(id, over));
+  if (!parsed.ok) throw new Error(parsed.fault);
+  return parsed.value;
+};
 
 let store: Store;
 
@@ -41,11 +48,26 @@ describe('the store', () => {
     expect(ids('queued')).toEqual(['b', 'a']);
   });
 
-  it('shows finished jobs newest first and forgets the oldest beyond two hundred', () => {
-    for (let i = 0; i < 230; i++) take(envelope('job', 2 + i, job_json(`j${i}`, { state: 'succeeded', ended_s: i })));
-    expect(ids('finished')).toHaveLength(200);
-    expect(ids('finished')[0]).toBe('j229');
-    expect(store.job('j29')).toBeNull();
+  it('shows finished jobs newest first and forgets the oldest', () => {
+    const book = new JobBook(100);
+    for (let i = 0; i < 230; i++) book.take(job(`j${i}`, { state: 'succeeded', ended_s: i }), i);
+    expect(book.list('finished').length).toBeLessThanOrEqual(105);
+    expect(book.list('finished')[0]?.id).toBe('j229');
+    expect(book.get('j29')).toBeNull();
+    expect(book.get('j130')).not.toBeNull();
+  });
+
+  it('remembers when a job stood on its path, and since when it is blocked', () => {
+    const book = new JobBook();
+    book.take(job('a', { state: 'running' }), 1);
+    book.take(job('a', { state: 'holding' }), 2);
+    expect(book.stands('a')).toEqual([{ from_s: 2, to_s: null }]);
+    book.take(job('a', { state: 'running' }), 3.5);
+    expect(book.stands('a')).toEqual([{ from_s: 2, to_s: 3.5 }]);
+    book.take(job('b', { state: 'backlogged' }), 4);
+    book.take(job('b', { state: 'backlogged' }), 5);
+    expect(book.since('b')).toBe(4);
+    expect(book.changes('a').map((change) => change.state)).toEqual(['running', 'holding', 'running']);
   });
 
   it('carries progress on between reports, never beyond the end, and not while an arm holds', () => {

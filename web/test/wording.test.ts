@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { parse_message, type Job, type MonitorData, type WaitsOn } from '../src/messages';
+import { parse_message, type Job, type MonitorData, type WaitsOn } from '../src/server/messages';
 import {
-  clearance_in_words, clock, figure_in_words, found_in_words, millimetres, monitor_in_words, reason_in_words,
+  clearance_in_words, clock, conflict_in_words, figure_in_words, found_in_words, millimetres, monitor_in_words, reason_in_words,
   result_in_words, seconds, short_id, why_mute,
 } from '../src/wording';
 import { envelope, job_json, wait_json } from './samples';
@@ -118,5 +118,13 @@ describe('figures', () => {
   it('cut machine-made ids and keep chosen ones', () => {
     expect(short_id('0b9f1c3a-1111-4222-8333-444455556666')).toBe('0b9f1c3a');
     expect(short_id('pick-7')).toBe('pick-7');
+  });
+});
+
+describe('a conflict that was only asked about', () => {
+  it('names whom, how close and when', () => {
+    expect(conflict_in_words(wait_json({ kind: 'object', id: 'post' }) as never)).toBe(
+      'beside post, left_panda_hand would come within 12 mm of right_panda_link6, 1.24 s into its motion');
+    expect(conflict_in_words(wait_json({ kind: 'arm', id: null, arm: 'left', links: [] }) as never)).toBe('beside arm left');
   });
 });

@@ -115,6 +115,23 @@ export interface components {
             stopping: boolean;
             /** @description Empty when it does not wait */
             waits_on: components["schemas"]["Wait"][];
+            /**
+             * @description It may change places with others of its arm that say so
+             * @enum {string}
+             */
+            order?: "any";
+            /** @description Arms of which one does it; `arms` is that one, or the likeliest while it waits */
+            alternatives?: string[];
+            /** @description Why it was taken before others, or by this arm */
+            choice?: {
+                /** @description Jobs that could have taken the turn, or arms that could have done it: as it was first */
+                among: string[];
+                /** @description One of these */
+                taken: string;
+                /** @description By so much the plan costs less than with the first; null: that is taken, or could not go */
+                saves_s: number | null;
+                detail: string;
+            };
             /** @description The deadlock that it is part of, itself first: each waits for the next one, the last for the first. Else empty */
             ring: string[];
             /** @description null until terminal */
@@ -144,6 +161,14 @@ export interface components {
             evaluations: number;
             scene_version: number;
         };
+        /** @description Times are cell time, if not said otherwise. */
+        Timeline: {
+            now_s: number;
+            /** @description So many legs of a lane are admitted at most, the one under way included */
+            horizon_legs: number;
+            /** @description In the cell's order */
+            arms: components["schemas"]["TimelineLane"][];
+        };
         /** @description RFC 9457. */
         Problem: {
             type: string;
@@ -162,6 +187,18 @@ export interface components {
                 /** @description What was found there */
                 value: string | number | null;
             }[];
+        };
+        /** @description The answer of the admission code to: what if this job came now? */
+        Verdict: {
+            /** @enum {string} */
+            verdict: "free" | "conflict" | "undecided";
+            /** @description From now; 0 when free, null when not known */
+            earliest_start_s: number | null;
+            /** @description What is proven to be kept between arms, and by arms from what stands still: the least that any such pair was held to */
+            clearance_bound_m: number | null;
+            conflicts: components["schemas"]["Wait"][];
+            evaluations: number;
+            scene_version: number;
         };
         SnapshotEvent: {
             /**
@@ -483,6 +520,14 @@ export interface components {
             a_s: number;
             b_s: number;
         };
+        TimelineLane: {
+            /** @description The arm */
+            name: string;
+            /** @description In the order in which they go */
+            legs: components["schemas"]["TimelineLeg"][];
+            /** @description Jobs of the arm that are not admitted, behind the horizon or for other reasons: these have no times yet */
+            waiting: number;
+        };
         Snapshot: {
             cell: string;
             policy: string;
@@ -554,8 +599,35 @@ export interface components {
                 [key: string]: number[];
             };
         };
+        /** @description A motion that is admitted. It follows the one before it on its arms; that wait is no pause. */
+        TimelineLeg: {
+            id: components["schemas"]["JobId"];
+            /** @description For people; may be empty */
+            name: string;
+            /** @description That it moves, each in its lane */
+            arms: string[];
+            state: components["schemas"]["JobState"];
+            /** @description Share of the trajectory's time, at now_s */
+            progress: number;
+            /** @description Leaves its start, or has left it; null: never, as things are */
+            starts_s: number | null;
+            /** @description null: it does not come to its end as things are; its last pause says what holds it, unless it is given up and brakes */
+            ends_s: number | null;
+            /** @description From now on */
+            pauses: components["schemas"]["TimelinePause"][];
+        };
         /** @enum {string} */
         ArmState: "idle" | "moving" | "holding" | "stopped" | "fault";
+        /** @description A leg stands, at its start or on its way. */
+        TimelinePause: {
+            from_s: number;
+            /** @description null: for ever as things are; then it is the last one */
+            to_s: number | null;
+            /** @description Where, in trajectory time */
+            at_s: number;
+            /** @description For whom; null: for a reason of its arms' own, expected to last for as long again */
+            waits_on: components["schemas"]["Wait"] | null;
+        };
     };
     responses: never;
     parameters: never;

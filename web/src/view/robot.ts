@@ -6,12 +6,13 @@
 
 import * as THREE from 'three';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
-import type { ArmState, CellArm, CellRobot } from '../messages';
-import { kStateColours } from '../palette';
+import type { ArmState, CellArm, CellRobot } from '../server/messages';
+import { ink, kStateColours } from '../state/palette';
 import type { Surfaces } from './surfaces';
 import { mark_geometry, place } from './shapes';
 import { merge_links } from './skin';
 
+const kLitRing = 1.45;
 const kStill_rad = 1e-5;
 
 interface ArmMark {
@@ -24,9 +25,13 @@ export class RobotModel {
   private readonly marks_ = new Map<string, ArmMark>();
   private readonly joints_: { name: string; key: string; value: number }[];
   private readonly skin_: THREE.MeshStandardMaterial;
+  private readonly arms_: readonly CellArm[];
+  private readonly prefix_: string;
 
   /** `surfaces`: what was read of the robot's meshes, by address. Throws when the text is not a URDF. */
   constructor(robot: CellRobot, surfaces: Surfaces = new Map()) {
+    this.arms_ = robot.arms;
+    this.prefix_ = robot.prefix;
     this.root = load(robot, surfaces);
     choose_shapes(this.root);
     this.skin_ = merge_links(this.root);
@@ -51,15 +56,43 @@ export class RobotModel {
   show_state(arm: string, state: ArmState): void {
     const mark = this.marks_.get(arm);
     if (!mark) return;
-    mark.ring.material.color.set(kStateColours[state]);
+    mark.ring.material.color.set(ink(kStateColours[state]));
     mark.ring.material.opacity = state === 'idle' ? 0.5 : 0.95;
     const alarmed = state === 'fault' || state === 'stopped';
     this.skin_.emissive.set(alarmed ? 0x4a0d10 : 0x000000);
   }
 
+  /** A wider ring around the arms that are looked at. */
+  show_lit(arms: readonly string[]): void {
+    for (const [arm, mark] of this.marks_) mark.ring.scale.setScalar(arms.includes(arm) ? kLitRing : 1);
+  }
+
   /** The point of the world where the arm stands; null for an arm that is not this robot's. */
   foot(arm: string): THREE.Vector3 | null {
     return this.marks_.get(arm)?.foot.getWorldPosition(new THREE.Vector3()) ?? null;
+  }
+
+  /** Where the arm's tool is in the world: between its fingers, else at its last joint. */
+  tool(arm: string): THREE.Vector3 | null {
+    const known = this.arms_.find((one) => one.name === arm);
+    if (!known) return null;
+    const named = known.gripper_joints.length > 0 ? known.gripper_joints : known.joints.slice(-1);
+    const joints = named.flatMap((name) => this.root.joints[name.slice(this.prefix_.length)] ?? []);
+    if (joints.length === 0) return null;
+    const sum = joints.reduce((all, joint) => all.add(joint.getWorldPosition(new THREE.Vector3())), new THREE.Vector3());
+    return sum.divideScalar(joints.length);
+  }
+
+  /** The arm that a drawn thing belongs to; the robot's only one for what no joint moves. */
+  arm_of(node: THREE.Object3D): string | null {
+    let inside = false;
+    for (let at: THREE.Object3D | null = node; at; at = at.parent) {
+      const joint = 'isURDFJoint' in at ? this.prefix_ + at.name : null;
+      const arm = joint === null ? undefined : this.arms_.find(({ joints, gripper_joints }) => joints.includes(joint) || gripper_joints.includes(joint));
+      if (arm) return arm.name;
+      inside ||= at === this.root;
+    }
+    return inside && this.arms_.length === 1 ? this.arms_[0]?.name ?? null : null;
   }
 
   private mark(arm: CellArm, prefix: string): ArmMark {

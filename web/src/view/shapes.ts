@@ -2,7 +2,7 @@
 // yaw about the fixed axes x, y, z.
 
 import * as THREE from 'three';
-import { shape_of, type SceneObject, type Shape } from '../messages';
+import { shape_of, type SceneObject, type Shape } from '../server/messages';
 
 export function place(object: THREE.Object3D, xyz: readonly number[], rpy: readonly number[]): void {
   object.position.set(xyz[0] ?? 0, xyz[1] ?? 0, xyz[2] ?? 0);
@@ -20,7 +20,7 @@ export function object_mesh(object: SceneObject, surface: THREE.BufferGeometry |
   const geometry = shape.kind === 'mesh'
     ? scaled(surface ?? mark_geometry(), surface ? shape.scale : [1, 1, 1])
     : shape_geometry(shape);
-  const material = new THREE.MeshStandardMaterial({ color: 0x2c323b, emissive: 0x161b22, roughness: 0.85, metalness: 0 });
+  const material = new THREE.MeshStandardMaterial({ roughness: 0.85, metalness: 0 });
   const mesh = new THREE.Mesh(geometry, material);
   mesh.name = object.name;
   mesh.castShadow = true;

@@ -8,15 +8,18 @@
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { Camera } from '../route/address';
+import { ink } from '../state/palette';
+import { distance_for, type Opening } from './framing';
 import { kLevels, Pace, type Level } from './pace';
+import { add_lights, floor, kShadows, light_up } from './scenery';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
-const kFog = 0x0f1319;
-const kShadows = 0.7;
 // A drawing is waited for so long before the next one is asked for: on a busy machine drawings that are
 // asked for before the last one is done pile up, and the page answers no click until all are drawn.
 const kLongestFrame_ms = 10_000;
+const kMargin = 1.06;
 const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
 
 export class Stage {
@@ -27,8 +30,12 @@ export class Stage {
 
   private readonly renderer_: THREE.WebGLRenderer;
   private readonly controls_: OrbitControls;
-  private readonly target_ = new THREE.Vector3(0, 0, 0.4);
-  private radius_ = 1.2;
+  /** Told when the user has turned or moved the camera. */
+  on_camera: (camera: Camera) => void = () => {};
+
+  private readonly fog_ = new THREE.Fog(0x000000, 5, 14);
+  private floor_: THREE.Group | null = null;
+  private shown_box_ = new THREE.Box3(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
   private covered_px_ = 0;
   private moved_by_user_ = false;
   private frame_: number | null = null;
@@ -55,16 +62,24 @@ export class Stage {
     this.renderer_.shadowMap.autoUpdate = false;
     host_.prepend(this.renderer_.domElement);
 
-    this.scene.fog = new THREE.Fog(kFog, 5, 14);
+    this.scene.fog = this.fog_;
     this.key_light_ = add_lights(this.scene);
-    add_floor(this.scene);
+    this.show_theme();
 
     this.controls_ = new OrbitControls(this.camera, this.renderer_.domElement);
     this.controls_.maxPolarAngle = Math.PI / 2 - 0.03;
     this.controls_.minDistance = 0.5;
-    this.controls_.maxDistance = 12;
-    this.controls_.addEventListener('start', () => { this.moved_by_user_ = true; });
-    this.controls_.addEventListener('change', () => this.invalidate());
+    let before = this.camera_now();
+    this.controls_.addEventListener('start', () => { before = this.camera_now(); });
+    this.controls_.addEventListener('end', () => {
+      if (is_same(before, this.camera_now())) return;  // it was a click
+      this.moved_by_user_ = true;
+      this.on_camera(this.camera_now());
+    });
+    this.controls_.addEventListener('change', () => {
+      this.fit_depth();
+      this.invalidate();
+    });
     new ResizeObserver(() => this.resize()).observe(host_);
     this.resize();
   }
@@ -80,25 +95,46 @@ export class Stage {
     return this.renderer_.domElement;
   }
 
-  /** Looks at a sphere (centre, radius in m) so that it fills the view; kept until the user turns it. */
-  frame(centre: THREE.Vector3, radius_m: number): void {
-    this.target_.copy(centre);
-    this.radius_ = radius_m;
-    this.moved_by_user_ = false;
+  /** Looks at a box so that it fills the view; kept until the user turns it. */
+  frame(box: THREE.Box3): void {
+    this.shown_box_ = box.clone();
+    const radius_m = box.getBoundingSphere(new THREE.Sphere()).radius;
+    this.controls_.maxDistance = Math.max(12, 8 * radius_m);
+    this.camera.far = 12 * this.controls_.maxDistance;
+    light_up(this.key_light_, box.getCenter(new THREE.Vector3()), Math.max(1.7, radius_m));
     this.resize();
   }
 
-  /** Moves the middle of the picture to the middle of what is not covered, and as far away as it needs. */
+  /** As an address has it; null: as it is. */
+  show_camera(camera: Camera | null): void {
+    if (!camera || is_same(camera, this.camera_now())) return;
+    this.moved_by_user_ = true;
+    this.camera.position.set(camera[0], camera[1], camera[2]);
+    this.controls_.target.set(camera[3], camera[4], camera[5]);
+    this.controls_.update();
+    this.invalidate();
+  }
+
+  show_theme(): void {
+    this.fog_.color.set(ink('--view-far'));
+    if (this.floor_) this.scene.remove(this.floor_);
+    this.floor_ = floor();
+    this.scene.add(this.floor_);
+    this.invalidate();
+  }
+
+  /** Lets the graphics card have its memory back. */
+  close(): void {
+    if (this.frame_ !== null) cancelAnimationFrame(this.frame_);
+    this.controls_.dispose();
+    this.renderer_.dispose();
+    this.renderer_.domElement.remove();
+  }
+
+  /** Moves the middle of the picture to the middle of what is not covered, as small as it needs. */
   set_covered(left_px: number): void {
     if (left_px === this.covered_px_) return;
-    const half_before = this.half_angle();
     this.covered_px_ = left_px;
-    if (this.moved_by_user_) {
-      // The user's own direction is kept; what filled the free part before fills it again.
-      const further = Math.sin(half_before) / Math.sin(this.half_angle());
-      this.camera.position.sub(this.controls_.target).multiplyScalar(further).add(this.controls_.target);
-      this.controls_.update();
-    }
     this.resize();
   }
 
@@ -123,6 +159,15 @@ export class Stage {
       this.waiting_.push(done);
       this.invalidate();
     });
+  }
+
+  /** The line of sight through a point of the page, px from the view's top left. */
+  sight(x_px: number, y_px: number): THREE.Raycaster {
+    const { clientWidth: width, clientHeight: height } = this.host_;
+    const caster = new THREE.Raycaster();
+    caster.params.Line.threshold = 0.002;  // three's own is a metre
+    caster.setFromCamera(new THREE.Vector2((2 * x_px) / width - 1, 1 - (2 * y_px) / height), this.camera);
+    return caster;
   }
 
   /** Where a point of the world stands on the page, px from the view's top left; null behind the camera. */
@@ -174,26 +219,53 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.renderer_.setSize(width, height);
     this.camera.aspect = width / height;
+    // The camera stays where it is, so that an address means the same with a pane and without.
+    this.camera.zoom = this.distance_through(0) / this.distance_through(this.covered_px_);
     this.camera.setViewOffset(width, height, -this.covered_px_ / 2, 0, width, height);
     this.camera.updateProjectionMatrix();
     if (!this.moved_by_user_) this.look_from_default();
     this.invalidate(true);
   }
 
-  /** Half of the angle under which the free part of the picture is seen, the narrower of up and across. */
-  private half_angle(): number {
-    const half_up = THREE.MathUtils.degToRad(this.camera.fov / 2);
+  /** Tangents of the half angles under which the part that is not covered is seen. */
+  private opening(covered_px: number): Opening {
     const { clientWidth: width, clientHeight: height } = this.host_;
-    const free_aspect = Math.max(0.2, (width - this.covered_px_) / height);
-    return Math.min(half_up, Math.atan(Math.tan(half_up) * free_aspect));
+    const up = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
+    return { across: up * Math.max(0.2, (width - covered_px) / height), up };
+  }
+
+  /** From where all is seen beside what is covered. */
+  private distance_through(covered_px: number): number {
+    return kMargin * distance_for(this.shown_box_, kDirection, this.opening(covered_px));
   }
 
   private look_from_default(): void {
-    const half = this.half_angle();
-    this.camera.position.copy(this.target_).addScaledVector(kDirection, this.radius_ / Math.sin(half));
-    this.controls_.target.copy(this.target_);
+    const middle = this.shown_box_.getCenter(new THREE.Vector3());
+    this.camera.position.copy(middle).addScaledVector(kDirection, this.distance_through(0));
+    this.controls_.target.copy(middle);
     this.controls_.update();
+    this.fit_depth();
   }
+
+  /** Fog begins behind what is looked at, however far away that is. */
+  private fit_depth(): void {
+    const distance = this.camera.position.distanceTo(this.controls_.target);
+    const depth = this.shown_box_.getSize(new THREE.Vector3()).length();
+    this.fog_.near = distance + 0.7 * depth;
+    this.fog_.far = 2 * distance + 4 * depth;
+    this.camera.updateProjectionMatrix();
+  }
+
+  private camera_now(): Camera {
+    const { position } = this.camera;
+    const { target } = this.controls_;
+    return [position.x, position.y, position.z, target.x, target.y, target.z];
+  }
+}
+
+/** As an address tells it: to the millimetre. */
+function is_same(a: Camera, b: Camera): boolean {
+  return a.every((value, i) => Math.abs(value - (b[i] ?? 0)) < 2e-3);
 }
 
 function wants_fine_picture(): boolean {
@@ -206,33 +278,4 @@ function renders_in_software(): boolean {
   const renderer = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|softpipe|basic render/i.test(renderer);
-}
-
-/** Answers the one that throws shadows. */
-function add_lights(scene: THREE.Scene): THREE.DirectionalLight {
-  scene.add(new THREE.HemisphereLight(0xe6edf7, 0x39404c, 1.7));
-  const key = new THREE.DirectionalLight(0xfff6ea, 1.9);
-  key.position.set(1.1, -1.7, 4.2);
-  key.castShadow = true;
-  key.shadow.mapSize.set(1024, 1024);
-  key.shadow.radius = 5;
-  key.shadow.normalBias = 0.02;
-  key.shadow.intensity = kShadows;
-  const reach_m = 1.7;
-  Object.assign(key.shadow.camera, { left: -reach_m, right: reach_m, top: reach_m, bottom: -reach_m, near: 0.5, far: 9 });
-  const rim = new THREE.DirectionalLight(0xa9c8f5, 0.7);
-  rim.position.set(-2.5, 2.5, 1.6);
-  scene.add(key, rim);
-  return key;
-}
-
-function add_floor(scene: THREE.Scene): void {
-  const fine = new THREE.GridHelper(16, 64, 0x222a35, 0x1a2029);
-  const coarse = new THREE.GridHelper(16, 16, 0x2b3542, 0x2b3542);
-  for (const grid of [fine, coarse]) {
-    grid.rotation.x = Math.PI / 2;
-    scene.add(grid);
-  }
-  fine.position.z = -0.003;
-  coarse.position.z = -0.002;
 }

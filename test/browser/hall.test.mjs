@@ -1,0 +1,92 @@
+// Eight arms and two hundred waiting jobs stay legible: in a hall of Pandas side by side, labels do not
+// cover each other, every arm has its lane and card, and the lists stay short.
+//
+//   node --test test/browser/hall.test.mjs      (after the server and web/dist were built; see harness.mjs)
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { ask, Browser, job_through, kRoot, path_for, Server } from './harness.mjs';
+
+const kArms = 8;
+const kJobsOfEach = 26;
+const kHome = [0, -1.2, 0, -2.6, 0, 1.6, 0.785];
+const kLeastLane_px = 20;
+
+const folder = mkdtempSync(join(tmpdir(), 'armloom-hall-'));
+const server = new Server(join(folder, 'hall.json'), 'coordinated');
+const chromium = new Browser();
+let page;
+
+before(async () => {
+  writeFileSync(join(folder, 'hall.json'), JSON.stringify(hall()));
+  const url = await server.start();
+  page = await chromium.open({ colorScheme: 'dark' });
+  await chromium.visit(url);
+  await ask(page, 'PUT', '/sim/speed', { speed: 0.25 });
+}, { timeout: 90_000 });
+
+after(async () => {
+  await chromium.close();
+  await server.end();
+  rmSync(folder, { recursive: true, force: true });
+}, { timeout: 30_000 });
+
+/** Neighbours 0.8 m apart: they reach into each other's room. */
+function hall() {
+  const robots = Array.from({ length: kArms }, (_, i) => ({
+    name: `arm${i}`, urdf: join(kRoot, 'models/panda.urdf'), srdf: join(kRoot, 'models/panda.srdf'), prefix: `arm${i}_`,
+    base: { xyz: [0.8 * (i - (kArms - 1) / 2), 0, 0.1], rpy: [0, 0, Math.PI / 2] },
+    arms: [{ name: `arm${i}`, group: 'panda_arm', home: kHome }],
+    controller: { type: 'sim', lag_s: 0.02, noise_rad: 0 },
+  }));
+  const table = { name: 'table', box: [0.8 * kArms + 1, 1.6, 0.1], xyz: [0, 0.4, 0.05], rpy: [0, 0, 0] };
+  const scheduling = { policy: 'coordinated', backlog_timeout_s: 600, aging_s: 30, on_idle_blocker: 'park' };
+  return { name: 'hall', robots, objects: [table], clearance_m: 0.02, scheduling };
+}
+
+/** There and back again and again, to the one side and to the other. */
+function jobs_of(arm) {
+  const names = Array.from({ length: 7 }, (_, i) => `arm${arm}_panda_joint${i + 1}`);
+  const there = (k) => [((k / 2 + arm) % 2 < 1 ? -1 : 1) * 1.2, 0.2, 0, -1.9, 0, 2.1, 0.785];
+  return Array.from({ length: kJobsOfEach }, (_, k) => {
+    const way = k % 2 === 0 ? [kHome, there(k)] : [there(k - 1), kHome];
+    return job_through(`arm${arm}-${k}`, names, way, 4, { name: k % 2 === 0 ? 'fetch' : 'bring' });
+  });
+}
+
+test('eight arms and two hundred waiting jobs stay legible', { timeout: 120_000 }, async () => {
+  const lists = Array.from({ length: kArms }, (_, arm) => jobs_of(arm));
+  const jobs = lists[0].flatMap((_, k) => lists.map((list) => list[k]));
+  const { status, value } = await ask(page, 'POST', '/batches', { atomic: true, jobs });
+  assert.equal(status, 202, JSON.stringify(value).slice(0, 500));
+  await page.waitForFunction((least) => window.armloom.jobs().filter(({ state }) => state !== 'running').length >= least, kArms * (kJobsOfEach - 1));
+  await page.waitForFunction(() => window.armloom.lanes().every(({ marks }) => marks.length > 0));
+  await page.evaluate(() => window.armloom.drawn());
+
+  const covered = await page.evaluate(() => {
+    const boxes = [...document.querySelectorAll('.arm-label')].map((label) => label.getBoundingClientRect());
+    const overlap = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 2 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 2;
+    return boxes.flatMap((a, i) => boxes.slice(i + 1).filter((b) => overlap(a, b))).length;
+  });
+  assert.equal(covered, 0, 'labels cover each other');
+  assert.equal(await page.locator('.card').count(), kArms);
+  const lanes_px = (await page.locator('.timeline canvas').boundingBox()).height - 18;
+  assert.ok(lanes_px / kArms >= kLeastLane_px, `a lane is ${(lanes_px / kArms).toFixed(1)} px high`);
+  const rows = await page.locator('.job').count();
+  assert.ok(rows > 2 * kArms && rows < 140, `${rows} rows are drawn`);
+  assert.equal(await page.locator('[data-test^=told-arm]').count(), kArms);
+
+  await page.screenshot(path_for('hall-dark'));
+  await page.locator('[data-test=filter]').fill('arm3');
+  assert.match(await page.locator('[data-test^=count-]').first().innerText(), /^\d+ of \d+$/);
+  await page.evaluate(() => { location.hash = '#/settings'; });
+  await page.getByLabel('Light', { exact: true }).check();
+  await page.evaluate(() => { location.hash = '#/arm/arm3'; });
+  await page.locator('[data-test=page-arm] .uplot').waitFor();
+  await page.evaluate(() => window.armloom.drawn());
+  await page.screenshot(path_for('hall-light'));
+  assert.deepEqual(chromium.errors, []);
+});

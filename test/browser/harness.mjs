@@ -1,0 +1,131 @@
+// The dashboard in a real browser beside a real server, for the tests here.
+//
+//   ARMLOOM_BINARY          the server's binary, default build/armloom
+//   ARMLOOM_WEB             the dashboard's files, default: the server's own choice, web/dist
+//   ARMLOOM_CHROMIUM        the browser, default /usr/bin/chromium
+//   ARMLOOM_SCREENSHOT_DIR  where pictures of the page go; none are kept without it
+
+import { spawn } from 'node:child_process';
+import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+export const kRoot = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
+export const web_require = createRequire(join(kRoot, 'web/package.json'));
+const { chromium } = web_require('playwright-core');
+
+const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kRoot, 'build/armloom'));
+const kChromium = process.env.ARMLOOM_CHROMIUM ?? '/usr/bin/chromium';
+const kPictures = process.env.ARMLOOM_SCREENSHOT_DIR;
+const kFlags = [
+  '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox', '--disable-quic', '--no-first-run',
+  '--disable-background-networking', '--disable-component-update', '--disable-sync',
+];
+export const kPatience_ms = 20_000;
+
+/** A server of one cell; it can be ended, and begun anew at the same address. */
+export class Server {
+  constructor(cell, policy) {
+    this.arguments_ = ['serve', '--cell', cell, '--policy', policy];
+    if (process.env.ARMLOOM_WEB) this.arguments_.push('--web', resolve(process.env.ARMLOOM_WEB));
+    this.listen_ = '127.0.0.1:0';
+  }
+
+  /** Answers its address, as it says it itself. */
+  start() {
+    this.output_ = '';
+    this.process_ = spawn(kBinary, [...this.arguments_, '--listen', this.listen_], { cwd: kRoot });
+    this.process_.on('error', (error) => { this.output_ += String(error); });
+    for (const stream of [this.process_.stdout, this.process_.stderr]) stream.on('data', (data) => { this.output_ += data; });
+    return new Promise((done, fail) => {
+      const lost = () => fail(new Error(`the server did not come up: ${kBinary}\n${this.output_}`));
+      const timer = setTimeout(lost, kPatience_ms);
+      this.process_.once('exit', lost);
+      this.process_.stdout.on('data', () => {
+        const [, url, listen] = /dashboard: (http:\/\/(127\.0\.0\.1:\d+)\/)/.exec(this.output_) ?? [];
+        if (!url) return;
+        clearTimeout(timer);
+        this.process_.off('exit', lost);
+        this.listen_ = listen;
+        done(url);
+      });
+    });
+  }
+
+  async end() {
+    const server = this.process_;
+    if (!server?.pid || server.exitCode !== null || server.signalCode !== null) return;
+    const ended = new Promise((done) => server.once('exit', done));
+    server.kill('SIGTERM');
+    const hard = setTimeout(() => server.kill('SIGKILL'), 5000);
+    await ended;
+    clearTimeout(hard);
+  }
+}
+
+/** A browser with a profile of its own; `errors` gets what its console calls one. */
+export class Browser {
+  errors = [];
+
+  async open(options = {}) {
+    this.profile_ = mkdtempSync(join(tmpdir(), 'armloom-browser-'));
+    this.context = await chromium.launchPersistentContext(this.profile_, {
+      executablePath: kChromium, args: kFlags, viewport: { width: 1440, height: 900 }, ...options,
+    });
+    this.page = this.context.pages()[0] ?? await this.context.newPage();
+    this.page.setDefaultTimeout(kPatience_ms);
+    this.page.on('console', (message) => { if (message.type() === 'error') this.errors.push(message.text()); });
+    this.page.on('pageerror', (error) => this.errors.push(String(error)));
+    return this.page;
+  }
+
+  /** The dashboard, connected and drawn. */
+  async visit(url) {
+    await this.page.goto(url, { timeout: 60_000 });  // a busy machine draws the first picture slowly
+    await this.page.locator('[data-test=link].open').waitFor();
+    await this.page.waitForFunction(() => window.armloom?.is_drawn());
+  }
+
+  async close() {
+    await this.context?.close();
+    if (this.profile_) rmSync(this.profile_, { recursive: true, force: true });
+  }
+}
+
+/** Where a picture of this name goes, as playwright wants it. */
+export function path_for(name) {
+  if (!kPictures) return {};
+  mkdirSync(kPictures, { recursive: true });
+  return { path: join(kPictures, `${name}.png`) };
+}
+
+/** Sends a request from the page; answers its status and JSON. */
+export function ask(page, method, path, body) {
+  return page.evaluate(async ([method, path, body]) => {
+    const init = { method, headers: { 'content-type': 'application/json' } };
+    if (body !== undefined) init.body = JSON.stringify(body);
+    const answer = await fetch(`/api/v1${path}`, init);
+    const text = await answer.text();
+    return { status: answer.status, value: text === '' ? null : JSON.parse(text) };
+  }, [method, path, body]);
+}
+
+/** A job through these configurations, `seconds` from each to the next, at rest at each. */
+export function job_through(id, joint_names, configurations, seconds, over = {}) {
+  const rest = joint_names.map(() => 0);
+  const points = configurations.map((positions, i) => ({
+    positions, velocities: rest, accelerations: rest, time_from_start: { sec: i * seconds, nanosec: 0 },
+  }));
+  return { id, trajectory: { joint_names, points }, ...over };
+}
+
+/** An arm's joints and where they are. */
+export function arm_now(page, arm) {
+  return page.evaluate((arm) => {
+    const all = window.armloom.q();
+    const names = Object.keys(all).filter((name) => name.startsWith(`${arm}_panda_joint`)).sort();
+    return { names, q: names.map((name) => all[name]) };
+  }, arm);
+}

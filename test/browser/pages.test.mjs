@@ -1,0 +1,293 @@
+// The dashboard's pages, used as a person would: addresses, the timeline's future, keys, look-back, both
+// themes, what axe-core finds, names that try to be HTML, and a server that is started anew.
+//
+//   node --test test/browser/pages.test.mjs      (after the server and web/dist were built; see harness.mjs)
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { after, before, test } from 'node:test';
+import { arm_now, ask, Browser, job_through, path_for, Server, web_require } from './harness.mjs';
+import { difference } from './pictures.mjs';
+
+const kStop = 'Stop all: controlled, drives stay powered';
+const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
+const kAxe = readFileSync(web_require.resolve('axe-core/axe.min.js'), 'utf8');
+const kLeastGhost_px = 1500;
+// A name that would do something, were it taken for HTML.
+const kHostile = '<img src=x onerror="window.was_html=1"><b>&amp;';
+
+const server = new Server('config/two_pandas.json', 'coordinated');
+const chromium = new Browser();
+let url;
+let page;
+
+before(async () => {
+  url = await server.start();
+  page = await chromium.open({ colorScheme: 'dark' });
+  await chromium.visit(url);
+}, { timeout: 90_000 });
+
+after(async () => {
+  await chromium.close();
+  await server.end();
+}, { timeout: 30_000 });
+
+async function send(arm, id, way, seconds, over = {}) {
+  const { names, q } = await arm_now(page, arm);
+  const { status, value } = await ask(page, 'POST', '/jobs', job_through(id, names, [q, ...way.map((to) => to ?? q)], seconds, over));
+  assert.equal(status, 202, JSON.stringify(value));
+}
+
+async function view_picture() {
+  await page.evaluate(() => window.armloom.drawn());
+  return page.locator('.view canvas').screenshot();
+}
+
+const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
+
+// Both want the middle: the right one is admitted behind the left one, and stands or waits for it.
+test('the timeline shows what comes: motions, waits, and for whom', { timeout: 60_000 }, async () => {
+  await ask(page, 'PUT', '/sim/speed', { speed: 0.25 });  // a busy machine is given the time to look
+  await send('left', 'first', [kMiddle, null], 6, { name: 'to the middle' });
+  await send('right', 'second', [kMiddle, null], 6, { name: 'behind it' });
+  await page.waitForFunction(() => window.armloom.lanes().find((lane) => lane.arm === 'right')
+    ?.marks.some((mark) => mark.expected && mark.kind !== 'motion' && mark.waits_on?.arm === 'left'));
+  const told = page.locator('[data-test=told-right]');
+  await page.waitForFunction(() => /behind it waits for job first of left/.test(document.querySelector('[data-test=told-right]')?.textContent ?? ''));
+  assert.match(await told.textContent(), /behind it: (expected|runs on)/);
+  const row = page.locator('[data-test="job-second"]');
+  assert.match(await row.locator('[data-test=when]').innerText(), /starts in about|ends in about|about to start/);
+  await page.screenshot(path_for('timeline-dark'));
+
+  // The bar of what is expected of the right arm leads to its job.
+  const canvas = page.locator('.timeline canvas');
+  const { width, height } = await canvas.boundingBox();
+  const lane = Math.min(54, (height - 18) / 2);
+  await canvas.hover({ position: { x: 72 + (width - 82) * 0.66, y: lane * 1.4 } });
+  assert.match(await page.locator('.tip').innerText(), /behind it/);
+  await canvas.click({ position: { x: 72 + (width - 82) * 0.66, y: lane * 1.4 } });
+  await page.locator('[data-test=page-job] h2').waitFor();
+  assert.equal(await page.locator('[data-test=page-job] h2').innerText(), 'behind it');
+  assert.match(page.url(), /#\/job\/second/);
+  await page.screenshot(path_for('job-dark'));
+  await ask(page, 'PUT', '/sim/speed', { speed: 1 });
+});
+
+test('an address shows the same to whoever opens it: job, instant and camera', { timeout: 60_000 }, async () => {
+  // The user turns the cell, and holds an instant that is past.
+  const view = await page.locator('.view canvas').boundingBox();
+  await page.mouse.move(view.x + view.width * 0.8, view.y + view.height * 0.3);
+  await page.mouse.down();
+  await page.mouse.move(view.x + view.width * 0.8 + 60, view.y + view.height * 0.3 + 15, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForFunction(() => /camera=/.test(location.hash));
+  const scrub = page.locator('[data-test=scrub]');
+  await scrub.focus();
+  for (let i = 0; i < 12; i++) await page.keyboard.press('ArrowLeft');
+  await page.locator('[data-test=instant]').waitFor();
+  const address = page.url();
+  assert.match(address, /#\/job\/second\?t=\d/);
+
+  const other = await chromium.context.newPage();
+  await other.goto(address);
+  await other.locator('[data-test=page-job] h2').waitFor();
+  assert.equal(await other.locator('[data-test=page-job] h2').innerText(), 'behind it');
+  await other.locator('[data-test=instant]').waitFor();
+  assert.equal(new URL(other.url()).hash, new URL(address).hash);
+  await other.close();
+
+  await page.locator('[data-test=follow-now]').click();
+  await page.locator('[data-test=instant]').waitFor({ state: 'detached' });
+  assert.doesNotMatch(page.url(), /[?&]t=/);
+});
+
+test('a click on an arm or an object leads to it, and lights it up in every view', { timeout: 60_000 }, async () => {
+  await go('#/');
+  await page.evaluate(() => window.armloom.drawn());
+  // Above the middle of its label an arm has its foot.
+  const label = await page.locator('.arm-label', { hasText: 'left' }).boundingBox();
+  await page.mouse.click(label.x + label.width / 2, label.y - 34);
+  await page.locator('[data-test=page-arm]').waitFor();
+  assert.match(page.url(), /#\/arm\/left/);
+  await page.locator('.arm-label.lit', { hasText: 'left' }).waitFor();
+  await page.locator('[data-test=arm-left].lit').waitFor();
+  await page.evaluate(() => window.armloom.drawn());
+  const view = await page.locator('.view canvas').boundingBox();
+  await page.mouse.click(view.x + view.width * 0.75, view.y + view.height * 0.75);
+  await page.locator('[data-test=page-scene]').getByText('Change table').waitFor();
+});
+
+test('keys lead to pages and back, and F8 stops, in a text field, too', { timeout: 60_000 }, async () => {
+  await page.locator('h1').click();
+  await page.keyboard.press('h');
+  await page.locator('[data-test=page-history]').waitFor();
+  await page.keyboard.press('Escape');
+  await page.locator('[data-test=page-history]').waitFor({ state: 'detached' });
+  await page.keyboard.press('n');
+  const text = page.locator('[data-test=job-text]');
+  await text.fill('');
+  await text.focus();
+  await page.keyboard.type('hc');
+  assert.equal(await text.inputValue(), 'hc', 'letters that are typed lead nowhere');
+  await page.keyboard.press('F8');
+  await page.locator('[data-test=stopped]').waitFor();
+  await page.screenshot(path_for('stopped-dark'));
+  await page.getByRole('button', { name: 'Resume', exact: true }).click();
+  await page.locator('[data-test=stopped]').waitFor({ state: 'detached' });
+  assert.equal(await page.getByRole('button', { name: kStop }).count(), 1);
+  await text.fill('');
+});
+
+test('objects are added, moved and taken away by form', { timeout: 60_000 }, async () => {
+  await page.locator('[data-test=go-scene]').click();
+  const fill = async (values) => { for (const [key, value] of Object.entries(values)) await page.locator(`[data-test=object-${key}]`).fill(value); };
+  await fill({ name: 'can' });
+  await page.locator('[data-test=object-kind]').selectOption('cylinder');
+  await fill({ radius: '0.08', length: '0.3', x: '-0.3', y: '0.9', z: '0.4', roll: '90' });
+  await page.locator('[data-test=object-save]').click();
+  await page.waitForFunction(() => window.armloom.objects().some((object) => object.name === 'can' && object.cylinder?.[0] === 0.08 && Math.abs(object.rpy[0] - Math.PI / 2) < 1e-6));
+  await page.waitForURL(/#\/scene\/can/);
+  await fill({ x: '0.3' });
+  await page.locator('[data-test=object-save]').click();
+  await page.waitForFunction(() => window.armloom.objects().some((object) => object.name === 'can' && object.xyz[0] === 0.3));
+  await fill({ length: '-1' });
+  await page.locator('[data-test=object-save]').click();
+  assert.match(await page.locator('[data-test=problem]').innerText(), /cylinder|length|greater|positive|> 0/i);
+  await page.screenshot(path_for('scene-dark'));
+  await page.locator('[data-test=object-remove]').click();
+  await page.locator('[data-test=object-removal]').click();
+  await page.waitForFunction(() => !window.armloom.objects().some((object) => object.name === 'can'));
+});
+
+test('a job is judged before it is sent, a bag of jobs is taken whole', { timeout: 60_000 }, async () => {
+  await page.locator('[data-test=list-finished] [data-test="job-second"]').waitFor({ timeout: 40_000 });
+  await page.locator('[data-test=new-job]').click();
+  const { names, q } = await arm_now(page, 'left');
+  const text = page.locator('[data-test=job-text]');
+  await text.fill(JSON.stringify(job_through('judged', names, [q, kMiddle, q], 4)));
+  await page.locator('[data-test=judge]').click();
+  assert.match(await page.locator('[data-test=judged]').innerText(), /free: it could start now/);
+  assert.equal((await ask(page, 'GET', '/jobs/judged')).status, 404);
+
+  // Previewed: a ghost of the arm where it would be, and where it would meet what stands in its way.
+  const without = await view_picture();
+  await page.locator('[data-test=preview-time]').fill('4');
+  const ghost = await difference(chromium.context, without, await view_picture());
+  assert.ok(ghost.count > kLeastGhost_px, `${ghost.count} pixels changed`);
+  await ask(page, 'PUT', '/scene/objects/post', { box: [0.1, 0.1, 0.6], xyz: [-0.05, 0, 0.6], rpy: [0, 0, 0] });
+  await page.locator('[data-test=judge]').click();
+  await page.locator('[data-test=show-conflict]').first().click();
+  assert.match(await page.locator('[data-test=judged]').innerText(), /in conflict/);
+  await page.waitForFunction(() => { const at = Number(document.querySelector('[data-test=preview-time]').value); return at > 0.1 && at < 3.9; });
+  await page.evaluate(() => window.armloom.drawn());
+  await page.screenshot(path_for('preview-dark'));
+  await ask(page, 'DELETE', '/scene/objects/post');
+  const bag = [1, 2].map((i) => ({ at: 0, job: job_through(`bag-${i}`, names, [q, q.map((v, k) => v + (k === 0 ? 0.1 * i : 0)), q], 1) }));
+  await text.fill(JSON.stringify(bag));
+  assert.match(await page.locator('[data-test=bag]').innerText(), /2 jobs/);
+  await page.screenshot(path_for('compose-dark'));
+  await page.locator('[data-test=send]').click();
+  await page.locator('[data-test=accepted]').getByText('bag-2').click();
+  await page.locator('[data-test=page-job]').getByText('bag-2').first().waitFor();
+  await page.locator('[data-test=list-finished] [data-test="job-bag-2"]').waitFor();
+});
+
+test('a job is cancelled after a question only', { timeout: 60_000 }, async () => {
+  await send('left', 'unwanted', [kMiddle, null], 5);
+  const row = page.locator('[data-test="job-unwanted"]');
+  await row.getByRole('button', { name: 'Cancel unwanted' }).click();
+  await row.getByRole('button', { name: 'Keep' }).click();
+  assert.match(await row.getAttribute('data-state'), /queued|running|scheduled/);
+  await row.getByRole('button', { name: 'Cancel unwanted' }).click();
+  await row.locator('[data-test=confirm-cancel]').click();
+  await page.locator('[data-test=list-finished] [data-test="job-unwanted"]').waitFor();
+  await page.locator('[data-test=filter]').fill('canceled left');
+  await page.locator('[data-test="job-first"]').waitFor({ state: 'detached' });
+  assert.equal(await row.getAttribute('data-state'), 'canceled');
+  await page.locator('[data-test=filter]').fill('');
+});
+
+test('names never become HTML', { timeout: 60_000 }, async () => {
+  await page.evaluate(() => { window.was_html = 0; });
+  const { names, q } = await arm_now(page, 'right');
+  const job = job_through('hostile', names, [q, q.map((v, k) => v + (k === 0 ? 0.2 : 0)), q], 2, { name: kHostile });
+  assert.equal((await ask(page, 'POST', '/jobs', job)).status, 202);
+  const object = await ask(page, 'PUT', `/scene/objects/${encodeURIComponent('<b>crate')}`, { box: [0.1, 0.1, 0.1], xyz: [-0.3, 0.9, 0.4], rpy: [0, 0, 0] });
+  assert.ok(object.status < 300, JSON.stringify(object.value));
+  await page.locator('[data-test="job-hostile"]').getByText(kHostile).waitFor();
+  for (const hash of ['#/job/hostile', '#/history', '#/scene', `#/scene/${encodeURIComponent('<b>crate')}`, `#/job/${encodeURIComponent(kHostile)}`, `#/${kHostile}`]) {
+    await go(hash);
+    await page.locator('.pane').waitFor();
+    assert.equal(await page.evaluate(() => document.querySelectorAll('.pane img, .side img, .pane h2 b, .objects b, .dock img').length), 0, hash);
+  }
+  await page.locator('[data-test=list-finished] [data-test="job-hostile"]').waitFor();
+  assert.equal(await page.evaluate(() => window.was_html), 0);
+  // And were it HTML after all, the page's policy of content would let it do nothing.
+  const stopped = await page.evaluate((html) => new Promise((done) => {
+    document.addEventListener('securitypolicyviolation', (event) => done(event.violatedDirective), { once: true });
+    const place = document.createElement('div');
+    document.body.append(place);
+    place.innerHTML = html;
+    place.remove();
+  }), kHostile);
+  assert.match(stopped, /script-src/);
+  assert.equal(await page.evaluate(() => window.was_html), 0);
+  await ask(page, 'DELETE', `/scene/objects/${encodeURIComponent('<b>crate')}`);
+});
+
+const kPages = ['#/', '#/new', '#/scene', '#/scene/table', '#/history', '#/settings', '#/job/first', '#/arm/left', '#/pair/first/second', '#/nowhere'];
+
+for (const theme of ['Dark', 'Light']) {
+  test(`axe-core finds nothing on any page, ${theme.toLowerCase()}`, { timeout: 120_000 }, async () => {
+    await go('#/settings');
+    await page.getByLabel(theme, { exact: true }).check();
+    await page.waitForFunction((theme) => document.documentElement.dataset.theme === theme, theme.toLowerCase());
+    // axe is put in by the debugger, so that it works under any policy of content.
+    await page.evaluate(kAxe);
+    const all = [];
+    for (const hash of kPages) {
+      await go(hash);
+      await page.locator(hash === '#/' ? 'main' : '.pane h2').first().waitFor();
+      if (/arm|job/.test(hash)) await page.locator('.uplot').waitFor();
+      if (/pair/.test(hash)) await page.locator('[data-test=diagram] canvas').first().waitFor();
+      const found = await page.evaluate(() => window.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] })
+        .then(({ violations }) => violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 4).map((node) => `${node.html.slice(0, 120)} ${node.any[0]?.message ?? ''}`).join(' | ')}`)));
+      await page.screenshot(path_for(`page-${theme.toLowerCase()}-${hash.replaceAll(/[^a-z]+/g, '-').replaceAll(/^-|-$/g, '') || 'cell'}`));
+      all.push(...found.map((words) => `${hash}: ${words}`));
+    }
+    assert.deepEqual(all, []);
+  });
+}
+
+test('targets measure 24 px, and the focus is seen', { timeout: 30_000 }, async () => {
+  await go('#/job/first');
+  const small = await page.evaluate(() => [...document.querySelectorAll('button, a, input, select, canvas[tabindex]')]
+    .map((element) => ({ element, box: element.getBoundingClientRect() }))
+    // A link within a sentence may be as small as its words; a box that is ticked has its label.
+    .filter(({ element, box }) => box.width > 1 && !element.matches('.link, input[type=radio], input[type=checkbox]') && (box.height < 23.5 || box.width < 23.5))
+    .map(({ element, box }) => `${element.outerHTML.slice(0, 90)} ${box.width.toFixed(0)} x ${box.height.toFixed(0)}`));
+  assert.deepEqual(small, []);
+  await page.keyboard.press('Tab');
+  const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
+  assert.equal(outline, 'solid');
+});
+
+test('nothing so far was an error in the console', () => {
+  assert.deepEqual(chromium.errors.filter((text) => !/404 \(Not Found\)|422 \(|inline event handler violates/.test(text)), []);
+});
+
+test('a server that is started anew is found again without a reload', { timeout: 60_000 }, async () => {
+  await page.evaluate(() => { window.never_reloaded = true; });
+  await go('#/');
+  await server.end();
+  await page.locator('[data-test=lost]').waitFor();
+  await page.screenshot(path_for('lost-light'));
+  assert.equal(await server.start(), url);
+  await page.locator('[data-test=lost]').waitFor({ state: 'detached' });
+  await page.locator('[data-test=link].open').waitFor();
+  await page.waitForFunction(() => window.armloom.jobs().length === 0);
+  await page.getByText('The server was restarted').first().waitFor();
+  await send('left', 'afterwards', [kMiddle, null], 2);
+  await page.locator('[data-test=list-finished] [data-test="job-afterwards"]').waitFor();
+  assert.equal(await page.evaluate(() => window.never_reloaded), true);
+});

@@ -1,0 +1,89 @@
+// One arm: what it does and what comes, its joints against their limits, how far it is off its path,
+// and how its joints moved lately.
+
+import { Link } from '../route/link';
+import { Plot } from '../plot/plot';
+import { range_of, type Arm, type CellJoint } from '../server/messages';
+import type { App } from '../state/app';
+import { arm_colour } from '../state/palette';
+import { use_store } from '../state/use_store';
+import { known_lanes } from '../timeline/timeline';
+import { lane_in_words } from '../timeline/told';
+import { short_id, why_mute } from '../wording';
+import { StatePill } from './arms';
+
+const kPlotted_s = 20;
+
+export function ArmPage({ name, app }: { name: string; app: App }) {
+  use_store(app.store);
+  const { store } = app;
+  const arm = store.arms.get(name);
+  if (!arm) return <><h2>{name}</h2><p class="hint">{store.stream === null ? 'Not connected yet.' : 'The cell has no arm of this name.'}</p></>;
+  const job = arm.job === null ? null : store.job(arm.job);
+  const colour = arm_colour([...store.arms.keys()], name);
+  return (
+    <div class="page" style={{ '--arm': colour }}>
+      <div class="line">
+        <h2 class="ellipsis"><span class="swatch" aria-hidden="true" /> {name}</h2>
+        <StatePill arm={arm} />
+        <span class="grow" />
+        <StopOfArm arm={arm} app={app} />
+      </div>
+      <p class="hint">
+        {job ? <>Executes <Link app={app} to={{ page: 'job', id: job.id }}>{job.name || short_id(job.id)}</Link></> : 'No job is under way.'}
+      </p>
+      <h3>Joints</h3>
+      <Joints arm={arm} app={app} />
+      <h3>Measured, the last {kPlotted_s} s</h3>
+      <Plot app={app} joints={arm.joints} last_s={kPlotted_s} label={`Measured joints of ${name}`} />
+      <h3>What comes</h3>
+      <Coming name={name} app={app} />
+    </div>
+  );
+}
+
+function StopOfArm({ arm, app }: { arm: Arm; app: App }) {
+  const mute = why_mute(app.store.link);
+  const stopped = arm.state === 'stopped' || arm.state === 'fault';
+  return stopped
+    ? <button class="small" disabled={mute !== null} data-test="resume-arm" onClick={() => void app.actions.resume_arm(arm.name)}>Resume this arm</button>
+    : <button class="small" disabled={mute !== null} data-test="stop-arm" title="Brakes on its path; drives stay powered" onClick={() => void app.actions.stop_arm(arm.name)}>Stop this arm</button>;
+}
+
+function Coming({ name, app }: { name: string; app: App }) {
+  const lane = known_lanes(app).find((known) => known.arm === name);
+  return <ul class="plain">{(lane ? lane_in_words(lane, app.store.t_s) : []).map((words, i) => <li key={i}>{words}</li>)}</ul>;
+}
+
+function Joints({ arm, app }: { arm: Arm; app: App }) {
+  use_store(app.store, 'live');
+  const q = app.store.q_of(arm);
+  const limits = new Map(app.store.cell?.joints.map((joint) => [joint.name, joint]));
+  return (
+    <table class="joints" data-test={`joints-${arm.name}`}>
+      <thead><tr><th scope="col">joint</th><th scope="col">lower</th><th scope="col">where it is</th><th scope="col">upper</th><th scope="col">measured</th></tr></thead>
+      <tbody>{arm.joints.map((name, i) => <Joint key={name} name={name} value={q[i] ?? 0} joint={limits.get(name)} />)}</tbody>
+      <tfoot><tr><th scope="row" colSpan={4}>off its path, the largest joint</th><td class="mono">{arm.deviation_rad.toFixed(4)} rad</td></tr></tfoot>
+    </table>
+  );
+}
+
+const kNear = 0.05;
+
+function Joint({ name, value, joint }: { name: string; value: number; joint: CellJoint | undefined }) {
+  const [lower, upper] = joint ? range_of(joint) : [-Infinity, Infinity];
+  const bounded = Number.isFinite(upper - lower);
+  const [from, to] = bounded ? [lower, upper] : [-Math.PI, Math.PI];
+  const share = Math.min(1, Math.max(0, (value - from) / (to - from)));
+  const near = bounded && (share < kNear || share > 1 - kNear);
+  const figure = (limit: number) => (Number.isFinite(limit) ? limit.toFixed(2) : 'none');
+  return (
+    <tr class={near ? 'near' : ''}>
+      <th scope="row" class="ellipsis" title={name}>{name}</th>
+      <td class="mono dim">{figure(lower)}</td>
+      <td><span class="gauge"><span style={{ left: `${100 * share}%` }} /></span></td>
+      <td class="mono dim">{figure(upper)}</td>
+      <td class="mono">{value.toFixed(3)} {joint?.unit ?? ''}{near ? ' near its limit' : ''}</td>
+    </tr>
+  );
+}

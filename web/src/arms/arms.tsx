@@ -1,0 +1,51 @@
+// One card per arm: state, what it does, how far it is. It leads to the arm's page.
+
+import { Link } from '../route/link';
+import { selection_of } from '../route/selection';
+import type { Arm } from '../server/messages';
+import type { App } from '../state/app';
+import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
+import { use_store } from '../state/use_store';
+import { short_id } from '../wording';
+import { Bar } from './bar';
+
+export function Arms({ app }: { app: App }) {
+  use_store(app.store);
+  const arms = [...app.store.arms.values()];
+  return (
+    <section class={`arms${arms.length > 4 ? ' many' : ''}`} aria-label="Arms">
+      <div class="cards">
+        {arms.map((arm) => <ArmCard key={arm.name} arm={arm} app={app} />)}
+      </div>
+    </section>
+  );
+}
+
+function ArmCard({ arm, app }: { arm: Arm; app: App }) {
+  use_store(app.store, 'live');
+  const { store } = app;
+  const job = arm.job === null ? null : store.job(arm.job);
+  const progress = job ? store.progress(job) : 0;
+  const lit = selection_of(app.router.address.value.place, store).arms.includes(arm.name);
+  return (
+    <div class={`card${lit ? ' lit' : ''}`} data-test={`arm-${arm.name}`}
+      style={{ '--arm': arm_colour([...store.arms.keys()], arm.name), '--state': kStateColours[arm.state] }}>
+      <Link app={app} to={{ page: 'arm', name: arm.name }} class="card-link" title={`All about the arm ${arm.name}`}>
+        <span class="line">
+          <span class="swatch" aria-hidden="true" />
+          <b class="grow ellipsis">{arm.name}</b>
+          <StatePill arm={arm} />
+        </span>
+        <span class="line dim job-of-arm">
+          <span class="grow ellipsis">{job ? job.name || short_id(job.id) : arm.job ? short_id(arm.job) : 'no job'}</span>
+          <span class="mono">{job ? `${Math.round(100 * progress)} %` : ''}</span>
+        </span>
+        <Bar share={progress} />
+      </Link>
+    </div>
+  );
+}
+
+export function StatePill({ arm }: { arm: Arm }) {
+  return <span class="pill" style={{ '--state': kStateColours[arm.state] }}><span aria-hidden="true">{kStateGlyphs[arm.state]}</span> {arm.state}</span>;
+}

@@ -1,0 +1,58 @@
+// What the admission code says of jobs that are only asked about, each as if it came now.
+
+import type { Api } from '../server/api';
+import type { Problem, Verdict } from '../server/messages';
+import { conflict_in_words, millimetres, seconds } from '../wording';
+import { bodies_of, type Bag } from './bag';
+import { Refused } from './refused';
+
+export type Judgement = { title: string } & ({ ok: true; verdict: Verdict } | { ok: false; problem: Problem });
+
+const kMost = 50;
+
+/** One after the other: each costs the server some checks. */
+export async function judge_all(bag: Bag, api: Pick<Api, 'check'>): Promise<Judgement[]> {
+  const judgements: Judgement[] = [];
+  for (const { title, text } of bodies_of(bag).slice(0, kMost)) {
+    const answer = await api.check(text);
+    judgements.push(answer.ok ? { title, ok: true, verdict: answer.value } : { title, ok: false, problem: answer.problem });
+  }
+  return judgements;
+}
+
+/** `show`: shows the motion at a time from its start. */
+export function Judged({ judgements, show }: { judgements: Judgement[]; show: ((t_s: number) => void) | null }) {
+  return (
+    <ul class="judged" role="status" data-test="judged">
+      {judgements.map((judgement, i) => (
+        <li key={i}>
+          {judgement.ok ? <Said title={judgement.title} verdict={judgement.verdict} show={show} /> : <><b>{judgement.title}</b><Refused problem={judgement.problem} /></>}
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+const kWords: Record<Verdict['verdict'], string> = {
+  free: '✓ free: it could start now', conflict: '✕ in conflict', undecided: '? not proven free',
+};
+
+function Said({ title, verdict, show }: { title: string; verdict: Verdict; show: ((t_s: number) => void) | null }) {
+  const { earliest_start_s: start_s, clearance_bound_m: bound_m } = verdict;
+  const later = verdict.verdict === 'free' ? '' : start_s === null ? 'Not as things stand.' : `It could start in ${seconds(start_s)}.`;
+  return (
+    <>
+      <div class={`verdict-word ${verdict.verdict}`}><b>{title}</b>: {kWords[verdict.verdict]}</div>
+      {later !== '' && <div>{later}</div>}
+      {bound_m !== null && <div class="dim small">At least {millimetres(bound_m)} are kept, proven.</div>}
+      {verdict.conflicts.map((conflict, i) => (
+        <div key={i} class="words">
+          {conflict_in_words(conflict)}
+          {show && conflict.own_time_s !== null && (
+            <>{' '}<button class="small" data-test="show-conflict" onClick={() => show(conflict.own_time_s ?? 0)}>Show it there</button></>
+          )}
+        </div>
+      ))}
+    </>
+  );
+}

@@ -1,0 +1,134 @@
+// Compose: paste, drop or begin from an example; see it judged as things are; send it. One job, or a bag
+// of jobs, which is taken whole or not at all.
+
+import { useMemo, useState } from 'preact/hooks';
+import { Link } from '../route/link';
+import type { Problem } from '../server/messages';
+import type { App } from '../state/app';
+import { use_store } from '../state/use_store';
+import { why_mute } from '../wording';
+import { read_bag, type Bag } from './bag';
+import { example_job, pretty } from './example';
+import { Judged, judge_all, type Judgement } from './judged';
+import { motion_of } from './motion';
+import { Preview, type Chosen } from './preview';
+import { Refused } from './refused';
+
+// What was typed outlives the page's pane.
+let draft = '';
+
+type Outcome =
+  | { kind: 'none' } | { kind: 'busy'; what: string } | { kind: 'accepted'; ids: string[] }
+  | { kind: 'refused'; problem: Problem } | { kind: 'judged'; judgements: Judgement[] };
+
+export function NewJob({ app }: { app: App }) {
+  use_store(app.store);
+  const [text, set_text] = useState(draft);
+  const [outcome, set_outcome] = useState<Outcome>({ kind: 'none' });
+  const [over, set_over] = useState(false);
+  const change = (next: string) => {
+    draft = next;
+    set_text(next);
+    set_chosen(null);
+    set_outcome({ kind: 'none' });
+  };
+  const [chosen, set_chosen] = useState<Chosen | null>(null);
+  const bag = useMemo(() => read_bag(text), [text]);
+  const motion = useMemo(() => motion_of(bag), [bag]);
+  const mute = why_mute(app.store.link);
+  const idle = text.trim() === '' || outcome.kind === 'busy' || mute !== null;
+  const send = async () => {
+    if (idle) return;
+    set_outcome({ kind: 'busy', what: 'Sending…' });
+    set_outcome(await sent(bag, app));
+  };
+  const judge = async () => {
+    set_outcome({ kind: 'busy', what: 'Judging…' });
+    set_outcome({ kind: 'judged', judgements: await judge_all(bag, app.api) });
+  };
+  return (
+    <div class="page compose">
+      <h2>New job</h2>
+      <p class="hint">
+        A body as for <code>POST /api/v1/jobs</code>, with a trajectory shaped like
+        a <code>trajectory_msgs/JointTrajectory</code>; or a bag of them, as a jobs file has. Paste it, or drop a file.
+      </p>
+      <Examples app={app} change={change} />
+      <textarea class={`mono${over ? ' over' : ''}`} spellcheck={false} aria-label="Job as JSON" data-test="job-text" value={text}
+        placeholder={'{\n  "trajectory": {\n    "joint_names": […],\n    "points": […]\n  }\n}'}
+        onInput={(event) => change(event.currentTarget.value)}
+        onDragOver={(event) => { event.preventDefault(); set_over(true); }} onDragLeave={() => set_over(false)}
+        onDrop={(event) => {
+          event.preventDefault();
+          set_over(false);
+          void dropped(event).then((found) => { if (found !== null) change(found); });
+        }}
+        onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) void send(); }} />
+      {motion && <Preview motion={motion} app={app} chosen={chosen} />}
+      <div class="line">
+        <FileButton change={change} />
+        <span class="grow dim small" data-test="bag">{bag.kind === 'bag' ? `${bag.jobs.length} jobs, taken whole or not at all` : 'Ctrl + Enter sends'}</span>
+        <button data-test="judge" title="As things are now; nothing is stored" disabled={idle} onClick={() => void judge()}>Judge</button>
+        <button class="primary" data-test="send" title={mute ?? ''} disabled={idle} onClick={() => void send()}>
+          {outcome.kind === 'busy' ? outcome.what : bag.kind === 'bag' ? 'Send all' : 'Send'}
+        </button>
+      </div>
+      {outcome.kind === 'accepted' && <Accepted ids={outcome.ids} app={app} />}
+      {outcome.kind === 'judged' && <Judged judgements={outcome.judgements} show={motion && bag.kind === 'one' ? (t_s) => set_chosen({ t_s }) : null} />}
+      {outcome.kind === 'refused' && <Refused problem={outcome.problem} />}
+    </div>
+  );
+}
+
+function Examples({ app, change }: { app: App; change(text: string): void }) {
+  const { store } = app;
+  const idle = [...store.arms.values()].filter((arm) => arm.state === 'idle' && arm.job === null);
+  return (
+    <div class="line wrap">
+      <span class="dim">Example for</span>
+      {idle.map((arm) => (
+        <button key={arm.name} class="small" data-test={`example-${arm.name}`}
+          onClick={() => change(pretty(example_job(arm, store.q_of(arm), store.cell?.joints ?? [])))}>{arm.name}</button>
+      ))}
+      {idle.length === 0 && <span class="dim">an idle arm: none at the moment</span>}
+    </div>
+  );
+}
+
+function FileButton({ change }: { change(text: string): void }) {
+  return (
+    <label class="file small">
+      <input type="file" accept=".json,application/json" data-test="file" class="sr-only"
+        onChange={(event) => { void event.currentTarget.files?.[0]?.text().then(change); }} />
+      Open a file
+    </label>
+  );
+}
+
+function Accepted({ ids, app }: { ids: string[]; app: App }) {
+  return (
+    <p class="accepted" role="status" data-test="accepted">
+      Accepted{ids.length === 0 ? '.' : ' as '}
+      {ids.map((id, i) => <span key={id}>{i === 0 ? '' : ', '}<Link app={app} to={{ page: 'job', id }}>{id}</Link></span>)}
+    </p>
+  );
+}
+
+async function sent(bag: Bag, app: App): Promise<Outcome> {
+  const answer = bag.kind === 'bag'
+    ? await app.api.post_batch(JSON.stringify({ atomic: true, jobs: bag.jobs }))
+    : await app.api.post_job(bag.text);
+  return answer.ok ? { kind: 'accepted', ids: ids_of(answer.value) } : { kind: 'refused', problem: answer.problem };
+}
+
+/** The job, or each of the bag's. */
+function ids_of(answer: unknown): string[] {
+  const { id, jobs } = (answer ?? {}) as { id?: unknown; jobs?: unknown };
+  if (typeof id === 'string') return [id];
+  return Array.isArray(jobs) ? jobs.flatMap(ids_of) : [];
+}
+
+async function dropped(event: DragEvent): Promise<string | null> {
+  const file = event.dataTransfer?.files[0];
+  return file ? file.text() : event.dataTransfer?.getData('text/plain') ?? null;
+}

@@ -1,0 +1,16 @@
+// Beside whom a job is drawn: what it waits for, else the first that has not ended on other arms.
+
+import type { Job } from '../server/messages';
+import type { Store } from '../state/store';
+
+export function partner_of(job: Job, store: Store): Job | null {
+  const blocker = job.waits_on.find((wait) => wait.kind === 'job' && wait.id !== null);
+  const known = blocker?.id ? store.job(blocker.id) : null;
+  if (known) return known;
+  const lists = ['running', 'scheduled', 'backlog', 'queued', 'finished'] as const;
+  for (const list of lists) {
+    const other = store.jobs(list).find((one) => one.id !== job.id && !one.arms.some((arm) => job.arms.includes(arm)));
+    if (other) return other;
+  }
+  return null;
+}

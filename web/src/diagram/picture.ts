@@ -1,0 +1,234 @@
+// Draws a coordination diagram on two canvases, one above the other: the cells, which stay, and what
+// moves over them. A runs across, B up, in seconds of each one's own trajectory.
+
+import type { Evidence, Point } from './reading';
+import type { Diagram, DiagramLayer, DiagramMeeting } from '../server/messages';
+import { ink, kCellColours } from '../state/palette';
+import { millimetres, short_id } from '../wording';
+
+export interface Scene {
+  diagram: Diagram;
+  layer: DiagramLayer;
+  now: Point;
+  /** Empty: no plan. */
+  way: Point[];
+  trail: Point[];
+  met: DiagramMeeting | null;
+  evidence: Evidence | null;
+  colours: { a: string; b: string };
+}
+
+const kLeft_px = 40;
+const kBottom_px = 36;
+const kTop_px = 10;
+const kRight_px = 12;
+const kTick_px = 56;
+const kNarrowest = 3;  // a rectangle longer than this times its height is not drawn to one scale
+const kInk = '#0c1118';
+const kPlan = '#10161f';
+
+interface Sheet { width: number; height: number; x(a_s: number): number; y(b_s: number): number }
+
+export class DiagramPicture {
+  private readonly cells_ = document.createElement('canvas');
+  private readonly moving_ = document.createElement('canvas');
+  private readonly observer_: ResizeObserver;
+  private drawn_ = '';
+
+  constructor(private readonly host_: HTMLElement, private readonly scene_: () => Scene | null) {
+    host_.replaceChildren(this.cells_, this.moving_);
+    this.observer_ = new ResizeObserver(() => this.draw());
+    this.observer_.observe(host_);
+    this.draw();
+  }
+
+  close(): void {
+    this.observer_.disconnect();
+    this.host_.replaceChildren();
+  }
+
+  draw(): void {
+    const scene = this.scene_();
+    const { clientWidth: width, clientHeight: height } = this.host_;
+    if (!scene || width === 0 || height === 0) return;
+    const sheet = sheet_of(scene.diagram, width, height);
+    const size = `${width} ${height} ${window.devicePixelRatio}`;
+    if (size !== this.drawn_) {
+      this.drawn_ = size;
+      const g = fit(this.cells_, width, height);
+      if (g) {
+        draw_cells(g, sheet, scene);
+        draw_axes(g, sheet, scene);
+      }
+    }
+    const g = fit(this.moving_, width, height);
+    if (g) draw_moving(g, sheet, scene);
+  }
+}
+
+/** One scale for both, so that going on second by second is a line of 45 degrees; unless one is much longer. */
+function sheet_of({ a, b }: Diagram, width: number, height: number): Sheet {
+  const room = { x: width - kLeft_px - kRight_px, y: height - kTop_px - kBottom_px };
+  let per_s = { x: room.x / a.duration_s, y: room.y / b.duration_s };
+  const ratio = a.duration_s / b.duration_s;
+  if (ratio < kNarrowest && ratio > 1 / kNarrowest) {
+    const least = Math.min(per_s.x, per_s.y);
+    per_s = { x: least, y: least };
+  }
+  const left = kLeft_px + Math.max(0, (room.x - per_s.x * a.duration_s) / 2);
+  const bottom = height - kBottom_px;
+  return {
+    width, height,
+    x: (a_s) => left + a_s * per_s.x,
+    y: (b_s) => bottom - b_s * per_s.y,
+  };
+}
+
+function fit(canvas: HTMLCanvasElement, width: number, height: number): CanvasRenderingContext2D | null {
+  const ratio = Math.min(2, window.devicePixelRatio);
+  const pixels = { width: Math.round(width * ratio), height: Math.round(height * ratio) };
+  if (canvas.width !== pixels.width || canvas.height !== pixels.height) Object.assign(canvas, pixels);
+  const g = canvas.getContext('2d');
+  g?.setTransform(ratio, 0, 0, ratio, 0, 0);
+  g?.clearRect(0, 0, width, height);
+  return g;
+}
+
+function draw_cells(g: CanvasRenderingContext2D, sheet: Sheet, { layer }: Scene): void {
+  const edges = new Path2D();
+  for (const { state, a_s, b_s } of layer.cells ?? []) {
+    const left = sheet.x(a_s[0]);
+    const top = sheet.y(b_s[1]);
+    const width = sheet.x(a_s[1]) - left;
+    const height = sheet.y(b_s[0]) - top;
+    g.fillStyle = kCellColours[state];
+    // A hair wider, so that the ground does not shine through between neighbours.
+    g.fillRect(left, top, width + 0.4, height + 0.4);
+    if (width > 3 && height > 3) edges.rect(left, top, width, height);
+  }
+  g.strokeStyle = '#0b10162e';
+  g.lineWidth = 0.5;
+  g.stroke(edges);
+}
+
+function draw_axes(g: CanvasRenderingContext2D, sheet: Sheet, { diagram, colours }: Scene): void {
+  const { a, b } = diagram;
+  const [left, right, bottom, top] = [sheet.x(0), sheet.x(a.duration_s), sheet.y(0), sheet.y(b.duration_s)];
+  g.strokeStyle = ink('--line-strong');
+  g.lineWidth = 1;
+  g.strokeRect(left - 0.5, top - 0.5, right - left + 1, bottom - top + 1);
+  g.font = '10.5px "Inter Variable", system-ui, sans-serif';
+  g.fillStyle = ink('--dim');
+  g.textBaseline = 'top';
+  g.textAlign = 'center';
+  for (const t_s of ticks(a.duration_s, right - left)) g.fillText(figure(t_s), sheet.x(t_s), bottom + 5);
+  g.textAlign = 'right';
+  g.textBaseline = 'middle';
+  for (const t_s of ticks(b.duration_s, bottom - top)) g.fillText(figure(t_s), left - 6, sheet.y(t_s));
+  g.font = '600 11.5px "Inter Variable", system-ui, sans-serif';
+  g.textAlign = 'center';
+  g.textBaseline = 'alphabetic';
+  g.fillStyle = colours.a;
+  g.fillText(`time on ${short_id(a.id)}, s`, (left + right) / 2, sheet.height - 4);
+  g.save();
+  g.translate(left - 28, (top + bottom) / 2);
+  g.rotate(-Math.PI / 2);
+  g.fillStyle = colours.b;
+  g.fillText(`time on ${short_id(b.id)}, s`, 0, 0);
+  g.restore();
+}
+
+function ticks(duration_s: number, length_px: number): number[] {
+  const wanted_s = duration_s / Math.max(1, length_px / kTick_px);
+  const power = 10 ** Math.floor(Math.log10(wanted_s));
+  const step_s = [1, 2, 5, 10].map((n) => n * power).find((s) => s >= wanted_s) ?? wanted_s;
+  return Array.from({ length: Math.floor(duration_s / step_s + 1e-9) + 1 }, (_, i) => i * step_s);
+}
+
+function figure(t_s: number): string {
+  return String(Number(t_s.toPrecision(6)));
+}
+
+function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): void {
+  const { now, way, trail, met, evidence, colours } = scene;
+  g.lineJoin = 'round';
+  g.lineCap = 'round';
+  g.setLineDash([]);
+  const [x, y] = [sheet.x(now.a_s), sheet.y(now.b_s)];
+  // Down and across to both axes: each one's time.
+  guide(g, [x, y], [x, sheet.y(0)], colours.a);
+  guide(g, [x, y], [sheet.x(0), y], colours.b);
+  polyline(g, sheet, trail, kInk, 2.5);
+  if (way.length > 0) {
+    g.setLineDash([2, 5]);
+    polyline(g, sheet, way, kPlan, 1.8);
+    g.setLineDash([]);
+    polyline(g, sheet, met ? up_to(way, met) : way, kPlan, 1.8);
+  }
+  if (evidence) mark(g, sheet, evidence);
+  if (met) cross(g, sheet.x(met.a_s), sheet.y(met.b_s));
+  g.beginPath();
+  g.arc(x, y, 5.5, 0, 2 * Math.PI);
+  g.fillStyle = '#ffffff';
+  g.fill();
+  g.lineWidth = 2.5;
+  g.strokeStyle = kInk;
+  g.stroke();
+}
+
+function up_to(way: Point[], met: DiagramMeeting): Point[] {
+  return [...way.filter((point) => point.a_s <= met.a_s && point.b_s <= met.b_s), met];
+}
+
+function polyline(g: CanvasRenderingContext2D, sheet: Sheet, points: Point[], colour: string, width: number): void {
+  g.beginPath();
+  points.forEach((point, i) => (i === 0 ? g.moveTo : g.lineTo).call(g, sheet.x(point.a_s), sheet.y(point.b_s)));
+  g.strokeStyle = colour;
+  g.lineWidth = width;
+  g.stroke();
+}
+
+/** The state that the server named as the reason, with the distance there. */
+function mark(g: CanvasRenderingContext2D, sheet: Sheet, evidence: Evidence): void {
+  const [x, y] = [sheet.x(evidence.a_s), sheet.y(evidence.b_s)];
+  g.beginPath();
+  g.arc(x, y, 6, 0, 2 * Math.PI);
+  g.strokeStyle = '#ffffff';
+  g.lineWidth = 2;
+  g.stroke();
+  const { clearance_m } = evidence.wait;
+  if (clearance_m === null) return;
+  const text = clearance_m <= 0 ? 'touch' : millimetres(clearance_m);
+  g.font = '600 11.5px "Inter Variable", system-ui, sans-serif';
+  const width = g.measureText(text).width + 12;
+  const left = Math.max(sheet.x(0) + 4, x - width - 12);
+  const top = Math.max(kTop_px + 4, y - 24);
+  g.fillStyle = '#0c1118d8';
+  g.beginPath();
+  g.roundRect(left, top, width, 19, 5);
+  g.fill();
+  g.fillStyle = '#ffffff';
+  g.textAlign = 'left';
+  g.textBaseline = 'middle';
+  g.fillText(text, left + 6, top + 10);
+}
+
+function cross(g: CanvasRenderingContext2D, x: number, y: number): void {
+  g.beginPath();
+  for (const [dx, dy] of [[1, 1], [1, -1]] as const) {
+    g.moveTo(x - 4 * dx, y - 4 * dy);
+    g.lineTo(x + 4 * dx, y + 4 * dy);
+  }
+  g.strokeStyle = kInk;
+  g.lineWidth = 2;
+  g.stroke();
+}
+
+function guide(g: CanvasRenderingContext2D, from: [number, number], to: [number, number], colour: string): void {
+  g.beginPath();
+  g.moveTo(...from);
+  g.lineTo(...to);
+  g.strokeStyle = colour;
+  g.lineWidth = 2;
+  g.stroke();
+}

@@ -1,0 +1,64 @@
+// What a coordination diagram says about two jobs from where they are now. Pure: times in seconds of
+// each one's own trajectory, A across and B up.
+
+import { pair_of, type CellState, type Diagram, type DiagramLayer, type DiagramMeeting, type Job, type WaitsOn } from '../server/messages';
+import { millimetres, short_id } from '../wording';
+
+export interface Point { a_s: number; b_s: number }
+
+/**
+ * The plan from `now`: both go on second by second (45 degrees), and whoever ends first rests at its
+ * goal (along the border) until the other one has ended, too.
+ */
+export function plan_from(now: Point, diagram: Diagram): Point[] {
+  const { a, b } = diagram;
+  const together_s = Math.max(0, Math.min(a.duration_s - now.a_s, b.duration_s - now.b_s));
+  const first_end = { a_s: now.a_s + together_s, b_s: now.b_s + together_s };
+  return [now, first_end, { a_s: a.duration_s, b_s: b.duration_s }];
+}
+
+/** Shares of the rectangle's area, which add up to one. */
+export function shares(layer: DiagramLayer): Record<CellState, number> {
+  const area: Record<CellState, number> = { free: 0, conflict: 0, undecided: 0 };
+  for (const { state, a_s, b_s } of layer.cells ?? []) area[state] += (a_s[1] - a_s[0]) * (b_s[1] - b_s[0]);
+  const whole = area.free + area.conflict + area.undecided || 1;
+  return { free: area.free / whole, conflict: area.conflict / whole, undecided: area.undecided / whole };
+}
+
+export interface Evidence extends Point { wait: WaitsOn }
+
+/** Where in the diagram the server found the two too close, if one of them waits for the other. */
+export function evidence_of(a: Job | null, b: Job | null): Evidence | null {
+  if (!a || !b) return null;
+  for (const [waiting, other] of [[a, b], [b, a]] as const) {
+    const wait = waiting.waits_on.find((w) => w.kind === 'job' && w.id === other.id);
+    if (!wait || wait.own_time_s === null || wait.other_time_s === null) continue;
+    return waiting === a
+      ? { wait, a_s: wait.own_time_s, b_s: wait.other_time_s }
+      : { wait, a_s: wait.other_time_s, b_s: wait.own_time_s };
+  }
+  return null;
+}
+
+export function evidence_in_words(evidence: Evidence, diagram: Diagram): string {
+  const { links, clearance_m } = evidence.wait;
+  const [own, other] = pair_of(links) ?? ['one arm', 'the other'];
+  const how = clearance_m === null || clearance_m <= 0
+    ? `${own} would touch ${other}`
+    : `${own} would come within ${millimetres(clearance_m)} of ${other}`;
+  const when = [[diagram.a.id, evidence.a_s], [diagram.b.id, evidence.b_s]] as const;
+  return `${how}, ${when.map(([id, at_s]) => `${at_s.toFixed(2)} s into ${short_id(id)}`).join(' and ')}.`;
+}
+
+/**
+ * What the plan from now meets, one sentence; `waiting` is the job that has not begun, `resting` the
+ * one that has come to its end, if there is such a one.
+ */
+export function plan_in_words(met: DiagramMeeting | null, waiting: string | null, resting: string | null = null): string {
+  const begin = waiting !== null ? `If ${short_id(waiting)} started now`
+    : resting === null ? 'If both go on from here' : `While ${short_id(resting)} rests at its end`;
+  if (!met && waiting === null && resting !== null) return `${begin}, the way of the other one is free.`;
+  if (!met) return `${begin}, both reach their ends through free cells only.`;
+  const what = met.state === 'conflict' ? 'a conflict' : 'what is not proven free';
+  return met.in_s < 0.005 ? `${begin}, they are at ${what} at once.` : `${begin}, they meet ${what} in ${met.in_s.toFixed(2)} s.`;
+}

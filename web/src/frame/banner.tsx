@@ -1,0 +1,54 @@
+// The line under the header: connection lost, cell unreadable, or a refused request.
+
+import { useEffect, useState } from 'preact/hooks';
+import type { App } from '../state/app';
+import { use_store } from '../state/use_store';
+import { use_staleness } from './staleness';
+
+export function Banner({ app }: { app: App }) {
+  use_store(app.store);
+  const { store, actions } = app;
+  const refusal = actions.refusal.value;
+  const stale_s = use_staleness(store);
+  return (
+    <div class="banners">
+      {store.link.status === 'lost' && <Lost app={app} />}
+      {store.link.status === 'open' && stale_s !== null && (
+        <div class="banner lost" role="alert" data-test="stale">
+          <span><b>Old data.</b> Nothing was heard from the server for {stale_s} s; arms may still be moving.</span>
+        </div>
+      )}
+      {refusal !== null && (
+        <div class="banner error" role="alert" data-test="refusal">
+          <span>{refusal}</span>
+          <button onClick={() => { actions.refusal.value = null; }}>Dismiss</button>
+        </div>
+      )}
+      {store.cell_fault !== null && !store.cell && (
+        <div class="banner error" role="alert"><span>The cell cannot be shown: {store.cell_fault}</span></div>
+      )}
+    </div>
+  );
+}
+
+function Lost({ app }: { app: App }) {
+  const link = app.store.link;
+  const retry_in_ms = link.status === 'lost' ? link.retry_in_ms : 0;
+  const [left_s, set_left_s] = useState(0);
+  useEffect(() => {
+    const until_ms = performance.now() + retry_in_ms;
+    const show = () => set_left_s(Math.max(0, Math.ceil((until_ms - performance.now()) / 1000)));
+    show();
+    const timer = setInterval(show, 250);
+    return () => clearInterval(timer);
+  }, [link]);
+  return (
+    <div class="banner lost" role="alert" data-test="lost">
+      <span>
+        <b>Connection lost.</b> What you see is the last known state; arms may still be moving.
+        <span aria-live="off">{left_s > 0 ? ` Trying again in ${left_s} s.` : ' Trying again…'}</span>
+      </span>
+      <button onClick={app.actions.retry_connection}>Try now</button>
+    </div>
+  );
+}

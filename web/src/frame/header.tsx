@@ -1,0 +1,85 @@
+// The top line: which cell, where we are, whether we hear it, and Stop, always at the right end.
+
+import type { Place } from '../route/address';
+import { Link } from '../route/link';
+import type { App } from '../state/app';
+import { use_store } from '../state/use_store';
+import { clock, why_mute } from '../wording';
+import { use_staleness } from './staleness';
+import { StopButton } from './stop_button';
+
+const kPages: readonly { place: Place; title: string; key: string; test: string }[] = [
+  { place: { page: 'cell' }, title: 'Cell', key: 'c', test: 'go-cell' },
+  { place: { page: 'new' }, title: 'New job', key: 'n', test: 'new-job' },
+  { place: { page: 'scene', name: null }, title: 'Scene', key: 'o', test: 'go-scene' },
+  { place: { page: 'history' }, title: 'History', key: 'h', test: 'go-history' },
+  { place: { page: 'settings' }, title: 'Settings', key: ',', test: 'go-settings' },
+];
+
+export const kPageOfKey: ReadonlyMap<string, Place> = new Map(kPages.map(({ key, place }) => [key, place]));
+
+export function Header({ app }: { app: App }) {
+  use_store(app.store);
+  const { store } = app;
+  const here = app.router.place.page;
+  return (
+    <header class="header">
+      <Logo />
+      <h1>Armloom</h1>
+      <span class="fact"><b data-test="cell">{store.cell?.name ?? '–'}</b></span>
+      <span class="badge" title="The arms of this server are simulated; no drive moves" data-test="simulated">SIMULATED</span>
+      <nav aria-label="Pages">
+        {kPages.map(({ place, title, key, test }) => (
+          <Link key={title} app={app} to={place} class="tab" test={test} current={place.page === here}
+            title={app.settings.letter_keys.value ? `${title} (key ${key})` : title}>{title}</Link>
+        ))}
+      </nav>
+      <span class="spacer" />
+      <span class="fact wide-only"><i>policy</i> {store.policy || '–'}</span>
+      {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
+      <CellTime app={app} />
+      <ConnectionState app={app} />
+      <button class="resume" disabled={!store.stopped || why_mute(store.link) !== null} title={why_mute(store.link) ?? 'Let the arms go on'}
+        onClick={() => void app.actions.resume()}>Resume</button>
+      <StopButton app={app} />
+    </header>
+  );
+}
+
+function CellTime({ app }: { app: App }) {
+  use_store(app.store, 'live');
+  const stale_s = use_staleness(app.store);
+  return (
+    <span class={`fact${stale_s === null ? '' : ' stale-time'}`} title="Cell time of the last thing heard">
+      <i>cell time</i> <span class="mono" data-test="clock">{clock(app.store.t_s)}</span>
+    </span>
+  );
+}
+
+function ConnectionState({ app }: { app: App }) {
+  use_store(app.store);
+  const { store } = app;
+  const stale_s = use_staleness(store);
+  const silent = store.link.status === 'open' && stale_s !== null;
+  const words = silent ? `silent for ${stale_s} s` : { connecting: 'connecting', open: 'connected', lost: 'disconnected' }[store.link.status];
+  const { unknown, malformed } = store.rejected;
+  const rejected = unknown + malformed;
+  return (
+    <span class={`fact link-state ${silent ? 'connecting' : store.link.status}`} data-test="link">
+      <span class="dot" aria-hidden="true" /> {words}
+      {rejected > 0 && (
+        <span class="rejected" title={`${unknown} of unknown type, ${malformed} malformed`}> · {rejected} unread</span>
+      )}
+    </span>
+  );
+}
+
+function Logo() {
+  return (
+    <svg class="logo" viewBox="0 0 24 24" fill="none" stroke-width="2.4" stroke-linecap="round" aria-hidden="true">
+      <path d="M3 7c5.5 0 5.5 10 9 10s3.5-10 9-10" class="thread-a" />
+      <path d="M3 17c3 0 4.3-2.9 5.5-5.5" class="thread-b" />
+      <path d="M10.6 8.2C11 7.4 11.5 7 12 7c3.5 0 3.5 10 9 10" class="thread-b" />
+    </svg>
+  );
+}

@@ -1,0 +1,49 @@
+// What the address names, beside the cell or over it.
+
+import type { ComponentChildren } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
+import { ArmPage } from '../arms/arm_page';
+import { NewJob } from '../compose/new_job';
+import { DiagramPanel } from '../diagram/diagram';
+import { HistoryPage } from '../history/history_page';
+import { place_in_words, type Place } from '../route/address';
+import type { App } from '../state/app';
+import { SettingsPage } from './settings_page';
+import { ScenePage } from '../scene/scene_page';
+import { JobPage } from '../jobs/job_page';
+
+const kWidths: Partial<Record<Place['page'], string>> = { pair: ' wide', job: ' wide', history: ' full', settings: ' full' };
+
+export function Pane({ app }: { app: App }) {
+  const { place } = app.router.address.value;
+  const pane = useRef<HTMLElement>(null);
+  const width = kWidths[place.page] ?? '';
+  useEffect(() => {
+    const tell = () => { app.covered_px.value = pane.current ? pane.current.offsetLeft + pane.current.offsetWidth : 0; };
+    tell();
+    const observer = new ResizeObserver(tell);
+    if (pane.current) observer.observe(pane.current);
+    return () => observer.disconnect();
+  }, [app, place.page]);
+  if (place.page === 'cell') return null;
+  return (
+    <section ref={pane} class={`pane${width}`} aria-label={place_in_words(place)} data-test={`page-${place.page}`}>
+      <button class="close" aria-label="Close" title="Back to the cell (Escape)" onClick={() => app.router.go({ page: 'cell' })}>×</button>
+      <div class="pane-body" key={JSON.stringify(place)}>{content_of(place, app)}</div>
+    </section>
+  );
+}
+
+function content_of(place: Place, app: App): ComponentChildren {
+  switch (place.page) {
+    case 'cell': return null;
+    case 'new': return <NewJob app={app} />;
+    case 'job': return <JobPage id={place.id} app={app} />;
+    case 'arm': return <ArmPage name={place.name} app={app} />;
+    case 'pair': return <DiagramPanel a={place.a} b={place.b} app={app} />;
+    case 'scene': return <ScenePage name={place.name} app={app} />;
+    case 'history': return <HistoryPage app={app} />;
+    case 'settings': return <SettingsPage app={app} />;
+    case 'unknown': return <><h2>No such page</h2><p class="hint">There is nothing at {place.path}.</p></>;
+  }
+}

@@ -1,0 +1,60 @@
+// How this browser shows the page, and which keys it has.
+
+import type { App } from '../state/app';
+import type { Theme } from '../state/settings';
+import { use_store } from '../state/use_store';
+import { seconds } from '../wording';
+
+const kThemes: readonly [Theme, string][] = [['system', 'As the system'], ['dark', 'Dark'], ['light', 'Light']];
+const kKeys: readonly [string, string][] = [
+  ['F8', 'Stop all, wherever the focus is'], ['Escape', 'Back to the cell'], ['c', 'Cell'], ['n', 'New job'],
+  ['o', 'Scene'], ['h', 'History'], [',', 'Settings'],
+  ['← →  + −  0', 'In the timeline: move, zoom, follow now'],
+];
+
+export function SettingsPage({ app }: { app: App }) {
+  use_store(app.store);
+  const { settings, store } = app;
+  const { cell } = store;
+  return (
+    <div class="columns">
+      <section>
+        <h2>Appearance</h2>
+        <fieldset class="choices">
+          <legend>Theme</legend>
+          {kThemes.map(([theme, title]) => (
+            <label key={theme}>
+              <input type="radio" name="theme" value={theme} checked={settings.theme.value === theme} onChange={() => settings.set_theme(theme)} /> {title}
+            </label>
+          ))}
+        </fieldset>
+        <h2>Keys</h2>
+        <label class="check">
+          <input type="checkbox" checked={settings.letter_keys.value} onChange={(event) => settings.set_letter_keys(event.currentTarget.checked)} />
+          {' '}Single letters lead to pages
+        </label>
+        <dl class="keys-list">
+          {kKeys.map(([key, what]) => <div key={key}><dt><kbd>{key}</kbd></dt><dd>{what}</dd></div>)}
+        </dl>
+      </section>
+      {cell && (
+        <section>
+          <h2>The cell</h2>
+          <p class="hint">As the server runs it; a cell file sets these.</p>
+          <dl class="facts-list" data-test="cell-facts">
+            {([
+              ['Cell', cell.name], ['Policy', store.policy], ['Speed', `× ${store.speed}`], ['Arms', String(store.arms.size)],
+              ['Clearance', `${(1000 * cell.clearance_m).toFixed(0)} mm`],
+              ['Monitor stops below', `${(1000 * cell.monitor.stop_clearance_m).toFixed(0)} mm`],
+              ['Backlog timeout', seconds(cell.scheduling.backlog_timeout_s)],
+              ['Overtaken no more after', seconds(cell.scheduling.aging_s)],
+              ['Admitted ahead', `${cell.scheduling.horizon_legs} jobs of each arm`],
+              ['An idle arm in the way', cell.scheduling.on_idle_blocker === 'park' ? 'is sent aside' : 'is only reported'],
+            ] as const).map(([what, value]) => <div key={what}><dt>{what}</dt><dd>{value}</dd></div>)}
+          </dl>
+          <p class="hint"><a class="link" href="/docs">The API, for programs</a></p>
+        </section>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,27 @@
+// Keys: F8 stops, wherever the focus is; Escape leads back to the cell; single letters lead to pages,
+// unless somebody types, or has turned them off.
+
+import type { App } from '../state/app';
+import { kPageOfKey } from './header';
+import { kStopKey } from './stop_button';
+
+export function listen_to_keys(app: App, window: Window): void {
+  window.addEventListener('keydown', (event) => {
+    if (event.key === kStopKey) {
+      event.preventDefault();
+      if (!event.repeat) void app.actions.stop();
+      return;
+    }
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    if (document.querySelector('dialog[open]')) return;
+    if (event.key === 'Escape' && app.router.place.page !== 'cell') return app.router.go({ page: 'cell' });
+    const place = kPageOfKey.get(event.key);
+    if (!place || !app.settings.letter_keys.value || is_typing(event.target)) return;
+    event.preventDefault();
+    app.router.go(place);
+  }, { capture: true });
+}
+
+function is_typing(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && (target.isContentEditable || /^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName));
+}

@@ -1,0 +1,28 @@
+// Whether what the page shows is old: nothing was heard for a while, be the connection open or not.
+
+import { signal, type ReadonlySignal } from '@preact/signals';
+import type { Store } from '../state/store';
+
+const kFresh_ms = 2_500;
+const kLook_ms = 500;
+
+const known = new WeakMap<Store, ReadonlySignal<number | null>>();
+
+/** Seconds since something was heard; null while that is not long. */
+export function use_staleness(store: Store): number | null {
+  let stale_s = known.get(store);
+  if (!stale_s) {
+    stale_s = watch(store);
+    known.set(store, stale_s);
+  }
+  return stale_s.value;
+}
+
+function watch(store: Store): ReadonlySignal<number | null> {
+  const stale_s = signal<number | null>(null);
+  window.setInterval(() => {
+    const age_ms = store.silence_ms();
+    stale_s.value = age_ms === null || age_ms < kFresh_ms ? null : Math.floor(age_ms / 1000);
+  }, kLook_ms);
+  return stale_s;
+}

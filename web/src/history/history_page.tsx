@@ -1,0 +1,56 @@
+// What was: the jobs that have ended, as a table. Events stand below, in the dock.
+
+import { useState } from 'preact/hooks';
+import { matches } from '../jobs/filter';
+import { Link } from '../route/link';
+import type { Job } from '../server/messages';
+import type { App } from '../state/app';
+import { arm_colour } from '../state/palette';
+import { use_store } from '../state/use_store';
+import { clock, result_in_words, seconds, short_id } from '../wording';
+
+const kShown = 100;
+
+export function HistoryPage({ app }: { app: App }) {
+  use_store(app.store);
+  const [words, set_words] = useState('');
+  const [only_failed, set_only_failed] = useState(false);
+  const [shown, set_shown] = useState(kShown);
+  const all = app.store.jobs('finished');
+  const jobs = words === '' && !only_failed ? all : all.filter((job) => matches(job, words, only_failed));
+  return (
+    <div class="history">
+      <section class="page" aria-label="Jobs that have ended">
+        <h2>Ended<span class="count">{jobs.length === all.length ? all.length : `${jobs.length} of ${all.length}`}</span></h2>
+        <div class="filter">
+          <input type="search" placeholder="Filter: id, name, arm, state, reason" aria-label="Filter ended jobs" value={words} onInput={(event) => set_words(event.currentTarget.value)} />
+          <button class="small" aria-pressed={only_failed} onClick={() => set_only_failed(!only_failed)}>failed</button>
+        </div>
+        {jobs.length === 0 ? <p class="none">None.</p> : (
+          <table class="history-table" data-test="history">
+            <thead><tr><th scope="col">ended</th><th scope="col">job</th><th scope="col">arms</th><th scope="col">state</th><th scope="col">waited</th><th scope="col">ran</th><th scope="col">reason</th></tr></thead>
+            <tbody>{jobs.slice(0, shown).map((job) => <Line key={job.id} job={job} app={app} />)}</tbody>
+          </table>
+        )}
+        {jobs.length > shown && <button class="more" onClick={() => set_shown(shown + 5 * kShown)}>{jobs.length - shown} more</button>}
+      </section>
+    </div>
+  );
+}
+
+function Line({ job, app }: { job: Job; app: App }) {
+  const arms = [...app.store.arms.keys()];
+  const waited_s = (job.started_s ?? job.ended_s ?? job.submitted_s) - job.submitted_s;
+  const ran = job.started_s === null || job.ended_s === null ? '–' : seconds(job.ended_s - job.started_s);
+  return (
+    <tr class={job.state}>
+      <td class="mono whole">{job.ended_s === null ? '–' : clock(job.ended_s)}</td>
+      <td><Link app={app} to={{ page: 'job', id: job.id }}>{job.name || short_id(job.id)}</Link></td>
+      <td class="whole">{job.arms.map((arm) => <span key={arm} class="tag" style={{ '--arm': arm_colour(arms, arm) }}>{arm}</span>)}</td>
+      <td class="verdict whole">{job.state}</td>
+      <td class="mono whole">{seconds(waited_s)}</td>
+      <td class="mono whole">{ran}</td>
+      <td>{result_in_words(job)}</td>
+    </tr>
+  );
+}

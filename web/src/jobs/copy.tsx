@@ -1,0 +1,34 @@
+// A button that puts text on the clipboard, and says whether that worked.
+
+import { useState } from 'preact/hooks';
+
+const kTold_ms = 1500;
+
+export function Copy({ what, text }: { what: string; text(): string }) {
+  const [told, set_told] = useState('');
+  const copy = async () => {
+    set_told(await copied(text()) ? 'copied' : 'not allowed here');
+    setTimeout(() => set_told(''), kTold_ms);
+  };
+  return (
+    <button class="small" data-test={`copy-${what}`} onClick={() => void copy()}>
+      Copy {what === 'JSON' ? what : `as ${what}`}<span role="status">{told === '' ? '' : `: ${told}`}</span>
+    </button>
+  );
+}
+
+/** Browsers give the clipboard to pages of a secure origin only; a cell's panel is often none. */
+async function copied(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    const area = document.createElement('textarea');
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    const done = document.execCommand('copy');
+    area.remove();
+    return done;
+  }
+}

@@ -1,0 +1,120 @@
+// One job: its states with their times, why it waits with the evidence, how its arm moved, and the job
+// as programs have it.
+
+import { useEffect } from 'preact/hooks';
+import { pretty } from '../compose/example';
+import { partner_of } from '../diagram/partner';
+import { Plot } from '../plot/plot';
+import { Link } from '../route/link';
+import type { Job, WaitsOn } from '../server/messages';
+import type { App } from '../state/app';
+import { is_terminal } from '../state/job_book';
+import { arm_colour } from '../state/palette';
+import { use_store } from '../state/use_store';
+import { clock, millimetres, reason_in_words, result_in_words, short_id, wait_in_words } from '../wording';
+import { Copy } from './copy';
+import { curl_of, python_of } from './snippets';
+import { states_of } from './states';
+import { when_in_words } from './when';
+
+interface Props { job: Job; app: App }
+
+export function JobPage({ id, app }: { id: string; app: App }) {
+  use_store(app.store);
+  const job = app.store.job(id);
+  const goes_on = job !== null && !is_terminal(job);
+  useEffect(() => (goes_on ? app.actions.follow_job(id) : undefined), [app, id, goes_on]);
+  if (!job) return <><h2 class="ellipsis">{id}</h2><p class="hint">{app.store.stream === null ? 'Not connected yet.' : 'The page knows no job of this name: the server keeps the last ones.'}</p></>;
+  const words = job.result ? result_in_words(job) : reason_in_words(job);
+  const arms = [...app.store.arms.keys()];
+  return (
+    <div class="page">
+      <h2 class="ellipsis">{job.name || job.id}</h2>
+      <p class="hint line">
+        {job.arms.map((arm) => <Link key={arm} app={app} to={{ page: 'arm', name: arm }} class="tag link-tag"><span style={{ color: arm_colour(arms, arm) }}>{arm}</span></Link>)}
+        <span class={`state-word ${job.state}`} data-test="job-state">{job.state}</span>
+        <span class="mono ellipsis">{job.id}</span>
+      </p>
+      {words !== '' && <p class="words">{words}</p>}
+      <States job={job} app={app} />
+      {job.waits_on.length > 0 && <Evidence job={job} app={app} />}
+      <Beside job={job} app={app} />
+      {job.started_s !== null && <Measured job={job} app={app} />}
+      <h3>For programs</h3>
+      <div class="line">
+        <Copy what="JSON" text={() => pretty(job)} />
+        <Copy what="curl" text={() => curl_of(job, location.origin)} />
+        <Copy what="Python" text={() => python_of(job, location.origin)} />
+      </div>
+      <pre class="mono" data-test="raw" tabIndex={0} aria-label="The job as JSON">{pretty(job)}</pre>
+    </div>
+  );
+}
+
+function States({ job, app }: Props) {
+  use_store(app.store, 'live');
+  const times = states_of(job, app.store.book.changes(job.id));
+  const when = is_terminal(job) ? '' : when_in_words(job, app.store);
+  return (
+    <>
+      <ol class="states" data-test="states">
+        {times.map(([name, t_s], i) => (
+          <li key={i} class={t_s === null ? 'open' : ''}>
+            <span>{name}</span><span class="mono">{t_s === null ? '–' : clock(t_s)}</span>
+            <span class="dim">{t_s === null || name === 'submitted' ? '' : `+${(t_s - job.submitted_s).toFixed(2)} s`}</span>
+          </li>
+        ))}
+      </ol>
+      <p class="hint">Its trajectory takes {job.duration_s.toFixed(2)} s; {Math.round(100 * app.store.progress(job))} % is done{when === '' ? '' : `; ${when}`}.</p>
+    </>
+  );
+}
+
+function Evidence({ job, app }: Props) {
+  return (
+    <>
+      <h3>What it waits for</h3>
+      <ul class="evidence" data-test="evidence-list">
+        {job.waits_on.map((wait, i) => (
+          <li key={i}>
+            <div>{wait_in_words(wait)}</div>
+            <div class="dim small">{figures_of(wait)}</div>
+            {wait.kind === 'job' && wait.id !== null && <Link app={app} to={{ page: 'pair', a: wait.id, b: job.id }}>Where they conflict</Link>}
+          </li>
+        ))}
+      </ul>
+    </>
+  );
+}
+
+function figures_of(wait: WaitsOn): string {
+  const parts = [
+    wait.links.length === 2 ? `${wait.links[0]} and ${wait.links[1]}` : '',
+    wait.clearance_m === null ? '' : `${millimetres(wait.clearance_m)} apart`,
+    wait.own_time_s === null ? '' : `${wait.own_time_s.toFixed(3)} s into this one`,
+    wait.other_time_s === null ? '' : `${wait.other_time_s.toFixed(3)} s into the other one`,
+  ];
+  return parts.filter((part) => part !== '').join(' · ');
+}
+
+function Beside({ job, app }: Props) {
+  const partner = partner_of(job, app.store);
+  if (!partner) return null;
+  return <p><Link app={app} to={{ page: 'pair', a: partner.id, b: job.id }} test="show-diagram">Diagram beside {short_id(partner.id)}</Link></p>;
+}
+
+function Measured({ job, app }: Props) {
+  const { store } = app;
+  const first_s = store.trace.first_s;
+  const from_s = job.started_s ?? 0;
+  const joints = job.arms.flatMap((arm) => store.arms.get(arm)?.joints ?? []);
+  if (first_s === null || (job.ended_s !== null && job.ended_s < first_s)) {
+    return <><h3>Measured</h3><p class="hint">It moved before this page listened.</p></>;
+  }
+  return (
+    <>
+      <h3>Measured</h3>
+      <Plot app={app} joints={joints} stretch={[from_s, job.ended_s]} label={`Measured joints while ${job.id} moved`} />
+    </>
+  );
+}

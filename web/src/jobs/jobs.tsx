@@ -1,0 +1,59 @@
+// The side: what moves, what is planned, what is blocked and why, what merely waits its turn, and what
+// has ended. A filter goes over all of them.
+
+import { useState } from 'preact/hooks';
+import type { Job } from '../server/messages';
+import type { App } from '../state/app';
+import type { JobList } from '../state/job_book';
+import { use_store } from '../state/use_store';
+import { matches } from './filter';
+import { Row } from './row';
+
+const kShown = 40;
+
+interface Section { list: JobList; title: string; none: string; hint: string }
+
+const kSections: readonly Section[] = [
+  { list: 'running', title: 'Running', none: 'Nothing is moving.', hint: 'Has authority to move, or stands on its path' },
+  { list: 'backlog', title: 'Blocked', none: 'No job is blocked.', hint: 'In the backlog: it was tried and is in conflict; it expires there' },
+  { list: 'scheduled', title: 'Scheduled', none: '', hint: 'Admitted: who passes first is chosen' },
+  { list: 'queued', title: 'Queued', none: 'Empty.', hint: 'Not tried yet: others come first' },
+  { list: 'finished', title: 'Finished', none: 'None yet.', hint: 'Newest first' },
+];
+
+export function Jobs({ app }: { app: App }) {
+  use_store(app.store);
+  const [words, set_words] = useState('');
+  const [only_failed, set_only_failed] = useState(false);
+  const is_asked = (job: Job) => matches(job, words, only_failed);
+  return (
+    <section class="jobs" aria-label="Jobs">
+      <div class="filter">
+        <input type="search" placeholder="Filter: id, name, arm, state" aria-label="Filter jobs" data-test="filter" value={words}
+          onInput={(event) => set_words(event.currentTarget.value)} />
+        <button class="small" aria-pressed={only_failed} data-test="only-failed" title="Only jobs that did not succeed" onClick={() => set_only_failed(!only_failed)}>failed</button>
+      </div>
+      {kSections.map((section) => <List key={section.list} section={section} app={app} is_asked={is_asked} filtered={words !== '' || only_failed} />)}
+    </section>
+  );
+}
+
+interface ListProps { section: Section; app: App; filtered: boolean; is_asked(job: Job): boolean }
+
+function List({ section: { list, title, none, hint }, app, filtered, is_asked }: ListProps) {
+  const [shown, set_shown] = useState(kShown);
+  const all = app.store.jobs(list);
+  const jobs = filtered ? all.filter(is_asked) : all;
+  if (jobs.length === 0 && (filtered || none === '')) return null;
+  const count = filtered ? `${jobs.length} of ${all.length}` : String(all.length);
+  return (
+    <section data-test={`list-${list}`} class={`list ${list}`} aria-label={title}>
+      <h3 title={hint}>{title}<span class="count" data-test={`count-${list}`}>{count}</span></h3>
+      {jobs.length === 0 && <p class="none">{none}</p>}
+      {jobs.slice(0, shown).map((job) => <Row key={job.id} job={job} app={app} />)}
+      {jobs.length > shown && (
+        <button class="more" onClick={() => set_shown(shown + 5 * kShown)}>{jobs.length - shown} more</button>
+      )}
+    </section>
+  );
+}

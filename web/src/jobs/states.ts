@@ -1,0 +1,21 @@
+// The states of a job with their times: all that were heard, or what the job itself says. Pure.
+
+import type { Job } from '../server/messages';
+import { is_terminal, type Change } from '../state/job_book';
+
+// A state that is left at once is a step on the way.
+const kLeast_s = 0.005;
+
+/** Cell time; null: not yet. */
+export type StateAt = readonly [name: string, t_s: number | null];
+
+export function states_of(job: Job, heard: readonly Change[]): StateAt[] {
+  const end: StateAt = [is_terminal(job) ? job.state : 'ended', job.ended_s];
+  const lasting = heard.filter(({ t_s }, i) => (heard[i + 1]?.t_s ?? Infinity) - t_s > kLeast_s);
+  const on_the_way = lasting.filter(({ state }) => !is_terminal({ state }));
+  const started = job.started_s === null || !on_the_way.some(({ state }) => state === 'running');
+  const steps: StateAt[] = on_the_way.map(({ state, t_s }) => [state, t_s]);
+  if (started) steps.push(['started', job.started_s]);
+  const by_time = steps.sort(([, a], [, b]) => (a ?? Infinity) - (b ?? Infinity));
+  return [['submitted', job.submitted_s], ...by_time, end];
+}

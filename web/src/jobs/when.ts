@@ -1,0 +1,22 @@
+// When a job that has not ended came into its state, is expected to start and end, and expires, in words.
+// Pure. Times are cell time.
+
+import type { Job } from '../server/messages';
+import type { Store } from '../state/store';
+import { seconds } from '../wording';
+
+export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'forecast'>): string {
+  const now_s = store.t_s;
+  const leg = store.forecast?.arms.flatMap((lane) => lane.legs).find((known) => known.id === job.id);
+  const parts: string[] = [];
+  const since_s = store.book.since(job.id);
+  if (job.state === 'backlogged' && since_s !== null) parts.push(`blocked for ${seconds(Math.max(0, now_s - since_s))}`);
+  if (job.state === 'holding' && since_s !== null) parts.push(`stands for ${seconds(Math.max(0, now_s - since_s))}`);
+  const starts_s = leg ? leg.starts_s : job.scheduled_s;
+  if (job.started_s === null && starts_s !== null) {
+    parts.push(starts_s > now_s + 0.05 ? `starts in about ${seconds(starts_s - now_s)}` : 'about to start');
+  }
+  if (leg && leg.starts_s === null) parts.push('no start as things are');
+  if (leg && job.state === 'holding') parts.push(leg.ends_s === null ? 'no end as things are' : `ends in about ${seconds(Math.max(0, leg.ends_s - now_s))}`);
+  return parts.join(' · ');
+}

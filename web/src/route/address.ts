@@ -1,0 +1,99 @@
+// Addresses of the page: what stands behind the # names a place, an instant and a camera, so that an
+// address that is sent to somebody shows the same. Pure.
+//
+//   #/                      the cell
+//   #/job/ID  #/arm/NAME    one job, one arm
+//   #/pair/A/B              the coordination diagram of two jobs, A across and B up
+//   #/scene  #/scene/NAME   the objects, one of them chosen
+//   #/new                   compose a job
+//   #/history  #/settings
+//   ?t=12.5                 the timeline held at this cell time, in seconds
+//   ?camera=x,y,z,x,y,z     where the camera stands and what it looks at, in metres
+
+export type Place =
+  | { page: 'cell' } | { page: 'new' } | { page: 'history' } | { page: 'settings' }
+  | { page: 'job'; id: string } | { page: 'arm'; name: string }
+  | { page: 'pair'; a: string; b: string }
+  | { page: 'scene'; name: string | null }
+  | { page: 'unknown'; path: string };
+
+/** Position, then target. */
+export type Camera = readonly [number, number, number, number, number, number];
+
+export interface Address { place: Place; t_s: number | null; camera: Camera | null }
+
+export const kHome: Address = { place: { page: 'cell' }, t_s: null, camera: null };
+
+export function parse_address(hash: string): Address {
+  const [path = '', query = ''] = hash.replace(/^#/, '').split('?', 2);
+  const asked = new URLSearchParams(query);
+  return { place: parse_place(path), t_s: parse_time(asked.get('t')), camera: parse_camera(asked.get('camera')) };
+}
+
+function parse_place(path: string): Place {
+  const parts = path.split('/').filter((part) => part !== '').map(decoded);
+  const [page, first, second] = parts;
+  if (page === undefined) return { page: 'cell' };
+  if (page === 'job' && first !== undefined && parts.length === 2) return { page, id: first };
+  if (page === 'arm' && first !== undefined && parts.length === 2) return { page, name: first };
+  if (page === 'pair' && first !== undefined && second !== undefined && parts.length === 3) return { page, a: first, b: second };
+  if (page === 'scene' && parts.length <= 2) return { page, name: first ?? null };
+  if ((page === 'new' || page === 'history' || page === 'settings') && parts.length === 1) return { page };
+  return { page: 'unknown', path };
+}
+
+function decoded(part: string): string {
+  try {
+    return decodeURIComponent(part);
+  } catch {
+    return part;
+  }
+}
+
+function parse_time(text: string | null): number | null {
+  const t_s = text === null || text === '' ? NaN : Number(text);
+  return Number.isFinite(t_s) && t_s >= 0 ? t_s : null;
+}
+
+function parse_camera(text: string | null): Camera | null {
+  const [a, b, c, d, e, f, ...more] = (text ?? '').split(',').map((part) => (part === '' ? NaN : Number(part)));
+  if (a === undefined || b === undefined || c === undefined || d === undefined || e === undefined || f === undefined) return null;
+  const camera: Camera = [a, b, c, d, e, f];
+  return more.length === 0 && camera.every((value) => Number.isFinite(value) && Math.abs(value) < 1000) ? camera : null;
+}
+
+export function address_text({ place, t_s, camera }: Address): string {
+  const query = [
+    ...(t_s === null ? [] : [`t=${Number(t_s.toFixed(2))}`]),
+    ...(camera === null ? [] : [`camera=${camera.map((value) => Number(value.toFixed(3))).join(',')}`]),
+  ].join('&');
+  return `#${place_text(place)}${query === '' ? '' : `?${query}`}`;
+}
+
+function place_text(place: Place): string {
+  const part = encodeURIComponent;
+  switch (place.page) {
+    case 'cell': return '/';
+    case 'job': return `/job/${part(place.id)}`;
+    case 'arm': return `/arm/${part(place.name)}`;
+    case 'pair': return `/pair/${part(place.a)}/${part(place.b)}`;
+    case 'scene': return place.name === null ? '/scene' : `/scene/${part(place.name)}`;
+    case 'unknown': return place.path;
+    default: return `/${place.page}`;
+  }
+}
+
+/** For the window's title. */
+export function place_in_words(place: Place): string {
+  switch (place.page) {
+    case 'cell': return 'Cell';
+    case 'job': return `Job ${place.id}`;
+    case 'arm': return `Arm ${place.name}`;
+    case 'pair': return `${place.a} and ${place.b}`;
+    case 'scene': return place.name === null ? 'Scene' : `Object ${place.name}`;
+    case 'new': return 'New job';
+    case 'history': return 'History';
+    case 'settings': return 'Settings';
+    case 'unknown': return 'No such page';
+  }
+}

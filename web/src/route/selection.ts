@@ -1,0 +1,19 @@
+// What the address points at: it is lit up in every view.
+
+import type { Store } from '../state/store';
+import type { Place } from './address';
+
+export interface Selection { jobs: readonly string[]; arms: readonly string[]; object: string | null }
+
+export const kNothing: Selection = { jobs: [], arms: [], object: null };
+
+export function selection_of(place: Place, store: Store): Selection {
+  const arms_of = (id: string) => store.job(id)?.arms ?? [];
+  switch (place.page) {
+    case 'job': return { jobs: [place.id], arms: arms_of(place.id), object: null };
+    case 'pair': return { jobs: [place.a, place.b], arms: [...arms_of(place.a), ...arms_of(place.b)], object: null };
+    case 'arm': return { jobs: [], arms: [place.name], object: null };
+    case 'scene': return { jobs: [], arms: [], object: place.name };
+    default: return kNothing;
+  }
+}

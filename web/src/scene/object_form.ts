@@ -1,0 +1,69 @@
+// An object of the scene as a form has it: texts, lengths in metres, turns in degrees. Pure.
+
+import { shape_of, type SceneObject } from '../server/messages';
+
+export type Kind = 'box' | 'cylinder' | 'sphere';
+export const kKinds: readonly Kind[] = ['box', 'cylinder', 'sphere'];
+
+export interface Form { name: string; kind: Kind; values: Record<string, string> }
+
+type Field = readonly [key: string, label: string, step: string];
+interface Fields { legend: string; keys: readonly Field[] }
+
+const kSizes: Record<Kind, Fields> = {
+  box: { legend: 'Size, m', keys: [['size_x', 'x', '0.01'], ['size_y', 'y', '0.01'], ['size_z', 'z', '0.01']] },
+  cylinder: { legend: 'Size, m (along z)', keys: [['radius', 'radius', '0.01'], ['length', 'length', '0.01']] },
+  sphere: { legend: 'Size, m', keys: [['radius', 'radius', '0.01']] },
+};
+const kPose: readonly Fields[] = [
+  { legend: 'Position, m', keys: [['x', 'x', '0.05'], ['y', 'y', '0.05'], ['z', 'z', '0.05']] },
+  { legend: 'Turn about fixed axes, degrees', keys: [['roll', 'roll', '5'], ['pitch', 'pitch', '5'], ['yaw', 'yaw', '5']] },
+];
+
+export function fields_of(kind: Kind): readonly Fields[] {
+  return [kSizes[kind], ...kPose];
+}
+
+export function blank_form(): Form {
+  const values = { size_x: '0.2', size_y: '0.2', size_z: '0.2', radius: '0.1', length: '0.3', x: '0', y: '0', z: '0.5', roll: '0', pitch: '0', yaw: '0' };
+  return { name: '', kind: 'box', values };
+}
+
+export function form_of(object: SceneObject): Form {
+  const form = blank_form();
+  const shape = shape_of(object);
+  const put = (keys: readonly string[], values: readonly number[]) => keys.forEach((key, i) => { form.values[key] = text_of(values[i] ?? 0); });
+  if (shape?.kind === 'box') put(['size_x', 'size_y', 'size_z'], shape.size);
+  if (shape?.kind === 'cylinder') put(['radius', 'length'], [shape.radius, shape.length]);
+  if (shape?.kind === 'sphere') put(['radius'], [shape.radius]);
+  put(['x', 'y', 'z'], object.xyz);
+  put(['roll', 'pitch', 'yaw'], object.rpy.map((angle) => (angle * 180) / Math.PI));
+  return { ...form, name: object.name, kind: shape && shape.kind !== 'mesh' ? shape.kind : 'box' };
+}
+
+function text_of(value: number): string {
+  return String(Number(value.toFixed(6)));
+}
+
+/** Or what is wrong with it; what a size may be is the server's matter. */
+export function object_of(form: Form): SceneObject | { fault: string } {
+  const faults: string[] = [];
+  const number_of = (key: string): number => {
+    const text = form.values[key]?.trim() ?? '';
+    const value = text === '' ? NaN : Number(text);
+    if (!Number.isFinite(value)) faults.push(`${key.replace('_', ' ')}: "${text}" is no number`);
+    return value;
+  };
+  if (form.name.trim() === '') faults.push('it has no name');
+  const radians_of = (key: string) => (number_of(key) * Math.PI) / 180;
+  const pose = {
+    xyz: [number_of('x'), number_of('y'), number_of('z')] as [number, number, number],
+    rpy: [radians_of('roll'), radians_of('pitch'), radians_of('yaw')] as [number, number, number],
+  };
+  const name = form.name.trim();
+  const object: SceneObject = form.kind === 'box'
+    ? { name, box: [number_of('size_x'), number_of('size_y'), number_of('size_z')], ...pose }
+    : form.kind === 'cylinder' ? { name, cylinder: [number_of('radius'), number_of('length')], ...pose }
+      : { name, sphere: [number_of('radius')], ...pose };
+  return faults.length > 0 ? { fault: faults.join('; ') } : object;
+}

@@ -1,0 +1,97 @@
+// The scene: what stands in it, and a form to add, move and take away boxes, cylinders and spheres.
+
+import { useState } from 'preact/hooks';
+import { Refused } from '../compose/refused';
+import { Link } from '../route/link';
+import { shape_of, type Problem, type SceneObject } from '../server/messages';
+import type { App } from '../state/app';
+import { use_store } from '../state/use_store';
+import { why_mute } from '../wording';
+import { blank_form, fields_of, form_of, kKinds, object_of, type Form, type Kind } from './object_form';
+
+export function ScenePage({ name, app }: { name: string | null; app: App }) {
+  use_store(app.store);
+  const { objects } = app.store;
+  const chosen = objects.find((object) => object.name === name) ?? null;
+  return (
+    <div class="page">
+      <h2>Scene<span class="count">{objects.length}</span></h2>
+      <p class="hint">What is changed here is judged at once: a motion that an object stands in the way of is held.</p>
+      <ul class="objects" data-test="objects">
+        {objects.map((object) => (
+          <li key={object.name} class={object.name === name ? 'selected' : ''}>
+            <Link app={app} to={{ page: 'scene', name: object.name }} class="open" current={object.name === name}>
+              <span class="ellipsis">{object.name}</span><span class="dim small">{size_in_words(object)}</span>
+            </Link>
+          </li>
+        ))}
+      </ul>
+      {name !== null && !chosen && <p class="hint">There is no object of the name {name}.</p>}
+      {chosen?.mesh !== undefined
+        ? <p class="hint">A mesh: change it through the API.</p>
+        : <ObjectForm key={chosen ? JSON.stringify(chosen) : 'new'} chosen={chosen} app={app} />}
+    </div>
+  );
+}
+
+function size_in_words(object: SceneObject): string {
+  const shape = shape_of(object);
+  switch (shape?.kind) {
+    case 'box': return `box ${shape.size.join(' × ')} m`;
+    case 'cylinder': return `cylinder, radius ${shape.radius} m, ${shape.length} m long`;
+    case 'sphere': return `sphere, radius ${shape.radius} m`;
+    case 'mesh': return 'mesh';
+    default: return '';
+  }
+}
+
+function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
+  const [form, set_form] = useState<Form>(chosen ? form_of(chosen) : blank_form());
+  const [problem, set_problem] = useState<Problem | null>(null);
+  const mute = why_mute(app.store.link);
+  const submit = async (event: Event) => {
+    event.preventDefault();
+    const object = object_of(form);
+    if ('fault' in object) return set_problem({ type: 'about:blank', title: 'Not complete', status: 0, detail: object.fault });
+    const answer = await app.api.put_object(object);
+    set_problem(answer.ok ? null : answer.problem);
+    if (answer.ok) app.router.go({ page: 'scene', name: object.name });
+  };
+  return (
+    <form class="object-form" data-test="object-form" onSubmit={(event) => void submit(event)}>
+      <h3>{chosen ? `Change ${chosen.name}` : 'Add an object'}</h3>
+      <div class="line wrap">
+        <label>Name <input type="text" required maxLength={64} value={form.name} readOnly={chosen !== null} data-test="object-name"
+          onInput={(event) => set_form({ ...form, name: event.currentTarget.value })} /></label>
+        <label>Shape <select value={form.kind} data-test="object-kind" onChange={(event) => set_form({ ...form, kind: event.currentTarget.value as Kind })}>
+          {kKinds.map((kind) => <option key={kind} value={kind}>{kind}</option>)}
+        </select></label>
+      </div>
+      {fields_of(form.kind).map(({ legend, keys }) => (
+        <fieldset key={legend}>
+          <legend>{legend}</legend>
+          {keys.map(([key, label, step]) => (
+            <label key={key}>{label} <input type="number" required step={step} value={form.values[key] ?? ''} data-test={`object-${key}`}
+              onInput={(event) => set_form({ ...form, values: { ...form.values, [key]: event.currentTarget.value } })} /></label>
+          ))}
+        </fieldset>
+      ))}
+      <div class="line">
+        <button class="primary" type="submit" data-test="object-save" disabled={mute !== null} title={mute ?? ''}>{chosen ? 'Change' : 'Add'}</button>
+        {chosen && <Remove object={chosen} app={app} />}
+        {chosen && <Link app={app} to={{ page: 'scene', name: null }}>Add another</Link>}
+      </div>
+      {problem && <Refused problem={problem} />}
+    </form>
+  );
+}
+
+function Remove({ object, app }: { object: SceneObject; app: App }) {
+  const [asked, set_asked] = useState(false);
+  const remove = async () => {
+    if (await app.actions.ask(`Remove ${object.name}`, app.api.remove_object(object.name))) app.router.go({ page: 'scene', name: null });
+  };
+  return asked
+    ? <><button type="button" class="danger" data-test="object-removal" onClick={() => void remove()}>Remove {object.name}</button><button type="button" onClick={() => set_asked(false)}>Keep</button></>
+    : <button type="button" data-test="object-remove" onClick={() => set_asked(true)}>Remove…</button>;
+}

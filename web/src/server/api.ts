@@ -1,0 +1,113 @@
+// The HTTP calls that the page makes. Every answer is a value: what was asked for, or a Problem.
+
+import {
+  parse_cell, parse_diagram, parse_forecast, parse_job, parse_problem, parse_verdict,
+  type Cell, type Diagram, type Forecast, type Job, type Parsed, type Problem, type SceneObject, type Verdict,
+} from './messages';
+
+export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
+export type Fetch = (url: string, init?: RequestInit) => Promise<Response>;
+
+export class Api {
+  constructor(private readonly base_: string, private readonly fetch_: Fetch) {}
+
+  async cell(): Promise<Answer<Cell>> {
+    return checked('cell', await this.ask('GET', '/cell'), parse_cell);
+  }
+
+  async job(id: string): Promise<Answer<Job>> {
+    return checked('job', await this.ask('GET', `/jobs/${encodeURIComponent(id)}`), parse_job);
+  }
+
+  async timeline(): Promise<Answer<Forecast>> {
+    return checked('timeline', await this.ask('GET', '/timeline'), parse_forecast);
+  }
+
+  /** Without its cells, for who has them: what lies ahead by now. */
+  async diagram(a: string, b: string, cells = true): Promise<Answer<Diagram>> {
+    const path = `/jobs/${encodeURIComponent(a)}/diagram?with=${encodeURIComponent(b)}${cells ? '' : '&cells=0'}`;
+    return checked('diagram', await this.ask('GET', path), parse_diagram);
+  }
+
+  /** Posts the text as it stands: the server is the judge of it, JSON errors included. */
+  post_job(text: string): Promise<Answer<unknown>> {
+    return this.ask('POST', '/jobs', text);
+  }
+
+  /** All of them or none. */
+  post_batch(text: string): Promise<Answer<unknown>> {
+    return this.ask('POST', '/batches', text);
+  }
+
+  /** What if this job came now? Nothing is stored. */
+  async check(text: string): Promise<Answer<Verdict>> {
+    return checked('verdict', await this.ask('POST', '/check', text), parse_verdict);
+  }
+
+  put_object(object: SceneObject): Promise<Answer<unknown>> {
+    const { name, ...rest } = object;
+    return this.ask('PUT', `/scene/objects/${encodeURIComponent(name)}`, JSON.stringify(rest));
+  }
+
+  remove_object(name: string): Promise<Answer<unknown>> {
+    return this.ask('DELETE', `/scene/objects/${encodeURIComponent(name)}`);
+  }
+
+  cancel_job(id: string): Promise<Answer<unknown>> {
+    return this.ask('DELETE', `/jobs/${encodeURIComponent(id)}`);
+  }
+
+  stop(): Promise<Answer<unknown>> {
+    return this.ask('POST', '/stop');
+  }
+
+  resume(): Promise<Answer<unknown>> {
+    return this.ask('POST', '/resume');
+  }
+
+  stop_arm(name: string): Promise<Answer<unknown>> {
+    return this.ask('POST', `/arms/${encodeURIComponent(name)}/stop`);
+  }
+
+  resume_arm(name: string): Promise<Answer<unknown>> {
+    return this.ask('POST', `/arms/${encodeURIComponent(name)}/resume`);
+  }
+
+  private async ask(method: string, path: string, body?: string): Promise<Answer<unknown>> {
+    const init: RequestInit = { method, headers: { accept: 'application/json' } };
+    if (body !== undefined) {
+      init.body = body;
+      init.headers = { accept: 'application/json', 'content-type': 'application/json' };
+    }
+    try {
+      const response = await this.fetch_(this.base_ + path, init);
+      const text = await response.text();
+      if (response.ok) return { ok: true, value: text === '' ? null : (JSON.parse(text) as unknown) };
+      return { ok: false, problem: read_problem(text, response) };
+    } catch (error) {
+      return { ok: false, problem: own_problem('The server does not answer', String(error)) };
+    }
+  }
+}
+
+function checked<T>(what: string, answer: Answer<unknown>, parse: (value: unknown) => Parsed<T>): Answer<T> {
+  if (!answer.ok) return answer;
+  const parsed = parse(answer.value);
+  return parsed.ok
+    ? { ok: true, value: parsed.value }
+    : { ok: false, problem: own_problem(`The ${what} cannot be read`, parsed.fault) };
+}
+
+function read_problem(text: string, response: Response): Problem {
+  try {
+    const problem = parse_problem(JSON.parse(text));
+    if (problem.ok) return problem.value;
+  } catch {
+    // Not JSON: an answer from something between us and the server. Shown as it is.
+  }
+  return { ...own_problem(response.statusText || 'Refused', text.slice(0, 300)), status: response.status };
+}
+
+function own_problem(title: string, detail: string): Problem {
+  return { type: 'about:blank', title, status: 0, detail };
+}

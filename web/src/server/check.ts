@@ -1,0 +1,40 @@
+// Whether JSON is what the server says it sends: by the shapes of src/contract, which are made from
+// the server's own description. A fault names the place and what was found there.
+
+import { Validator } from '@cfworker/json-schema';
+import shapes from '../contract/schemas.json';
+import type { components } from '../contract/types';
+
+export type Schemas = components['schemas'];
+type Checked = keyof Schemas & keyof typeof shapes;
+
+export type Parsed<T> = { ok: true; value: T } | { ok: false; fault: string };
+
+const validators = new Map<Checked, Validator>();
+
+export function check<Name extends Checked>(name: Name, value: unknown): Parsed<Schemas[Name]> {
+  const { valid, errors } = validator_of(name).validate(value);
+  if (valid) return { ok: true, value: value as Schemas[Name] };
+  // The innermost one says most; around it they only say that there is one.
+  const depth = (place: string) => place.split('/').length;
+  const fault = errors.reduce((a, b) => (depth(b.instanceLocation) >= depth(a.instanceLocation) ? b : a));
+  const pointer = fault.instanceLocation.slice(1);
+  const found = JSON.stringify(value_at(value, pointer))?.slice(0, 60) ?? 'nothing';
+  return { ok: false, fault: `${pointer || '/'}: ${fault.error} Found ${found}` };
+}
+
+function validator_of(name: Checked): Validator {
+  let validator = validators.get(name);
+  if (!validator) {
+    validator = new Validator({ $ref: `#/$defs/${name}`, $defs: shapes as object }, '2020-12');
+    validators.set(name, validator);
+  }
+  return validator;
+}
+
+function value_at(value: unknown, pointer: string): unknown {
+  return pointer.split('/').slice(1).reduce<unknown>((at, key) => {
+    const plain = decodeURIComponent(key).replaceAll('~1', '/').replaceAll('~0', '~');
+    return typeof at === 'object' && at !== null ? (at as Record<string, unknown>)[plain] : undefined;
+  }, value);
+}

@@ -1,0 +1,53 @@
+// What a click may ask of the server, with the answer shown where it concerns everyone.
+
+import { signal } from '@preact/signals';
+import type { Answer, Api } from '../server/api';
+import type { Timers } from '../server/connection';
+import { follow_job } from '../server/follow_job';
+import type { Store } from './store';
+
+export class Actions {
+  /** The last thing that the server refused, until it is put away. */
+  readonly refusal = signal<string | null>(null);
+  /** A stop was asked for and is not answered yet. */
+  readonly stopping = signal(false);
+
+  constructor(
+    private readonly api_: Api, private readonly store_: Store, private readonly timers_: Timers,
+    readonly retry_connection: () => void,
+  ) {}
+
+  /** Keeps a job's details fresh until it ends or the answer is called. */
+  follow_job(id: string): () => void {
+    return follow_job(id, this.api_, this.store_, this.timers_);
+  }
+
+  /** Asked even when the connection seems lost: it may be the page that hears nothing. */
+  async stop(): Promise<void> {
+    this.stopping.value = true;
+    if (await this.ask('Stop all', this.api_.stop())) this.store_.set_stopped(true);
+    this.stopping.value = false;
+  }
+
+  async resume(): Promise<void> {
+    if (await this.ask('Resume', this.api_.resume())) this.store_.set_stopped(false);
+  }
+
+  async stop_arm(name: string): Promise<void> {
+    await this.ask(`Stop ${name}`, this.api_.stop_arm(name));
+  }
+
+  async resume_arm(name: string): Promise<void> {
+    await this.ask(`Resume ${name}`, this.api_.resume_arm(name));
+  }
+
+  async cancel(id: string): Promise<void> {
+    await this.ask(`Cancel ${id}`, this.api_.cancel_job(id));
+  }
+
+  async ask(what: string, answer: Promise<Answer<unknown>>): Promise<boolean> {
+    const got = await answer;
+    this.refusal.value = got.ok ? null : `${what} was refused: ${got.problem.detail ?? got.problem.title}`;
+    return got.ok;
+  }
+}

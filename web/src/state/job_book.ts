@@ -1,0 +1,163 @@
+// The jobs that the page knows: each as last heard, the server's order of those that have not ended,
+// since when each is in its state, and when it stood on its path. Those that have ended are kept in the
+// order in which they did, so that ten thousand of them cost nothing when one more is heard of.
+
+import type { Job, JobState, QueueData } from '../server/messages';
+
+export type JobList = 'running' | 'scheduled' | 'queued' | 'backlog' | 'finished';
+
+const kListOfState: Record<JobState, JobList> = {
+  running: 'running', holding: 'running', scheduled: 'scheduled', queued: 'queued', backlogged: 'backlog',
+  succeeded: 'finished', canceled: 'finished', expired: 'finished', failed: 'finished', interrupted: 'finished',
+};
+const kMaxFinished = 10_000;
+// Forgotten some at a time.
+const kSlack = 0.05;
+
+export function is_terminal(job: Pick<Job, 'state'>): boolean {
+  return kListOfState[job.state] === 'finished';
+}
+
+/** Cell time; to_s is null while it lasts. */
+export interface Stand { from_s: number; to_s: number | null }
+
+export interface Change { state: JobState; t_s: number }
+
+interface Heard {
+  job: Job;
+  /** When it was heard, in cell time. */
+  t_s: number;
+  /** When it came into its state; null: before this page listened. */
+  since_s: number | null;
+  stands: Stand[];
+  /** Each state that it came into while this page listened. */
+  changes: Change[];
+}
+
+export class JobBook {
+  private heard_ = new Map<string, Heard>();
+  /** Of these, the ones that have not ended. */
+  private open_ = new Set<string>();
+  /** The others, oldest first. */
+  private ended_: Job[] = [];
+  private order_ = new Map<string, number>();
+  private lists_: Map<JobList, Job[]> | null = null;
+
+  constructor(private readonly most_finished_ = kMaxFinished) {}
+
+  /** All anew, from a snapshot; what is remembered of a job in the same run stays. */
+  reset(jobs: readonly Job[], t_s: number, same_run: boolean): void {
+    const before = same_run ? this.heard_ : new Map<string, Heard>();
+    this.heard_ = new Map(jobs.map((job) => {
+      const known = before.get(job.id);
+      const same_state = known?.job.state === job.state;
+      return [job.id, { job, t_s, since_s: same_state ? known.since_s : null, stands: known?.stands ?? [], changes: known?.changes ?? [] }];
+    }));
+    this.open_ = new Set(jobs.filter((job) => !is_terminal(job)).map((job) => job.id));
+    this.ended_ = jobs.filter(is_terminal).sort((a, b) => ended(a) - ended(b));
+    this.lists_ = null;
+  }
+
+  take(job: Job, t_s: number): void {
+    const known = this.heard_.get(job.id);
+    const same_state = known?.job.state === job.state;
+    const stands = known?.stands ?? [];
+    const changes = known?.changes ?? [];
+    if (!same_state) changes.push({ state: job.state, t_s });
+    if (job.state === 'holding' && !same_state) stands.push({ from_s: t_s, to_s: null });
+    const last = stands.at(-1);
+    if (job.state !== 'holding' && last && last.to_s === null) last.to_s = t_s;
+    this.heard_.set(job.id, { job, t_s, since_s: same_state ? known.since_s : t_s, stands, changes });
+    if (known && is_terminal(known.job)) this.ended_ = this.ended_.filter((one) => one.id !== job.id);
+    if (is_terminal(job)) this.end(job);
+    else this.open_.add(job.id);
+    this.lists_ = null;
+  }
+
+  /** What was fetched brings what events do not repeat; one of another state than the known is dropped. */
+  refresh(job: Job, t_s: number): boolean {
+    const known = this.heard_.get(job.id);
+    if (!known || known.job.state !== job.state || is_terminal(known.job)) return false;
+    this.heard_.set(job.id, { ...known, job, t_s });
+    this.lists_ = null;
+    return true;
+  }
+
+  set_order(queue: QueueData | null): void {
+    const ids = queue ? [...queue.running, ...queue.scheduled, ...queue.queued, ...queue.backlog] : [];
+    this.order_ = new Map(ids.map((id, i) => [id, i]));
+    this.lists_ = null;
+  }
+
+  get(id: string): Job | null {
+    return this.heard_.get(id)?.job ?? null;
+  }
+
+  heard_at(id: string): number | null {
+    return this.heard_.get(id)?.t_s ?? null;
+  }
+
+  since(id: string): number | null {
+    return this.heard_.get(id)?.since_s ?? null;
+  }
+
+  changes(id: string): readonly Change[] {
+    return this.heard_.get(id)?.changes ?? [];
+  }
+
+  stands(id: string): readonly Stand[] {
+    return this.heard_.get(id)?.stands ?? [];
+  }
+
+  all(): Job[] {
+    return [...this.heard_.values()].map((heard) => heard.job);
+  }
+
+  /** Those that have not ended, and those that ended at a time or later. */
+  since_time(t_s: number): Job[] {
+    const jobs = [...this.open_].flatMap((id) => this.get(id) ?? []);
+    for (let i = this.ended_.length - 1; i >= 0; i--) {
+      const job = this.ended_[i];
+      if (!job || ended(job) < t_s) break;
+      jobs.push(job);
+    }
+    return jobs;
+  }
+
+  /** A list's jobs in the server's order; finished ones newest first. Not to be changed. */
+  list(list: JobList): readonly Job[] {
+    this.lists_ ??= this.sorted();
+    return this.lists_.get(list) ?? [];
+  }
+
+  private sorted(): Map<JobList, Job[]> {
+    const lists = new Map<JobList, Job[]>([['finished', [...this.ended_].reverse()]]);
+    for (const id of this.open_) {
+      const job = this.get(id);
+      if (!job) continue;
+      const name = kListOfState[job.state];
+      const list = lists.get(name);
+      if (list) list.push(job);
+      else lists.set(name, [job]);
+    }
+    const place = (job: Job) => this.order_.get(job.id) ?? Infinity;
+    for (const [name, jobs] of lists) {
+      if (name !== 'finished') jobs.sort((a, b) => (place(a) - place(b)) || a.submitted_s - b.submitted_s);
+    }
+    return lists;
+  }
+
+  /** Most end in the order in which they are heard of. */
+  private end(job: Job): void {
+    this.open_.delete(job.id);
+    let at = this.ended_.length;
+    while (at > 0 && ended(this.ended_[at - 1]) > ended(job)) at -= 1;
+    this.ended_.splice(at, 0, job);
+    if (this.ended_.length <= this.most_finished_ * (1 + kSlack)) return;
+    for (const old of this.ended_.splice(0, this.ended_.length - this.most_finished_)) this.heard_.delete(old.id);
+  }
+}
+
+function ended(job: Job | undefined): number {
+  return job?.ended_s ?? 0;
+}

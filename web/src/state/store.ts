@@ -1,0 +1,241 @@
+// All that the page knows, in one place. Messages and replies go in through the methods; views read
+// the fields, and three signals tell when to look again: `changes`, once per change; `frames`, with
+// each pose (30 a second); `beats`, some times a second while poses come in.
+
+import { signal, untracked, type ReadonlySignal } from '@preact/signals';
+import type { Link } from '../server/connection';
+import type { Arm, Cell, Clearance, Forecast, Job, Message, SceneObject, StateMessage } from '../server/messages';
+import { monitor_in_words } from '../wording';
+import { is_terminal, JobBook, type JobList } from './job_book';
+import { Trace } from './trace';
+
+export interface Notice {
+  key: number;
+  t_s: number;
+  level: 'info' | 'warning' | 'error';
+  source: 'monitor' | 'alert';
+  text: string;
+}
+
+const kBeat_ms = 160;
+const kMaxNotices = 100;
+
+export class Store {
+  cell: Cell | null = null;
+  cell_fault: string | null = null;
+  link: Link = { status: 'connecting' };
+  stream: string | null = null;
+  policy = '';
+  speed = 1;
+  stopped = false;
+  t_s = 0;
+  /** Changes with every scene, so that the view draws objects again. */
+  objects: SceneObject[] = [];
+  arms = new Map<string, Arm>();
+  q: Record<string, number> = {};
+  clearance: Clearance[] = [];
+  notices: Notice[] = [];
+  rejected = { unknown: 0, malformed: 0 };
+
+  /** What the server expects the arms to do; null: not known. */
+  forecast: Forecast | null = null;
+  readonly book = new JobBook();
+  readonly trace = new Trace();
+
+  private next_key_ = 1;
+  private readonly changes_ = signal(0);
+  private readonly frames_ = signal(0);
+  private readonly beats_ = signal(0);
+  private beaten_at_ms_ = -Infinity;
+  private heard_at_ms_: number | null = null;
+
+  constructor(private readonly now_ms_: () => number = () => performance.now()) {}
+
+  get changes(): ReadonlySignal<number> { return this.changes_; }
+  get frames(): ReadonlySignal<number> { return this.frames_; }
+  get beats(): ReadonlySignal<number> { return this.beats_; }
+
+  /** For what draws itself. The answer ends it. */
+  on_change(listener: () => void): () => void {
+    return from_now(this.changes_, listener);
+  }
+
+  on_frame(listener: () => void): () => void {
+    return from_now(this.frames_, listener);
+  }
+
+  on_beat(listener: () => void): () => void {
+    return from_now(this.beats_, listener);
+  }
+
+  take(message: Message): void {
+    this.heard_at_ms_ = this.now_ms_();
+    if (message.type === 'state') {
+      this.take_frame(message);
+      return;
+    }
+    const same_run = message.stream === this.stream;
+    const restarted = this.stream !== null && !same_run;
+    this.t_s = Math.max(same_run ? this.t_s : 0, message.t_s);
+    this.stream = message.stream;
+    switch (message.type) {
+      case 'snapshot': {
+        const { data } = message;
+        this.policy = data.policy;
+        this.speed = data.speed;
+        this.stopped = data.stopped;
+        this.arms = new Map(data.arms.map((arm) => [arm.name, arm]));
+        for (const arm of data.arms) this.place(arm);
+        this.book.reset(data.jobs, message.t_s, same_run);
+        this.book.set_order(data.queue);
+        if (!same_run) this.forecast = null;
+        if (restarted) this.trace.clear();
+        this.objects = data.objects;
+        if (restarted) this.note(message.t_s, 'warning', 'alert', 'The server was restarted: jobs from before are gone.');
+        else if (data.gap) this.note(message.t_s, 'info', 'alert', 'Some events were missed while the connection was lost.');
+        break;
+      }
+      case 'job':
+        this.book.take(message.data, message.t_s);
+        break;
+      case 'arm':
+        this.arms.set(message.data.name, message.data);
+        break;
+      case 'queue': {
+        const { data } = message;
+        this.stopped = data.stopped;
+        this.book.set_order(data);
+        break;
+      }
+      case 'monitor': {
+        const level = message.data.stopped.length ? 'error' : 'warning';
+        this.note(message.t_s, level, 'monitor', monitor_in_words(message.data));
+        break;
+      }
+      case 'alert':
+        this.note(message.t_s, message.data.level, 'alert', message.data.text);
+        break;
+      case 'scene':
+        this.objects = message.data.objects;
+        break;
+    }
+    this.changed();
+  }
+
+  set_cell(cell: Cell): void {
+    this.cell = cell;
+    this.cell_fault = null;
+    if (!this.stream) {
+      this.policy = cell.policy;
+      this.speed = cell.speed;
+      this.objects = cell.objects;
+    }
+    this.changed();
+  }
+
+  set_cell_fault(fault: string): void {
+    this.cell_fault = fault;
+    this.changed();
+  }
+
+  set_link(link: Link): void {
+    this.link = link;
+    this.changed();
+  }
+
+  /**
+   * A job as it was fetched: it brings what events do not repeat while a job runs, its progress.
+   * An event may have overtaken the answer, so one of another state than the known one is dropped.
+   */
+  refresh_job(job: Job): void {
+    if (this.book.refresh(job, this.t_s)) this.changed();
+  }
+
+  set_forecast(forecast: Forecast | null): void {
+    this.forecast = forecast;
+    this.changed();
+  }
+
+  set_stopped(stopped: boolean): void {
+    this.stopped = stopped;
+    this.changed();
+  }
+
+  /** Counts it; answers whether it is the first of its kind, which is worth a line in the console. */
+  reject(kind: 'unknown' | 'malformed'): boolean {
+    this.rejected = { ...this.rejected, [kind]: this.rejected[kind] + 1 };
+    this.changed();
+    return this.rejected[kind] === 1;
+  }
+
+  jobs(list: JobList): readonly Job[] {
+    return this.book.list(list);
+  }
+
+  all_jobs(): Job[] {
+    return this.book.all();
+  }
+
+  job(id: string): Job | null {
+    return this.book.get(id);
+  }
+
+  /** Share of its trajectory that a job has done by now: the last report, carried on while it runs. */
+  progress(job: Job): number {
+    const heard_s = this.book.heard_at(job.id);
+    const moves = job.state === 'running' && job.arms.every((arm) => this.arms.get(arm)?.state !== 'holding');
+    if (heard_s === null || !moves || job.stopping || !job.duration_s) return job.progress;
+    const since_report = Math.max(0, this.t_s - Math.max(heard_s, job.started_s ?? heard_s));
+    return Math.min(1, job.progress + since_report / job.duration_s);
+  }
+
+  is_terminal(job: Job): boolean {
+    return is_terminal(job);
+  }
+
+  /** The arm's configuration as last measured, in the order of its joints. */
+  q_of(arm: Arm): number[] {
+    return arm.joints.map((joint, i) => this.q[joint] ?? arm.q[i] ?? 0);
+  }
+
+  /** For how long nothing was heard; null before anything was. */
+  silence_ms(): number | null {
+    return this.heard_at_ms_ === null ? null : this.now_ms_() - this.heard_at_ms_;
+  }
+
+  private take_frame(frame: StateMessage): void {
+    this.t_s = frame.t_s;
+    Object.assign(this.q, frame.q);
+    this.clearance = frame.clearance;
+    this.trace.push(frame.t_s, frame.q);
+    this.frames_.value += 1;
+    const now_ms = this.now_ms_();
+    if (now_ms - this.beaten_at_ms_ < kBeat_ms) return;
+    this.beaten_at_ms_ = now_ms;
+    this.beats_.value += 1;
+  }
+
+  private place(arm: Arm): void {
+    arm.joints.forEach((joint, i) => {
+      const angle = arm.q[i];
+      if (angle !== undefined) this.q[joint] = angle;
+    });
+  }
+
+  private note(t_s: number, level: Notice['level'], source: Notice['source'], text: string): void {
+    this.notices = [{ key: this.next_key_++, t_s, level, source, text }, ...this.notices].slice(0, kMaxNotices);
+  }
+
+  private changed(): void {
+    this.changes_.value += 1;
+  }
+}
+
+/** A signal tells its value at once, too, which a listener here has seen. */
+function from_now(changes: ReadonlySignal<number>, listener: () => void): () => void {
+  let first = true;
+  return changes.subscribe(() => {
+    if (!first) untracked(listener);
+    first = false;
+  });
+}

@@ -1,0 +1,89 @@
+// Where every joint was over the last minutes, as measured: what look-back and plots are drawn from.
+// A ring of so many frames; its size never grows.
+
+const kFrames = 9_000;  // five minutes at 30 Hz
+
+export interface Curves { t_s: number[]; q: number[][] }
+
+export class Trace {
+  private names_: string[] = [];
+  private t_s_ = new Float64Array(0);
+  private q_ = new Float32Array(0);
+  private count_ = 0;
+  private next_ = 0;
+
+  constructor(private readonly capacity_ = kFrames) {}
+
+  clear(): void {
+    this.count_ = 0;
+    this.next_ = 0;
+  }
+
+  push(t_s: number, q: Readonly<Record<string, number>>): void {
+    const names = Object.keys(q);
+    if (names.length !== this.names_.length || names.some((name, i) => name !== this.names_[i])) this.begin(names);
+    const last = this.last_s;
+    if (last !== null && t_s < last) this.clear();
+    else if (last === t_s) return;
+    this.t_s_[this.next_] = t_s;
+    names.forEach((name, i) => { this.q_[this.next_ * names.length + i] = q[name] ?? NaN; });
+    this.next_ = (this.next_ + 1) % this.capacity_;
+    this.count_ = Math.min(this.capacity_, this.count_ + 1);
+  }
+
+  get first_s(): number | null {
+    return this.count_ === 0 ? null : this.time(0);
+  }
+  get last_s(): number | null {
+    return this.count_ === 0 ? null : this.time(this.count_ - 1);
+  }
+
+  /** Every joint at the last frame until then; null when it is older than all that is kept. */
+  at(t_s: number): Record<string, number> | null {
+    const i = this.last_until(t_s);
+    if (i < 0) return null;
+    return Object.fromEntries(this.names_.map((name, joint) => [name, this.value(i, joint)]));
+  }
+
+  /** Some joints over a stretch of time, thinned to so many frames. */
+  between(names: readonly string[], from_s: number, to_s: number, most = 600): Curves {
+    const columns = names.map((name) => this.names_.indexOf(name));
+    const begin = Math.max(0, this.last_until(from_s));
+    const end = this.last_until(to_s);
+    const step = Math.max(1, Math.ceil((end - begin + 1) / most));
+    const curves: Curves = { t_s: [], q: names.map(() => []) };
+    for (let i = begin; i <= end; i += step) {
+      if (this.time(i) < from_s) continue;
+      curves.t_s.push(this.time(i));
+      columns.forEach((column, k) => curves.q[k]?.push(column < 0 ? NaN : this.value(i, column)));
+    }
+    return curves;
+  }
+
+  private begin(names: string[]): void {
+    this.names_ = names;
+    this.t_s_ = new Float64Array(this.capacity_);
+    this.q_ = new Float32Array(this.capacity_ * names.length);
+    this.clear();
+  }
+
+  private slot(i: number): number {
+    return (this.next_ - this.count_ + i + this.capacity_) % this.capacity_;
+  }
+  private time(i: number): number {
+    return this.t_s_[this.slot(i)] ?? NaN;
+  }
+  private value(i: number, joint: number): number {
+    return this.q_[this.slot(i) * this.names_.length + joint] ?? NaN;
+  }
+
+  private last_until(t_s: number): number {
+    let [low, high] = [-1, this.count_ - 1];
+    while (low < high) {
+      const middle = Math.ceil((low + high) / 2);
+      if (this.time(middle) <= t_s) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+}

@@ -1,0 +1,102 @@
+// What the timeline shows of each arm, as plain data: what it did, by the jobs' own times, and what the
+// server expects it to do. Pure. Times are cell time.
+//
+// An arm waits while it could go: from when its next job was there and the one before had ended, until
+// it starts. Jobs behind that one wait their turn, which is no news.
+
+import type { Forecast, ForecastLeg, Job, WaitsOn } from '../server/messages';
+import type { Stand } from '../state/job_book';
+
+/** Who is waited for. */
+export interface WaitedFor { job: string | null; arm: string | null }
+
+export interface Mark {
+  /** A motion that was, is, or is expected; a stand on its way; a wait before its start. */
+  kind: 'motion' | 'pause' | 'wait';
+  expected: boolean;
+  job: string;
+  label: string;
+  state: Job['state'];
+  from_s: number;
+  /** Infinity: for ever, as things are. */
+  to_s: number;
+  waits_on: WaitsOn | null;
+}
+
+export interface Lane {
+  arm: string;
+  marks: Mark[];
+  /** Jobs that have no times yet. */
+  waiting: number;
+}
+
+export interface Known {
+  arms: readonly string[];
+  jobs: readonly Job[];
+  stands(job: string): readonly Stand[];
+  forecast: Forecast | null;
+  now_s: number;
+}
+
+const kLeastWait_s = 0.15;
+
+export function lanes_of(known: Known): Lane[] {
+  const of_arm = new Map<string, Job[]>(known.arms.map((arm) => [arm, []]));
+  for (const job of known.jobs) for (const arm of job.arms) of_arm.get(arm)?.push(job);
+  return known.arms.map((arm) => {
+    const expected = known.forecast?.arms.find((lane) => lane.name === arm);
+    const jobs = of_arm.get(arm) ?? [];
+    const ended = new Set(jobs.filter((job) => job.ended_s !== null).map((job) => job.id));
+    const legs = (expected?.legs ?? []).filter((leg) => !ended.has(leg.id));
+    return {
+      arm,
+      marks: [...past_of(jobs, known), ...legs.flatMap((leg) => future_of(leg, known.now_s))],
+      waiting: expected?.waiting ?? 0,
+    };
+  });
+}
+
+function past_of(jobs: readonly Job[], { now_s, stands }: Known): Mark[] {
+  const marks: Mark[] = [];
+  const begun = jobs.filter((job) => job.started_s !== null).sort((a, b) => (a.started_s ?? 0) - (b.started_s ?? 0));
+  let free_from_s = 0;
+  for (const job of begun) {
+    const start_s = job.started_s ?? 0;
+    const could_s = Math.max(free_from_s, job.submitted_s);
+    if (start_s - could_s > kLeastWait_s) marks.push(mark('wait', job, could_s, start_s, null));
+    const end_s = job.ended_s ?? now_s;
+    marks.push(mark('motion', job, start_s, end_s, null));
+    for (const stand of stands(job.id)) marks.push(mark('pause', job, stand.from_s, stand.to_s ?? end_s, job.waits_on[0] ?? null));
+    free_from_s = Math.max(free_from_s, end_s);
+  }
+  const next = jobs.filter((job) => job.started_s === null && job.ended_s === null).sort((a, b) => a.submitted_s - b.submitted_s)[0];
+  if (next) {
+    const could_s = Math.max(free_from_s, next.submitted_s);
+    if (now_s - could_s > kLeastWait_s) marks.push(mark('wait', next, could_s, now_s, next.waits_on[0] ?? null));
+  }
+  return marks;
+}
+
+function mark(kind: Mark['kind'], job: Job, from_s: number, to_s: number, waits_on: WaitsOn | null): Mark {
+  return { kind, expected: false, job: job.id, label: job.name, state: job.state, from_s, to_s, waits_on };
+}
+
+/** What is to come of it. A time of the server that is past by now ends at now. */
+function future_of(leg: ForecastLeg, now_s: number): Mark[] {
+  const common = { expected: true, job: leg.id, label: leg.name, state: leg.state };
+  const marks: Mark[] = [];
+  const add = (kind: Mark['kind'], from_s: number, to_s: number, waits_on: WaitsOn | null) => {
+    if (to_s > now_s) marks.push({ ...common, kind, from_s: Math.max(now_s, from_s), to_s, waits_on });
+  };
+  if (leg.starts_s !== null) add('motion', leg.starts_s, leg.ends_s ?? Infinity, null);
+  for (const pause of leg.pauses) {
+    add(pause.at_s > 0 ? 'pause' : 'wait', pause.from_s, pause.to_s ?? Infinity, pause.waits_on);
+  }
+  return marks;
+}
+
+/** The mark on top at a time. */
+export function mark_at(lane: Lane, t_s: number): Mark | null {
+  const there = lane.marks.filter((mark) => mark.from_s <= t_s && t_s <= mark.to_s);
+  return there.find((mark) => mark.kind !== 'motion') ?? there[0] ?? null;
+}

@@ -1,0 +1,212 @@
+// Draws the timeline on a canvas: axis, lanes, marks, and threads from who waits to who is waited for.
+
+import { arm_colour, ink } from '../state/palette';
+import { short_id } from '../wording';
+import type { Lane, Mark } from './lanes';
+import { kAxis_px, kLeft_px, kRight_px, lane_height, type Sheet } from './sheet';
+import { tick_of } from './span';
+
+/** What is looked at: the rest is dimmed. And the instant that is held, if one is. */
+export interface Lit { jobs: readonly string[]; arms: readonly string[]; held_s: number | null }
+
+const kFont = '"Inter Variable", system-ui, sans-serif';
+const kHatch_px = 5;
+
+interface Row { top: number; height: number; colour: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number }
+
+export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly Lane[], lit: Lit, hover: Mark | null): void {
+  g.clearRect(0, 0, sheet.width, sheet.height);
+  const arms = lanes.map((lane) => lane.arm);
+  const rows = lanes.map((lane, i) => row_of(sheet, arms, lane.arm, i));
+  draw_axis(g, sheet);
+  g.save();
+  g.beginPath();
+  g.rect(kLeft_px, 0, sheet.width - kLeft_px - kRight_px, sheet.height);
+  g.clip();
+  lanes.forEach((lane, i) => {
+    const row = rows[i];
+    if (row) for (const mark of lane.marks) draw_mark(g, sheet, row, mark, is_dim(mark, lane.arm, lit), mark === hover);
+  });
+  lanes.forEach((lane, i) => draw_threads(g, sheet, lane, i, rows, arms, hover));
+  draw_now(g, sheet);
+  if (lit.held_s !== null) draw_held(g, sheet, lit.held_s);
+  g.restore();
+  rows.forEach((row, i) => draw_name(g, row, lanes[i]?.arm ?? ''));
+}
+
+function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number): Row {
+  const height = lane_height(sheet, arms.length);
+  const roomy = height >= 30;
+  const top = i * height;
+  const wait_height = roomy ? Math.max(5, Math.round(height * 0.16)) : Math.max(3, Math.round(height * 0.24));
+  const gap = roomy ? 4 : 1.5;
+  const bar_height = Math.max(3, height - wait_height - 3 * gap);
+  const bar_top = top + gap;
+  return { top, height, colour: ink(arm_colour(arms, arm)), bar_top, bar_height, wait_top: bar_top + bar_height + gap, wait_height };
+}
+
+function is_dim(mark: Mark, arm: string, lit: Lit): boolean {
+  if (lit.jobs.length > 0) return !lit.jobs.includes(mark.job);
+  return lit.arms.length > 0 && !lit.arms.includes(arm);
+}
+
+function draw_axis(g: CanvasRenderingContext2D, sheet: Sheet): void {
+  const step_s = tick_of(sheet.length_s, (sheet.width - kLeft_px) / 74);
+  g.font = `10.5px ${kFont}`;
+  g.textAlign = 'center';
+  g.textBaseline = 'alphabetic';
+  g.lineWidth = 1;
+  for (let t_s = Math.ceil(sheet.from_s / step_s) * step_s; t_s <= sheet.from_s + sheet.length_s; t_s += step_s) {
+    if (t_s < 0) continue;
+    const at = Math.round(sheet.x(t_s)) + 0.5;
+    g.strokeStyle = ink('--line');
+    line(g, at, 0, at, sheet.height - kAxis_px);
+    g.fillStyle = ink('--faint');
+    if (at > kLeft_px + 8 && at < sheet.width - 18 && Math.abs(at - sheet.x(sheet.now_s)) > 34) g.fillText(tick_label(t_s, step_s), at, sheet.height - 5);
+  }
+}
+
+function tick_label(t_s: number, step_s: number): string {
+  const whole = Math.floor(t_s + 1e-9);
+  const clock = `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
+  return step_s < 1 ? `${clock}.${Math.round((t_s - whole) * 10)}` : clock;
+}
+
+/** The line that is now. */
+function draw_now(g: CanvasRenderingContext2D, sheet: Sheet): void {
+  const at = Math.round(sheet.x(sheet.now_s)) + 0.5;
+  if (at < kLeft_px || at > sheet.width - kRight_px) return;
+  g.strokeStyle = ink('--text');
+  g.lineWidth = 1.5;
+  line(g, at, 0, at, sheet.height - kAxis_px + 3);
+  g.font = `600 10.5px ${kFont}`;
+  g.textAlign = 'center';
+  g.textBaseline = 'alphabetic';
+  g.fillStyle = ink('--text');
+  g.fillText('now', at, sheet.height - 5);
+}
+
+function draw_held(g: CanvasRenderingContext2D, sheet: Sheet, held_s: number): void {
+  const at = Math.round(sheet.x(held_s)) + 0.5;
+  g.strokeStyle = ink('--blue');
+  g.lineWidth = 2;
+  line(g, at, 0, at, sheet.height - kAxis_px + 3);
+}
+
+function draw_name(g: CanvasRenderingContext2D, row: Row, name: string): void {
+  g.fillStyle = row.colour;
+  g.font = `600 ${row.height < 18 ? 10.5 : 12}px ${kFont}`;
+  g.textAlign = 'left';
+  g.textBaseline = 'middle';
+  g.fillText(name, 14, row.bar_top + row.bar_height / 2, kLeft_px - 20);
+}
+
+function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Mark, dim: boolean, hover: boolean): void {
+  const left = sheet.x(mark.from_s);
+  const right = Number.isFinite(mark.to_s) ? sheet.x(mark.to_s) : sheet.width;
+  if (right < kLeft_px || left > sheet.width) return;
+  const width = right - left;
+  g.globalAlpha = dim ? 0.28 : 1;
+  if (mark.kind === 'wait') hatch(g, left, row.wait_top, width, row.wait_height, row.colour, hover);
+  else if (mark.kind === 'pause') draw_pause(g, row, left, width, hover);
+  else if (mark.expected) draw_expected(g, row, mark, left, width, dim, hover);
+  else draw_motion(g, row, mark, left, width, dim, hover);
+  g.globalAlpha = 1;
+}
+
+function draw_motion(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, dim: boolean, hover: boolean): void {
+  const failed = mark.state === 'failed' || mark.state === 'interrupted' || mark.state === 'expired';
+  const live = mark.state === 'running' || mark.state === 'holding';
+  const strength = live || hover ? 1 : mark.state === 'canceled' ? 0.22 : 0.4;
+  g.globalAlpha = (dim ? 0.3 : 1) * strength;
+  g.fillStyle = failed ? ink('--alarm') : row.colour;
+  bar(g, left, row.bar_top, width - 1, row.bar_height);
+  g.fill();
+  g.globalAlpha = dim ? 0.4 : 1;
+  label(g, row, mark, left, width, live || hover ? ink('--on-bar') : ink('--text'));
+}
+
+function draw_expected(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, dim: boolean, hover: boolean): void {
+  g.fillStyle = row.colour;
+  g.globalAlpha = (dim ? 0.3 : 1) * (hover ? 0.35 : 0.13);
+  bar(g, left + 0.5, row.bar_top + 0.5, width - 2, row.bar_height - 1);
+  g.fill();
+  g.globalAlpha = dim ? 0.3 : 0.9;
+  g.strokeStyle = row.colour;
+  g.lineWidth = 1;
+  g.stroke();
+  label(g, row, mark, left, width, ink('--text'));
+}
+
+/** It stands on its way: the bar is open there. */
+function draw_pause(g: CanvasRenderingContext2D, row: Row, left: number, width: number, hover: boolean): void {
+  g.fillStyle = ink('--panel');
+  g.fillRect(left, row.bar_top, width, row.bar_height);
+  hatch(g, left, row.bar_top + 1, width, row.bar_height - 2, ink('--holding'), hover);
+}
+
+function bar(g: CanvasRenderingContext2D, left: number, top: number, width: number, height: number): void {
+  const wide = Math.max(2, width);
+  g.beginPath();
+  g.roundRect(left, top, wide, height, Math.min(3, wide / 2));
+}
+
+/** The longest name that fits whole; a cut one says nothing. */
+function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, colour: string): void {
+  if (row.bar_height < 11 || width < 16) return;
+  g.font = `500 10.5px ${kFont}`;
+  g.textAlign = 'left';
+  g.textBaseline = 'middle';
+  const begin = Math.max(left, kLeft_px);
+  const room = left + width - begin - 9;
+  const text = [mark.label, mark.label.replace(/^[^:]*: /, ''), short_id(mark.job)].find((name) => name !== '' && g.measureText(name).width < room);
+  if (!text) return;
+  g.fillStyle = colour;
+  g.fillText(text, begin + 5, row.bar_top + row.bar_height / 2 + 0.5);
+}
+
+/** From the end of each wait to come, down to whoever is waited for, at the instant when it makes way. */
+function draw_threads(g: CanvasRenderingContext2D, sheet: Sheet, lane: Lane, i: number, rows: readonly Row[], arms: readonly string[], hover: Mark | null): void {
+  const from = rows[i];
+  if (!from) return;
+  for (const mark of lane.marks) {
+    const to = rows[arms.indexOf(mark.waits_on?.arm ?? '')];
+    if (mark.kind === 'motion' || !mark.expected || !to || to === from || !Number.isFinite(mark.to_s)) continue;
+    const at = sheet.x(mark.to_s);
+    const down = to.top > from.top;
+    const y0 = mark.kind === 'wait' ? from.wait_top + (down ? from.wait_height : 0) : from.bar_top + (down ? from.bar_height : 0);
+    const y1 = to.bar_top + (down ? 0 : to.bar_height);
+    g.globalAlpha = mark === hover ? 1 : 0.75;
+    g.strokeStyle = to.colour;
+    g.fillStyle = to.colour;
+    g.lineWidth = mark === hover ? 2 : 1.2;
+    line(g, at, y0, at, y1);
+    g.beginPath();
+    g.arc(at, y1, mark === hover ? 4 : 3, 0, 2 * Math.PI);
+    g.fill();
+    g.globalAlpha = 1;
+  }
+}
+
+function hatch(g: CanvasRenderingContext2D, left: number, top: number, width: number, height: number, colour: string, strong: boolean): void {
+  g.save();
+  g.beginPath();
+  g.rect(left, top, width, height);
+  g.clip();
+  g.globalAlpha *= strong ? 1 : 0.7;
+  g.strokeStyle = colour;
+  g.lineWidth = strong ? 1.8 : 1.2;
+  // Stripes are anchored to the bar's start, so that they travel with it.
+  const shown = Math.max(left, 0);
+  const first = shown - ((shown - left) % kHatch_px) - height - kHatch_px;
+  const last = Math.min(left + width, g.canvas.width);
+  for (let at = first; at < last; at += kHatch_px) line(g, at, top + height, at + height, top);
+  g.restore();
+}
+
+function line(g: CanvasRenderingContext2D, x0: number, y0: number, x1: number, y1: number): void {
+  g.beginPath();
+  g.moveTo(x0, y0);
+  g.lineTo(x1, y1);
+  g.stroke();
+}

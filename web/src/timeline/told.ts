@@ -1,0 +1,26 @@
+// The timeline in words: for who points at it, and for who cannot see it.
+
+import { clock, seconds, short_id, wait_in_words } from '../wording';
+import type { Lane, Mark } from './lanes';
+
+export function mark_in_words(mark: Mark, now_s: number): string {
+  const title = mark.label || short_id(mark.job);
+  const until = Number.isFinite(mark.to_s) ? `until ${clock(mark.to_s)}` : 'with no end as things are';
+  if (mark.kind === 'motion') return `${title}: ${expectation(mark)}${clock(mark.from_s)} to ${Number.isFinite(mark.to_s) ? clock(mark.to_s) : 'no end as things are'}`;
+  const why = mark.waits_on ? wait_in_words(mark.waits_on) : mark.kind === 'wait' ? 'waits before its start' : 'stands on its way';
+  const length = Number.isFinite(mark.to_s) ? ` (${seconds(mark.to_s - Math.max(mark.from_s, mark.expected ? now_s : 0))})` : '';
+  return `${title} ${why}, ${until}${length}`;
+}
+
+function expectation(mark: Mark): string {
+  if (!mark.expected) return '';
+  return mark.state === 'running' || mark.state === 'holding' ? 'runs on, ' : 'expected ';
+}
+
+/** What an arm is expected to do, a sentence for each motion and each wait, soonest first. */
+export function lane_in_words(lane: Lane, now_s: number): string[] {
+  const expected = lane.marks.filter((mark) => mark.expected).sort((a, b) => a.from_s - b.from_s);
+  const words = expected.map((mark) => mark_in_words(mark, now_s));
+  if (lane.waiting > 0) words.push(`${lane.waiting} more ${lane.waiting === 1 ? 'waits' : 'wait'} without a time yet`);
+  return words.length > 0 ? words : ['nothing is planned'];
+}

@@ -1,0 +1,66 @@
+// The 3D view with what is laid over it: the smallest clearance, the mark of a stop, of an instant that
+// is held. The view itself is loaded after the rest of the page stands.
+
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { selection_of } from '../route/selection';
+import type { App } from '../state/app';
+import { use_store } from '../state/use_store';
+import { clearance_in_words, clock, millimetres } from '../wording';
+import type { CellView } from './cell_view';
+
+interface Props { app: App; on_view(view: CellView): void }
+
+export function CellPanel({ app, on_view }: Props) {
+  const { store, router, settings } = app;
+  const host = useRef<HTMLDivElement>(null);
+  const [view, set_view] = useState<CellView | null>(null);
+  const [fault, set_fault] = useState<string | null>(null);
+  use_store(store);
+  const address = router.address.value;
+  useEffect(() => {
+    let closed = false;
+    let made: CellView | null = null;
+    void import('./cell_view').then((module) => {
+      if (closed || !host.current) return;
+      made = new module.CellView(host.current, app);
+      on_view(made);
+      set_view(made);
+    }).catch((error: unknown) => set_fault(String(error)));
+    return () => {
+      closed = true;
+      made?.close();
+    };
+  }, [app]);
+  useEffect(() => view?.show_selection(selection_of(address.place, store)), [view, address.place, store.arms]);
+  useEffect(() => view?.show_instant(address.t_s), [view, address.t_s]);
+  useEffect(() => view?.show_camera(address.camera), [view, address.camera]);
+  useEffect(() => view?.show_ghost(app.ghost.value), [view, app.ghost.value]);
+  useEffect(() => view?.show_theme(), [view, settings.shown_theme.value]);
+  // The cell steps aside for what is laid over its left; under what covers nearly all it stays as it is.
+  const covered_px = app.covered_px.value;
+  useEffect(() => view?.set_covered(covered_px < 0.75 * (host.current?.clientWidth ?? 0) ? covered_px : 0), [view, covered_px]);
+  return (
+    <div class={`cell${store.stopped ? ' stopped' : ''}`}>
+      <div class="view" ref={host} role="img" aria-label="The cell in 3D: every arm where it was measured" />
+      {!view && <p class="loading">{fault === null ? 'Loading the 3D view…' : `The 3D view cannot be shown here: ${fault}`}</p>}
+      <ClearanceFigure app={app} />
+      {address.t_s !== null && <div class="instant-mark" data-test="instant">Looking back at {clock(address.t_s)}, not at now</div>}
+      {store.stopped && <div class="stopped-mark" role="status" data-test="stopped">■ Stopped. Resume lets the arms go on.</div>}
+    </div>
+  );
+}
+
+function ClearanceFigure({ app }: { app: App }) {
+  const { store } = app;
+  use_store(store, 'live');
+  const nearest = store.clearance.reduce<(typeof store.clearance)[number] | null>((a, b) => (a && a.m <= b.m ? a : b), null);
+  if (!nearest || app.router.address.value.t_s !== null) return null;
+  const limit_m = store.cell?.clearance_m ?? 0;
+  const level = nearest.m < limit_m ? 'low' : nearest.m < 3 * limit_m ? 'near' : '';
+  return (
+    <div class={`clearance ${level}`} title="The smallest clearance that the monitor measures now">
+      <span class="dim">{level === 'low' ? 'too close, ' : ''}{clearance_in_words(nearest)}</span> <b class="mono">{millimetres(nearest.m)}</b>
+      <div class="small dim">{nearest.links[0]} – {nearest.links[1]}</div>
+    </div>
+  );
+}

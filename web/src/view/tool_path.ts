@@ -1,0 +1,48 @@
+// The way that an arm's tool has come lately, as a line that fades towards its beginning.
+
+import * as THREE from 'three';
+
+const kPoints = 120;
+const kLeastStep_m = 0.004;
+const kLasts_s = 6;
+
+export class ToolPath {
+  readonly line: THREE.Line;
+  private readonly passed_: { t_s: number; p_W: THREE.Vector3 }[] = [];
+
+  constructor() {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * kPoints), 3));
+    geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(4 * kPoints), 4));
+    this.line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ vertexColors: true, transparent: true, depthWrite: false, toneMapped: false }));
+    this.line.frustumCulled = false;
+  }
+
+  /** Another instant of the past: what was passed since is no past of it. */
+  clear(): void {
+    this.passed_.length = 0;
+    this.line.geometry.setDrawRange(0, 0);
+  }
+
+  /** Where the tool is at a cell time; the line's colour is the arm's. */
+  pass(t_s: number, p_W: THREE.Vector3, colour: THREE.Color): void {
+    const last = this.passed_.at(-1);
+    if (last && t_s < last.t_s) this.clear();
+    if (!last || last.p_W.distanceTo(p_W) > kLeastStep_m) this.passed_.push({ t_s, p_W: p_W.clone() });
+    while (this.passed_.length > kPoints || (this.passed_[0] && this.passed_[0].t_s < t_s - kLasts_s)) this.passed_.shift();
+    this.draw(t_s, colour);
+  }
+
+  private draw(t_s: number, colour: THREE.Color): void {
+    const { geometry } = this.line;
+    const position = geometry.getAttribute('position');
+    const shade = geometry.getAttribute('color');
+    this.passed_.forEach((passed, i) => {
+      position.setXYZ(i, passed.p_W.x, passed.p_W.y, passed.p_W.z);
+      shade.setXYZW(i, colour.r, colour.g, colour.b, 1 - (t_s - passed.t_s) / kLasts_s);
+    });
+    position.needsUpdate = true;
+    shade.needsUpdate = true;
+    geometry.setDrawRange(0, this.passed_.length);
+  }
+}

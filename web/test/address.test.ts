@@ -1,0 +1,63 @@
+import { describe, expect, it } from 'vitest';
+import { address_text, parse_address, type Address, type Place } from '../src/route/address';
+import { Router, type AddressBar } from '../src/route/router';
+
+const kPlaces: Place[] = [
+  { page: 'cell' }, { page: 'new' }, { page: 'history' }, { page: 'settings' }, { page: 'job', id: 'a/b?c#d %' },
+  { page: 'arm', name: 'links é' }, { page: 'pair', a: 'x/y', b: '<b>z</b>' }, { page: 'scene', name: null }, { page: 'scene', name: 'crate 1' },
+];
+
+describe('addresses', () => {
+  it('come back as they were, whatever stands in a name', () => {
+    for (const place of kPlaces) {
+      const address: Address = { place, t_s: 12.5, camera: [1, -2.5, 3, 0, 0, 0.4] };
+      expect(parse_address(address_text(address))).toEqual(address);
+    }
+  });
+
+  it('are short when nothing is held', () => {
+    expect(address_text({ place: { page: 'cell' }, t_s: null, camera: null })).toBe('#/');
+    expect(parse_address('')).toEqual({ place: { page: 'cell' }, t_s: null, camera: null });
+  });
+
+  it('leave out what makes no sense, and name a page that is none', () => {
+    expect(parse_address('#/job/a?t=-1&camera=1,2,x,0,0,0').t_s).toBeNull();
+    expect(parse_address('#/job/a?t=-1&camera=1,2,x,0,0,0').camera).toBeNull();
+    expect(parse_address('#/?camera=1,2,3,4,5,6,7').camera).toBeNull();
+    expect(parse_address('#/?t=').t_s).toBeNull();
+    for (const hash of ['#/nothing', '#/job', '#/pair/a', '#/history/x']) expect(parse_address(hash).place.page).toBe('unknown');
+    expect(parse_address('#/job/%E0%A4%A').place).toEqual({ page: 'job', id: '%E0%A4%A' });
+  });
+});
+
+describe('the router', () => {
+  const bar = (hash: string) => {
+    const changes: string[] = [];
+    let listener = () => {};
+    const fake: AddressBar = {
+      read: () => hash,
+      push: (next) => { hash = next; changes.push(`push ${next}`); },
+      replace: (next) => { hash = next; changes.push(`replace ${next}`); },
+      on_change: (heard) => { listener = heard; },
+    };
+    return { fake, changes, back_to: (next: string) => { hash = next; listener(); } };
+  };
+
+  it('keeps instant and camera from place to place; only places are steps to go back by', () => {
+    const { fake, changes } = bar('#/arm/left');
+    const router = new Router(fake);
+    expect(router.place).toEqual({ page: 'arm', name: 'left' });
+    router.hold_at(7.25);
+    router.hold_at(7.25);
+    router.go({ page: 'job', id: 'a' });
+    router.hold_at(null);
+    expect(changes).toEqual(['replace #/arm/left?t=7.25', 'push #/job/a?t=7.25', 'replace #/job/a']);
+  });
+
+  it('follows the address bar', () => {
+    const { fake, back_to } = bar('#/');
+    const router = new Router(fake);
+    back_to('#/scene/crate?t=3');
+    expect(router.address.value).toEqual({ place: { page: 'scene', name: 'crate' }, t_s: 3, camera: null });
+  });
+});

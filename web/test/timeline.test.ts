@@ -1,0 +1,95 @@
+import { describe, expect, it } from 'vitest';
+import type { Forecast, Job } from '../src/server/messages';
+import { lanes_of, mark_at, type Lane } from '../src/timeline/lanes';
+import { around, begin_of, kFollowing, kNowAt, moved, tick_of, zoomed } from '../src/timeline/span';
+import { lane_in_words } from '../src/timeline/told';
+import { job_json, wait_json } from './samples';
+
+const job = (id: string, over: object) => job_json(id, over) as unknown as Job;
+
+const kForecast = {
+  now_s: 10, horizon_legs: 6,
+  arms: [{
+    name: 'left', waiting: 2, legs: [
+      { id: 'now', name: 'now', arms: ['left'], state: 'running', progress: 0.5, starts_s: 8, ends_s: 12, pauses: [] },
+      {
+        id: 'next', name: 'place', arms: ['left'], state: 'scheduled', progress: 0, starts_s: 13, ends_s: 20, pauses: [
+          { from_s: 12, to_s: 13, at_s: 0, waits_on: wait_json() },
+          { from_s: 15, to_s: 16.5, at_s: 2, waits_on: wait_json() },
+        ],
+      },
+      { id: 'stuck', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: [{ from_s: 20, to_s: null, at_s: 0, waits_on: null }] },
+    ],
+  }],
+} as unknown as Forecast;
+
+const known = (jobs: Job[], forecast: Forecast | null, now_s = 10): Lane =>
+  lanes_of({ arms: ['left'], jobs, stands: () => [], forecast, now_s })[0] as Lane;
+
+describe('the lanes of the timeline', () => {
+  it('shows what was: motions, and waits only where the arm could have gone', () => {
+    const lane = known([
+      job('a', { state: 'succeeded', submitted_s: 1, started_s: 1, ended_s: 4 }),
+      job('b', { state: 'succeeded', submitted_s: 1, started_s: 6, ended_s: 7 }),
+      job('c', { state: 'running', submitted_s: 1, started_s: 7, ended_s: null }),
+      job('d', { state: 'queued', submitted_s: 1 }),
+    ], null);
+    expect(lane.marks.map(({ kind, job, from_s, to_s }) => [kind, job, from_s, to_s])).toEqual([
+      ['motion', 'a', 1, 4], ['wait', 'b', 4, 6], ['motion', 'b', 6, 7], ['motion', 'c', 7, 10],
+    ]);
+  });
+
+  it('shows what is expected from now on, with pauses, waits and for whom', () => {
+    const lane = known([job('now', { state: 'running', submitted_s: 8, started_s: 8 })], kForecast);
+    const expected = lane.marks.filter((mark) => mark.expected);
+    expect(expected.map(({ kind, job, from_s, to_s }) => [kind, job, from_s, to_s])).toEqual([
+      ['motion', 'now', 10, 12], ['motion', 'next', 13, 20], ['wait', 'next', 12, 13], ['pause', 'next', 15, 16.5],
+      ['wait', 'stuck', 20, Infinity],
+    ]);
+    expect(mark_at(lane, 15.5)?.waits_on?.arm).toBe('right');
+    expect(mark_at(lane, 14)?.kind).toBe('motion');
+    expect(mark_at(lane, 12.5)?.kind).toBe('wait');
+  });
+
+  it('leaves out what an event has ended since the answer', () => {
+    const lane = known([job('now', { state: 'succeeded', submitted_s: 8, started_s: 8, ended_s: 9.9 })], kForecast);
+    expect(lane.marks.some((mark) => mark.expected && mark.job === 'now')).toBe(false);
+  });
+
+  it('is told in words, soonest first, those without a time last', () => {
+    const words = lane_in_words(known([], kForecast), 10);
+    expect(words[0]).toMatch(/^now: runs on, 0:00:10.0 to 0:00:12.0/);
+    expect(words[1]).toMatch(/^place waits for job place-6 of right: .* until 0:00:13.0 \(1.0 s\)/);
+    expect(words.at(-1)).toBe('2 more wait without a time yet');
+    expect(lane_in_words(known([], null), 10)).toEqual(['nothing is planned']);
+  });
+});
+
+describe('the span of the timeline', () => {
+  it('follows now until it is held', () => {
+    expect(begin_of(kFollowing, 100)).toBeCloseTo(100 - kNowAt * kFollowing.length_s);
+    const held = moved(kFollowing, -5, 100);
+    expect(begin_of(held, 100)).toBeCloseTo(begin_of(kFollowing, 100) - 5);
+    expect(begin_of(held, 107)).toBe(begin_of(held, 100));
+  });
+
+  it('zooms about the instant that is pointed at, within bounds', () => {
+    const held = around({ length_s: 40, held_from_s: null }, 60, 100);
+    expect(held.held_from_s).toBe(40);
+    const near = zoomed(held, 0.5, 100, 0.25);
+    expect(near).toEqual({ length_s: 20, held_from_s: 45 });
+    expect(zoomed(held, 1e9, 100).length_s).toBe(3600);
+    expect(zoomed(kFollowing, 1e-9, 100)).toEqual({ length_s: 4, held_from_s: null });
+  });
+
+  it('never goes farther than what may be known', () => {
+    expect(moved(kFollowing, 1e6, 100).held_from_s).toBeLessThan(800);
+    expect(moved(kFollowing, -1e6, 100).held_from_s).toBeGreaterThan(-60);
+  });
+
+  it('has ticks that people count in', () => {
+    expect(tick_of(60, 8)).toBe(10);
+    expect(tick_of(600, 8)).toBe(120);
+    expect(tick_of(4, 8)).toBe(0.5);
+  });
+});
