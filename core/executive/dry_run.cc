@@ -63,8 +63,8 @@ class Plan final : public JobNames {
     const auto motion = timed.job.motions().front();  // as if that were chosen
     auto trajectory = validate(motion.motion, cell_);
     Problems found = trajectory ? Problems{} : std::move(trajectory.error());
-    for (Problem& problem : found) problem.pointer.insert(0, motion.place);
     if (trajectory) find_start_elsewhere(cell_, **trajectory, rest_, found);
+    for (Problem& problem : found) problem.pointer.insert(0, motion.place);
     for (Problem& problem : found) refuse(std::move(problem));
     if (problems.size() > before) {
       ++refused_;

@@ -218,7 +218,7 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
                   "for the arm have run",
                   joint.name.c_str(), told(begins), told(stands));
     problems.push_back({ProblemKind::invalid, "start-mismatch",
-                        "/trajectory/points/0/positions/" + std::to_string(j), text, begins});
+                        "/points/0/positions/" + std::to_string(j), text, begins});
   }
 }
 

@@ -142,6 +142,15 @@ void JobBook::put_in_order(const std::vector<JobId>& jobs) {
   }
 }
 
+std::size_t JobBook::place_of(const Record& record, ArmId arm) const {
+  const auto goes_before = [&](JobId id) {
+    return id != record.job.id && (at(id).job.in<Queued>() == nullptr || at(id).turn < record.turn);
+  };
+  const auto& own = queue(arm);
+  const auto last = std::find_if(own.rbegin(), own.rend(), goes_before);
+  return static_cast<std::size_t>(own.rend() - last);
+}
+
 void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
   Job& job = record.job;
   explain_with_next(job);
@@ -153,10 +162,7 @@ void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
   record.leg = std::move(leg);
   for (ArmId arm : job.trajectory->arms()) {
     auto& queue = queues_[arm.index()];
-    const auto later = [&](JobId id) {
-      return at(id).job.in<Queued>() != nullptr && at(id).turn > record.turn;
-    };
-    queue.insert(std::ranges::find_if(queue, later), job.id);
+    queue.insert(queue.begin() + static_cast<std::ptrdiff_t>(place_of(record, arm)), job.id);
   }
   explain_with_next(job);
 }

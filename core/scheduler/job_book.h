@@ -73,8 +73,10 @@ class JobBook {
   [[nodiscard]] bool lets_another_pass(const Record& record) const;
   // These follow each other on the same arms and wait: now in this order.
   void put_in_order(const std::vector<JobId>& jobs);
-  // The other trajectory, of other arms, behind what is admitted there and what came before it.
-  // Precondition: it waits.
+  // Of the arm's jobs so many would stand before this one: that are admitted, or came before it,
+  // and what goes before these.
+  [[nodiscard]] std::size_t place_of(const Record& record, ArmId arm) const;
+  // The other trajectory, of other arms, at its place there. Precondition: it waits.
   void take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg);
   // That could still go on other arms.
   [[nodiscard]] const std::set<JobId>& undecided() const { return undecided_; }

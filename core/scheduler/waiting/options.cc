@@ -1,6 +1,7 @@
 #include "core/scheduler/waiting/options.h"
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 #include "core/scheduler/policy.h"
@@ -60,10 +61,10 @@ When when_on(const State& state, const Record& record, const Trajectory& traject
   const Place* leads_to = nullptr;
   std::size_t admitted = 0;
   bool is_next = true;
-  for (JobId id : state.jobs.queue(arm)) {
+  const std::size_t place = state.jobs.place_of(record, arm);
+  for (JobId id : state.jobs.queue(arm) | std::views::take(place)) {
+    if (id == record.job.id) continue;
     const Record& other = state.jobs.at(id);
-    const bool waits = other.job.in<Queued>() != nullptr;
-    if (id == record.job.id || (waits && other.turn > record.turn)) continue;
     if (other.job.is_admitted()) ++admitted;
     is_next = is_next && other.job.is_admitted();
     for (std::size_t i = 0; i < other.leg.arms.size(); ++i) {
