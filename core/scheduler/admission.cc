@@ -96,6 +96,7 @@ bool Admission::ask_next(State& state, const WaitCycles& cycles) {
     const bool is_choice = choosing_.begin(state, *turn);
     if (!waits_for_sequence(state, choosing_.job())) {
       ask(state, {choosing_.job()}, is_choice ? Purpose::option : Purpose::start);
+      open_->is_only_option = !is_choice;
       return put_off;
     }
     put_off = true;
@@ -144,6 +145,8 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
     case Purpose::option:
       return answer_option(state, input.verdict);
     case Purpose::start:
+      // What could take the turn too has come meanwhile: all of them are asked about.
+      if (question.is_only_option && options_of(state, question.jobs.front()).size() > 1) return;
       return answer_start(state, input.verdict, question.jobs);
   }
 }

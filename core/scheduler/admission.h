@@ -34,6 +34,7 @@ class Admission {
     Purpose purpose;
     std::optional<YieldTrial> yield = {};
     std::vector<Passage> passages = {};  // Question::passages
+    bool is_only_option = false;         // nothing else could take the turn
   };
   // Policies that admit groups: everything that waits is tried as one; if that fails, these alone.
   struct Together {

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/scheduler/waiting/options.h"
+
 namespace armloom {
 namespace {
 
@@ -87,7 +89,11 @@ Record record_of(State& state, const Submit& job) {
   return record;
 }
 
-void add(State& state, Record record) { state.lanes.add(state.jobs.add(std::move(record))); }
+void add(State& state, Record record) {
+  const Record& added = state.jobs.add(std::move(record));
+  state.lanes.add(added);
+  reopen_turn(state, added);
+}
 
 void enter(State& state, Record& record, JobPhase phase) {
   const JobPhase before = record.job.phase;

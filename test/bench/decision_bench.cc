@@ -88,13 +88,8 @@ class Hall {
         running_(policy == "lockstep" ? 0 : kRunning),
         waiting_(load.waiting),
         share_(share),
-<<<<<<< HEAD
-        cell_(grid_of_pandas(kColumns, kRows, kSpacing_m)),
-        checker_(*PlanningScene::build(cell_)),
-=======
         cell_(hall_of(load)),
-        arbiter_(*PlanningScene::build(cell_)),
->>>>>>> fast
+        checker_(*PlanningScene::build(cell_)),
         chooses_(*PlanningScene::build(cell_)),
         scheduler_(cell_, std::move(*make_policy(policy, *cell_)), cell_->home()) {
     if (policy != "sequential") fill();

@@ -10,6 +10,12 @@ namespace {
 
 using nlohmann::json;
 
+double job_time_s(const json& trajectory) {
+  const json& last = trajectory["points"].back()["time_from_start"];
+  return last.is_number() ? last.get<double>()
+                          : last["sec"].get<double>() + 1e-9 * last["nanosec"].get<double>();
+}
+
 TEST(JobCodec, ReadsWhatTheContractShows) {
   const auto job = read_job_text(R"({
     "id": "pick-7", "name": "pick 7", "priority": -3, "backlog_timeout_s": 1.5,
@@ -133,6 +139,45 @@ TEST(JobCodec, RunsATrajectoryAtAShareOfItsSpeed) {
     EXPECT_EQ(half.points[i].velocities[1], whole.points[i].velocities[1] / 2);
     EXPECT_EQ(half.points[i].accelerations[1], whole.points[i].accelerations[1] / 4);
   }
+}
+
+TEST(JobCodec, ReadsAlternativesInsteadOfATrajectory) {
+  json body = test::move("left", test::kHome, test::kMiddle);
+  const json motion = body["trajectory"];
+  body["alternatives"] = {motion, motion};
+  const auto both = read_job_text(body.dump());
+  ASSERT_FALSE(both);
+  EXPECT_NE(both.error().front().detail.find("trajectory"), std::string::npos);
+  body.erase("trajectory");
+  body["velocity_scaling_factor"] = 0.5;
+  const auto job = read_job_text(body.dump());
+  ASSERT_TRUE(job) << job.error().front().detail;
+  ASSERT_EQ(job->motions().size(), 2U);
+  EXPECT_EQ(job->motions()[1].place, "/alternatives/1");
+  EXPECT_DOUBLE_EQ(job->alternatives[1].points.back().time_from_start_s, 2.0 * job_time_s(motion));
+  body["alternatives"] = {motion};
+  const auto one = read_job_text(body.dump());
+  ASSERT_FALSE(one);
+  EXPECT_EQ(one.error().front().pointer, "/alternatives");
+}
+
+TEST(BatchCodec, GivesItsOrderToTheJobsThatDoNotSayTheirs) {
+  json free = test::move("left", test::kHome, test::kMiddle);
+  json given = free;
+  given["order"] = "as_given";
+  for (const bool atomic : {true, false}) {
+    const json body = {{"jobs", {free, given}}, {"order", "any"}, {"atomic", atomic}};
+    const auto batch = read_batch_text(body.dump());
+    ASSERT_TRUE(batch) << batch.error().front().detail;
+    EXPECT_EQ(batch->jobs[0].job->order, JobOrder::any);
+    EXPECT_EQ(batch->jobs[1].job->order, JobOrder::as_given);
+    EXPECT_EQ(json::parse(batch->jobs[0].text)["order"], "any") << "as it is recorded";
+  }
+  json wrong = free;
+  wrong["order"] = "random";
+  const auto refused = read_job_text(wrong.dump());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().pointer, "/order");
 }
 
 TEST(JobCodec, ReadsMoveItsNestingAndPointsIntoIt) {

@@ -142,6 +142,15 @@ void give_turn(State& state, const std::vector<Option>& options, std::size_t fir
   }
 }
 
+void reopen_turn(State& state, const Record& added) {
+  if (!may_change_places(added)) return;
+  const auto& queue = state.jobs.queue(added.leg.arms.front());
+  const auto waits = [&](JobId id) { return state.jobs.at(id).job.is_waiting(); };
+  Record& first = state.jobs.at(*std::ranges::find_if(queue, waits));
+  auto* queued = std::get_if<Queued>(&first.job.phase);
+  if (queued != nullptr && options_of(state, first.job.id).size() > 1) queued->judgement = {};
+}
+
 bool stand(const State& state, const std::vector<Option>& options) {
   return std::ranges::all_of(options, [&](const Option& option) {
     return state.jobs.is_active(option.job) &&

@@ -30,6 +30,8 @@ inline constexpr std::size_t kOptionsMax = 6;
 
 // From now on this is how things are: that one first, then the others as they were.
 void give_turn(State& state, const std::vector<Option>& options, std::size_t first);
+// A job came: where it could take the turn of one that was put off, that is judged again.
+void reopen_turn(State& state, const Record& added);
 // All of them still wait.
 [[nodiscard]] bool stand(const State& state, const std::vector<Option>& options);
 // It does not begin where its arm stands: it is done by an arm that stands where it can, if there

@@ -1,0 +1,123 @@
+// Jobs that may be taken in any order, and jobs that either of two arms can do, through the
+// executive: what is chosen, what is told of it, and what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// To a place and back to where it began.
+TrajectoryRequest visit(const std::string& arm, double from_m, double to_m, double seconds) {
+  TrajectoryRequest motion = slide(arm, from_m, to_m, seconds / 2, "").trajectory;
+  motion.points.push_back(motion.points.front());
+  motion.points.back().time_from_start_s = seconds;
+  return motion;
+}
+
+JobRequest visit_job(const std::string& arm, double from_m, double to_m, double seconds,
+                     std::string key) {
+  JobRequest request = slide(arm, from_m, to_m, seconds, std::move(key));
+  request.trajectory = visit(arm, from_m, to_m, seconds);
+  return request;
+}
+
+JobRequest either(double x_to_m, double y_to_m, double seconds, std::string key) {
+  JobRequest request = slide("x", -1, x_to_m, seconds, std::move(key));
+  request.alternatives = {visit("x", -1, x_to_m, seconds), visit("y", -1, y_to_m, seconds)};
+  request.trajectory = {};
+  return request;
+}
+
+// y stands in the crossing for ten seconds; of x's two jobs only the second keeps out of it.
+struct OneInTheWay {
+  explicit OneInTheWay(JobOrder order) {
+    JobRequest through = visit_job("x", -1, 1, 4, "through");
+    JobRequest beside = visit_job("x", -1, -0.6, 4, "beside");
+    through.order = beside.order = order;
+    JobRequest stays = visit_job("y", -1, 0, 4, "stays");
+    auto& points = stays.trajectory.points;
+    points.insert(points.begin() + 2, points[1]);
+    for (std::size_t i = 2; i < points.size(); ++i) points[i].time_from_start_s += 10.0;
+    cell.submit(std::move(stays));
+    cell.run_until(at(3s));
+    cell.submit(std::move(through));
+    cell.submit(std::move(beside));
+    cell.run_to_the_end();
+  }
+  Crossing cell;
+};
+
+TEST(FreeOrder, TakesTheOneThatCanGoBesideWhatMoves) {
+  OneInTheWay free(JobOrder::any);
+  const JobView beside = free.cell.job("beside"), through = free.cell.job("through");
+  EXPECT_EQ(beside.state, JobState::succeeded);
+  EXPECT_EQ(through.state, JobState::succeeded);
+  EXPECT_LT(beside.ended_at, through.started_at);
+  EXPECT_TRUE(beside.any_order);
+  ASSERT_TRUE(beside.choice);
+  EXPECT_THAT(beside.choice->among, ElementsAre("through", "beside"));
+  EXPECT_EQ(beside.choice->taken, "beside");
+  EXPECT_THAT(beside.choice->detail, HasSubstr("through"));
+  EXPECT_EQ(free.cell.simulation->executive().figures().monitor_stops, 0U);
+}
+
+TEST(FreeOrder, IsKeptWhereTheClientDoesNotFreeIt) {
+  OneInTheWay given(JobOrder::as_given);
+  EXPECT_LT(given.cell.job("through").ended_at, given.cell.job("beside").started_at);
+  EXPECT_FALSE(given.cell.job("beside").choice);
+}
+
+TEST(Alternatives, AreSharedByTheArms) {
+  Crossing cell;
+  cell.submit(either(-0.6, -0.6, 4, "one"));
+  cell.submit(either(-0.6, -0.6, 4, "two"));
+  cell.run_to_the_end();
+  const JobView one = cell.job("one"), two = cell.job("two");
+  EXPECT_NE(one.arms, two.arms);
+  EXPECT_LT(two.started_at, one.ended_at);
+  EXPECT_THAT(two.alternatives, ElementsAre("x", "y"));
+  ASSERT_TRUE(two.choice);
+  EXPECT_EQ(two.choice->taken, two.arms.front());
+}
+
+TEST(Alternatives, OfAStoppedArmAreDoneByTheOther) {
+  Crossing cell;
+  Executive& executive = cell.simulation->executive();
+  executive.stop({ArmId{0}}, "maintenance");
+  for (const char* key : {"one", "two", "three"}) cell.submit(either(-0.6, -0.6, 4, key));
+  cell.run_until(at(20s));
+  for (const char* key : {"one", "two", "three"}) {
+    EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key;
+    EXPECT_THAT(cell.job(key).arms, ElementsAre("y")) << key;
+  }
+}
+
+TEST(Alternatives, ThatEndElsewhereOrMoveTheSameArmAreRefusedWithThePlace) {
+  Crossing cell;
+  Executive& executive = cell.simulation->executive();
+  JobRequest one_way = either(-0.6, -0.6, 4, "one way");
+  one_way.key = "one-way";
+  one_way.alternatives[1].points.pop_back();
+  const auto refused = executive.submit(one_way);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().slug, "alternative-ends-elsewhere");
+  EXPECT_EQ(refused.error().front().pointer, "/alternatives/1/points/1/positions/0");
+  JobRequest twice = either(-0.6, -0.6, 4, "twice");
+  twice.alternatives[1] = twice.alternatives[0];
+  const auto same = executive.submit(twice);
+  ASSERT_FALSE(same);
+  EXPECT_EQ(same.error().front().pointer, "/alternatives/1/joint_names");
+  JobRequest elsewhere = either(-0.6, -0.6, 4, "elsewhere");
+  for (auto& point : elsewhere.alternatives[1].points) point.positions[0] += 0.2;
+  const auto off = executive.submit(elsewhere);
+  ASSERT_FALSE(off);
+  EXPECT_EQ(off.error().front().pointer, "/alternatives/1/points/0/positions/0");
+}
+
+}  // namespace
+}  // namespace armloom
