@@ -55,17 +55,6 @@ Problem key_in_use(const std::string& key) {
 
 }  // namespace
 
-const char* to_string(JobOrder order) { return order == JobOrder::any ? "any" : "as_given"; }
-
-std::vector<JobRequest::PlacedMotion> JobRequest::motions() const {
-  if (alternatives.empty()) return {{"/trajectory", trajectory}};
-  std::vector<PlacedMotion> all;
-  for (std::size_t i = 0; i < alternatives.size(); ++i) {
-    all.push_back({"/alternatives/" + std::to_string(i), alternatives[i]});
-  }
-  return all;
-}
-
 Result<JobView> Executive::Impl::submit(JobRequest request) {
   Ahead ahead = ahead_now();
   auto prepared = prepare(std::move(request), ahead);

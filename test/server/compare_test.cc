@@ -90,7 +90,8 @@ TEST_F(Compare, HasOneRowForEveryPolicyAndTheOrderOfTheMakespansHolds) {
   for (const std::string& policy : names) {
     EXPECT_GT(least[policy], 0.0) << policy;
     EXPECT_LE(least[policy], 100.0) << policy << ": a bound is none that can be undercut";
-    EXPECT_GE(least[policy], 0.95 * std::max(left[policy], right[policy])) << policy;
+    // An arm moves for longer than its work takes where it brakes on its way and starts again.
+    EXPECT_GE(least[policy], 0.9 * std::max(left[policy], right[policy])) << policy;
     // Both sets of instants lie in the same makespan, to a rounding of the three figures.
     EXPECT_GE(together[policy], left[policy] + right[policy] - 100.2) << policy;
     EXPECT_LE(together[policy], std::min(left[policy], right[policy]) + 0.1) << policy;

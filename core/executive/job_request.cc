@@ -1,0 +1,18 @@
+#include <string>
+
+#include "core/executive/executive.h"
+
+namespace armloom {
+
+const char* to_string(JobOrder order) { return order == JobOrder::any ? "any" : "as_given"; }
+
+std::vector<JobRequest::PlacedMotion> JobRequest::motions() const {
+  if (alternatives.empty()) return {{"/trajectory", trajectory}};
+  std::vector<PlacedMotion> all;
+  for (std::size_t i = 0; i < alternatives.size(); ++i) {
+    all.push_back({"/alternatives/" + std::to_string(i), alternatives[i]});
+  }
+  return all;
+}
+
+}  // namespace armloom
