@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/collision/check/motion_checker.h"
+#include "core/collision/state/check_home.h"
 #include "core/coordination/effort.h"
 #include "core/executive/executive_impl.h"
 #include "core/scheduler/orders/passing_orders.h"
@@ -271,6 +272,7 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
   const std::shared_ptr<const Policy> policy = std::move(*made);
   auto scene = PlanningScene::build(cell);
   if (!scene) return failure(std::move(scene.error()));
+  if (auto too_close = check_home(*scene); !too_close.empty()) return failure(std::move(too_close));
   Plan plan(*cell);
   Problems problems;
   for (const TimedJob& timed : jobs) plan.add(timed, problems);

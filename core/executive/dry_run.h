@@ -20,7 +20,8 @@ struct CheckedJob {
 // Where the policy coordinates, a job that could not go for arms in its way is judged together with
 // their next jobs. `earliest_start_s` counts from the job's own time. In the order given.
 //
-// Problems: an unknown policy; what submit() would say, its pointers below "/<index>/job".
+// Problems: an unknown policy; arms too close at home, as in a cell that cannot be served; what
+// submit() would say, its pointers below "/<index>/job".
 [[nodiscard]] Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& policy,
                                                          const std::vector<TimedJob>& jobs);
 

@@ -18,8 +18,9 @@ int check_jobs_file(const CheckOptions& options) {
   if (!jobs) return refuse(options.jobs_file, jobs.error());
   auto checked = check_jobs(loaded->cell, options.policy, *jobs);
   if (!checked) {
-    // A policy is the cell's business, everything else is the jobs'.
-    const bool of_cell = checked.error().front().pointer.starts_with("/scheduling");
+    // A policy and homes are the cell's business, everything else is the jobs'.
+    const std::string& place = checked.error().front().pointer;
+    const bool of_cell = place.starts_with("/scheduling") || place.starts_with("/robots");
     Problems problems = std::move(checked.error());
     if (!options.policy.empty()) {
       problems = said_of_option(std::move(problems), "unknown-policy", "--policy");

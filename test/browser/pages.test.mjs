@@ -90,8 +90,8 @@ test('an address shows the same to whoever opens it: job, instant and camera', {
 
   const other = await chromium.context.newPage();
   await other.goto(address);
-  await other.locator('[data-test=page-job] h2').waitFor();
-  assert.equal(await other.locator('[data-test=page-job] h2').innerText(), 'behind it');
+  // The job's name is known when the server has told of it.
+  await other.locator('[data-test=page-job] h2', { hasText: 'behind it' }).waitFor();
   await other.locator('[data-test=instant]').waitFor();
   assert.equal(new URL(other.url()).hash, new URL(address).hash);
   await other.close();

@@ -218,6 +218,19 @@ TEST(DryRun, UnderCoordinatedJobsThatGoTogetherAreFree) {
   EXPECT_EQ(alone->front().verdict.kind, Verdict::Kind::conflict);
 }
 
+TEST(DryRun, RefusesACellWhoseArmsAreTooCloseAtHomeAsTheServerDoes) {
+  CellDescription description = crossing_description();
+  description.robots[1].X_WB = description.robots[0].X_WB;
+  const auto cell = build_cell(description);
+  ASSERT_TRUE(cell);
+  Log log;
+  const auto served = Simulation::create(*cell, ExecutiveOptions{}, log);
+  const auto checked = check_jobs(*cell, "certified", {{at(0s), slide("x", -1, 1, 4, "one")}});
+  ASSERT_FALSE(served);
+  ASSERT_FALSE(checked);
+  EXPECT_EQ(checked.error().front().pointer, served.error().front().pointer);
+}
+
 TEST(Synchronous, ArmsOfOneTrajectoryStartAndEndTogether) {
   CellDescription description = crossing_description();
   description.robots[1].X_WB.translation().z() = 1.0;
