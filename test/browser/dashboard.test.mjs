@@ -130,7 +130,7 @@ test('the diagram of two jobs that cross is red where they conflict', { timeout:
 
 test('an object of the scene appears, moves and vanishes', { timeout: 60_000 }, async () => {
   const crate = { box: [0.3, 0.3, 0.4], rpy: [0, 0, 0] };
-  const empty = await picture('scene-empty');
+  const empty = await settled_picture('scene-empty');  // the camera may still glide from the page before
   const changed = async (name) => (await difference(browser, empty, await picture(name)));
   await ask('PUT', '/scene/objects/crate', { ...crate, xyz: [-0.3, 0.9, 0.4] }, 2);
   const first = await changed('scene-first');
@@ -248,6 +248,18 @@ async function picture(name) {
   await page.evaluate(() => window.armloom.drawn());
   const { path } = path_for(name);
   return page.locator('.view canvas').screenshot(path ? { path } : {});
+}
+
+/** When the view does not change any more. */
+async function settled_picture(name) {
+  let last = await picture(name);
+  for (let i = 0; i < 60; i++) {
+    await page.waitForTimeout(100);
+    const next = await picture(name);
+    if (next.equals(last)) return next;
+    last = next;
+  }
+  throw new Error(`${name}: the view never comes to rest`);
 }
 
 /** Which pixels are a robot's: those that change when it is taken away. */
