@@ -11,6 +11,7 @@
 #include "core/executive/executive_impl.h"
 #include "core/scheduler/orders/passing_orders.h"
 #include "core/scheduler/waiting/waits.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
@@ -25,13 +26,6 @@ struct Planned {
 
   [[nodiscard]] TimePoint ends() const { return starts + trajectory->duration(); }
 };
-
-void put_at_goal(const Trajectory& motion, Configuration& q) {
-  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
-    q[static_cast<Eigen::Index>(motion.joints()[j].index())] =
-        motion.goal()[static_cast<Eigen::Index>(j)];
-  }
-}
 
 // Reads the jobs in the order of the file: where each arm stands, and when it is free.
 class Plan final : public JobNames {
@@ -76,7 +70,7 @@ class Plan final : public JobNames {
       job.starts = std::max(job.starts, free_at_[arm.index()]);
     }
     for (ArmId arm : job.trajectory->arms()) free_at_[arm.index()] = job.ends();
-    put_at_goal(*job.trajectory, rest_);
+    set_joints(rest_, *job.trajectory, job.trajectory->goal());
     by_key_.emplace(job.key, jobs_.size());
     jobs_.push_back(std::move(job));
   }
@@ -122,7 +116,7 @@ Question question_for(const Plan& plan, const std::vector<std::size_t>& group,
   for (std::size_t other : begun) {
     const Planned& earlier = plan.jobs()[other];
     if (earlier.ends() <= job.starts) {
-      put_at_goal(*earlier.trajectory, question.rest);
+      set_joints(question.rest, *earlier.trajectory, earlier.trajectory->goal());
     } else {
       question.others.push_back(
           Motion{id_of(other), earlier.trajectory, job.starts - earlier.starts});

@@ -6,12 +6,11 @@
 
 #include "core/base/told.h"
 #include "core/executive/executive_impl.h"
-#include "core/trajectory/joint_line.h"
+#include "core/scheduler/sequence/places.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
-
-constexpr double kSamePlace = 1e-6;  // rad, m: what the scheduler takes to be one place
 
 Problems prefixed(const std::string& prefix, Problems problems) {
   for (Problem& problem : problems) problem.pointer.insert(0, prefix);
@@ -20,8 +19,8 @@ Problems prefixed(const std::string& prefix, Problems problems) {
 
 // Each moves one arm, not another one's, and leaves it where it was: so the next job of an arm that
 // does not get this one can begin there.
-void find_no_alternatives(const Cell& cell, const std::vector<TrajectoryPtr>& motions,
-                          Problems& problems) {
+void find_bad_alternatives(const Cell& cell, const std::vector<TrajectoryPtr>& motions,
+                           Problems& problems) {
   std::vector<ArmId> arms;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const Trajectory& motion = *motions[i];
@@ -36,7 +35,7 @@ void find_no_alternatives(const Cell& cell, const std::vector<TrajectoryPtr>& mo
     for (std::size_t j = 0; j < motion.joints().size(); ++j) {
       const auto index = static_cast<Eigen::Index>(j);
       const double off = motion.goal()[index] - motion.start()[index];
-      if (std::abs(off) <= kSamePlace) continue;
+      if (std::abs(off) <= Places::kRounding) continue;
       problems.push_back({ProblemKind::invalid, "alternative-ends-elsewhere",
                           place + "/points/" + std::to_string(motion.segments().size()) +
                               "/positions/" + std::to_string(j),
@@ -114,11 +113,7 @@ Result<Executive::Impl::Prepared> Executive::Impl::prepare(JobRequest request, A
   std::vector<TrajectoryPtr> motions = read_motions(request, ahead, returns, problems);
   if (!problems.empty()) return failure(std::move(problems));
 
-  const Trajectory& motion = *motions.front();
-  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
-    ahead.rest[static_cast<Eigen::Index>(motion.joints()[j].index())] =
-        motion.goal()[static_cast<Eigen::Index>(j)];
-  }
+  set_joints(ahead.rest, *motions.front(), motions.front()->goal());
   ahead.keys.push_back(request.key);
   return Prepared{
       std::move(request.key),   std::move(request.name),
@@ -142,34 +137,8 @@ std::vector<TrajectoryPtr> Executive::Impl::read_motions(const JobRequest& reque
     }
     for (Problem& p : prefixed(place, std::move(found))) problems.push_back(std::move(p));
   }
-  if (problems.empty() && motions.size() > 1) find_no_alternatives(*cell_, motions, problems);
+  if (problems.empty() && motions.size() > 1) find_bad_alternatives(*cell_, motions, problems);
   return motions;
-}
-
-// Clients know arms where they left them: one that was sent aside returns there for a job that
-// begins there.
-std::vector<TrajectoryPtr> Executive::Impl::returns_for(const Trajectory& motion,
-                                                        Ahead& ahead) const {
-  std::vector<TrajectoryPtr> returns;
-  for (ArmId arm : motion.arms()) {
-    const auto back = ahead.ways_back.find(arm);
-    if (back == ahead.ways_back.end()) continue;
-    Configuration returned = ahead.rest;
-    const Trajectory& way = *back->second;
-    for (std::size_t j = 0; j < way.joints().size(); ++j) {
-      returned[static_cast<Eigen::Index>(way.joints()[j].index())] =
-          way.goal()[static_cast<Eigen::Index>(j)];
-    }
-    Problems here, there;
-    find_start_elsewhere(*cell_, motion, ahead.rest, here);
-    find_start_elsewhere(*cell_, motion, returned, there);
-    if (there.size() < here.size()) {
-      ahead.rest = std::move(returned);
-      returns.push_back(back->second);
-    }
-    ahead.ways_back.erase(back);
-  }
-  return returns;
 }
 
 // A job can only come after one that is known before it: so there are no rings.
@@ -250,44 +219,6 @@ Submit Executive::Impl::submission(Prepared prepared) const {
              .any_order = prepared.order == JobOrder::any};
   if (prepared.alternatives.size() > 1) job.alternatives = std::move(prepared.alternatives);
   return job;
-}
-
-// Of an arm that was sent aside, before a job of this priority.
-Submit Executive::Impl::return_of(TrajectoryPtr back, int priority) const {
-  return {.job = JobId{0},
-          .trajectory = std::move(back),
-          .priority = priority,
-          .backlog_timeout = cell_->scheduling.backlog_timeout,
-          .system_job = true};
-}
-
-void Executive::Impl::note_aside(const YieldMove& aside) {
-  const std::string arm = cell_->arm(aside.arm).name;
-  label(aside.job, own_key(),
-        aside.returns ? arm + " returns to where it stood"
-                      : arm + " moves aside for " + key(aside.blocked_job));
-  if (!aside.in_ring) remember_way_back(aside.arm, *scheduler_.find(aside.job)->trajectory);
-}
-
-// Where the clients of an arm left it, however often it goes aside.
-void Executive::Impl::remember_way_back(ArmId arm, const Trajectory& way) {
-  TrajectoryPtr back = retraced(way);
-  if (const auto before = ways_back_.find(arm); before != ways_back_.end()) {
-    const Trajectory& old = *before->second;
-    if (old.joints() == way.joints()) {
-      if (auto line = joint_line(*cell_, way.joints(), way.goal(), old.goal())) back = *line;
-    }
-  }
-  ways_back_[arm] = std::move(back);
-}
-
-// Of a job of the server's own.
-std::string Executive::Impl::own_key() {
-  std::string own;
-  do {
-    own = "aside-" + std::to_string(next_aside_++);
-  } while (ids_.contains(own));
-  return own;
 }
 
 // "job-17"; where a client has taken that name, "job-17.2", ...

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "core/model/convex_hull.h"
+#include "core/model/spread_directions.h"
 
 namespace armloom {
 namespace {
@@ -17,7 +17,7 @@ constexpr double kBeside = 1e-5;   // of the extent: a cut passes a face at this
 constexpr int kEstimateFrom = 80;  // directions whose farthest points stand for a side
 
 double estimated_volume(const Points& points) {
-  static const Points kDirections = unit_spread(kEstimateFrom);
+  static const Points kDirections = spread_directions(kEstimateFrom);
   if (points.empty()) return 0.0;
   Points farthest;
   for (const Eigen::Vector3d& n : kDirections) {
@@ -136,17 +136,6 @@ Polygons clipped(const Polygons& polygons, const Cut& cut, double sign) {
     begin = end;
   }
   return kept;
-}
-
-Points unit_spread(int count) {
-  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  Points directions;
-  for (int i = 0; i < count; ++i) {
-    const double z = 1.0 - (2.0 * i + 1.0) / count;
-    const double r = std::sqrt(1.0 - z * z);
-    directions.emplace_back(r * std::cos(turn * i), r * std::sin(turn * i), z);
-  }
-  return directions;
 }
 
 }  // namespace armloom

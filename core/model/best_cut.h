@@ -28,7 +28,4 @@ struct Cut {
 // What lies at sign * (x - cut.at) >= 0 along the cut's axis.
 [[nodiscard]] Polygons clipped(const Polygons& polygons, const Cut& cut, double sign);
 
-// Directions that lie evenly on the sphere.
-[[nodiscard]] Points unit_spread(int count);
-
 }  // namespace armloom

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/model/best_cut.h"
+#include "core/model/spread_directions.h"
 
 namespace armloom {
 namespace {
@@ -46,7 +47,7 @@ bool may_hit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
 
 // Whether some ray leaves the point without hitting the surface: then nothing encloses it.
 bool escapes(const Eigen::Vector3d& p, const MeshData& mesh) {
-  static const Points kDirections = unit_spread(kEscapeDirections);
+  static const Points kDirections = spread_directions(kEscapeDirections);
   return std::any_of(kDirections.begin(), kDirections.end(), [&](const Eigen::Vector3d& n) {
     return std::none_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
       return may_hit(p, n, {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/told.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
@@ -49,10 +50,7 @@ ArmRests::ArmRests(const Cell& cell, Configuration rest)
 
 void ArmRests::come_to_rest(const Cell& cell, const TrajectoryPtr& motion,
                             const Eigen::VectorXd& position) {
-  const auto& joints = motion->joints();
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    rest_[static_cast<Eigen::Index>(joints[j].index())] = position[static_cast<Eigen::Index>(j)];
-  }
+  set_joints(rest_, *motion, position);
   const bool alone = motion->arms().size() == 1;
   for (ArmId arm : motion->arms()) {
     places_at_[arm.index()] = places_.of(arm, part_of(cell.arm(arm), rest_));

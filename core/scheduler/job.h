@@ -125,9 +125,9 @@ struct JobTimes {
 
 // That a job was taken among several, or on one of several arms, and what for.
 struct Choice {
-  std::vector<JobId> jobs = {};          // that could have gone, it among them; by turn
-  std::vector<ArmId> arms = {};          // alternatives: on which it could have gone
-  std::optional<JobId> instead_of = {};  // whose turn it was; nothing: its own
+  // Either is empty. What comes first is how things were.
+  std::vector<JobId> jobs = {};  // that could have gone, it among them
+  std::vector<ArmId> arms = {};  // on which it could have gone
   // By so much the plan's cost is less than with what came first; nothing: that could not go.
   std::optional<Duration> saves = {};
 };

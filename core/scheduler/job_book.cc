@@ -27,6 +27,18 @@ bool leads_to(const JobPhase& from, const JobPhase& to) {
   return allowed[to.index()];
 }
 
+// To, or from, the work of the arms that it may be done by.
+void count(const Job& job, std::vector<Duration>& work, int sign) {
+  if (job.alternatives.empty() || job.in<Queued>() == nullptr) {
+    for (ArmId arm : job.trajectory->arms()) work[arm.index()] += sign * job.trajectory->duration();
+    return;
+  }
+  const auto share = static_cast<int>(job.alternatives.size());
+  for (const TrajectoryPtr& one : job.alternatives) {
+    for (ArmId arm : one->arms()) work[arm.index()] += sign * (one->duration() / share);
+  }
+}
+
 }  // namespace
 
 Record& JobBook::add(Record record) {
@@ -75,25 +87,14 @@ bool JobBook::is_first(const Job& job) const {
                              [&](ArmId arm) { return queue(arm).front() == job.id; });
 }
 
-void JobBook::count(const Job& job, std::vector<Duration>& work, int sign) {
-  if (job.alternatives.empty() || job.in<Queued>() == nullptr) {
-    for (ArmId arm : job.trajectory->arms()) work[arm.index()] += sign * job.trajectory->duration();
-    return;
-  }
-  const auto share = static_cast<int>(job.alternatives.size());
-  for (const TrajectoryPtr& one : job.alternatives) {
-    for (ArmId arm : one->arms()) work[arm.index()] += sign * (one->duration() / share);
-  }
-}
-
 std::vector<Duration> JobBook::work_behind(const std::vector<JobId>& in_front) const {
   std::vector<Duration> work = work_;
   for (JobId id : in_front) count(at(id).job, work, -1);
   return work;
 }
 
-std::optional<JobId> JobBook::before(const Job& job) const {
-  const auto& own = queue(job.trajectory->arms().front());
+std::optional<JobId> JobBook::before(const Job& job, ArmId arm) const {
+  const auto& own = queue(arm);
   const auto place = std::ranges::find(own, job.id);
   return place == own.begin() ? std::nullopt : std::optional(*std::prev(place));
 }
@@ -142,16 +143,7 @@ void JobBook::put_in_order(const std::vector<JobId>& jobs) {
   }
 }
 
-std::size_t JobBook::place_of(const Record& record, ArmId arm) const {
-  const auto goes_before = [&](JobId id) {
-    return id != record.job.id && (at(id).job.in<Queued>() == nullptr || at(id).turn < record.turn);
-  };
-  const auto& own = queue(arm);
-  const auto last = std::find_if(own.rbegin(), own.rend(), goes_before);
-  return static_cast<std::size_t>(own.rend() - last);
-}
-
-void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
+void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg, std::size_t place) {
   Job& job = record.job;
   explain_with_next(job);
   for (ArmId arm : job.trajectory->arms()) {
@@ -162,7 +154,7 @@ void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
   record.leg = std::move(leg);
   for (ArmId arm : job.trajectory->arms()) {
     auto& queue = queues_[arm.index()];
-    queue.insert(queue.begin() + static_cast<std::ptrdiff_t>(place_of(record, arm)), job.id);
+    queue.insert(queue.begin() + static_cast<std::ptrdiff_t>(place), job.id);
   }
   explain_with_next(job);
 }

@@ -66,18 +66,15 @@ class JobBook {
   [[nodiscard]] const std::vector<std::deque<JobId>>& queues() const { return queues_; }
   [[nodiscard]] const std::deque<JobId>& queue(ArmId arm) const { return queues_[arm.index()]; }
   [[nodiscard]] bool is_first(const Job& job) const;  // of all its arms
-  // On the first of its arms; nothing: none.
-  [[nodiscard]] std::optional<JobId> before(const Job& job) const;
+  // The one before it on that arm of its own; nothing: it is the first.
+  [[nodiscard]] std::optional<JobId> before(const Job& job, ArmId arm) const;
   // That would not keep it waiting: first of its arms, all in `after` ended, none let pass.
   [[nodiscard]] bool at_head(const Record& record) const;
   [[nodiscard]] bool lets_another_pass(const Record& record) const;
   // These follow each other on the same arms and wait: now in this order.
   void put_in_order(const std::vector<JobId>& jobs);
-  // Of the arm's jobs so many would stand before this one: that are admitted, or came before it,
-  // and what goes before these.
-  [[nodiscard]] std::size_t place_of(const Record& record, ArmId arm) const;
-  // The other trajectory, of other arms, at its place there. Precondition: it waits.
-  void take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg);
+  // By another arm, before which so many of that one's jobs stand. Precondition: it waits.
+  void take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg, std::size_t place);
   // That could still go on other arms.
   [[nodiscard]] const std::set<JobId>& undecided() const { return undecided_; }
   // The same jobs, each after those before it.
@@ -101,8 +98,6 @@ class JobBook {
 
  private:
   void explain_with_next(const Job& job);
-  // To, or from, the work of the arms that it may be done by.
-  static void count(const Job& job, std::vector<Duration>& work, int sign);
 
   std::map<JobId, Record> records_;
   std::uint64_t last_id_ = 0;

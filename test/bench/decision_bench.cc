@@ -51,30 +51,6 @@ CellPtr hall_of(const Load& load) {
   return std::make_shared<const Cell>(std::move(cell));
 }
 
-// The waypoints of `motion`, its deviation from its start shrunk to `share` and begun at home;
-// backwards: from its goal to home. None: it leaves its limits.
-std::optional<TrajectoryPtr> from_home(const Cell& cell, ArmId arm, const Trajectory& motion,
-                                       double share, bool backwards) {
-  TrajectoryRequest request;
-  for (const JointId id : motion.joints()) request.joint_names.push_back(cell.joint(id).name);
-  JointState state;
-  for (std::size_t i = 0; i < kWaypoints; ++i) {
-    const double at_s = kMotion_s * static_cast<double>(i) / static_cast<double>(kWaypoints - 1);
-    motion.sample(from_seconds(backwards ? kMotion_s - at_s : at_s), state);
-    WaypointRequest point{{}, {}, {}, at_s};
-    for (Eigen::Index j = 0; j < state.position.size(); ++j) {
-      point.positions.push_back(cell.arm(arm).home[j] +
-                                share * (state.position[j] - motion.start()[j]));
-      point.velocities.push_back((backwards ? -share : share) * state.velocity[j]);
-      point.accelerations.push_back(share * state.acceleration[j]);
-    }
-    request.points.push_back(std::move(point));
-  }
-  auto trajectory = validate(request, cell);
-  if (!trajectory) return std::nullopt;
-  return *trajectory;
-}
-
 double processor_ms() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -108,6 +108,28 @@ TrajectoryPtr random_motion(const Cell& cell, ArmId arm, std::uint64_t seed, dou
   return *trajectory;
 }
 
+std::optional<TrajectoryPtr> from_home(const Cell& cell, ArmId arm, const Trajectory& motion,
+                                       double share, bool backwards) {
+  TrajectoryRequest request;
+  for (const JointId id : motion.joints()) request.joint_names.push_back(cell.joint(id).name);
+  JointState state;
+  for (std::size_t i = 0; i < kWaypoints; ++i) {
+    const double at_s = kMotion_s * static_cast<double>(i) / static_cast<double>(kWaypoints - 1);
+    motion.sample(from_seconds(backwards ? kMotion_s - at_s : at_s), state);
+    WaypointRequest point{{}, {}, {}, at_s};
+    for (Eigen::Index j = 0; j < state.position.size(); ++j) {
+      point.positions.push_back(cell.arm(arm).home[j] +
+                                share * (state.position[j] - motion.start()[j]));
+      point.velocities.push_back((backwards ? -share : share) * state.velocity[j]);
+      point.accelerations.push_back(share * state.acceleration[j]);
+    }
+    request.points.push_back(std::move(point));
+  }
+  auto trajectory = validate(request, cell);
+  if (!trajectory) return std::nullopt;
+  return *trajectory;
+}
+
 void Motions::state_at(Duration progress, Configuration& q) const {
   state_at(progress, 0, Duration{0}, q);
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/time.h"
@@ -22,6 +23,12 @@ inline constexpr std::size_t kWaypoints = 100;
 // Throws std::runtime_error when validate refuses it.
 [[nodiscard]] TrajectoryPtr random_motion(const Cell& cell, ArmId arm, std::uint64_t seed,
                                           double reach);
+
+// The waypoints of `motion`, its deviation from its start shrunk to `share` and begun at home;
+// backwards: from its goal to home. None: it leaves its limits.
+[[nodiscard]] std::optional<TrajectoryPtr> from_home(const Cell& cell, ArmId arm,
+                                                     const Trajectory& motion, double share,
+                                                     bool backwards);
 
 // Motions that run together, each from its beginning at time zero; all other joints stand as in
 // `rest`.

@@ -14,76 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 
-const Joint& joint_of(const Cell& cell, const char* name) {
-  return cell.joint(*cell.find_joint(name));
-}
-
-CellDescription with_limits_file(const ScratchFolder& folder, const std::string& text) {
-  CellDescription cell = two_arms_description();
-  cell.robots[0].joint_limits = folder.write("joint_limits.yaml", text);
-  return cell;
-}
-
-constexpr const char* kTurnLimits =
-    "default_velocity_scaling_factor: 0.1\n"
-    "joint_limits:\n"
-    "  l_turn:\n"
-    "    has_velocity_limits: true\n"
-    "    max_velocity: 1.5\n"
-    "    has_acceleration_limits: true\n"
-    "    max_acceleration: 2\n"
-    "    has_jerk_limits: false\n"
-    "    max_jerk: 7\n"
-    "    has_position_limits: true\n"
-    "    min_position: -1.5\n"
-    "    max_position: 9\n";
-
-TEST(JointLimitsFile, IsTakenBelowTheCellsOwnLimitsAndNeverAboveTheUrdfs) {
-  const ScratchFolder folder;
-  CellDescription description = with_limits_file(folder, kTurnLimits);
-  description.robots[0].arms[0].limits["l_turn"].acceleration = 3.0;
-  const CellPtr cell = build_or_fail(description);
-  const Joint& turn = joint_of(*cell, "t_l_turn");
-  EXPECT_EQ(turn.velocity_max, 1.5);       // the file's
-  EXPECT_EQ(turn.acceleration_max, 3.0);   // the cell's
-  EXPECT_EQ(turn.jerk_max, kDefaultJerk);  // has_jerk_limits is false
-  EXPECT_EQ(turn.lower, -1.5);
-  EXPECT_EQ(turn.upper, 2.5);  // the URDF's
-  EXPECT_FALSE(turn.assumed.acceleration);
-  EXPECT_TRUE(turn.assumed.jerk);
-  EXPECT_THAT(
-      warnings_of(description),
-      HasSubstr("joint_limits.yaml:3: joint l_turn: max_position is 9, wider than the URDF's "
-                "2.5, which counts"));
-}
-
-TEST(JointLimitsFile, IsFoundUnderTheNamesOfRos2Parameters) {
-  const ScratchFolder folder;
-  const CellPtr cell = build_or_fail(with_limits_file(
-      folder,
-      "/**:\n  ros__parameters:\n    robot_description_planning:\n      joint_limits:\n"
-      "        l_turn: {has_velocity_limits: true, max_velocity: 1}\n"));
-  EXPECT_EQ(joint_of(*cell, "t_l_turn").velocity_max, 1.0);
-}
-
-TEST(JointLimitsFile, MayHaveAnglesInDegrees) {
-  const ScratchFolder folder;
-  const CellPtr cell = build_or_fail(with_limits_file(
-      folder,
-      "joint_limits:\n  l_turn: {max_velocity: !degrees 45, max_acceleration: !radians 2,\n"
-      "    max_position: !degrees 90, min_position: !!float -1, max_jerk: '7'}\n"));
-  const Joint& turn = joint_of(*cell, "t_l_turn");
-  EXPECT_DOUBLE_EQ(turn.velocity_max, std::numbers::pi / 4);
-  EXPECT_EQ(turn.acceleration_max, 2.0);
-  EXPECT_DOUBLE_EQ(turn.upper, std::numbers::pi / 2);
-  EXPECT_EQ(turn.lower, -1.0);
-  EXPECT_EQ(turn.jerk_max, 7.0);
-  EXPECT_THAT(
-      problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: {max_velocity: !rpm 10}\n")),
-      HasSubstr("joint_limits.yaml:2: max_velocity has the tag !rpm, known here are "
-                "!degrees and !radians"));
-}
-
 TEST(Mimic, OfAMimicFollowsTheFirstOne) {
   const ScratchFolder folder;
   CellDescription description = two_arms_description();
@@ -114,38 +44,6 @@ TEST(Mimic, InARingIsToldOfEach) {
                                   "that it follows go in a ring"));
   EXPECT_THAT(problems, HasSubstr("twin.urdf:40: joint l_grip_mirror: mimic joint l_grip and those "
                                   "that it follows go in a ring"));
-}
-
-TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
-  const ScratchFolder folder;
-  EXPECT_THAT(problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: [\n")),
-              HasSubstr("joint_limits.yaml:3: the YAML is malformed"));
-  EXPECT_THAT(problems_of(with_limits_file(folder, "limits: {}\n")),
-              HasSubstr("joint_limits.yaml: there is no joint_limits with joints in it"));
-  const std::string problems = problems_of(with_limits_file(
-      folder,
-      "joint_limits:\n  l_turn:\n    has_velocity_limits: true\n    max_velocity: fast\n"
-      "    has_acceleration_limits: true\n    max_acceleration: -1\n"
-      "    has_jerk_limits: perhaps\n    has_position_limits: true\n    max_position: .nan\n"
-      "  r_spin:\n    has_velocity_limits: true\n    has_velocity_limits: true\n    max_velocity: "
-      "1\n"
-      "  r_spin: {}\n"));
-  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:4: max_velocity is 'fast'"));
-  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:6: max_acceleration is -1, it must be"));
-  EXPECT_THAT(problems,
-              HasSubstr("joint_limits.yaml:7: has_jerk_limits is 'perhaps', not true or"));
-  EXPECT_THAT(problems, HasSubstr("min_position is missing, and has_position_limits is true"));
-  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:9: max_position is '.nan'"));
-  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:12: has_velocity_limits stands there twice"));
-  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:14: joint r_spin: more than one joint has"));
-}
-
-TEST(JointLimitsFile, OfOtherJointsWarns) {
-  const ScratchFolder folder;
-  const std::string warnings = warnings_of(with_limits_file(
-      folder, "joint_limits:\n  elbow: {}\n  l_turn: {max_speed: 3}\n  l_grip_mirror: 5\n"));
-  EXPECT_THAT(warnings, HasSubstr("joints that are not in two_arms.urdf are left out: elbow"));
-  EXPECT_THAT(warnings, HasSubstr("joint_limits.yaml:3: max_speed is not known here"));
 }
 
 TEST(CellLimits, AreNeverWiderThanTheUrdfs) {
@@ -251,24 +149,6 @@ TEST(Warnings, NameALagThatMotionsAreNotCertifiedFor) {
   EXPECT_THAT(warnings_of(cell),
               HasSubstr("/robots/0/controller/lag_s | robot twin: lag_s is 0.3, more than checking "
                         "delay_s of 0.1: its arms follow late,"));
-}
-
-TEST(JointLimitsFile, GivesTheBrakeAsItsDeceleration) {
-  for (const char* sign : {"-", ""}) {
-    const ScratchFolder folder;
-    const CellPtr cell = build_or_fail(with_limits_file(
-        folder, std::string("joint_limits:\n  l_turn: {has_acceleration_limits: true, "
-                            "max_acceleration: 1, has_deceleration_limits: true, "
-                            "max_deceleration: ") +
-                    sign + "0.5}\n"));
-    EXPECT_EQ(joint_of(*cell, "t_l_turn").brake, 0.5);
-  }
-  const ScratchFolder folder;
-  EXPECT_THAT(problems_of(with_limits_file(folder,
-                                           "joint_limits:\n  l_turn:\n"
-                                           "    has_deceleration_limits: true\n"
-                                           "    max_deceleration: 0\n")),
-              HasSubstr("joint_limits.yaml:4: max_deceleration is 0, so nothing could stop"));
 }
 
 CellDescription with_srdf(const ScratchFolder& folder, const std::string& from,

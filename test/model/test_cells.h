@@ -54,4 +54,15 @@ class ScratchFolder {
 // The line in which two texts begin to differ.
 [[nodiscard]] int line_of_change(const std::string& before, const std::string& after);
 
+inline const Joint& joint_of(const Cell& cell, const char* name) {
+  return cell.joint(*cell.find_joint(name));
+}
+
+// Of the first robot.
+inline CellDescription with_limits_file(const ScratchFolder& folder, const std::string& text) {
+  CellDescription cell = two_arms_description();
+  cell.robots[0].joint_limits = folder.write("joint_limits.yaml", text);
+  return cell;
+}
+
 }  // namespace armloom

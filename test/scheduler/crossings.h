@@ -5,6 +5,7 @@
 
 #include "core/coordination/motion.h"
 #include "core/coordination/verdict.h"
+#include "test/scheduler/stretches.h"
 
 namespace armloom {
 
@@ -20,11 +21,6 @@ struct Crossing {
 // An object in the way of an arm.
 struct Object {
   ArmId arm;
-  double from, to;
-};
-
-// A stretch of an arm's places (rad), from <= to.
-struct Stretch {
   double from, to;
 };
 
@@ -66,8 +62,5 @@ class Crossings {
   std::vector<Crossing> table_;
   std::vector<Object> objects_;
 };
-
-// Where the arm of this motion is at `progress` (rad).
-[[nodiscard]] double place_of(const Trajectory& motion, ArmId arm, Duration progress);
 
 }  // namespace armloom

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/disjoint_sets.h"
+
 namespace armloom {
 namespace {
 
@@ -81,7 +83,7 @@ class Grid {
 };
 
 // The fields of one mark, column of A by column, as runs along B; runs that hang together are one
-// set (union-find; a set's first run is its root).
+// set, named by its first run.
 class Runs {
  public:
   Runs(Grid& grid, int mark, bool corners) {
@@ -96,11 +98,11 @@ class Runs {
         if (wanted) spans_.push_back({i, i + 1, j, end});
         j = end;
       }
-      for (std::size_t r = begin; r < spans_.size(); ++r) parents_.push_back(r);
+      for (std::size_t r = begin; r < spans_.size(); ++r) sets_.add();
       for (std::size_t x = before, y = begin; x < begin && y < spans_.size();) {
         const bool touch =
             spans_[x].from_b < spans_[y].to_b + reach && spans_[y].from_b < spans_[x].to_b + reach;
-        if (touch) join(x, y);
+        if (touch) sets_.join(x, y);
         spans_[x].to_b < spans_[y].to_b ? ++x : ++y;
       }
       before = begin;
@@ -108,19 +110,11 @@ class Runs {
   }
 
   [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
-  [[nodiscard]] std::size_t root(std::size_t run) {
-    while (parents_[run] != run) run = parents_[run] = parents_[parents_[run]];
-    return run;
-  }
+  [[nodiscard]] std::size_t root(std::size_t run) { return sets_.root(run); }
 
  private:
-  void join(std::size_t x, std::size_t y) {
-    const std::size_t one = root(x);
-    const std::size_t other = root(y);
-    parents_[std::max(one, other)] = std::min(one, other);
-  }
   std::vector<Span> spans_;
-  std::vector<std::size_t> parents_;
+  DisjointSets sets_;
 };
 
 Grid grid_of(const std::vector<BlockedCell>& cells, const std::vector<std::size_t>& ahead,

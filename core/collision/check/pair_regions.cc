@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/trajectory/set_joints.h"
+
 namespace armloom {
 namespace {
 
@@ -19,10 +21,7 @@ bool share_an_arm(const Motion& a, const Motion& b) {
 void put(const Trajectory& trajectory, Duration time, Configuration& q) {
   Eigen::VectorXd position;
   trajectory.sample_positions(time, position);
-  for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
-    q[static_cast<Eigen::Index>(trajectory.joints()[j].index())] =
-        position[static_cast<Eigen::Index>(j)];
-  }
+  set_joints(q, trajectory, position);
 }
 
 bool holds(const CoordinationDiagram::Blocked& leaf, Duration a, Duration b) {

@@ -1,39 +1,26 @@
 #include "core/collision/diagram/passing_edges.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
+
+#include "core/base/disjoint_sets.h"
 
 namespace armloom {
 namespace {
 
-// Leaves that touch are one component (union-find; a component is named by its first leaf).
-class Components {
- public:
-  // By from_a.
-  explicit Components(const std::vector<OpenLeaf>& leaves) : parents_(leaves.size()) {
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
-      const ProgressBox& box = leaves[i].box;
-      for (std::size_t j = i + 1; j < leaves.size() && leaves[j].box.from_a <= box.to_a; ++j) {
-        const ProgressBox& other = leaves[j].box;
-        if (other.from_b <= box.to_b && box.from_b <= other.to_b) join(i, j);
-      }
+// Leaves that touch are one component. Given by from_a.
+DisjointSets components_of(const std::vector<OpenLeaf>& leaves) {
+  DisjointSets components;
+  for (std::size_t i = 0; i < leaves.size(); ++i) components.add();
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const ProgressBox& box = leaves[i].box;
+    for (std::size_t j = i + 1; j < leaves.size() && leaves[j].box.from_a <= box.to_a; ++j) {
+      const ProgressBox& other = leaves[j].box;
+      if (other.from_b <= box.to_b && box.from_b <= other.to_b) components.join(i, j);
     }
   }
-  [[nodiscard]] std::size_t root(std::size_t leaf) {
-    while (parents_[leaf] != leaf) leaf = parents_[leaf] = parents_[parents_[leaf]];
-    return leaf;
-  }
-
- private:
-  void join(std::size_t x, std::size_t y) {
-    const std::size_t one = root(x);
-    const std::size_t other = root(y);
-    parents_[std::max(one, other)] = std::min(one, other);
-  }
-  std::vector<std::size_t> parents_;
-};
+  return components;
+}
 
 // A leaf as it looks where A passes first; for the other side with A and B exchanged.
 struct Corner {
@@ -88,7 +75,7 @@ std::vector<CoarseLeaf> coarse_leaves(std::vector<OpenLeaf> leaves, const Progre
     return std::tuple(x.box.from_a, x.box.from_b, x.cell) <
            std::tuple(y.box.from_a, y.box.from_b, y.cell);
   });
-  Components components(leaves);
+  DisjointSets components = components_of(leaves);
   std::vector<Corner> a_first, b_first;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const ProgressBox& box = leaves[i].box;

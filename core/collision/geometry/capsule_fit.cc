@@ -10,6 +10,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "core/model/spread_directions.h"
+
 namespace armloom {
 namespace {
 
@@ -187,18 +189,6 @@ bool contains(const LinkCapsule& capsule, const Ball& ball) {
   const double size = ball.center.norm() + capsule.p_PA.norm() + capsule.p_PB.norm();
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * size;
   return distance + ball.radius_m + rounding <= capsule.radius_m;
-}
-
-std::vector<Eigen::Vector3d> spread_directions(int count) {
-  // Fibonacci's spiral.
-  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  Directions directions;
-  for (int i = 0; i < count; ++i) {
-    const double z = 1.0 - (2.0 * i + 1.0) / count;
-    const double r = std::sqrt(1.0 - z * z);
-    directions.emplace_back(r * std::cos(turn * i), r * std::sin(turn * i), z);
-  }
-  return directions;
 }
 
 std::vector<Ball> outermost(const std::vector<Ball>& balls) {

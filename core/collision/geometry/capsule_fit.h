@@ -38,7 +38,4 @@ struct LinkCapsule {
 // The balls that reach farthest in some 60 directions: enough to compare capsules by.
 [[nodiscard]] std::vector<Ball> outermost(const std::vector<Ball>& balls);
 
-// `count` unit vectors, spread evenly.
-[[nodiscard]] std::vector<Eigen::Vector3d> spread_directions(int count);
-
 }  // namespace armloom

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/model/spread_directions.h"
+
 namespace armloom {
 namespace {
 

@@ -3,12 +3,6 @@
 #include <cmath>
 
 namespace armloom {
-namespace {
-
-constexpr double kRounding = 1e-6;  // rad, m
-
-}  // namespace
-
 PlacePtr Places::of(ArmId arm, const Eigen::VectorXd& q) {
   Key key{arm.value()};
   for (const double value : q) key.push_back(std::llround(value / kRounding));

@@ -23,6 +23,8 @@ using PlacePtr = std::shared_ptr<const Place>;
 // Gives places. Two that differ by no more than rounding are one, mostly.
 class Places {
  public:
+  inline static constexpr double kRounding = 1e-6;  // rad, m
+
   [[nodiscard]] PlacePtr of(ArmId arm, const Eigen::VectorXd& q);
 
  private:

@@ -132,7 +132,6 @@ void Choosing::note(State& state, std::size_t best) const {
     }
   }
   if (const auto first = options_.front().job; first != taker.job.id) {
-    choice.instead_of = first;
     auto& overtaken_at = state.jobs.at(first).overtaken_at;
     if (!overtaken_at) overtaken_at = state.now;
   }

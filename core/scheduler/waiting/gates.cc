@@ -1,7 +1,6 @@
 #include "core/scheduler/waiting/gates.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "core/scheduler/authority.h"
@@ -38,12 +37,9 @@ bool is_next(const State& state, const Record& record, ArmId arm) {
 
 // Which job stands before it, on the first of its arms where one does and has to go first.
 Closed behind(const Turns& turns, const Record& record) {
-  if (has_turn_on_some_arm(turns.state(), record)) return std::nullopt;
   for (ArmId arm : record.job.trajectory->arms()) {
     if (is_next(turns.state(), record, arm)) continue;
-    const auto& queue = turns.state().jobs.queue(arm);
-    const auto before = std::next(std::find(queue.rbegin(), queue.rend(), record.job.id));
-    if (before != queue.rend()) return order(*before, arm);
+    return order(*turns.state().jobs.before(record.job, arm), arm);
   }
   return std::nullopt;
 }
@@ -77,7 +73,6 @@ void add_lets_pass(const State& state, const Record& record, Edges& edges) {
 }
 
 Closed stop(const Turns& turns, const Record& record) {
-  if (has_turn_on_some_arm(turns.state(), record)) return std::nullopt;
   return only(turns.state().arms.stop_of(record.job));
 }
 
@@ -118,22 +113,23 @@ struct Gate {
   Closed (*closed)(const Turns&, const Record&);
   // For each job that stands: whom this makes it wait for. Null: it opens by itself.
   void (*edges)(const State&, const Record&, Edges&) = nullptr;
+  // Is passed by a job that has its turn on another arm (Submit::alternatives).
+  bool of_its_arm = false;
 };
 
 constexpr Gate kGates[] = {
-    {GateKind::behind, behind},  // edges: add_behind(), queue by queue
-    {GateKind::after, after, add_after},
-    {GateKind::lets_pass, lets_pass, add_lets_pass},
-    {GateKind::stop, stop},
-    {GateKind::place, place},
-    {GateKind::conflict, conflict, add_conflict},
-    {GateKind::aging, aging},
+    {GateKind::behind, behind, nullptr, true},  // edges: add_behind(), queue by queue
+    {GateKind::after, after, add_after},          {GateKind::lets_pass, lets_pass, add_lets_pass},
+    {GateKind::stop, stop, nullptr, true},        {GateKind::place, place},
+    {GateKind::conflict, conflict, add_conflict}, {GateKind::aging, aging},
 };
 
 }  // namespace
 
 std::optional<ClosedGate> closed_gate(const Turns& turns, const Record& record) {
+  const bool has_turn = has_turn_on_some_arm(turns.state(), record);
   for (const Gate& gate : kGates) {
+    if (gate.of_its_arm && has_turn) continue;
     if (auto waits = gate.closed(turns, record)) return ClosedGate{gate.kind, std::move(*waits)};
   }
   return std::nullopt;

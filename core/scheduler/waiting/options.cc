@@ -52,6 +52,18 @@ bool begins_at(const State& state, const Trajectory& trajectory, const Place& pl
   return true;
 }
 
+// So many of the arm's jobs come before this one: that are admitted, or came before it, and what
+// goes before these.
+std::size_t place_on(const State& state, const Record& record, ArmId arm) {
+  const auto goes_before = [&](JobId id) {
+    const Record& other = state.jobs.at(id);
+    return id != record.job.id && (other.job.in<Queued>() == nullptr || other.turn < record.turn);
+  };
+  const auto& queue = state.jobs.queue(arm);
+  const auto last = std::find_if(queue.rbegin(), queue.rend(), goes_before);
+  return static_cast<std::size_t>(queue.rend() - last);
+}
+
 // When it could go on the arm of this trajectory: when those have ended that are admitted there, as
 // far as the policy looks ahead; when those have gone that came before it; or not, as these lead
 // elsewhere.
@@ -61,7 +73,7 @@ When when_on(const State& state, const Record& record, const Trajectory& traject
   const Place* leads_to = nullptr;
   std::size_t admitted = 0;
   bool is_next = true;
-  const std::size_t place = state.jobs.place_of(record, arm);
+  const std::size_t place = place_on(state, record, arm);
   for (JobId id : state.jobs.queue(arm) | std::views::take(place)) {
     if (id == record.job.id) continue;
     const Record& other = state.jobs.at(id);
@@ -100,7 +112,8 @@ std::vector<Option> on_several_arms(const State& state, const Record& record) {
 void take_arm(State& state, Record& record, const TrajectoryPtr& trajectory) {
   if (record.job.trajectory == trajectory) return;
   WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.id, *trajectory);
-  state.jobs.take(record, trajectory, std::move(leg));
+  const std::size_t place = place_on(state, record, arm_of(*trajectory));
+  state.jobs.take(record, trajectory, std::move(leg), place);
   state.lanes.renew_later();
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/yielding/ways_aside.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
@@ -119,11 +120,7 @@ Question question_about(const State& state, const YieldTrial& move) {
     return question;
   }
   Question question = question_now(state, {move.blocked_job});
-  const auto& joints = move.way->joints();
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    question.rest[static_cast<Eigen::Index>(joints[j].index())] =
-        move.way->goal()[static_cast<Eigen::Index>(j)];
-  }
+  set_joints(question.rest, *move.way, move.way->goal());
   return question;
 }
 
