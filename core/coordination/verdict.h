@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -36,17 +38,29 @@ enum class PassageAnswer {
   apart,  // and so it is wherever both arms are
 };
 
+// What is proven to be kept, in m: no more than was asked of any pair of that kind.
+struct ClearanceBound {
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  double apart_m =
+      kNone;  // between arms, and by arms from all that stands still, their mounts among it
+  double self_m = kNone;  // by links of one arm from each other (Cell::is_own)
+
+  void lower(const ClearanceBound& other) {
+    apart_m = std::min(apart_m, other.apart_m);
+    self_m = std::min(self_m, other.self_m);
+  }
+
+  friend bool operator==(const ClearanceBound&, const ClearanceBound&) = default;
+};
+
 // The answer to a Question, with its evidence.
 struct Verdict {
   enum class Kind { free, conflict, undecided };
   Kind kind;
   Version version;                  // of the question
   std::vector<Conflict> conflicts;  // the first one found with each counterpart; empty when free
-  // What is proven to be kept between arms, and by arms from the scene, their mounts among it: no
-  // more than was asked of any such pair (of what is an arm's own, Cell::is_own, it says nothing).
-  // Absent: nothing is proven.
-  std::optional<double> clearance_bound_m;
-  std::uint64_t evaluations = 0;  // combined states looked at
+  std::optional<ClearanceBound> clearance_bound;  // absent: nothing is proven
+  std::uint64_t evaluations = 0;                  // combined states looked at
   // Where a policy has been asked too (executive/dry_run.h): the candidates would start this much
   // after the question's instant.
   std::optional<Duration> earliest_start = {};

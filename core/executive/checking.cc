@@ -33,7 +33,7 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
   const Trial::Outcome outcome = trial->outcome();
   CheckView view{.kind = outcome.kind, .scene_version = scene_version_};
   if (outcome.starts_in) view.earliest_start_s = to_seconds(*outcome.starts_in);
-  view.clearance_bound_m = outcome.clearance_bound_m;
+  view.tell(outcome.clearance_bound);
   view.evaluations = outcome.evaluations;
   for (Wait wait : outcome.waits) {
     const bool is_known = wait.job && scheduler_.find(*wait.job) != nullptr;

@@ -175,7 +175,7 @@ Verdict as_verdict(const PassingOrders& orders, std::size_t candidates, Verdict 
     return verdict;
   }
   verdict.kind = Verdict::Kind::conflict;
-  verdict.clearance_bound_m.reset();
+  verdict.clearance_bound.reset();
   for (const Blocker& blocker : orders.blockers) {
     verdict.conflicts.push_back({blocker.arm ? Conflict::With::rest : Conflict::With::motion,
                                  blocker.blocked, blocker.other, blocker.proximity,
@@ -248,7 +248,7 @@ CheckView judged(std::size_t index, const std::vector<std::size_t>& begun, const
   }
   const Verdict verdict = weighed(index, begun, plan, cell, policy, checker);
   view.kind = verdict.kind;
-  view.clearance_bound_m = verdict.clearance_bound_m;
+  view.tell(verdict.clearance_bound);
   view.evaluations = verdict.evaluations;
   if (verdict.earliest_start) view.earliest_start_s = to_seconds(*verdict.earliest_start);
   for (const Conflict& conflict : verdict.conflicts) {

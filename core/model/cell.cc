@@ -44,16 +44,7 @@ bool Cell::is_mount(LinkId link, ArmId arm) const {
 }
 
 bool Cell::is_own(LinkId a, LinkId b) const {
-  if (link(a).arm == link(b).arm) return link(a).arm.has_value();
-  if (!link(a).arm) return is_own(b, a);
-  if (link(b).arm) return false;
-  const Link* at = &link(a);
-  int movable = at->driver ? 1 : 0;
-  for (; at->parent && link(*at->parent).arm; movable += at->driver ? 1 : 0) {
-    at = &link(*at->parent);
-  }
-  // The one joint between them is the one that stands on b.
-  return at->driver && movable == 1 && stands_on(*this, *at, b);
+  return link(a).arm.has_value() && link(a).arm == link(b).arm;
 }
 
 Configuration Cell::home() const {

@@ -128,14 +128,12 @@ struct Cell {
 
   // A link that stands still and carries a link that the arm moves: what the arm is mounted on. It
   // may be the arm's own pedestal, or a table that the URDF makes its base: no file tells them
-  // apart. So it is scene, for all but what the arm's first joint alone moves (is_own): that turns
-  // on the mount and never gets away from it. The rest of the arm reaches over the mount as over a
-  // table, and owes it mount_clearance_m: clearance_m unless the cell says otherwise, as it may for
-  // robots that fold on their own body. (Neighbours that touch are disabled by the SRDF.)
+  // apart. So it is scene, and all of the arm owes it mount_clearance_m: clearance_m unless the
+  // cell says otherwise, as it may for robots that fold on their own body. (Neighbours that touch
+  // are disabled by the SRDF, or by being parent and child where there is none.)
   // Links without a shape (mounting frames) hand that down to what they are fixed to.
   [[nodiscard]] bool is_mount(LinkId link, ArmId arm) const;
-  // Two links of one arm, or one that the arm's first joint alone moves and the arm's mount: they
-  // pass each other closely by design and keep self_clearance_m.
+  // Two links of one arm: they pass each other closely by design and keep self_clearance_m.
   [[nodiscard]] bool is_own(LinkId a, LinkId b) const;
 
   // What an arm keeps from its mount: never more than from the scene.

@@ -103,6 +103,16 @@ void fix_in_text(RobotTree& tree) {
   tree.text = printer.CStr();
 }
 
+// Of the joint above links[index]; none: it moves.
+std::optional<double> value_held_at(const TreeLink& link, std::size_t index,
+                                    const std::map<std::size_t, double>& held) {
+  // Whatever it follows moves, it does not.
+  if (link.mimic && link.mimic->multiplier == 0.0) return link.mimic->offset;
+  const auto own = held.find(link.mimic ? link.mimic->driver : index);
+  if (own == held.end()) return std::nullopt;
+  return link.mimic ? link.mimic->multiplier * own->second + link.mimic->offset : own->second;
+}
+
 }  // namespace
 
 void hold_joints(const std::map<std::string, double>& fixed, const std::string& pointer,
@@ -113,16 +123,16 @@ void hold_joints(const std::map<std::string, double>& fixed, const std::string& 
     if (const auto joint = holdable(name, value, at, robot, tree, findings))
       held.emplace(*joint, value);
   }
-  if (held.empty()) return;
+  bool any = false;
   for (std::size_t i = 0; i < tree.links.size(); ++i) {
     TreeLink& link = tree.links[i];
     if (!link.motion) continue;
-    const auto own = held.find(link.mimic ? link.mimic->driver : i);
-    if (own == held.end()) continue;
-    hold(link,
-         link.mimic ? link.mimic->multiplier * own->second + link.mimic->offset : own->second);
+    const std::optional<double> value = value_held_at(link, i, held);
+    if (!value) continue;
+    hold(link, *value);
+    any = true;
   }
-  fix_in_text(tree);
+  if (any) fix_in_text(tree);
 }
 
 }  // namespace armloom

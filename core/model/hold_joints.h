@@ -9,7 +9,8 @@
 namespace armloom {
 
 // Holds joints at a value (rad or m), as a cell file's "fixed" has them by name: they are fixed
-// joints from then on, and so are the mimic joints that follow them. Names must be movable joints
+// joints from then on, and so are the mimic joints that follow them, and those that follow a joint
+// with multiplier 0. Names must be movable joints
 // that follow no other; values finite and within the URDF's limits. The URDF's text is changed
 // alike, so that whoever draws the robot from it sees it so. `pointer` is of the robot in the cell
 // file.

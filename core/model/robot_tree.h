@@ -40,7 +40,8 @@ struct TreeLink {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // unit
   std::optional<Mimic> mimic;
   UrdfLimits limits;
-  std::optional<double> held;  // by the cell file's "fixed": rad or m, which X_PJ then contains
+  // By the cell file's "fixed", or as a mimic of multiplier 0: rad or m, which X_PJ then contains.
+  std::optional<double> held;
   std::vector<PlacedShape> shapes;
   bool seen = false;   // it has a <visual>
   bool solid = false;  // it has a <collision>, which may be faulty

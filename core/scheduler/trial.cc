@@ -52,7 +52,7 @@ Trial::Outcome Trial::outcome() const {
   if (job.has_authority()) {
     outcome.kind = Verdict::Kind::free;
     outcome.starts_in = std::max(Duration{}, *job.times.scheduled_at - now_);
-    if (last_) outcome.clearance_bound_m = last_->clearance_bound_m;
+    if (last_) outcome.clearance_bound = last_->clearance_bound;
     return outcome;
   }
   outcome.starts_in = by_clock_;

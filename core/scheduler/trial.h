@@ -27,7 +27,7 @@ class Trial {
     Verdict::Kind kind;
     std::optional<Duration> starts_in;  // from now; not free: if it could begin then by the clock
     std::vector<Wait> waits;            // not free: for what
-    std::optional<double> clearance_bound_m;
+    std::optional<ClearanceBound> clearance_bound;
     std::uint64_t evaluations = 0;  // for questions about it
   };
   // Precondition: next() is nothing.

@@ -85,11 +85,10 @@ PartPtr<CellDescription> make_settings_part() {
       field("clearance_m", &Description::clearance_m, number(kZeroToOne),
             "What every admitted motion keeps from other arms and the scene."),
       field("self_clearance_m", &Description::self_clearance_m, number(kZeroToOne),
-            "What an arm's own links keep from each other, and from the link that carries the arm "
-            "those that its first joint alone moves; at most clearance_m counts."),
+            "What an arm's own links keep from each other; at most clearance_m counts."),
       field("mount_clearance_m", &Description::mount_clearance_m, number(kZeroToOne),
-            "What all other links of an arm keep from the link that carries it: clearance_m unless "
-            "given, as that link may be a table; at most clearance_m counts. Less (0.005) where an "
+            "What an arm keeps from the link that carries it: clearance_m unless given, as that "
+            "link may be a table; at most clearance_m counts. Less (0.005) where an "
             "arm folds on its own base or works beside its own body."),
       field("checking", &Description::checking, checking_format(),
             "What the checks of motions allow for."),

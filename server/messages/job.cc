@@ -124,6 +124,8 @@ PartPtr<CheckView> make_verdict_part() {
       told("clearance_bound_m", &View::clearance_bound_m, nullable(number(kAnyNumber)),
            "What is proven to be kept between arms, and by arms from what stands still: the least "
            "that any such pair was held to"),
+      told("self_clearance_bound_m", &View::self_clearance_bound_m, nullable(number(kAnyNumber)),
+           "The same of the links of one arm from each other"),
       told("conflicts", &View::conflicts, list(wait_format())),
       told("evaluations", &View::evaluations, count()),
       told("scene_version", &View::scene_version, count()),

@@ -122,7 +122,7 @@ TEST(Coordinated, HoldsTheDiscInWhichTwoCrossTightly) {
     if (turned) std::swap(rails.question.candidates, rails.question.others);
     const Verdict verdict = rails.judge();
     ASSERT_EQ(verdict.kind, Verdict::Kind::free);
-    EXPECT_EQ(verdict.clearance_bound_m, kClearance_m);
+    EXPECT_EQ(verdict.clearance_bound.value().apart_m, kClearance_m);
     EXPECT_TRUE(verdict.conflicts.empty());
     ASSERT_EQ(verdict.regions.size(), 1U);
     const PairRegions& pair = verdict.regions[0];
@@ -276,7 +276,7 @@ TEST(Coordinated, IsAConflictWhereACandidateAloneIsOne) {
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_EQ(verdict.conflicts[0].with, Conflict::With::scene);
   EXPECT_TRUE(verdict.regions.empty());
-  EXPECT_FALSE(verdict.clearance_bound_m);
+  EXPECT_FALSE(verdict.clearance_bound);
 }
 
 TEST(Coordinated, IsAConflictWhereTheArmsOfASynchronousMotionMeet) {

@@ -54,7 +54,7 @@ TEST(Judge, IsFreeWhenNothingIsNearAndLooksAtEveryStepAndTheEnd) {
   EXPECT_EQ(verdict.kind, Verdict::Kind::free);
   EXPECT_EQ(verdict.version, 42U);
   EXPECT_TRUE(verdict.conflicts.empty());
-  EXPECT_FALSE(verdict.clearance_bound_m.has_value());
+  EXPECT_FALSE(verdict.clearance_bound.has_value());
   EXPECT_EQ(verdict.evaluations, 22U);  // 0, 50, ..., 1000 and 1010 ms
 }
 

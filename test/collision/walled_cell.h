@@ -24,7 +24,7 @@ inline CellPtr walled(As as) {
   }
   add_robot(cell, "a", at_xyz(0, 0, 0), {kZ, kZ}, 0.3, 0.03);
   const LinkId base = *cell.find_link("a_base");
-  add_shape(cell.links[base.index()], Cylinder{0.02, 0.3}, at_xyz(0, 0, -0.2));
+  add_shape(cell.links[base.index()], Cylinder{0.02, 0.3}, at_xyz(0, 0, -0.25));
   if (as == As::mount) {
     add_shape(cell.links[base.index()], wall, X_WT);
     cell.links[base.index()].name = "wall";

@@ -93,6 +93,21 @@ TEST(HeldJoints, AreNoJointsOfTheCellAndStandWhereTheyAreHeld) {
     EXPECT_TRUE(X_a[l].isApprox(X_b[l], 1e-12)) << a->links[l].name;
 }
 
+// Whatever r_bend does: no movable joint is between r3 and the world, so it is scene.
+TEST(HeldJoints, AreThoseThatFollowAnotherWithMultiplierZero) {
+  const ScratchFolder folder;
+  CellDescription still = two_arms_description();
+  still.robots[0].urdf = folder.write(
+      "still.urdf", file_with(data_file("two_arms.urdf"),
+                              "<mimic joint=\"l_grip\" multiplier=\"2\" offset=\"0.001\"/>",
+                              "<mimic joint=\"r_bend\" multiplier=\"0\" offset=\"0.02\"/>"));
+  const CellPtr cell = build_or_fail(still);
+  const Link& finger = cell->link(*cell->find_link("t_l_finger2"));
+  EXPECT_FALSE(finger.driver.has_value());
+  EXPECT_EQ(finger.arm, ArmId{0});  // of the arm that carries it, not of the one it follows
+  EXPECT_NEAR(finger.X_PJ.translation().y(), -0.02, 1e-12);
+}
+
 TEST(HeldJoints, AreFixedInTheUrdfThatTheDashboardGets) {
   const ScratchFolder folder;
   CellDescription held = two_arms_description();

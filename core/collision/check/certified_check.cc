@@ -16,18 +16,19 @@ double tracking_error_of(const CheckMethod& method) {
   return swept != nullptr ? swept->tracking_error : std::get<Coordinated>(method).tracking_error;
 }
 
-// Of every pair of a candidate with another arm or what stands still.
-double least_asked_m(const PlanningScene::Bodies& bodies, const Question& question) {
-  double least_m = bodies.cell->clearance_m;
+// Of every pair of a candidate, before any is let part.
+ClearanceBound least_asked(const PlanningScene::Bodies& bodies, const Question& question) {
+  const PairLimits limits = PairLimits::of(*bodies.cell);
+  ClearanceBound bound{limits.clearance_m, limits.self_clearance_m};
   for (const PairGroup& group : bodies.groups) {
     if (group.kind != PairGroup::Kind::mount) continue;
     for (const Motion& motion : question.candidates) {
       const auto& arms = motion.trajectory->arms();
       if (std::ranges::find(arms, group.arm) == arms.end()) continue;
-      least_m = std::min(least_m, group.limit_m(PairLimits::of(*bodies.cell)));
+      bound.apart_m = std::min(bound.apart_m, group.limit_m(limits));
     }
   }
-  return least_m;
+  return bound;
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ CertifiedCheck::CertifiedCheck(MotionStore& store, const Question& question)
       verdict_{Verdict::Kind::free,
                question.version,
                {},
-               least_asked_m(store.scene()->bodies(), question),
+               least_asked(store.scene()->bodies(), question),
                0,
                {}} {
   if (static_cast<std::size_t>(question.rest.size()) != store.scene()->cell().joints.size()) {
@@ -98,7 +99,7 @@ Verdict CertifiedCheck::swept() {
       check_swept(all[own], all[other]);
     }
   }
-  if (verdict_.kind != Verdict::Kind::free) verdict_.clearance_bound_m.reset();
+  if (verdict_.kind != Verdict::Kind::free) verdict_.clearance_bound.reset();
   return std::move(verdict_);
 }
 
@@ -112,13 +113,13 @@ Verdict CertifiedCheck::coordinated() {
     }
   }
   if (verdict_.kind != Verdict::Kind::free) {
-    verdict_.clearance_bound_m.reset();
+    verdict_.clearance_bound.reset();
     return std::move(verdict_);
   }
   PairRegionSearch search(store_, question_);
   verdict_.regions = search.find();
   verdict_.evaluations += search.evaluations();
-  verdict_.clearance_bound_m = std::min(*verdict_.clearance_bound_m, search.least_limit_m());
+  verdict_.clearance_bound->lower(search.parted());
   verdict_.exhausted = search.exhausted();
   return std::move(verdict_);
 }
@@ -168,7 +169,7 @@ void CertifiedCheck::ask(const OrientedDiagram& diagram, const ProgressBand& ban
     answer = parting.ask(band, budget);
     verdict_.evaluations += answer.evaluations;
     if (answer.free) {  // pairs that are held to less: that is what is proven
-      verdict_.clearance_bound_m = parting.least_limit_m(*verdict_.clearance_bound_m);
+      parting.lower(*verdict_.clearance_bound);
       return;
     }
   }

@@ -18,8 +18,8 @@ namespace armloom {
 // itself, mount_clearance_m from its mount) is kept in every such state. Conflicts name one state
 // with each counterpart, of an arm alone the first in time, to within
 // CoordinationDiagram::kFirst_s; `undecided`: nothing is proven either way, the conflicts are the
-// cells that could not be decided. `clearance_bound_m` of a free verdict: what is proven to be kept
-// between different arms and the scene, so the smallest limit that such a pair was held to.
+// cells that could not be decided. `clearance_bound` of a free verdict: the smallest limits
+// that pairs were held to.
 //
 // Coordinated: candidates against themselves and what stands still, from their progress on, as
 // above; the arms of one synchronous motion against each other, in step and as far ahead of each

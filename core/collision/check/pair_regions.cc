@@ -47,8 +47,7 @@ Duration PairRegionSearch::closest() const {
 PairRegionSearch::PairRegionSearch(MotionStore& store, const Question& question)
     : store_(store),
       question_(question),
-      tracking_error_(std::get<Coordinated>(question.method).tracking_error),
-      least_limit_m_(store.scene()->cell().clearance_m) {
+      tracking_error_(std::get<Coordinated>(question.method).tracking_error) {
   for (const Motion& motion : question.others) in_order_.push_back(&motion);
   for (const Motion& motion : question.candidates) in_order_.push_back(&motion);
   std::ranges::stable_partition(in_order_, [](const Motion* motion) { return !motion->to_come; });
@@ -142,7 +141,7 @@ OrientedDiagram PairRegionSearch::outlined(const Side& a, const Side& b, Oriente
   if (!stand_so) return layer;
   const OrientedDiagram parting = layer.parting_at(a.now(), b.now());
   if (!parting) return layer;
-  least_limit_m_ = parting.least_limit_m(least_limit_m_);
+  parting.lower(parted_);
   refine(parting);
   return parting;
 }

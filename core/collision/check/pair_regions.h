@@ -32,9 +32,8 @@ class PairRegionSearch {
   // By candidate; for each, others, candidates named behind it, arms at rest. Pairs that are free
   // everywhere are left out.
   [[nodiscard]] std::vector<PairRegions> find();
-  // The smallest distance that a pair of bodies was held to: the cell's clearance_m, or less of
-  // those that part.
-  [[nodiscard]] double least_limit_m() const { return least_limit_m_; }
+  // What pairs that part were held to; +inf: there are none.
+  [[nodiscard]] const ClearanceBound& parted() const { return parted_; }
   // Where no conflict is proven, more cells might have found more that is free.
   [[nodiscard]] bool exhausted() const { return exhausted_; }
   // Cells looked at.
@@ -77,7 +76,7 @@ class PairRegionSearch {
   const Question& question_;
   double tracking_error_;
   std::uint64_t evaluations_ = 0;
-  double least_limit_m_;
+  ClearanceBound parted_;
   bool exhausted_ = false;
   std::vector<const Motion*> in_order_;  // all motions: of each arm, as they follow each other
   // Of the two sides at hand:

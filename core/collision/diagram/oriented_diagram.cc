@@ -98,14 +98,14 @@ OrientedDiagram OrientedDiagram::parting_at(Duration now_a, Duration now_b) cons
   return apart;
 }
 
-double OrientedDiagram::least_limit_m(double most_m) const {
+void OrientedDiagram::lower(ClearanceBound& bound) const {
   for (const auto* pairs : {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
     for (const NarrowPair& pair : *pairs) {
-      if (setting_.bodies->group_of(pair.pair).kind == PairGroup::Kind::self) continue;
-      most_m = std::min(most_m, pair.limit_m);
+      const bool self = setting_.bodies->group_of(pair.pair).kind == PairGroup::Kind::self;
+      double& least_m = self ? bound.self_m : bound.apart_m;
+      least_m = std::min(least_m, pair.limit_m);
     }
   }
-  return most_m;
 }
 
 }  // namespace armloom

@@ -44,9 +44,8 @@ class OrientedDiagram {
   // with each of these held to kPartingShare of the distance that it has there. Empty: none is.
   inline static constexpr double kPartingShare = 0.8;
   [[nodiscard]] OrientedDiagram parting_at(Duration now_a, Duration now_b) const;
-  // What every pair of different arms, and of an arm and what stands still, is held to; at most
-  // `most_m`.
-  [[nodiscard]] double least_limit_m(double most_m) const;
+  // Lowers the bound to what every pair here is held to.
+  void lower(ClearanceBound& bound) const;
 
  private:
   struct Parting;

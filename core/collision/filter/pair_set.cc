@@ -160,14 +160,4 @@ PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& 
   return set;
 }
 
-double least_limit_m(const PlanningScene::Bodies& bodies, const PairSet& set, double most_m) {
-  for (const std::vector<NarrowPair>* pairs : {&set.narrow, &set.narrow_boxes}) {
-    for (const NarrowPair& pair : *pairs) {
-      if (bodies.group_of(pair.pair).kind == PairGroup::Kind::self) continue;
-      most_m = std::min(most_m, pair.limit_m);
-    }
-  }
-  return most_m;
-}
-
 }  // namespace armloom

@@ -52,10 +52,4 @@ struct PairSet {
 // bounds, where what both capsules share does not count.
 [[nodiscard]] PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& a,
                                     const ArmKinematics& b);
-
-// What every pair of different arms, and of an arm and what stands still, is held to; at most
-// `most_m`.
-[[nodiscard]] double least_limit_m(const PlanningScene::Bodies& bodies, const PairSet& set,
-                                   double most_m);
-
 }  // namespace armloom

@@ -119,24 +119,18 @@ void add_pairs(PlanningScene::Bodies& scene) {
   const auto is_mount = [&](const Part& part, ArmId arm) {
     return part.link && cell.is_mount(*part.link, arm);
   };
-  const auto is_own = [&](std::size_t a, const Part& part) {  // held objects are not
-    return scene.parts[a].link && part.link && cell.is_own(*scene.parts[a].link, *part.link);
-  };
   for (std::uint32_t i = 0; i < arm_count; ++i) {
     add_group(scene, {Kind::still, ArmId{i}, std::nullopt},
               [&](std::size_t, const Part& part, std::size_t) {
                 return !part.arm && !is_mount(part, ArmId{i});
               });
     add_group(scene, {Kind::mount, ArmId{i}, std::nullopt},
-              [&](std::size_t a, const Part& part, std::size_t) {
-                return is_mount(part, ArmId{i}) && !is_own(a, part);
-              });
+              [&](std::size_t, const Part& part, std::size_t) { return is_mount(part, ArmId{i}); });
   }
   for (std::uint32_t i = 0; i < arm_count; ++i) {
     add_group(scene, {Kind::self, ArmId{i}, std::nullopt},
               [&](std::size_t a, const Part& part, std::size_t b) {
-                return (part.arm == ArmId{i} && b > a) ||
-                       (is_mount(part, ArmId{i}) && is_own(a, part));
+                return part.arm == ArmId{i} && b > a;
               });
   }
 }

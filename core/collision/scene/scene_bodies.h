@@ -70,7 +70,7 @@ struct PairGroup {
     arms,   // links of two arms, with what they hold
     still,  // an arm against all that stands still: objects and links, but for its mount
     mount,  // an arm against its mount: scene too, but for the limit (Cell::is_mount)
-    self,   // an arm against itself: what it moves and holds, and what else Cell::is_own
+    self,   // an arm against itself: what it moves and holds
   };
   Kind kind;
   ArmId arm;

@@ -57,7 +57,7 @@ class ClearanceQuery {
   // its mount, and itself.
   [[nodiscard]] std::vector<Proximity> closest_too_close(const Configuration& q);
   // Whatever the limits, the closest pair of each two arms, and of each arm with all that stands
-  // still (but for what its first joint alone moves, with its mount), when closer than `horizon_m`.
+  // still, when closer than `horizon_m`.
   [[nodiscard]] std::vector<Proximity> closest_apart(const Configuration& q, double horizon_m);
 
   // Names and arms. body_a belongs to the arm with the smaller id; body_b to the other, or it is a

@@ -38,13 +38,13 @@ const kWords: Record<Verdict['verdict'], string> = {
 };
 
 function Said({ title, verdict, show }: { title: string; verdict: Verdict; show: ((t_s: number) => void) | null }) {
-  const { earliest_start_s: start_s, clearance_bound_m: bound_m } = verdict;
+  const { earliest_start_s: start_s, clearance_bound_m: bound_m, self_clearance_bound_m: self_m } = verdict;
   const later = verdict.verdict === 'free' ? '' : start_s === null ? 'Not as things stand.' : `It could start in ${seconds(start_s)}.`;
   return (
     <>
       <div class={`verdict-word ${verdict.verdict}`}><b>{title}</b>: {kWords[verdict.verdict]}</div>
       {later !== '' && <div>{later}</div>}
-      {bound_m !== null && <div class="dim small">At least {millimetres(bound_m)} are kept, proven.</div>}
+      {bound_m !== null && <div class="dim small">At least {millimetres(bound_m)} are kept{self_m !== null && `, ${millimetres(self_m)} from the arm's own links`}, proven.</div>}
       {verdict.conflicts.map((conflict, i) => (
         <div key={i} class="words">
           {conflict_in_words(conflict)}

@@ -16,9 +16,9 @@ export interface components {
             joints: components["schemas"]["CellJoint"][];
             /** @description What every admitted motion keeps from other arms and the scene. */
             clearance_m: number;
-            /** @description What an arm's own links keep from each other, and from the link that carries the arm those that its first joint alone moves; at most clearance_m counts. */
+            /** @description What an arm's own links keep from each other; at most clearance_m counts. */
             self_clearance_m: number;
-            /** @description What all other links of an arm keep from the link that carries it: clearance_m unless given, as that link may be a table; at most clearance_m counts. Less (0.005) where an arm folds on its own base or works beside its own body. */
+            /** @description What an arm keeps from the link that carries it: clearance_m unless given, as that link may be a table; at most clearance_m counts. Less (0.005) where an arm folds on its own base or works beside its own body. */
             mount_clearance_m?: number;
             /** @description What the checks of motions allow for. */
             checking: {
@@ -196,6 +196,8 @@ export interface components {
             earliest_start_s: number | null;
             /** @description What is proven to be kept between arms, and by arms from what stands still: the least that any such pair was held to */
             clearance_bound_m: number | null;
+            /** @description The same of the links of one arm from each other */
+            self_clearance_bound_m: number | null;
             conflicts: components["schemas"]["Wait"][];
             evaluations: number;
             scene_version: number;
