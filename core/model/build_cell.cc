@@ -5,11 +5,11 @@
 #include <set>
 #include <system_error>
 
+#include "core/base/findings.h"
+#include "core/geometry/mesh/mesh.h"
 #include "core/model/cell_checks.h"
 #include "core/model/cell_doubts.h"
-#include "core/model/findings.h"
 #include "core/model/hold_joints.h"
-#include "core/model/mesh.h"
 #include "core/model/mesh_path.h"
 #include "core/model/robot_build.h"
 #include "core/model/robot_file.h"

@@ -13,8 +13,8 @@
 
 #include "core/base/ids.h"
 #include "core/base/problem.h"
+#include "core/geometry/shape.h"
 #include "core/model/cell_description.h"
-#include "core/model/shape.h"
 
 namespace armloom {
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "core/base/findings.h"
 #include "core/model/cell.h"
 #include "core/model/cell_description.h"
-#include "core/model/findings.h"
 
 namespace armloom {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/model/mesh.h"
+#include "core/geometry/mesh/mesh.h"
 
 namespace armloom {
 namespace {

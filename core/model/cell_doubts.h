@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/base/findings.h"
 #include "core/model/cell.h"
-#include "core/model/findings.h"
 
 namespace armloom {
 

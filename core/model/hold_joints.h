@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "core/model/findings.h"
+#include "core/base/findings.h"
 #include "core/model/robot_tree.h"
 
 namespace armloom {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "core/base/findings.h"
 #include "core/model/cell_description.h"
-#include "core/model/findings.h"
 
 namespace armloom {
 

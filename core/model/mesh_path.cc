@@ -8,7 +8,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "core/model/mesh.h"
+#include "core/geometry/mesh/mesh.h"
 
 namespace armloom {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/findings.h"
 #include "core/model/cell.h"
-#include "core/model/findings.h"
 #include "core/model/joint_limits_file.h"
 #include "core/model/robot_tree.h"
 #include "core/model/srdf_reader.h"

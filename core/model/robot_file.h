@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/model/findings.h"
+#include "core/base/findings.h"
 
 namespace armloom {
 

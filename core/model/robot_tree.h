@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/base/findings.h"
+#include "core/geometry/shape.h"
 #include "core/model/cell.h"
-#include "core/model/findings.h"
-#include "core/model/shape.h"
 
 namespace armloom {
 

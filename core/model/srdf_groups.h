@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "core/model/findings.h"
+#include "core/base/findings.h"
 #include "core/model/robot_tree.h"
 #include "core/model/srdf_reader.h"
 

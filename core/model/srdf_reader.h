@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "core/model/findings.h"
+#include "core/base/findings.h"
 #include "core/model/robot_tree.h"
 
 namespace armloom {

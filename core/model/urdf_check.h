@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "core/model/findings.h"
+#include "core/base/findings.h"
 #include "core/model/xml_element.h"
 
 namespace armloom {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/model/findings.h"
+#include "core/base/findings.h"
 #include "core/model/robot_tree.h"
 #include "core/model/urdf_check.h"
 

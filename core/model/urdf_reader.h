@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/model/findings.h"
+#include "core/base/findings.h"
 #include "core/model/robot_tree.h"
 
 namespace armloom {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/model/findings.h"
+#include "core/base/findings.h"
 
 namespace tinyxml2 {
 class XMLDocument;

@@ -12,7 +12,7 @@
 
 #include "core/model/build_cell.h"
 #include "server/codec/cell_codec.h"
-#include "test/model/small_meshes.h"
+#include "test/geometry/small_meshes.h"
 
 namespace armloom::bench {
 namespace {
