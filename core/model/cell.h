@@ -97,7 +97,7 @@ struct CollisionObject {
 };
 
 // The robots, arms, joints and links of a cell and its settings: immutable, shared by all threads.
-// Built by build_cell (core/model/build_cell.h), which checks everything first.
+// Built by build_cell (core/model/cell/build_cell.h), which checks everything first.
 struct Cell {
   std::string name;
   std::vector<Robot> robots;             // RobotId

@@ -42,8 +42,12 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
       "core/executive", "core/audit"}},
 };
 
-// The folders of core/geometry, from the lowest: each includes from those before it.
-const std::vector<std::string> kGeometryFloors = {"mesh", "capsule", "surface", "convex"};
+// The rooms inside a folder, from the lowest: each includes from those before it.
+const std::map<std::string, std::vector<std::string>> kRooms = {
+    {"core/geometry", {"mesh", "capsule", "surface", "convex"}},
+    {"core/model", {"xml", "urdf", "srdf", "cell"}},
+    {"core/collision", {"scene", "filter", "state", "diagram", "check"}},
+};
 
 // Text that has no place in a folder, whatever floor it comes from.
 const std::map<std::string, std::vector<std::string>> kMustNotSay = {
@@ -62,10 +66,12 @@ std::string room_of(const std::string& path) {
   return path.substr(0, path.find('/', first + 1));
 }
 
-// How high a file of core/geometry lies; 0: on its ground floor (or elsewhere).
-std::size_t geometry_floor(const std::string& path) {
-  for (std::size_t i = 0; i < kGeometryFloors.size(); ++i) {
-    if (path.starts_with("core/geometry/" + kGeometryFloors[i] + "/")) return i + 1;
+// How high a file lies in its folder; 0: below the rooms, or there are none.
+std::size_t height_in_folder(const std::string& path) {
+  const auto rooms = kRooms.find(room_of(path));
+  if (rooms == kRooms.end()) return 0;
+  for (std::size_t i = 0; i < rooms->second.size(); ++i) {
+    if (path.starts_with(rooms->first + "/" + rooms->second[i] + "/")) return i + 1;
   }
   return 0;
 }
@@ -82,8 +88,8 @@ std::vector<std::string> breaches_in(const std::string& path, const std::string&
     if (target != room && !allowed->second.contains(target) &&
         !allowed->second.contains((*it)[1])) {
       breaches.push_back(path + " includes " + (*it)[1].str());
-    } else if (target == room && geometry_floor(path) < geometry_floor((*it)[1])) {
-      breaches.push_back(path + " includes " + (*it)[1].str() + " of a floor above it");
+    } else if (target == room && height_in_folder(path) < height_in_folder((*it)[1])) {
+      breaches.push_back(path + " includes " + (*it)[1].str() + " of a room above it");
     }
   }
   for (const auto& [where, words] : kMustNotSay) {
@@ -130,6 +136,8 @@ TEST(Floors, ABreachIsFound) {
   EXPECT_FALSE(
       breaches_in("core/geometry/mesh/x.cc", "#include \"core/geometry/surface/solid.h\"\n")
           .empty());
+  EXPECT_FALSE(
+      breaches_in("core/model/urdf/x.cc", "#include \"core/model/cell/build_cell.h\"\n").empty());
   EXPECT_FALSE(breaches_in("server/x.cc", "#include \"core/scheduler/job.h\"\n").empty());
   EXPECT_FALSE(breaches_in("core/monitor/x.cc", "auto t = Clock::now();\n").empty());
   EXPECT_FALSE(breaches_in("core/executive/x.cc", "#include <nlohmann/json.hpp>\n").empty());

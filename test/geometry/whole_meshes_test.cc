@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/geometry/mesh/mesh.h"
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "test/geometry/small_meshes.h"
 #include "test/model/test_cells.h"
 
