@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/model/mesh.h"
+#include "core/geometry/mesh/mesh.h"
 
 namespace armloom {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/model/shape.h"
+#include "core/geometry/shape.h"
 
 namespace armloom {
 

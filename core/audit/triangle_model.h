@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/model/surface_tree.h"
+#include "core/geometry/mesh/surface_tree.h"
 
 namespace armloom {
 

@@ -13,8 +13,8 @@
 
 #include "core/base/ids.h"
 #include "core/base/problem.h"
+#include "core/geometry/shape.h"
 #include "core/model/cell_description.h"
-#include "core/model/shape.h"
 
 namespace armloom {
 
@@ -97,7 +97,7 @@ struct CollisionObject {
 };
 
 // The robots, arms, joints and links of a cell and its settings: immutable, shared by all threads.
-// Built by build_cell (core/model/build_cell.h), which checks everything first.
+// Built by build_cell (core/model/cell/build_cell.h), which checks everything first.
 struct Cell {
   std::string name;
   std::vector<Robot> robots;             // RobotId

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/time.h"
-#include "core/model/shape.h"
+#include "core/geometry/shape.h"
 
 namespace armloom {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/model/mesh.h"
+#include "core/geometry/mesh/mesh.h"
 #include "server/api/answers.h"
 #include "server/messages/mesh_address.h"
 

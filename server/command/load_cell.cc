@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "core/executive/executive.h"
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
 #include "server/command/command.h"
 #include "server/messages/problem.h"

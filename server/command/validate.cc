@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "core/audit/audit.h"
+#include "core/base/findings.h"
 #include "core/executive/shape_report.h"
-#include "core/model/findings.h"
 #include "server/command/command.h"
 
 namespace armloom {

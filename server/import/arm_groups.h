@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/model/robot_tree.h"
-#include "core/model/srdf_reader.h"
+#include "core/model/srdf/srdf_reader.h"
+#include "core/model/urdf/robot_tree.h"
 
 namespace armloom {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "server/codec/cell_format.h"
 #include "server/codec/cell_schema.h"
 #include "server/codec/commented_json.h"

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "core/model/robot_file.h"
-#include "core/model/srdf_reader.h"
-#include "core/model/urdf_reader.h"
+#include "core/model/srdf/srdf_reader.h"
+#include "core/model/urdf/urdf_reader.h"
+#include "core/model/xml/robot_file.h"
 #include "server/import/homes.h"
 #include "server/import/limit_guesses.h"
 

@@ -3,9 +3,9 @@
 #include <map>
 #include <string>
 
-#include "core/model/joint_limits_file.h"
-#include "core/model/robot_tree.h"
-#include "core/model/srdf_reader.h"
+#include "core/model/srdf/joint_limits_file.h"
+#include "core/model/srdf/srdf_reader.h"
+#include "core/model/urdf/robot_tree.h"
 
 namespace armloom {
 

@@ -4,9 +4,9 @@
 #include <random>
 
 #include "core/audit/audit.h"
-#include "test/collision/reference_distance.h"
 #include "test/collision/small_cell.h"
-#include "test/model/small_meshes.h"
+#include "test/geometry/reference_distance.h"
+#include "test/geometry/small_meshes.h"
 
 namespace armloom {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
 
 namespace armloom::bench {

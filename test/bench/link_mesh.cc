@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/model/convex_hull.h"
+#include "core/geometry/mesh/convex_hull.h"
 
 namespace armloom::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/collision/geometry/convex_shape.h"
+#include "core/geometry/convex/convex_shape.h"
 
 namespace armloom::bench {
 

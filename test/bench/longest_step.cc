@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/executive/simulation.h"
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
 #include "server/messages/job_request.h"
 

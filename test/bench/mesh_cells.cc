@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
-#include "test/model/small_meshes.h"
+#include "test/geometry/small_meshes.h"
 
 namespace armloom::bench {
 namespace {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/collision/geometry/convex_shape.h"
+#include "core/geometry/convex/convex_shape.h"
 #include "core/model/kinematics.h"
 #include "test/bench/link_mesh.h"
 

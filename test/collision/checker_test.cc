@@ -9,9 +9,9 @@
 #include "core/collision/state/check_home.h"
 #include "core/collision/state/clearance_query.h"
 #include "core/model/kinematics.h"
-#include "test/collision/reference_distance.h"
 #include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
+#include "test/geometry/reference_distance.h"
 
 namespace armloom {
 namespace {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/collision/scene/scene_bodies.h"
-#include "core/model/convex_pieces.h"
-#include "test/collision/reference_distance.h"
+#include "core/geometry/mesh/convex_pieces.h"
 #include "test/collision/small_cell.h"
-#include "test/model/small_meshes.h"
+#include "test/geometry/reference_distance.h"
+#include "test/geometry/small_meshes.h"
 #include "test/model/test_cells.h"
 
 namespace armloom {

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <random>
 
-#include "core/collision/geometry/convex_shape.h"
-#include "core/collision/geometry/exact_distance.h"
 #include "core/collision/state/clearance_query.h"
-#include "test/collision/reference_distance.h"
+#include "core/geometry/convex/convex_shape.h"
+#include "core/geometry/convex/exact_distance.h"
 #include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
-#include "test/model/small_meshes.h"
+#include "test/geometry/reference_distance.h"
+#include "test/geometry/small_meshes.h"
 
 namespace armloom {
 namespace {

@@ -8,10 +8,10 @@
 #include "core/collision/check/motion_checker.h"
 #include "core/collision/scene/scene_bodies.h"
 #include "core/collision/state/clearance_query.h"
-#include "core/model/convex_pieces.h"
+#include "core/geometry/mesh/convex_pieces.h"
 #include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
-#include "test/model/small_meshes.h"
+#include "test/geometry/small_meshes.h"
 
 namespace armloom {
 namespace {

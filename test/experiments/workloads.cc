@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/model/build_cell.h"
-#include "core/model/text_file.h"
+#include "core/model/cell/build_cell.h"
+#include "core/model/xml/text_file.h"
 #include "server/codec/cell_codec.h"
 #include "test/experiments/job_delays.h"
 #include "test/experiments/shuttles.h"

@@ -15,25 +15,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What each folder may include besides itself.
+// What each folder may include besides itself: folders, or single files of one.
 const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"core/base", {}},
-    {"core/model", {"core/base"}},
+    {"core/geometry", {"core/base"}},
+    {"core/model", {"core/base", "core/geometry"}},
     {"core/trajectory", {"core/base", "core/model"}},
     {"core/coordination", {"core/base", "core/model", "core/trajectory"}},
-    {"core/collision", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
+    {"core/collision",
+     {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination"}},
     {"core/planning",
-     {"core/base", "core/model", "core/trajectory", "core/coordination", "core/collision"}},
+     {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
+      "core/collision"}},
     {"core/scheduler", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
     {"core/monitor", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
     {"core/arm", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
-    {"core/audit", {"core/base", "core/model"}},  // shares nothing with admission but the model
+    // Shares nothing with admission but the model and what a mesh's file says.
+    {"core/audit",
+     {"core/base", "core/model", "core/geometry/shape.h", "core/geometry/mesh/mesh.h",
+      "core/geometry/mesh/surface_tree.h"}},
     {"core/executive",
-     {"core/base", "core/model", "core/trajectory", "core/coordination", "core/collision",
-      "core/planning", "core/scheduler", "core/monitor", "core/arm"}},
+     {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
+      "core/collision", "core/planning", "core/scheduler", "core/monitor", "core/arm"}},
     {"server",
-     {"core/base", "core/model", "core/trajectory", "core/coordination", "core/executive",
-      "core/audit"}},
+     {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
+      "core/executive", "core/audit"}},
+};
+
+// The rooms inside a folder, from the lowest: each includes from those before it.
+const std::map<std::string, std::vector<std::string>> kRooms = {
+    {"core/geometry", {"mesh", "capsule", "surface", "convex"}},
+    {"core/model", {"xml", "urdf", "srdf", "cell"}},
+    {"core/collision", {"scene", "filter", "state", "diagram", "check"}},
 };
 
 // Text that has no place in a folder, whatever floor it comes from.
@@ -53,6 +66,16 @@ std::string room_of(const std::string& path) {
   return path.substr(0, path.find('/', first + 1));
 }
 
+// How high a file lies in its folder; 0: below the rooms, or there are none.
+std::size_t height_in_folder(const std::string& path) {
+  const auto rooms = kRooms.find(room_of(path));
+  if (rooms == kRooms.end()) return 0;
+  for (std::size_t i = 0; i < rooms->second.size(); ++i) {
+    if (path.starts_with(rooms->first + "/" + rooms->second[i] + "/")) return i + 1;
+  }
+  return 0;
+}
+
 std::vector<std::string> breaches_in(const std::string& path, const std::string& text) {
   std::vector<std::string> breaches;
   const std::string room = room_of(path);
@@ -62,8 +85,11 @@ std::vector<std::string> breaches_in(const std::string& path, const std::string&
                                   std::regex::multiline);
   for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
     const std::string target = room_of((*it)[1]);
-    if (target != room && !allowed->second.contains(target)) {
+    if (target != room && !allowed->second.contains(target) &&
+        !allowed->second.contains((*it)[1])) {
       breaches.push_back(path + " includes " + (*it)[1].str());
+    } else if (target == room && height_in_folder(path) < height_in_folder((*it)[1])) {
+      breaches.push_back(path + " includes " + (*it)[1].str() + " of a room above it");
     }
   }
   for (const auto& [where, words] : kMustNotSay) {
@@ -104,10 +130,21 @@ TEST(Floors, ABreachIsFound) {
   EXPECT_FALSE(
       breaches_in("core/audit/x.cc", "#include \"core/collision/check/motion_checker.h\"\n")
           .empty());
+  EXPECT_FALSE(
+      breaches_in("core/audit/x.cc", "#include \"core/geometry/convex/convex_shape.h\"\n").empty());
+  EXPECT_FALSE(breaches_in("core/geometry/x.cc", "#include \"core/model/cell.h\"\n").empty());
+  EXPECT_FALSE(
+      breaches_in("core/geometry/mesh/x.cc", "#include \"core/geometry/surface/solid.h\"\n")
+          .empty());
+  EXPECT_FALSE(
+      breaches_in("core/model/urdf/x.cc", "#include \"core/model/cell/build_cell.h\"\n").empty());
   EXPECT_FALSE(breaches_in("server/x.cc", "#include \"core/scheduler/job.h\"\n").empty());
   EXPECT_FALSE(breaches_in("core/monitor/x.cc", "auto t = Clock::now();\n").empty());
   EXPECT_FALSE(breaches_in("core/executive/x.cc", "#include <nlohmann/json.hpp>\n").empty());
   EXPECT_FALSE(breaches_in("core/misc/x.cc", "").empty());
+  EXPECT_TRUE(breaches_in("core/audit/x.cc", "#include \"core/geometry/mesh/mesh.h\"\n").empty());
+  EXPECT_TRUE(
+      breaches_in("core/geometry/convex/x.cc", "#include \"core/geometry/mesh/mesh.h\"\n").empty());
   EXPECT_TRUE(breaches_in("core/scheduler/x.cc", "#include \"core/scheduler/job.h\"\n").empty());
   EXPECT_TRUE(breaches_in("core/executive/x.cc", "#include \"core/scheduler/job.h\"\n").empty());
 }

@@ -1,4 +1,4 @@
-#include "core/model/cell_checks.h"
+#include "core/model/cell/cell_checks.h"
 #include "server/codec/cell_codec.h"
 #include "server/messages/scene.h"
 #include "test/fuzz/problems.h"

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "core/trajectory/validate.h"
 #include "server/codec/cell_codec.h"
 #include "server/messages/fault.h"

@@ -2,7 +2,7 @@
 #include <fstream>
 #include <optional>
 
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "core/model/kinematics.h"
 #include "test/fuzz/problems.h"
 

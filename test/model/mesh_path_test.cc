@@ -1,4 +1,4 @@
-#include "core/model/mesh_path.h"
+#include "core/model/urdf/mesh_path.h"
 
 #include <gmock/gmock.h>
 

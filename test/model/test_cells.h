@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 
 namespace armloom {
 

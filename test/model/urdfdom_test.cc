@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/model/urdf_model.h"
-#include "core/model/urdf_reader.h"
+#include "core/model/urdf/urdf_model.h"
+#include "core/model/urdf/urdf_reader.h"
 #include "test/model/test_cells.h"
 
 namespace armloom {

@@ -1,4 +1,4 @@
-#include "core/model/xacro.h"
+#include "core/model/xml/xacro.h"
 
 #include <gmock/gmock.h>
 #include <stdlib.h>

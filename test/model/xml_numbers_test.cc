@@ -1,4 +1,4 @@
-#include "core/model/xml_numbers.h"
+#include "core/model/xml/xml_numbers.h"
 
 #include <gmock/gmock.h>
 

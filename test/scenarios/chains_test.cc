@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "core/executive/known_policies.h"
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "test/scenarios/chain_workloads.h"
 #include "test/scenarios/random_faults.h"
 #include "test/scenarios/seeds.h"

@@ -10,7 +10,7 @@
 
 #include "core/collision/check/motion_checker.h"
 #include "core/executive/known_policies.h"
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "core/trajectory/joint_line.h"
 #include "server/codec/cell_codec.h"
 #include "test/scenarios/chain_workloads.h"

@@ -9,7 +9,7 @@
 
 #include "core/executive/known_policies.h"
 #include "core/executive/simulation.h"
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 
 namespace armloom {
 

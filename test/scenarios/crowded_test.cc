@@ -8,7 +8,7 @@
 #include <map>
 
 #include "core/executive/known_policies.h"
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "test/scenarios/crowded_oracle.h"
 #include "test/scenarios/crowded_workloads.h"
 #include "test/scenarios/random_faults.h"

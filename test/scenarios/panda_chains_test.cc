@@ -8,7 +8,7 @@
 
 #include "core/audit/audit.h"
 #include "core/executive/known_policies.h"
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "core/trajectory/joint_line.h"
 #include "server/codec/cell_codec.h"
 #include "test/scenarios/random_faults.h"

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/audit/audit.h"
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
 #include "server/messages/job_request.h"
 #include "test/scenarios/random_faults.h"

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "server/codec/read_text.h"
 #include "server/messages/cell.h"
 #include "server/recording/recording.h"

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <numbers>
 
-#include "core/model/build_cell.h"
-#include "core/model/srdf_reader.h"
-#include "core/model/urdf_reader.h"
+#include "core/model/cell/build_cell.h"
+#include "core/model/srdf/srdf_reader.h"
+#include "core/model/urdf/urdf_reader.h"
 #include "server/codec/cell_codec.h"
 #include "server/import/arm_groups.h"
 #include "server/import/homes.h"

@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "server/messages/mesh_address.h"
-#include "test/model/small_meshes.h"
+#include "test/geometry/small_meshes.h"
 #include "test/server/running_server.h"
 
 namespace armloom {

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
 #include "server/recording/recording.h"
 #include "server/service.h"

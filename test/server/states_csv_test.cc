@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
 #include "server/recording/recording.h"
 

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "core/model/convex_pieces.h"
+#include "core/geometry/mesh/convex_pieces.h"
 
 namespace armloom::soundness {
 namespace {

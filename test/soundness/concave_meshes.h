@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "core/model/mesh.h"
+#include "core/geometry/mesh/mesh.h"
 
 namespace armloom::soundness {
 

@@ -9,7 +9,7 @@
 
 #include "core/collision/filter/arm_kinematics.h"
 #include "core/collision/filter/kernels.h"
-#include "core/collision/geometry/segment_distance.h"
+#include "core/geometry/capsule/segment_distance.h"
 #include "test/soundness/random_linkage.h"
 
 namespace armloom::soundness {

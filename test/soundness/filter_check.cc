@@ -11,7 +11,7 @@
 #include "core/collision/filter/kernels.h"
 #include "core/collision/filter/pair_set.h"
 #include "core/collision/state/part_distance.h"
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "core/model/kinematics.h"
 #include "server/codec/cell_codec.h"
 #include "test/soundness/kernel_calls.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/collision/geometry/triangle_distance.h"
+#include "core/geometry/surface/triangle_distance.h"
 
 namespace armloom::soundness {
 

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <random>
 
-#include "core/collision/geometry/enclosure.h"
-#include "core/collision/geometry/solid.h"
-#include "core/collision/geometry/triangle_distance.h"
 #include "core/collision/state/clearance_query.h"
 #include "core/collision/state/part_distance.h"
+#include "core/geometry/surface/enclosure.h"
+#include "core/geometry/surface/solid.h"
+#include "core/geometry/surface/triangle_distance.h"
 #include "test/collision/scaled_query.h"
 #include "test/collision/small_cell.h"
 #include "test/soundness/concave_meshes.h"

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/collision/diagram/part_sweep.h"
-#include "core/collision/geometry/exact_distance.h"
 #include "core/collision/scene/scene_bodies.h"
-#include "core/model/mesh.h"
+#include "core/geometry/convex/exact_distance.h"
+#include "core/geometry/mesh/mesh.h"
 #include "test/soundness/pairs.h"
 
 namespace armloom::soundness {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/collision/diagram/sweep.h"
-#include "core/collision/geometry/solid.h"
 #include "core/collision/state/part_distance.h"
+#include "core/geometry/surface/solid.h"
 
 namespace armloom {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/collision/geometry/convex_shape.h"
+#include "core/geometry/convex/convex_shape.h"
 
 namespace armloom {
 

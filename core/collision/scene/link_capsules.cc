@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/model/spread_directions.h"
+#include "core/geometry/spread_directions.h"
 
 namespace armloom {
 namespace {

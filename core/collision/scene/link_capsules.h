@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/collision/geometry/capsule_fit.h"
-#include "core/collision/geometry/convex_shape.h"
+#include "core/geometry/capsule/capsule_fit.h"
+#include "core/geometry/convex/convex_shape.h"
 
 namespace armloom {
 
@@ -27,8 +27,8 @@ struct LinkCapsules {
 // when they stand off less than kTwoOverestimate as far, kTwoGain_m at least, and are not larger
 // together. The two are the best partition of the bodies: of all for up to 8 bodies, else of those
 // across a principal axis. A single body is not cut: meshes come in pieces
-// (core/model/convex_pieces.h). Every body is checked: std::logic_error if one lies in neither.
-// Deterministic; about a millisecond. Precondition: at least one body.
+// (core/geometry/mesh/convex_pieces.h). Every body is checked: std::logic_error if one lies in
+// neither. Deterministic; about a millisecond. Precondition: at least one body.
 inline constexpr double kTwoVolume = 0.75;
 inline constexpr double kTwoOverestimate = 0.75;
 inline constexpr double kTwoGain_m = 0.005;

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "core/base/ids.h"
-#include "core/collision/geometry/capsule_fit.h"
-#include "core/collision/geometry/convex_shape.h"
 #include "core/collision/scene/pair_limits.h"
 #include "core/collision/scene/planning_scene.h"
 #include "core/coordination/proximity.h"
 #include "core/coordination/verdict.h"
+#include "core/geometry/capsule/capsule_fit.h"
+#include "core/geometry/convex/convex_shape.h"
 #include "core/model/attachment.h"
 #include "core/model/cell.h"
 #include "core/model/kinematics.h"

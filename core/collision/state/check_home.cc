@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/findings.h"
 #include "core/collision/state/clearance_query.h"
-#include "core/model/findings.h"
 
 namespace armloom {
 namespace {

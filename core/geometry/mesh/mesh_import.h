@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+
+#include "core/base/problem.h"
+#include "core/geometry/mesh/mesh.h"
+
+namespace armloom {
+
+// A reason for refusing, without the place.
+struct MeshRefusal {
+  ProblemKind kind;
+  std::string slug;
+  std::string why;
+  decltype(Problem::value) value = {};
+};
+template <class T>
+using Checked = tl::expected<T, MeshRefusal>;
+
+[[nodiscard]] inline tl::unexpected<MeshRefusal> refuse(ProblemKind kind, std::string slug,
+                                                        std::string why,
+                                                        decltype(Problem::value) value = {}) {
+  return tl::unexpected(MeshRefusal{kind, std::move(slug), std::move(why), std::move(value)});
+}
+
+enum class MeshFormat { stl, obj, dae };
+
+// The one file that knows assimp. All triangles of a file's bytes, of all its nodes, in the shape's
+// frame; equal points once. Refused: what assimp cannot read, and more triangles than
+// kMaxMeshTriangles. May throw, for some broken files.
+[[nodiscard]] Checked<MeshData> import_mesh(const std::string& bytes, MeshFormat format,
+                                            const Eigen::Vector3d& scale);
+
+}  // namespace armloom

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+#include <string>
+#include <variant>
+
+namespace armloom {
+
+// Collision shapes, each centred in its own frame S; lengths in metres, axes along z as in URDF.
+struct Box {
+  Eigen::Vector3d size_m;  // full side lengths
+};
+struct Cylinder {
+  double radius_m;
+  double length_m;  // full height, flat ends
+};
+struct Sphere {
+  double radius_m;
+};
+struct MeshData;  // core/geometry/mesh/mesh.h
+struct Mesh {
+  std::string path;  // resolved file
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+  // The triangles, with the scale applied; every mesh of a Cell has them. Null in descriptions.
+  std::shared_ptr<const MeshData> data = nullptr;
+};
+using Shape = std::variant<Box, Cylinder, Sphere, Mesh>;
+
+// A shape fixed to a link or object frame L.
+struct PlacedShape {
+  Shape shape;
+  Eigen::Isometry3d X_LS = Eigen::Isometry3d::Identity();
+};
+
+}  // namespace armloom

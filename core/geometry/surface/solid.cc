@@ -1,0 +1,80 @@
+#include "core/geometry/surface/solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/surface/enclosure.h"
+
+namespace armloom {
+namespace {
+
+using Eigen::Vector3d;
+// Surfaces that do not touch: whether a component of one is inside of the other.
+bool lies_inside(const SurfaceTree& inner, const SurfaceTree& outer,
+                 const Eigen::Isometry3d& X_OI) {
+  if (!outer.encloses) return false;
+  const Vector3d center = outer.root.center.cast<double>();
+  const Vector3d half = outer.root.half.cast<double>();
+  return std::any_of(inner.components.begin(), inner.components.end(), [&](const auto& component) {
+    const Vector3d p = X_OI * inner.vertices[component.vertex];
+    if (((p - center).cwiseAbs().array() > half.array()).any()) return false;
+    return may_enclose(outer, p);
+  });
+}
+
+double distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+                const Eigen::Isometry3d& X_WB, double limit_m, double enough_m) {
+  const double radii_m = a.radius_m + b.radius_m;
+  if (limit_m + radii_m <= 0.0) return limit_m;
+  const Eigen::Isometry3d X_AB = X_WA.inverse(Eigen::Isometry) * X_WB;
+  if (a.inner.surely_meet(b.inner, X_AB, enough_m)) {
+    return std::min(limit_m, 0.0);
+  }
+  const double within_m = limit_m + radii_m;
+  SurfaceDescent descent(*a.tree, *b.tree, X_AB, within_m, enough_m + radii_m);
+  const double closest_m = descent.run();
+  const double found_m = closest_m < within_m ? std::min(closest_m - radii_m, limit_m) : limit_m;
+  if (found_m <= 0.0) return std::min(limit_m, 0.0);
+  if (found_m < enough_m || descent.boxes_apart()) return found_m;
+  const bool inside = lies_inside(*a.tree, *b.tree, X_AB.inverse(Eigen::Isometry)) ||
+                      lies_inside(*b.tree, *a.tree, X_AB);
+  return inside ? std::min(limit_m, 0.0) : found_m;
+}
+
+}  // namespace
+
+double solid_distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+                      const Eigen::Isometry3d& X_WB, double limit_m) {
+  return distance(a, X_WA, b, X_WB, limit_m, 0.0);
+}
+
+bool closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+                 const Eigen::Isometry3d& X_WB, double limit_m) {
+  return distance(a, X_WA, b, X_WB, limit_m, limit_m) < limit_m;
+}
+
+bool surely_closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+                        const Eigen::Isometry3d& X_WB, double limit_m) {
+  return a.inner.surely_meet(b.inner, X_WA.inverse(Eigen::Isometry) * X_WB, limit_m);
+}
+
+std::optional<Vector3d> direction_apart(const Solid& a, const Eigen::Isometry3d& X_WA,
+                                        const Solid& b, const Eigen::Isometry3d& X_WB) {
+  constexpr double kAny_m = std::numeric_limits<double>::infinity();
+  const Eigen::Isometry3d X_AB = X_WA.inverse(Eigen::Isometry) * X_WB;
+  SurfaceDescent descent(*a.tree, *b.tree, X_AB, kAny_m, 0.0);
+  if (descent.run() <= 0.0) return std::nullopt;
+  return X_WA.linear() * descent.direction();
+}
+
+bool surfaces_apart(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
+                    const Eigen::Isometry3d& X_WB, double within_m, KeptApart& kept) {
+  const double enough_m = within_m + a.radius_m + b.radius_m;
+  SurfaceDescent descent(*a.tree, *b.tree, X_WA.inverse(Eigen::Isometry) * X_WB, enough_m,
+                         enough_m);
+  descent.pass_over(&kept);
+  return descent.run() >= enough_m;
+}
+
+}  // namespace armloom

@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/model/cell/robot_build.h"
+
+namespace armloom {
+namespace {
+
+std::string span_text(const Joint& joint) {
+  const char* unit = joint.kind == JointKind::prismatic ? " m" : " rad";
+  return "[" + text_of(joint.lower) + ", " + text_of(joint.upper) + "]" + unit;
+}
+
+void warn_if_held_elsewhere(const RobotBuild& robot, const ArmBuild& build, std::size_t index,
+                            double value, Findings& findings) {
+  const TreeLink& link = robot.tree.links[index];
+  if (!link.held || std::abs(*link.held - value) <= 1e-6) return;
+  findings.warn({ProblemKind::invalid, "held-joint", build.pointer + "/home",
+                 "arm " + build.description->name + ": home has joint " + link.joint + " at " +
+                     text_of(value) + ", and \"fixed\" holds it at " + text_of(*link.held) +
+                     ", which counts",
+                 value});
+}
+
+// Adds to `faults` why the state can be no home, and returns its values in the arm's order.
+Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const std::string& name,
+                          NamedState& state, const Cell& cell) {
+  const auto& joints = cell.arm(arm.id).joints;
+  const std::string& place = state.place;
+  const auto fault = [&](const char* slug, const std::string& sentence, double value) {
+    state.faults.add({ProblemKind::invalid, slug, place, place + ": " + sentence, value});
+  };
+  Eigen::VectorXd values(static_cast<Eigen::Index>(joints.size()));
+  Eigen::Index row = 0;
+  for (const std::size_t index : arm.group) {
+    if (!robot.joints[index]) {  // held
+      const auto value = state.values.find(index);
+      if (value != state.values.end() && name == arm.description->home_state)
+        warn_if_held_elsewhere(robot, arm, index, value->second, state.faults);
+      continue;
+    }
+    const Joint& joint = cell.joint(*robot.joints[index]);
+    const std::string& plain = robot.tree.links[index].joint;
+    const auto value = state.values.find(index);
+    values[row++] = value == state.values.end() ? 0.0 : value->second;
+    if (value == state.values.end()) {
+      if (state.unread.contains(index)) continue;  // which is told
+      state.faults.add({ProblemKind::invalid,
+                        "missing",
+                        place,
+                        place + ": joint " + plain + " has no value",
+                        {}});
+    } else if (value->second < joint.lower || value->second > joint.upper) {
+      fault("limit-exceeded",
+            "joint " + plain + " is at " + text_of(value->second) + ", outside [" +
+                text_of(joint.lower) + ", " + text_of(joint.upper) + "]",
+            value->second);
+    }
+  }
+  return values;
+}
+
+// Reads the states of the arm's group. Those with faults are left out: their faults are problems
+// when the arm's home is such a one, and else warnings.
+void read_named_states(const RobotBuild& robot, const ArmBuild& build,
+                       std::map<std::string, NamedState>& states, Cell& cell, Findings& findings) {
+  for (auto& [name, state] : states) {
+    Eigen::VectorXd values = values_of(robot, build, name, state, cell);
+    if (state.faults.count() == 0)
+      cell.arms[build.id.index()].named_states.emplace(name, std::move(values));
+    if (name == build.description->home_state)
+      findings.merge(std::move(state.faults));
+    else
+      findings.merge_as_warnings(std::move(state.faults));
+  }
+}
+
+std::string listed(const std::map<std::string, NamedState>& states) {
+  std::string text;
+  for (const auto& [name, state] : states) {
+    if (text.size() < 200) text += (text.empty() ? "" : ", ") + name;
+  }
+  return text.empty() ? "none" : text;
+}
+
+// Of an arm whose home is a state's name. A state that is there and has faults told them itself.
+void refuse_unknown_state(const RobotBuild& robot, const ArmDescription& arm,
+                          const std::string& pointer, Findings& findings) {
+  std::map<std::string, NamedState> none;
+  const std::map<std::string, NamedState>* states = &none;
+  if (robot.semantics) {
+    const auto of_group = robot.semantics->states.find(arm.group);
+    if (of_group != robot.semantics->states.end()) states = &of_group->second;
+  }
+  if (states->contains(arm.home_state)) return;
+  findings.in_cell("unknown-state", pointer + "/home",
+                   "arm " + arm.name + ": home '" + arm.home_state + "' is no state of group '" +
+                       arm.group + "'" + (robot.semantics ? " in " + robot.semantics->file : "") +
+                       "; its states: " + listed(*states),
+                   arm.home_state);
+}
+
+// Of a robot whose tree is not known: the SRDF's states and the cell's homes, each against the
+// other.
+void tell_homes_without_tree(RobotBuild& robot, Findings& findings) {
+  if (!robot.semantics) return;
+  const auto& arms = robot.description->arms;
+  for (std::size_t a = 0; a < arms.size(); ++a) {
+    const ArmDescription& arm = arms[a];
+    if (!robot.semantics->groups.contains(arm.group)) continue;  // which is told
+    for (auto& [name, state] : robot.semantics->states[arm.group]) {
+      if (name == arm.home_state)
+        findings.merge(std::exchange(state.faults, {}));
+      else
+        findings.merge_as_warnings(std::exchange(state.faults, {}));
+    }
+    if (!arm.home_state.empty())
+      refuse_unknown_state(robot, arm, robot.pointer + "/arms/" + std::to_string(a), findings);
+  }
+}
+
+// The home that the description names as a state, or nothing with the reason told.
+std::optional<Eigen::VectorXd> named_home(const RobotBuild& robot, const ArmBuild& build,
+                                          const Arm& arm, Findings& findings) {
+  const std::string& name = build.description->home_state;
+  const auto state = arm.named_states.find(name);
+  if (state != arm.named_states.end()) return state->second;
+  refuse_unknown_state(robot, *build.description, build.pointer, findings);
+  return std::nullopt;
+}
+
+// The home that the description lists: a value for each joint of the group, those that are held
+// also or left out.
+std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBuild& build,
+                                           const Arm& arm, Findings& findings) {
+  const std::vector<double>& home = build.description->home;
+  std::vector<double> values;
+  if (home.size() == arm.joints.size()) {
+    values = home;
+  } else if (home.size() == build.group.size()) {
+    for (std::size_t j = 0; j < home.size(); ++j) {
+      if (robot.joints[build.group[j]])
+        values.push_back(home[j]);
+      else
+        warn_if_held_elsewhere(robot, build, build.group[j], home[j], findings);
+    }
+  } else {
+    std::string names;
+    for (const std::size_t joint : build.group) {
+      if (robot.joints[joint]) names += (names.empty() ? "" : ", ") + robot.tree.links[joint].joint;
+    }
+    findings.in_cell("wrong-size", build.pointer + "/home",
+                     "arm " + arm.name + ": home has " + std::to_string(home.size()) +
+                         " values, the group has " + std::to_string(arm.joints.size()) +
+                         " joints: " + names,
+                     static_cast<double>(home.size()));
+    return std::nullopt;
+  }
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+void check_home(const ArmBuild& build, const Arm& arm, const Cell& cell, Findings& findings) {
+  for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+    const Joint& joint = cell.joint(arm.joints[j]);
+    const double value = arm.home[static_cast<Eigen::Index>(j)];
+    if (std::isfinite(value) && value >= joint.lower && value <= joint.upper) continue;
+    findings.in_cell("limit-exceeded", build.pointer + "/home/" + std::to_string(j),
+                     "arm " + arm.name + ": home of " + joint.name + " is " + text_of(value) +
+                         ", outside " + span_text(joint),
+                     value);
+  }
+}
+
+// Where the grippers' joints start.
+void settle_grippers(const RobotBuild& robot, Cell& cell, Findings& findings) {
+  for (const auto& joint : robot.joints) {
+    if (!joint) continue;
+    Joint& one = cell.joints[joint->index()];
+    one.start = std::clamp(0.0, one.lower, one.upper);
+  }
+  for (const ArmBuild& build : robot.arms) {
+    for (const auto& [name, value] : build.description->gripper) {
+      const auto refuse = [&, &named = name, &given = value](const char* slug,
+                                                             const std::string& rest) {
+        findings.in_cell(slug, build.pointer + "/gripper/" + pointer_token(named),
+                         "arm " + build.description->name + rest, given);
+      };
+      const auto link = robot.tree.by_joint.find(name);
+      if (link == robot.tree.by_joint.end()) {
+        if (!robot.tree.nameless)
+          refuse("unknown-joint",
+                 ": joint " + name + " of its gripper is not in " + robot.tree.file);
+        continue;
+      }
+      const auto joint = robot.joints[link->second];
+      const auto& grippers = cell.arm(build.id).gripper_joints;
+      if (!joint || std::find(grippers.begin(), grippers.end(), *joint) == grippers.end()) {
+        if (!robot.tree.patched)
+          refuse("unknown-joint", " has no gripper's joint " + name +
+                                      " (one below the arm, in no arm's group, and no mimic)");
+        continue;
+      }
+      Joint& one = cell.joints[joint->index()];
+      if (std::isfinite(value) && value >= one.lower && value <= one.upper)
+        one.start = value;
+      else
+        refuse("limit-exceeded", ": joint " + name + " of its gripper starts at " + text_of(value) +
+                                     ", outside " + span_text(one));
+    }
+  }
+}
+
+}  // namespace
+
+void settle_homes(RobotBuild& robot, Cell& cell, Findings& findings) {
+  settle_grippers(robot, cell, findings);
+  if (robot.tree.patched) tell_homes_without_tree(robot, findings);
+  for (const ArmBuild& build : robot.arms) {
+    Arm& arm = cell.arms[build.id.index()];
+    arm.home = Eigen::VectorXd(static_cast<Eigen::Index>(arm.joints.size()));
+    for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+      const Joint& joint = cell.joint(arm.joints[j]);
+      arm.home[static_cast<Eigen::Index>(j)] = std::clamp(0.0, joint.lower, joint.upper);
+    }
+    if (robot.tree.patched) continue;  // the group may hold other joints than meant
+    const std::string& named = build.description->home_state;
+    if (robot.semantics)
+      read_named_states(robot, build, robot.semantics->states[arm.group], cell, findings);
+    std::optional<Eigen::VectorXd> home;
+    if (!named.empty())
+      home = named_home(robot, build, arm, findings);
+    else if (!build.description->home.empty())
+      home = listed_home(robot, build, arm, findings);
+    if (home) arm.home = *std::move(home);
+    check_home(build, arm, cell, findings);
+  }
+}
+
+}  // namespace armloom

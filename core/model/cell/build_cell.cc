@@ -1,0 +1,283 @@
+#include "core/model/cell/build_cell.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <system_error>
+
+#include "core/base/findings.h"
+#include "core/geometry/mesh/mesh.h"
+#include "core/model/cell/cell_checks.h"
+#include "core/model/cell/cell_doubts.h"
+#include "core/model/cell/robot_build.h"
+#include "core/model/cell/setting_doubts.h"
+#include "core/model/urdf/hold_joints.h"
+#include "core/model/urdf/mesh_path.h"
+#include "core/model/urdf/urdf_reader.h"
+#include "core/model/xml/robot_file.h"
+
+namespace armloom {
+namespace {
+
+// Fills in the shape's triangles when it is a mesh.
+void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& whose,
+                  MeshShelf& meshes, Findings& findings) {
+  auto* mesh = std::get_if<Mesh>(&shape);
+  if (mesh == nullptr) return;
+  auto data = meshes.get(mesh->path, mesh->scale, pointer, whose);
+  if (data) {
+    mesh->data = *std::move(data);
+    return;
+  }
+  for (Problem& problem : data.error()) findings.add(std::move(problem));
+}
+
+void load_meshes_of(RobotTree& tree, MeshShelf& meshes, Findings& findings) {
+  for (TreeLink& link : tree.links) {
+    const std::string place = tree.place_of_link(link);
+    for (PlacedShape& placed : link.shapes)
+      load_mesh_of(placed.shape, place, place, meshes, findings);
+  }
+}
+
+void load_meshes_of_objects(Cell& cell, MeshShelf& meshes, Findings& findings) {
+  for (std::size_t o = 0; o < cell.objects.size(); ++o) {
+    const auto* mesh = std::get_if<Mesh>(&cell.objects[o].shape);
+    std::error_code error;
+    // check_objects has told of the others.
+    if (mesh == nullptr || !std::filesystem::is_regular_file(mesh->path, error)) continue;
+    if (!mesh->scale.allFinite() || (mesh->scale.array() == 0.0).any()) continue;
+    load_mesh_of(cell.objects[o].shape, "/objects/" + std::to_string(o) + "/mesh",
+                 "object " + cell.objects[o].name, meshes, findings);
+  }
+}
+
+std::set<std::string> used_groups(const RobotDescription& robot) {
+  std::set<std::string> groups;
+  for (const ArmDescription& arm : robot.arms) groups.insert(arm.group);
+  return groups;
+}
+
+// The robot's files as far as they can be read. Without a URDF its tree has nothing and no name can
+// be held against it; what the other files say is still held against each other.
+RobotBuild read_robot(const RobotDescription& description, std::size_t index, MeshShelf& meshes,
+                      Findings& findings) {
+  const std::string pointer = "/robots/" + std::to_string(index);
+  const auto load = [&](const std::string& path, const char* key) {
+    return path.empty()
+               ? std::nullopt
+               : load_robot_file(path, pointer + "/" + key, "robot " + description.name, findings);
+  };
+  auto urdf =
+      load_robot_file(description.urdf, pointer + "/urdf", "robot " + description.name, findings);
+  auto srdf = load(description.srdf, "srdf");
+  const auto limits = load(description.joint_limits, "joint_limits");
+  auto limits_file =
+      limits ? read_limits_file(*limits, description.joint_limits, findings) : std::nullopt;
+  auto tree = urdf ? read_urdf(*std::move(urdf), description.urdf, description.packages, findings)
+                   : std::nullopt;
+  if (!tree) tree = unread_robot(description.urdf);
+  load_meshes_of(*tree, meshes, findings);
+  hold_joints(description.fixed, pointer, description.name, *tree, findings);
+
+  RobotBuild robot{.id = RobotId(static_cast<std::uint32_t>(index)),
+                   .pointer = pointer,
+                   .description = &description,
+                   .tree = *std::move(tree),
+                   .semantics = std::nullopt,
+                   .limits_file = std::move(limits_file),
+                   .links = {},
+                   .joints = {},
+                   .arms = {}};
+  if (srdf) {
+    robot.semantics = read_srdf(*std::move(srdf), description.srdf, robot.tree,
+                                used_groups(description), findings);
+  }
+  return robot;
+}
+
+void add_joints(RobotBuild& robot, Cell& cell) {
+  for (const TreeLink& link : robot.tree.links) {
+    if (!link.is_independent()) {
+      robot.joints.push_back(std::nullopt);
+      continue;
+    }
+    robot.joints.push_back(JointId(static_cast<std::uint32_t>(cell.joints.size())));
+    cell.joints.push_back({.name = robot.description->prefix + link.joint,
+                           .robot = robot.id,
+                           .arm = std::nullopt,
+                           .kind = *link.motion,
+                           .lower = 0.0,  // these until settle_limits
+                           .upper = 0.0,
+                           .velocity_max = kDefaultVelocity,
+                           .acceleration_max = kDefaultAcceleration,
+                           .jerk_max = kDefaultJerk,
+                           .brake = 2.0 * kDefaultAcceleration});
+  }
+}
+
+// Precondition: the robot's joints are in the cell.
+void add_links(RobotBuild& robot, Cell& cell) {
+  for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
+    TreeLink& source = robot.tree.links[i];
+    Link link{.name = robot.description->prefix + source.name,
+              .robot = robot.id,
+              .arm = std::nullopt,
+              .parent = std::nullopt,
+              .X_PJ = source.X_PJ,
+              .driver = robot.joints[i],
+              .motion = JointKind::revolute,
+              .axis = source.axis,
+              .multiplier = 1.0,
+              .offset = 0.0,
+              .shapes = std::move(source.shapes)};
+    if (source.parent)
+      link.parent = robot.links[*source.parent];
+    else
+      link.X_PJ = robot.description->X_WB;
+    if (source.motion) link.motion = *source.motion;
+    if (source.mimic) {
+      link.driver = robot.joints[source.mimic->driver];
+      link.multiplier = source.mimic->multiplier;
+      link.offset = source.mimic->offset;
+    }
+    robot.links.push_back(LinkId(static_cast<std::uint32_t>(cell.links.size())));
+    cell.links.push_back(std::move(link));
+  }
+}
+
+// Prefixed names must not repeat. Two robots of one URDF without prefixes repeat all of them: the
+// first is enough to tell.
+void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links,
+                          std::set<std::string>& joints, Findings& findings) {
+  const auto first_taken = [&](const auto& by_name, std::set<std::string>& known) {
+    std::optional<std::string> taken;
+    for (const auto& entry : by_name) {
+      const std::string name = robot.description->prefix + entry.first;
+      if (!known.insert(name).second && !taken) taken = name;
+    }
+    return taken;
+  };
+  const auto report = [&](const std::string& kind, const std::optional<std::string>& name) {
+    if (!name) return;
+    findings.in_cell("duplicate-name", robot.pointer + "/prefix",
+                     "robot " + robot.description->name + ": " + kind + " " + *name +
+                         " is a name of another robot too; prefixes must differ",
+                     robot.description->prefix);
+  };
+  report("link", first_taken(robot.tree.by_link, links));
+  report("joint", first_taken(robot.tree.by_joint, joints));
+}
+
+void check_objects_are_no_links(const CellDescription& description,
+                                const std::set<std::string>& links, Findings& findings) {
+  std::set<std::string> robots;
+  for (const RobotDescription& robot : description.robots) robots.insert(robot.name);
+  for (std::size_t o = 0; o < description.objects.size(); ++o) {
+    const std::string& name = description.objects[o].name;
+    const bool link = links.contains(name);
+    if (!link && !robots.contains(name)) continue;
+    findings.in_cell(
+        "duplicate-name", "/objects/" + std::to_string(o) + "/name",
+        "the name " + name + " of an object is a " + (link ? "link" : "robot") + "'s name too",
+        name);
+  }
+}
+
+void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
+  Robot& added = cell.robots[robot.id.index()];
+  added.urdf_text = robot.tree.text;
+  added.mesh_files =
+      mesh_files(robot.tree.text, std::filesystem::path(robot.description->urdf).parent_path(),
+                 robot.description->packages);
+  if (robot.semantics) added.srdf_text = robot.semantics->text;
+  add_joints(robot, cell);
+  add_links(robot, cell);
+  const bool groups_known = robot.semantics || robot.description->srdf.empty();
+  if (groups_known) {
+    add_arms(robot, cell, findings);
+    assign_to_arms(robot, cell);
+    refuse_shared_joints(robot, cell, findings);
+    tell_standing_joints(robot, cell, findings);
+    warn_of_passive_joints(robot, cell, findings);
+    warn_of_seen_only(robot, cell, findings);
+  }
+  settle_limits(robot, cell, findings);
+  if (groups_known) settle_homes(robot, cell, findings);
+  allow_pairs_of_robot(robot, cell, findings);
+}
+
+void copy_settings(const CellDescription& description, Cell& cell) {
+  cell.name = description.name;
+  cell.clearance_m = description.clearance_m;
+  cell.self_clearance_m = std::min(description.self_clearance_m, description.clearance_m);
+  cell.mount_clearance_m = description.mount_clearance_m;
+  cell.checking = description.checking;
+  cell.scheduling = description.scheduling;
+  cell.monitor = description.monitor;
+  cell.execution = description.execution;
+  for (const auto& object : description.objects)
+    cell.objects.push_back({object.name, object.shape, object.X_WO});
+  for (const auto& robot : description.robots) {
+    cell.robots.push_back({.name = robot.name,
+                           .prefix = robot.prefix,
+                           .X_WB = robot.X_WB,
+                           .arms = {},
+                           .urdf_text = {},
+                           .srdf_text = {},
+                           .controller = robot.controller,
+                           .mesh_files = {}});
+  }
+}
+
+void require_an_arm(const CellDescription& description, Findings& findings) {
+  if (description.robots.empty())
+    return findings.in_cell("no-robot", "/robots", "the cell has no robot");
+  for (const auto& robot : description.robots) {
+    if (!robot.arms.empty()) return;
+  }
+  findings.in_cell("no-arm", "/robots/0/arms", "no robot of the cell has an arm");
+}
+
+}  // namespace
+
+Result<CellPtr> build_cell(const CellDescription& description) {
+  Problems warnings;
+  return build_cell(description, warnings);
+}
+
+Result<CellPtr> build_cell(const CellDescription& description, Problems& warnings) {
+  Findings findings;
+  require_an_arm(description, findings);
+  check_names(description, findings);
+  check_objects(description, findings);
+  check_settings(description, findings);
+
+  auto cell = std::make_shared<Cell>();
+  copy_settings(description, *cell);
+  MeshShelf meshes;
+  load_meshes_of_objects(*cell, meshes, findings);
+  std::set<std::string> links;
+  std::set<std::string> joints;
+  bool complete = true;
+  for (std::size_t r = 0; r < description.robots.size(); ++r) {
+    const RobotDescription& robot = description.robots[r];
+    check_pose(robot.X_WB, "/robots/" + std::to_string(r) + "/base",
+               "robot " + robot.name + ": base", findings);
+    RobotBuild build = read_robot(robot, r, meshes, findings);
+    complete = complete && !build.tree.nameless;
+    check_prefixed_names(build, links, joints, findings);
+    add_robot(std::move(build), *cell, findings);
+  }
+  check_objects_are_no_links(description, links, findings);
+  // Without the names of a robot's links those would seem unknown.
+  if (complete) allow_pairs_of_cell(description, *cell, findings);
+  warn_of_doubts(description, *cell, findings);
+  warn_of_settings(description, *cell, findings);
+
+  warnings = findings.take_warnings();
+  if (findings.count() > 0) return failure(findings.take());
+  return CellPtr(std::move(cell));
+}
+
+}  // namespace armloom

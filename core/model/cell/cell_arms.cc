@@ -1,0 +1,113 @@
+#include <algorithm>
+
+#include "core/model/cell/robot_build.h"
+
+namespace armloom {
+namespace {
+
+// Groups that an arm could be: those that hold joints which the cell moves.
+std::string usable_groups(const RobotBuild& robot) {
+  std::string text;
+  for (const auto& [name, joints] : robot.semantics->groups) {
+    const bool movable = std::any_of(joints.begin(), joints.end(),
+                                     [&](std::size_t i) { return robot.joints[i].has_value(); });
+    if ((movable || robot.tree.nameless) && text.size() < 200)
+      text += (text.empty() ? "" : ", ") + name;
+  }
+  return text.empty() ? "no group of it holds one" : "groups that do: " + text;
+}
+
+// Joints of the arm, held ones too. Without an SRDF the robot is one arm of all its joints, and its
+// group has no name.
+std::optional<RobotSemantics::JointSet> group_joints(const RobotBuild& robot,
+                                                     const ArmDescription& arm,
+                                                     const std::string& pointer,
+                                                     Findings& findings) {
+  const auto refuse = [&](const std::string& why) {
+    findings.in_cell("unknown-group", pointer + "/group", "arm " + arm.name + ": " + why,
+                     arm.group);
+    return std::nullopt;
+  };
+  RobotSemantics::JointSet joints;
+  if (!robot.semantics) {
+    if (!arm.group.empty())
+      return refuse("group " + arm.group + " needs an SRDF, and the robot has none");
+    for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+      if (robot.joints[i]) joints.insert(i);
+    }
+  } else {
+    const auto group = robot.semantics->groups.find(arm.group);
+    if (group == robot.semantics->groups.end()) {
+      return refuse("group '" + arm.group + "' is not in " + robot.semantics->file +
+                    "; an arm needs movable joints, " + usable_groups(robot));
+    }
+    joints = group->second;
+  }
+  const bool movable = std::any_of(joints.begin(), joints.end(),
+                                   [&](std::size_t i) { return robot.joints[i].has_value(); });
+  if (movable) return joints;
+  if (robot.tree.patched) return std::nullopt;  // joints may hang elsewhere than meant
+  if (!joints.empty())
+    return refuse("all joints of group '" + arm.group + "' are held by \"fixed\"");
+  return refuse("group '" + arm.group + "' holds no movable joint" +
+                (robot.semantics ? "; " + usable_groups(robot) : ""));
+}
+
+}  // namespace
+
+void add_arms(RobotBuild& robot, Cell& cell, Findings& findings) {
+  for (std::size_t a = 0; a < robot.description->arms.size(); ++a) {
+    const ArmDescription& description = robot.description->arms[a];
+    const std::string pointer = robot.pointer + "/arms/" + std::to_string(a);
+    const auto group = group_joints(robot, description, pointer, findings);
+    if (!group) continue;
+    const ArmId id(static_cast<std::uint32_t>(cell.arms.size()));
+    Arm arm{.name = description.name,
+            .robot = robot.id,
+            .group = description.group,
+            .joints = {},
+            .gripper_joints = {},
+            .links = {},
+            .home = {},
+            .named_states = {}};
+    for (const std::size_t index : *group) {
+      if (!robot.joints[index]) continue;  // held
+      const JointId joint_id = *robot.joints[index];
+      arm.joints.push_back(joint_id);
+      Joint& joint = cell.joints[joint_id.index()];
+      if (!joint.arm) joint.arm = id;  // else shared, which refuse_shared_joints tells
+    }
+    cell.robots[robot.id.index()].arms.push_back(id);
+    cell.arms.push_back(std::move(arm));
+    robot.arms.push_back({id, pointer, &description, {group->begin(), group->end()}});
+  }
+}
+
+void assign_to_arms(const RobotBuild& robot, Cell& cell) {
+  // A gripper's mimic joint may carry further joints anywhere in the tree: repeat until it settles.
+  for (bool settled = false; !settled;) {
+    settled = true;
+    for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
+      Link& link = cell.links[robot.links[i].index()];
+      const auto above = link.parent ? cell.link(*link.parent).arm : std::nullopt;
+      if (robot.joints[i] && above && !cell.joint(*robot.joints[i]).arm) {
+        cell.joints[robot.joints[i]->index()].arm = above;
+        cell.arms[above->index()].gripper_joints.push_back(*robot.joints[i]);
+      }
+      const auto own = link.driver ? cell.joint(*link.driver).arm : std::nullopt;
+      const auto arm = own ? own : above;
+      settled = settled && arm == link.arm;
+      link.arm = arm;
+    }
+  }
+  for (const LinkId id : robot.links) {
+    if (const auto arm = cell.link(id).arm) cell.arms[arm->index()].links.push_back(id);
+  }
+  const auto& arms = cell.robots[robot.id.index()].arms;
+  for (const ArmId id : arms) {
+    auto& grippers = cell.arms[id.index()].gripper_joints;
+    std::sort(grippers.begin(), grippers.end());
+  }
+}
+
+}  // namespace armloom

@@ -1,0 +1,146 @@
+#include "core/model/cell/cell_doubts.h"
+
+#include <cmath>
+#include <set>
+
+#include "core/geometry/mesh/mesh.h"
+
+namespace armloom {
+namespace {
+
+constexpr double kHuge_m = 10.0;  // of a link's mesh
+constexpr double kHugeObject_m = 100.0;
+constexpr double kTiny_m = 0.002;
+
+void warn_of_brakes(const CellDescription& description, const Cell& cell, Findings& findings) {
+  for (std::size_t r = 0; r < description.robots.size(); ++r) {
+    const RobotDescription& robot = description.robots[r];
+    for (std::size_t a = 0; a < robot.arms.size(); ++a) {
+      for (const auto& [name, given] : robot.arms[a].limits) {
+        const auto joint = cell.find_joint(robot.prefix + name);
+        if (!joint || !given.brake) continue;
+        const double acceleration = cell.joint(*joint).acceleration_max;
+        if (*given.brake >= acceleration) continue;
+        const bool linear = cell.joint(*joint).kind == JointKind::prismatic;
+        const std::string unit = linear ? "m_s2" : "rad_s2";
+        const std::string pointer = "/robots/" + std::to_string(r) + "/arms/" + std::to_string(a) +
+                                    "/limits/" + pointer_token(name) + "/brake_" + unit;
+        findings.warn({ProblemKind::invalid, "weak-brake", pointer,
+                       "joint " + robot.prefix + name + ": brake_" + unit + " is " +
+                           text_of(*given.brake) + ", less than its acceleration_" + unit + " of " +
+                           text_of(acceleration) +
+                           ": a stop takes longer than the motion took to begin",
+                       *given.brake});
+      }
+    }
+  }
+}
+
+void warn_of_lags(const CellDescription& description, Findings& findings) {
+  const double delay_s = to_seconds(description.checking.delay);
+  for (std::size_t r = 0; r < description.robots.size(); ++r) {
+    const RobotDescription& robot = description.robots[r];
+    const double lag_s = to_seconds(robot.controller.lag);
+    if (lag_s <= delay_s) continue;
+    findings.warn(
+        {ProblemKind::invalid, "lag-above-delay",
+         "/robots/" + std::to_string(r) + "/controller/lag_s",
+         "robot " + robot.name + ": lag_s is " + text_of(lag_s) +
+             ", more than checking delay_s of " + text_of(delay_s) +
+             ": its arms follow late, and whoever passes after one of them waits that "
+             "much longer, as motions go by measured progress; give a smaller lag_s, or a "
+             "delay_s of at least lag_s if that is meant",
+         lag_s});
+  }
+}
+
+void warn_of_noise(const CellDescription& description, Findings& findings) {
+  const double error_rad = description.checking.tracking_error_rad;
+  for (std::size_t r = 0; r < description.robots.size(); ++r) {
+    const RobotDescription& robot = description.robots[r];
+    const double noise_rad = robot.controller.noise_rad;
+    if (noise_rad <= error_rad) continue;
+    findings.warn({ProblemKind::invalid, "noise-above-error",
+                   "/robots/" + std::to_string(r) + "/controller/noise_rad",
+                   "robot " + robot.name + ": noise_rad is " + text_of(noise_rad) +
+                       ", more than checking tracking_error_rad of " + text_of(error_rad) +
+                       ": its arms are measured farther from their paths than motions are "
+                       "certified for; tracking_error_rad has to cover the noise",
+                   noise_rad});
+  }
+}
+
+class MeshDoubts {
+ public:
+  explicit MeshDoubts(Findings& findings) : findings_(findings) {}
+
+  // Each file once: robots of one kind share their meshes.
+  void look_at(const Shape& shape, const std::string& place, const std::string& whose,
+               bool of_link) {
+    const auto* mesh = std::get_if<Mesh>(&shape);
+    if (mesh == nullptr || mesh->data == nullptr) return;
+    if (!told_.insert(mesh->path).second) return;
+    const std::string named = whose + ": mesh " + mesh->path;
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : mesh->data->vertices) box.extend(vertex);
+    const double size_m = box.sizes().maxCoeff();
+    if (size_m < kTiny_m) {
+      warn("tiny-mesh", place,
+           named + " is " + text_of(std::round(1e6 * size_m) / 1e6) +
+               " m long, hardly meant (is the file in metres already? then its scale is too "
+               "small): as good as nothing is checked there",
+           mesh->path);
+    } else if (is_flat(*mesh->data)) {
+      warn("flat-mesh", place, named + " is flat: it has no inside", mesh->path);
+    } else if (const std::size_t open = mesh->data->open_edges; open > 0) {
+      warn(
+          "open-mesh", place,
+          named + " does not close: " + std::to_string(open) +
+              " edges border one triangle only (holes; or was the file cut off?). What it encloses "
+              "is not known, so its convex hull is checked: notches and hollows count as filled",
+          mesh->path);
+    } else if (mesh->data->both_sides) {
+      warn("two-sided-mesh", place,
+           named +
+               " has faces from both sides, and others on their edges: what it encloses is not "
+               "known, so its convex pieces are checked: notches and hollows may count as filled",
+           mesh->path);
+    }
+    if (size_m > (of_link ? kHuge_m : kHugeObject_m)) {
+      warn("huge-mesh", place,
+           named + " is " + text_of(size_m) + " m long, hardly meant (millimetres? then " +
+               (of_link ? "the URDF's mesh needs scale=\"0.001 0.001 0.001\""
+                        : "the object needs \"scale\": [0.001, 0.001, 0.001]") +
+               "); it fills the cell",
+           mesh->path);
+    }
+  }
+
+ private:
+  void warn(const char* slug, const std::string& place, const std::string& sentence,
+            const std::string& value) {
+    findings_.warn({ProblemKind::invalid, slug, place, sentence, value});
+  }
+
+  Findings& findings_;
+  std::set<std::string> told_;
+};
+
+}  // namespace
+
+void warn_of_doubts(const CellDescription& description, const Cell& cell, Findings& findings) {
+  warn_of_brakes(description, cell, findings);
+  warn_of_lags(description, findings);
+  warn_of_noise(description, findings);
+  MeshDoubts meshes(findings);
+  for (const Link& link : cell.links) {
+    for (const PlacedShape& placed : link.shapes)
+      meshes.look_at(placed.shape, "", "link " + link.name, true);
+  }
+  for (std::size_t o = 0; o < cell.objects.size(); ++o) {
+    meshes.look_at(cell.objects[o].shape, "/objects/" + std::to_string(o) + "/mesh",
+                   "object " + cell.objects[o].name, false);
+  }
+}
+
+}  // namespace armloom

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <utility>
+
+#include "core/base/nearest_name.h"
+#include "core/model/cell/limits_of_joint.h"
+
+namespace armloom {
+namespace {
+
+const ArmBuild* arm_of(const RobotBuild& robot, const Joint& joint) {
+  const auto found = std::find_if(robot.arms.begin(), robot.arms.end(),
+                                  [&](const ArmBuild& arm) { return arm.id == joint.arm; });
+  return found == robot.arms.end() ? nullptr : &*found;
+}
+
+std::string no_such_joint(const RobotBuild& robot, const ArmDescription& arm,
+                          const std::string& name) {
+  const std::string sentence = "arm " + arm.name + " has no joint " + name + " to limit";
+  if (!robot.tree.by_joint.contains(name))
+    return sentence + did_you_mean(name, robot.tree.by_joint);
+  return sentence + ": it is of another arm, or of none, or follows another joint";
+}
+
+// Limits may name joints of the arm and of its gripper.
+void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
+                 Findings& findings) {
+  for (const auto& [name, given] : arm.description->limits) {
+    const std::string pointer = arm.pointer + "/limits/" + pointer_token(name);
+    const auto link = robot.tree.by_joint.find(name);
+    if (link != robot.tree.by_joint.end() && robot.tree.links[link->second].held) {
+      findings.warn({ProblemKind::invalid, "held-joint", pointer,
+                     "arm " + arm.description->name + ": the limits of " + name +
+                         " say nothing, as \"fixed\" holds it",
+                     name});
+      continue;
+    }
+    if (link == robot.tree.by_joint.end() && robot.tree.nameless) continue;
+    const auto joint =
+        link == robot.tree.by_joint.end() ? std::nullopt : robot.joints[link->second];
+    if (joint && cell.joint(*joint).arm == arm.id) continue;
+    if (joint && robot.tree.patched) continue;  // it may hang elsewhere than meant
+    findings.in_cell("unknown-joint", pointer, no_such_joint(robot, *arm.description, name), name);
+  }
+}
+
+// Of arms whose groups could not be found: names that no joint has.
+void check_names_without_group(const RobotBuild& robot, Findings& findings) {
+  if (robot.tree.nameless) return;
+  const auto& arms = robot.description->arms;
+  for (std::size_t a = 0; a < arms.size(); ++a) {
+    const bool found = std::any_of(robot.arms.begin(), robot.arms.end(), [&](const ArmBuild& arm) {
+      return arm.description == &arms[a];
+    });
+    if (found) continue;
+    for (const auto& [name, given] : arms[a].limits) {
+      if (robot.tree.by_joint.contains(name)) continue;
+      findings.in_cell(
+          "unknown-joint",
+          robot.pointer + "/arms/" + std::to_string(a) + "/limits/" + pointer_token(name),
+          no_such_joint(robot, arms[a], name), name);
+    }
+  }
+}
+
+// Of a file that is behind its URDF.
+void warn_of_stale_joints(const RobotBuild& robot, Findings& findings) {
+  if (!robot.limits_file || robot.tree.nameless) return;
+  std::string names;
+  for (const auto& [name, joint] : robot.limits_file->joints) {
+    if (robot.tree.by_joint.contains(name) || names.size() > 200) continue;
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  if (names.empty()) return;
+  const std::string& file = robot.limits_file->file;
+  findings.warn({ProblemKind::invalid, "unknown-name", file,
+                 file + ": joints that are not in " + robot.tree.file + " are left out: " + names,
+                 names});
+}
+
+// Of a robot whose joints are not known, faults in joint_limits.yaml could be of any of them.
+void tell_limits_without_joint(RobotBuild& robot, Findings& findings) {
+  if (!robot.limits_file || !robot.tree.nameless) return;
+  for (auto& [name, joint] : robot.limits_file->joints) {
+    if (!robot.tree.by_joint.contains(name)) findings.merge(std::exchange(joint.faults, {}));
+  }
+}
+
+// Joints that follow another one go where that takes them, beyond their own limits, too.
+void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+  constexpr double kRounding = 2e-3;  // rad or m: two limits that were meant to fit
+  for (const TreeLink& link : robot.tree.links) {
+    if (!link.mimic) continue;
+    const auto driver = robot.joints[link.mimic->driver];
+    if (!driver) continue;
+    const Joint& followed = cell.joint(*driver);
+    double from = link.mimic->multiplier * followed.lower + link.mimic->offset;
+    double to = link.mimic->multiplier * followed.upper + link.mimic->offset;
+    if (from > to) std::swap(from, to);
+    const UrdfLimits& own = link.limits;
+    const bool below = own.lower && from < *own.lower - kRounding;
+    const bool above = own.upper && to > *own.upper + kRounding;
+    if (link.motion == JointKind::continuous || !(below || above)) continue;
+    const std::string place = robot.tree.place_of_joint(link);
+    findings.warn({ProblemKind::invalid, "mimic-beyond-limits", place,
+                   place + ": it follows " + robot.tree.links[link.mimic->driver].joint + " from " +
+                       text_of(from) + " to " + text_of(to) + ", beyond its own limits [" +
+                       (own.lower ? text_of(*own.lower) : "-inf") + ", " +
+                       (own.upper ? text_of(*own.upper) : "inf") +
+                       "]: here it goes there, the robot may stop short; check <mimic>",
+                   below ? from : to});
+  }
+}
+
+void report_needs(const ArmBuild& arm, const Needs& needs, const std::string& urdf,
+                  Findings& findings) {
+  if (needs.members.empty()) return;
+  const bool first = arm.description->limits.empty();
+  findings.in_cell(
+      "limits-missing", arm.pointer + (first ? "" : "/limits"),
+      "arm " + arm.description->name + ": " + urdf + " gives no limit of " + needs.names +
+          "; add to the arm" +
+          (first ? " \"limits\": {" + needs.members + "}" : "'s \"limits\" " + needs.members) +
+          ", with what the robot really allows");
+}
+
+}  // namespace
+
+void settle_limits(RobotBuild& robot, Cell& cell, Findings& findings) {
+  std::map<const ArmBuild*, Needs> needs;
+  for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
+    TreeLink& link = robot.tree.links[i];
+    if (!robot.joints[i]) {
+      findings.merge_as_warnings(std::move(link.limits.faults));
+      continue;
+    }
+    Joint& joint = cell.joints[robot.joints[i]->index()];
+    const ArmBuild* arm = arm_of(robot, joint);
+    const bool own =
+        arm != nullptr && std::find(arm->group.begin(), arm->group.end(), i) != arm->group.end();
+    LimitsFile::Joint* filed = nullptr;
+    if (robot.limits_file) {
+      const auto found = robot.limits_file->joints.find(link.joint);
+      if (found != robot.limits_file->joints.end()) filed = &found->second;
+    }
+    LimitsOfJoint(robot, link, joint, arm, own, findings).settle(filed, needs[arm]);
+  }
+  for (const ArmBuild& arm : robot.arms) {
+    check_names(robot, arm, cell, findings);
+    report_needs(arm, needs[&arm], robot.tree.file, findings);
+  }
+  check_names_without_group(robot, findings);
+  if (!robot.tree.patched) warn_of_mimics(robot, cell, findings);
+  warn_of_stale_joints(robot, findings);
+  tell_limits_without_joint(robot, findings);
+}
+
+}  // namespace armloom

@@ -1,0 +1,27 @@
+#include <algorithm>
+
+#include "core/model/cell/robot_build.h"
+
+namespace armloom {
+
+void warn_of_passive_joints(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+  if (!robot.semantics) return;
+  for (const auto& [index, place] : robot.semantics->passive) {
+    for (const ArmBuild& build : robot.arms) {
+      const bool in_group =
+          std::find(build.group.begin(), build.group.end(), index) != build.group.end();
+      if (!in_group || !robot.joints[index]) continue;  // or held
+      const std::string& joint = robot.tree.links[index].joint;
+      findings.warn({ProblemKind::invalid, "passive-joint", place,
+                     place + ": joint " + joint +
+                         " is passive, so the robot has no motor for it, " + "and arm " +
+                         cell.arm(build.id).name +
+                         " has it in its group: jobs move it here like the others; take it out of "
+                         "group " +
+                         cell.arm(build.id).group + ", or hold it with \"fixed\"",
+                     joint});
+    }
+  }
+}
+
+}  // namespace armloom

@@ -1,0 +1,41 @@
+#include "core/model/cell/robot_build.h"
+
+namespace armloom {
+
+void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+  const auto tell = [&](const std::string& whose, const std::string& sentence,
+                        const std::string& value) {
+    const std::string place = robot.tree.file + ": " + whose;
+    findings.warn({ProblemKind::invalid, "no-collision", place, place + ": " + sentence, value});
+  };
+  std::string links;
+  std::size_t more = 0;
+  for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
+    const TreeLink& link = robot.tree.links[i];
+    if (!link.seen || link.solid) continue;
+    if (links.size() < 200)
+      links += (links.empty() ? "" : ", ") + link.name;
+    else
+      ++more;
+  }
+  if (more > 0) links += " and " + std::to_string(more) + " more";
+  if (!links.empty()) {
+    tell("links",
+         links +
+             " have a <visual> and no <collision>: they are seen in the dashboard, and nothing "
+             "keeps away from them; give each a <collision>, as its <visual> or simpler",
+         links);
+  }
+  for (const ArmBuild& build : robot.arms) {
+    const Arm& arm = cell.arm(build.id);
+    bool bare = true;
+    for (std::size_t i = 0; i < robot.links.size(); ++i) {
+      if (cell.link(robot.links[i]).arm == build.id) bare = bare && !robot.tree.links[i].solid;
+    }
+    if (bare)
+      tell("arm " + arm.name,
+           "none of its links has a <collision>: nothing that it does can be a conflict", arm.name);
+  }
+}
+
+}  // namespace armloom

@@ -1,0 +1,136 @@
+#include "core/model/cell/setting_doubts.h"
+
+#include <string>
+
+namespace armloom {
+namespace {
+
+// Beyond these a setting is hardly meant.
+constexpr double kLargeError_rad = 0.1;
+constexpr double kLargeTolerance = 0.5;
+constexpr double kLargeStart_rad = 0.1;
+constexpr double kLongStep_s = 0.2;
+constexpr double kStrongBrake = 10.0;  // times the acceleration
+constexpr double kFar_m = 100.0;
+
+class SettingDoubts {
+ public:
+  SettingDoubts(const CellDescription& description, const Cell& cell, Findings& findings)
+      : given_(description), cell_(cell), findings_(findings) {}
+
+  void tell() const {
+    doubt_clearances();
+    doubt_checking();
+    doubt_monitor();
+    doubt_places();
+    for (std::size_t r = 0; r < given_.robots.size(); ++r) doubt_brakes(r);
+  }
+
+ private:
+  // The key is the pointer's last part; `consequence` goes on after its value.
+  void warn(const std::string& pointer, double value, const std::string& consequence) const {
+    const std::string key = pointer.substr(pointer.rfind('/') + 1);
+    findings_.warn({ProblemKind::invalid, "doubtful-setting", pointer,
+                    key + " is " + text_of(value) + consequence, value});
+  }
+
+  void doubt_clearances() const {
+    const double clearance_m = given_.clearance_m;
+    const std::string counts =
+        ", more than clearance_m, which counts here, too: " + text_of(clearance_m) + " m";
+    if (given_.self_clearance_m > clearance_m &&
+        given_.self_clearance_m != CellDescription{}.self_clearance_m)
+      warn("/self_clearance_m", given_.self_clearance_m, counts);
+    if (given_.mount_clearance_m.value_or(0.0) > clearance_m)
+      warn("/mount_clearance_m", *given_.mount_clearance_m, counts);
+    if (clearance_m == 0.0)
+      warn("/clearance_m", clearance_m,
+           ": motions may touch what they pass, and whatever the files, the mounts or the "
+           "measurement are off is not covered");
+  }
+
+  void doubt_checking() const {
+    const CheckingSettings& checking = given_.checking;
+    const double error_rad = checking.tracking_error_rad;
+    if (error_rad == 0.0)
+      warn("/checking/tracking_error_rad", error_rad,
+           ": motions are certified for arms that keep exactly to their paths, which none does");
+    if (error_rad > kLargeError_rad)
+      warn("/checking/tracking_error_rad", error_rad,
+           " for each joint, so that arms count as thick as they are then off: hardly anything "
+           "will be free");
+    if (checking.limit_tolerance > kLargeTolerance)
+      warn("/checking/limit_tolerance", checking.limit_tolerance,
+           ": jobs may exceed the joints' velocities and accelerations by that share");
+    const double step_s = to_seconds(checking.time_step);
+    if (given_.scheduling.policy == "timed_discrete" && step_s > kLongStep_s)
+      warn("/checking/time_step_s", step_s,
+           ": timed_discrete does not see what happens between two such steps; a certified policy "
+           "does");
+    if (given_.execution.start_tolerance_rad > kLargeStart_rad)
+      warn("/execution/start_tolerance_rad", given_.execution.start_tolerance_rad,
+           ": a job may begin with its joints that far off its path, and what lies between is not "
+           "checked");
+  }
+
+  void doubt_monitor() const {
+    if (given_.monitor.stop_clearance_m == 0.0 && given_.clearance_m > 0.0)
+      warn("/monitor/stop_clearance_m", 0.0,
+           ": the monitor stops arms only when they touch; a share of clearance_m leaves them way "
+           "to brake");
+    const double reaction_s = to_seconds(given_.monitor.reaction);
+    if (given_.monitor.rate_hz > 0.0 && reaction_s * given_.monitor.rate_hz < 1.0)
+      warn("/monitor/reaction_s", reaction_s,
+           ", less than from one look of the monitor to the next (" +
+               text_of(1.0 / given_.monitor.rate_hz) +
+               " s): arms have gone on longer before they brake than stops are certified for");
+  }
+
+  void doubt_places() const {
+    const auto far = [&](const std::string& pointer, const Eigen::Isometry3d& X,
+                         const std::string& whose) {
+      const double away_m = X.translation().norm();
+      if (away_m <= kFar_m) return;
+      findings_.warn({ProblemKind::invalid, "far-away", pointer,
+                      whose + " stands " + text_of(away_m) +
+                          " m away, hardly meant (millimetres?): nothing there is met",
+                      away_m});
+    };
+    for (std::size_t r = 0; r < given_.robots.size(); ++r)
+      far("/robots/" + std::to_string(r) + "/base", given_.robots[r].X_WB,
+          "robot " + given_.robots[r].name);
+    for (std::size_t o = 0; o < given_.objects.size(); ++o)
+      far("/objects/" + std::to_string(o), given_.objects[o].X_WO,
+          "object " + given_.objects[o].name);
+  }
+
+  void doubt_brakes(std::size_t r) const {
+    const RobotDescription& robot = given_.robots[r];
+    for (std::size_t a = 0; a < robot.arms.size(); ++a) {
+      for (const auto& [name, limits] : robot.arms[a].limits) {
+        const auto joint = cell_.find_joint(robot.prefix + name);
+        if (!joint || !limits.brake) continue;
+        const Joint& one = cell_.joint(*joint);
+        if (*limits.brake <= kStrongBrake * one.acceleration_max) continue;
+        const bool slides = one.kind == JointKind::prismatic;
+        warn("/robots/" + std::to_string(r) + "/arms/" + std::to_string(a) + "/limits/" +
+                 pointer_token(name) + "/brake_" + (slides ? "m_s2" : "rad_s2"),
+             *limits.brake,
+             ", over ten times the joint's acceleration of " + text_of(one.acceleration_max) +
+                 ": stops are certified for a brake that strong");
+      }
+    }
+  }
+
+  const CellDescription& given_;
+  const Cell& cell_;
+  Findings& findings_;
+};
+
+}  // namespace
+
+void warn_of_settings(const CellDescription& description, const Cell& cell, Findings& findings) {
+  SettingDoubts(description, cell, findings).tell();
+}
+
+}  // namespace armloom

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/model/cell/robot_build.h"
+
+namespace armloom {
+namespace {
+
+// Joints of no arm whose values place the link.
+std::set<JointId> standing_above(const Cell& cell, LinkId id) {
+  std::set<JointId> joints;
+  for (std::optional<LinkId> link = id; link; link = cell.link(*link).parent) {
+    const auto& driver = cell.link(*link).driver;
+    if (driver && !cell.joint(*driver).arm) joints.insert(*driver);
+  }
+  return joints;
+}
+
+class StandingJoints {
+ public:
+  StandingJoints(const RobotBuild& robot, const Cell& cell, Findings& findings)
+      : robot_(robot), cell_(cell), findings_(findings) {}
+
+  void tell() {
+    find_above_arms();
+    std::string names;
+    std::string line;
+    for (const auto& [joint, arms] : arms_above_) {
+      if (arms.size() > 1) continue;  // refuse_shared_joints tells of it
+      list(joint, names, line, std::string::npos);
+    }
+    if (!names.empty()) {
+      findings_.in_cell("standing-joint", robot_.pointer,
+                        "robot " + robot_.description->name + ": " + names +
+                            " would move an arm and is in no arm's group, so where it stands has "
+                            "to be said: " +
+                            how_to_hold(line),
+                        names);
+    }
+    warn_of_others();
+    warn_of_gaps();
+  }
+
+ private:
+  void find_above_arms() {
+    for (const ArmBuild& build : robot_.arms) {
+      for (const LinkId link : cell_.arm(build.id).links) {
+        for (const JointId joint : standing_above(cell_, link)) arms_above_[joint].insert(build.id);
+      }
+    }
+  }
+
+  // Of what has a shape: a table that slides, the head beside the arms.
+  void warn_of_others() {
+    std::set<JointId> others;
+    for (const LinkId link : robot_.links) {
+      if (cell_.link(link).shapes.empty()) continue;
+      for (const JointId joint : standing_above(cell_, link)) {
+        if (!arms_above_.contains(joint)) others.insert(joint);
+      }
+    }
+    std::string names;
+    std::string line;
+    for (const JointId joint : others) list(joint, names, line, kLongest);
+    if (names.empty()) return;
+    findings_.warn({ProblemKind::invalid, "standing-joint", robot_.pointer,
+                    "robot " + robot_.description->name + ": " + names +
+                        " in no arm's group, so what hangs there is checked where it stands at 0 "
+                        "(or at the limit next to it); if it stands elsewhere " +
+                        how_to_hold(line),
+                    names});
+  }
+
+  // A joint between those of an arm's group moves what the group's motions are checked with.
+  void warn_of_gaps() {
+    for (const ArmBuild& build : robot_.arms) {
+      std::set<std::string> skipped;
+      for (const std::size_t index : build.group) {
+        for (auto above = robot_.tree.links[index].parent; above;
+             above = robot_.tree.links[*above].parent) {
+          const auto& joint = robot_.joints[*above];
+          const bool in_group = std::ranges::find(build.group, *above) != build.group.end();
+          if (joint && !in_group && cell_.joint(*joint).arm == build.id)
+            skipped.insert(robot_.tree.links[*above].joint);
+        }
+      }
+      for (const std::string& name : skipped) {
+        findings_.warn({ProblemKind::invalid, "group-with-gap", build.pointer + "/group",
+                        "arm " + build.description->name + ": joint " + name +
+                            " is between joints of group '" + build.description->group +
+                            "' and not in it: it counts as a gripper's joint, and jobs that do not "
+                            "name it leave it where it is",
+                        name});
+      }
+    }
+  }
+
+  void list(JointId id, std::string& names, std::string& line, std::size_t longest) const {
+    const std::string name = cell_.joint(id).name.substr(robot_.description->prefix.size());
+    if (names.size() > longest) {
+      if (!names.ends_with("...")) names += ", ...";
+      return;
+    }
+    names += (names.empty() ? "joint " : ", ") + name;
+    line += (line.empty() ? "\"" : ", \"") + name + "\": 0";
+  }
+
+  std::string how_to_hold(const std::string& line) const {
+    return robot_.description->fixed.empty()
+               ? "add to the robot \"fixed\": {" + line + "}, with its value"
+               : "add to the robot's \"fixed\" " + line + ", with its value";
+  }
+
+  static constexpr std::size_t kLongest = 200;
+
+  const RobotBuild& robot_;
+  const Cell& cell_;
+  Findings& findings_;
+  std::map<JointId, std::set<ArmId>> arms_above_;
+};
+
+}  // namespace
+
+void tell_standing_joints(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+  if (robot.tree.patched) return;  // joints may hang elsewhere than meant
+  StandingJoints(robot, cell, findings).tell();
+}
+
+}  // namespace armloom

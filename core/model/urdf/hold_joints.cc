@@ -1,0 +1,138 @@
+#include "core/model/urdf/hold_joints.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "core/base/nearest_name.h"
+
+namespace armloom {
+namespace {
+
+// The tree index of a joint that can be held, or nothing with the reason told. A value beyond the
+// limits is told, too, and put to the nearest one.
+std::optional<std::size_t> holdable(const std::string& name, double& value,
+                                    const std::string& pointer, const std::string& robot,
+                                    const RobotTree& tree, Findings& findings) {
+  const auto refuse = [&](const std::string& slug, const std::string& why) {
+    findings.in_cell(slug, pointer, "robot " + robot + ": " + why, value);
+    return std::nullopt;
+  };
+  const auto found = tree.by_joint.find(name);
+  if (found == tree.by_joint.end()) {
+    if (tree.nameless) return std::nullopt;
+    static_cast<void>(refuse("unknown-joint", "fixed joint " + name + " is not in " + tree.file +
+                                                  did_you_mean(name, tree.by_joint)));
+    // Held under the name that is meant: that arms hang on that joint need not be told then.
+    const auto meant = nearest_key(name, tree.by_joint);
+    Findings unsaid;
+    return meant ? holdable(*meant, value, pointer, robot, tree, unsaid) : std::nullopt;
+  }
+  const TreeLink& link = tree.links[found->second];
+  if (link.mimic) {
+    return refuse("held-mimic", "joint " + name + " follows joint " +
+                                    tree.links[link.mimic->driver].joint + ": hold that one");
+  }
+  if (link.many_values)
+    return refuse("unsupported-joint", "joint " + name + " is floating or planar: it has no value");
+  if (!link.motion) return refuse("held-fixed", "joint " + name + " is fixed in " + tree.file);
+  if (!std::isfinite(value))
+    return refuse("not-a-number", "joint " + name + " is held at " + text_of(value));
+  const UrdfLimits& limits = link.limits;
+  if ((limits.lower && value < *limits.lower) || (limits.upper && value > *limits.upper)) {
+    static_cast<void>(
+        refuse("limit-exceeded", "joint " + name + " is held at " + text_of(value) + ", outside [" +
+                                     (limits.lower ? text_of(*limits.lower) : "-inf") + ", " +
+                                     (limits.upper ? text_of(*limits.upper) : "inf") + "]"));
+    // Nothing else of the robot is wrong for that.
+    if (limits.lower) value = std::max(value, *limits.lower);
+    if (limits.upper) value = std::min(value, *limits.upper);
+  }
+  return found->second;
+}
+
+void hold(TreeLink& link, double value) {
+  if (*link.motion == JointKind::prismatic)
+    link.X_PJ = link.X_PJ * Eigen::Translation3d(link.axis * value);
+  else
+    link.X_PJ = link.X_PJ * Eigen::AngleAxisd(value, link.axis);
+  link.motion = std::nullopt;
+  link.mimic = std::nullopt;
+  link.held = value;
+}
+
+std::string text_of(const Eigen::Vector3d& v) {
+  return armloom::text_of(v.x()) + " " + armloom::text_of(v.y()) + " " + armloom::text_of(v.z());
+}
+
+// Fixed-axis roll, pitch, yaw; where only their sum is known, yaw is 0.
+Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
+  const double level = std::hypot(R(0, 0), R(1, 0));
+  const double pitch = std::atan2(-R(2, 0), level);
+  if (level < 1e-9) return {std::atan2(-R(1, 2), R(1, 1)), pitch, 0.0};
+  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
+}
+
+void fix_in_text(const TreeLink& link, tinyxml2::XMLElement& joint) {
+  joint.SetAttribute("type", "fixed");
+  for (const char* child : {"origin", "axis", "limit", "mimic"}) {
+    while (auto* element = joint.FirstChildElement(child)) joint.DeleteChild(element);
+  }
+  auto* origin = joint.GetDocument()->NewElement("origin");
+  origin->SetAttribute("xyz", text_of(Eigen::Vector3d(link.X_PJ.translation())).c_str());
+  origin->SetAttribute("rpy", text_of(rpy_of(link.X_PJ.linear())).c_str());
+  joint.InsertFirstChild(origin);
+}
+
+// Precondition: the text was read before.
+void fix_in_text(RobotTree& tree) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(tree.text.data(), tree.text.size()) != tinyxml2::XML_SUCCESS) return;
+  auto* robot = document.RootElement();
+  for (auto* joint = robot->FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    const char* name = joint->Attribute("name");
+    const auto found = tree.by_joint.find(name == nullptr ? "" : name);
+    if (found != tree.by_joint.end() && tree.links[found->second].held)
+      fix_in_text(tree.links[found->second], *joint);
+  }
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  tree.text = printer.CStr();
+}
+
+// Of the joint above links[index]; none: it moves.
+std::optional<double> value_held_at(const TreeLink& link, std::size_t index,
+                                    const std::map<std::size_t, double>& held) {
+  // Whatever it follows moves, it does not.
+  if (link.mimic && link.mimic->multiplier == 0.0) return link.mimic->offset;
+  const auto own = held.find(link.mimic ? link.mimic->driver : index);
+  if (own == held.end()) return std::nullopt;
+  return link.mimic ? link.mimic->multiplier * own->second + link.mimic->offset : own->second;
+}
+
+}  // namespace
+
+void hold_joints(const std::map<std::string, double>& fixed, const std::string& pointer,
+                 const std::string& robot, RobotTree& tree, Findings& findings) {
+  std::map<std::size_t, double> held;
+  for (auto [name, value] : fixed) {
+    const std::string at = pointer + "/fixed/" + pointer_token(name);
+    if (const auto joint = holdable(name, value, at, robot, tree, findings))
+      held.emplace(*joint, value);
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < tree.links.size(); ++i) {
+    TreeLink& link = tree.links[i];
+    if (!link.motion) continue;
+    const std::optional<double> value = value_held_at(link, i, held);
+    if (!value) continue;
+    hold(link, *value);
+    any = true;
+  }
+  if (any) fix_in_text(tree);
+}
+
+}  // namespace armloom

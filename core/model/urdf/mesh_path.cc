@@ -1,0 +1,190 @@
+#include "core/model/urdf/mesh_path.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+#include "core/geometry/mesh/mesh.h"
+
+namespace armloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kFile = "file://";
+
+bool is_below(const fs::path& folder, const fs::path& file) {
+  const auto differ = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return differ.first == folder.end() && differ.second != file.end();
+}
+
+// The path of file:///path or file://localhost/path, with %20 and the like decoded.
+std::string path_of_file_uri(std::string_view uri) {
+  uri.remove_prefix(kFile.size());
+  if (uri.starts_with("localhost/")) uri.remove_prefix(std::string_view("localhost").size());
+  std::string path;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned byte = 0;
+    const char* digits = uri.data() + i + 1;
+    if (uri[i] == '%' && i + 2 < uri.size() &&
+        std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+      path += static_cast<char>(byte);
+      i += 2;
+    } else {
+      path += uri[i];
+    }
+  }
+  return path;
+}
+
+// The folder that a user would name as the package of a mesh: the nearest one above it with a
+// package.xml, else the one that holds "meshes", else the mesh's own.
+fs::path package_folder_of(const fs::path& mesh) {
+  std::error_code error;
+  for (fs::path folder = mesh.parent_path(); folder.has_relative_path();
+       folder = folder.parent_path()) {
+    if (fs::exists(folder / "package.xml", error)) return folder;
+  }
+  fs::path above;
+  for (const fs::path& part : mesh.parent_path()) {
+    if (part == "meshes" && above.has_relative_path()) return above;
+    above /= part;
+  }
+  return mesh.parent_path();
+}
+
+// "; there is Arm.stl", where the file's name differs in case only: other systems do not mind.
+std::string spelt_otherwise(const fs::path& file) {
+  const auto lower = [](std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  };
+  const std::string wanted = lower(file.filename().string());
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(file.parent_path(), error)) {
+    const std::string name = entry.path().filename().string();
+    if (lower(name) == wanted) return "; there is " + name;
+  }
+  return {};
+}
+
+std::string line_of_package(const std::string& name, const std::string& folder) {
+  return "add to the robot \"packages\": {\"" + name + "\": \"" + folder + "\"}";
+}
+
+// An absolute path: below the URDF's own folder or one that the cell names.
+tl::expected<fs::path, std::string> resolve_absolute(
+    const fs::path& file, const fs::path& urdf_folder,
+    const std::map<std::string, std::string>& packages) {
+  std::error_code error;
+  if (!file.is_absolute()) return tl::unexpected<std::string>("names a file of another host");
+  const fs::path real_file = fs::canonical(file, error);
+  if (error) return tl::unexpected<std::string>("does not exist");
+  if (!fs::is_regular_file(real_file, error))
+    return tl::unexpected<std::string>("is not a regular file");
+  const auto holds = [&](const fs::path& folder) {
+    const fs::path real_folder = fs::canonical(folder.empty() ? "." : folder, error);
+    return !error && is_below(real_folder, real_file);
+  };
+  if (holds(urdf_folder)) return real_file;
+  for (const auto& [name, folder] : packages) {
+    if (holds(folder)) return real_file;
+  }
+  const fs::path package = package_folder_of(real_file);
+  return tl::unexpected(
+      "lies neither below the URDF's folder nor below one of the cell's packages; " +
+      line_of_package(package.filename().string(), package.string()));
+}
+
+// Where a package of this name may be: a folder of that name above the URDF, or beside one of
+// those.
+std::string likely_folder(const std::string& package, const fs::path& urdf_folder) {
+  std::error_code error;
+  const fs::path start = fs::canonical(urdf_folder.empty() ? "." : urdf_folder, error);
+  for (fs::path folder = start; !error && folder.has_relative_path();
+       folder = folder.parent_path()) {
+    if (folder.filename() == package) return folder.string();
+    if (fs::is_directory(folder / package, error)) return (folder / package).string();
+  }
+  return "<folder of " + package + ">";
+}
+
+}  // namespace
+
+tl::expected<fs::path, std::string> resolve_mesh(
+    const std::string& uri, const fs::path& urdf_folder,
+    const std::map<std::string, std::string>& packages) {
+  constexpr std::string_view kPackage = "package://";
+  fs::path folder = urdf_folder;
+  fs::path inside = uri;
+  if (uri.starts_with(kFile)) return resolve_absolute(path_of_file_uri(uri), urdf_folder, packages);
+  if (inside.is_absolute()) return resolve_absolute(inside, urdf_folder, packages);
+  if (uri.starts_with(kPackage)) {
+    const auto slash = uri.find('/', kPackage.size());
+    const auto name = uri.substr(kPackage.size(), slash - kPackage.size());
+    const auto package = packages.find(name);
+    if (slash == std::string::npos)
+      return tl::unexpected<std::string>("names no file in its package");
+    if (package == packages.end()) {
+      return tl::unexpected("is in package '" + name +
+                            "', which the cell's packages do not name; " +
+                            line_of_package(name, likely_folder(name, urdf_folder)));
+    }
+    folder = package->second;
+    inside = uri.substr(slash + 1);
+  } else if (uri.find("://") != std::string::npos) {
+    return tl::unexpected<std::string>(
+        "is neither package:// nor file:// nor a path from the URDF's folder");
+  }
+  if (folder.empty()) folder = ".";
+
+  const fs::path lexical = inside.lexically_normal();
+  if (inside.is_absolute() || lexical.empty() || *lexical.begin() == "..") {
+    return tl::unexpected("leaves its folder " + folder.string());
+  }
+  std::error_code error;
+  const fs::path real_folder = fs::canonical(folder, error);
+  if (error) return tl::unexpected("lies in a folder that does not exist: " + folder.string());
+  const fs::path real_file = fs::canonical(folder / lexical, error);
+  if (error)
+    return tl::unexpected("does not exist: " + (folder / lexical).string() +
+                          spelt_otherwise(folder / lexical));
+  if (!is_below(real_folder, real_file)) {
+    return tl::unexpected("leaves its folder " + folder.string() + " through a link");
+  }
+  if (!fs::is_regular_file(real_file, error)) {
+    return tl::unexpected("is not a regular file: " + real_file.string());
+  }
+  return real_file;
+}
+
+std::map<std::string, std::string> mesh_files(const std::string& urdf_text,
+                                              const fs::path& urdf_folder,
+                                              const std::map<std::string, std::string>& packages) {
+  // Calls for each element in the document's order.
+  struct MeshNames final : tinyxml2::XMLVisitor {
+    std::set<std::string> names;
+    bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute*) override {
+      const char* name = element.Attribute("filename");
+      if (std::string_view(element.Name()) == "mesh" && name != nullptr) names.insert(name);
+      return true;
+    }
+  } found;
+  tinyxml2::XMLDocument document;
+  document.Parse(urdf_text.data(), urdf_text.size());
+  document.Accept(&found);
+  std::map<std::string, std::string> files;
+  for (const std::string& name : found.names) {
+    if (!is_mesh_name(name)) continue;
+    if (const auto file = resolve_mesh(name, urdf_folder, packages))
+      files.emplace(name, file->string());
+  }
+  return files;
+}
+
+}  // namespace armloom
