@@ -12,7 +12,7 @@ constexpr const char* kWaysAside =
     "back along its last motion, home, or to a named pose of its group";
 
 // What would open the way past an arm that stays where it is; nothing while its jobs move it.
-std::optional<std::string> opens(ArmId id, const Cell& cell, const JobNames& names) {
+std::optional<std::string> opens(ArmId id, bool in_vain, const Cell& cell, const JobNames& names) {
   const std::string arm = "arm " + cell.arm(id).name;
   const bool stopped = names.is_stopped(id);
   if (names.has_job(id)) {
@@ -25,9 +25,20 @@ std::optional<std::string> opens(ArmId id, const Cell& cell, const JobNames& nam
            " that moves it away would open the way, or " + kToPark + ", which sends it aside" +
            (stopped ? " when resumed" : "");
   }
+  if (in_vain && !stopped) {
+    return begins + "no free way aside was found (" + kWaysAside +
+           "); one that moves it away would have opened this one";
+  }
   return begins + (stopped ? "when it is resumed " : "") +
          "it goes aside where it has a free way (" + kWaysAside +
          "), else one that moves it away would open this one";
+}
+
+// What would open the way past what stands still.
+std::string opens(const Proximity& proximity, const Cell& cell) {
+  const bool link = cell.find_link(proximity.body_b).has_value();
+  return proximity.body_b + " stands still: another trajectory" +
+         (link ? "" : ", or the object moved or deleted,") + " would open the way";
 }
 
 // "a -> b -> a: none of them can move before the next one does", and what would open it.
@@ -44,12 +55,13 @@ std::string deadlock_text(const std::vector<std::string>& ring, const Cell& cell
 
 }  // namespace
 
-WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names) {
+WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names, bool in_vain) {
   WaitView view{.kind = wait.kind, .detail = wait.detail};
   if (wait.job) view.job = names.key(*wait.job);
   if (wait.arm) view.arm = cell.arm(*wait.arm).name;
-  const auto opening =
-      wait.kind == Wait::Kind::arm && wait.arm ? opens(*wait.arm, cell, names) : std::nullopt;
+  std::optional<std::string> opening;
+  if (wait.kind == Wait::Kind::arm && wait.arm) opening = opens(*wait.arm, in_vain, cell, names);
+  if (wait.kind == Wait::Kind::object && wait.proximity) opening = opens(*wait.proximity, cell);
   if (opening) view.detail += (view.detail.empty() ? "" : "; ") + *opening;
   if (wait.proximity) {
     view.links = {wait.proximity->body_a, wait.proximity->body_b};
@@ -102,16 +114,20 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .detail = job.detail()};
   view.progress = to_seconds(job.progress) / to_seconds(job.trajectory->duration());
   for (ArmId arm : job.trajectory->arms()) view.arms.push_back(cell.arm(arm).name);
-  for (const Wait& wait : job.waits_on) view.waits_on.push_back(view_of(wait, cell, names));
+  const bool in_vain = job.reason() == Reason::backlog_timeout;
+  for (const Wait& wait : job.waits_on) {
+    view.waits_on.push_back(view_of(wait, cell, names, in_vain));
+  }
   for (const TrajectoryPtr& other : job.alternatives) {
     view.alternatives.push_back(cell.arm(other->arms().front()).name);
   }
   if (job.choice) view.choice = view_of(job, *job.choice, cell, names);
   for (JobId on_it : job.ring) view.ring.push_back(names.key(on_it));
   if (job.reason() == Reason::deadlock) view.detail = deadlock_text(view.ring, cell);
-  if (job.reason() == Reason::backlog_timeout) {  // what it waited for in vain
+  if (in_vain) {
     for (const WaitView& wait : view.waits_on) {
-      if (wait.kind == Wait::Kind::arm && !wait.detail.empty()) view.detail += "; " + wait.detail;
+      if (wait.kind != Wait::Kind::arm && wait.kind != Wait::Kind::object) continue;
+      if (view.detail.find(wait.detail) == view.detail.npos) view.detail += "; " + wait.detail;
     }
   }
   return view;

@@ -20,7 +20,9 @@ class JobNames {
   [[nodiscard]] virtual bool is_stopped(ArmId arm) const = 0;
 };
 
-[[nodiscard]] WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names);
+// What a job waits for; in_vain: it has given up waiting.
+[[nodiscard]] WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names,
+                               bool in_vain = false);
 
 // The scheduler's job with names instead of ids.
 [[nodiscard]] JobView view_of(const Job& job, const Cell& cell, const JobNames& names);

@@ -31,7 +31,7 @@ CellDescription wrong_but_for_the_urdf(const ScratchFolder& folder) {
 
 void expect_all_told(const std::string& problems) {
   EXPECT_THAT(problems, AllOf(HasSubstr("joint l_turn: joint value is 'up'"),
-                              HasSubstr("limits.yaml:4: max_velocity is 'quick'"),
+                              HasSubstr("limits.yaml:4: joint l_turn: max_velocity is 'quick'"),
                               HasSubstr("home 'stretched' is no state of group 'right_arm'"),
                               HasSubstr("arm third: group 'midle_arm' is not in twin.srdf"),
                               HasSubstr("rate_hz is 0"), Not(HasSubstr("home 'out'"))))

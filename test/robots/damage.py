@@ -206,8 +206,8 @@ def of_limits():
         for bad in ("fast", ".nan", "[1]", "''"):
             line = LIMITS[:LIMITS.index(old)].count("\n") + 1
             shown = {"[1]": "no single value", "''": ""}.get(bad, bad)
-            yield limits(old, new.format(bad), f"joint_limits.yaml:{line}: {key} is '{shown}', not a finite number")
-    yield limits(": 1.9", ": 0", "joint_limits.yaml:4: max_velocity is 0, it must be greater than 0")
+            yield limits(old, new.format(bad), f": {key} is '{shown}', not a finite number")
+    yield limits(": 1.9", ": 0", ": max_velocity is 0, it must be greater than 0")
     yield limits(": 900", ": -900", "max_jerk is -900, it must be greater than 0")
     yield limits("    max_acceleration: 4.5\n", "", "joint left_bend: max_acceleration is missing, and has_acceleration_limits is true")
     yield limits("has_velocity_limits: true", "has_velocity_limits: often", "has_velocity_limits is 'often', not true or false")

@@ -101,6 +101,13 @@ TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
             "arm x has no job: it goes aside where it has a free way (back along its last motion, "
             "home, or to a named pose of its group), else one that moves it away would open this "
             "one");
+  cell->run_to_the_end(at(600s));
+  const JobView expired = cell->job("passes");
+  EXPECT_EQ(expired.reason, Reason::backlog_timeout);
+  EXPECT_TRUE(expired.detail.ends_with(
+      "; arm x has no job: no free way aside was found (back along its last motion, home, or to a "
+      "named pose of its group); one that moves it away would have opened this one"))
+      << expired.detail;
 }
 
 // What does not move cannot go aside: the reason says what opens the way, and that does.

@@ -13,11 +13,26 @@ const ArmBuild* arm_of(const RobotBuild& robot, const Joint& joint) {
   return found == robot.arms.end() ? nullptr : &*found;
 }
 
+// Those that can be limited.
+std::string joints_of(const RobotTree& tree) {
+  std::string names;
+  for (const TreeLink& link : tree.links) {
+    if (!link.is_independent()) continue;
+    if (names.size() > 200) return names + ", ...";
+    names += (names.empty() ? "" : ", ") + link.joint;
+  }
+  return names;
+}
+
 std::string no_such_joint(const RobotBuild& robot, const ArmDescription& arm,
                           const std::string& name) {
   const std::string sentence = "arm " + arm.name + " has no joint " + name + " to limit";
-  if (!robot.tree.by_joint.contains(name))
-    return sentence + did_you_mean(name, robot.tree.by_joint);
+  if (!robot.tree.by_joint.contains(name)) {
+    const std::string meant = did_you_mean(name, robot.tree.by_joint);
+    return sentence + (meant.empty() ? "; the joints of " + robot.description->name + ": " +
+                                           joints_of(robot.tree)
+                                     : meant);
+  }
   return sentence + ": it is of another arm, or of none, or follows another joint";
 }
 

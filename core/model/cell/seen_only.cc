@@ -28,11 +28,14 @@ void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Findings& find
   }
   for (const ArmBuild& build : robot.arms) {
     const Arm& arm = cell.arm(build.id);
-    bool bare = true;
+    std::size_t own = 0;  // none of a group that is another arm's already
+    std::size_t solid = 0;
     for (std::size_t i = 0; i < robot.links.size(); ++i) {
-      if (cell.link(robot.links[i]).arm == build.id) bare = bare && !robot.tree.links[i].solid;
+      if (cell.link(robot.links[i]).arm != build.id) continue;
+      ++own;
+      solid += robot.tree.links[i].solid ? 1 : 0;
     }
-    if (bare)
+    if (own > 0 && solid == 0)
       tell("arm " + arm.name,
            "none of its links has a <collision>: nothing that it does can be a conflict", arm.name);
   }

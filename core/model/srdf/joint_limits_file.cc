@@ -9,6 +9,7 @@
 #include <set>
 #include <string_view>
 
+#include "core/base/nearest_name.h"
 #include "core/model/xml/xml_numbers.h"
 
 namespace armloom {
@@ -35,8 +36,9 @@ std::string scalar_of(const YAML::Node& node) {
 // The keys of one joint, each read once. Doubled keys are told: YAML lets the first one count.
 class JointReader {
  public:
-  JointReader(const YAML::Node& node, const std::string& file, LimitsFile::Joint& joint)
-      : node_(node), file_(file), joint_(joint) {}
+  JointReader(const YAML::Node& node, const std::string& file, const std::string& name,
+              LimitsFile::Joint& joint)
+      : node_(node), file_(file), name_(name), joint_(joint) {}
 
   void read() {
     if (node_.IsNull()) return;
@@ -65,33 +67,51 @@ class JointReader {
   }
 
  private:
+  static constexpr std::array<std::string_view, 16> kKnown{"has_position_limits",
+                                                           "min_position",
+                                                           "max_position",
+                                                           "has_velocity_limits",
+                                                           "min_velocity",
+                                                           "max_velocity",
+                                                           "max_acceleration",
+                                                           "min_acceleration",
+                                                           "max_jerk",
+                                                           "has_jerk_limits",
+                                                           "max_deceleration",
+                                                           "has_effort_limits",
+                                                           "max_effort",
+                                                           "has_acceleration_limits",
+                                                           "angle_wraparound",
+                                                           "has_deceleration_limits"};
+
   void check_keys() {
-    static constexpr std::array<std::string_view, 16> kKnown{"has_position_limits",
-                                                             "min_position",
-                                                             "max_position",
-                                                             "has_velocity_limits",
-                                                             "min_velocity",
-                                                             "max_velocity",
-                                                             "max_acceleration",
-                                                             "min_acceleration",
-                                                             "max_jerk",
-                                                             "has_jerk_limits",
-                                                             "max_deceleration",
-                                                             "has_effort_limits",
-                                                             "max_effort",
-                                                             "has_acceleration_limits",
-                                                             "angle_wraparound",
-                                                             "has_deceleration_limits"};
     std::set<std::string> seen;
     for (const auto& member : node_) {
       const std::string key = scalar_of(member.first);
-      const std::string place = at_line(file_, member.first.Mark());
+      const std::string place = place_of(member.first.Mark());
       if (!seen.insert(key).second) {
         report(place, "duplicate", key + " stands there twice", key, joint_.faults);
       } else if (std::find(kKnown.begin(), kKnown.end(), key) == kKnown.end()) {
-        warn(place, "unknown-key", key + " is not known here and is left out", key, joint_.faults);
+        unknown(place, key);
       }
     }
+  }
+
+  // One that is nearly a known one was meant to limit something.
+  void unknown(const std::string& place, const std::string& key) {
+    const auto meant = nearest_name(key, kKnown);
+    if (meant) {
+      report(place, "unknown-key",
+             key + " is not known here, so it would limit nothing; did you mean " +
+                 std::string(*meant) + "?",
+             key, joint_.faults);
+    } else {
+      warn(place, "unknown-key", key + " is not known here and is left out", key, joint_.faults);
+    }
+  }
+
+  [[nodiscard]] std::string place_of(const YAML::Mark& mark) const {
+    return at_line(file_, mark) + ": joint " + name_;
   }
 
   // Whether the limit counts: what stands there does, unless its has_... is false, as for MoveIt.
@@ -108,7 +128,7 @@ class JointReader {
     if (!value) return std::nullopt;
     bool set = false;
     if (value.IsScalar() && YAML::convert<bool>::decode(value, set)) return set;
-    report(at_line(file_, value.Mark()), "wrong-type",
+    report(place_of(value.Mark()), "wrong-type",
            std::string(key) + " is '" + scalar_of(value) + "', not true or false", scalar_of(value),
            joint_.faults);
     return true;  // so that its number is looked at, too
@@ -123,7 +143,7 @@ class JointReader {
     }
     const auto read = value.IsScalar() ? parse_number(value.Scalar()) : std::nullopt;
     if (!read) {
-      report(at_line(file_, value.Mark()), "not-a-number",
+      report(place_of(value.Mark()), "not-a-number",
              std::string(key) + " is '" + scalar_of(value) + "', not a finite number",
              scalar_of(value), joint_.faults);
       return std::nullopt;
@@ -136,7 +156,7 @@ class JointReader {
     const std::string& tag = value.Tag();
     if (tag == "!degrees") return read * std::numbers::pi / 180.0;
     if (!tag.starts_with('!') || tag == "!" || tag == "!radians") return read;
-    report(at_line(file_, value.Mark()), "unknown-tag",
+    report(place_of(value.Mark()), "unknown-tag",
            std::string(key) + " has the tag " + tag + ", known here are !degrees and !radians", tag,
            joint_.faults);
     return std::nullopt;
@@ -145,7 +165,7 @@ class JointReader {
   std::optional<double> positive(const char* key, const char* because) {
     const auto read = number(key, because);
     if (!read || *read > 0.0) return read;
-    report(at_line(file_, node_[key].Mark()), "not-positive",
+    report(place_of(node_[key].Mark()), "not-positive",
            std::string(key) + " is " + text_of(*read) + ", it must be greater than 0", *read,
            joint_.faults);
     return std::nullopt;
@@ -155,13 +175,14 @@ class JointReader {
   std::optional<double> deceleration() {
     const auto read = number("max_deceleration", "has_deceleration_limits");
     if (!read || *read != 0.0) return read ? std::optional(std::abs(*read)) : std::nullopt;
-    report(at_line(file_, node_["max_deceleration"].Mark()), "not-positive",
+    report(place_of(node_["max_deceleration"].Mark()), "not-positive",
            "max_deceleration is 0, so nothing could stop", 0.0, joint_.faults);
     return std::nullopt;
   }
 
   const YAML::Node& node_;
   const std::string& file_;
+  const std::string& name_;
   LimitsFile::Joint& joint_;
 };
 
@@ -202,11 +223,11 @@ std::optional<LimitsFile> read_document(const YAML::Node& document, const std::s
     const std::string place = at_line(file, member.first.Mark()) + ": joint " + name;
     const auto [entry, first] = limits.joints.emplace(name, LimitsFile::Joint{place, {}, {}});
     if (first) {
-      JointReader(member.second, file, entry->second).read();
+      JointReader(member.second, file, name, entry->second).read();
       continue;
     }
     LimitsFile::Joint again{place, {}, {}};
-    JointReader(member.second, file, again).read();
+    JointReader(member.second, file, name, again).read();
     report(place, "duplicate-name", "more than one joint has this name", name, again.faults);
     entry->second.faults.merge(std::move(again.faults));
   }
