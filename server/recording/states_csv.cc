@@ -40,6 +40,10 @@ class StatesReader {
     idle_ = std::move(*idle);
     std::vector<RecordedState> states;
     while (next_line()) {
+      if (in_.eof()) {
+        doubt("the last row has no end of line: the run was cut off there, the row is left out");
+        break;
+      }
       RecordedState state{TimePoint{},
                           Configuration::Zero(static_cast<Eigen::Index>(cell_.joints.size()))};
       if (auto bad = read_row(state)) return failure(std::move(*bad));
@@ -47,7 +51,6 @@ class StatesReader {
         return fault("time_s", "times must increase", std::string(split_fields(line_).front()));
       }
       if (!states.empty()) look_between(states.back(), state);
-      if (in_.eof()) doubt("the last row has no end of line and may be cut off");
       states.push_back(std::move(state));
     }
     if (states.empty()) return fault("", "there is no row of states", {});
