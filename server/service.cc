@@ -43,9 +43,7 @@ class Service::Impl {
     api_ = std::make_unique<Api>(
         ApiParts{cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), post});
     api_->add_routes(router_);
-    router_.otherwise([this](const Request& request, const Router::Arguments&, Respond respond) {
-      respond(answer_file(request));
-    });
+    router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;
   }
 
@@ -54,11 +52,14 @@ class Service::Impl {
     site.handle = [this](const Request& request, Respond respond) {
       router_.dispatch(request, std::move(respond));
     };
+    site.refuse_unread = [this](const Request& request) { return router_.refuse_unread(request); };
     site.refuse = refusal_response;
     const bool everywhere = options_.address == "0.0.0.0" || options_.address == "::";
     site.hosts = HostRule{options_.allowed_hosts, everywhere};
     site.keep_alive = options_.keep_alive;
     site.send_time = options_.send_time;
+    site.send_buffer = options_.send_buffer;
+    site.memory_max = options_.memory_max;
     site.read_time = options_.read_time;
     site.wind_down = [this](std::function<void()> done) {
       loop_->post([done = std::move(done)](Executive& executive) {

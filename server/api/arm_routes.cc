@@ -69,7 +69,7 @@ Route command(const char* path, const char* id, const char* summary) {
           .id = id,
           .tag = "arms",
           .summary = summary,
-          .who = Who::own};
+          .who = Who::commander};
 }
 
 }  // namespace

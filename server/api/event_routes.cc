@@ -125,7 +125,7 @@ std::vector<Route> event_routes() {
                .summary = "Events and poses on a WebSocket",
                .parameters = resume_parameters(),
                .refuses = {426},
-               .who = Who::own,
+               .who = Who::commander,
                .run = open_socket};
   socket.outcomes = {{101,
                       "The same envelopes as `/events`, one in each text message (schema Message), "

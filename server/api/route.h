@@ -59,7 +59,7 @@ struct Route {
   std::optional<Body> reads = {};
   std::vector<Outcome> outcomes;
   std::vector<int> refuses = {};  // beside what common_refusals() has
-  Who who = Who::anyone;
+  Who who = Who::reader;
   void (*run)(Call call);  // null: the dashboard's files, which the router leaves to others
 };
 

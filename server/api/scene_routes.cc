@@ -107,7 +107,7 @@ std::vector<Route> scene_routes() {
                               R"("rpy": [0, 0, 0]})"}}),
        .outcomes = {created(201, "Added; every motion is judged again", scene_change_format())},
        .refuses = {409, 422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = post_object},
       {.method = "PUT",
        .path = objects + "/{name}",
@@ -119,7 +119,7 @@ std::vector<Route> scene_routes() {
        .outcomes = {outcome(200, "Replaced", scene_change_format()),
                     created(201, "Created", scene_change_format())},
        .refuses = {409, 422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = put_object},
       {.method = "DELETE",
        .path = objects + "/{name}",
@@ -128,7 +128,7 @@ std::vector<Route> scene_routes() {
        .summary = "Remove an object",
        .outcomes = {outcome(200, "Removed", scene_version_format())},
        .refuses = {404},
-       .who = Who::own,
+       .who = Who::commander,
        .run = delete_object},
   };
 }

@@ -1,5 +1,6 @@
 #include "server/api/route.h"
 #include "server/codec/cell_schema.h"
+#include "server/http/security_headers.h"
 #include "server/messages/arm.h"
 #include "server/openapi/openapi.h"
 
@@ -29,10 +30,13 @@ void get_docs(Call call) {
   Response response = page("text/html; charset=utf-8", docs_html());
   response.headers.emplace_back(
       "Content-Security-Policy",
-      "default-src 'none'; connect-src 'self'; script-src 'unsafe-inline'; "
-      "style-src 'unsafe-inline'; img-src data:");
+      std::string("script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:; ") +
+          std::string(kNoPagePolicy));
   call.respond(std::move(response));
 }
+
+void get_docs_style(Call call) { call.respond(page("text/css; charset=utf-8", docs_css())); }
+void get_docs_script(Call call) { call.respond(page("text/javascript; charset=utf-8", docs_js())); }
 
 Route of_server(const char* path, const char* id, const char* summary, Outcome outcome,
                 void (*run)(Call)) {
@@ -50,13 +54,18 @@ Route of_server(const char* path, const char* id, const char* summary, Outcome o
 std::vector<Route> service_routes() {
   const Schema object{{"type", "object"}};
   const Content html{"text/html", {{"type", "string"}}};
+  const Content style{"text/css", {{"type", "string"}}};
+  const Content script{"text/javascript", {{"type", "string"}}};
   Route dashboard = of_server("/", "dashboard", "The dashboard", {200, "A page", {html}}, nullptr);
   dashboard.refuses = {404};
+  Route health = of_server("/healthz", "health", "Is the process there?",
+                           outcome(200, "It is", health_format()), get_health);
+  Route ready = of_server("/readyz", "ready", "Does the executive answer?",
+                          outcome(200, "It does", ready_format()), get_ready);
+  health.who = ready.who = Who::anyone;  // probes come by any name
   return {
-      of_server("/healthz", "health", "Is the process there?",
-                outcome(200, "It is", health_format()), get_health),
-      of_server("/readyz", "ready", "Does the executive answer?",
-                outcome(200, "It does", ready_format()), get_ready),
+      health,
+      ready,
       of_server("/openapi.json", "openapi", "This document",
                 {200, "OpenAPI 3.1", {{"application/json", object}}}, get_openapi),
       of_server("/cell.schema.json", "cellSchema",
@@ -64,6 +73,10 @@ std::vector<Route> service_routes() {
                 {200, "JSON Schema, draft 2020-12", {{"application/schema+json", object}}},
                 get_cell_schema),
       of_server("/docs", "docs", "This document for people", {200, "A page", {html}}, get_docs),
+      of_server("/docs.css", "docsStyle", "Of that page", {200, "A style sheet", {style}},
+                get_docs_style),
+      of_server("/docs.js", "docsScript", "Of that page", {200, "A script", {script}},
+                get_docs_script),
       dashboard,
   };
 }

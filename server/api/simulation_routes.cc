@@ -67,7 +67,7 @@ std::vector<Route> simulation_routes() {
        .reads = body(speed_format(), {{"double", R"({"speed": 2.0})"}}),
        .outcomes = {outcome(200, "In force from the next control cycle on", speed_format())},
        .refuses = {422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = put_speed},
       {.method = "POST",
        .path = api_path("/sim/faults"),
@@ -78,7 +78,7 @@ std::vector<Route> simulation_routes() {
                      {{"slow", R"({"arm": "left", "kind": "slow", "value": 0.5, "for_s": 2})"}}),
        .outcomes = {created(201, "Injected", fault_format())},
        .refuses = {422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = post_fault},
       {.method = "DELETE",
        .path = api_path("/sim/faults/{id}"),
@@ -87,7 +87,7 @@ std::vector<Route> simulation_routes() {
        .summary = "Remove a fault",
        .outcomes = {{204, "Removed"}},
        .refuses = {404},
-       .who = Who::own,
+       .who = Who::commander,
        .run = delete_fault},
   };
 }

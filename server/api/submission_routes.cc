@@ -104,7 +104,7 @@ std::vector<Route> submission_routes() {
                      {{"reach", example_job(head, "left")}, {"moveit", example_moveit_job()}}),
        .outcomes = {created(202, "Accepted; it may still wait in the backlog", job_format())},
        .refuses = {409, 422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = post_job},
       {.method = "POST",
        .path = api_path("/batches"),
@@ -118,7 +118,7 @@ std::vector<Route> submission_routes() {
                     outcome(207, "With \"atomic\": false, an answer for each",
                             batch_results_format())},
        .refuses = {409, 422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = post_batch},
       {.method = "POST",
        .path = api_path("/check"),
@@ -130,7 +130,7 @@ std::vector<Route> submission_routes() {
        .reads = body(job_request_format(), {{"reach", example_job("", "left")}}),
        .outcomes = {outcome(200, "What the admission code says", verdict_format())},
        .refuses = {409, 422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = post_check},
   };
 }

@@ -39,9 +39,11 @@ class HttpServer::Impl {
 
   void run(Site site, bool until_signal) {
     site_ = std::move(site);
+    memory_.emplace(site_.memory_max);
     if (until_signal) {
       signals_.add(SIGINT);
       signals_.add(SIGTERM);
+      signals_.add(SIGHUP);
       signals_.async_wait([this](ErrorCode ec, int) {
         if (!ec) wind_down();
       });
@@ -80,7 +82,7 @@ class HttpServer::Impl {
 
   asio::awaitable<void> serve(tcp::socket socket) {
     ++connections_;
-    co_await serve_connection(std::move(socket), site_);
+    co_await serve_connection(std::move(socket), site_, *memory_);
     if (--connections_ == 0 && said_farewell_) io_.stop();
   }
 
@@ -93,7 +95,7 @@ class HttpServer::Impl {
          std::nullopt,
          {{"Retry-After", "1"}}});
     ++refusing_;
-    co_await refuse_connection(std::move(socket), std::move(full));
+    co_await refuse_connection(std::move(socket), std::move(full), *memory_);
     --refusing_;
   }
 
@@ -122,6 +124,7 @@ class HttpServer::Impl {
   }
 
   Site site_;  // outlives the connections, which end with io_
+  std::optional<MemoryBudget> memory_;
   asio::io_context io_{1};
   tcp::acceptor acceptor_{io_};
   asio::signal_set signals_{io_};

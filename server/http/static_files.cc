@@ -6,6 +6,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "server/http/security_headers.h"
+
 namespace armloom {
 namespace {
 
@@ -59,13 +61,14 @@ fs::path file_inside(const fs::path& folder, const fs::path& relative) {
 }  // namespace
 
 Response StaticFiles::answer(const Request& request) const {
+  if (request.method == "OPTIONS") return Response{204, "", "", {{"Allow", "GET, HEAD, OPTIONS"}}};
   if (request.method != "GET") {
     return refuse_({405,
                     "method-not-allowed",
                     "files can only be read",
                     std::nullopt,
                     request.method,
-                    {{"Allow", "GET, HEAD"}}});
+                    {{"Allow", "GET, HEAD, OPTIONS"}}});
   }
   const std::string& path = request.target.path;
   const fs::path file = file_inside(folder_, path == "/" ? "index.html" : path.substr(1));
@@ -80,6 +83,7 @@ Response StaticFiles::answer(const Request& request) const {
   Response response;
   response.content_type = type_of(file);
   response.body.assign(std::istreambuf_iterator<char>(in), {});
+  response.headers.emplace_back("Content-Security-Policy", std::string(kPagePolicy));
   const bool hashed = path.starts_with("/assets/");
   response.headers.emplace_back("Cache-Control",
                                 hashed ? "public, max-age=31536000, immutable" : "no-cache");

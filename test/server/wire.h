@@ -17,7 +17,8 @@ class Wire {
   Wire(const Wire&) = delete;
   Wire& operator=(const Wire&) = delete;
 
-  void send(std::string_view bytes);
+  // Whether all of it went: else the peer has closed, its answer says why.
+  bool send(std::string_view bytes);
   // At least one byte more, or nothing: the peer has closed. Throws when ten seconds pass.
   bool receive();
   // Exactly `size` bytes from what was received; throws when the peer closes before.
