@@ -32,7 +32,7 @@ class Service::Impl {
       http_server->post(std::move(task));
     };
     broadcast_ = std::make_unique<Broadcast>(
-        Broadcast::Parts{cell, stream_, *clock_, hub_, recording_.get(), post});
+        Broadcast::Parts{cell, stream_, *clock_, hub_, recording_.get(), post, options_.alarm});
     ExecutiveOptions executive_options;
     executive_options.policy = options_.policy;
     auto loop =
@@ -70,13 +70,20 @@ class Service::Impl {
     http_->run(std::move(site), until_signal);
   }
 
+  std::optional<std::string> close() {
+    loop_.reset();
+    if (!recording_) return std::nullopt;
+    recording_->close();
+    return recording_->fault();
+  }
+
   HttpServer& http() { return *http_; }
   std::optional<std::filesystem::path> recorded_to() const {
     return recording_ ? std::optional(recording_->folder()) : std::nullopt;
   }
 
  private:
-  Response answer_file(const Request& request) const {
+  Response answer_file(const Request& request) {
     if (!request.target.path.starts_with("/api/")) return files_.answer(request);
     return refusal_response({404, "not-found", "nothing is served at " + request.target.path,
                              "request target", request.target.path});
@@ -108,6 +115,7 @@ Service::~Service() = default;
 std::uint16_t Service::port() const { return impl_->http().port(); }
 std::optional<std::filesystem::path> Service::recorded_to() const { return impl_->recorded_to(); }
 void Service::run(bool until_signal) { impl_->run(until_signal); }
+std::optional<std::string> Service::close() { return impl_->close(); }
 void Service::stop() { impl_->http().stop(); }
 
 }  // namespace armloom

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,19 +18,22 @@ namespace armloom {
 
 struct ServiceOptions {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 8080;                        // zero: any free one
-  double speed = 1.0;                               // cell seconds per wall second
-  std::string policy;                               // empty: the cell's
-  std::vector<std::string> allowed_hosts;           // names that commands may come to (HostRule)
-  std::filesystem::path web;                        // the dashboard's files
-  std::optional<std::filesystem::path> data;        // where a recording is written; one in
-                                                    // it is kept (Recording::unused_folder)
-  bool record_states = false;                       // states.csv as well
-  std::size_t connections_max = 4096;               // one more is refused with 503
-  std::chrono::milliseconds keep_alive{15'000};     // of /events, when there are none
-  std::chrono::milliseconds send_time{30'000};      // for one event of /events, or message of /ws
-  int send_buffer = 128 * 1024;                     // of the socket of a reader of those
-  std::chrono::milliseconds read_time{10'000};      // for a request's header, and for its body
+  std::uint16_t port = 8080;                     // zero: any free one
+  double speed = 1.0;                            // cell seconds per wall second
+  std::string policy;                            // empty: the cell's
+  std::vector<std::string> allowed_hosts;        // names that commands may come to (HostRule)
+  std::filesystem::path web;                     // the dashboard's files
+  std::optional<std::filesystem::path> data;     // where a recording is written; one in
+                                                 // it is kept (Recording::unused_folder)
+  bool record_states = false;                    // states.csv as well
+  std::size_t connections_max = 4096;            // one more is refused with 503
+  std::chrono::milliseconds keep_alive{15'000};  // of /events, when there are none
+  std::chrono::milliseconds send_time{30'000};   // for one event of /events, or message of /ws
+  int send_buffer = 128 * 1024;                  // of the socket of a reader of those
+  std::chrono::milliseconds read_time{10'000};   // for a request's header, and for its body
+  // Is told, on the server's thread, what goes wrong beside the answers: once that and when the
+  // recording is lost.
+  std::function<void(const std::string&)> alarm = {};
   std::size_t memory_max = std::size_t{64} << 20U;  // as Site has it
 };
 
@@ -46,8 +50,12 @@ class Service {
 
   [[nodiscard]] std::uint16_t port() const;
   [[nodiscard]] std::optional<std::filesystem::path> recorded_to() const;
-  void run(bool until_signal);  // until stop(), or SIGINT or SIGTERM
+  void run(bool until_signal);  // until stop(), or SIGINT, SIGTERM, SIGHUP
   void stop();                  // thread-safe
+
+  // After run(): ends the executive and writes the rest of the recording. What of it could not be
+  // written, if anything.
+  [[nodiscard]] std::optional<std::string> close();
 
  private:
   class Impl;

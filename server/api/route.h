@@ -15,7 +15,7 @@ namespace armloom {
 // outlive every answer; the request is only valid during the call.
 struct Call {
   const ApiParts& parts;
-  const CellMeshes& meshes;
+  CellMeshes& meshes;
   const Request& request;
   const Router::Arguments& arguments;  // what stood in the path for {id}
   Respond respond;

@@ -1,19 +1,29 @@
 #include "server/api/route.h"
 #include "server/codec/cell_schema.h"
 #include "server/http/security_headers.h"
+#include "server/http/served_bytes.h"
 #include "server/messages/arm.h"
 #include "server/openapi/openapi.h"
 
 namespace armloom {
 namespace {
 
-Response page(const char* content_type, std::string_view text) {
-  return Response{200, content_type, std::string(text), {{"Cache-Control", "no-cache"}}};
+// One that is built in: `bytes` are made once.
+Response page(const Request& request, const char* content_type, const ServedBytes& bytes) {
+  Response response = answer_bytes(request, bytes, content_type);
+  response.headers.emplace_back("Cache-Control", "no-cache");
+  return response;
 }
+ServedBytes served_text(std::string_view text) { return served(std::string(text), true); }
 
 void get_health(Call call) { call.respond(answer(200, health_format(), Health{})); }
 
 void get_ready(Call call) {
+  const auto lost = call.parts.recording != nullptr ? call.parts.recording->fault() : std::nullopt;
+  if (lost) {
+    return call.respond(refusal_response(
+        {503, "recording-lost", "the recording is no longer whole: " + *lost, "--data", *lost}));
+  }
   ask(
       call.parts, [](Executive& executive) { return Ready{executive.now()}; },
       [respond = call.respond](const Ready& ready) {
@@ -21,22 +31,32 @@ void get_ready(Call call) {
       });
 }
 
-void get_openapi(Call call) { call.respond(page("application/json", openapi_text())); }
+void get_openapi(Call call) {
+  static const ServedBytes bytes = served_text(openapi_text());
+  call.respond(page(call.request, "application/json", bytes));
+}
+
 void get_cell_schema(Call call) {
-  call.respond(page("application/schema+json", cell_schema_text()));
+  static const ServedBytes bytes = served_text(cell_schema_text());
+  call.respond(page(call.request, "application/schema+json", bytes));
 }
 
 void get_docs(Call call) {
-  Response response = page("text/html; charset=utf-8", docs_html());
-  response.headers.emplace_back(
-      "Content-Security-Policy",
-      std::string("script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:; ") +
-          std::string(kNoPagePolicy));
+  static const ServedBytes bytes = served_text(docs_html());
+  Response response = page(call.request, "text/html; charset=utf-8", bytes);
+  response.headers.emplace_back("Content-Security-Policy", std::string(kPagePolicy));
   call.respond(std::move(response));
 }
 
-void get_docs_style(Call call) { call.respond(page("text/css; charset=utf-8", docs_css())); }
-void get_docs_script(Call call) { call.respond(page("text/javascript; charset=utf-8", docs_js())); }
+void get_docs_style(Call call) {
+  static const ServedBytes bytes = served_text(docs_css());
+  call.respond(page(call.request, "text/css; charset=utf-8", bytes));
+}
+
+void get_docs_script(Call call) {
+  static const ServedBytes bytes = served_text(docs_js());
+  call.respond(page(call.request, "text/javascript; charset=utf-8", bytes));
+}
 
 Route of_server(const char* path, const char* id, const char* summary, Outcome outcome,
                 void (*run)(Call)) {

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <iostream>
@@ -39,14 +40,14 @@ fs::path web_folder(const std::string& asked) {
 // Each connection is a file descriptor: takes as many as the system gives, leaves some for files
 // and returns how many connections there may be.
 std::size_t connections_within_descriptors(std::size_t wanted) {
-  constexpr rlim_t kOther = 64;
+  constexpr rlim_t kOther = 64;  // of which few are needed: half of the descriptors, if fewer
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
   limit.rlim_cur = limit.rlim_max;
   setrlimit(RLIMIT_NOFILE, &limit);
   getrlimit(RLIMIT_NOFILE, &limit);
   if (limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= wanted + kOther) return wanted;
-  return limit.rlim_cur > 2 * kOther ? static_cast<std::size_t>(limit.rlim_cur - kOther) : kOther;
+  return static_cast<std::size_t>(limit.rlim_cur - std::min<rlim_t>(kOther, limit.rlim_cur / 2));
 }
 
 std::string dashboard_address(const std::string& address, std::uint16_t port) {
@@ -93,7 +94,9 @@ int serve(const ServeOptions& options) {
   if (!options.data.empty()) service_options.data = options.data;
   service_options.record_states = options.record;
   service_options.connections_max = connections_within_descriptors(service_options.connections_max);
+  service_options.alarm = [](const std::string& what) { spdlog::error("{}", what); };
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file may not grow: said as any other that cannot be written
 
   auto service = Service::start(loaded->cell, {loaded->file, loaded->text}, service_options);
   if (!service) {
@@ -112,8 +115,10 @@ int serve(const ServeOptions& options) {
   std::cout << "dashboard: " << dashboard_address(service_options.address, (*service)->port())
             << std::endl;
   (*service)->run(true);
+  const auto lost = (*service)->close();
+  if (lost) spdlog::error("the recording is not whole: {}", *lost);
   spdlog::info("stopped");
-  return kExitDone;
+  return lost ? kExitNotWritten : kExitDone;
 }
 
 }  // namespace armloom

@@ -1,5 +1,6 @@
 #include "server/http/http_server.h"
 
+#include <csignal>
 #include <utility>
 
 #include "server/http/asio.h"
@@ -8,9 +9,10 @@
 namespace armloom {
 namespace {
 
-constexpr std::chrono::seconds kFarewell{1};            // for readers to read to the end
-constexpr std::size_t kRefusingMax = 32;                // at once; beyond, closed without a word
-constexpr auto kWindDownMax = std::chrono::seconds(5);  // for arms to come to rest
+constexpr std::chrono::milliseconds kFarewell{500};  // for readers to read to the end
+constexpr std::size_t kRefusingMax = 32;             // at once; beyond, closed without a word
+// For arms to come to rest: with the farewell, the process ends within two seconds.
+constexpr std::chrono::milliseconds kWindDownMax{1200};
 
 Problem cannot_listen(const std::string& address, std::uint16_t port, const std::string& why) {
   const std::string place = address + ":" + std::to_string(port);
@@ -33,6 +35,8 @@ class HttpServer::Impl {
     if (!ec) acceptor_.set_option(asio::socket_base::reuse_address(true), ec);
     if (!ec) acceptor_.bind(endpoint, ec);
     if (!ec) acceptor_.listen(asio::socket_base::max_listen_connections, ec);
+    if (!ec) acceptor_.non_blocking(true, ec);
+    if (!ec) spare_.open(tcp::v4(), ec);
     if (ec) return cannot_listen(address, port, ec.message());
     return std::nullopt;
   }
@@ -43,7 +47,11 @@ class HttpServer::Impl {
     if (until_signal) {
       signals_.add(SIGINT);
       signals_.add(SIGTERM);
-      signals_.add(SIGHUP);
+      // The terminal is closed; but nohup has said that this is nothing to us.
+      struct sigaction hangup {};
+      if (sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN) {
+        signals_.add(SIGHUP);
+      }
       signals_.async_wait([this](ErrorCode ec, int) {
         if (!ec) wind_down();
       });
@@ -87,13 +95,12 @@ class HttpServer::Impl {
   }
 
   asio::awaitable<void> refuse(tcp::socket socket) {
+    const std::string why = connections_ < connections_max_
+                                ? "the system gives no more file descriptors"
+                                : std::to_string(connections_max_) +
+                                      " connections are open, more are not served at once";
     Response full = site_.refuse(
-        {503,
-         "too-many-connections",
-         std::to_string(connections_max_) + " connections are open, more are not served at once",
-         std::nullopt,
-         std::nullopt,
-         {{"Retry-After", "1"}}});
+        {503, "too-many-connections", why, std::nullopt, std::nullopt, {{"Retry-After", "1"}}});
     ++refusing_;
     co_await refuse_connection(std::move(socket), std::move(full), *memory_);
     --refusing_;
@@ -107,6 +114,17 @@ class HttpServer::Impl {
     }
   }
 
+  // The system gives no descriptor for whoever comes: the one that was kept for this takes them,
+  // one after the other, to be told so.
+  asio::awaitable<void> refuse_with_spare() {
+    ErrorCode ec;
+    spare_.close(ec);
+    tcp::socket socket(io_);
+    acceptor_.accept(socket, ec);
+    if (!ec) co_await refuse(std::move(socket));
+    spare_.open(tcp::v4(), ec);
+  }
+
   asio::awaitable<void> accept() {
     asio::steady_timer pause(io_);
     for (;;) {
@@ -117,7 +135,10 @@ class HttpServer::Impl {
         continue;
       }
       if (ending_) co_return;
-      // Out of file descriptors, most likely: others must end first.
+      if (ec == boost::system::errc::too_many_files_open && spare_.is_open()) {
+        co_await refuse_with_spare();
+        continue;
+      }
       pause.expires_after(std::chrono::milliseconds(50));
       co_await pause.async_wait(into(ec));
     }
@@ -127,6 +148,7 @@ class HttpServer::Impl {
   std::optional<MemoryBudget> memory_;
   asio::io_context io_{1};
   tcp::acceptor acceptor_{io_};
+  tcp::socket spare_{io_};  // a descriptor for refusing whoever comes when there is no other
   asio::signal_set signals_{io_};
   asio::steady_timer farewell_{io_};
   const std::size_t connections_max_;

@@ -16,6 +16,14 @@ void Broadcast::on_event(const Event& event) {
   });
 }
 
+void Broadcast::watch_recording() {
+  if (said_lost_ || parts_.recording == nullptr) return;
+  const auto fault = parts_.recording->fault();
+  if (!fault) return;
+  said_lost_ = true;
+  if (parts_.alarm) parts_.alarm("the recording is no longer whole: " + *fault);
+}
+
 void Broadcast::on_tick(TimePoint now, const Configuration& measured) {
   if (parts_.recording != nullptr) parts_.recording->state(now, measured);
 }
@@ -31,6 +39,7 @@ void Broadcast::on_state(const StateFrame& frame) {
   const auto wall = std::chrono::system_clock::now();
   parts_.post([this, wall, frame = std::make_shared<const StateFrame>(frame)] {
     parts_.clock.observe(frame->time, wall);
+    watch_recording();
     if (!parts_.hub.has_readers()) return;
     parts_.hub.publish_frame(std::make_shared<const std::string>(state_json(*frame, *parts_.cell)));
   });

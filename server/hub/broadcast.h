@@ -25,6 +25,8 @@ class Broadcast final : public Observer {
     Hub& hub;
     Recording* recording;                             // null: none
     std::function<void(std::function<void()>)> post;  // to the server's thread, in order
+    // Is told once that the recording is lost, and why; empty: nobody.
+    std::function<void(const std::string&)> alarm;
   };
   explicit Broadcast(Parts parts) : parts_(std::move(parts)) {}
 
@@ -34,7 +36,10 @@ class Broadcast final : public Observer {
   void on_state(const StateFrame& frame) override;
 
  private:
+  void watch_recording();
+
   Parts parts_;
+  bool said_lost_ = false;
   std::chrono::steady_clock::time_point next_frame_{};  // the strand's
 };
 
