@@ -9,6 +9,7 @@
 #include "server/http/http_server.h"
 #include "server/http/static_files.h"
 #include "server/hub/broadcast.h"
+#include "server/worker.h"
 
 namespace armloom {
 
@@ -41,7 +42,8 @@ class Service::Impl {
     loop_ = std::move(*loop);
     const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
     api_ = std::make_unique<Api>(
-        ApiParts{cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), post});
+        ApiParts{cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), post,
+                 [this](std::function<void()> task) { worker_.post(std::move(task)); }});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;
@@ -101,6 +103,7 @@ class Service::Impl {
   std::unique_ptr<Broadcast> broadcast_;
   std::unique_ptr<Api> api_;
   std::unique_ptr<RealTimeLoop> loop_;
+  Worker worker_;
 };
 
 Result<std::unique_ptr<Service>> Service::start(CellPtr cell, const Recording::Source& source,

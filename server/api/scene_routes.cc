@@ -53,19 +53,21 @@ void get_scene(Call call) {
 // change: add or put, on the strand. `name`: of the path, if it has one.
 template <class Change>
 void set_object(Call& call, const std::optional<std::string>& name, Change change) {
-  auto object =
-      read_body(call.request, [&](std::string_view text) { return read_object_text(text, name); });
-  if (!object) return call.respond(problem_response(object.error()));
-  const auto shared = std::make_shared<const CollisionObject>(std::move(*object));
-  ask(
-      call.parts, [shared, change](Executive& executive) { return change(executive, *shared); },
-      [respond = call.respond, shared](const Result<Changed>& changed) {
-        if (!changed) return respond(problem_response(changed.error()));
-        const SceneChange now{changed->version, *shared};
-        if (!changed->created) return respond(answer(200, scene_change_format(), now));
-        respond(located(answer(201, scene_change_format(), now),
-                        "/scene/objects/" + url_segment(shared->name)));
-      });
+  const auto set = [&parts = call.parts, respond = call.respond, change](CollisionObject object) {
+    const auto shared = std::make_shared<const CollisionObject>(std::move(object));
+    ask(
+        parts, [shared, change](Executive& executive) { return change(executive, *shared); },
+        [respond, shared](const Result<Changed>& changed) {
+          if (!changed) return respond(problem_response(changed.error()));
+          const SceneChange now{changed->version, *shared};
+          if (!changed->created) return respond(answer(200, scene_change_format(), now));
+          respond(located(answer(201, scene_change_format(), now),
+                          "/scene/objects/" + url_segment(shared->name)));
+        });
+  };
+  read_body(
+      call.parts, call.request, call.respond,
+      [name](std::string_view text) { return read_object_text(text, name); }, set);
 }
 
 void post_object(Call call) { set_object(call, std::nullopt, add); }

@@ -59,7 +59,7 @@ struct Request {
   std::optional<Refusal> stranger = {};  // why whoever asks may not even read; absent: may
   std::optional<Refusal> foreign = {};   // why whoever asks may not command; absent: may
   bool upgrade = false;                  // wants a WebSocket
-  std::string body = {};
+  std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
 };
 
 // Why a reader of the event stream is sent away.

@@ -98,7 +98,7 @@ asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
   auto message = parser.release();
   const Delivery delivery{message.version(), message.keep_alive() && !request->upgrade,
                           message.method() == http::verb::head};
-  request->body = std::move(message.body().text);
+  request->body = std::make_shared<const std::string>(std::move(message.body().text));
   Response response = co_await answer(site, *request);
   if (response.events && response.status == 101) {
     co_await serve_websocket(std::move(connection.stream), message.base(),

@@ -52,8 +52,12 @@ class Hub::Reader final : public Feed {
 void Hub::publish(std::uint64_t seq, Text event) {
   if (seq != last_seq_ + 1) throw std::logic_error("the event log has a hole");
   last_seq_ = seq;
+  bytes_ += event->size();
   ring_.push_back(std::move(event));
-  if (ring_.size() > capacity_) ring_.pop_front();
+  while (ring_.size() > capacity_ || (bytes_ > bytes_max_ && ring_.size() > 1)) {
+    bytes_ -= ring_.front()->size();
+    ring_.pop_front();
+  }
   tell_readers();
 }
 

@@ -12,7 +12,8 @@ namespace armloom::test {
 // A plain loopback socket with a deadline on every read: what a client does, byte for byte.
 class Wire {
  public:
-  explicit Wire(std::uint16_t port);
+  // `receive_buffer`: bytes that the system takes for a reader that does not; zero: as it likes.
+  explicit Wire(std::uint16_t port, int receive_buffer = 0);
   ~Wire();
   Wire(const Wire&) = delete;
   Wire& operator=(const Wire&) = delete;
