@@ -28,12 +28,17 @@ class Service::Impl {
       if (!recording) return std::move(recording.error());
       recording_ = std::move(*recording);
     }
+    metrics_ = std::make_unique<Metrics>(cell, options_.speed);
+    router_.watch([this](const std::string& method, const std::string& route, int status,
+                         std::chrono::nanoseconds after) {
+      metrics_->answered(method, route, status, after);
+    });
     clock_.emplace(std::chrono::system_clock::now(), options_.speed);
     const auto post = [http_server = http_.get()](std::function<void()> task) {
       http_server->post(std::move(task));
     };
-    broadcast_ = std::make_unique<Broadcast>(
-        Broadcast::Parts{cell, stream_, *clock_, hub_, recording_.get(), post, options_.alarm});
+    broadcast_ = std::make_unique<Broadcast>(Broadcast::Parts{
+        cell, stream_, *clock_, hub_, recording_.get(), post, options_.alarm, *metrics_});
     ExecutiveOptions executive_options;
     executive_options.policy = options_.policy;
     auto loop =
@@ -43,7 +48,7 @@ class Service::Impl {
     const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
     api_ = std::make_unique<Api>(
         ApiParts{cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), post,
-                 [this](std::function<void()> task) { worker_.post(std::move(task)); }});
+                 [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;
@@ -99,6 +104,7 @@ class Service::Impl {
   Hub hub_;
   Router router_{refusal_response};
   std::unique_ptr<Recording> recording_;
+  std::unique_ptr<Metrics> metrics_;
   std::unique_ptr<HttpServer> http_;
   std::unique_ptr<Broadcast> broadcast_;
   std::unique_ptr<Api> api_;

@@ -5,12 +5,14 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/executive/real_time_loop.h"
 #include "core/model/cell.h"
 #include "server/api/answers.h"
 #include "server/codec/wall_clock.h"
 #include "server/hub/hub.h"
+#include "server/metrics/metrics.h"
 #include "server/recording/recording.h"
 
 namespace armloom {
@@ -28,7 +30,14 @@ struct ApiParts {
   Recording* recording;                             // null: none
   std::function<void(std::function<void()>)> post;  // to the server's thread, in order
   // To a thread for what takes long and needs nothing of this.
-  std::function<void(std::function<void()>)> aside = {};
+  std::function<void(std::function<void()>)> aside;
+  Metrics& metrics;
+  // Readers of events that wait for a snapshot: who comes while one is on its way shares it.
+  struct Newcomer {
+    bool gap;
+    std::function<void(FeedPtr)> then;
+  };
+  std::shared_ptr<std::vector<Newcomer>> newcomers = std::make_shared<std::vector<Newcomer>>();
 };
 
 // Runs ask(executive) on the strand, then then(its answer) on the server's thread.

@@ -31,6 +31,17 @@ void get_ready(Call call) {
       });
 }
 
+void get_metrics(Call call) {
+  const ApiParts& parts = call.parts;
+  const bool lost = parts.recording != nullptr && parts.recording->fault();
+  const Metrics::Readings readings{parts.hub.readers(), parts.hub.frames_dropped(),
+                                   parts.hub.readers_sent_away(), lost};
+  call.respond(Response{200,
+                        "text/plain; version=0.0.4; charset=utf-8",
+                        parts.metrics.text(readings),
+                        {{"Cache-Control", "no-store"}}});
+}
+
 void get_openapi(Call call) {
   static const ServedBytes bytes = served_text(openapi_text());
   call.respond(page(call.request, "application/json", bytes));
@@ -86,6 +97,8 @@ std::vector<Route> service_routes() {
   return {
       health,
       ready,
+      of_server("/metrics", "metrics", "Figures for Prometheus",
+                {200, "Text format 0.0.4", {{"text/plain", {{"type", "string"}}}}}, get_metrics),
       of_server("/openapi.json", "openapi", "This document",
                 {200, "OpenAPI 3.1", {{"application/json", object}}}, get_openapi),
       of_server("/cell.schema.json", "cellSchema",

@@ -20,6 +20,7 @@ void put_speed(Call call) {
         parts,
         [&parts, speed](Executive& executive) {
           parts.loop.set_speed(speed.speed);
+          parts.metrics.set_speed(speed.speed);
           return Change{executive.now(), std::chrono::system_clock::now()};
         },
         [&parts, respond, speed](const Change& change) {

@@ -28,13 +28,17 @@ bool parse_listen(const std::string& text, std::string& address, std::uint16_t& 
   return ec == std::errc{} && stop == end;
 }
 
-// The dashboard as built: beside the repository's build folder, or beside the binary.
+// The dashboard as built: beside the repository's build folder, where it was installed, or beside
+// the binary.
 fs::path web_folder(const std::string& asked) {
   if (!asked.empty()) return asked;
   std::error_code ec;
-  const fs::path binary = fs::read_symlink("/proc/self/exe", ec);
-  const fs::path in_repository = binary.parent_path().parent_path() / "web" / "dist";
-  return fs::is_directory(in_repository, ec) ? in_repository : binary.parent_path() / "web";
+  const fs::path folder = fs::read_symlink("/proc/self/exe", ec).parent_path();
+  for (const fs::path& candidate : {folder.parent_path() / "web" / "dist",
+                                    folder.parent_path() / "share" / "armloom" / "web"}) {
+    if (fs::is_directory(candidate, ec)) return candidate;
+  }
+  return folder / "web";
 }
 
 // Each connection is a file descriptor: takes as many as the system gives, leaves some for files

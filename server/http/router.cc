@@ -36,8 +36,8 @@ std::optional<Router::Arguments> match(const std::vector<std::string>& pattern,
 
 void Router::add(std::string method, std::string_view pattern, Who who, Answer answer,
                  std::vector<std::string> parameters) {
-  routes_.push_back(Route{std::move(method), segments_of(pattern), who, std::move(answer),
-                          std::move(parameters)});
+  routes_.push_back(Route{std::move(method), std::string(pattern), segments_of(pattern), who,
+                          std::move(answer), std::move(parameters)});
 }
 
 // Of what is served there; "*": anywhere. HEAD goes with GET, and OPTIONS with all.
@@ -102,6 +102,14 @@ std::optional<Response> Router::refuse_unread(const Request& request) const {
 
 void Router::dispatch(const Request& request, Respond respond) const {
   const Found found = find(request);
+  if (watch_) {
+    respond = [this, method = request.method, route = found.route, inner = std::move(respond),
+               asked = std::chrono::steady_clock::now()](Response response) {
+      watch_(method, route == nullptr ? "" : route->pattern, response.status,
+             std::chrono::steady_clock::now() - asked);
+      inner(std::move(response));
+    };
+  }
   if (auto refused = refusal(request, found)) return respond(std::move(*refused));
   if (found.route == nullptr) return respond(unrouted(request));
   found.route->answer(request, found.arguments, std::move(respond));

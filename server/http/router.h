@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -29,6 +30,11 @@ class Router {
   // `parameters`: those that the query may have.
   void add(std::string method, std::string_view pattern, Who who, Answer answer,
            std::vector<std::string> parameters = {});
+  // Is told of every answer that dispatch() gives: method, the pattern that fits ("": none),
+  // status, and how long it took.
+  using Watch =
+      std::function<void(const std::string&, const std::string&, int, std::chrono::nanoseconds)>;
+  void watch(Watch watch) { watch_ = std::move(watch); }
   // Answers requests for paths that no pattern fits (the dashboard's files), without their bodies.
   void otherwise(std::function<Response(const Request&)> answer) { otherwise_ = std::move(answer); }
 
@@ -42,6 +48,7 @@ class Router {
  private:
   struct Route {
     std::string method;
+    std::string pattern;
     std::vector<std::string> segments;
     Who who;
     Answer answer;
@@ -58,6 +65,7 @@ class Router {
 
   WriteRefusal refuse_;
   std::vector<Route> routes_;
+  Watch watch_;
   std::function<Response(const Request&)> otherwise_;
 };
 

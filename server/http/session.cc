@@ -1,20 +1,15 @@
 #include "server/http/session.h"
 
-#include <boost/beast/http.hpp>
 #include <chrono>
 #include <new>
 #include <optional>
 
+#include "server/http/arrival.h"
 #include "server/http/event_stream.h"
-#include "server/http/request_head.h"
-#include "server/http/request_reader.h"
 #include "server/http/websocket_session.h"
 
 namespace armloom {
 namespace {
-
-namespace beast = boost::beast;
-namespace http = beast::http;
 
 // Hands the request to the site and waits for its answer.
 asio::awaitable<Response> answer(const Site& site, const Request& request) {
@@ -33,26 +28,6 @@ asio::awaitable<Response> answer(const Site& site, const Request& request) {
   if (!pending->response) co_await pending->arrived.async_wait(into(ignored));
   if (pending->response) co_return std::move(*pending->response);
   co_return site.refuse({503, "no-answer", "the server did not answer in time"});
-}
-
-// What is known without the body: a fault of the header, or that nobody serves it.
-tl::expected<Request, Response> head_of(const RequestParser& parser, const Site& site) {
-  const RequestHeader& header = parser.get();
-  const auto refused = [&](const Refusal& why) { return tl::unexpected(site.refuse(why)); };
-  if (const auto refusal = header_refusal(header)) return refused(*refusal);
-  auto request = request_of(header, site.hosts);
-  if (!request) return refused(request.error());
-  request->upgrade = is_handshake(header) && parser.is_done();
-  if (request->upgrade) {
-    if (const auto fault = handshake_fault(header)) return refused(*fault);
-  }
-  return std::move(*request);
-}
-
-// Whether the client waits to be asked for its body (RFC 9110, 10.1.1).
-bool waits_to_be_asked(const RequestParser& parser) {
-  return parser.get().version() >= 11 && parser.get().count(http::field::expect) > 0 &&
-         !parser.is_done();
 }
 
 // Answers of which others hold no copy take memory until they are read.
@@ -77,40 +52,24 @@ asio::awaitable<bool> deliver(Connection& connection, Response response, Deliver
 
 // One request and its answer. Whether another may follow on the connection.
 asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
-  RequestParser parser;
-  if (const auto none = co_await read_header(connection, parser, site.read_time)) {
-    if (none->refusal) co_await refuse(connection, site.refuse(*none->refusal));
+  auto arrived = co_await read_request(connection, site);
+  if (!arrived) {
+    if (arrived.error()) co_await refuse(connection, std::move(*arrived.error()));
     co_return false;
   }
-  auto request = head_of(parser, site);
-  const bool waits = request && waits_to_be_asked(parser);
-  if (waits) {
-    if (auto refused = site.refuse_unread(*request)) request = tl::unexpected(std::move(*refused));
-  }
-  if (!request) {
-    co_await refuse(connection, std::move(request.error()));
-    co_return false;
-  }
-  if (const auto none = co_await read_body(connection, parser, site.read_time, waits)) {
-    if (none->refusal) co_await refuse(connection, site.refuse(*none->refusal));
-    co_return false;
-  }
-  auto message = parser.release();
-  const Delivery delivery{message.version(), message.keep_alive() && !request->upgrade,
-                          message.method() == http::verb::head};
-  request->body = std::make_shared<const std::string>(std::move(message.body().text));
-  Response response = co_await answer(site, *request);
+  const Request& request = arrived->request;
+  Response response = co_await answer(site, request);
   if (response.events && response.status == 101) {
-    co_await serve_websocket(std::move(connection.stream), message.base(),
+    co_await serve_websocket(std::move(connection.stream), std::move(arrived->header),
                              std::move(*response.events), site);
     co_return false;
   }
-  if (response.events && !delivery.without_body) {
+  if (response.events && !arrived->delivery.without_body) {
     co_await serve_event_stream(std::move(connection.stream), std::move(*response.events), site);
     co_return false;
   }
-  answer_conditionally(*request, response);
-  co_return co_await deliver(connection, std::move(response), delivery, site);
+  answer_conditionally(request, response);
+  co_return co_await deliver(connection, std::move(response), arrived->delivery, site);
 }
 
 }  // namespace

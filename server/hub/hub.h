@@ -39,7 +39,9 @@ class Hub {
   void end();
 
   [[nodiscard]] std::uint64_t last_seq() const { return last_seq_; }
-  [[nodiscard]] bool has_readers();
+  [[nodiscard]] std::size_t readers();
+  [[nodiscard]] std::uint64_t frames_dropped() const { return frames_dropped_; }
+  [[nodiscard]] std::uint64_t readers_sent_away() const { return readers_sent_away_; }
 
  private:
   class Reader;
@@ -51,6 +53,8 @@ class Hub {
   std::deque<Text> ring_;  // ends with the event last_seq_
   std::uint64_t last_seq_ = 0;
   bool ended_ = false;
+  std::uint64_t frames_dropped_ = 0;
+  std::uint64_t readers_sent_away_ = 0;
   std::vector<std::weak_ptr<Reader>> readers_;
 };
 

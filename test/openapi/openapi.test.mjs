@@ -126,6 +126,7 @@ test('What only reads', async () => {
   assert.deepEqual(await call(200, 'GET', '/cell.schema.json'), schema);
   await call(200, 'GET', '/healthz');
   await call(200, 'GET', '/readyz');
+  await call(200, 'GET', '/metrics');
   const cell = await call(200, 'GET', `${v1}/cell`);
   const mesh = cell.objects.find((object) => object.mesh).mesh;
   await call(200, 'GET', `${v1}/cell/meshes/{name}`, {args: {name: path.basename(mesh)}});
