@@ -31,6 +31,7 @@ void add_seed(CLI::App& command, std::uint64_t& seed) {
 int run(int argc, char** argv) {
   CLI::App app("Armloom: an execution server for robot cells with several arms");
   app.require_subcommand(1);
+  app.set_version_flag("--version", "armloom " ARMLOOM_VERSION);
 
   ServeOptions serving;
   CLI::App* serve_command = app.add_subcommand("serve", "run the server with simulated arms");

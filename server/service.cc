@@ -9,6 +9,7 @@
 #include "server/http/http_server.h"
 #include "server/http/static_files.h"
 #include "server/hub/broadcast.h"
+#include "server/worker.h"
 
 namespace armloom {
 
@@ -27,12 +28,17 @@ class Service::Impl {
       if (!recording) return std::move(recording.error());
       recording_ = std::move(*recording);
     }
+    metrics_ = std::make_unique<Metrics>(cell, options_.speed);
+    router_.watch([this](const std::string& method, const std::string& route, int status,
+                         std::chrono::nanoseconds after) {
+      metrics_->answered(method, route, status, after);
+    });
     clock_.emplace(std::chrono::system_clock::now(), options_.speed);
     const auto post = [http_server = http_.get()](std::function<void()> task) {
       http_server->post(std::move(task));
     };
-    broadcast_ = std::make_unique<Broadcast>(
-        Broadcast::Parts{cell, stream_, *clock_, hub_, recording_.get(), post});
+    broadcast_ = std::make_unique<Broadcast>(Broadcast::Parts{
+        cell, stream_, *clock_, hub_, recording_.get(), post, options_.alarm, *metrics_});
     ExecutiveOptions executive_options;
     executive_options.policy = options_.policy;
     auto loop =
@@ -41,11 +47,10 @@ class Service::Impl {
     loop_ = std::move(*loop);
     const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
     api_ = std::make_unique<Api>(
-        ApiParts{cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), post});
+        ApiParts{cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), post,
+                 [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_});
     api_->add_routes(router_);
-    router_.otherwise([this](const Request& request, const Router::Arguments&, Respond respond) {
-      respond(answer_file(request));
-    });
+    router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;
   }
 
@@ -54,11 +59,14 @@ class Service::Impl {
     site.handle = [this](const Request& request, Respond respond) {
       router_.dispatch(request, std::move(respond));
     };
+    site.refuse_unread = [this](const Request& request) { return router_.refuse_unread(request); };
     site.refuse = refusal_response;
     const bool everywhere = options_.address == "0.0.0.0" || options_.address == "::";
     site.hosts = HostRule{options_.allowed_hosts, everywhere};
     site.keep_alive = options_.keep_alive;
     site.send_time = options_.send_time;
+    site.send_buffer = options_.send_buffer;
+    site.memory_max = options_.memory_max;
     site.read_time = options_.read_time;
     site.wind_down = [this](std::function<void()> done) {
       loop_->post([done = std::move(done)](Executive& executive) {
@@ -69,13 +77,20 @@ class Service::Impl {
     http_->run(std::move(site), until_signal);
   }
 
+  std::optional<std::string> close() {
+    loop_.reset();
+    if (!recording_) return std::nullopt;
+    recording_->close();
+    return recording_->fault();
+  }
+
   HttpServer& http() { return *http_; }
   std::optional<std::filesystem::path> recorded_to() const {
     return recording_ ? std::optional(recording_->folder()) : std::nullopt;
   }
 
  private:
-  Response answer_file(const Request& request) const {
+  Response answer_file(const Request& request) {
     if (!request.target.path.starts_with("/api/")) return files_.answer(request);
     return refusal_response({404, "not-found", "nothing is served at " + request.target.path,
                              "request target", request.target.path});
@@ -89,10 +104,12 @@ class Service::Impl {
   Hub hub_;
   Router router_{refusal_response};
   std::unique_ptr<Recording> recording_;
+  std::unique_ptr<Metrics> metrics_;
   std::unique_ptr<HttpServer> http_;
   std::unique_ptr<Broadcast> broadcast_;
   std::unique_ptr<Api> api_;
   std::unique_ptr<RealTimeLoop> loop_;
+  Worker worker_;
 };
 
 Result<std::unique_ptr<Service>> Service::start(CellPtr cell, const Recording::Source& source,
@@ -107,6 +124,7 @@ Service::~Service() = default;
 std::uint16_t Service::port() const { return impl_->http().port(); }
 std::optional<std::filesystem::path> Service::recorded_to() const { return impl_->recorded_to(); }
 void Service::run(bool until_signal) { impl_->run(until_signal); }
+std::optional<std::string> Service::close() { return impl_->close(); }
 void Service::stop() { impl_->http().stop(); }
 
 }  // namespace armloom

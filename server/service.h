@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,8 +28,13 @@ struct ServiceOptions {
   bool record_states = false;                    // states.csv as well
   std::size_t connections_max = 4096;            // one more is refused with 503
   std::chrono::milliseconds keep_alive{15'000};  // of /events, when there are none
-  std::chrono::milliseconds send_time{30'000};   // for one event of /events
+  std::chrono::milliseconds send_time{30'000};   // for one event of /events, or message of /ws
+  int send_buffer = 128 * 1024;                  // of the socket of a reader of those
   std::chrono::milliseconds read_time{10'000};   // for a request's header, and for its body
+  // Is told, on the server's thread, what goes wrong beside the answers: once that and when the
+  // recording is lost.
+  std::function<void(const std::string&)> alarm = {};
+  std::size_t memory_max = std::size_t{64} << 20U;  // as Site has it
 };
 
 // The server: executive in real time, HTTP, WebSocket, dashboard. One thread for all connections
@@ -44,8 +50,12 @@ class Service {
 
   [[nodiscard]] std::uint16_t port() const;
   [[nodiscard]] std::optional<std::filesystem::path> recorded_to() const;
-  void run(bool until_signal);  // until stop(), or SIGINT or SIGTERM
+  void run(bool until_signal);  // until stop(), or SIGINT, SIGTERM, SIGHUP
   void stop();                  // thread-safe
+
+  // After run(): ends the executive and writes the rest of the recording. What of it could not be
+  // written, if anything.
+  [[nodiscard]] std::optional<std::string> close();
 
  private:
   class Impl;

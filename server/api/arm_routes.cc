@@ -57,7 +57,11 @@ void with_all(Call& call, bool stopped, Change change) {
       });
 }
 void stop_all(Call call) {
-  with_all(call, true, [](Executive& executive) { executive.stop_all("operator"); });
+  const auto asked = std::chrono::steady_clock::now();
+  with_all(call, true, [&parts = call.parts, asked](Executive& executive) {
+    executive.stop_all("operator");
+    parts.metrics.stop_taken(std::chrono::steady_clock::now() - asked);
+  });
 }
 void resume_all(Call call) {
   with_all(call, false, [](Executive& executive) { executive.resume_all(); });
@@ -69,7 +73,7 @@ Route command(const char* path, const char* id, const char* summary) {
           .id = id,
           .tag = "arms",
           .summary = summary,
-          .who = Who::own};
+          .who = Who::commander};
 }
 
 }  // namespace

@@ -2,12 +2,13 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
 #include "core/geometry/mesh/mesh.h"
 #include "server/api/answers.h"
+#include "server/http/open_file.h"
+#include "server/http/served_bytes.h"
 #include "server/messages/mesh_address.h"
 
 namespace armloom {
@@ -16,6 +17,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kTypes{
     {{".stl", "model/stl"}, {".obj", "model/obj"}, {".dae", "model/vnd.collada+xml"}}};
 
+constexpr const char* kGone = "the mesh can no longer be read";
 constexpr const char* kOtherType = "application/octet-stream";
 
 Response not_found(const std::string& name, const std::string& why) {
@@ -26,7 +28,10 @@ Response not_found(const std::string& name, const std::string& why) {
 }  // namespace
 
 CellMeshes::CellMeshes(const Cell& cell) {
-  const auto add = [&](const std::string& path) { paths_.emplace(mesh_name(path), path); };
+  const auto add = [&](const std::string& path) {
+    std::error_code none;
+    places_.emplace(mesh_name(path), Place{std::filesystem::canonical(path, none), "", {}, ""});
+  };
   for (const Robot& robot : cell.robots) {
     for (const auto& [uri, path] : robot.mesh_files) add(path);
   }
@@ -42,22 +47,35 @@ std::vector<std::string> CellMeshes::content_types() {
   return types;
 }
 
-Response CellMeshes::answer(const std::string& name) const {
-  const auto known = paths_.find(name);
-  if (known == paths_.end()) return not_found(name, "the cell has no mesh \"" + name + "\"");
-  std::error_code error;
-  const auto size = std::filesystem::file_size(known->second, error);
-  if (error || size > kMaxMeshBytes) return not_found(name, "the mesh can no longer be read");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  std::ifstream stream(known->second, std::ios::binary);
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) return not_found(name, "the mesh can no longer be read");
-  Response response;
-  response.content_type = kOtherType;
-  for (const auto& [extension, type] : kTypes) {
-    if (name.ends_with(extension)) response.content_type = type;
+Response CellMeshes::answer(const Request& request, const std::string& name) {
+  const auto known = places_.find(name);
+  if (known == places_.end()) return not_found(name, "the cell has no mesh \"" + name + "\"");
+  Place& place = known->second;
+  const auto file = OpenFile::open(place.file, kMaxMeshBytes);
+  if (!file && file.error() == NoFile::busy) {
+    return refusal_response({503,
+                             "server-busy",
+                             "too many files and connections are open to read this one",
+                             std::nullopt,
+                             std::nullopt,
+                             {{"Retry-After", "1"}}});
   }
-  response.body = std::move(bytes);
+  if (!file || file->place() != place.file) return not_found(name, kGone);
+  ServedBytes bytes{place.stamp == file->stamp() ? place.bytes.lock() : nullptr, nullptr,
+                    place.tag};
+  if (!bytes.plain) {
+    auto read = file->read();
+    if (!read) return not_found(name, kGone);
+    bytes = served(std::move(*read), false);
+    place.stamp = file->stamp();
+    place.bytes = bytes.plain;
+    place.tag = bytes.tag;
+  }
+  std::string type = kOtherType;
+  for (const auto& [extension, known_type] : kTypes) {
+    if (name.ends_with(extension)) type = known_type;
+  }
+  Response response = answer_bytes(request, bytes, std::move(type));
   response.headers.emplace_back("Cache-Control", "no-cache");
   return response;
 }

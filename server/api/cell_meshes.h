@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,10 +21,18 @@ class CellMeshes {
   [[nodiscard]] static std::vector<std::string> content_types();
 
   // 404 for a name that is none of these, and for a file that has gone or grown over kMaxMeshBytes.
-  [[nodiscard]] Response answer(const std::string& name) const;
+  // 503 when there are too few file descriptors to look. Who asks while another one still reads it
+  // gets the same bytes.
+  [[nodiscard]] Response answer(const Request& request, const std::string& name);
 
  private:
-  std::map<std::string, std::string> paths_;  // by name
+  struct Place {
+    std::filesystem::path file;  // where it truly was at start: no link leads elsewhere later
+    std::string stamp;           // of `bytes`
+    std::weak_ptr<const std::string> bytes;
+    std::string tag;
+  };
+  std::map<std::string, Place> places_;  // by name
 };
 
 }  // namespace armloom

@@ -11,7 +11,7 @@ void get_cell(Call call) {
   call.respond(answer(200, cell_view_format(), cell));
 }
 
-void get_mesh(Call call) { call.respond(call.meshes.answer(call.arguments.front())); }
+void get_mesh(Call call) { call.respond(call.meshes.answer(call.request, call.arguments.front())); }
 
 }  // namespace
 

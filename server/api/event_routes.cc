@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <utility>
 
@@ -42,6 +43,19 @@ Place place_of(const Request& request) {
   return {id.substr(0, colon), colon == id.npos ? "" : id.substr(colon + 1)};
 }
 
+// All who wait begin with this snapshot, which is written once.
+void welcome(const ApiParts& parts, const Snapshot& snapshot) {
+  std::array<Hub::Text, 2> texts;  // without and with a gap
+  for (const ApiParts::Newcomer& newcomer : std::exchange(*parts.newcomers, {})) {
+    Hub::Text& text = texts[newcomer.gap ? 1 : 0];
+    if (!text) {
+      text = std::make_shared<const std::string>(snapshot_json(
+          snapshot, *parts.cell, parts.stream, parts.loop.speed(), parts.clock, newcomer.gap));
+    }
+    if (FeedPtr feed = parts.hub.resume(snapshot.seq, text)) newcomer.then(std::move(feed));
+  }
+}
+
 // Calls then(feed). It resumes where the reader was; otherwise, and when those events are gone
 // ("gap"), it begins with a snapshot.
 void subscribe(const ApiParts& parts, const Place& place, std::function<void(FeedPtr)> then) {
@@ -54,16 +68,13 @@ void subscribe(const ApiParts& parts, const Place& place, std::function<void(Fee
       if (FeedPtr feed = parts.hub.resume(seq)) return then(std::move(feed));
     }
   }
-  const bool gap = place.since.has_value();
+  parts.newcomers->push_back({place.since.has_value(), std::move(then)});
+  if (parts.newcomers->size() > 1) return;
   // Every event up to the snapshot's seq was posted to this thread before the snapshot, and every
   // later one comes after it: what follows seq in the hub is exactly what the snapshot lacks.
   ask(
       parts, [](Executive& executive) { return executive.snapshot(kSnapshotEnded); },
-      [&parts, gap, then](const Snapshot& snapshot) {
-        const auto text = std::make_shared<const std::string>(snapshot_json(
-            snapshot, *parts.cell, parts.stream, parts.loop.speed(), parts.clock, gap));
-        if (FeedPtr feed = parts.hub.resume(snapshot.seq, text)) then(std::move(feed));
-      });
+      [&parts](const Snapshot& snapshot) { welcome(parts, snapshot); });
 }
 
 void stream(Call& call, int status, bool frames) {
@@ -125,7 +136,7 @@ std::vector<Route> event_routes() {
                .summary = "Events and poses on a WebSocket",
                .parameters = resume_parameters(),
                .refuses = {426},
-               .who = Who::own,
+               .who = Who::commander,
                .run = open_socket};
   socket.outcomes = {{101,
                       "The same envelopes as `/events`, one in each text message (schema Message), "

@@ -141,7 +141,7 @@ std::vector<Route> job_routes() {
   cancel.outcomes = {
       outcome(202, "Canceled, or \"stopping\" until its arm is at rest", job_format())};
   cancel.refuses = {404, 409};
-  cancel.who = Who::own;
+  cancel.who = Who::commander;
   cancel.run = cancel_job;
 
   Route diagram =

@@ -5,12 +5,14 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/executive/real_time_loop.h"
 #include "core/model/cell.h"
 #include "server/api/answers.h"
 #include "server/codec/wall_clock.h"
 #include "server/hub/hub.h"
+#include "server/metrics/metrics.h"
 #include "server/recording/recording.h"
 
 namespace armloom {
@@ -27,6 +29,15 @@ struct ApiParts {
   Hub& hub;
   Recording* recording;                             // null: none
   std::function<void(std::function<void()>)> post;  // to the server's thread, in order
+  // To a thread for what takes long and needs nothing of this.
+  std::function<void(std::function<void()>)> aside;
+  Metrics& metrics;
+  // Readers of events that wait for a snapshot: who comes while one is on its way shares it.
+  struct Newcomer {
+    bool gap;
+    std::function<void(FeedPtr)> then;
+  };
+  std::shared_ptr<std::vector<Newcomer>> newcomers = std::make_shared<std::vector<Newcomer>>();
 };
 
 // Runs ask(executive) on the strand, then then(its answer) on the server's thread.
@@ -41,11 +52,30 @@ void ask(const ApiParts& parts, Ask ask, Then then) {
 // Problem (unsupported): the body is not said to be JSON in UTF-8, or is encoded.
 [[nodiscard]] Result<void> check_content_type(const Request& request);
 
-// The body as read(text) -> Result<...> makes it out.
-template <class Read>
-auto read_body(const Request& request, Read read) -> decltype(read(std::string_view{})) {
-  if (auto json = check_content_type(request); !json) return failure(std::move(json.error()));
-  return read(std::string_view(request.body));
+// Larger bodies are read aside: others are served meanwhile.
+inline constexpr std::size_t kReadAtOnceMax = 64 * 1024;
+
+// The body as read(text) -> Result<...> makes it out, to then(value) on the server's thread;
+// problems are answered.
+template <class Read, class Then>
+void read_body(const ApiParts& parts, const Request& request, const Respond& respond, Read read,
+               Then then) {
+  if (auto json = check_content_type(request); !json) {
+    return respond(problem_response(json.error()));
+  }
+  const auto go_on = [respond, then = std::move(then)](auto& value) {
+    if (!value) return respond(problem_response(value.error()));
+    then(std::move(*value));
+  };
+  using Value = decltype(read(std::string_view{}));
+  if (request.body->size() <= kReadAtOnceMax) {
+    Value value = read(std::string_view(*request.body));
+    return go_on(value);
+  }
+  parts.aside([&parts, body = request.body, read = std::move(read), go_on] {
+    const auto value = std::make_shared<Value>(read(std::string_view(*body)));
+    parts.post([value, go_on] { go_on(*value); });
+  });
 }
 
 }  // namespace armloom

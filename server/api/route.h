@@ -15,7 +15,7 @@ namespace armloom {
 // outlive every answer; the request is only valid during the call.
 struct Call {
   const ApiParts& parts;
-  const CellMeshes& meshes;
+  CellMeshes& meshes;
   const Request& request;
   const Router::Arguments& arguments;  // what stood in the path for {id}
   Respond respond;
@@ -59,7 +59,7 @@ struct Route {
   std::optional<Body> reads = {};
   std::vector<Outcome> outcomes;
   std::vector<int> refuses = {};  // beside what common_refusals() has
-  Who who = Who::anyone;
+  Who who = Who::reader;
   void (*run)(Call call);  // null: the dashboard's files, which the router leaves to others
 };
 

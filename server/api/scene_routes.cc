@@ -53,19 +53,21 @@ void get_scene(Call call) {
 // change: add or put, on the strand. `name`: of the path, if it has one.
 template <class Change>
 void set_object(Call& call, const std::optional<std::string>& name, Change change) {
-  auto object =
-      read_body(call.request, [&](std::string_view text) { return read_object_text(text, name); });
-  if (!object) return call.respond(problem_response(object.error()));
-  const auto shared = std::make_shared<const CollisionObject>(std::move(*object));
-  ask(
-      call.parts, [shared, change](Executive& executive) { return change(executive, *shared); },
-      [respond = call.respond, shared](const Result<Changed>& changed) {
-        if (!changed) return respond(problem_response(changed.error()));
-        const SceneChange now{changed->version, *shared};
-        if (!changed->created) return respond(answer(200, scene_change_format(), now));
-        respond(located(answer(201, scene_change_format(), now),
-                        "/scene/objects/" + url_segment(shared->name)));
-      });
+  const auto set = [&parts = call.parts, respond = call.respond, change](CollisionObject object) {
+    const auto shared = std::make_shared<const CollisionObject>(std::move(object));
+    ask(
+        parts, [shared, change](Executive& executive) { return change(executive, *shared); },
+        [respond, shared](const Result<Changed>& changed) {
+          if (!changed) return respond(problem_response(changed.error()));
+          const SceneChange now{changed->version, *shared};
+          if (!changed->created) return respond(answer(200, scene_change_format(), now));
+          respond(located(answer(201, scene_change_format(), now),
+                          "/scene/objects/" + url_segment(shared->name)));
+        });
+  };
+  read_body(
+      call.parts, call.request, call.respond,
+      [name](std::string_view text) { return read_object_text(text, name); }, set);
 }
 
 void post_object(Call call) { set_object(call, std::nullopt, add); }
@@ -107,7 +109,7 @@ std::vector<Route> scene_routes() {
                               R"("rpy": [0, 0, 0]})"}}),
        .outcomes = {created(201, "Added; every motion is judged again", scene_change_format())},
        .refuses = {409, 422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = post_object},
       {.method = "PUT",
        .path = objects + "/{name}",
@@ -119,7 +121,7 @@ std::vector<Route> scene_routes() {
        .outcomes = {outcome(200, "Replaced", scene_change_format()),
                     created(201, "Created", scene_change_format())},
        .refuses = {409, 422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = put_object},
       {.method = "DELETE",
        .path = objects + "/{name}",
@@ -128,7 +130,7 @@ std::vector<Route> scene_routes() {
        .summary = "Remove an object",
        .outcomes = {outcome(200, "Removed", scene_version_format())},
        .refuses = {404},
-       .who = Who::own,
+       .who = Who::commander,
        .run = delete_object},
   };
 }

@@ -1,18 +1,29 @@
 #include "server/api/route.h"
 #include "server/codec/cell_schema.h"
+#include "server/http/security_headers.h"
+#include "server/http/served_bytes.h"
 #include "server/messages/arm.h"
 #include "server/openapi/openapi.h"
 
 namespace armloom {
 namespace {
 
-Response page(const char* content_type, std::string_view text) {
-  return Response{200, content_type, std::string(text), {{"Cache-Control", "no-cache"}}};
+// One that is built in: `bytes` are made once.
+Response page(const Request& request, const char* content_type, const ServedBytes& bytes) {
+  Response response = answer_bytes(request, bytes, content_type);
+  response.headers.emplace_back("Cache-Control", "no-cache");
+  return response;
 }
+ServedBytes served_text(std::string_view text) { return served(std::string(text), true); }
 
 void get_health(Call call) { call.respond(answer(200, health_format(), Health{})); }
 
 void get_ready(Call call) {
+  const auto lost = call.parts.recording != nullptr ? call.parts.recording->fault() : std::nullopt;
+  if (lost) {
+    return call.respond(refusal_response(
+        {503, "recording-lost", "the recording is no longer whole: " + *lost, "--data", *lost}));
+  }
   ask(
       call.parts, [](Executive& executive) { return Ready{executive.now()}; },
       [respond = call.respond](const Ready& ready) {
@@ -20,18 +31,42 @@ void get_ready(Call call) {
       });
 }
 
-void get_openapi(Call call) { call.respond(page("application/json", openapi_text())); }
+void get_metrics(Call call) {
+  const ApiParts& parts = call.parts;
+  const bool lost = parts.recording != nullptr && parts.recording->fault();
+  const Metrics::Readings readings{parts.hub.readers(), parts.hub.frames_dropped(),
+                                   parts.hub.readers_sent_away(), lost};
+  call.respond(Response{200,
+                        "text/plain; version=0.0.4; charset=utf-8",
+                        parts.metrics.text(readings),
+                        {{"Cache-Control", "no-store"}}});
+}
+
+void get_openapi(Call call) {
+  static const ServedBytes bytes = served_text(openapi_text());
+  call.respond(page(call.request, "application/json", bytes));
+}
+
 void get_cell_schema(Call call) {
-  call.respond(page("application/schema+json", cell_schema_text()));
+  static const ServedBytes bytes = served_text(cell_schema_text());
+  call.respond(page(call.request, "application/schema+json", bytes));
 }
 
 void get_docs(Call call) {
-  Response response = page("text/html; charset=utf-8", docs_html());
-  response.headers.emplace_back(
-      "Content-Security-Policy",
-      "default-src 'none'; connect-src 'self'; script-src 'unsafe-inline'; "
-      "style-src 'unsafe-inline'; img-src data:");
+  static const ServedBytes bytes = served_text(docs_html());
+  Response response = page(call.request, "text/html; charset=utf-8", bytes);
+  response.headers.emplace_back("Content-Security-Policy", std::string(kPagePolicy));
   call.respond(std::move(response));
+}
+
+void get_docs_style(Call call) {
+  static const ServedBytes bytes = served_text(docs_css());
+  call.respond(page(call.request, "text/css; charset=utf-8", bytes));
+}
+
+void get_docs_script(Call call) {
+  static const ServedBytes bytes = served_text(docs_js());
+  call.respond(page(call.request, "text/javascript; charset=utf-8", bytes));
 }
 
 Route of_server(const char* path, const char* id, const char* summary, Outcome outcome,
@@ -50,13 +85,20 @@ Route of_server(const char* path, const char* id, const char* summary, Outcome o
 std::vector<Route> service_routes() {
   const Schema object{{"type", "object"}};
   const Content html{"text/html", {{"type", "string"}}};
+  const Content style{"text/css", {{"type", "string"}}};
+  const Content script{"text/javascript", {{"type", "string"}}};
   Route dashboard = of_server("/", "dashboard", "The dashboard", {200, "A page", {html}}, nullptr);
   dashboard.refuses = {404};
+  Route health = of_server("/healthz", "health", "Is the process there?",
+                           outcome(200, "It is", health_format()), get_health);
+  Route ready = of_server("/readyz", "ready", "Does the executive answer?",
+                          outcome(200, "It does", ready_format()), get_ready);
+  health.who = ready.who = Who::anyone;  // probes come by any name
   return {
-      of_server("/healthz", "health", "Is the process there?",
-                outcome(200, "It is", health_format()), get_health),
-      of_server("/readyz", "ready", "Does the executive answer?",
-                outcome(200, "It does", ready_format()), get_ready),
+      health,
+      ready,
+      of_server("/metrics", "metrics", "Figures for Prometheus",
+                {200, "Text format 0.0.4", {{"text/plain", {{"type", "string"}}}}}, get_metrics),
       of_server("/openapi.json", "openapi", "This document",
                 {200, "OpenAPI 3.1", {{"application/json", object}}}, get_openapi),
       of_server("/cell.schema.json", "cellSchema",
@@ -64,6 +106,10 @@ std::vector<Route> service_routes() {
                 {200, "JSON Schema, draft 2020-12", {{"application/schema+json", object}}},
                 get_cell_schema),
       of_server("/docs", "docs", "This document for people", {200, "A page", {html}}, get_docs),
+      of_server("/docs.css", "docsStyle", "Of that page", {200, "A style sheet", {style}},
+                get_docs_style),
+      of_server("/docs.js", "docsScript", "Of that page", {200, "A script", {script}},
+                get_docs_script),
       dashboard,
   };
 }

@@ -10,36 +10,40 @@ namespace {
 
 // The speed changes on the strand, where cell time and wall time are known together.
 void put_speed(Call call) {
-  const auto read = read_body(
-      call.request, [](std::string_view text) { return read_text(*speed_format(), text); });
-  if (!read) return call.respond(problem_response(read.error()));
   struct Change {
     TimePoint time;
     WallClock::Wall wall;
   };
   const ApiParts& parts = call.parts;
-  ask(
-      parts,
-      [&parts, speed = read->speed](Executive& executive) {
-        parts.loop.set_speed(speed);
-        return Change{executive.now(), std::chrono::system_clock::now()};
-      },
-      [&parts, respond = call.respond, speed = *read](const Change& change) {
-        parts.clock.anchor(change.time, change.wall, speed.speed);
-        respond(answer(200, speed_format(), speed));
-      });
+  const auto set = [&parts, respond = call.respond](const auto& speed) {
+    ask(
+        parts,
+        [&parts, speed](Executive& executive) {
+          parts.loop.set_speed(speed.speed);
+          parts.metrics.set_speed(speed.speed);
+          return Change{executive.now(), std::chrono::system_clock::now()};
+        },
+        [&parts, respond, speed](const Change& change) {
+          parts.clock.anchor(change.time, change.wall, speed.speed);
+          respond(answer(200, speed_format(), speed));
+        });
+  };
+  read_body(
+      parts, call.request, call.respond,
+      [](std::string_view text) { return read_text(*speed_format(), text); }, set);
 }
 
 void post_fault(Call call) {
-  const auto read = read_body(call.request, read_fault_text);
-  if (!read) return call.respond(problem_response(read.error()));
-  ask(
-      call.parts, [fault = *read](Executive& executive) { return executive.inject(fault); },
-      [respond = call.respond, fault = *read](const Result<std::uint64_t>& id) {
-        if (!id) return respond(problem_response(id.error()));
-        respond(located(answer(201, fault_format(), {*id, fault}),
-                        "/sim/faults/" + std::to_string(*id)));
-      });
+  const auto inject = [&parts = call.parts, respond = call.respond](const auto& fault) {
+    ask(
+        parts, [fault](Executive& executive) { return executive.inject(fault); },
+        [respond, fault](const Result<std::uint64_t>& id) {
+          if (!id) return respond(problem_response(id.error()));
+          respond(located(answer(201, fault_format(), {*id, fault}),
+                          "/sim/faults/" + std::to_string(*id)));
+        });
+  };
+  read_body(call.parts, call.request, call.respond, read_fault_text, inject);
 }
 
 void delete_fault(Call call) {
@@ -67,7 +71,7 @@ std::vector<Route> simulation_routes() {
        .reads = body(speed_format(), {{"double", R"({"speed": 2.0})"}}),
        .outcomes = {outcome(200, "In force from the next control cycle on", speed_format())},
        .refuses = {422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = put_speed},
       {.method = "POST",
        .path = api_path("/sim/faults"),
@@ -78,7 +82,7 @@ std::vector<Route> simulation_routes() {
                      {{"slow", R"({"arm": "left", "kind": "slow", "value": 0.5, "for_s": 2})"}}),
        .outcomes = {created(201, "Injected", fault_format())},
        .refuses = {422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = post_fault},
       {.method = "DELETE",
        .path = api_path("/sim/faults/{id}"),
@@ -87,7 +91,7 @@ std::vector<Route> simulation_routes() {
        .summary = "Remove a fault",
        .outcomes = {{204, "Removed"}},
        .refuses = {404},
-       .who = Who::own,
+       .who = Who::commander,
        .run = delete_fault},
   };
 }

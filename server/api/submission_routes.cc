@@ -9,22 +9,21 @@ namespace armloom {
 namespace {
 
 void post_job(Call call) {
-  auto job = read_body(call.request, read_job_text);
-  if (!job) return call.respond(problem_response(job.error()));
   const ApiParts& parts = call.parts;
-  const auto body =
-      std::make_shared<const std::string>(parts.recording != nullptr ? call.request.body : "");
-  ask(
-      parts,
-      [job = std::make_shared<JobRequest>(std::move(*job))](Executive& executive) {
-        return executive.submit(std::move(*job));
-      },
-      [&parts, respond = call.respond, body](const Result<JobView>& accepted) {
-        if (!accepted) return respond(problem_response(accepted.error()));
-        if (parts.recording != nullptr) parts.recording->job(accepted->submitted_at, *body);
-        respond(
-            located(answer(202, job_format(), *accepted, &parts.clock), "/jobs/" + accepted->key));
-      });
+  const auto submit = [&parts, respond = call.respond, body = call.request.body](JobRequest job) {
+    ask(
+        parts,
+        [job = std::make_shared<JobRequest>(std::move(job))](Executive& executive) {
+          return executive.submit(std::move(*job));
+        },
+        [&parts, respond, body](const Result<JobView>& accepted) {
+          if (!accepted) return respond(problem_response(accepted.error()));
+          if (parts.recording != nullptr) parts.recording->job(accepted->submitted_at, *body);
+          respond(located(answer(202, job_format(), *accepted, &parts.clock),
+                          "/jobs/" + accepted->key));
+        });
+  };
+  read_body(parts, call.request, call.respond, read_job_text, submit);
 }
 
 Response batch_response(const BatchRequest& batch, const std::vector<Result<JobView>>& results,
@@ -56,35 +55,38 @@ Result<std::vector<Result<JobView>>> submit(Executive& executive, const BatchReq
 }
 
 void post_batch(Call call) {
-  auto read = read_body(call.request, read_batch_text);
-  if (!read) return call.respond(problem_response(read.error()));
-  const auto batch = std::make_shared<const BatchRequest>(std::move(*read));
   const ApiParts& parts = call.parts;
-  ask(
-      parts, [batch](Executive& executive) { return submit(executive, *batch); },
-      [&parts, respond = call.respond, batch](const Result<std::vector<Result<JobView>>>& results) {
-        if (!results) return respond(problem_response(results.error()));
-        for (std::size_t i = 0; parts.recording != nullptr && i < results->size(); ++i) {
-          if (const auto& job = (*results)[i]) {
-            parts.recording->job(job->submitted_at, batch->jobs[i].text);
+  const auto submit_all = [&parts, respond = call.respond](BatchRequest read) {
+    const auto batch = std::make_shared<const BatchRequest>(std::move(read));
+    ask(
+        parts, [batch](Executive& executive) { return submit(executive, *batch); },
+        [&parts, respond, batch](const Result<std::vector<Result<JobView>>>& results) {
+          if (!results) return respond(problem_response(results.error()));
+          for (std::size_t i = 0; parts.recording != nullptr && i < results->size(); ++i) {
+            if (const auto& job = (*results)[i]) {
+              parts.recording->job(job->submitted_at, batch->jobs[i].text);
+            }
           }
-        }
-        respond(batch_response(*batch, *results, parts.clock));
-      });
+          respond(batch_response(*batch, *results, parts.clock));
+        });
+  };
+  read_body(parts, call.request, call.respond, read_batch_text, submit_all);
 }
 
 void post_check(Call call) {
-  auto read = read_body(call.request, read_job_text);
-  if (!read) return call.respond(problem_response(read.error()));
-  const auto job = std::make_shared<JobRequest>(std::move(*read));
   const ApiParts& parts = call.parts;
-  parts.loop.post([&parts, job, respond = std::move(call.respond)](Executive& executive) {
-    executive.check(std::move(*job), [&parts, respond](Result<CheckView> result) {
-      parts.post([respond, result = std::move(result)] {
-        respond(result ? answer(200, verdict_format(), *result) : problem_response(result.error()));
+  const auto check = [&parts, respond = call.respond](JobRequest read) {
+    const auto job = std::make_shared<JobRequest>(std::move(read));
+    parts.loop.post([&parts, job, respond](Executive& executive) {
+      executive.check(std::move(*job), [&parts, respond](Result<CheckView> result) {
+        parts.post([respond, result = std::move(result)] {
+          respond(result ? answer(200, verdict_format(), *result)
+                         : problem_response(result.error()));
+        });
       });
     });
-  });
+  };
+  read_body(parts, call.request, call.respond, read_job_text, check);
 }
 
 }  // namespace
@@ -104,7 +106,7 @@ std::vector<Route> submission_routes() {
                      {{"reach", example_job(head, "left")}, {"moveit", example_moveit_job()}}),
        .outcomes = {created(202, "Accepted; it may still wait in the backlog", job_format())},
        .refuses = {409, 422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = post_job},
       {.method = "POST",
        .path = api_path("/batches"),
@@ -118,7 +120,7 @@ std::vector<Route> submission_routes() {
                     outcome(207, "With \"atomic\": false, an answer for each",
                             batch_results_format())},
        .refuses = {409, 422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = post_batch},
       {.method = "POST",
        .path = api_path("/check"),
@@ -130,7 +132,7 @@ std::vector<Route> submission_routes() {
        .reads = body(job_request_format(), {{"reach", example_job("", "left")}}),
        .outcomes = {outcome(200, "What the admission code says", verdict_format())},
        .refuses = {409, 422},
-       .who = Who::own,
+       .who = Who::commander,
        .run = post_check},
   };
 }

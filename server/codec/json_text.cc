@@ -32,6 +32,12 @@ class StrictBuilder {
 
   bool key(std::string& name) {
     Level& level = levels_.back();
+    if (level.value->size() >= kJsonMembersMax) {
+      problem_.kind = ProblemKind::too_large;
+      return refuse("too-many-members",
+                    "an object with more than " + std::to_string(kJsonMembersMax) + " members",
+                    name);
+    }
     const auto [place, is_new] = level.value->emplace(name, nullptr);
     level.key = name;
     level.slot = &*place;

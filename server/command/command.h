@@ -15,7 +15,8 @@ namespace armloom {
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitFound =
     1;  // ran, and the answer is no: a contact, a job that did not end
-inline constexpr int kExitBadInput = 2;  // one sentence on stderr for each fault
+inline constexpr int kExitBadInput = 2;     // one sentence on stderr for each fault
+inline constexpr int kExitNotWritten = 74;  // ran, but what it was to keep is not whole (EX_IOERR)
 
 struct ServeOptions {
   std::string cell_file;

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <iostream>
@@ -27,26 +28,30 @@ bool parse_listen(const std::string& text, std::string& address, std::uint16_t& 
   return ec == std::errc{} && stop == end;
 }
 
-// The dashboard as built: beside the repository's build folder, or beside the binary.
+// The dashboard as built: beside the repository's build folder, where it was installed, or beside
+// the binary.
 fs::path web_folder(const std::string& asked) {
   if (!asked.empty()) return asked;
   std::error_code ec;
-  const fs::path binary = fs::read_symlink("/proc/self/exe", ec);
-  const fs::path in_repository = binary.parent_path().parent_path() / "web" / "dist";
-  return fs::is_directory(in_repository, ec) ? in_repository : binary.parent_path() / "web";
+  const fs::path folder = fs::read_symlink("/proc/self/exe", ec).parent_path();
+  for (const fs::path& candidate : {folder.parent_path() / "web" / "dist",
+                                    folder.parent_path() / "share" / "armloom" / "web"}) {
+    if (fs::is_directory(candidate, ec)) return candidate;
+  }
+  return folder / "web";
 }
 
 // Each connection is a file descriptor: takes as many as the system gives, leaves some for files
 // and returns how many connections there may be.
 std::size_t connections_within_descriptors(std::size_t wanted) {
-  constexpr rlim_t kOther = 64;
+  constexpr rlim_t kOther = 64;  // of which few are needed: half of the descriptors, if fewer
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
   limit.rlim_cur = limit.rlim_max;
   setrlimit(RLIMIT_NOFILE, &limit);
   getrlimit(RLIMIT_NOFILE, &limit);
   if (limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= wanted + kOther) return wanted;
-  return limit.rlim_cur > 2 * kOther ? static_cast<std::size_t>(limit.rlim_cur - kOther) : kOther;
+  return static_cast<std::size_t>(limit.rlim_cur - std::min<rlim_t>(kOther, limit.rlim_cur / 2));
 }
 
 std::string dashboard_address(const std::string& address, std::uint16_t port) {
@@ -93,7 +98,9 @@ int serve(const ServeOptions& options) {
   if (!options.data.empty()) service_options.data = options.data;
   service_options.record_states = options.record;
   service_options.connections_max = connections_within_descriptors(service_options.connections_max);
+  service_options.alarm = [](const std::string& what) { spdlog::error("{}", what); };
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file may not grow: said as any other that cannot be written
 
   auto service = Service::start(loaded->cell, {loaded->file, loaded->text}, service_options);
   if (!service) {
@@ -112,8 +119,10 @@ int serve(const ServeOptions& options) {
   std::cout << "dashboard: " << dashboard_address(service_options.address, (*service)->port())
             << std::endl;
   (*service)->run(true);
+  const auto lost = (*service)->close();
+  if (lost) spdlog::error("the recording is not whole: {}", *lost);
   spdlog::info("stopped");
-  return kExitDone;
+  return lost ? kExitNotWritten : kExitDone;
 }
 
 }  // namespace armloom

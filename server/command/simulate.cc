@@ -110,9 +110,11 @@ int simulate_jobs(const SimulateOptions& options) {
 
   complain_of_refusals(*result, options.jobs_file);
   complain_of_ends(*result);
-  if (recording != nullptr && !recording->good()) {
-    return refuse("", {Problem{ProblemKind::unavailable, "cannot-write", "--out",
-                               "the recording could not be written whole", options.out}});
+  if (recording != nullptr) recording->close();
+  if (const auto fault = recording != nullptr ? recording->fault() : std::nullopt) {
+    return refuse("",
+                  {Problem{ProblemKind::unavailable, "cannot-write", "--out",
+                           "the recording could not be written whole: " + *fault, options.out}});
   }
   const std::string& policy = options.policy.empty() ? cell.scheduling.policy : options.policy;
   std::cout << summary_json(policy, watcher.backlogged(), summarise(*result, first_submit), *result,

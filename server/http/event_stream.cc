@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "server/http/security_headers.h"
 #include "server/http/stream_session.h"
 
 namespace armloom {
@@ -13,31 +14,37 @@ namespace {
 
 namespace beast = boost::beast;
 
-constexpr int kSendBuffer = 128 * 1024;
-
 constexpr std::string_view kHead =
     "HTTP/1.1 200 OK\r\nServer: armloom\r\nContent-Type: text/event-stream\r\n"
-    "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nConnection: close\r\n\r\n";
+    "Cache-Control: no-store\r\nConnection: close\r\n";
+
+std::string head() {
+  std::string text(kHead);
+  const auto add = [&](std::string_view name, std::string_view value) {
+    text.append(name).append(": ").append(value).append("\r\n");
+  };
+  for (const auto& [name, value] : kSecurityHeaders) add(name, value);
+  add("Content-Security-Policy", kNoPagePolicy);
+  return text + "\r\n";
+}
 
 class SentEvents final : public StreamCarrier {
  public:
-  SentEvents(beast::tcp_stream stream, std::string id, std::chrono::milliseconds send_time)
-      : stream_(std::move(stream)), id_(std::move(id)), send_time_(send_time) {
+  SentEvents(beast::tcp_stream stream, std::string id, int send_buffer)
+      : stream_(std::move(stream)), id_(std::move(id)) {
     ErrorCode ignored;
-    stream_.socket().set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
+    stream_.socket().set_option(asio::socket_base::send_buffer_size(send_buffer), ignored);
     stream_.expires_never();
   }
 
   asio::any_io_executor executor() override { return stream_.get_executor(); }
-  // A client has nothing to say here; that it has gone is what is waited for, without the stream's
-  // timeout, which is one for each write and would cut the reading off with it.
+  // A client has nothing to say here; that it has gone is what is waited for.
   asio::awaitable<void> read_until_closed() override {
     std::array<char, 1024> sink;
     ErrorCode ec;
     while (!ec) co_await stream_.socket().async_read_some(asio::buffer(sink), into(ec));
   }
   asio::awaitable<void> write(std::string_view text, ErrorCode& ec) {
-    stream_.expires_after(send_time_);
     co_await asio::async_write(stream_, asio::buffer(text), into(ec));
   }
   asio::awaitable<void> send(const Feed::Message& message, ErrorCode& ec) override {
@@ -57,21 +64,22 @@ class SentEvents final : public StreamCarrier {
     co_await write(text, ec);
   }
   void close() override { stream_.close(); }
+  void cut() override { stream_.close(); }
 
  private:
   beast::tcp_stream stream_;
   std::string id_;
-  std::chrono::milliseconds send_time_;
 };
 
 }  // namespace
 
 asio::awaitable<void> serve_event_stream(beast::tcp_stream stream, EventStream events,
                                          const Site& site) {
-  const auto carrier = std::make_shared<SentEvents>(std::move(stream), events.id, site.send_time);
+  const auto carrier = std::make_shared<SentEvents>(std::move(stream), events.id, site.send_buffer);
   ErrorCode ec;
-  co_await carrier->write(kHead, ec);
-  if (!ec) co_await carry(std::move(events), carrier, site.keep_alive);
+  const std::string first = head();
+  co_await carrier->write(first, ec);
+  if (!ec) co_await carry(std::move(events), carrier, {site.send_time, site.keep_alive});
 }
 
 }  // namespace armloom

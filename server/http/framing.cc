@@ -88,6 +88,29 @@ std::string host_of(std::string_view authority) {
   return host;
 }
 
+std::optional<AbsoluteTarget> split_absolute_target(std::string_view target) {
+  const std::size_t scheme = target.find("://");
+  if (scheme == target.npos || (!equals_ignoring_case(target.substr(0, scheme), "http") &&
+                                !equals_ignoring_case(target.substr(0, scheme), "https"))) {
+    return std::nullopt;
+  }
+  target.remove_prefix(scheme + 3);
+  const std::size_t end = std::min(target.find_first_of("/?#"), target.size());
+  if (!valid_authority(target.substr(0, end))) return std::nullopt;
+  AbsoluteTarget split{std::string(target.substr(0, end)), std::string(target.substr(end))};
+  if (!split.rest.starts_with('/')) split.rest.insert(0, "/");
+  return split;
+}
+
+// 128 bits are 22 digits of which the last one has four bits to spare, and two for padding.
+bool is_websocket_key(std::string_view key) {
+  static constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  return key.size() == 24 && key.ends_with("==") &&
+         key.substr(0, 22).find_first_not_of(kDigits) == key.npos &&
+         kDigits.find(key[21]) % 16 == 0;
+}
+
 bool may_command(const std::string& host, const HostRule& rule) {
   in6_addr address{};
   if (inet_pton(AF_INET, host.c_str(), &address) == 1) return true;

@@ -37,7 +37,18 @@ struct FramingFault {
 // The host of an authority, in small letters, without port, brackets and a last dot.
 [[nodiscard]] std::string host_of(std::string_view authority);
 
-// Whether the server may be commanded by this name.
+// A target in absolute-form ("http://host:port/path?query"), in its two parts; absent: it is not,
+// or its authority is not valid. An empty path is "/".
+struct AbsoluteTarget {
+  std::string authority;
+  std::string rest;
+};
+[[nodiscard]] std::optional<AbsoluteTarget> split_absolute_target(std::string_view target);
+
+// Whether `key` is sixteen bytes in base64 (RFC 6455, 4.1).
+[[nodiscard]] bool is_websocket_key(std::string_view key);
+
+// Whether the server may be asked by this name.
 [[nodiscard]] bool may_command(const std::string& host, const HostRule& rule);
 
 }  // namespace armloom

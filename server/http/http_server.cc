@@ -1,5 +1,6 @@
 #include "server/http/http_server.h"
 
+#include <csignal>
 #include <utility>
 
 #include "server/http/asio.h"
@@ -8,9 +9,10 @@
 namespace armloom {
 namespace {
 
-constexpr std::chrono::seconds kFarewell{1};            // for readers to read to the end
-constexpr std::size_t kRefusingMax = 32;                // at once; beyond, closed without a word
-constexpr auto kWindDownMax = std::chrono::seconds(5);  // for arms to come to rest
+constexpr std::chrono::milliseconds kFarewell{500};  // for readers to read to the end
+constexpr std::size_t kRefusingMax = 32;             // at once; beyond, closed without a word
+// For arms to come to rest: with the farewell, the process ends within two seconds.
+constexpr std::chrono::milliseconds kWindDownMax{1200};
 
 Problem cannot_listen(const std::string& address, std::uint16_t port, const std::string& why) {
   const std::string place = address + ":" + std::to_string(port);
@@ -33,15 +35,23 @@ class HttpServer::Impl {
     if (!ec) acceptor_.set_option(asio::socket_base::reuse_address(true), ec);
     if (!ec) acceptor_.bind(endpoint, ec);
     if (!ec) acceptor_.listen(asio::socket_base::max_listen_connections, ec);
+    if (!ec) acceptor_.non_blocking(true, ec);
+    if (!ec) spare_.open(tcp::v4(), ec);
     if (ec) return cannot_listen(address, port, ec.message());
     return std::nullopt;
   }
 
   void run(Site site, bool until_signal) {
     site_ = std::move(site);
+    memory_.emplace(site_.memory_max);
     if (until_signal) {
       signals_.add(SIGINT);
       signals_.add(SIGTERM);
+      // The terminal is closed; but nohup has said that this is nothing to us.
+      struct sigaction hangup {};
+      if (sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN) {
+        signals_.add(SIGHUP);
+      }
       signals_.async_wait([this](ErrorCode ec, int) {
         if (!ec) wind_down();
       });
@@ -80,20 +90,19 @@ class HttpServer::Impl {
 
   asio::awaitable<void> serve(tcp::socket socket) {
     ++connections_;
-    co_await serve_connection(std::move(socket), site_);
+    co_await serve_connection(std::move(socket), site_, *memory_);
     if (--connections_ == 0 && said_farewell_) io_.stop();
   }
 
   asio::awaitable<void> refuse(tcp::socket socket) {
+    const std::string why = connections_ < connections_max_
+                                ? "the system gives no more file descriptors"
+                                : std::to_string(connections_max_) +
+                                      " connections are open, more are not served at once";
     Response full = site_.refuse(
-        {503,
-         "too-many-connections",
-         std::to_string(connections_max_) + " connections are open, more are not served at once",
-         std::nullopt,
-         std::nullopt,
-         {{"Retry-After", "1"}}});
+        {503, "too-many-connections", why, std::nullopt, std::nullopt, {{"Retry-After", "1"}}});
     ++refusing_;
-    co_await refuse_connection(std::move(socket), std::move(full));
+    co_await refuse_connection(std::move(socket), std::move(full), *memory_);
     --refusing_;
   }
 
@@ -103,6 +112,17 @@ class HttpServer::Impl {
     } else if (refusing_ < kRefusingMax) {
       asio::co_spawn(io_, refuse(std::move(socket)), asio::detached);
     }
+  }
+
+  // The system gives no descriptor for whoever comes: the one that was kept for this takes them,
+  // one after the other, to be told so.
+  asio::awaitable<void> refuse_with_spare() {
+    ErrorCode ec;
+    spare_.close(ec);
+    tcp::socket socket(io_);
+    acceptor_.accept(socket, ec);
+    if (!ec) co_await refuse(std::move(socket));
+    spare_.open(tcp::v4(), ec);
   }
 
   asio::awaitable<void> accept() {
@@ -115,15 +135,20 @@ class HttpServer::Impl {
         continue;
       }
       if (ending_) co_return;
-      // Out of file descriptors, most likely: others must end first.
+      if (ec == boost::system::errc::too_many_files_open && spare_.is_open()) {
+        co_await refuse_with_spare();
+        continue;
+      }
       pause.expires_after(std::chrono::milliseconds(50));
       co_await pause.async_wait(into(ec));
     }
   }
 
   Site site_;  // outlives the connections, which end with io_
+  std::optional<MemoryBudget> memory_;
   asio::io_context io_{1};
   tcp::acceptor acceptor_{io_};
+  tcp::socket spare_{io_};  // a descriptor for refusing whoever comes when there is no other
   asio::signal_set signals_{io_};
   asio::steady_timer farewell_{io_};
   const std::size_t connections_max_;

@@ -113,4 +113,28 @@ Refusal refusal_of(int status, const Problem& problem) {
                  value != nullptr ? std::optional(*value) : std::nullopt};
 }
 
+void answer_conditionally(const Request& request, Response& response) {
+  if (!request.if_none_match || response.status != 200 || request.method != "GET") return;
+  const auto tag =
+      std::ranges::find(response.headers, "ETag", &std::pair<std::string, std::string>::first);
+  if (tag == response.headers.end()) return;
+  const auto strong = [](std::string_view text) {
+    return text.starts_with("W/") ? text.substr(2) : text;
+  };
+  bool matches = false;
+  std::string_view rest = *request.if_none_match;
+  while (!rest.empty() && !matches) {
+    std::string_view one = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
+    while (one.starts_with(' ') || one.starts_with('\t')) one.remove_prefix(1);
+    while (one.ends_with(' ') || one.ends_with('\t')) one.remove_suffix(1);
+    matches = one == "*" || strong(one) == strong(tag->second);
+  }
+  if (!matches) return;
+  response.status = 304;
+  response.content_type.clear();
+  response.body.clear();
+  response.shared.reset();
+}
+
 }  // namespace armloom

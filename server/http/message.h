@@ -54,9 +54,12 @@ struct Request {
   std::optional<std::string> content_type = {};
   std::optional<std::string> content_encoding = {};
   std::optional<std::string> last_event_id = {};  // of a reader of events who comes back
-  std::optional<Refusal> foreign = {};  // why whoever asks may only read; absent: may command
-  bool upgrade = false;                 // wants a WebSocket
-  std::string body = {};
+  std::optional<std::string> if_none_match = {};
+  std::string accept_encoding = {};      // all of it, commas between
+  std::optional<Refusal> stranger = {};  // why whoever asks may not even read; absent: may
+  std::optional<Refusal> foreign = {};   // why whoever asks may not command; absent: may
+  bool upgrade = false;                  // wants a WebSocket
+  std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
 };
 
 // Why a reader of the event stream is sent away.
@@ -96,13 +99,17 @@ struct Response {
   std::string body = {};
   std::vector<std::pair<std::string, std::string>> headers = {};
   std::optional<EventStream> events = {};
+  std::shared_ptr<const std::string> shared = {};  // instead of `body`: many read the same bytes
 };
 
 // To be called exactly once, on the server's thread.
 using Respond = std::function<void(Response)>;
 using WriteRefusal = std::function<Response(const Refusal&)>;
 
-// By which names the server may be commanded: a page whose name an attacker lets point here is of
+// Makes a 304 of an answer whose ETag the request names in If-None-Match (RFC 9110, 13.1.2).
+void answer_conditionally(const Request& request, Response& response);
+
+// By which names the server may be asked: a page whose name an attacker lets point here is of
 // the same origin to a browser, and only its Host tells. IP addresses and localhost always may.
 struct HostRule {
   std::vector<std::string> names;  // further ones
@@ -113,14 +120,18 @@ struct HostRule {
 // through its callback, at once or later. The request is only valid during the call.
 struct Site {
   std::function<void(const Request&, Respond)> handle;
+  // The answer to a request that is refused whatever its body says; absent: `handle` answers it.
+  std::function<std::optional<Response>(const Request&)> refuse_unread;
   WriteRefusal refuse;  // what is wrong with HTTP itself: framing, limits, targets
   // The server is asked to end: bring everything to rest, then call `done` (from any thread).
   std::function<void(std::function<void()> done)> wind_down;
-  std::function<void()> end;                     // the server ends: every feed says farewell
-  HostRule hosts;                                // by which names commands may come
-  std::chrono::milliseconds keep_alive{15'000};  // no event for so long: a comment line is sent
-  std::chrono::milliseconds send_time{30'000};   // that one such event may take; then it is cut
-  std::chrono::milliseconds read_time{10'000};   // for a whole header, and for a whole body
+  std::function<void()> end;                        // the server ends: every feed says farewell
+  HostRule hosts;                                   // by which names requests may come
+  std::chrono::milliseconds keep_alive{15'000};     // no event for so long: a comment line is sent
+  std::chrono::milliseconds send_time{30'000};      // that one message may take; then it is cut
+  int send_buffer = 128 * 1024;                     // of a stream: bounds how old a pose can arrive
+  std::chrono::milliseconds read_time{10'000};      // for a whole header, and for a whole body
+  std::size_t memory_max = std::size_t{64} << 20U;  // of large bodies and answers, all together
 };
 
 }  // namespace armloom

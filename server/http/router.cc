@@ -1,6 +1,7 @@
 #include "server/http/router.h"
 
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace armloom {
@@ -35,44 +36,83 @@ std::optional<Router::Arguments> match(const std::vector<std::string>& pattern,
 
 void Router::add(std::string method, std::string_view pattern, Who who, Answer answer,
                  std::vector<std::string> parameters) {
-  routes_.push_back(Route{std::move(method), segments_of(pattern), who, std::move(answer),
-                          std::move(parameters)});
+  routes_.push_back(Route{std::move(method), std::string(pattern), segments_of(pattern), who,
+                          std::move(answer), std::move(parameters)});
 }
 
-std::string Router::allowed_at(const std::vector<std::string>& path) const {
-  std::string allow;
+// Of what is served there; "*": anywhere. HEAD goes with GET, and OPTIONS with all.
+std::string Router::allowed_at(const std::string& path) const {
+  std::set<std::string> methods;
+  const bool everywhere = path == "*";
+  const auto segments = everywhere ? std::vector<std::string>{} : segments_of(path);
   for (const Route& route : routes_) {
-    if (!match(route.segments, path)) continue;
-    allow += (allow.empty() ? "" : ", ") + route.method + (route.method == "GET" ? ", HEAD" : "");
+    if (!everywhere && !match(route.segments, segments)) continue;
+    methods.insert(route.method);
+    if (route.method == "GET") methods.insert("HEAD");
   }
+  if (methods.empty()) return "";
+  methods.insert("OPTIONS");
+  std::string allow;
+  for (const std::string& method : methods) allow += (allow.empty() ? "" : ", ") + method;
   return allow;
 }
 
-void Router::dispatch(const Request& request, Respond respond) const {
+Router::Found Router::find(const Request& request) const {
+  if (request.method == "OPTIONS") return {};
   const std::vector<std::string> path = segments_of(request.target.path);
   for (const Route& route : routes_) {
     if (route.method != request.method) continue;
-    const auto arguments = match(route.segments, path);
-    if (!arguments) continue;
-    if (route.who == Who::own && request.foreign) return respond(refuse_(*request.foreign));
-    if (const auto unknown = unknown_parameter(request.target, route.parameters)) {
-      return respond(refuse_(refusal_of(400, *unknown)));
-    }
-    return route.answer(request, *arguments, respond);
+    if (auto arguments = match(route.segments, path)) return {&route, std::move(*arguments)};
   }
-  if (request.foreign && request.method != "GET") return respond(refuse_(*request.foreign));
-  const std::string allow = allowed_at(path);
-  if (!allow.empty()) {
-    return respond(refuse_({405,
-                            "method-not-allowed",
-                            request.method + " is not served here; allowed: " + allow,
-                            std::nullopt,
-                            request.method,
-                            {{"Allow", allow}}}));
+  return {};
+}
+
+std::optional<Response> Router::refusal(const Request& request, const Found& found) const {
+  const Who who = found.route != nullptr    ? found.route->who
+                  : request.method == "GET" ? Who::reader
+                                            : Who::commander;
+  if (who != Who::anyone && request.stranger) return refuse_(*request.stranger);
+  if (who == Who::commander && request.foreign) return refuse_(*request.foreign);
+  if (found.route != nullptr) {
+    const auto unknown = unknown_parameter(request.target, found.route->parameters);
+    return unknown ? std::optional(refuse_(refusal_of(400, *unknown))) : std::nullopt;
   }
-  if (otherwise_) return otherwise_(request, {}, respond);
-  respond(refuse_({404, "not-found", "nothing is served at " + request.target.path,
-                   "request target", request.target.path}));
+  const std::string allow = allowed_at(request.target.path);
+  if (allow.empty()) return std::nullopt;
+  if (request.method == "OPTIONS") return Response{204, "", "", {{"Allow", allow}}};
+  return refuse_({405,
+                  "method-not-allowed",
+                  request.method + " is not served here; allowed: " + allow,
+                  std::nullopt,
+                  request.method,
+                  {{"Allow", allow}}});
+}
+
+Response Router::unrouted(const Request& request) const {
+  if (otherwise_) return otherwise_(request);
+  return refuse_({404, "not-found", "nothing is served at " + request.target.path, "request target",
+                  request.target.path});
+}
+
+std::optional<Response> Router::refuse_unread(const Request& request) const {
+  const Found found = find(request);
+  auto refused = refusal(request, found);
+  return refused || found.route != nullptr ? std::move(refused) : unrouted(request);
+}
+
+void Router::dispatch(const Request& request, Respond respond) const {
+  const Found found = find(request);
+  if (watch_) {
+    respond = [this, method = request.method, route = found.route, inner = std::move(respond),
+               asked = std::chrono::steady_clock::now()](Response response) {
+      watch_(method, route == nullptr ? "" : route->pattern, response.status,
+             std::chrono::steady_clock::now() - asked);
+      inner(std::move(response));
+    };
+  }
+  if (auto refused = refusal(request, found)) return respond(std::move(*refused));
+  if (found.route == nullptr) return respond(unrouted(request));
+  found.route->answer(request, found.arguments, std::move(respond));
 }
 
 }  // namespace armloom

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,8 +12,10 @@
 
 namespace armloom {
 
-// Whose requests are served: everybody's, or only commands of the site's own pages and of programs.
-enum class Who { anyone, own };
+// Whose requests are served. Anyone's, by whatever name they come: probes. Readers': those that
+// come by a name that is the server's, pages of other sites among them (a browser does not show
+// them the answer). Commanders': of those, the site's own pages, and programs.
+enum class Who { anyone, reader, commander };
 
 // Which function answers which method and path. A pattern is a path in which {id} stands for any
 // one non-empty segment: "/jobs/{id}".
@@ -26,27 +30,43 @@ class Router {
   // `parameters`: those that the query may have.
   void add(std::string method, std::string_view pattern, Who who, Answer answer,
            std::vector<std::string> parameters = {});
-  // Answers requests for paths that no pattern fits (the dashboard's files).
-  void otherwise(Answer answer) { otherwise_ = std::move(answer); }
+  // Is told of every answer that dispatch() gives: method, the pattern that fits ("": none),
+  // status, and how long it took.
+  using Watch =
+      std::function<void(const std::string&, const std::string&, int, std::chrono::nanoseconds)>;
+  void watch(Watch watch) { watch_ = std::move(watch); }
+  // Answers requests for paths that no pattern fits (the dashboard's files), without their bodies.
+  void otherwise(std::function<Response(const Request&)> answer) { otherwise_ = std::move(answer); }
 
-  // 403 when a foreign page asks for what is not for anyone, 400 when the query has an unknown
-  // parameter (not for what otherwise() answers), 404 when nothing fits the path, 405 with Allow
-  // when only the method does not fit.
+  // 403 when a stranger, or a foreign page, asks for what is not for such, 400 when the query has
+  // an unknown parameter (not for what otherwise() answers), 404 when nothing fits the path, 405
+  // with Allow when only the method does not fit. OPTIONS is answered here: 204 with Allow.
   void dispatch(const Request& request, Respond respond) const;
+  // What dispatch() will answer whatever the body says; absent: a route's function answers.
+  [[nodiscard]] std::optional<Response> refuse_unread(const Request& request) const;
 
  private:
   struct Route {
     std::string method;
+    std::string pattern;
     std::vector<std::string> segments;
     Who who;
     Answer answer;
     std::vector<std::string> parameters;
   };
-  [[nodiscard]] std::string allowed_at(const std::vector<std::string>& path) const;
+  struct Found {
+    const Route* route = nullptr;
+    Arguments arguments;
+  };
+  [[nodiscard]] Found find(const Request& request) const;
+  [[nodiscard]] std::string allowed_at(const std::string& path) const;
+  [[nodiscard]] std::optional<Response> refusal(const Request& request, const Found& found) const;
+  [[nodiscard]] Response unrouted(const Request& request) const;
 
   WriteRefusal refuse_;
   std::vector<Route> routes_;
-  Answer otherwise_;
+  Watch watch_;
+  std::function<Response(const Request&)> otherwise_;
 };
 
 }  // namespace armloom

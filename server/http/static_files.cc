@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <string_view>
+
+#include "server/http/security_headers.h"
 
 namespace armloom {
 namespace {
@@ -44,42 +44,81 @@ bool has_hidden_part(const fs::path& relative) {
                      [](const fs::path& part) { return part.string().starts_with('.'); });
 }
 
-// The regular file that `relative` leads to inside `folder`, links followed; empty when there is
-// none.
-fs::path file_inside(const fs::path& folder, const fs::path& relative) {
-  std::error_code ec;
-  const fs::path root = fs::canonical(folder, ec);
-  if (ec || has_hidden_part(relative)) return {};
-  const fs::path file = fs::canonical(root / relative, ec);
-  if (ec || !fs::is_regular_file(file, ec)) return {};
-  const auto [end, unused] = std::mismatch(root.begin(), root.end(), file.begin(), file.end());
-  return end == root.end() ? file : fs::path{};
+constexpr std::size_t kHeldMax = std::size_t{64} << 20U;
+
+bool is_text(std::string_view type) {
+  return type.starts_with("text/") || type.starts_with("application/json") ||
+         type.starts_with("image/svg") || type == "application/wasm" ||
+         type == "application/manifest+json" || type == "model/gltf-binary";
 }
 
 }  // namespace
 
-Response StaticFiles::answer(const Request& request) const {
+StaticFiles::StaticFiles(fs::path folder, WriteRefusal refuse)
+    : folder_(std::move(folder)), refuse_(std::move(refuse)) {
+  std::error_code ec;
+  const fs::recursive_directory_iterator end;
+  for (fs::recursive_directory_iterator it(folder_, ec); !ec && it != end; it.increment(ec)) {
+    (void)look_up(it->path().lexically_relative(folder_));  // what is not there is said when asked
+  }
+}
+
+tl::expected<ServedBytes, NoFile> StaticFiles::look_up(const fs::path& relative) {
+  std::error_code ec;
+  const fs::path root = fs::canonical(folder_, ec);
+  if (ec || relative.is_absolute() || has_hidden_part(relative)) {
+    return tl::unexpected(NoFile::absent);
+  }
+  const auto file = OpenFile::open(root / relative, kHeldMax / 2);
+  if (!file) return tl::unexpected(file.error());
+  if (!file->is_inside(root)) return tl::unexpected(NoFile::absent);
+  const auto known = held_.find(file->place());
+  if (known != held_.end() && known->second.stamp == file->stamp()) return known->second.bytes;
+  auto bytes = file->read();
+  if (!bytes) return tl::unexpected(bytes.error());
+  ServedBytes read = served(std::move(*bytes), is_text(type_of(relative)));
+  const std::size_t size = read.plain->size() + (read.packed ? read.packed->size() : 0);
+  if (known != held_.end() || held_bytes_ + size > kHeldMax) {
+    held_.clear();  // the folder was built anew, most likely
+    held_bytes_ = 0;
+  }
+  held_bytes_ += size;
+  held_.emplace(file->place(), Held{file->stamp(), read});
+  return read;
+}
+
+Response StaticFiles::not_served(const std::string& path, NoFile why) const {
+  if (why == NoFile::busy) {
+    return refuse_({503,
+                    "server-busy",
+                    "too many files and connections are open to read this one",
+                    std::nullopt,
+                    std::nullopt,
+                    {{"Retry-After", "1"}}});
+  }
+  return refuse_({404, "not-found",
+                  path == "/" ? "the dashboard is not built; ./server/run builds it"
+                              : "nothing is served at " + path,
+                  "request target", path});
+}
+
+Response StaticFiles::answer(const Request& request) {
+  static constexpr const char* kAllow = "GET, HEAD, OPTIONS";
+  if (request.method == "OPTIONS") return Response{204, "", "", {{"Allow", kAllow}}};
   if (request.method != "GET") {
     return refuse_({405,
                     "method-not-allowed",
                     "files can only be read",
                     std::nullopt,
                     request.method,
-                    {{"Allow", "GET, HEAD"}}});
+                    {{"Allow", kAllow}}});
   }
   const std::string& path = request.target.path;
-  const fs::path file = file_inside(folder_, path == "/" ? "index.html" : path.substr(1));
-  std::ifstream in(file, std::ios::binary);
-  if (file.empty() || !in) {
-    const bool no_dashboard = path == "/";
-    return refuse_({404, "not-found",
-                    no_dashboard ? "the dashboard is not built; ./server/run builds it"
-                                 : "nothing is served at " + path,
-                    "request target", path});
-  }
-  Response response;
-  response.content_type = type_of(file);
-  response.body.assign(std::istreambuf_iterator<char>(in), {});
+  const fs::path relative = path == "/" ? "index.html" : path.substr(1);
+  const auto bytes = look_up(relative);
+  if (!bytes) return not_served(path, bytes.error());
+  Response response = answer_bytes(request, *bytes, std::string(type_of(relative)));
+  response.headers.emplace_back("Content-Security-Policy", std::string(kPagePolicy));
   const bool hashed = path.starts_with("/assets/");
   response.headers.emplace_back("Cache-Control",
                                 hashed ? "public, max-age=31536000, immutable" : "no-cache");

@@ -1,5 +1,7 @@
 #include "server/http/stream_session.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace armloom {
@@ -7,15 +9,55 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// What a reader that is too far behind has left for the message that it is at, to be told why.
+constexpr std::chrono::seconds kLastMessage{2};
+
 // What reader and writer of one stream share.
-struct Session {
+class Session : public std::enable_shared_from_this<Session> {
+ public:
   Session(std::shared_ptr<StreamCarrier> on, FeedPtr of)
-      : carrier(std::move(on)), feed(std::move(of)), news(carrier->executor()) {}
+      : carrier(std::move(on)),
+        feed(std::move(of)),
+        news(carrier->executor()),
+        deadline_(carrier->executor()) {}
+
+  // The message under way may take so long.
+  void begin_sending(std::chrono::milliseconds time) {
+    sending_ = true;
+    cut_at(Clock::now() + time);
+  }
+  void end_sending() {
+    sending_ = false;
+    ++deadlines_;
+    deadline_.cancel();
+  }
+  void look_at_news() {
+    news.cancel();
+    if (!sending_ || hurried_) return;
+    const auto farewell = feed->farewell();
+    hurried_ = farewell && farewell->why == Farewell::Why::too_slow;
+    if (hurried_) cut_at(std::min(deadline_.expiry(), Clock::now() + kLastMessage));
+  }
 
   std::shared_ptr<StreamCarrier> carrier;
   FeedPtr feed;
   asio::steady_timer news;  // cancelled when there is something to do
   bool closed = false;
+
+ private:
+  void cut_at(Clock::time_point time) {
+    deadline_.expires_at(time);
+    // A deadline that has passed in the same instant as the message was sent does not count.
+    deadline_.async_wait([self = weak_from_this(), number = ++deadlines_](ErrorCode ec) {
+      const auto session = self.lock();
+      if (!ec && session && session->deadlines_ == number) session->carrier->cut();
+    });
+  }
+
+  asio::steady_timer deadline_;
+  std::uint64_t deadlines_ = 0;
+  bool sending_ = false;
+  bool hurried_ = false;
 };
 
 asio::awaitable<void> watch(std::shared_ptr<Session> session) {
@@ -32,32 +74,38 @@ Clock::time_point after(std::chrono::milliseconds pause) {
 }  // namespace
 
 asio::awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier,
-                            std::chrono::milliseconds keep_alive) {
+                            StreamTimes times) {
   const auto session = std::make_shared<Session>(carrier, events.feed);
   events.feed->on_news([weak = std::weak_ptr(session)] {
-    if (const auto still = weak.lock()) still->news.cancel();
+    if (const auto still = weak.lock()) still->look_at_news();
   });
   asio::co_spawn(carrier->executor(), watch(session), asio::detached);
   ErrorCode ec;
   // Counted from the last byte sent: news that this reader does not get wakes it, too.
-  auto keep_alive_at = after(keep_alive);
+  auto keep_alive_at = after(times.keep_alive);
   while (!ec && !session->closed) {
     if (const auto farewell = session->feed->farewell()) {
+      session->begin_sending(times.send);
       co_await carrier->say_farewell(*farewell, ec);
+      session->end_sending();
       break;
     }
     if (const auto message = session->feed->next()) {
       if (!message->seq && !events.frames) continue;
+      session->begin_sending(times.send);
       co_await carrier->send(*message, ec);
-      keep_alive_at = after(keep_alive);
+      session->end_sending();
+      keep_alive_at = after(times.keep_alive);
       continue;
     }
     session->news.expires_at(keep_alive_at);
     ErrorCode woken;
     co_await session->news.async_wait(into(woken));
     if (woken) continue;
+    session->begin_sending(times.send);
     co_await carrier->keep_alive(ec);
-    keep_alive_at = after(keep_alive);
+    session->end_sending();
+    keep_alive_at = after(times.keep_alive);
   }
   carrier->close();
 }

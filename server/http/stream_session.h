@@ -20,11 +20,20 @@ class StreamCarrier {
   virtual asio::awaitable<void> keep_alive(ErrorCode& ec) = 0;
   virtual asio::awaitable<void> say_farewell(const Farewell& farewell, ErrorCode& ec) = 0;
   virtual void close() = 0;
+  // At once, whatever is under way, which then ends with an error.
+  virtual void cut() = 0;
 };
 
-// Sends what the feed has until either side ends it. `keep_alive`: max(): the carrier sees for
-// itself whether its reader is still there.
+struct StreamTimes {
+  std::chrono::milliseconds send;  // that one message may take; then the reader is cut off
+  // Without a message: keep_alive(). max(): the carrier sees for itself whether its reader is
+  // there.
+  std::chrono::milliseconds keep_alive;
+};
+
+// Sends what the feed has until either side ends it. A reader that lets a message wait for longer
+// than it may, or falls farther behind than the feed holds, is cut off, whatever it sends itself.
 asio::awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier,
-                            std::chrono::milliseconds keep_alive);
+                            StreamTimes times);
 
 }  // namespace armloom

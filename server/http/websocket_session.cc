@@ -1,6 +1,7 @@
 #include "server/http/websocket_session.h"
 
 #include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
 #include <chrono>
 #include <memory>
@@ -17,15 +18,14 @@ namespace websocket = beast::websocket;
 constexpr std::chrono::seconds kIdle{
     30};  // then the peer is pinged, and dropped if it stays silent
 constexpr std::size_t kMessageMax = 4096;  // that a client may send
-constexpr int kSendBuffer = 128 * 1024;    // bounds how old a pose can be when it arrives
 
 class WebSocket final : public StreamCarrier {
  public:
-  explicit WebSocket(beast::tcp_stream stream) : socket_(std::move(stream)) {
+  WebSocket(beast::tcp_stream stream, int send_buffer) : socket_(std::move(stream)) {
     ErrorCode ignored;
     beast::get_lowest_layer(socket_).expires_never();
     beast::get_lowest_layer(socket_).socket().set_option(
-        asio::socket_base::send_buffer_size(kSendBuffer), ignored);
+        asio::socket_base::send_buffer_size(send_buffer), ignored);
     socket_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), kIdle, true});
     socket_.read_message_max(kMessageMax);
     socket_.auto_fragment(false);
@@ -58,6 +58,7 @@ class WebSocket final : public StreamCarrier {
     co_await socket_.async_close(reason, into(ec));
   }
   void close() override {}  // the closing handshake, or the timeout, has done it
+  void cut() override { beast::get_lowest_layer(socket_).close(); }
 
  private:
   websocket::stream<beast::tcp_stream> socket_;
@@ -65,13 +66,14 @@ class WebSocket final : public StreamCarrier {
 
 }  // namespace
 
-asio::awaitable<void> serve_websocket(beast::tcp_stream stream,
-                                      beast::http::request<beast::http::string_body> upgrade,
-                                      EventStream events) {
-  const auto carrier = std::make_shared<WebSocket>(std::move(stream));
+asio::awaitable<void> serve_websocket(beast::tcp_stream stream, RequestHeader upgrade,
+                                      EventStream events, const Site& site) {
+  const auto carrier = std::make_shared<WebSocket>(std::move(stream), site.send_buffer);
+  const beast::http::request<beast::http::empty_body> request(std::move(upgrade));
   ErrorCode ec;
-  co_await carrier->accept(upgrade, ec);
-  if (!ec) co_await carry(std::move(events), carrier, std::chrono::milliseconds::max());
+  co_await carrier->accept(request, ec);
+  const StreamTimes times{site.send_time, std::chrono::milliseconds::max()};
+  if (!ec) co_await carry(std::move(events), carrier, times);
 }
 
 }  // namespace armloom

@@ -13,10 +13,20 @@ void Broadcast::on_event(const Event& event) {
         std::make_shared<const std::string>(event_json(*event, parts_.stream, &parts_.clock));
     if (parts_.recording != nullptr) parts_.recording->event(*text);
     parts_.hub.publish(event->seq, text);
+    parts_.metrics.happened(*event);
   });
 }
 
+void Broadcast::watch_recording() {
+  if (said_lost_ || parts_.recording == nullptr) return;
+  const auto fault = parts_.recording->fault();
+  if (!fault) return;
+  said_lost_ = true;
+  if (parts_.alarm) parts_.alarm("the recording is no longer whole: " + *fault);
+}
+
 void Broadcast::on_tick(TimePoint now, const Configuration& measured) {
+  parts_.metrics.ticked();
   if (parts_.recording != nullptr) parts_.recording->state(now, measured);
 }
 
@@ -25,13 +35,17 @@ void Broadcast::on_rest(bool at_rest) {
 }
 
 void Broadcast::on_state(const StateFrame& frame) {
+  parts_.metrics.watched(frame);
   const auto now = std::chrono::steady_clock::now();
   if (now < next_frame_) return;
-  next_frame_ = std::max(next_frame_ + kFramePeriod, now);
+  const std::chrono::milliseconds shared(1000 * readers_.load() / kFramesPerSecond);
+  next_frame_ = std::max(next_frame_ + std::max(kFramePeriod, shared), now);
   const auto wall = std::chrono::system_clock::now();
   parts_.post([this, wall, frame = std::make_shared<const StateFrame>(frame)] {
     parts_.clock.observe(frame->time, wall);
-    if (!parts_.hub.has_readers()) return;
+    watch_recording();
+    readers_ = parts_.hub.readers();
+    if (readers_ == 0) return;
     parts_.hub.publish_frame(std::make_shared<const std::string>(state_json(*frame, *parts_.cell)));
   });
 }

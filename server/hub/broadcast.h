@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "core/executive/executive.h"
 #include "server/codec/wall_clock.h"
 #include "server/hub/hub.h"
+#include "server/metrics/metrics.h"
 #include "server/recording/recording.h"
 
 namespace armloom {
@@ -16,7 +18,9 @@ namespace armloom {
 // written as JSON once, kept in the hub and recorded. On the strand it only copies.
 class Broadcast final : public Observer {
  public:
-  inline static constexpr std::chrono::milliseconds kFramePeriod{33};  // of wall time
+  inline static constexpr std::chrono::milliseconds kFramePeriod{33};  // of wall time, at least
+  // Sent to all readers together: more readers get them less often, so that who comes is served.
+  inline static constexpr std::size_t kFramesPerSecond = 20'000;
 
   struct Parts {
     CellPtr cell;
@@ -25,6 +29,9 @@ class Broadcast final : public Observer {
     Hub& hub;
     Recording* recording;                             // null: none
     std::function<void(std::function<void()>)> post;  // to the server's thread, in order
+    // Is told once that the recording is lost, and why; empty: nobody.
+    std::function<void(const std::string&)> alarm;
+    Metrics& metrics;
   };
   explicit Broadcast(Parts parts) : parts_(std::move(parts)) {}
 
@@ -34,8 +41,12 @@ class Broadcast final : public Observer {
   void on_state(const StateFrame& frame) override;
 
  private:
+  void watch_recording();
+
   Parts parts_;
+  bool said_lost_ = false;
   std::chrono::steady_clock::time_point next_frame_{};  // the strand's
+  std::atomic<std::size_t> readers_{0};
 };
 
 }  // namespace armloom

@@ -26,7 +26,7 @@ class Hub::Reader final : public Feed {
     if (hub_.ended_ && has_read_all) {
       return Farewell{Farewell::Why::server_ends, "the server ends"};
     }
-    if (first_ || behind() <= hub_.ring_.size()) return std::nullopt;
+    if (!is_too_slow()) return std::nullopt;
     return Farewell{Farewell::Why::too_slow, "too slow: " + std::to_string(behind()) +
                                                  " events behind, " +
                                                  std::to_string(hub_.ring_.size()) + " are kept"};
@@ -34,32 +34,42 @@ class Hub::Reader final : public Feed {
 
   void on_news(std::function<void()> call) override { news_ = std::move(call); }
 
-  void offer(const Text& frame) { frame_ = frame; }
+  // Whether it had read the one before.
+  bool offer(const Text& frame) { return std::exchange(frame_, frame) == nullptr; }
+  // Whether it has fallen too far behind since it was last asked.
+  bool falls_behind() { return is_too_slow() && !std::exchange(fallen_, true); }
   void tell() {
     if (news_) news_();
   }
 
  private:
+  bool is_too_slow() const { return !first_ && behind() > hub_.ring_.size(); }
   std::size_t behind() const { return static_cast<std::size_t>(hub_.last_seq_ - read_); }
 
   const Hub& hub_;  // the hub outlives every call, not necessarily every reader
   std::uint64_t read_;
   Text first_;
   Text frame_;
+  bool fallen_ = false;
   std::function<void()> news_;
 };
 
 void Hub::publish(std::uint64_t seq, Text event) {
   if (seq != last_seq_ + 1) throw std::logic_error("the event log has a hole");
   last_seq_ = seq;
+  bytes_ += event->size();
   ring_.push_back(std::move(event));
-  if (ring_.size() > capacity_) ring_.pop_front();
+  while (ring_.size() > capacity_ || (bytes_ > bytes_max_ && ring_.size() > 1)) {
+    bytes_ -= ring_.front()->size();
+    ring_.pop_front();
+  }
   tell_readers();
 }
 
 void Hub::publish_frame(Text frame) {
   for (const auto& weak : readers_) {
-    if (const auto reader = weak.lock()) reader->offer(frame);
+    const auto reader = weak.lock();
+    if (reader && !reader->offer(frame)) ++frames_dropped_;
   }
   tell_readers();
 }
@@ -76,15 +86,18 @@ FeedPtr Hub::resume(std::uint64_t since, Text first) {
   return reader;
 }
 
-bool Hub::has_readers() {
+std::size_t Hub::readers() {
   std::erase_if(readers_, [](const auto& weak) { return weak.expired(); });
-  return !readers_.empty();
+  return readers_.size();
 }
 
 void Hub::tell_readers() {
   std::erase_if(readers_, [](const auto& weak) { return weak.expired(); });
   for (const auto& weak : readers_) {
-    if (const auto reader = weak.lock()) reader->tell();
+    const auto reader = weak.lock();
+    if (!reader) continue;
+    if (reader->falls_behind()) ++readers_sent_away_;
+    reader->tell();
   }
 }
 

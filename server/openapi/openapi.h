@@ -12,7 +12,9 @@ namespace armloom {
 [[nodiscard]] const Schema& openapi_document();
 [[nodiscard]] const std::string& openapi_text();
 
-// The page that renders it, built into the program from the file beside this one.
+// The page that renders it, built into the program from the files beside this one.
 [[nodiscard]] std::string_view docs_html();
+[[nodiscard]] std::string_view docs_css();
+[[nodiscard]] std::string_view docs_js();
 
 }  // namespace armloom

@@ -1,7 +1,9 @@
 #include "server/recording/recording.h"
 
+#include <cerrno>
 #include <ctime>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "server/codec/cell_codec.h"
@@ -38,7 +40,15 @@ Result<std::unique_ptr<Recording>> Recording::create(const fs::path& folder, con
                            "the folder " + folder.string() + " cannot be written",
                            folder.string()});
   }
-  cell_copy << relocate_cell_text(source.cell_text, source.cell_file.parent_path(), folder);
+  errno = 0;
+  cell_copy << relocate_cell_text(source.cell_text, source.cell_file.parent_path(), folder)
+            << std::flush;
+  if (!cell_copy) {
+    return failure(Problem{ProblemKind::unavailable, "cannot-write", folder.string(),
+                           "the folder " + folder.string() +
+                               " cannot be written: " + std::generic_category().message(errno),
+                           folder.string()});
+  }
   if (with_states) {
     recording->states_.emplace(folder / "states.csv", cell);
   } else {
@@ -48,24 +58,55 @@ Result<std::unique_ptr<Recording>> Recording::create(const fs::path& folder, con
   return recording;
 }
 
-Recording::~Recording() {
-  if (jobs_open_) jobs_ << "\n]\n";
+Recording::~Recording() { close(); }
+
+void Recording::note_fault(const char* file) {
+  const int why = errno;
+  const char* none = nullptr;
+  if (faulty_.compare_exchange_strong(none, file)) fault_errno_ = why;
+}
+
+std::optional<std::string> Recording::fault() const {
+  const char* file = faulty_;
+  if (file == nullptr) return std::nullopt;
+  const int why = fault_errno_;
+  return file + std::string(": ") +
+         (why == 0 ? "cannot be written" : std::generic_category().message(why));
+}
+
+void Recording::event(std::string_view json) {
+  errno = 0;
+  events_ << json << '\n' << std::flush;
+  if (!events_) note_fault("events.jsonl");
 }
 
 void Recording::jobs_file(std::string_view text) {
-  std::ofstream(folder_ / "jobs.json", std::ios::binary) << text;
+  errno = 0;
+  std::ofstream file(folder_ / "jobs.json", std::ios::binary);
+  file << text << std::flush;
+  if (!file) note_fault("jobs.json");
 }
 
 void Recording::job(TimePoint at, std::string_view body) {
+  errno = 0;
   if (!jobs_open_) jobs_.open(folder_ / "jobs.json", std::ios::binary);
   JsonWriter line;
   line.begin_object().field("at", at).key("job").raw(body).end_object();
-  jobs_ << (jobs_open_ ? ",\n" : "[\n") << line.text();
+  jobs_ << (jobs_open_ ? ",\n" : "[\n") << line.text() << std::flush;
   jobs_open_ = true;
+  if (!jobs_) note_fault("jobs.json");
 }
 
-bool Recording::good() const {
-  return events_.good() && (!states_ || states_->good()) && (!jobs_open_ || jobs_.good());
+void Recording::close() {
+  if (std::exchange(closed_, true)) return;
+  errno = 0;
+  events_.close();
+  if (!events_) note_fault("events.jsonl");
+  if (states_ && !states_->close()) note_fault("states.csv");
+  if (!jobs_open_) return;
+  jobs_ << "\n]\n";
+  jobs_.close();
+  if (!jobs_) note_fault("jobs.json");
 }
 
 Result<std::string> read_text_file(const fs::path& file) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -15,8 +16,9 @@ namespace armloom {
 
 // A recording folder being written: events.jsonl, states.csv (if asked for), cell.json with its
 // paths made relative to the folder, jobs.json. Files of an earlier recording are replaced.
-// A disk that fills up does not stop the run; good() says so. Not thread-safe, but states may be
-// written from another thread than the rest.
+// A disk that fills up does not stop the run; fault() says so, soon: events and jobs are given to
+// the system one by one. Not thread-safe, but states may be written from another thread than the
+// rest.
 class Recording {
  public:
   struct Source {
@@ -33,9 +35,11 @@ class Recording {
       bool with_states);
   ~Recording();
 
-  void event(std::string_view json) { events_ << json << '\n'; }
+  void event(std::string_view json);
   void state(TimePoint time, const Configuration& q) {
-    if (states_) states_->write(time, q);
+    if (!states_) return;
+    states_->write(time, q);
+    if (!states_->good()) note_fault("states.csv");
   }
   // As StatesWriter::at_rest.
   void at_rest(bool at_rest) {
@@ -44,17 +48,24 @@ class Recording {
   // Either the whole jobs file at once, or job by job as they are accepted.
   void jobs_file(std::string_view text);
   void job(TimePoint at, std::string_view body);
-  void flush() { events_.flush(); }
-  [[nodiscard]] bool good() const;
+  // Ends the files; nothing is written after. Precondition: no other thread writes states any more.
+  void close();
+  // What could not be written first, and why: "events.jsonl: No space left on device". Thread-safe.
+  [[nodiscard]] std::optional<std::string> fault() const;
+  [[nodiscard]] bool good() const { return !fault(); }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
   Recording() = default;
+  void note_fault(const char* file);  // errno says why
   std::filesystem::path folder_;
   std::ofstream events_;
   std::optional<StatesWriter> states_;
   std::ofstream jobs_;
   bool jobs_open_ = false;  // an array that has to be closed
+  bool closed_ = false;
+  std::atomic<const char*> faulty_{nullptr};  // the first file that could not be written
+  std::atomic<int> fault_errno_{0};
 };
 
 inline constexpr std::size_t kTextFileMax = std::size_t{256} << 20U;

@@ -172,9 +172,14 @@ StatesWriter::StatesWriter(const std::filesystem::path& file, const Cell& cell)
   buffer_ += '\n';
 }
 
-StatesWriter::~StatesWriter() {
+StatesWriter::~StatesWriter() { close(); }
+
+bool StatesWriter::close() {
+  if (!out_.is_open()) return good();
   end_rest();
   flush();
+  out_.close();
+  return good();
 }
 
 void StatesWriter::write(TimePoint time, const Configuration& q) {

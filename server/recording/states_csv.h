@@ -31,6 +31,8 @@ class StatesWriter {
   void at_rest(bool at_rest) { at_rest_ = at_rest; }
   // Precondition: |q| < 9e8. About 20 ns for each joint.
   void write(TimePoint time, const Configuration& q);
+  // Writes what is held back. Whether all has been written.
+  bool close();
   [[nodiscard]] bool good() const { return out_.good() && idle_.good(); }
 
  private:

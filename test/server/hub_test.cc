@@ -70,6 +70,19 @@ TEST(Hub, SendsAReaderAwayThatFallsBehindAndSaysWhy) {
   EXPECT_FALSE(feed->next());
 }
 
+TEST(Hub, SendsAwayAReaderWhoseEventsAreMoreBytesThanAreKept) {
+  Hub hub(1000, 100);
+  const FeedPtr feed = hub.resume(0);
+  for (std::uint64_t seq = 1; seq <= 4; ++seq) hub.publish(seq, text(std::string(25, 'e')));
+  EXPECT_FALSE(feed->farewell());
+  hub.publish(5, text("e"));
+  ASSERT_TRUE(feed->farewell());
+  EXPECT_EQ(feed->farewell()->why, Farewell::Why::too_slow);
+  // An event alone is kept, however large.
+  hub.publish(6, text(std::string(200, 'e')));
+  EXPECT_TRUE(hub.resume(5)->next());
+}
+
 TEST(Hub, NumbersEventsAndTheSnapshotButNoFrames) {
   Hub hub;
   publish(hub, 1, 3);
@@ -113,9 +126,9 @@ TEST(Hub, RefusesAHoleInTheLog) {
 TEST(Hub, ForgetsReadersThatAreGone) {
   Hub hub;
   FeedPtr feed = hub.resume(0);
-  EXPECT_TRUE(hub.has_readers());
+  EXPECT_EQ(hub.readers(), 1U);
   feed.reset();
-  EXPECT_FALSE(hub.has_readers());
+  EXPECT_EQ(hub.readers(), 0U);
 }
 
 }  // namespace

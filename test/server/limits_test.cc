@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -139,6 +141,85 @@ TEST_F(Limits, AThousandIdleConnectionsChangeNothingForOthers) {
     wire.get()->send(test::request_text("GET", "/healthz", "", ""));
     EXPECT_EQ(test::read_answer(*wire.get()).status, 200);
   }
+}
+
+// It keeps itself alive by pongs, but lets everything wait.
+TEST_F(Limits, AReaderThatNeverReadsIsCutOff) {
+  options_.send_buffer = 4096;
+  options_.send_time = std::chrono::milliseconds(300);
+  start(1.0);
+  for (const std::string& head :
+       {std::string("GET /api/v1/ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
+                    "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+                    "Sec-WebSocket-Version: 13\r\n\r\n"),
+        std::string("GET /api/v1/events?poses=1 HTTP/1.1\r\nHost: localhost\r\n\r\n")}) {
+    test::Wire deaf(port(), 4096);
+    deaf.send(head);
+    const auto deadline = Clock::now() + std::chrono::seconds(20);
+    while (deaf.send(std::string("\x8a\x80\0\0\0\0", 6))) {
+      ASSERT_LT(Clock::now(), deadline) << head;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+}
+
+// Bodies that never end, of many connections: some are told that there is no room, and a stop is
+// taken all the same.
+TEST_F(Limits, UnfinishedBodiesTakeABoundedPartOfTheMemory) {
+  options_.memory_max = 4 << 20U;
+  start(1.0);
+  const std::string head =
+      "POST /api/v1/jobs HTTP/1.1\r\nHost: a.localhost\r\nContent-Type: application/json\r\n"
+      "Content-Length: 1048576\r\n\r\n";
+  std::vector<std::unique_ptr<test::Wire>> held;
+  int refused = 0;
+  for (int i = 0; i < 8; ++i) {
+    held.push_back(std::make_unique<test::Wire>(port()));
+    held.back()->send(head + std::string(1'000'000, ' '));
+    const auto stopped = post("/api/v1/stop", "");  // all that came before has been read by then
+    EXPECT_EQ(stopped.status, 202);
+  }
+  for (const auto& wire : held) {
+    wire->send(std::string(1'048'576 - 1'000'000, ' '));
+    const int status = test::read_answer(*wire).status;
+    EXPECT_TRUE(status == 400 || status == 503) << status;
+    refused += status == 503 ? 1 : 0;
+  }
+  EXPECT_GE(refused, 1);
+  EXPECT_LE(refused, 7);
+  EXPECT_EQ(post("/api/v1/jobs", std::string(1 << 20U, ' ')).status, 400);  // there is room again
+}
+
+// What takes long to read is read aside: the strand of connections goes on.
+TEST_F(Limits, AnEnormousBodyKeepsNobodyWaiting) {
+  start(1.0);
+  std::string body = "{\"jobs\": [";
+  while (body.size() < 8'000'000) body += "{},";
+  body += "{}]}";
+  std::string members = "{";
+  for (int i = 0; i < 20'000; ++i) members += "\"" + std::to_string(i) + "\":0,";
+  members += "\"x\":0}";
+  EXPECT_EQ(post("/api/v1/jobs", members).json()["type"], "urn:armloom:problem:too-many-members");
+  // The longest that anybody waited while it was read, as a share of that time; the best of some
+  // tries, as a machine may have something else to do for once.
+  double share = 1.0;
+  for (int attempt = 0; attempt < 5 && share > 0.5; ++attempt) {
+    std::atomic<bool> answered = false;
+    const auto begin = Clock::now();
+    std::thread reader([&] {
+      EXPECT_EQ(post("/api/v1/batches", body).status, 413);
+      answered = true;
+    });
+    Clock::duration longest{};
+    while (!answered) {
+      const auto asked = Clock::now();
+      EXPECT_EQ(get("/healthz").status, 200);
+      longest = std::max(longest, Clock::now() - asked);
+    }
+    reader.join();
+    share = std::min(share, std::chrono::duration<double>(longest) / (Clock::now() - begin));
+  }
+  EXPECT_LT(share, 0.5);
 }
 
 TEST_F(Limits, AConnectionTooManyIsToldSoAndTheOthersAreServed) {

@@ -87,5 +87,36 @@ TEST_F(MeshRoutes, SayThatAMeshHasGone) {
   EXPECT_EQ(get(address).status, 404);
 }
 
+TEST_F(MeshRoutes, ServeNothingThatALinkLeadsToSinceTheStart) {
+  write("elsewhere.stl", "elsewhere");
+  start(1.0, {}, folder_ / "cell.json");
+  const std::string address =
+      get("/api/v1/cell").json()["robots"][0]["meshes"]["package://p/part.stl"];
+  fs::remove(folder_ / "package/part.stl");
+  fs::create_symlink(folder_ / "elsewhere.stl", folder_ / "package/part.stl");
+  EXPECT_EQ(get(address).status, 404);
+  // Nor where its folder has become one.
+  fs::remove(folder_ / "package/part.stl");
+  write("package/part.stl", small::stl_bytes(box_));
+  EXPECT_EQ(get(address).status, 200);
+  fs::create_directories(folder_ / "other");
+  fs::copy(folder_ / "package/part.stl", folder_ / "other/part.stl");
+  fs::rename(folder_ / "package", folder_ / "was");
+  fs::create_directory_symlink(folder_ / "other", folder_ / "package");
+  EXPECT_EQ(get(address).status, 404);
+}
+
+TEST_F(MeshRoutes, AreNotSentAgainToThoseWhoHaveThem) {
+  start(1.0, {}, folder_ / "cell.json");
+  const std::string address =
+      get("/api/v1/cell").json()["robots"][0]["meshes"]["package://p/part.stl"];
+  const std::string tag = get(address).headers.at("etag");
+  test::Wire wire(port());
+  wire.send("GET " + address +
+            " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nIf-None-Match: " + tag +
+            "\r\n\r\n");
+  EXPECT_TRUE(wire.take_all().starts_with("HTTP/1.1 304 "));
+}
+
 }  // namespace
 }  // namespace armloom

@@ -41,7 +41,7 @@ TEST_F(Routes, AnswerWhatIsNotServedWithAProblem) {
   EXPECT_EQ(get("/api/v1/jobs/").status, 404);
   const auto wrong_method = test::request(port(), "PATCH", "/api/v1/jobs");
   EXPECT_EQ(wrong_method.status, 405);
-  EXPECT_EQ(wrong_method.headers.at("allow"), "POST, GET, HEAD");
+  EXPECT_EQ(wrong_method.headers.at("allow"), "GET, HEAD, OPTIONS, POST");
   EXPECT_EQ(test::request(port(), "DELETE", "/").status, 405);
   EXPECT_EQ(get("/api/v1/ws").status, 426);
   EXPECT_EQ(get("/api/v1/jobs/a%2fb").status, 400);

@@ -17,7 +17,10 @@ constexpr int kPatience_ms = 15'000;
 
 }  // namespace
 
-Wire::Wire(std::uint16_t port) : fd_(socket(AF_INET, SOCK_STREAM, 0)) {
+Wire::Wire(std::uint16_t port, int receive_buffer) : fd_(socket(AF_INET, SOCK_STREAM, 0)) {
+  if (receive_buffer > 0) {
+    setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
+  }
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
@@ -29,12 +32,13 @@ Wire::Wire(std::uint16_t port) : fd_(socket(AF_INET, SOCK_STREAM, 0)) {
 
 Wire::~Wire() { close(fd_); }
 
-void Wire::send(std::string_view bytes) {
+bool Wire::send(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t sent = ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (sent <= 0) return;  // the peer has closed: its answer says why
+    if (sent <= 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(sent));
   }
+  return true;
 }
 
 bool Wire::receive() {

@@ -12,12 +12,14 @@ namespace armloom::test {
 // A plain loopback socket with a deadline on every read: what a client does, byte for byte.
 class Wire {
  public:
-  explicit Wire(std::uint16_t port);
+  // `receive_buffer`: bytes that the system takes for a reader that does not; zero: as it likes.
+  explicit Wire(std::uint16_t port, int receive_buffer = 0);
   ~Wire();
   Wire(const Wire&) = delete;
   Wire& operator=(const Wire&) = delete;
 
-  void send(std::string_view bytes);
+  // Whether all of it went: else the peer has closed, its answer says why.
+  bool send(std::string_view bytes);
   // At least one byte more, or nothing: the peer has closed. Throws when ten seconds pass.
   bool receive();
   // Exactly `size` bytes from what was received; throws when the peer closes before.

@@ -1,0 +1,66 @@
+#include "server/http/arrival.h"
+
+#include <boost/beast/http.hpp>
+#include <utility>
+
+#include "server/http/request_reader.h"
+
+namespace armloom {
+namespace {
+
+namespace http = boost::beast::http;
+
+// What is known without the body: a fault of the header, or that nobody serves it.
+tl::expected<Request, Response> head_of(const RequestParser& parser, const Site& site) {
+  const RequestHeader& header = parser.get();
+  const auto refused = [&](const Refusal& why) { return tl::unexpected(site.refuse(why)); };
+  if (const auto refusal = header_refusal(header)) return refused(*refusal);
+  auto request = request_of(header, site.hosts);
+  if (!request) return refused(request.error());
+  request->upgrade = is_handshake(header) && parser.is_done();
+  if (request->upgrade) {
+    if (const auto fault = handshake_fault(header)) return refused(*fault);
+  }
+  return std::move(*request);
+}
+
+// Whether the client waits to be asked for its body (RFC 9110, 10.1.1).
+bool waits_to_be_asked(const RequestParser& parser) {
+  return parser.get().version() >= 11 && parser.get().count(http::field::expect) > 0 &&
+         !parser.is_done();
+}
+
+}  // namespace
+
+asio::awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection,
+                                                                const Site& site) {
+  const auto none_for = [&site](const NoRequest& none) {
+    return tl::unexpected<NotArrived>(none.refusal ? std::optional(site.refuse(*none.refusal))
+                                                   : std::nullopt);
+  };
+  RequestParser parser;
+  if (const auto none = co_await read_header(connection, parser, site.read_time)) {
+    co_return none_for(*none);
+  }
+  auto request = head_of(parser, site);
+  if (!request) co_return tl::unexpected<NotArrived>(std::move(request.error()));
+  // Before the body, whose trailers are none of the header's fields.
+  RequestHeader header = parser.get().base();
+  const bool waits = waits_to_be_asked(parser);
+  if (waits) {
+    if (auto refused = site.refuse_unread(*request)) {
+      co_return tl::unexpected<NotArrived>(std::move(*refused));
+    }
+  }
+  if (const auto none = co_await read_body(connection, parser, site.read_time, waits)) {
+    co_return none_for(*none);
+  }
+  auto message = parser.release();
+  request->body = std::make_shared<const std::string>(std::move(message.body().text));
+  const Delivery delivery{header.version(), message.keep_alive() && !request->upgrade,
+                          header.method() == http::verb::head};
+  co_return Arrived{std::move(*request), std::move(header), delivery,
+                    std::move(message.body().charge)};
+}
+
+}  // namespace armloom

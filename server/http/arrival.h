@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "server/http/connection.h"
+#include "server/http/request_head.h"
+
+namespace armloom {
+
+// A request as it was read, with what its answer needs.
+struct Arrived {
+  Request request;
+  RequestHeader header;
+  Delivery delivery;
+  MemoryBudget::Charge charge;  // of the body
+};
+// Why there is none, to be said; absent: there is nobody to say it to.
+using NotArrived = std::optional<Response>;
+
+// The next request of the connection. What was read of one that is refused is forgotten before the
+// refusal can be said: that takes time.
+asio::awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection,
+                                                                const Site& site);
+
+}  // namespace armloom

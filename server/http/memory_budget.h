@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+namespace armloom {
+
+// What all connections together may hold of bodies that come and answers that go. Small amounts are
+// free, so that a stop is taken whoever fills the rest; who asks for more than is left is refused.
+// Not thread-safe: on the server's thread. Outlives its charges.
+class MemoryBudget {
+ public:
+  inline static constexpr std::size_t kFree = 16 * 1024;  // of each charge
+
+  explicit MemoryBudget(std::size_t max) : max_(max) {}
+
+  class Charge {
+   public:
+    Charge() = default;
+    explicit Charge(MemoryBudget& budget) : budget_(&budget) {}
+    Charge(Charge&& other) noexcept
+        : budget_(std::exchange(other.budget_, nullptr)), held_(std::exchange(other.held_, 0)) {}
+    Charge& operator=(Charge&& other) noexcept {
+      std::swap(budget_, other.budget_);
+      std::swap(held_, other.held_);
+      return *this;
+    }
+    ~Charge() {
+      if (budget_ != nullptr) budget_->used_ -= held_;
+    }
+
+    // Whether there was room to hold so many bytes, free ones included; else it holds what it did.
+    [[nodiscard]] bool grow_to(std::size_t bytes) {
+      const std::size_t wanted = bytes > kFree ? bytes - kFree : 0;
+      if (budget_ == nullptr || wanted <= held_) return true;
+      if (budget_->max_ - budget_->used_ < wanted - held_) return false;
+      budget_->used_ += wanted - held_;
+      held_ = wanted;
+      return true;
+    }
+
+   private:
+    MemoryBudget* budget_ = nullptr;
+    std::size_t held_ = 0;
+  };
+
+  [[nodiscard]] std::size_t used() const { return used_; }
+
+ private:
+  const std::size_t max_;
+  std::size_t used_ = 0;
+};
+
+}  // namespace armloom

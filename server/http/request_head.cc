@@ -1,0 +1,145 @@
+#include "server/http/request_head.h"
+
+#include <algorithm>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <utility>
+#include <vector>
+
+#include "server/http/framing.h"
+
+namespace armloom {
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+
+std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+std::vector<std::string_view> all_of(const RequestHeader& header, beast::string_view name) {
+  std::vector<std::string_view> values;
+  const auto [begin, end] = header.equal_range(name);
+  for (auto field = begin; field != end; ++field) values.push_back(view(field->value()));
+  return values;
+}
+
+std::optional<std::string> one_of(const RequestHeader& header, beast::string_view name) {
+  const auto it = header.find(name);
+  return it == header.end() ? std::nullopt : std::optional(std::string(it->value()));
+}
+
+// Why whoever comes by this name may not even read: a page whose own name an attacker lets point
+// here is of the same origin to a browser.
+std::optional<Refusal> foreign_host(const std::string& authority, const HostRule& hosts) {
+  const std::string host = host_of(authority);
+  if (authority.empty() || may_command(host, hosts)) return std::nullopt;
+  return Refusal{403, "foreign-host",
+                 "this server is known by its IP address, as localhost and by the names given with "
+                 "--allow-host, not as \"" +
+                     host + "\"",
+                 std::nullopt, host};
+}
+
+// Why whoever asks may only read. A browser names the page that asks: other sites may not change
+// anything, nor listen.
+std::optional<Refusal> foreign_origin(const RequestHeader& header, const std::string& authority) {
+  const auto origin = header.find(http::field::origin);
+  if (origin == header.end() || same_origin(view(origin->value()), authority)) return std::nullopt;
+  return Refusal{403, "foreign-origin", "pages of another site may not command this server",
+                 std::nullopt, std::string(origin->value())};
+}
+
+tl::expected<Target, Refusal> target_of(const RequestHeader& header, std::string& authority) {
+  std::string_view text = view(header.target());
+  if (text == "*" && header.method() == http::verb::options) return Target{"*", {}};
+  std::string path;
+  if (const auto absolute = split_absolute_target(text)) {
+    authority = absolute->authority;
+    path = absolute->rest;
+    text = path;
+  }
+  auto target = parse_target(text);
+  if (!target) return tl::unexpected(refusal_of(400, target.error().front()));
+  return std::move(*target);
+}
+
+}  // namespace
+
+std::optional<Refusal> header_refusal(const RequestHeader& header) {
+  FramingFields fields;
+  fields.http_1_1 = header.version() >= 11;
+  fields.hosts = all_of(header, "Host");
+  fields.transfer_encodings = all_of(header, "Transfer-Encoding");
+  fields.content_lengths = all_of(header, "Content-Length");
+  if (const auto fault = framing_fault(fields)) {
+    return Refusal{400, "bad-request", fault->detail, std::nullopt, fault->value};
+  }
+  const auto expect = header.find(http::field::expect);
+  if (fields.http_1_1 && expect != header.end() &&
+      !beast::iequals(expect->value(), "100-continue")) {
+    return Refusal{417, "expectation-failed", "the only Expect served is 100-continue",
+                   std::nullopt, std::string(expect->value())};
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> settle_version(char* line, std::size_t size) {
+  const std::string_view text(line, size);
+  const std::size_t space = text.rfind(' ');
+  const std::string_view version = space == text.npos ? "" : text.substr(space + 1);
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const bool whole = version.size() == 8 && version.starts_with("HTTP/") && is_digit(version[5]) &&
+                     version[6] == '.' && is_digit(version[7]);
+  if (!whole) return std::nullopt;  // the parser says what is wrong
+  if (version[5] != '1') {
+    return Refusal{505, "http-version-not-supported", "HTTP/1.1 and HTTP/1.0 are served",
+                   std::nullopt, std::string(version)};
+  }
+  if (version[7] > '1') line[space + 8] = '1';
+  return std::nullopt;
+}
+
+bool is_handshake(const RequestHeader& header) {
+  return header.version() >= 11 && header.method() == http::verb::get &&
+         http::token_list(header[http::field::connection]).exists("upgrade") &&
+         http::token_list(header[http::field::upgrade]).exists("websocket");
+}
+
+std::optional<Refusal> handshake_fault(const RequestHeader& header) {
+  const auto versions = all_of(header, "Sec-WebSocket-Version");
+  if (versions.size() != 1 || versions.front() != "13") {
+    return Refusal{426,
+                   "upgrade-required",
+                   "Sec-WebSocket-Version must be 13",
+                   std::nullopt,
+                   versions.empty() ? std::nullopt : std::optional(std::string(versions.front())),
+                   {{"Upgrade", "websocket"}, {"Sec-WebSocket-Version", "13"}}};
+  }
+  const auto keys = all_of(header, "Sec-WebSocket-Key");
+  if (keys.size() == 1 && is_websocket_key(keys.front())) return std::nullopt;
+  return Refusal{400, "bad-handshake", "Sec-WebSocket-Key must be sixteen bytes in base64, once",
+                 std::nullopt,
+                 keys.empty() ? std::nullopt : std::optional(std::string(keys.front()))};
+}
+
+tl::expected<Request, Refusal> request_of(const RequestHeader& header, const HostRule& hosts) {
+  std::string authority = one_of(header, "Host").value_or("");
+  auto target = target_of(header, authority);
+  if (!target) return tl::unexpected(std::move(target.error()));
+  Request request;
+  request.method =
+      header.method() == http::verb::head ? "GET" : std::string(header.method_string());
+  request.target = std::move(*target);
+  request.content_type = one_of(header, "Content-Type");
+  request.content_encoding = one_of(header, "Content-Encoding");
+  request.last_event_id = one_of(header, "Last-Event-ID");
+  request.if_none_match = one_of(header, "If-None-Match");
+  for (const std::string_view value : all_of(header, "Accept-Encoding")) {
+    request.accept_encoding.append(request.accept_encoding.empty() ? "" : ", ").append(value);
+  }
+  request.stranger = foreign_host(authority, hosts);
+  request.foreign = request.stranger ? request.stranger : foreign_origin(header, authority);
+  return request;
+}
+
+}  // namespace armloom

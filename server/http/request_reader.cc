@@ -1,0 +1,122 @@
+#include "server/http/request_reader.h"
+
+#include <boost/beast/http.hpp>
+
+#include "server/http/request_head.h"
+#include "server/http/session.h"
+
+namespace armloom {
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+
+constexpr std::size_t kEmptyLinesMax = 4;  // before a request line
+
+std::string_view held(const Connection& connection) {
+  const auto data = connection.buffer.data();
+  return {static_cast<const char*>(data.data()), data.size()};
+}
+
+Refusal bad_request(std::string detail) { return {400, "bad-request", std::move(detail)}; }
+
+// An error of the parser or of the socket; what the buffer holds tells which limit it was.
+NoRequest stopped_by(ErrorCode ec, std::string_view buffered) {
+  if (ec == boost::system::errc::not_enough_memory) {
+    return {Refusal{503,
+                    "server-busy",
+                    "too many large bodies are being read at once",
+                    "request body",
+                    std::nullopt,
+                    {{"Retry-After", "1"}}}};
+  }
+  const auto own = http::make_error_code(http::error::end_of_stream);
+  if (ec.category() != own.category() || ec == own || ec == http::error::partial_message) return {};
+  if (ec == http::error::body_limit) {
+    return {Refusal{413, "body-too-large", "a body may have at most 8 MiB", "request body"}};
+  }
+  if (ec == http::error::header_limit) {
+    return {Refusal{431, "header-too-large", "the header may have at most 16 KiB"}};
+  }
+  // A chunk's line begins with the end of the one before.
+  const std::size_t line = buffered.starts_with("\r\n") ? 2 : 0;
+  const bool in_chunk_line = buffered.find("\r\n", line) == buffered.npos;
+  if (ec == http::error::bad_chunk_extension ||
+      (ec == http::error::buffer_overflow && in_chunk_line)) {
+    return {bad_request("chunk extensions are broken, or have more than 16 KiB in all")};
+  }
+  if (ec == http::error::buffer_overflow) {
+    return {Refusal{431, "header-too-large", "the trailers may have at most 16 KiB"}};
+  }
+  return {bad_request("this is not HTTP/1.1: " + ec.message())};
+}
+
+asio::awaitable<void> read_some(Connection& connection, ErrorCode& ec) {
+  const std::size_t size =
+      co_await connection.stream.async_read_some(connection.buffer.prepare(4096), into(ec));
+  connection.buffer.commit(size);
+}
+
+// Until a whole first line is there, or more than a header may have.
+asio::awaitable<std::optional<NoRequest>> read_first_line(Connection& connection) {
+  ErrorCode ec;
+  for (std::size_t empty = 0;;) {
+    while (held(connection).starts_with("\r\n")) {
+      connection.buffer.consume(2);
+      if (++empty > kEmptyLinesMax) {
+        co_return NoRequest{bad_request("empty lines stand where a request should begin")};
+      }
+    }
+    const std::string_view text = held(connection);
+    if (const std::size_t end = text.find("\r\n"); end != text.npos) {
+      auto refusal = settle_version(static_cast<char*>(connection.buffer.data().data()), end);
+      co_return refusal ? std::optional(NoRequest{std::move(refusal)}) : std::nullopt;
+    }
+    if (text.size() >= kHeaderMax) co_return std::nullopt;  // the parser says so
+    // The parser may say early what is no HTTP; but what was not sent cannot be judged.
+    co_await read_some(connection, ec);
+    if (ec) co_return NoRequest{};
+  }
+}
+
+}  // namespace
+
+asio::awaitable<std::optional<NoRequest>> read_header(Connection& connection, RequestParser& parser,
+                                                      std::chrono::milliseconds read_time) {
+  parser.body_limit(kBodyMax);
+  parser.header_limit(static_cast<std::uint32_t>(kHeaderMax));
+  ErrorCode ec;
+  if (connection.buffer.size() == 0) {
+    connection.stream.expires_after(kIdleTime);
+    co_await read_some(connection, ec);
+    if (ec) co_return NoRequest{};
+  }
+  connection.stream.expires_after(read_time);
+  if (auto none = co_await read_first_line(connection)) co_return none;
+  co_await http::async_read_header(connection.stream, connection.buffer, parser, into(ec));
+  co_return ec ? std::optional(stopped_by(ec, "")) : std::nullopt;
+}
+
+asio::awaitable<std::optional<NoRequest>> read_body(Connection& connection, RequestParser& parser,
+                                                    std::chrono::milliseconds read_time,
+                                                    bool ask_for_it) {
+  if (parser.is_done()) co_return std::nullopt;
+  connection.stream.expires_after(read_time);
+  ErrorCode ec;
+  if (ask_for_it) {
+    http::response<http::empty_body> go_on(http::status::continue_, 11);
+    co_await http::async_write(connection.stream, go_on, into(ec));
+    if (ec) co_return NoRequest{};
+  }
+  std::size_t extensions = 0;
+  auto count = [&extensions](std::uint64_t, beast::string_view extension, ErrorCode& over) {
+    extensions += extension.size();
+    if (extensions > kHeaderMax) over = http::error::bad_chunk_extension;
+  };
+  parser.on_chunk_header(count);
+  parser.get().body().charge = MemoryBudget::Charge(connection.memory);
+  co_await http::async_read(connection.stream, connection.buffer, parser, into(ec));
+  co_return ec ? std::optional(stopped_by(ec, held(connection))) : std::nullopt;
+}
+
+}  // namespace armloom

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "server/http/connection.h"
+#include "server/http/request_body.h"
+
+namespace armloom {
+
+// Why no request came of it: `refusal` is to be said, none: the peer has gone, or is too slow.
+struct NoRequest {
+  std::optional<Refusal> refusal = {};
+};
+
+// Waits for the next request's first bytes, then reads its header; the time for the header does not
+// begin before. An empty line before it is read over.
+asio::awaitable<std::optional<NoRequest>> read_header(Connection& connection, RequestParser& parser,
+                                                      std::chrono::milliseconds read_time);
+
+// Reads the body, at most kBodyMax of it, and of what stands around its chunks no more than of a
+// header. `ask_for_it`: 100 Continue goes before.
+asio::awaitable<std::optional<NoRequest>> read_body(Connection& connection, RequestParser& parser,
+                                                    std::chrono::milliseconds read_time,
+                                                    bool ask_for_it);
+
+}  // namespace armloom

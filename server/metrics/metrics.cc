@@ -1,0 +1,230 @@
+#include "server/metrics/metrics.h"
+
+#include <prometheus/registry.h>
+#include <prometheus/text_serializer.h>
+
+#include <atomic>
+#include <map>
+#include <set>
+#include <utility>
+#include <variant>
+
+#include "core/arm/arm_controller.h"
+#include "server/metrics/period_watch.h"
+
+namespace armloom {
+namespace {
+
+using prometheus::Counter;
+using prometheus::Family;
+using prometheus::Gauge;
+using prometheus::Histogram;
+using Buckets = Histogram::BucketBoundaries;
+
+constexpr double kOverrunPeriods = 5.0;
+
+double seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+const Buckets kPeriods{0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5, 1.0};
+const Buckets kLatencies{0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5, 1.0, 5.0};
+
+// Objects come and go, and their names are the client's: what is no arm is the scene.
+std::string side(const std::optional<ArmId>& arm, const Cell& cell) {
+  return arm ? cell.arms[arm->index()].name : "scene";
+}
+
+}  // namespace
+
+class Metrics::Impl {
+ public:
+  Impl(CellPtr cell, double speed) : cell_(std::move(cell)) {
+    set_speed(speed);
+    // So that a rate is seen from the first one on.
+    for (const JobState state : {JobState::succeeded, JobState::canceled, JobState::expired,
+                                 JobState::failed, JobState::interrupted}) {
+      jobs_.Add({{"outcome", to_string(state)}});
+    }
+    for (const Wait::Kind kind : {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object,
+                                  Wait::Kind::order, Wait::Kind::capacity, Wait::Kind::stop}) {
+      waits_.Add({{"reason", to_string(kind)}});
+    }
+    for (const char* state : {"queued", "backlogged", "scheduled", "running"}) at(state);
+  }
+
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void set_speed(double speed) { scale_ = std::max(1.0, 1.0 / speed); }
+
+  void ticked() { control_.happened(scale_); }
+
+  void watched(const StateFrame& frame) {
+    monitor_.happened(scale_);
+    for (const Proximity& near : frame.clearance) {
+      Nearest& nearest = nearest_of(near);
+      nearest.now->Set(near.clearance_m);
+      if (near.clearance_m < nearest.smallest->Value()) nearest.smallest->Set(near.clearance_m);
+    }
+  }
+
+  void happened(const Event& event) {
+    if (const auto* job = std::get_if<JobView>(&event.body)) follow(*job);
+    if (std::holds_alternative<MonitorEvent>(event.body)) monitor_stops_.Increment();
+    if (const auto* queue = std::get_if<QueueView>(&event.body)) {
+      const auto size = [](const std::vector<std::string>& keys) {
+        return static_cast<double>(keys.size());
+      };
+      at("queued").Set(size(queue->queued));
+      at("backlogged").Set(size(queue->backlog));
+      at("scheduled").Set(size(queue->scheduled));
+      at("running").Set(size(queue->running));
+      stopped_.Set(queue->stopped ? 1 : 0);
+    }
+  }
+
+  void answered(const std::string& method, const std::string& route, int status,
+                std::chrono::nanoseconds after) {
+    const std::string where = route.empty() ? "other" : route;
+    // A method is what a client likes; a route's is one of few.
+    const std::string how = route.empty() ? "any" : method;
+    answers_.Add({{"method", how}, {"route", where}, {"status", std::to_string(status)}})
+        .Increment();
+    took_.Add({{"method", how}, {"route", where}}, kLatencies).Observe(seconds(after));
+  }
+
+  void stop_taken(std::chrono::nanoseconds after) { stops_.Observe(seconds(after)); }
+
+  std::string text(const Readings& readings) {
+    readers_.Set(static_cast<double>(readings.readers));
+    raise(frames_dropped_, readings.frames_dropped);
+    raise(sent_away_, readings.readers_sent_away);
+    recording_lost_.Set(readings.recording_lost ? 1 : 0);
+    return prometheus::TextSerializer().Serialize(registry_.Collect());
+  }
+
+ private:
+  struct Nearest {
+    Gauge* now;
+    Gauge* smallest;
+  };
+
+  Family<Counter>& counters(const char* name, const char* help) {
+    return prometheus::BuildCounter().Name(name).Help(help).Register(registry_);
+  }
+  Family<Gauge>& gauges(const char* name, const char* help) {
+    return prometheus::BuildGauge().Name(name).Help(help).Register(registry_);
+  }
+  Family<Histogram>& histograms(const char* name, const char* help) {
+    return prometheus::BuildHistogram().Name(name).Help(help).Register(registry_);
+  }
+  Gauge& at(const char* state) { return waiting_.Add({{"state", state}}); }
+  static void raise(Counter& counter, std::uint64_t to) {
+    const double by = static_cast<double>(to) - counter.Value();
+    if (by > 0) counter.Increment(by);
+  }
+
+  PeriodWatch::Parts watch_parts(const char* loop) {
+    const std::map<std::string, std::string> labels{{"loop", loop}};
+    return {periods_.Add(labels, kPeriods), overruns_.Add(labels), worst_.Add(labels)};
+  }
+
+  // The strand's; pairs are few and stay.
+  Nearest& nearest_of(const Proximity& near) {
+    std::pair<std::string, std::string> pair{side(near.arm_a, *cell_), side(near.arm_b, *cell_)};
+    if (pair.second < pair.first) std::swap(pair.first, pair.second);
+    const auto known = nearest_.find(pair);
+    if (known != nearest_.end()) return known->second;
+    const std::map<std::string, std::string> labels{{"a", pair.first}, {"b", pair.second}};
+    Nearest nearest{&clearance_.Add(labels), &clearance_min_.Add(labels)};
+    nearest.smallest->Set(near.clearance_m);
+    return nearest_.emplace(std::move(pair), nearest).first->second;
+  }
+
+  // A job is told once for each change: what is new in it counts.
+  void follow(const JobView& job) {
+    const auto now = std::chrono::steady_clock::now();
+    if (job.state == JobState::queued) {
+      open_.try_emplace(job.key, Open{now, {}});
+    }
+    const auto found = open_.find(job.key);
+    if (found == open_.end()) return;
+    Open& open = found->second;
+    if (job.state != JobState::queued && std::exchange(open.undecided, false)) {
+      decisions_.Observe(seconds(now - open.since));
+    }
+    for (const WaitView& wait : job.waits_on) {
+      if (open.reasons.insert(wait.kind).second) {
+        waits_.Add({{"reason", to_string(wait.kind)}}).Increment();
+      }
+    }
+    if (!is_terminal(job.state)) return;
+    jobs_.Add({{"outcome", to_string(job.state)}}).Increment();
+    open_.erase(found);
+  }
+
+  struct Open {
+    std::chrono::steady_clock::time_point since;
+    std::set<Wait::Kind> reasons;
+    bool undecided = true;
+  };
+
+  CellPtr cell_;
+  std::atomic<double> scale_{1.0};
+  prometheus::Registry registry_;
+  Family<Counter>& jobs_ = counters("armloom_jobs_total", "Jobs that ended, by how");
+  Family<Counter>& waits_ =
+      counters("armloom_job_waits_total", "Jobs that waited, by each reason that they gave");
+  Family<Gauge>& waiting_ = gauges("armloom_jobs", "Jobs that have not ended, by state");
+  Gauge& stopped_ = gauges("armloom_stopped", "1: every arm is stopped").Add({});
+  Histogram& decisions_ =
+      histograms("armloom_decision_seconds", "From a job's arrival to the first word on it")
+          .Add({}, kLatencies);
+  Family<Gauge>& clearance_ =
+      gauges("armloom_clearance_metres", "Of a pair, as the monitor sees it");
+  Family<Gauge>& clearance_min_ =
+      gauges("armloom_clearance_min_metres", "The smallest of a pair since the start");
+  std::map<std::pair<std::string, std::string>, Nearest> nearest_;
+  Counter& monitor_stops_ =
+      counters("armloom_monitor_findings_total", "What the monitor found wrong").Add({});
+  Family<Histogram>& periods_ =
+      histograms("armloom_period_seconds", "Between two rounds of a loop");
+  Family<Counter>& overruns_ =
+      counters("armloom_overruns_total", "Rounds that came later than five periods");
+  Family<Gauge>& worst_ = gauges("armloom_period_worst_seconds", "The longest since the start");
+  PeriodWatch control_{watch_parts("control"), kControlPeriod, kOverrunPeriods};
+  PeriodWatch monitor_{watch_parts("monitor"),
+                       std::chrono::duration<double>(1.0 / cell_->monitor.rate_hz),
+                       kOverrunPeriods};
+  Histogram& stops_ =
+      histograms("armloom_stop_latency_seconds", "From a request to stop to the executive")
+          .Add({}, kLatencies);
+  Family<Counter>& answers_ = counters("armloom_http_requests_total", "Requests answered");
+  Family<Histogram>& took_ =
+      histograms("armloom_http_seconds", "From a whole request to its answer");
+  Gauge& readers_ = gauges("armloom_event_readers", "Readers of events and poses").Add({});
+  Counter& frames_dropped_ =
+      counters("armloom_frames_dropped_total", "Pose frames that slow readers did not get").Add({});
+  Counter& sent_away_ =
+      counters("armloom_readers_sent_away_total", "Readers that fell too far behind").Add({});
+  Gauge& recording_lost_ =
+      gauges("armloom_recording_lost", "1: the recording is no longer whole").Add({});
+  std::map<std::string, Open> open_;  // by key; as many as the executive takes
+};
+
+Metrics::Metrics(CellPtr cell, double speed)
+    : impl_(std::make_unique<Impl>(std::move(cell), speed)) {}
+Metrics::~Metrics() = default;
+void Metrics::ticked() { impl_->ticked(); }
+void Metrics::watched(const StateFrame& frame) { impl_->watched(frame); }
+void Metrics::set_speed(double speed) { impl_->set_speed(speed); }
+void Metrics::stop_taken(std::chrono::nanoseconds after) { impl_->stop_taken(after); }
+void Metrics::happened(const Event& event) { impl_->happened(event); }
+void Metrics::answered(const std::string& method, const std::string& route, int status,
+                       std::chrono::nanoseconds after) {
+  impl_->answered(method, route, status, after);
+}
+std::string Metrics::text(const Readings& readings) { return impl_->text(readings); }
+
+}  // namespace armloom

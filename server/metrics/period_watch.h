@@ -1,0 +1,46 @@
+#pragma once
+
+#include <prometheus/counter.h>
+#include <prometheus/family.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <optional>
+
+namespace armloom {
+
+// How evenly something happens that should happen once in a period. Called by one thread; read by
+// any.
+class PeriodWatch {
+ public:
+  struct Parts {
+    prometheus::Histogram& gaps;
+    prometheus::Counter& overruns;
+    prometheus::Gauge& worst;
+  };
+  // A gap of more than `overrun_periods` is an overrun.
+  PeriodWatch(Parts parts, std::chrono::duration<double> period, double overrun_periods)
+      : parts_(parts), overrun_s_(period.count() * overrun_periods) {}
+
+  // `scale`: by how much the period is longer at present.
+  void happened(double scale) {
+    const auto now = std::chrono::steady_clock::now();
+    if (last_) {
+      const double gap = std::chrono::duration<double>(now - *last_).count();
+      parts_.gaps.Observe(gap);
+      if (gap > overrun_s_ * scale) parts_.overruns.Increment();
+      if (gap > parts_.worst.Value()) parts_.worst.Set(gap);
+    }
+    last_ = now;
+  }
+
+ private:
+  Parts parts_;
+  double overrun_s_;
+  std::optional<std::chrono::steady_clock::time_point> last_;
+};
+
+}  // namespace armloom

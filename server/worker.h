@@ -1,0 +1,45 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace armloom {
+
+// A thread for what would hold up the one that serves all connections, as reading a body of some
+// megabytes. Tasks run one after the other, in the order given; those that have not begun at the
+// end are dropped. How many wait is bounded by who gives them: each is a request being answered.
+class Worker {
+ public:
+  void post(std::function<void()> task) {
+    {
+      const std::scoped_lock lock(mutex_);
+      tasks_.push_back(std::move(task));
+    }
+    arrived_.notify_one();
+  }
+
+ private:
+  void work(const std::stop_token& stop) {
+    for (;;) {
+      std::unique_lock lock(mutex_);
+      if (!arrived_.wait(lock, stop, [this] { return !tasks_.empty(); })) return;
+      const auto task = std::move(tasks_.front());
+      tasks_.pop_front();
+      lock.unlock();
+      if (stop.stop_requested()) return;
+      task();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable_any arrived_;
+  std::deque<std::function<void()>> tasks_;
+  std::jthread thread_{
+      [this](const std::stop_token& stop) { work(stop); }};  // the last: it ends first
+};
+
+}  // namespace armloom

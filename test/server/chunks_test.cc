@@ -1,0 +1,64 @@
+// What stands around the bytes of a chunked body is bounded like a header: RFC 9112, 7.1.1.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "test/server/running_server.h"
+
+namespace armloom {
+namespace {
+
+class Chunks : public test::RunningServer {
+ protected:
+  void SetUp() override { start(1.0); }
+
+  // What the server says while pieces come until it closes, or all of them were sent.
+  struct Said {
+    std::string answer;
+    std::size_t sent = 0;
+  };
+  Said said_to(const std::string& head, const std::string& piece, std::size_t pieces) {
+    test::Wire wire(port());
+    wire.send(
+        "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n" +
+        head);
+    Said said;
+    for (std::size_t i = 0; i < pieces && wire.send(piece); ++i) said.sent += piece.size();
+    said.answer = wire.take_all();
+    return said;
+  }
+};
+
+constexpr std::size_t kPiece = 64 * 1024;
+constexpr std::size_t kPieces = 1024;
+
+TEST_F(Chunks, AnExtensionWithoutEndIsRefused) {
+  const Said said = said_to("5;", std::string(kPiece, 'a'), kPieces);
+  EXPECT_TRUE(said.answer.starts_with("HTTP/1.1 400 ")) << said.answer.substr(0, 300);
+  EXPECT_NE(said.answer.find("chunk extensions"), std::string::npos) << said.answer;
+  EXPECT_LT(said.sent, kPiece * kPieces);
+}
+
+TEST_F(Chunks, ManyExtensionsAreRefusedByTheirSum) {
+  const std::string chunk = "1;" + std::string(1000, 'a') + "\r\nx\r\n";
+  const Said said = said_to("", chunk, 64);
+  EXPECT_TRUE(said.answer.starts_with("HTTP/1.1 400 ")) << said.answer.substr(0, 300);
+  EXPECT_NE(said.answer.find("chunk extensions"), std::string::npos) << said.answer;
+}
+
+TEST_F(Chunks, TrailersWithoutEndAreRefused) {
+  const Said said = said_to("0\r\n", "X: " + std::string(kPiece, 'a') + "\r\n", kPieces);
+  EXPECT_TRUE(said.answer.starts_with("HTTP/1.1 431 ")) << said.answer.substr(0, 300);
+  EXPECT_LT(said.sent, kPiece * kPieces);
+}
+
+TEST_F(Chunks, AFewExtensionsAndTrailersAreReadOver) {
+  test::Wire wire(port());
+  wire.send(
+      "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"
+      "2;a=\"b\"\r\n{}\r\n0;last\r\nX-Sum: 7\r\nOrigin: http://evil.example\r\n\r\n");
+  EXPECT_EQ(test::read_answer(wire).status, 202);
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,126 @@
+// Details of RFC 9110, 9112 and 6455 that a client may rely on.
+#include <gtest/gtest.h>
+
+#include "test/server/running_server.h"
+
+namespace armloom {
+namespace {
+
+class Rfc : public test::RunningServer {
+ protected:
+  void SetUp() override { start(1.0); }
+  std::string answers_to(const std::string& bytes) {
+    test::Wire wire(port());
+    wire.send(bytes);
+    return wire.take_all();
+  }
+  test::Answer answer_to(const std::string& bytes) {
+    test::Wire wire(port());
+    wire.send(bytes);
+    return test::read_answer(wire);
+  }
+};
+
+// RFC 9110, 10.1.1: a 100-continue expectation of an HTTP/1.0 request is ignored.
+TEST_F(Rfc, Http10IsNeverToldToContinue) {
+  const std::string answer = answers_to(
+      "POST /api/v1/resume HTTP/1.0\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n{}");
+  EXPECT_TRUE(answer.starts_with("HTTP/1.0 202 ")) << answer;
+}
+
+// RFC 9110, 10.1.1: who would be refused anyway is told so instead of being asked for the body.
+TEST_F(Rfc, WhoIsRefusedIsNotAskedForTheBody) {
+  const std::string rest = "Expect: 100-continue\r\nContent-Length: 2\r\n\r\n";
+  const std::string post = "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\n";
+  EXPECT_TRUE(
+      answers_to(post + "Origin: http://evil.example\r\n" + rest).starts_with("HTTP/1.1 403 "));
+  EXPECT_TRUE(answers_to("POST /api/v1/resume HTTP/1.1\r\nHost: evil.example\r\n" + rest)
+                  .starts_with("HTTP/1.1 403 "));
+  EXPECT_TRUE(answers_to("POST /api/v1/nothing HTTP/1.1\r\nHost: localhost\r\n" + rest)
+                  .starts_with("HTTP/1.1 404 "));
+  EXPECT_TRUE(answers_to("PATCH /api/v1/jobs HTTP/1.1\r\nHost: localhost\r\n" + rest)
+                  .starts_with("HTTP/1.1 405 "));
+}
+
+// RFC 9112, 3.2.2: absolute-form is taken, and its authority counts instead of Host.
+TEST_F(Rfc, AnAbsoluteTargetIsServed) {
+  EXPECT_EQ(answer_to("GET http://localhost:80/api/v1/queue?  HTTP/1.1\r\nHost: x\r\n\r\n").status,
+            400);
+  EXPECT_EQ(answer_to("GET http://localhost:80/api/v1/queue HTTP/1.1\r\nHost: x\r\n\r\n").status,
+            200);
+  EXPECT_EQ(answer_to("GET HTTP://127.0.0.1/healthz HTTP/1.1\r\nHost: x\r\n\r\n").status, 200);
+  EXPECT_EQ(
+      answer_to("GET http://evil.example/api/v1/queue HTTP/1.1\r\nHost: localhost\r\n\r\n").status,
+      403);
+  for (const char* bad : {"http:///healthz", "http://a b/healthz", "http://u@localhost/healthz",
+                          "ftp://localhost/healthz", "healthz"}) {
+    EXPECT_EQ(answer_to(std::string("GET ") + bad + " HTTP/1.1\r\nHost: localhost\r\n\r\n").status,
+              400)
+        << bad;
+  }
+}
+
+// RFC 9112, 2.2: an empty line before the request line is ignored; nobody sends many.
+TEST_F(Rfc, AnEmptyLineBeforeARequestIsReadOver) {
+  const std::string get = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  test::Wire wire(port());
+  wire.send("\r\n" + get);
+  EXPECT_EQ(test::read_answer(wire).status, 200);
+  wire.send("\r\n");
+  wire.send("\r\n" + get);
+  EXPECT_EQ(test::read_answer(wire).status, 200);
+  std::string many;
+  for (int i = 0; i < 100; ++i) many += "\r\n";
+  EXPECT_EQ(answer_to(many + get).status, 400);
+}
+
+// RFC 9110, 9.3.7: of the server as a whole, and of one resource.
+TEST_F(Rfc, OptionsTellsWhatIsServed) {
+  const auto all = answer_to("OPTIONS * HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(all.status, 204);
+  EXPECT_EQ(all.headers.at("allow"), "DELETE, GET, HEAD, OPTIONS, POST, PUT");
+  const auto jobs = answer_to("OPTIONS /api/v1/jobs HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(jobs.status, 204);
+  EXPECT_EQ(jobs.headers.at("allow"), "GET, HEAD, OPTIONS, POST");
+  EXPECT_EQ(jobs.headers.count("content-length"), 0U);
+  EXPECT_EQ(answer_to("OPTIONS /api/v1/nothing HTTP/1.1\r\nHost: localhost\r\n\r\n").status, 404);
+  EXPECT_EQ(answer_to("GET * HTTP/1.1\r\nHost: localhost\r\n\r\n").status, 400);
+}
+
+// RFC 9110, 2.5: a higher minor version is read as the highest one known; another major one is not.
+TEST_F(Rfc, AHigherMinorVersionIsServedAnotherMajorOneIsNot) {
+  EXPECT_TRUE(answers_to("GET /healthz HTTP/1.2\r\nHost: localhost\r\nConnection: close\r\n\r\n")
+                  .starts_with("HTTP/1.1 200 "));
+  EXPECT_TRUE(
+      answers_to("GET /healthz HTTP/2.0\r\nHost: localhost\r\n\r\n").starts_with("HTTP/1.1 505 "));
+  EXPECT_TRUE(answers_to("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n").starts_with("HTTP/1.1 505 "));
+  EXPECT_TRUE(
+      answers_to("GET /healthz HTTP/1.x\r\nHost: localhost\r\n\r\n").starts_with("HTTP/1.1 400 "));
+}
+
+// RFC 6455, 4.2: the key is sixteen bytes in base64, the version 13.
+TEST_F(Rfc, AHandshakeMustBeSound) {
+  const auto shake = [&](const std::string& key, const std::string& version) {
+    return answer_to(
+        "GET /api/v1/ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
+        "Connection: Upgrade\r\n" +
+        key + version + "\r\n");
+  };
+  const std::string key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+  const std::string version = "Sec-WebSocket-Version: 13\r\n";
+  for (const char* bad : {"x", "dGhlIHNhbXBsZSBub25jZQ=", "dGhlIHNhbXBsZSBub25jZQ", "",
+                          "dGhlIHNhbXBsZSBub25jZ!==", "dGhlIHNhbXBsZSBub25jZWFh"}) {
+    const auto answer = shake(std::string("Sec-WebSocket-Key: ") + bad + "\r\n", version);
+    EXPECT_EQ(answer.status, 400) << bad;
+  }
+  EXPECT_EQ(shake("", version).status, 400);
+  EXPECT_EQ(shake(key + key, version).status, 400);
+  const auto other = shake(key, "Sec-WebSocket-Version: 8\r\n");
+  EXPECT_EQ(other.status, 426);
+  EXPECT_EQ(other.headers.at("sec-websocket-version"), "13");
+  EXPECT_EQ(other.headers.at("upgrade"), "websocket");
+  EXPECT_EQ(shake(key, "").status, 426);
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,166 @@
+// The server as a process: what it does when the system gives less than it wants, or asks it to
+// end.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "test/server/command_fixture.h"
+#include "test/server/serve_process.h"
+#include "test/server/wire.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+class Serve : public test::CommandFixture {
+ protected:
+  std::string log() const { return (folder_ / "log").string(); }
+  std::string data() const { return (folder_ / "data").string(); }
+  static json begin_job(std::uint16_t port, const std::string& id, const std::string& arm) {
+    json job = test::move(arm, test::kHome, test::kMiddle);
+    job["id"] = id;
+    const auto answer = test::request(port, "POST", "/api/v1/jobs", job.dump());
+    EXPECT_EQ(answer.status, 202) << answer.body;
+    return job;
+  }
+  // All events of the recording; each line is whole.
+  std::vector<json> events() const {
+    std::vector<json> all;
+    std::ifstream in(folder_ / "data/events.jsonl");
+    for (std::string line; std::getline(in, line);) all.push_back(json::parse(line));
+    return all;
+  }
+  static bool has_ended(const json& event, const std::string& id) {
+    return event["type"] == "job" && event["data"]["id"] == id &&
+           !event["data"]["result"].is_null();
+  }
+};
+
+void wait_until_moving(std::uint16_t port) {
+  const auto deadline = Clock::now() + std::chrono::seconds(10);
+  while (test::request(port, "GET", "/api/v1/arms/left").json()["state"] != "moving") {
+    ASSERT_LT(Clock::now(), deadline);
+  }
+}
+
+TEST_F(Serve, ASignalBringsArmsToRestAndTheRecordingIsWhole) {
+  for (const int number : {SIGTERM, SIGHUP, SIGINT}) {
+    std::filesystem::remove_all(data());
+    test::ServeProcess server({"--cell", test::kCell, "--data", data(), "--record"}, log());
+    begin_job(server.port(), "go", "left");
+    ASSERT_NO_FATAL_FAILURE(wait_until_moving(server.port()));
+    const auto before = Clock::now();
+    server.signal(number);
+    EXPECT_EQ(server.wait(), 0) << number;
+    EXPECT_LT(Clock::now() - before, std::chrono::seconds(2)) << number;
+    const auto all = events();
+    ASSERT_TRUE(std::ranges::any_of(all, [](const json& e) { return has_ended(e, "go"); }))
+        << number;
+    for (const json& event : all) {
+      if (!has_ended(event, "go")) continue;
+      EXPECT_EQ(event["data"]["state"], "interrupted");
+    }
+    EXPECT_EQ(json::parse(read_text_file(folder_ / "data/jobs.json").value()).size(), 1U);
+    EXPECT_EQ(run("audit --cell " + test::kCell + " --recording " + data()).exit_code, 0) << number;
+  }
+}
+
+TEST_F(Serve, AnArmThatDoesNotComeToRestHoldsNothingUp) {
+  test::ServeProcess server({"--cell", test::kCell, "--speed", "0.01", "--data", data()}, log());
+  begin_job(server.port(), "go", "left");
+  ASSERT_NO_FATAL_FAILURE(wait_until_moving(server.port()));
+  const auto before = Clock::now();
+  server.signal(SIGTERM);
+  EXPECT_EQ(server.wait(), 0);
+  EXPECT_LT(Clock::now() - before, std::chrono::seconds(2));
+}
+
+TEST_F(Serve, NohupIsRespected) {
+  test::ServeProcess server({"--cell", test::kCell}, log(), [] { signal(SIGHUP, SIG_IGN); });
+  server.signal(SIGHUP);
+  EXPECT_EQ(test::request(server.port(), "GET", "/readyz").status, 200);
+  server.signal(SIGTERM);
+  EXPECT_EQ(server.wait(), 0);
+}
+
+TEST_F(Serve, EventsAreOnTheirWayToTheDiskWhenTheyAreTold) {
+  test::ServeProcess server({"--cell", test::kCell, "--data", data()}, log());
+  begin_job(server.port(), "go", "left");
+  ASSERT_NO_FATAL_FAILURE(wait_until_moving(server.port()));
+  server.signal(SIGKILL);
+  EXPECT_EQ(server.wait(), -SIGKILL);
+  EXPECT_FALSE(events().empty());
+}
+
+// No file may grow beyond this, as on a disk that is full.
+TEST_F(Serve, ADiskThatFillsUpIsSaidAtOnceAndAtTheEnd) {
+  test::ServeProcess server({"--cell", test::kCell, "--data", data(), "--speed", "20"}, log(),
+                            [] { test::set_limit(RLIMIT_FSIZE, 16'384); });
+  EXPECT_EQ(test::request(server.port(), "GET", "/readyz").status, 200);
+  const auto deadline = Clock::now() + std::chrono::seconds(20);
+  auto ready = test::request(server.port(), "GET", "/readyz");
+  for (int n = 0; ready.status == 200; ++n) {
+    ASSERT_LT(Clock::now(), deadline);
+    test::request(server.port(), "POST", n % 2 == 0 ? "/api/v1/stop" : "/api/v1/resume");
+    ready = test::request(server.port(), "GET", "/readyz");
+  }
+  EXPECT_EQ(ready.status, 503);
+  EXPECT_EQ(ready.json()["type"], "urn:armloom:problem:recording-lost");
+  EXPECT_NE(ready.json()["detail"].get<std::string>().find("File too large"), std::string::npos);
+  EXPECT_EQ(test::request(server.port(), "GET", "/healthz").status, 200);
+  while (server.log().find("the recording is no longer whole") == std::string::npos) {
+    ASSERT_LT(Clock::now(), deadline) << server.log();
+  }
+  server.signal(SIGTERM);
+  EXPECT_EQ(server.wait(), 74);
+  EXPECT_NE(server.log().find("the recording is not whole: "), std::string::npos) << server.log();
+}
+
+TEST_F(Serve, WithFewDescriptorsWhoComesIsToldSo) {
+  const auto web = folder_ / "web";
+  std::filesystem::create_directories(web);
+  std::ofstream(web / "index.html") << "<html>";
+  test::ServeProcess server({"--cell", test::kCell, "--web", web.string()}, log(),
+                            [] { test::set_limit(RLIMIT_NOFILE, 64); });
+  std::vector<std::unique_ptr<test::Wire>> held;
+  for (int i = 0; i < 60; ++i) held.push_back(std::make_unique<test::Wire>(server.port()));
+  const auto refused = test::request(server.port(), "GET", "/healthz");
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:too-many-connections");
+  held.front()->send(test::request_text("GET", "/", "", ""));
+  EXPECT_EQ(test::read_answer(*held.front()).status, 200);
+}
+
+// So few that not even half of them are left for connections.
+TEST_F(Serve, WithoutADescriptorWhoComesIsToldSoAndFilesSayBusy) {
+  const auto web = folder_ / "web";
+  std::filesystem::create_directories(web);
+  std::ofstream(web / "index.html") << "<html>";
+  test::ServeProcess server({"--cell", test::kCell, "--web", web.string()}, log(),
+                            [] { test::set_limit(RLIMIT_NOFILE, 24); });
+  std::vector<std::unique_ptr<test::Wire>> held;
+  int status = 200;
+  for (int i = 0; i < 30 && status == 200; ++i) {
+    held.push_back(std::make_unique<test::Wire>(server.port()));
+    held.back()->send(test::request_text("GET", "/healthz", "", ""));
+    status = test::read_answer(*held.back()).status;
+  }
+  ASSERT_EQ(status, 503);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(test::request(server.port(), "GET", "/healthz").status, 503);
+  }
+  held.front()->send(test::request_text("GET", "/", "", ""));
+  const int file = test::read_answer(*held.front()).status;
+  EXPECT_TRUE(file == 200 || file == 503) << file;
+  held.front()->send(test::request_text("GET", "/healthz", "", ""));
+  EXPECT_EQ(test::read_answer(*held.front()).status, 200);
+}
+
+}  // namespace
+}  // namespace armloom
