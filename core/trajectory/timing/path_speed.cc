@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// |on_u u + on_x x| <= limit, with x = s'^2 at the part's beginning and u = s'' all over it.
+// |on_u u + on_x x| <= limit, with x = s'^2 at the part's beginning and u = s'' all over it, solved
+// for u: it lies within `half` of -slope x. Rows that u has no part in bound x alone.
 struct Row {
-  double on_u;
-  double on_x;
-  double limit;
+  double slope;
+  double half;
 };
 
 // Between two stations: as many rows as joints times Bernstein coefficients.
@@ -22,24 +22,18 @@ struct Part {
   double begin;
   double length;
   std::size_t piece;
-  double x_max = kInfinity;  // at both ends, of the velocities
   std::size_t rows_begin;
+  double x_max = kInfinity;    // at both ends, of the velocities
+  double x_begin = kInfinity;  // at the beginning, of rows without u
 };
 
-// The u that meets a row's upper (sign 1) or lower (sign -1) side.
-double bound_of(const Row& row, double x, double sign) {
-  return (sign * row.limit - row.on_x * x) / row.on_u;
-}
-
+// Which accelerations are allowed, and the slope over x of each bound.
 struct Range {
   double lowest = -kInfinity;
   double highest = kInfinity;
-  const Row* at_lowest = nullptr;
-  const Row* at_highest = nullptr;
+  double lowest_slope = 0.0;
+  double highest_slope = 0.0;
 };
-
-// A row that u has no part in bounds x alone.
-bool is_without_u(const Row& row) { return std::abs(row.on_u) < 1e-12 * row.limit; }
 
 class Reachability {
  public:
@@ -67,7 +61,7 @@ Reachability::Reachability(const JointPath& path, const JointRates& rates, std::
     const std::size_t count = std::max(kPartsOfPiece, static_cast<std::size_t>(std::ceil(share)));
     for (std::size_t i = 0; i < count; ++i) {
       const double each = length / static_cast<double>(count);
-      add_part(path, rates, {static_cast<double>(i) * each, each, k, kInfinity, rows_.size()});
+      add_part(path, rates, {static_cast<double>(i) * each, each, k, rows_.size()});
     }
   }
 }
@@ -96,11 +90,17 @@ void Reachability::add_part(const JointPath& path, const JointRates& rates, Part
     const double u0 = h * c1, u1 = h * 6.0 * c2, u2 = h * 15.0 * c3;  // by u: 1, y, y^2
     const double x0 = 2.0 * c2, x1 = 6.0 * c3;                        // by x
     // A quadratic's Bernstein coefficients are w0, w0 + w1 / 2, w0 + w1 + w2.
-    rows_.push_back({u0, x0, limit});
-    if (c2 != 0.0 || c3 != 0.0) {
-      rows_.push_back({u0 + u1 / 2.0, x0 + x1 / 2.0, limit});
-      rows_.push_back({u0 + u1 + u2, x0 + x1, limit});
-    }
+    const auto add_row = [&](double on_u, double on_x) {
+      if (std::abs(on_u) >= 1e-12 * limit) {
+        rows_.push_back({on_x / on_u, limit / std::abs(on_u)});
+      } else if (on_x != 0.0) {
+        part.x_begin = std::min(part.x_begin, limit / std::abs(on_x));
+      }
+    };
+    add_row(u0, x0);
+    if (c2 == 0.0 && c3 == 0.0) continue;
+    add_row(u0 + u1 / 2.0, x0 + x1 / 2.0);
+    add_row(u0 + u1 + u2, x0 + x1);
   }
   parts_.push_back(part);
 }
@@ -108,12 +108,15 @@ void Reachability::add_part(const JointPath& path, const JointRates& rates, Part
 Range Reachability::range_of_u(std::size_t part, double x) const {
   Range range;
   for (const Row& row : rows(part)) {
-    if (is_without_u(row)) continue;
-    const double sign = row.on_u > 0.0 ? 1.0 : -1.0;
-    const double highest = bound_of(row, x, sign);
-    const double lowest = bound_of(row, x, -sign);
-    if (highest < range.highest) range.highest = highest, range.at_highest = &row;
-    if (lowest > range.lowest) range.lowest = lowest, range.at_lowest = &row;
+    const double middle = -row.slope * x;
+    if (middle + row.half < range.highest) {
+      range.highest = middle + row.half;
+      range.highest_slope = -row.slope;
+    }
+    if (middle - row.half > range.lowest) {
+      range.lowest = middle - row.half;
+      range.lowest_slope = -row.slope;
+    }
   }
   return range;
 }
@@ -123,21 +126,14 @@ Range Reachability::range_of_u(std::size_t part, double x) const {
 // piecewise linear, come down to where they meet and never pass it.
 double Reachability::largest_x(std::size_t part, double x_next) const {
   const double twice = 2.0 * parts_[part].length;
-  double x = parts_[part].x_max;
-  for (const Row& row : rows(part)) {
-    if (is_without_u(row) && row.on_x != 0.0) x = std::min(x, row.limit / std::abs(row.on_x));
-  }
+  double x = std::min(parts_[part].x_max, parts_[part].x_begin);
   for (int i = 0; i < 60; ++i) {
     const Range range = range_of_u(part, x);
     const double to_next = (x_next - x) / twice;
     const bool by_next = to_next < range.highest;
     const double highest = by_next ? to_next : range.highest;
     if (range.lowest - highest <= 1e-9 * (std::abs(range.lowest) + std::abs(highest))) break;
-    // Both as lines of x: value + slope (x' - x).
-    const double slope_high =
-        by_next ? -1.0 / twice : -range.at_highest->on_x / range.at_highest->on_u;
-    const double slope_low = -range.at_lowest->on_x / range.at_lowest->on_u;
-    const double fall = slope_low - slope_high;
+    const double fall = range.lowest_slope - (by_next ? -1.0 / twice : range.highest_slope);
     if (!(fall > 0.0)) return 0.0;
     x = std::max(0.0, x - (range.lowest - highest) / fall);
     if (x == 0.0) break;

@@ -45,12 +45,37 @@ class Reader {
   std::vector<double> q, v;
 };
 
-// Where the jerk of the mean jumps: half a window before and after each station. From -T/2 on.
-std::vector<double> knots_of(const std::vector<Station>& stations, double half_s) {
+// By which share of what it may have the acceleration of some joint jumps at a station at most.
+double jump_at(const JointPath& path, const JointRates& rates, const Station& before,
+               const Station& at) {
+  const double* c = path.coefficients(at.piece).data();
+  const double x = at.s - path.begin(at.piece);
+  const double* b = path.coefficients(before.piece).data();
+  const double y = at.s - path.begin(before.piece);
+  double most = 0.0;
+  for (std::size_t j = 0; j < path.joints(); ++j, b += 4, c += 4) {
+    const double slope = c[1] + x * (2.0 * c[2] + x * 3.0 * c[3]);
+    const double bend = 2.0 * (c[2] - b[2]) + 6.0 * (x * c[3] - y * b[3]);
+    const double jump =
+        slope * (at.acceleration - before.acceleration) + bend * at.speed * at.speed;
+    most = std::max(most, std::abs(jump) / rates.acceleration[static_cast<Eigen::Index>(j)]);
+  }
+  return most;
+}
+
+// Where waypoints are. From -T/2 on.
+std::vector<double> knots_of(const JointPath& path, const JointRates& rates,
+                             const std::vector<Station>& stations, double half_s) {
   std::vector<double> times;
-  for (const Station& station : stations) {
-    times.push_back(station.time_s - half_s);
-    times.push_back(station.time_s + half_s);
+  times.reserve(2 * stations.size());
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const bool inner = i > 0 && i + 1 < stations.size();
+    if (inner && jump_at(path, rates, stations[i - 1], stations[i]) < kSmallJump) {
+      times.push_back(stations[i].time_s);
+      continue;
+    }
+    times.push_back(stations[i].time_s - half_s);
+    times.push_back(stations[i].time_s + half_s);
   }
   std::ranges::sort(times);
   std::vector<double> knots{times.front()};
@@ -65,10 +90,10 @@ std::vector<double> knots_of(const std::vector<Station>& stations, double half_s
 
 }  // namespace
 
-std::vector<WaypointRequest> softened(const JointPath& path, const std::vector<Station>& stations,
-                                      double window_s) {
+std::vector<WaypointRequest> softened(const JointPath& path, const JointRates& rates,
+                                      const std::vector<Station>& stations, double window_s) {
   const double half_s = 0.5 * window_s;
-  const std::vector<double> knots = knots_of(stations, half_s);
+  const std::vector<double> knots = knots_of(path, rates, stations, half_s);
   const std::size_t joints = path.joints();
   Reader before(path, stations), after(path, stations);
   const std::vector<double> still(joints, 0.0);

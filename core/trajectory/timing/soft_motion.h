@@ -17,9 +17,12 @@ namespace armloom {
 // T longer, and is no farther from the path than a_max T^2 / 24 in each joint.
 //
 // Waypoints with velocities and accelerations, the first at time zero: the quintics between them
-// are q~ but for what a jump of the jerk between two stations leaves (the waypoints lie where the
-// jerk jumps; of jumps closer than half a millisecond only one). Precondition: window_s > 0.
-[[nodiscard]] std::vector<WaypointRequest> softened(const JointPath& path,
+// are q~ but for what a jump of the jerk between two waypoints leaves. They lie where the jerk
+// jumps, half a window before and after each station; where the acceleration changes there by less
+// than kSmallJump of what the joints may have, one at the station does, and of two that are closer
+// than half a millisecond one. Precondition: window_s > 0.
+inline constexpr double kSmallJump = 0.03;
+[[nodiscard]] std::vector<WaypointRequest> softened(const JointPath& path, const JointRates& rates,
                                                     const std::vector<Station>& stations,
                                                     double window_s);
 

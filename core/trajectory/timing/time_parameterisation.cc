@@ -20,7 +20,7 @@ using Points = std::vector<Eigen::VectorXd>;
 constexpr std::size_t kParts = 160;
 // The quintics swing out beyond what they stand for by less than this share, but for rare cases:
 // these are made again, slower.
-constexpr double kHeadroom = 1.0 - 1e-6;
+constexpr double kHeadroom = 1.0 - 2e-3;
 constexpr int kTriesMax = 8;
 
 TrajectoryRequest request_for(const Cell& cell, const std::vector<JointId>& joints) {
@@ -109,11 +109,11 @@ Result<TimedMotion> time_path(const Cell& cell, const std::vector<JointId>& join
     window_s *= share;
   }
   window_s = std::max(window_s, kWindowMin_s);
-  rates.velocity *= kHeadroom;
+  rates.velocity *= 1.0 - 1e-4;
   rates.acceleration *= kHeadroom;
   TrajectoryRequest request = request_for(cell, joints);
   for (int i = 0; i < kTriesMax; ++i) {
-    request.points = softened(path, fastest_along(path, rates, kParts), window_s);
+    request.points = softened(path, rates, fastest_along(path, rates, kParts), window_s);
     const LimitShares used = limit_shares(request.points, limits);
     const double factor =
         std::max({used.velocity, std::sqrt(used.acceleration), std::cbrt(used.jerk)});
