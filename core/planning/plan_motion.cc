@@ -6,7 +6,7 @@ namespace armloom {
 namespace {
 
 // How widely corners are cut, tried in this order; rad or m in joint space.
-constexpr double kRoundings[] = {0.2, 0.05, 0.01};
+constexpr double kRoundings[] = {0.2, 0.05, 0.01, 0.002};
 
 bool is_free(MotionChecker& checker, const PlanRequest& request, const TrajectoryPtr& trajectory) {
   const double tracking_error = checker.scene()->cell().checking.tracking_error_rad;

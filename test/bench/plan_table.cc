@@ -78,7 +78,8 @@ Row run(const PlanningScenePtr& scene, ArmId id, const Poses& poses) {
   for (const auto& [name, q] : poses) {
     const auto answer = lines.state(q);
     if (answer.kind == LineChecker::Kind::free) {
-      free.emplace(name, q);
+      const auto same = [&q](const auto& other) { return (other.second - q).norm() < 1e-9; };
+      if (std::ranges::none_of(free, same)) free.emplace(name, q);
     } else {
       row.colliding.push_back(name + ": " + told(*answer.proximity));
     }

@@ -52,7 +52,7 @@ class LineChecker {
   // closely that another way is sooner found.
   inline static constexpr int kStretchesMax = 600;
   // Stretches in which no joint moves by more than this are not halved; rad or m.
-  inline static constexpr double kFinest = 5e-4;
+  inline static constexpr double kFinest = 1e-3;
 
  private:
   struct Counterpart {
