@@ -43,16 +43,20 @@ std::optional<KdlChain> chain_to(const Cell& cell, ArmId arm, LinkId link, const
       X_FP = X_FP * (pose_of(at.parent).inverse() * X_WL[id.index()]);
       continue;
     }
-    if (at.multiplier != 1.0 || at.offset != 0.0) return std::nullopt;
-    if (std::ranges::find(result.rows, *row) != result.rows.end()) return std::nullopt;
     const Eigen::Isometry3d X_FJ = X_FP * at.X_PJ;
     const Eigen::Vector3d p = X_FJ.translation();
     const Eigen::Vector3d axis = X_FJ.linear() * at.axis;
     const auto type =
         at.motion == JointKind::prismatic ? KDL::Joint::TransAxis : KDL::Joint::RotAxis;
     const KDL::Joint joint(cell.joint(*at.driver).name, KDL::Vector(p.x(), p.y(), p.z()),
-                           KDL::Vector(axis.x(), axis.y(), axis.z()), type);
-    result.chain.addSegment(KDL::Segment(at.name, joint, kdl_frame(X_FJ)));
+                           KDL::Vector(axis.x(), axis.y(), axis.z()), type, at.multiplier);
+    Eigen::Isometry3d X_JL = Eigen::Isometry3d::Identity();  // where the joint is at zero
+    if (at.motion == JointKind::prismatic) {
+      X_JL.translation() = at.offset * at.axis;
+    } else {
+      X_JL.linear() = Eigen::AngleAxisd(at.offset, at.axis).toRotationMatrix();
+    }
+    result.chain.addSegment(KDL::Segment(at.name, joint, kdl_frame(X_FJ * X_JL)));
     result.rows.push_back(*row);
     X_FP = Eigen::Isometry3d::Identity();
   }

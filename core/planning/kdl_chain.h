@@ -14,11 +14,11 @@ namespace armloom {
 // From the world to a link: the joints of one arm on the way, all others as they stand.
 struct KdlChain {
   KDL::Chain chain;
-  std::vector<Eigen::Index> rows;  // of the arm's joints, in the order of the chain
+  std::vector<Eigen::Index> rows;  // of the arm's joints, by the chain's; mimic joints repeat them
 };
 
 // X_WL: of all links, at the configuration that everything else stands in. Nothing: none of the
-// arm's joints moves the link, or one of them moves it through a mimic joint.
+// arm's joints moves the link.
 [[nodiscard]] std::optional<KdlChain> chain_to(const Cell& cell, ArmId arm, LinkId link,
                                                const LinkPoses& X_WL);
 

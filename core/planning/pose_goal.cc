@@ -99,17 +99,18 @@ class PoseSearch {
       for (int k = 0; k < 6; ++k) e[k] = off(k);
       if (e.norm() < kConverged) break;
       jacobian.JntToJac(at, J);
-      const Eigen::MatrixXd& A = J.data;
+      Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6, q.size());
+      for (unsigned j = 0; j < size; ++j) A.col(chain.rows[j]) += J.data.col(j);
       const Eigen::Matrix<double, 6, 6> damped =
           A * A.transpose() +
           (0.5 * e.squaredNorm() * kDamping + 1e-9) * Eigen::Matrix<double, 6, 6>::Identity();
       Eigen::VectorXd step = A.transpose() * damped.ldlt().solve(e);
       const double longest = step.lpNorm<Eigen::Infinity>();
       if (longest > kStepLongest) step *= kStepLongest / longest;
-      for (unsigned j = 0; j < size; ++j) {
-        const Eigen::Index row = chain.rows[j];
-        const Joint& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(row)]);
-        q[row] = std::clamp(q[row] + step[j], joint.lower, joint.upper);
+      q += step;
+      for (Eigen::Index j = 0; j < q.size(); ++j) {
+        const Joint& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(j)]);
+        q[j] = std::clamp(q[j], joint.lower, joint.upper);
       }
     }
     return q;

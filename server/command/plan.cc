@@ -80,7 +80,7 @@ Result<Goals> goals_of(const PlanGoal& goal, const Cell& cell, const PlanRequest
     link = cell.find_link(*goal.pose->link);
   } else {
     for (const LinkId id : arm.links) {
-      if (cell.link(id).driver == arm.joints.back()) link = id;
+      if (cell.link(id).driver == arm.joints.back() && !link) link = id;
     }
   }
   if (!link) {

@@ -13,7 +13,7 @@
 #include <sstream>
 
 #include "core/collision/check/line_checker.h"
-#include "core/model/build_cell.h"
+#include "core/model/cell/build_cell.h"
 #include "core/planning/plan_motion.h"
 #include "server/codec/cell_codec.h"
 
