@@ -1,7 +1,8 @@
 // The table of core/planning/README.md: from every named or published pose of each arm to every
 // other, all other arms at home: how many are solved, how soon, how long the ways are.
 //   plan_table CELL [SCENARIO]...
-// A scenario (shared/data/scenarios) adds its poses to the arms that stand where its robots do.
+// Arms of few poses get random ones besides. A scenario (shared/data/scenarios) adds its poses to
+// the arms that stand where its robots do.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
 
 #include "core/collision/check/line_checker.h"
@@ -68,6 +70,23 @@ struct Row {
   std::vector<std::string> colliding, unsolved;
 };
 
+// Arms of few poses get ten more that are free, of a fixed seed.
+void add_postures(const Cell& cell, ArmId id, LineChecker& lines, Poses& free) {
+  if (free.size() > 4) return;
+  std::mt19937_64 random(1);
+  const Arm& arm = cell.arm(id);
+  for (int made = 0; made < 10;) {
+    Eigen::VectorXd q = arm.home;
+    for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+      const Joint& joint = cell.joint(arm.joints[j]);
+      q[static_cast<Eigen::Index>(j)] = std::uniform_real_distribution(
+          std::max(joint.lower, -2.9), std::min(joint.upper, 2.9))(random);
+    }
+    if (!lines.is_free(q, q)) continue;
+    free.emplace("posture " + std::to_string(++made), q);
+  }
+}
+
 Row run(const PlanningScenePtr& scene, ArmId id, const Poses& poses) {
   const Cell& cell = scene->cell();
   const Arm& arm = cell.arm(id);
@@ -84,6 +103,7 @@ Row run(const PlanningScenePtr& scene, ArmId id, const Poses& poses) {
       row.colliding.push_back(name + ": " + told(*answer.proximity));
     }
   }
+  add_postures(cell, id, lines, free);
   const Planner planner(scene);
   for (const auto& [from, q] : free) {
     for (const auto& [to, goal] : free) {

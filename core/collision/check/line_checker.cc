@@ -83,7 +83,11 @@ LineChecker::Stretch LineChecker::look(TubePair& pair, TubePair::Nodes at,
   for (const Undecided& u : undecided) {
     const NarrowPair& narrow = pair.narrow(u.narrow, u.box);
     const bool hopeless = room(u) < kTowardsShare * u.moves_m();
-    if (hopeless && room(u) > 0.0) return Stretch::open;
+    if (hopeless) {  // no distance would do: whether it is a conflict is soon found out
+      const bool may_be = room(u) < 0.0;
+      return may_be && pair.distance(narrow, at, u.limit_m) < u.limit_m ? Stretch::conflict
+                                                                        : Stretch::open;
+    }
     const double enough_m = u.limit_m + u.moves_m();
     const double distance_m = pair.distance(narrow, at, enough_m);
     if (distance_m < u.limit_m) return Stretch::conflict;
