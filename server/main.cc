@@ -22,10 +22,8 @@ std::string not_a_seed(const std::string& text) {
   return text + " is no whole number from 0 to 18446744073709551615";
 }
 
-void add_seed(CLI::App& command, std::uint64_t& seed) {
-  command.add_option("--seed", seed, "of the arms' noise")
-      ->check(not_a_seed)
-      ->capture_default_str();
+void add_seed(CLI::App& command, std::uint64_t& seed, const char* of = "of the arms' noise") {
+  command.add_option("--seed", seed, of)->check(not_a_seed)->capture_default_str();
 }
 
 int run(int argc, char** argv) {
@@ -96,6 +94,21 @@ int run(int argc, char** argv) {
   check_command->add_option("--jobs", checking.jobs_file, "jobs file (JSON)")->required();
   check_command->add_option("--policy", checking.policy, "instead of the cell's");
 
+  PlanOptions planning;
+  CLI::App* plan_command =
+      app.add_subcommand("plan", "a job that brings an arm to a goal, all others at home");
+  add_cell(*plan_command, planning.cell_file);
+  plan_command->add_option("--arm", planning.arm, "which one")->required();
+  plan_command
+      ->add_option("--to", planning.to,
+                   "a named state, or JSON: {\"joints\": [...]}, {\"pose\": {\"link\", "
+                   "\"xyz\", \"rpy\"}}")
+      ->required();
+  plan_command->add_option("--from", planning.from,
+                           "where it stands: a named state or joints (home)");
+  add_seed(*plan_command, planning.seed, "of the search");
+  plan_command->add_option("--out", planning.out, "file of the job, a body of POST /jobs (stdout)");
+
   SimulateOptions simulating;
   CLI::App* simulate_command = app.add_subcommand("simulate", "run jobs on simulated time");
   add_cell(*simulate_command, simulating.cell_file);
@@ -133,6 +146,7 @@ int run(int argc, char** argv) {
   if (schema_command->parsed()) return openapi ? print_openapi() : print_cell_schema(markdown);
   if (import_command->parsed()) return import_robots(importing);
   if (check_command->parsed()) return check_jobs_file(checking);
+  if (plan_command->parsed()) return plan_way(planning);
   if (simulate_command->parsed()) return simulate_jobs(simulating);
   if (compare_command->parsed()) return compare_policies(comparing);
   return audit_recording(auditing);

@@ -59,6 +59,18 @@ struct CheckOptions {
 };
 int check_jobs_file(const CheckOptions& options);
 
+// A job that brings one arm from where it stands to a goal, all others at home: the body of
+// POST /jobs, on stdout or in a file; exit 0. Or why there is none, as JSON on stdout; exit 1.
+struct PlanOptions {
+  std::string cell_file;
+  std::string arm;
+  std::string to;    // a named state, or JSON (server/messages/plan_goal.h)
+  std::string from;  // the same without poses; empty: home
+  std::uint64_t seed = 1;
+  std::string out;  // empty: stdout
+};
+int plan_way(const PlanOptions& options);
+
 struct SimulateOptions {
   std::string cell_file;
   std::string jobs_file;

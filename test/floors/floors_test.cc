@@ -39,7 +39,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
       "core/collision", "core/planning", "core/scheduler", "core/monitor", "core/arm"}},
     {"server",
      {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
-      "core/executive", "core/audit"}},
+      "core/planning", "core/executive", "core/audit"}},
 };
 
 // The rooms inside a folder, from the lowest: each includes from those before it.

@@ -1,0 +1,183 @@
+#include "core/collision/check/line_checker.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/collision/scene/scene_bodies.h"
+
+namespace armloom {
+namespace {
+
+// The first cut of a line: as many stretches as the filter looks at in one go.
+constexpr int kFirstLevels = 3;
+// Pairs move towards each other at least this share of what they may move in all directions,
+// mostly: where more than that would have to be nothing, it is not asked.
+constexpr double kTowardsShare = 0.25;
+// Times along a line are no times: its whole length takes this.
+constexpr Duration kLength = std::chrono::seconds(1);
+
+}  // namespace
+
+LineChecker::LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration& rest,
+                         double tracking_error)
+    : scene_(std::move(scene)),
+      arm_(arm),
+      rest_(rest),
+      tracking_error_(tracking_error),
+      geometry_(std::make_shared<const ArmGeometry>(scene_->bodies(), arm)),
+      tube_scratch_(MotionTube::make_scratch(*geometry_)),
+      pair_scratch_(TubePair::make_scratch()) {
+  const Cell& cell = scene_->cell();
+  if (static_cast<std::size_t>(rest.size()) != cell.joints.size()) {
+    throw std::invalid_argument("LineChecker: rest must have one entry per joint of the cell");
+  }
+  const auto add = [&](std::optional<ArmId> other, double error) {
+    auto geometry = std::make_shared<const ArmGeometry>(scene_->bodies(), other);
+    const bool turned = other && *other < arm;
+    PairSet pairs = turned ? pairs_between(scene_->bodies(), geometry->linkage, geometry_->linkage)
+                           : pairs_between(scene_->bodies(), geometry_->linkage, geometry->linkage);
+    if (pairs.empty()) return;
+    counterparts_.push_back(
+        {std::move(pairs), std::make_shared<MotionTube>(geometry, nullptr, rest, error)});
+  };
+  for (std::uint32_t a = 0; a < cell.arms.size(); ++a) {
+    if (ArmId{a} != arm) add(ArmId{a}, tracking_error);
+  }
+  add(std::nullopt, 0.0);
+  if (!geometry_->self.empty()) counterparts_.push_back({geometry_->self, nullptr});
+  open_.resize(counterparts_.size());
+}
+
+std::shared_ptr<MotionTube> LineChecker::tube_along(const Eigen::VectorXd& from,
+                                                    const Eigen::VectorXd& to) const {
+  const Arm& arm = scene_->cell().arm(arm_);
+  Segment segment{Duration{}, kLength, {}};
+  segment.coefficients.setZero(from.size(), 6);
+  segment.coefficients.col(0) = from;
+  segment.coefficients.col(1) = (to - from) / to_seconds(kLength);
+  return std::make_shared<MotionTube>(
+      geometry_,
+      std::make_shared<const Trajectory>(arm.joints, std::vector{arm_}, std::vector{segment}),
+      rest_, tracking_error_, tube_scratch_);
+}
+
+TubePair LineChecker::pair_with(const Counterpart& other,
+                                const std::shared_ptr<MotionTube>& tube) const {
+  const TubePair::Setting setting{&scene_->bodies(), &other.pairs, pair_scratch_};
+  if (!other.tube) return {setting, tube, tube};
+  const std::optional<ArmId> arm = other.tube->linkage().arm();
+  const bool turned = arm && *arm < arm_;
+  return turned ? TubePair(setting, other.tube, tube) : TubePair(setting, tube, other.tube);
+}
+
+// From what the filter has left open of one stretch.
+LineChecker::Stretch LineChecker::look(TubePair& pair, TubePair::Nodes at,
+                                       std::vector<TubePair::Undecided>& undecided) const {
+  if (undecided.empty()) return Stretch::free;
+  using Undecided = TubePair::Undecided;
+  // The largest distance that a pair may have, as far as the capsules tell.
+  const auto room = [](const Undecided& u) {
+    return std::max(u.distance_m, 0.0) + u.slack_m - u.limit_m;
+  };
+  std::ranges::sort(undecided, {}, [&](const Undecided& u) { return room(u) - u.moves_m(); });
+  for (const Undecided& u : undecided) {
+    const NarrowPair& narrow = pair.narrow(u.narrow, u.box);
+    const bool hopeless = room(u) < kTowardsShare * u.moves_m();
+    if (hopeless) {  // no distance would do: whether it is a conflict is soon found out
+      const bool may_be = room(u) < 0.0;
+      return may_be && pair.distance(narrow, at, u.limit_m) < u.limit_m ? Stretch::conflict
+                                                                        : Stretch::open;
+    }
+    const double enough_m = u.limit_m + u.moves_m();
+    const double distance_m = pair.distance(narrow, at, enough_m);
+    if (distance_m < u.limit_m) return Stretch::conflict;
+    if (distance_m >= enough_m) continue;
+    if (distance_m - u.limit_m > kTowardsShare * u.moves_m() &&
+        pair.keeps_apart(narrow, at, u.limit_m, enough_m)) {
+      continue;
+    }
+    return Stretch::open;
+  }
+  return Stretch::free;
+}
+
+// Level by level, so that a conflict is met early; nothing: the line is free.
+std::optional<LineChecker::Found> LineChecker::search(const std::shared_ptr<MotionTube>& tube,
+                                                      double distance) {
+  std::vector<int> level{TimeTree::root()};
+  for (int i = 0; i < kFirstLevels && distance > kFinest; ++i) {
+    const std::vector<int> above = std::exchange(level, {});
+    for (const int node : above) {
+      level.push_back(tube->first_child(node));
+      level.push_back(level.back() + 1);
+    }
+    distance *= 0.5;
+  }
+  std::vector<TubePair> pairs;
+  for (std::size_t c = 0; c < counterparts_.size(); ++c) {
+    pairs.push_back(pair_with(counterparts_[c], tube));
+    open_[c] = level;
+  }
+  int looked_at = 0;
+  for (bool any = true; any; distance *= 0.5) {
+    any = false;
+    for (std::size_t c = 0; c < pairs.size(); ++c) {
+      const std::vector<int> nodes = std::exchange(open_[c], {});
+      for (std::size_t done = 0; done < nodes.size(); done += filter::kLanes) {
+        const std::size_t count = std::min<std::size_t>(filter::kLanes, nodes.size() - done);
+        TubePair::Nodes batch[filter::kLanes];
+        for (std::size_t i = 0; i < count; ++i) {
+          const int own = nodes[done + i];
+          batch[i] = pairs[c].is_self()     ? TubePair::Nodes{own, own}
+                     : pairs[c].a() == tube ? TubePair::Nodes{own, TimeTree::root()}
+                                            : TubePair::Nodes{TimeTree::root(), own};
+        }
+        pairs[c].filter({batch, count});
+        evaluations_ += count;
+        looked_at += static_cast<int>(count);
+        for (std::size_t i = 0; i < count; ++i) {
+          const int node = nodes[done + i];
+          const Stretch stretch = look(pairs[c], batch[i], pairs[c].undecided(i));
+          if (stretch == Stretch::free) continue;
+          const bool proven = stretch == Stretch::conflict;
+          if (proven || distance <= kFinest || looked_at > kStretchesMax) {
+            return Found{c, node, proven};
+          }
+          open_[c].push_back(tube->first_child(node));
+          open_[c].push_back(open_[c].back() + 1);
+          any = true;
+        }
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool LineChecker::is_free(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  return !search(tube_along(from, to), (to - from).lpNorm<Eigen::Infinity>());
+}
+
+LineChecker::Answer LineChecker::line(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  const auto tube = tube_along(from, to);
+  const auto found = search(tube, (to - from).lpNorm<Eigen::Infinity>());
+  if (!found) return {};
+  // The pair that is worst there, exactly.
+  const Duration at = tube->middle(found->node);
+  TubePair pair = pair_with(counterparts_[found->counterpart], tube);
+  const auto close = pair.too_close_at(at, at);
+  const auto missing = [&](const TubePair::Close& c) {
+    return c.distance_m - scene_->bodies().group_of(c.pair).limit_m(PairLimits::of(scene_->cell()));
+  };
+  const TubePair::Close worst =
+      close.empty() ? pair.closest_at(at, at) : *std::ranges::min_element(close, {}, missing);
+  const PartPair& parts = scene_->bodies().pairs[worst.pair.index()];
+  Answer answer{found->proven ? Kind::conflict : Kind::undecided,
+                to_seconds(at) / to_seconds(kLength),
+                proximity_of(scene_->bodies().parts[parts.a], scene_->bodies().parts[parts.b],
+                             worst.distance_m)};
+  answer.proximity->limit_m =
+      scene_->bodies().group_of(worst.pair).limit_m(PairLimits::of(scene_->cell()));
+  return answer;
+}
+
+}  // namespace armloom

@@ -1,0 +1,68 @@
+#include "core/planning/plan_motion.h"
+
+#include "core/collision/check/motion_checker.h"
+
+namespace armloom {
+namespace {
+
+// How widely corners are cut, tried in this order; rad or m in joint space.
+constexpr double kRoundings[] = {0.2, 0.05, 0.01, 0.002};
+
+// A way that passes something closely may be proven line by line and not as a job, whose cells are
+// cut otherwise: then another one is looked for.
+constexpr int kTries = 3;
+
+bool is_free(MotionChecker& checker, const PlanRequest& request, const TrajectoryPtr& trajectory) {
+  const double tracking_error = checker.scene()->cell().checking.tracking_error_rad;
+  const Verdict verdict = checker.judge({.version = 0,
+                                         .start_at = TimePoint{},
+                                         .candidates = {{JobId{0}, trajectory, Duration{}}},
+                                         .others = {},
+                                         .rest = request.at,
+                                         .method = Swept{tracking_error}});
+  return verdict.kind == Verdict::Kind::free;
+}
+
+// The way with times, where a judgement finds it free.
+std::optional<PlannedMotion> timed_way(MotionChecker& checker, const PlanRequest& request,
+                                       const JointWay& way, const TimingOptions& options) {
+  const Cell& cell = checker.scene()->cell();
+  const auto& joints = cell.arm(request.arm).joints;
+  if (way.points.size() > 2) {
+    for (const double within : kRoundings) {
+      auto timed = time_path(cell, joints, JointPath::rounded(way.points, within), options);
+      if (!timed || !is_free(checker, request, timed->trajectory)) continue;
+      return PlannedMotion{way, *std::move(timed), within};
+    }
+  }
+  auto timed = time_lines(cell, joints, way.points, options);
+  if (!timed || !is_free(checker, request, timed->trajectory)) return std::nullopt;
+  return PlannedMotion{way, *std::move(timed), 0.0};
+}
+
+}  // namespace
+
+tl::expected<PlannedMotion, PlanRefusal> plan_motion(const Planner& planner,
+                                                     const PlanRequest& request,
+                                                     const TimingOptions& options) {
+  MotionChecker checker(planner.scene());
+  PlanRequest again = request;
+  std::uint64_t evaluations = 0;
+  for (int i = 0; i < kTries && evaluations < request.budget; ++i) {
+    again.seed = request.seed + static_cast<std::uint64_t>(i);
+    again.budget = request.budget - evaluations;
+    auto way = planner.plan(again);
+    if (!way) return tl::unexpected(std::move(way.error()));
+    evaluations += way->evaluations;
+    if (auto motion = timed_way(checker, again, *way, options)) {
+      motion->way.evaluations = evaluations;
+      return *std::move(motion);
+    }
+  }
+  return tl::unexpected(PlanRefusal{PlanRefusal::Reason::not_found,
+                                    "what was found passes something so closely that it is not "
+                                    "proven free as a job",
+                                    std::nullopt, evaluations});
+}
+
+}  // namespace armloom

@@ -1,0 +1,203 @@
+#include "core/planning/planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+#include "core/collision/check/line_checker.h"
+#include "core/planning/shorten.h"
+#include "core/planning/tree_search.h"
+#include "core/trajectory/validate.h"
+
+namespace armloom {
+namespace {
+
+using Reason = PlanRefusal::Reason;
+
+// The longest edge of a tree: Euclidean, in joint space (rad, m).
+constexpr double kStep = 1.2;
+
+std::string mm(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g mm", 1e3 * metres);
+  return text;
+}
+
+Eigen::VectorXd joints_of(const Arm& arm, const Configuration& q) {
+  Eigen::VectorXd own(static_cast<Eigen::Index>(arm.joints.size()));
+  for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+    own[static_cast<Eigen::Index>(j)] = q[static_cast<Eigen::Index>(arm.joints[j].index())];
+  }
+  return own;
+}
+
+std::optional<PlanRefusal> outside(const Cell& cell, const Arm& arm, const Eigen::VectorXd& q,
+                                   const char* whose) {
+  for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+    const Joint& joint = cell.joint(arm.joints[j]);
+    const double value = q[static_cast<Eigen::Index>(j)];
+    if (value >= joint.lower - kPositionTolerance && value <= joint.upper + kPositionTolerance) {
+      continue;
+    }
+    char text[160];
+    std::snprintf(text, sizeof text, "%s: %s at %.6g is outside its limits %.6g to %.6g", whose,
+                  joint.name.c_str(), value, joint.lower, joint.upper);
+    return PlanRefusal{Reason::outside_limits, text};
+  }
+  return std::nullopt;
+}
+
+// Limits; of joints without any, half a turn beyond where the way begins and ends.
+JointRoom room_of(const Cell& cell, const Arm& arm, const Eigen::VectorXd& start,
+                  const std::vector<Eigen::VectorXd>& goals) {
+  JointRoom room{start, start};
+  for (const Eigen::VectorXd& goal : goals) {
+    room.lower = room.lower.cwiseMin(goal);
+    room.upper = room.upper.cwiseMax(goal);
+  }
+  for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+    const Joint& joint = cell.joint(arm.joints[j]);
+    const auto row = static_cast<Eigen::Index>(j);
+    room.lower[row] = std::isfinite(joint.lower) ? joint.lower : room.lower[row] - std::numbers::pi;
+    room.upper[row] = std::isfinite(joint.upper) ? joint.upper : room.upper[row] + std::numbers::pi;
+  }
+  return room;
+}
+
+// One request on its way.
+class Search {
+ public:
+  Search(const PlanningScenePtr& scene, const PlanRequest& request)
+      : request_(request),
+        cell_(scene->cell()),
+        arm_(cell_.arm(request.arm)),
+        start_(joints_of(arm_, request.at)),
+        lines_(scene, request.arm, request.at, cell_.checking.tracking_error_rad) {}
+
+  tl::expected<JointWay, PlanRefusal> run() {
+    if (auto refusal = check_ends()) return refuse(*std::move(refusal));
+    for (const std::size_t goal : goals_) {
+      if (is_free(start_, request_.goals[goal])) return way({start_, request_.goals[goal]});
+    }
+    TreeSearch search{room_of(cell_, arm_, start_, request_.goals),
+                      start_,
+                      {},
+                      kStep,
+                      request_.seed,
+                      [this](const auto& a, const auto& b) { return is_free(a, b); },
+                      [this] { return stop(); }};
+    for (const std::size_t goal : goals_) search.goals.push_back(request_.goals[goal]);
+    auto points = grow_trees(search);
+    if (!points) {
+      if (cancelled()) return refuse({Reason::cancelled, "planning was cancelled"});
+      return refuse(
+          {Reason::not_found,
+           "no way was found within " + std::to_string(request_.budget) +
+               " evaluations; there may be one: a larger budget or another seed finds it"});
+    }
+    shorten(*points, {search.is_free, search.stop, request_.seed});
+    return way(*std::move(points));
+  }
+
+ private:
+  [[nodiscard]] bool cancelled() const {
+    return request_.cancelled != nullptr && request_.cancelled->load(std::memory_order_relaxed);
+  }
+  [[nodiscard]] bool stop() const { return lines_.evaluations() >= request_.budget || cancelled(); }
+  [[nodiscard]] bool is_free(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+    return lines_.is_free(from, to);
+  }
+  [[nodiscard]] tl::unexpected<PlanRefusal> refuse(PlanRefusal refusal) const {
+    refusal.evaluations = lines_.evaluations();
+    return tl::unexpected(std::move(refusal));
+  }
+  [[nodiscard]] JointWay way(std::vector<Eigen::VectorXd> points) const {
+    const auto reached = std::ranges::find(request_.goals, points.back());
+    const auto goal = static_cast<std::size_t>(reached - request_.goals.begin());
+    return {std::move(points), goal, lines_.evaluations()};
+  }
+
+  // Fills goals_ with those that the arm may stand at, the nearest first.
+  std::optional<PlanRefusal> check_ends() {
+    if (auto refusal = outside(cell_, arm_, start_, "start")) return refusal;
+    if (const auto answer = lines_.state(start_); answer.kind != LineChecker::Kind::free) {
+      return PlanRefusal{Reason::start_in_collision, "at the start " + told(*answer.proximity),
+                         answer.proximity};
+    }
+    std::optional<PlanRefusal> first;
+    for (std::size_t g = 0; g < request_.goals.size(); ++g) {
+      auto refusal = outside(cell_, arm_, request_.goals[g], "goal");
+      if (!refusal) {
+        const auto answer = lines_.state(request_.goals[g]);
+        if (answer.kind == LineChecker::Kind::free) {
+          goals_.push_back(g);
+          continue;
+        }
+        refusal = PlanRefusal{Reason::goal_in_collision, "at the goal " + told(*answer.proximity),
+                              answer.proximity};
+      }
+      if (!first) first = std::move(refusal);
+    }
+    std::ranges::stable_sort(goals_, {},
+                             [&](std::size_t g) { return (request_.goals[g] - start_).norm(); });
+    return goals_.empty() ? first : std::nullopt;
+  }
+
+  const PlanRequest& request_;
+  const Cell& cell_;
+  const Arm& arm_;
+  Eigen::VectorXd start_;
+  LineChecker lines_;
+  std::vector<std::size_t> goals_;
+};
+
+}  // namespace
+
+double JointWay::length() const {
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) length += (points[i + 1] - points[i]).norm();
+  return length;
+}
+
+std::string reason_name(Reason reason) {
+  switch (reason) {
+    case Reason::outside_limits:
+      return "outside-limits";
+    case Reason::start_in_collision:
+      return "start-in-collision";
+    case Reason::goal_in_collision:
+      return "goal-in-collision";
+    case Reason::goal_not_reached:
+      return "goal-not-reached";
+    case Reason::not_found:
+      return "not-found";
+    case Reason::cancelled:
+      return "cancelled";
+  }
+  return "";
+}
+
+std::string told(const Proximity& p) {
+  const std::string distance =
+      p.clearance_m > 0.0 ? " is " + mm(p.clearance_m) + " from " : std::string(" touches ");
+  std::string text = p.body_a + distance + p.body_b;
+  if (p.clearance_m >= p.limit_m) {
+    return text + ", as much as is asked, but not with the tracking error on top";
+  }
+  return text + "; " + mm(p.limit_m) + " are asked";
+}
+
+tl::expected<JointWay, PlanRefusal> Planner::plan(const PlanRequest& request) const {
+  const Arm& arm = scene_->cell().arm(request.arm);
+  if (request.goals.empty()) throw std::invalid_argument("Planner: no goal");
+  for (const Eigen::VectorXd& goal : request.goals) {
+    if (goal.size() != static_cast<Eigen::Index>(arm.joints.size())) {
+      throw std::invalid_argument("Planner: a goal has one position for each joint of the arm");
+    }
+  }
+  return Search(scene_, request).run();
+}
+
+}  // namespace armloom

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "core/collision/scene/planning_scene.h"
+#include "core/coordination/proximity.h"
+
+namespace armloom {
+
+// Why there is no plan. The cell's words: links, distances, what would have been enough.
+struct PlanRefusal {
+  enum class Reason {
+    outside_limits,      // a joint of the start or goal
+    start_in_collision,  // something is closer than its limit where the arm stands
+    goal_in_collision,   // ... at every goal; `proximity` is of the first
+    goal_not_reached,    // inverse kinematics found no such pose (pose_goal.h)
+    not_found,           // no way within the budget: there may be one
+    cancelled,
+  };
+  Reason reason;
+  std::string detail;                       // one sentence
+  std::optional<Proximity> proximity = {};  // of collisions
+  std::uint64_t evaluations = 0;
+};
+// "start-in-collision": for programs.
+[[nodiscard]] std::string reason_name(PlanRefusal::Reason reason);
+
+// A way of one arm from where it stands to one of some goals, everything else standing still.
+struct PlanRequest {
+  ArmId arm;
+  Configuration at;                    // of the whole cell: the arm's own joints are the start
+  std::vector<Eigen::VectorXd> goals;  // one or more, rows as the arm's joints
+  std::uint64_t seed = 1;
+  // Stretches of lines that may be looked at (LineChecker::evaluations), shortening included.
+  std::uint64_t budget = kDefaultBudget;
+  const std::atomic<bool>* cancelled = nullptr;  // read now and then
+
+  inline static constexpr std::uint64_t kDefaultBudget = 400'000;
+};
+
+struct JointWay {
+  std::vector<Eigen::VectorXd> points;  // from the start to the goal; each line between two proven
+  std::size_t goal = 0;                 // which of the request's
+  std::uint64_t evaluations = 0;
+  [[nodiscard]] double length() const;  // Euclidean, in joint space
+};
+
+// Geometric planning in one scene. The straight line first; then RRT-Connect (Kuffner and LaValle
+// 2000, as OMPL has it) between the start and all goals; what it finds is shortened by lines
+// between random places of it. Every line is proven by LineChecker, with the clearances and the
+// tracking error of the cell, for its whole length. Continuous joints: the way is as long as the
+// goal says, they are not wrapped.
+//
+// The same request in the same scene gives the same way (one machine; budgets count, no clock).
+// Holds no state but the scene: thread-safe. Throws std::invalid_argument where sizes do not fit.
+class Planner {
+ public:
+  explicit Planner(PlanningScenePtr scene) : scene_(std::move(scene)) {}
+  [[nodiscard]] tl::expected<JointWay, PlanRefusal> plan(const PlanRequest& request) const;
+  [[nodiscard]] const PlanningScenePtr& scene() const { return scene_; }
+
+ private:
+  PlanningScenePtr scene_;
+};
+
+// "left_link7 comes within 3 mm of table, 20 mm are asked".
+[[nodiscard]] std::string told(const Proximity& proximity);
+
+}  // namespace armloom

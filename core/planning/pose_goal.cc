@@ -1,0 +1,182 @@
+#include "core/planning/pose_goal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <kdl/chainfksolverpos_recursive.hpp>
+#include <kdl/chainjnttojacsolver.hpp>
+#include <numbers>
+#include <optional>
+
+#include "core/planning/kdl_chain.h"
+
+namespace armloom {
+namespace {
+
+using Reason = PlanRefusal::Reason;
+
+// Further seeds: the Halton sequence over the joints' ranges, a prime for each joint.
+constexpr int kFurtherSeeds = 40;
+constexpr int kStepsMax = 100;
+constexpr double kStepLongest = 0.5;  // rad or m
+constexpr double kDamping = 0.1;
+constexpr double kConverged = 1e-7;  // m and rad
+constexpr int kPrimes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
+
+double halton(int index, int base) {
+  double share = 0.0, digit = 1.0;
+  for (int i = index; i > 0; i /= base) share += (digit /= base) * (i % base);
+  return share;
+}
+
+class PoseSearch {
+ public:
+  PoseSearch(const Cell& cell, const PoseGoal& goal, const Configuration& at)
+      : cell_(cell), goal_(goal), arm_(cell.arm(goal.arm)), at_(at), standing_(joints_at(at)) {}
+
+  tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal> run() {
+    forward_kinematics(cell_, at_, X_WL_);
+    const auto chain = chain_to(cell_, goal_.arm, goal_.link, X_WL_);
+    if (!chain) {
+      return tl::unexpected(PlanRefusal{Reason::goal_not_reached,
+                                        "link " + cell_.link(goal_.link).name +
+                                            " is not moved by the joints of arm " + arm_.name});
+    }
+    for (const Eigen::VectorXd& from : seeds()) {
+      take(descend(*chain, from));
+      if (solutions_.size() >= kPoseSolutionsMax) break;
+    }
+    if (solutions_.empty()) return tl::unexpected(refusal());
+    std::ranges::stable_sort(solutions_, {}, [&](const auto& q) { return (q - standing_).norm(); });
+    return solutions_;
+  }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd joints_at(const Configuration& q) const {
+    Eigen::VectorXd own(static_cast<Eigen::Index>(arm_.joints.size()));
+    for (Eigen::Index j = 0; j < own.size(); ++j) own[j] = q[column(j)];
+    return own;
+  }
+  [[nodiscard]] Eigen::Index column(Eigen::Index row) const {
+    return static_cast<Eigen::Index>(arm_.joints[static_cast<std::size_t>(row)].index());
+  }
+
+  [[nodiscard]] std::vector<Eigen::VectorXd> seeds() const {
+    std::vector<Eigen::VectorXd> seeds{standing_, arm_.home};
+    for (const auto& [name, q] : arm_.named_states) seeds.push_back(q);
+    for (int i = 1; i <= kFurtherSeeds; ++i) {
+      Eigen::VectorXd q(standing_.size());
+      for (Eigen::Index j = 0; j < q.size(); ++j) {
+        const Joint& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(j)]);
+        const bool ranged = std::isfinite(joint.lower) && std::isfinite(joint.upper);
+        const double lower = ranged ? joint.lower : standing_[j] - std::numbers::pi;
+        const double upper = ranged ? joint.upper : standing_[j] + std::numbers::pi;
+        const int prime = kPrimes[static_cast<std::size_t>(j) % std::size(kPrimes)];
+        q[j] = lower + halton(i, prime) * (upper - lower);
+      }
+      seeds.push_back(std::move(q));
+    }
+    return seeds;
+  }
+
+  // Levenberg and Marquardt's damped steps, each kept within the joints' limits (Sugihara,
+  // "Solvability-Unconcerned Inverse Kinematics by the Levenberg-Marquardt Method", IEEE T-RO 2011:
+  // the damping goes with the error). KDL's own such solver stops on an assertion of Eigen's in
+  // Debian's build.
+  [[nodiscard]] Eigen::VectorXd descend(const KdlChain& chain, Eigen::VectorXd q) const {
+    KDL::ChainFkSolverPos_recursive fk(chain.chain);
+    KDL::ChainJntToJacSolver jacobian(chain.chain);
+    const auto size = static_cast<unsigned>(chain.rows.size());
+    KDL::JntArray at(size);
+    KDL::Jacobian J(size);
+    KDL::Frame here;
+    const KDL::Frame there = kdl_frame(goal_.X_WL);
+    for (int i = 0; i < kStepsMax; ++i) {
+      for (unsigned j = 0; j < size; ++j) at(j) = q[chain.rows[j]];
+      fk.JntToCart(at, here);
+      const KDL::Twist off = KDL::diff(here, there);
+      Eigen::Matrix<double, 6, 1> e;
+      for (int k = 0; k < 6; ++k) e[k] = off(k);
+      if (e.norm() < kConverged) break;
+      jacobian.JntToJac(at, J);
+      Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6, q.size());
+      for (unsigned j = 0; j < size; ++j) A.col(chain.rows[j]) += J.data.col(j);
+      const Eigen::Matrix<double, 6, 6> damped =
+          A * A.transpose() +
+          (0.5 * e.squaredNorm() * kDamping + 1e-9) * Eigen::Matrix<double, 6, 6>::Identity();
+      Eigen::VectorXd step = A.transpose() * damped.ldlt().solve(e);
+      const double longest = step.lpNorm<Eigen::Infinity>();
+      if (longest > kStepLongest) step *= kStepLongest / longest;
+      q += step;
+      for (Eigen::Index j = 0; j < q.size(); ++j) {
+        const Joint& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(j)]);
+        q[j] = std::clamp(q[j], joint.lower, joint.upper);
+      }
+    }
+    return q;
+  }
+
+  // Whole turns off, toward where the joint stands, within its limits.
+  void unwind(Eigen::VectorXd& q) const {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    for (Eigen::Index j = 0; j < q.size(); ++j) {
+      const Joint& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(j)]);
+      if (joint.kind == JointKind::prismatic) continue;
+      q[j] -= kTurn * std::round((q[j] - standing_[j]) / kTurn);
+      if (q[j] > joint.upper) q[j] -= kTurn;
+      if (q[j] < joint.lower) q[j] += kTurn;
+    }
+  }
+
+  void take(Eigen::VectorXd q) {
+    if (!q.allFinite()) return;
+    unwind(q);
+    Configuration whole = at_;
+    for (Eigen::Index j = 0; j < q.size(); ++j) whole[column(j)] = q[j];
+    forward_kinematics(cell_, whole, X_WL_);
+    const Eigen::Isometry3d X_LG = X_WL_[goal_.link.index()].inverse() * goal_.X_WL;
+    const double off_m = X_LG.translation().norm();
+    const double off_rad = Eigen::AngleAxisd(X_LG.linear()).angle();
+    if (off_m > kPoseWithin_m || off_rad > kPoseWithin_rad) {
+      if (off_m + off_rad < nearest_.off_m + nearest_.off_rad) nearest_ = {off_m, off_rad, q};
+      return;
+    }
+    const auto same = [&](const Eigen::VectorXd& other) { return (other - q).norm() < 1e-3; };
+    if (std::ranges::none_of(solutions_, same)) solutions_.push_back(std::move(q));
+  }
+
+  [[nodiscard]] PlanRefusal refusal() const {
+    char text[320];
+    const std::string link = cell_.link(goal_.link).name;
+    std::snprintf(text, sizeof text,
+                  "%s does not reach that pose within the joints' limits; the nearest that was "
+                  "found is %.3g mm and %.3g "
+                  "degrees off",
+                  link.c_str(), 1e3 * nearest_.off_m, nearest_.off_rad * 180.0 / std::numbers::pi);
+    return {Reason::goal_not_reached, text};
+  }
+
+  struct Nearest {
+    double off_m = 1e6;
+    double off_rad = 1e6;
+    Eigen::VectorXd q;
+  };
+  const Cell& cell_;
+  const PoseGoal& goal_;
+  const Arm& arm_;
+  const Configuration& at_;
+  Eigen::VectorXd standing_;
+  LinkPoses X_WL_;
+  std::vector<Eigen::VectorXd> solutions_;
+  Nearest nearest_;
+};
+
+}  // namespace
+
+tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal> reach_pose(const Cell& cell,
+                                                                   const PoseGoal& goal,
+                                                                   const Configuration& at) {
+  return PoseSearch(cell, goal, at).run();
+}
+
+}  // namespace armloom

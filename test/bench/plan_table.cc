@@ -1,0 +1,180 @@
+// The table of core/planning/README.md: from every named or published pose of each arm to every
+// other, all other arms at home: how many are solved, how soon, how long the ways are.
+//   plan_table CELL [SCENARIO]...
+// Arms of few poses get random ones besides. A scenario (shared/data/scenarios) adds its poses to
+// the arms that stand where its robots do.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "core/collision/check/line_checker.h"
+#include "core/model/cell/build_cell.h"
+#include "core/planning/plan_motion.h"
+#include "server/codec/cell_codec.h"
+
+namespace armloom {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Poses = std::map<std::string, Eigen::VectorXd>;
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error("cannot read " + file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+CellPtr load(const std::string& file) {
+  Problems problems;
+  const auto folder = std::filesystem::path(file).parent_path();
+  auto cell = build_cell(read_cell_text(text_of(file), folder, problems), problems);
+  if (!cell) throw std::runtime_error(file + ": " + cell.error().front().detail);
+  return *cell;
+}
+
+void add_published(const nlohmann::json& scenario, const Cell& cell, std::vector<Poses>& poses) {
+  for (const auto& [name, base] : scenario["bases"].items()) {
+    for (std::size_t a = 0; a < cell.arms.size(); ++a) {
+      const Eigen::Vector3d p = cell.robots[cell.arms[a].robot.index()].X_WB.translation();
+      const auto xyz = base["xyz"].get<std::vector<double>>();
+      if ((p - Eigen::Vector3d(xyz[0], xyz[1], xyz[2])).norm() > 0.01) continue;
+      for (const auto& [pose, robots] : scenario["poses"].items()) {
+        if (!robots.contains(name)) continue;
+        const auto q = robots[name].get<std::vector<double>>();
+        if (q.size() != cell.arms[a].joints.size()) continue;
+        poses[a][pose] =
+            Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
+      }
+    }
+  }
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return NAN;
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+struct Row {
+  std::size_t queries = 0, solved = 0, straight = 0, in_time = 0, stopping = 0;
+  std::vector<double> ms, stretch;
+  std::vector<std::string> colliding, unsolved;
+};
+
+// Arms of few poses get ten more that are free, of a fixed seed.
+void add_postures(const Cell& cell, ArmId id, LineChecker& lines, Poses& free) {
+  if (free.size() > 4) return;
+  std::mt19937_64 random(1);
+  const Arm& arm = cell.arm(id);
+  for (int made = 0; made < 10;) {
+    Eigen::VectorXd q = arm.home;
+    for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+      const Joint& joint = cell.joint(arm.joints[j]);
+      q[static_cast<Eigen::Index>(j)] = std::uniform_real_distribution(
+          std::max(joint.lower, -2.9), std::min(joint.upper, 2.9))(random);
+    }
+    if (!lines.is_free(q, q)) continue;
+    free.emplace("posture " + std::to_string(++made), q);
+  }
+}
+
+Row run(const PlanningScenePtr& scene, ArmId id, const Poses& poses) {
+  const Cell& cell = scene->cell();
+  const Arm& arm = cell.arm(id);
+  Row row;
+  Configuration at = cell.home();
+  LineChecker lines(scene, id, at, cell.checking.tracking_error_rad);
+  Poses free;
+  for (const auto& [name, q] : poses) {
+    const auto answer = lines.state(q);
+    if (answer.kind == LineChecker::Kind::free) {
+      const auto same = [&q](const auto& other) { return (other.second - q).norm() < 1e-9; };
+      if (std::ranges::none_of(free, same)) free.emplace(name, q);
+    } else {
+      row.colliding.push_back(name + ": " + told(*answer.proximity));
+    }
+  }
+  add_postures(cell, id, lines, free);
+  const Planner planner(scene);
+  for (const auto& [from, q] : free) {
+    for (const auto& [to, goal] : free) {
+      if (from == to) continue;
+      for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+        at[static_cast<Eigen::Index>(arm.joints[j].index())] = q[static_cast<Eigen::Index>(j)];
+      }
+      const auto begin = Clock::now();
+      const auto planned = plan_motion(planner, {.arm = id, .at = at, .goals = {goal}});
+      const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+      ++row.queries;
+      row.ms.push_back(ms);
+      if (!planned) {
+        row.unsolved.push_back(from + " to " + to + ": " + planned.error().detail);
+        continue;
+      }
+      ++row.solved;
+      row.in_time += ms <= 1000.0;
+      row.straight += planned->way.points.size() == 2;
+      row.stopping += planned->way.points.size() > 2 && planned->rounded_within == 0.0;
+      row.stretch.push_back(planned->way.length() / (goal - q).norm());
+    }
+  }
+  return row;
+}
+
+void print(const std::string& name, const Row& row) {
+  std::printf("| %s | %zu | %.1f %% | %zu | %zu | %.2f | %.1f | %.0f | %.2f | %.2f | %.2f |\n",
+              name.c_str(), row.queries,
+              100.0 * static_cast<double>(row.in_time) / static_cast<double>(row.queries),
+              row.straight, row.stopping, quantile(row.ms, 0.5), quantile(row.ms, 0.95),
+              quantile(row.ms, 1.0), quantile(row.stretch, 0.5), quantile(row.stretch, 0.95),
+              quantile(row.stretch, 1.0));
+  std::fflush(stdout);
+}
+
+int table(const std::vector<std::string>& files) {
+  const CellPtr cell = load(files.front());
+  const auto scene = PlanningScene::build(cell);
+  if (!scene) throw std::runtime_error(scene.error().front().detail);
+  std::vector<Poses> poses;
+  for (const Arm& arm : cell->arms) {
+    poses.push_back({{"home (cell)", arm.home}});
+    for (const auto& [name, q] : arm.named_states) poses.back()[name] = q;
+  }
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    add_published(nlohmann::json::parse(text_of(files[i])), *cell, poses);
+  }
+  std::string notes;
+  for (std::uint32_t a = 0; a < cell->arms.size(); ++a) {
+    const Row row = run(*scene, ArmId{a}, poses[a]);
+    print(cell->name + " " + cell->arms[a].name, row);
+    for (const auto& pose : row.colliding) notes += cell->arms[a].name + " " + pose + "\n";
+    for (const auto& pair : row.unsolved) notes += "unsolved: " + pair + "\n";
+  }
+  std::cout << notes;
+  return 0;
+}
+
+}  // namespace
+}  // namespace armloom
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::cerr << "plan_table CELL [SCENARIO]...\n";
+    return 2;
+  }
+  try {
+    return armloom::table({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    std::cerr << "plan_table: " << error.what() << '\n';
+    return 2;
+  }
+}
