@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/arm/arm_controller.h"
+#include "core/executive/real_time_loop.h"
 #include "server/metrics/period_watch.h"
 
 namespace armloom {
