@@ -36,7 +36,6 @@ class Hub {
   // Sends every reader away, those to come as well, each when it has read what there is.
   void end();
 
-  [[nodiscard]] std::uint64_t last_seq() const { return last_seq_; }
   [[nodiscard]] bool has_readers();
 
  private:
