@@ -13,15 +13,15 @@ Result<std::vector<LinkShapeReport>> report_shapes(CellPtr cell) {
   const PlanningScene::Bodies& bodies = (*scene)->bodies();
   std::vector<LinkShapeReport> report;
   for (std::size_t i = 0; i < bodies.links_end; ++i) {
-    const Part& part = bodies.parts[i];
-    if (i > 0 && part.link == bodies.parts[i - 1].link) {
+    const CollisionBody& part = bodies.bodies[i];
+    if (i > 0 && part.link == bodies.bodies[i - 1].link) {
       LinkShapeReport& link = report.back();
-      link.convex_shapes += part.bodies_end - part.bodies_begin;
+      link.convex_shapes += part.shapes_end - part.shapes_begin;
       link.capsules += part.capsules.size();
       link.excess_m = std::max(link.excess_m, part.capsule_overestimate_m);
       continue;
     }
-    report.push_back({part.name, part.bodies_end - part.bodies_begin, part.capsules.size(),
+    report.push_back({part.name, part.shapes_end - part.shapes_begin, part.capsules.size(),
                       part.capsule_overestimate_m});
   }
   return report;

@@ -77,11 +77,18 @@ struct CheckingSettings {
   Duration delay = std::chrono::milliseconds(100);
   double limit_tolerance = 0.05;  // share by which a spline may overshoot a limit
 };
+// What is done about an arm without a job in the way of one, and jobs that wait for each other.
+enum class OnIdleBlocker {
+  report,  // it is only told
+  park,    // an arm is sent aside
+};
+[[nodiscard]] const char* to_string(OnIdleBlocker value);
+
 struct SchedulingSettings {
   std::string policy = "earliest_start";
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
-  std::string on_idle_blocker = "park";
+  OnIdleBlocker on_idle_blocker = OnIdleBlocker::park;
   int horizon_legs = 6;  // of each lane, admitted ahead by policies that look ahead
 };
 struct MonitorSettings {

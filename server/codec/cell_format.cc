@@ -43,7 +43,8 @@ FormatPtr<SchedulingSettings> scheduling_format() {
             "A job that has waited so long in the backlog expires, unless it says otherwise."),
       field("aging_s", &Scheduling::aging, seconds(kTime),
             "A job that has waited so long is overtaken no more."),
-      field("on_idle_blocker", &Scheduling::on_idle_blocker, one_of({"report", "park"}),
+      field("on_idle_blocker", &Scheduling::on_idle_blocker,
+            choice<OnIdleBlocker>({OnIdleBlocker::report, OnIdleBlocker::park}, to_string),
             "An arm without a job in the way of one, and jobs that wait for each other: park sends "
             "an arm "
             "aside, report only tells of it."),

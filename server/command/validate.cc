@@ -87,8 +87,8 @@ void print_settings(const Cell& cell) {
             << "scheduling: policy " << cell.scheduling.policy << ", backlog timeout "
             << to_seconds(cell.scheduling.backlog_timeout) << " s, aging "
             << to_seconds(cell.scheduling.aging) << " s, on idle blocker "
-            << cell.scheduling.on_idle_blocker << ", horizon " << cell.scheduling.horizon_legs
-            << " legs\n"
+            << to_string(cell.scheduling.on_idle_blocker) << ", horizon "
+            << cell.scheduling.horizon_legs << " legs\n"
             << "monitor: " << cell.monitor.rate_hz << " Hz, reaction "
             << to_seconds(cell.monitor.reaction) << " s, stops below "
             << cell.monitor.stop_clearance_m << " m\n"

@@ -38,7 +38,6 @@ class Hub {
   // Sends every reader away, those to come as well, each when it has read what there is.
   void end();
 
-  [[nodiscard]] std::uint64_t last_seq() const { return last_seq_; }
   [[nodiscard]] std::size_t readers();
   [[nodiscard]] std::uint64_t frames_dropped() const { return frames_dropped_; }
   [[nodiscard]] std::uint64_t readers_sent_away() const { return readers_sent_away_; }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/collision/state/part_distance.h"
+#include "core/collision/state/body_distance.h"
 #include "core/model/kinematics.h"
 
 namespace armloom::bench {
@@ -36,14 +36,14 @@ double smallest(ExactScene& exact, const Configuration& q, double horizon_m, dou
   for (const PairGroup& group : bodies.groups) {
     if (!wanted(group)) continue;
     for (std::size_t i = group.pairs_begin; i < group.pairs_end && smallest_m > enough_m; ++i) {
-      const Part& a = bodies.parts[bodies.pairs[i].a];
-      const Part& b = bodies.parts[bodies.pairs[i].b];
+      const CollisionBody& a = bodies.bodies[bodies.pairs[i].a];
+      const CollisionBody& b = bodies.bodies[bodies.pairs[i].b];
       const Eigen::Isometry3d X_WA = a.pose(exact.X_WL);
       const Eigen::Isometry3d X_WB = b.pose(exact.X_WL);
       const double centers_m = (X_WA * a.p_PC - X_WB * b.p_PC).norm();
       if (centers_m - a.radius_m - b.radius_m >= smallest_m) continue;
       smallest_m =
-          std::min(smallest_m, part_distance(bodies.bodies, {a, X_WA}, {b, X_WB}, smallest_m));
+          std::min(smallest_m, body_distance(bodies.shapes, {a, X_WA}, {b, X_WB}, smallest_m));
     }
   }
   return smallest_m;

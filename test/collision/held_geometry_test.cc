@@ -72,7 +72,7 @@ std::map<NamePair, double> brute_force(const Holding& h, const Configuration& q)
   forward_kinematics(*h.cell, q, X_WL);
   struct Solid {
     std::string name;
-    std::vector<ConvexShape> bodies;
+    std::vector<ConvexShape> shapes;
     Eigen::Isometry3d X_WP;
     bool held;
   };
@@ -101,8 +101,8 @@ std::map<NamePair, double> brute_force(const Holding& h, const Configuration& q)
       if (left && (hand.contains(b.name) || (b.held && b.name != "bracket"))) continue;
       if (!left && b.name == "right_panda_link5") continue;
       double smallest = 1e9;
-      for (const ConvexShape& x : a.bodies) {
-        for (const ConvexShape& y : b.bodies) {
+      for (const ConvexShape& x : a.shapes) {
+        for (const ConvexShape& y : b.shapes) {
           smallest = std::min(smallest, exact_distance(x, a.X_WP * x.X_PS, y, b.X_WP * y.X_PS));
         }
       }
@@ -176,7 +176,7 @@ struct Filtered {
 };
 constexpr double kRounding_m = 1e-9;
 
-std::vector<LinkCapsule> capsules_of(const Filtered& arm, const KinematicPart& part) {
+std::vector<LinkCapsule> capsules_of(const Filtered& arm, const KinematicBody& part) {
   std::vector<LinkCapsule> capsules;
   for (int c = part.capsules_begin; c < part.capsules_end; ++c) capsules.push_back(arm.capsule(c));
   return capsules;
@@ -193,10 +193,10 @@ TEST(HeldObjects, LieInTheirCapsulesInTheFilter) {
     for (const ArmId id : {ArmId{0}, ArmId{1}}) {
       const Filtered arm(*h.scene, id, q);
       const ArmKinematics& linkage = arm.linkage;
-      for (const KinematicPart& placed : linkage.parts()) {
-        const Part& part = bodies.parts[placed.part];
+      for (const KinematicBody& placed : linkage.bodies()) {
+        const CollisionBody& part = bodies.bodies[placed.body];
         if (!part.held()) continue;
-        const Attachment& held = h.scene->attachments()[placed.part - bodies.links_end];
+        const Attachment& held = h.scene->attachments()[placed.body - bodies.links_end];
         const Eigen::Isometry3d X_WO = X_WL[held.link.index()] * held.X_LO;
         for (const ConvexShape& body :
              make_convex_shapes(std::vector<PlacedShape>(1, {held.object.shape}))) {
@@ -231,8 +231,8 @@ TEST(HeldObjects, AreNeverFartherInTheFilterThanTheyAre) {
     std::map<NamePair, double> least;
     const auto collect = [&](const PairSet& set, const Filtered& a, const Filtered* b) {
       const auto add = [&](const NarrowPair& narrow, double distance_m) {
-        const PartPair& pair = bodies.pairs[narrow.pair.index()];
-        const NamePair key = names(bodies.parts[pair.a].name, bodies.parts[pair.b].name);
+        const BodyPair& pair = bodies.pairs[narrow.pair.index()];
+        const NamePair key = names(bodies.bodies[pair.a].name, bodies.bodies[pair.b].name);
         const auto [entry, fresh] = least.emplace(key, distance_m);
         if (!fresh) entry->second = std::min(entry->second, distance_m);
       };

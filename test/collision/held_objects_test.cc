@@ -179,14 +179,14 @@ TEST(HeldObject, MayTouchTheHandThatHoldsItAndNoLinkBesides) {
                      {{"cup", Sphere{0.04}}, link(*cell, "left_panda_leftfinger")}});
   std::set<std::string> with_rod;
   const auto& bodies = scene->bodies();
-  for (const PartPair& pair : bodies.pairs) {
-    const std::string& a = bodies.parts[pair.a].name;
-    const std::string& b = bodies.parts[pair.b].name;
+  for (const BodyPair& pair : bodies.pairs) {
+    const std::string& a = bodies.bodies[pair.a].name;
+    const std::string& b = bodies.bodies[pair.b].name;
     if (a != "rod" && b != "rod") continue;
     EXPECT_TRUE(with_rod.insert(a == "rod" ? b : a).second) << a << " " << b;
   }
   std::set<std::string> expected;
-  for (const Part& part : bodies.parts) expected.insert(part.name);
+  for (const CollisionBody& part : bodies.bodies) expected.insert(part.name);
   for (const char* own : {"rod", "cup", "left_panda_link7", "left_panda_hand",
                           "left_panda_leftfinger", "left_panda_rightfinger"}) {
     EXPECT_EQ(expected.erase(own), 1U) << own;

@@ -241,11 +241,11 @@ TEST(LinkCapsules, OfThePandasStandOffAFewCentimetres) {
   ASSERT_TRUE(scene.has_value());
   const PlanningScene::Bodies& bodies = (*scene)->bodies();
   for (std::size_t i = 0; i < bodies.links_end; ++i) {
-    const Part& part = bodies.parts[i];
+    const CollisionBody& part = bodies.bodies[i];
     ASSERT_FALSE(part.capsules.empty()) << part.name;
-    for (std::size_t b = part.bodies_begin; b < part.bodies_end; ++b) {
+    for (std::size_t b = part.shapes_begin; b < part.shapes_end; ++b) {
       EXPECT_TRUE(std::any_of(part.capsules.begin(), part.capsules.end(), [&](const auto& c) {
-        return contains(c, bodies.bodies[b]);
+        return contains(c, bodies.shapes[b]);
       })) << part.name;
     }
     RecordProperty(part.name, std::to_string(part.capsules.size()) + " capsules, " +

@@ -51,7 +51,7 @@ TEST(TwoPandas, AreAllCapsulesOnceMerged) {
   const Pandas pandas;
   const auto& bodies = pandas.scene->bodies();
   std::size_t boxes = 0;
-  for (const ConvexShape& body : bodies.bodies) {
+  for (const ConvexShape& body : bodies.shapes) {
     EXPECT_NE(body.kind, ConvexShapeKind::cylinder);
     boxes += body.kind == ConvexShapeKind::box ? 1U : 0U;
   }

@@ -96,9 +96,9 @@ TEST(Surface, LeavesFreeWhatOnlyPiecesCallTooClose) {
   InNotch passes(0.012);
   int by_pieces = 0;
   const PlanningScene::Bodies& bodies = passes.scene->bodies();
-  const Part& arm = bodies.parts[0];
-  const Part& body = bodies.parts[1];
-  ASSERT_GT(body.bodies_end - body.bodies_begin, 1U);
+  const CollisionBody& arm = bodies.bodies[0];
+  const CollisionBody& body = bodies.bodies[1];
+  ASSERT_GT(body.shapes_end - body.shapes_begin, 1U);
   ClearanceQuery states(passes.scene);
   for (double angle = -0.2; angle > -kPi + 0.2; angle -= 0.05) {
     EXPECT_FALSE(passes.closer(angle)) << angle;
@@ -109,11 +109,11 @@ TEST(Surface, LeavesFreeWhatOnlyPiecesCallTooClose) {
     forward_kinematics(*passes.made, q, X_WL);
     PlacedConvexShape at_arm;
     PlacedConvexShape at_piece;
-    place(bodies.bodies[arm.bodies_begin], arm.pose(X_WL), at_arm);
+    place(bodies.shapes[arm.shapes_begin], arm.pose(X_WL), at_arm);
     double least = 1.0;
-    for (std::size_t i = body.bodies_begin; i < body.bodies_end; ++i) {
-      place(bodies.bodies[i], body.pose(X_WL), at_piece);
-      least = distance_below(bodies.bodies[arm.bodies_begin], at_arm, bodies.bodies[i], at_piece,
+    for (std::size_t i = body.shapes_begin; i < body.shapes_end; ++i) {
+      place(bodies.shapes[i], body.pose(X_WL), at_piece);
+      least = distance_below(bodies.shapes[arm.shapes_begin], at_arm, bodies.shapes[i], at_piece,
                              least);
     }
     by_pieces += least < passes.cell.clearance_m ? 1 : 0;
@@ -166,7 +166,7 @@ TEST(Surface, FindsAnArmInsideOfTheBody) {
 
 TEST(Surface, SaysHowFarCapsulesStandOffIt) {
   const InNotch passes(0.012);
-  const Part& body = passes.scene->bodies().parts[1];
+  const CollisionBody& body = passes.scene->bodies().bodies[1];
   EXPECT_GT(body.capsule_overestimate_m, 0.05);  // the notch is part of that
 }
 

@@ -63,8 +63,6 @@ INSTANTIATE_TEST_SUITE_P(
         MISTAKE(cell.scheduling.backlog_timeout = 0s, "/scheduling/backlog_timeout_s",
                 "greater than 0 s"),
         MISTAKE(cell.scheduling.aging = -1s, "/scheduling/aging_s", "aging_s is -1"),
-        MISTAKE(cell.scheduling.on_idle_blocker = "shove", "/scheduling/on_idle_blocker",
-                "'shove', it must be report or park"),
         MISTAKE(cell.monitor.rate_hz = 0, "/monitor/rate_hz", "greater than 0 and at most 1000 Hz"),
         MISTAKE(cell.monitor.rate_hz = 1001, "/monitor/rate_hz", "rate_hz is 1001"),
         MISTAKE(cell.monitor.rate_hz = kNaN, "/monitor/rate_hz", "rate_hz is nan"),

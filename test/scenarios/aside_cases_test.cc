@@ -4,7 +4,7 @@
 namespace armloom {
 namespace {
 
-CellDescription parking(const std::string& on_idle_blocker) {
+CellDescription parking(OnIdleBlocker on_idle_blocker) {
   CellDescription cell = crossing_description();
   cell.scheduling.on_idle_blocker = on_idle_blocker;
   return cell;
@@ -13,7 +13,7 @@ CellDescription parking(const std::string& on_idle_blocker) {
 class Aside : public ::testing::TestWithParam<std::string> {
  protected:
   // x has come to rest in the crossing, and y wants to pass.
-  void start(const std::string& on_idle_blocker) {
+  void start(OnIdleBlocker on_idle_blocker) {
     cell.emplace(parking(on_idle_blocker), GetParam());
     cell->submit(slide("x", -1, 0, 2, "in the middle"));
     cell->run_until(at(3s));
@@ -25,7 +25,7 @@ class Aside : public ::testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Policies, Aside, ::testing::ValuesIn(known_policies()));
 
 TEST_P(Aside, AnIdleArmInTheWayIsTold) {
-  start("report");
+  start(OnIdleBlocker::report);
   cell->run_until(at(10s));
   const JobView waits = cell->job("passes");
   EXPECT_EQ(waits.state, JobState::backlogged);
@@ -38,7 +38,7 @@ TEST_P(Aside, AnIdleArmInTheWayIsTold) {
 }
 
 TEST_P(Aside, WhatWouldHaveOpenedTheWayStandsInTheReasonWhenItExpires) {
-  start("report");
+  start(OnIdleBlocker::report);
   cell->run_to_the_end(at(80s));
   const JobView expired = cell->job("passes");
   ASSERT_EQ(expired.reason, Reason::backlog_timeout);
@@ -48,7 +48,7 @@ TEST_P(Aside, WhatWouldHaveOpenedTheWayStandsInTheReasonWhenItExpires) {
 
 // As soon as a job is there that moves the arm, nobody has to be told how to open the way.
 TEST_P(Aside, AnArmThatAJobWillMoveIsToldWithoutAdvice) {
-  start("report");
+  start(OnIdleBlocker::report);
   cell->run_until(at(10s));
   cell->submit(slide("y", 1, -1, 3, "back"));
   EXPECT_FALSE(cell->job("passes").waits_on[0].detail.empty());
@@ -57,7 +57,7 @@ TEST_P(Aside, AnArmThatAJobWillMoveIsToldWithoutAdvice) {
 }
 
 TEST_P(Aside, AnIdleArmInTheWayGoesBackWhereItCameFrom) {
-  start("park");
+  start(OnIdleBlocker::park);
   cell->run_to_the_end(at(20s));
   EXPECT_EQ(cell->job("passes").state, JobState::succeeded);
   const JobView aside = cell->job("aside-1");
@@ -68,7 +68,7 @@ TEST_P(Aside, AnIdleArmInTheWayGoesBackWhereItCameFrom) {
 }
 
 TEST_P(Aside, ItReturnsForAJobThatBeginsWhereItWasLeft) {
-  start("park");
+  start(OnIdleBlocker::park);
   cell->run_to_the_end(at(20s));
   cell->submit(slide("x", 0, 1, 2, "goes on"));
   cell->run_to_the_end(at(40s));
@@ -78,7 +78,7 @@ TEST_P(Aside, ItReturnsForAJobThatBeginsWhereItWasLeft) {
 }
 
 TEST_P(Aside, AJobThatBeginsWhereItStandsNowNeedsNoReturn) {
-  start("park");
+  start(OnIdleBlocker::park);
   cell->run_to_the_end(at(20s));
   cell->submit(slide("x", -1, 1, 2, "from here"));
   cell->run_to_the_end(at(40s));
@@ -88,7 +88,7 @@ TEST_P(Aside, AJobThatBeginsWhereItStandsNowNeedsNoReturn) {
 
 // Nowhere to go: it stays told, and nothing hangs in a circle.
 TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
-  CellDescription description = parking("park");
+  CellDescription description = parking(OnIdleBlocker::park);
   description.robots[0].arms[0].home = {0.0};
   cell.emplace(description, GetParam());
   cell->submit(slide("y", -1, 1, 3, "passes"));
@@ -112,7 +112,7 @@ TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
 
 // What does not move cannot go aside: the reason says what opens the way, and that does.
 TEST_P(Aside, AStoppedArmInTheWayIsToldToNeedAResume) {
-  start("report");
+  start(OnIdleBlocker::report);
   cell->simulation->executive().stop({ArmId{0}}, "operator");
   cell->run_until(at(10s));
   EXPECT_EQ(cell->job("passes").waits_on.at(0).detail,
@@ -120,7 +120,7 @@ TEST_P(Aside, AStoppedArmInTheWayIsToldToNeedAResume) {
             "the way, or \"on_idle_blocker\": \"park\" in the cell's scheduling, which sends it "
             "aside when resumed");
 
-  cell.emplace(parking("park"), GetParam());
+  cell.emplace(parking(OnIdleBlocker::park), GetParam());
   cell->submit(slide("x", -1, 0, 2, "in the middle"));
   cell->run_until(at(3s));
   cell->simulation->executive().stop({ArmId{0}}, "operator");
@@ -144,12 +144,12 @@ TEST_P(Aside, AStoppedArmInTheWayIsToldToNeedAResume) {
 }
 
 TEST(AsideByDefault, ArmsInTheWayGoAside) {
-  EXPECT_EQ(CellDescription{}.scheduling.on_idle_blocker, "park");
+  EXPECT_EQ(CellDescription{}.scheduling.on_idle_blocker, OnIdleBlocker::park);
 }
 
 // Canceled in the crossing, with its home behind it out of reach: it goes on along its line.
 TEST_P(Aside, AnArmThatStoppedOnItsWayGoesToTheEndOfThatIfNotBack) {
-  cell.emplace(parking("park"), GetParam());
+  cell.emplace(parking(OnIdleBlocker::park), GetParam());
   CollisionObject behind{.name = "behind", .shape = Sphere{0.1}};
   behind.X_WO.translation().x() = -0.5;
   cell->submit(slide("x", -1, 0.5, 4, "canceled"));
@@ -168,7 +168,7 @@ TEST_P(Aside, AnArmThatStoppedOnItsWayGoesToTheEndOfThatIfNotBack) {
 // Every arm has a pose "back", 1 m behind its corner.
 CellDescription parking_polygon(int corners) {
   CellDescription cell = polygon(corners);
-  cell.scheduling.on_idle_blocker = "park";
+  cell.scheduling.on_idle_blocker = OnIdleBlocker::park;
   for (RobotDescription& robot : cell.robots) {
     robot.srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider_with_back.srdf";
   }
@@ -234,7 +234,7 @@ TEST_P(InARing, TheArmReturnsThoughTheOneThatWasToPassIsCanceled) {
 
 TEST_P(InARing, WithNowhereToGoTheLastJobFailsAtOnce) {
   CellDescription description = polygon(2);
-  description.scheduling.on_idle_blocker = "park";  // home is where they stand
+  description.scheduling.on_idle_blocker = OnIdleBlocker::park;  // home is where they stand
   Crossing cell(description, GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.submit(slide("b", -1, 1, 4, "two"));

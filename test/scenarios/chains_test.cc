@@ -38,7 +38,7 @@ struct Closest final : Observer {
   double smallest_m = 1e9;
 };
 
-CellPtr cell_of(const CrowdedWorkload& load, const std::string& on_idle_blocker) {
+CellPtr cell_of(const CrowdedWorkload& load, OnIdleBlocker on_idle_blocker) {
   CellDescription description = load.cell();
   description.scheduling.on_idle_blocker = on_idle_blocker;
   description.scheduling.backlog_timeout = 100000s;  // ends nobody: a job that hangs is seen
@@ -69,7 +69,7 @@ TEST(Chains, SucceedOneByOneInTheOrderOfSubmission) {
 
 struct Way {
   std::string policy;
-  std::string on_idle_blocker;
+  OnIdleBlocker on_idle_blocker;
 };
 
 class ChainsUnder : public ::testing::TestWithParam<Way> {};
@@ -118,8 +118,8 @@ TEST_P(ChainsUnder, AllSucceedAndNeverTouch) {
     judging.evaluations += result->judging.evaluations;
     judging.wall += result->judging.wall;
   }
-  std::cout << policy << ", " << on_idle_blocker << ": " << succeeded << " of " << jobs << " jobs, "
-            << whole << " of " << seed_count(kLoads) << " loads whole, " << own
+  std::cout << policy << ", " << to_string(on_idle_blocker) << ": " << succeeded << " of " << jobs
+            << " jobs, " << whole << " of " << seed_count(kLoads) << " loads whole, " << own
             << " of the server's own; " << makespan_s << " s where one by one take " << one_by_one_s
             << " s; " << judging.judgements << " judgements, " << judging.evaluations
             << " evaluations, " << to_seconds(judging.wall) << " s of them" << std::endl;
@@ -128,13 +128,13 @@ TEST_P(ChainsUnder, AllSucceedAndNeverTouch) {
 std::vector<Way> ways() {
   std::vector<Way> ways;
   for (const std::string& policy : known_policies()) {
-    for (const char* on_idle_blocker : {"park", "report"})
+    for (const OnIdleBlocker on_idle_blocker : {OnIdleBlocker::park, OnIdleBlocker::report})
       ways.push_back({policy, on_idle_blocker});
   }
   return ways;
 }
 INSTANTIATE_TEST_SUITE_P(Policies, ChainsUnder, ::testing::ValuesIn(ways()), [](const auto& one) {
-  return one.param.policy + "_" + one.param.on_idle_blocker;
+  return one.param.policy + "_" + to_string(one.param.on_idle_blocker);
 });
 
 }  // namespace

@@ -199,7 +199,8 @@ TEST_P(Checks, OfDiscsSayWhatThenHappens) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const CrowdedWorkload load = make_chain(2 + seed % 3, 20, seed % 2 == 0, seed);
     CellDescription description = load.cell();
-    description.scheduling.on_idle_blocker = seed % 4 < 2 ? "park" : "report";
+    description.scheduling.on_idle_blocker =
+        seed % 4 < 2 ? OnIdleBlocker::park : OnIdleBlocker::report;
     Asked asked(*build_cell(description), GetParam(), seed, seen);
     for (TimedJob& timed : load.jobs()) {
       timed.job.priority = static_cast<int>(asked.random().index(3));

@@ -40,7 +40,7 @@ inline CellDescription crossing_description() {
     cell.robots.push_back(std::move(robot));
   }
   cell.checking.time_step = 10ms;
-  cell.scheduling.on_idle_blocker = "report";
+  cell.scheduling.on_idle_blocker = OnIdleBlocker::report;
   return cell;
 }
 

@@ -167,7 +167,7 @@ void run(const Way& way, Crowd crowd, std::uint64_t seed, Tally& tally) {
   const std::string name =
       to_string(way) + ", " + to_string(crowd) + " seed " + std::to_string(seed);
   CellDescription description = world.cell();
-  description.scheduling.on_idle_blocker = "park";
+  description.scheduling.on_idle_blocker = OnIdleBlocker::park;
   for (RobotDescription& robot : description.robots) {
     if (way.corners)
       robot.srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/gantry_with_corners.srdf";

@@ -28,7 +28,7 @@ CellPtr pandas(const std::string& name) {
   text << file.rdbuf();
   CellDescription description = *read_cell_text(text.str(), ARMLOOM_SOURCE_DIR "/config");
   description.scheduling.backlog_timeout = 100000s;
-  description.scheduling.on_idle_blocker = "report";
+  description.scheduling.on_idle_blocker = OnIdleBlocker::report;
   return *build_cell(description);
 }
 

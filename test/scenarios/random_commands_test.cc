@@ -52,7 +52,7 @@ World line_world() {
                 return std::abs(q[0] + q[1]) - 0.2;
               }};
   world.description.robots.pop_back();
-  world.description.scheduling.on_idle_blocker = "park";
+  world.description.scheduling.on_idle_blocker = OnIdleBlocker::park;
   for (RobotDescription& robot : world.description.robots) {
     robot.srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider_with_back.srdf";
   }

@@ -51,7 +51,7 @@ CellDescription world(Random& random) {
       cell = ladder(arms);
   }
   if (random.chance(0.5)) {
-    cell.scheduling.on_idle_blocker = "park";
+    cell.scheduling.on_idle_blocker = OnIdleBlocker::park;
     for (RobotDescription& robot : cell.robots) {
       robot.srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider_with_back.srdf";
     }

@@ -10,7 +10,7 @@ namespace armloom {
 // A cell of one-joint arms named a, b, c, ... without geometry: the scheduler needs none.
 inline CellPtr one_joint_arms(std::size_t count) {
   auto cell = std::make_shared<Cell>();
-  cell->scheduling.on_idle_blocker = "report";
+  cell->scheduling.on_idle_blocker = OnIdleBlocker::report;
   cell->scheduling.horizon_legs = 1;  // one job of an arm at a time, easier to follow
   cell->robots.emplace_back();
   for (std::size_t i = 0; i < count; ++i) {
@@ -36,7 +36,7 @@ inline CellPtr one_joint_arms(std::size_t count) {
 // The same, where arms in the way go aside: to their pose "back", at -1 rad.
 inline CellPtr one_joint_arms_that_park(std::size_t count) {
   auto cell = std::make_shared<Cell>(*one_joint_arms(count));
-  cell->scheduling.on_idle_blocker = "park";
+  cell->scheduling.on_idle_blocker = OnIdleBlocker::park;
   for (Arm& arm : cell->arms) arm.named_states["back"] = Eigen::VectorXd::Constant(1, -1.0);
   return cell;
 }

@@ -45,7 +45,7 @@ TEST(CellSchema, SaysTheDefaultsThatTheReaderHas) {
   EXPECT_EQ(settings["checking"]["properties"]["delay_s"]["default"],
             to_seconds(defaults.checking.delay));
   EXPECT_EQ(settings["scheduling"]["properties"]["on_idle_blocker"]["default"],
-            defaults.scheduling.on_idle_blocker);
+            to_string(defaults.scheduling.on_idle_blocker));
   const Schema& robot = settings["robots"]["items"]["properties"];
   EXPECT_EQ(robot["base"]["properties"]["xyz"]["default"], Schema({0, 0, 0}));
   const Schema& limits =

@@ -53,7 +53,7 @@ TEST_F(Jobs, RunFromPostToSuccess) {
 
 // T1: two conflicting trajectories in the same instant, over HTTP.
 TEST_F(Jobs, OfTwoInConflictPostedAtOnceOneRunsAndTheOtherWaitsForIt) {
-  on_idle_blocker_ = "report";  // the winner stays where it is until it is sent home
+  on_idle_blocker_ = OnIdleBlocker::report;  // the winner stays where it is until it is sent home
   start(20.0);
   test::Listener listener(port());
   const std::array<std::string, 2> bodies = {body("l", test::kHome, test::kMiddle, "left"),

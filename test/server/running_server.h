@@ -25,7 +25,7 @@ class RunningServer : public ::testing::Test {
     ASSERT_TRUE(text);
     auto description = read_cell_text(*text, file.parent_path());
     ASSERT_TRUE(description);
-    if (!on_idle_blocker_.empty()) description->scheduling.on_idle_blocker = on_idle_blocker_;
+    if (on_idle_blocker_) description->scheduling.on_idle_blocker = *on_idle_blocker_;
     const auto cell = build_cell(*description);
     ASSERT_TRUE(cell);
     options_.port = 0;
@@ -69,8 +69,8 @@ class RunningServer : public ::testing::Test {
     return request(port(), "POST", target, body, type);
   }
 
-  ServiceOptions options_;       // for start(), which sets port, speed and web
-  std::string on_idle_blocker_;  // for start(); empty: as in the file
+  ServiceOptions options_;                        // for start(), which sets port, speed and web
+  std::optional<OnIdleBlocker> on_idle_blocker_;  // for start(); absent: as in the file
 
  private:
   std::unique_ptr<Service> service_;

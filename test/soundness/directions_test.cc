@@ -34,7 +34,7 @@ class Arm {
     frames_.resize(frames * 12 * kLanes);
     capsules_.resize(linkage_.capsules.size() * 6 * kLanes);
     bends_.resize(linkage_.capsules.size() * kLanes);
-    suffix_.resize(static_cast<std::size_t>(linkage_.rows) * kLanes);
+    motion_bounds_.resize(static_cast<std::size_t>(linkage_.rows) * kLanes);
     for (const filter::Frame& frame : linkage_.frames) {
       const double m = most_[static_cast<std::size_t>(frame.joint)] * std::abs(frame.multiplier);
       spans_.insert(spans_.end(), kLanes, round_up(m));
@@ -63,12 +63,14 @@ class Arm {
     }
     const filter::Kernel& kernel = filter::best_kernel();
     kernel.place(view_, q.data(), {frames_.data(), axes_.data(), capsules_.data()});
-    kernel.inflate(view_, axes_.data(), capsules_.data(), spans_.data(), suffix_.data(),
+    kernel.inflate(view_, axes_.data(), capsules_.data(), spans_.data(), motion_bounds_.data(),
                    bends_.data());
   }
 
   [[nodiscard]] const RandomLinkage& linkage() const { return linkage_; }
-  [[nodiscard]] filter::Side side() const { return {capsules_.data(), suffix_.data(), nullptr}; }
+  [[nodiscard]] filter::Side side() const {
+    return {capsules_.data(), motion_bounds_.data(), nullptr};
+  }
   [[nodiscard]] filter::Joints joints() const {
     return {&view_, axes_.data(), drifts_.data(), looses_.data(), bends_.data()};
   }
@@ -89,7 +91,7 @@ class Arm {
   filter::ArmKinematics view_;
   std::vector<double> middle_, most_, frames_;
   std::vector<double> drift_;  // the share of most_ that all joints go together
-  std::vector<float> axes_, capsules_, suffix_, bends_, spans_, drifts_, looses_;
+  std::vector<float> axes_, capsules_, motion_bounds_, bends_, spans_, drifts_, looses_;
 };
 
 struct Tally {

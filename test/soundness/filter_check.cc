@@ -10,7 +10,7 @@
 
 #include "core/collision/filter/kernels.h"
 #include "core/collision/filter/pair_set.h"
-#include "core/collision/state/part_distance.h"
+#include "core/collision/state/body_distance.h"
 #include "core/model/cell/build_cell.h"
 #include "core/model/kinematics.h"
 #include "server/codec/cell_codec.h"
@@ -34,7 +34,7 @@ struct PlacedArm {
         frames(arm.frames().size() * 12 * kLanes),
         axes(arm.frames().size() * 6 * kLanes),
         capsules(arm.capsules().size() * 6 * kLanes),
-        still(static_cast<std::size_t>(arm.suffix_rows()) * kLanes, 0.0F) {}
+        still(static_cast<std::size_t>(arm.motion_bound_rows()) * kLanes, 0.0F) {}
 
   void put(const Configuration& state, std::size_t lane) {
     for (std::size_t row = 0; row < linkage.joints().size(); ++row) {
@@ -145,14 +145,14 @@ class Checker {
   void hold(PairId id, double filter_m, std::size_t lane) {
     ++report_.part_pairs;
     if (filter_m <= 0.0) return;
-    const PartPair& pair = bodies_.pairs[id.index()];
+    const BodyPair& pair = bodies_.pairs[id.index()];
     const auto pose = [&](std::size_t part) {
-      const auto& link = bodies_.parts[part].link;
+      const auto& link = bodies_.bodies[part].link;
       return link ? poses_[lane][link->index()] : bodies_.objects[part - bodies_.links_end].X_WO;
     };
     const double near_m = filter_m + kNear_m;
     const double exact_m =
-        part_distance(bodies_, pair.a, pose(pair.a), pair.b, pose(pair.b), near_m);
+        body_distance(bodies_, pair.a, pose(pair.a), pair.b, pose(pair.b), near_m);
     if (exact_m < filter_m) fail(pair, "filter", filter_m, "exact", exact_m);
     if (filter_m > kNear_m) return;
     ++report_.by_fcl;
@@ -162,14 +162,14 @@ class Checker {
     if (known && exact_m > fcl_m + kFclRounding_m) fail(pair, "exact", exact_m, "FCL", fcl_m);
   }
 
-  void fail(const PartPair& pair, const char* what, double value_m, const char* against,
+  void fail(const BodyPair& pair, const char* what, double value_m, const char* against,
             double other_m) {
     ++report_.too_far;
     report_.worst_m = std::max(report_.worst_m, value_m - other_m);
     if (report_.failures.size() >= 5) return;
     std::ostringstream text;
-    text << bodies_.parts[pair.a].name << ", " << bodies_.parts[pair.b].name << ": " << what << " "
-         << value_m << ", " << against << " " << other_m;
+    text << bodies_.bodies[pair.a].name << ", " << bodies_.bodies[pair.b].name << ": " << what
+         << " " << value_m << ", " << against << " " << other_m;
     report_.failures.push_back(text.str());
   }
 

@@ -22,7 +22,7 @@ struct FilterReport {
   std::vector<std::string> failures;  // the first few
 };
 // The smallest distance of the filter over the capsules of each two parts (arm and arm, arm and
-// itself, arm and what stands still) is held against part_distance() at poses from
+// itself, arm and what stands still) is held against body_distance() at poses from
 // forward_kinematics(), which shares nothing with the filter's own; for near pairs both are held
 // against plain FCL as well (plain_fcl.h).
 [[nodiscard]] FilterReport check_filter(const CellPtr& cell, std::size_t states,

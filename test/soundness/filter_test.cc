@@ -56,21 +56,21 @@ struct Results {
       : frames(arm.frames.size() * 12 * kLanes),
         axes(arm.frames.size() * 6 * kLanes),
         capsules(arm.capsules.size() * 6 * kLanes),
-        suffix(static_cast<std::size_t>(arm.rows) * kLanes),
+        motion_bounds(static_cast<std::size_t>(arm.rows) * kLanes),
         bends(arm.capsules.size() * kLanes),
         hits(pairs.size() + 1),
         box_hits(boxes.size() + 1) {
     kernel.place(arm.view(), q.data(), {frames.data(), axes.data(), capsules.data()});
-    kernel.inflate(arm.view(), axes.data(), capsules.data(), span.data(), suffix.data(),
+    kernel.inflate(arm.view(), axes.data(), capsules.data(), span.data(), motion_bounds.data(),
                    bends.data());
-    const filter::Side side{capsules.data(), suffix.data()};
+    const filter::Side side{capsules.data(), motion_bounds.data()};
     hits.resize(
         static_cast<std::size_t>(near_pairs(kernel, side, side, pairs, lanes, hits.data())));
     box_hits.resize(static_cast<std::size_t>(kernel.near_boxes(
         side, boxes.data(), static_cast<int>(boxes.size()), lanes, box_hits.data())));
   }
   std::vector<double> frames;
-  std::vector<float> axes, capsules, suffix, bends;
+  std::vector<float> axes, capsules, motion_bounds, bends;
   std::vector<filter::Hit> hits, box_hits;
 };
 
@@ -85,7 +85,7 @@ bool same_hits(const std::vector<filter::Hit>& a, const std::vector<filter::Hit>
     for (int l = 0; l < kLanes; ++l) {
       if ((x.lanes >> l & 1U) == 0) continue;
       if (std::memcmp(&x.distance[l], &y.distance[l], sizeof(float)) != 0) return false;
-      if (std::memcmp(&x.inflation[l], &y.inflation[l], sizeof(float)) != 0) return false;
+      if (std::memcmp(&x.motion_bound[l], &y.motion_bound[l], sizeof(float)) != 0) return false;
     }
     return true;
   });
@@ -98,8 +98,8 @@ std::vector<filter::Pair> all_pairs(const RandomLinkage& arm, std::mt19937_64& r
       const filter::Capsule& at_a = arm.capsules[static_cast<std::size_t>(a)];
       const filter::Capsule& at_b = arm.capsules[static_cast<std::size_t>(b)];
       filter::Pair pair = kernel_pair(a, at_a, b, at_b, uniform(random, 0.0, 0.4), 1e-6);
-      pair.row_a = at_a.suffix_begin;
-      pair.row_b = at_b.suffix_begin;
+      pair.row_a = at_a.motion_bounds_begin;
+      pair.row_b = at_b.motion_bounds_begin;
       pairs.push_back(pair);
     }
   }
@@ -111,7 +111,7 @@ std::vector<filter::BoxPair> boxes_for(const RandomLinkage& arm, std::mt19937_64
   for (int a = 0; a < static_cast<int>(arm.capsules.size()); ++a) {
     filter::BoxPair box{};
     box.a = a;
-    box.row_a = arm.capsules[static_cast<std::size_t>(a)].suffix_begin;
+    box.row_a = arm.capsules[static_cast<std::size_t>(a)].motion_bounds_begin;
     box.R[0] = box.R[4] = box.R[8] = 1.0F;
     for (float& x : box.center) x = static_cast<float>(uniform(random, -1.0, 1.0));
     for (float& x : box.half_up) x = static_cast<float>(uniform(random, 0.0, 0.5));
@@ -148,9 +148,10 @@ TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
       ASSERT_TRUE(same_hits(reference.hits, results.hits)) << kernel->name;
       ASSERT_TRUE(same_hits(reference.box_hits, results.box_hits)) << kernel->name;
       for (const filter::Capsule& c : arm.capsules) {
-        for (int row = c.suffix_begin; row <= c.suffix_begin + c.depth; ++row) {
+        for (int row = c.motion_bounds_begin; row <= c.motion_bounds_begin + c.depth; ++row) {
           const auto at = static_cast<std::size_t>(row * kLanes);
-          ASSERT_EQ(std::memcmp(&reference.suffix[at], &results.suffix[at], kLanes * sizeof(float)),
+          ASSERT_EQ(std::memcmp(&reference.motion_bounds[at], &results.motion_bounds[at],
+                                kLanes * sizeof(float)),
                     0)
               << kernel->name;
         }
@@ -191,8 +192,8 @@ TEST(Kernels, BoundEveryMotionThatStaysWithinTheSpans) {
           const std::size_t k = (c * 6 + static_cast<std::size_t>(i)) * kLanes + lane;
           return static_cast<double>(r.capsules[k] + sign * r.capsules[k + 3 * kLanes]);
         };
-        const auto row = static_cast<std::size_t>(arm.capsules[c].suffix_begin);
-        const double bound = static_cast<double>(at.suffix[row * kLanes + lane]);
+        const auto row = static_cast<std::size_t>(arm.capsules[c].motion_bounds_begin);
+        const double bound = static_cast<double>(at.motion_bounds[row * kLanes + lane]);
         for (const float sign : {-1.0F, 1.0F}) {
           double square = 0.0;
           for (int i = 0; i < 3; ++i) {

@@ -58,7 +58,7 @@ struct PlainFcl::Shapes {
 PlainFcl::PlainFcl(const PlanningScene::Bodies& bodies)
     : bodies_(bodies), shapes_(std::make_unique<Shapes>()) {
   const Solid* last = nullptr;
-  for (const ConvexShape& body : bodies.bodies) {
+  for (const ConvexShape& body : bodies.shapes) {
     const bool known = body.solid.get() == last;
     last = body.solid.get();
     shapes_->of_body.push_back(known ? nullptr : shape_of(body));
@@ -68,24 +68,24 @@ PlainFcl::PlainFcl(const PlanningScene::Bodies& bodies)
 
 PlainFcl::~PlainFcl() = default;
 
-double PlainFcl::distance(std::size_t part_a, const Eigen::Isometry3d& X_WA, std::size_t part_b,
+double PlainFcl::distance(std::size_t body_a, const Eigen::Isometry3d& X_WA, std::size_t body_b,
                           const Eigen::Isometry3d& X_WB) const {
-  const Part& a = bodies_.parts[part_a];
-  const Part& b = bodies_.parts[part_b];
+  const CollisionBody& a = bodies_.bodies[body_a];
+  const CollisionBody& b = bodies_.bodies[body_b];
   double smallest = std::numeric_limits<double>::infinity();
   fcl::DistanceRequestd request;
   request.distance_tolerance = 1e-12;
   const auto pose = [](const ConvexShape& body) {
     return body.is_piece ? body.solid->X_PT : body.X_PS;
   };
-  for (std::size_t i = a.bodies_begin; i < a.bodies_end; ++i) {
-    for (std::size_t j = b.bodies_begin; j < b.bodies_end; ++j) {
+  for (std::size_t i = a.shapes_begin; i < a.shapes_end; ++i) {
+    for (std::size_t j = b.shapes_begin; j < b.shapes_end; ++j) {
       if (!shapes_->of_body[i] || !shapes_->of_body[j]) continue;
       fcl::DistanceResultd result;
       try {
         const double distance = fcl::distance<double>(
-            shapes_->of_body[i].get(), X_WA * pose(bodies_.bodies[i]), shapes_->of_body[j].get(),
-            X_WB * pose(bodies_.bodies[j]), request, result);
+            shapes_->of_body[i].get(), X_WA * pose(bodies_.shapes[i]), shapes_->of_body[j].get(),
+            X_WB * pose(bodies_.shapes[j]), request, result);
         smallest = std::min(smallest, distance);
       } catch (const std::exception&) {
         smallest = std::min(smallest, 0.0);

@@ -17,8 +17,8 @@ class PlainFcl {
 
   // The smallest distance over the parts' bodies; zero or negative in contact, and zero where FCL
   // throws.
-  [[nodiscard]] double distance(std::size_t part_a, const Eigen::Isometry3d& X_WA,
-                                std::size_t part_b, const Eigen::Isometry3d& X_WB) const;
+  [[nodiscard]] double distance(std::size_t body_a, const Eigen::Isometry3d& X_WA,
+                                std::size_t body_b, const Eigen::Isometry3d& X_WB) const;
 
  private:
   struct Shapes;

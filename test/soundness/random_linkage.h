@@ -42,7 +42,7 @@ struct RandomLinkage {
       const auto& chain = chains[static_cast<std::size_t>(capsule.frame)];
       capsule.ancestors_begin = static_cast<int>(ancestors.size());
       capsule.depth = static_cast<int>(chain.size());
-      capsule.suffix_begin = rows;
+      capsule.motion_bounds_begin = rows;
       rows += capsule.depth + 1;
       ancestors.insert(ancestors.end(), chain.begin(), chain.end());
       capsules.push_back(capsule);

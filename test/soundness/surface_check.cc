@@ -10,7 +10,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/collision/state/part_distance.h"
+#include "core/collision/state/body_distance.h"
 #include "test/soundness/concave_meshes.h"
 
 namespace armloom::soundness {
@@ -23,8 +23,8 @@ constexpr double kLimit_m = 0.1;
 
 // A solid as the engine has it, and as the truth does.
 struct Shown {
-  std::vector<ConvexShape> bodies;
-  Part part;
+  std::vector<ConvexShape> shapes;
+  CollisionBody part;
   MeshPtr mesh;  // the truth: of one mind about outside; of a primitive: inscribed
   std::vector<std::uint32_t> components;
   std::shared_ptr<Model> model;
@@ -114,7 +114,7 @@ Shown show(bool primitive, double size_m, std::mt19937_64& random) {
                     turned ? turned_over(*made.mesh, random) : made.mesh}}};
   }
   made.bodies = make_convex_shapes(shapes);
-  made.part.bodies_end = made.bodies.size();
+  made.body.shapes_end = made.bodies.size();
   made.components = components_of(*made.mesh);
   made.model = model_of(*made.mesh);
   return made;
@@ -204,10 +204,10 @@ class Checker {
     // One list of bodies, as in a scene.
     std::vector<ConvexShape> bodies = a.bodies;
     bodies.insert(bodies.end(), b.bodies.begin(), b.bodies.end());
-    Part part_b = b.part;
-    part_b.bodies_begin += a.bodies.size();
-    part_b.bodies_end += a.bodies.size();
-    return part_distance(bodies, {a.part, X_WA}, {part_b, X_WB}, limit_m);
+    CollisionBody body_b = b.body;
+    body_b.shapes_begin += a.bodies.size();
+    body_b.shapes_end += a.bodies.size();
+    return body_distance(bodies, {a.body, X_WA}, {body_b, X_WB}, limit_m);
   }
 
   static double pieces_m(const Shown& a, const Eigen::Isometry3d& X_WA, const Shown& b,

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <random>
 
+#include "core/collision/state/body_distance.h"
 #include "core/collision/state/clearance_query.h"
-#include "core/collision/state/part_distance.h"
 #include "core/geometry/surface/enclosure.h"
 #include "core/geometry/surface/solid.h"
 #include "core/geometry/surface/triangle_distance.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/collision/diagram/part_sweep.h"
+#include "core/collision/diagram/body_sweep.h"
 #include "core/collision/scene/scene_bodies.h"
 #include "core/geometry/convex/exact_distance.h"
 #include "core/geometry/mesh/mesh.h"

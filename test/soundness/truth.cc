@@ -63,7 +63,7 @@ std::size_t samples(const MovingPair& pair) {
 std::vector<double> longest_levers(const PlanningScene& scene) {
   const Cell& cell = scene.cell();
   std::vector<double> reach(cell.links.size(), 0.0);  // beyond the link's origin
-  for (const Part& part : scene.bodies().parts) {
+  for (const CollisionBody& part : scene.bodies().bodies) {
     if (part.link) reach[part.link->index()] = part.p_PC.norm() + part.radius_m;
   }
   std::vector<double> levers(cell.joints.size(), 0.0);

@@ -185,7 +185,7 @@ void CertifiedCheck::report(const CoordinationDiagram::Answer& answer,
   } else if (verdict_.kind == Verdict::Kind::free) {
     verdict_.kind = Verdict::Kind::undecided;
   }
-  const CoordinationDiagram::Finding& found = *answer.conflict;
+  const CoordinationDiagram::Witness& found = *answer.conflict;
   Conflict conflict{Conflict::With::scene,       own.motion->job, std::nullopt,
                     diagram.proximity_of(found), found.time_a,    found.time_b};
   if (diagram.is_self(found) || (other != nullptr && other->motion == own.motion)) {

@@ -184,7 +184,7 @@ ConflictRegion PairRegionSearch::region_of(BlockedRegion blocked) {
   const auto& [place, leaf] = leaves_[blocked.evidence];
   const OrientedDiagram& layer = layers_[place];
   const auto middle = [](Duration from, Duration to) { return from + (to - from) / 2; };
-  const CoordinationDiagram::Finding found =
+  const CoordinationDiagram::Witness found =
       leaf.found ? *leaf.found
                  : layer.closest_at(middle(leaf.box.from_a, leaf.box.to_a),
                                     middle(leaf.box.from_b, leaf.box.to_b));

@@ -32,37 +32,37 @@ CoordinationDiagram::CoordinationDiagram(TubePair pair)
 
 // ---- The tree ----
 
-ProgressBox CoordinationDiagram::box_of(const Cell& cell) const {
+ProgressBox CoordinationDiagram::box_of(const DiagramNode& cell) const {
   return {a_->from(cell.a), a_->to(cell.a), b_->from(cell.b), b_->to(cell.b)};
 }
 
 std::vector<CoordinationDiagram::CellView> CoordinationDiagram::cells() const {
   std::vector<CellView> views;
-  for (const Cell& cell : cells_) {
+  for (const DiagramNode& cell : cells_) {
     if (cell.state != CellState::inner) views.push_back({box_of(cell), cell.state});
   }
   return views;
 }
 
-CoordinationDiagram::Finding CoordinationDiagram::finding_at(const Cell& cell, PairId pair,
+CoordinationDiagram::Witness CoordinationDiagram::witness_at(const DiagramNode& cell, PairId pair,
                                                              double distance_m) const {
   return {pair, distance_m, a_->middle(cell.a), b_->middle(cell.b), 0.0};
 }
 
 std::optional<TimeRange> CoordinationDiagram::meets(const ProgressBand& band,
-                                                    const Cell& cell) const {
+                                                    const DiagramNode& cell) const {
   const ProgressBox box = box_of(cell);
   return armloom::meets(band, to_seconds(box.from_a), to_seconds(box.to_a), to_seconds(box.from_b),
                         to_seconds(box.to_b));
 }
 
-bool CoordinationDiagram::wider(const Cell& cell, Duration resolution) const {
+bool CoordinationDiagram::wider(const DiagramNode& cell, Duration resolution) const {
   return a_->width(cell.a) > resolution || b_->width(cell.b) > resolution;
 }
 
 // An unknown cell that is hardly free in one is split before it is looked at.
 void CoordinationDiagram::split_if_wide(int index) {
-  Cell& cell = at(index);
+  DiagramNode& cell = at(index);
   if (cell.state != CellState::unknown || !wider(cell, kWide)) return;
   cell.split_a = a_->width(cell.a) > kWide;
   cell.split_b = b_->width(cell.b) > kWide;
@@ -71,7 +71,7 @@ void CoordinationDiagram::split_if_wide(int index) {
 
 // As the cell's split_a, split_b say; children of further levels likewise.
 void CoordinationDiagram::split(int index, int levels) {
-  const Cell cell = at(index);
+  const DiagramNode cell = at(index);
   const bool split_a = cell.split_a && a_->width(cell.a) > kFinest;
   const bool split_b = cell.split_b && b_->width(cell.b) > kFinest;
   if (!split_a && !split_b) {
@@ -87,7 +87,7 @@ void CoordinationDiagram::split(int index, int levels) {
   const int first_b = split_b ? b_->first_child(cell.b) : cell.b;
   for (int i = 0; i < (split_a ? 2 : 1); ++i) {
     for (int j = 0; j < (split_b ? 2 : 1); ++j) {
-      Cell child{first_a + i, first_b + j};
+      DiagramNode child{first_a + i, first_b + j};
       child.split_a = cell.split_a;
       child.split_b = cell.split_b;
       cells_.push_back(child);
@@ -102,7 +102,7 @@ void CoordinationDiagram::split(int index, int levels) {
 
 // Where the side that moves more is fine already, the other one is halved.
 void CoordinationDiagram::split_if_coarse(int index, Duration resolution) {
-  Cell& cell = at(index);
+  DiagramNode& cell = at(index);
   if (cell.state != CellState::mixed || !wider(cell, resolution)) return;
   const bool coarse_a = a_->width(cell.a) > resolution;
   const bool coarse_b = b_->width(cell.b) > resolution;
@@ -113,9 +113,10 @@ void CoordinationDiagram::split_if_coarse(int index, Duration resolution) {
 }
 
 // The conflict at the cell's middle.
-const CoordinationDiagram::Found* CoordinationDiagram::proven(const Cell& cell) const {
-  if (cell.finding < 0) return nullptr;
-  const Found& found = found_[static_cast<std::size_t>(cell.finding)];
+const CoordinationDiagram::NarrowWitness* CoordinationDiagram::proven(
+    const DiagramNode& cell) const {
+  if (cell.witness < 0) return nullptr;
+  const NarrowWitness& found = found_[static_cast<std::size_t>(cell.witness)];
   return found.distance_m < pair_.narrow(found.narrow, found.box).limit_m ? &found : nullptr;
 }
 
@@ -144,7 +145,7 @@ void CoordinationDiagram::collect(int index, Search& search) {
       search.leave_open(open);
       break;
     case CellState::inner: {
-      const Cell cell = at(index);
+      const DiagramNode cell = at(index);
       for (int i = 0; i < cell.child_count(); ++i) collect(cell.children + i, search);
       break;
     }
@@ -181,12 +182,12 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const ProgressBand& band,
   answer.proven = answer.conflict.has_value();
   answer.free = !undecided && !answer.proven;
   if (undecided && !answer.proven) {
-    Finding finding = finding_at(at(search.undecided), PairId{0}, 0.0);
-    const TubePair::Close closest = pair_.closest_at(finding.time_a, finding.time_b);
-    finding.pair = closest.pair;
-    finding.distance_m = closest.distance_m;
-    finding.at_s = search.undecided_at_s;
-    answer.conflict = finding;
+    Witness witness = witness_at(at(search.undecided), PairId{0}, 0.0);
+    const TubePair::PairDistance closest = pair_.closest_at(witness.time_a, witness.time_b);
+    witness.pair = closest.pair;
+    witness.distance_m = closest.distance_m;
+    witness.at_s = search.undecided_at_s;
+    answer.conflict = witness;
   }
   return answer;
 }
@@ -194,29 +195,29 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const ProgressBand& band,
 // A cell with a conflict at its middle: is that, or what the plan passes in the cell, one of the
 // question's band?
 void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
-  const Cell& cell = at(open.cell);
-  const Found* found = proven(cell);
+  const DiagramNode& cell = at(open.cell);
+  const NarrowWitness* found = proven(cell);
   if (found == nullptr) return;
-  std::optional<Finding> finding = finding_at(cell, found->pair, found->distance_m);
+  std::optional<Witness> witness = witness_at(cell, found->pair, found->distance_m);
   if (const auto at_s =
-          first_at(search.band, to_seconds(finding->time_a), to_seconds(finding->time_b))) {
-    finding->at_s = *at_s;
+          first_at(search.band, to_seconds(witness->time_a), to_seconds(witness->time_b))) {
+    witness->at_s = *at_s;
   } else if (search.answer.evaluations < search.budget) {
     ++search.answer.evaluations;
-    finding = on_the_line(open, search.band);
+    witness = on_the_line(open, search.band);
   } else {
     return;
   }
-  if (!finding || finding->at_s >= search.conflict_at_s) return;
-  search.conflict_at_s = finding->at_s;
-  search.answer.conflict = finding;
+  if (!witness || witness->at_s >= search.conflict_at_s) return;
+  search.conflict_at_s = witness->at_s;
+  search.answer.conflict = witness;
 }
 
 // The state that the plan itself passes in the middle of its time in the cell.
-std::optional<CoordinationDiagram::Finding> CoordinationDiagram::on_the_line(
+std::optional<CoordinationDiagram::Witness> CoordinationDiagram::on_the_line(
     const Open& open, const ProgressBand& band) {
-  const Cell& cell = at(open.cell);
-  const Found& found = found_[static_cast<std::size_t>(cell.finding)];
+  const DiagramNode& cell = at(open.cell);
+  const NarrowWitness& found = found_[static_cast<std::size_t>(cell.witness)];
   const NarrowPair& pair = pair_.narrow(found.narrow, found.box);
   const double until = std::min(
       open.times.to, open.times.from + to_seconds(a_->duration()) + to_seconds(b_->duration()));
@@ -225,14 +226,14 @@ std::optional<CoordinationDiagram::Finding> CoordinationDiagram::on_the_line(
     const Duration planned = std::clamp(from_seconds(progress + t), Duration{}, axis.duration());
     return std::clamp(planned, axis.from(node), axis.to(node));
   };
-  Finding finding{found.pair, 0.0, place(*a_, cell.a, band.progress_a),
+  Witness witness{found.pair, 0.0, place(*a_, cell.a, band.progress_a),
                   place(*b_, cell.b, band.progress_b), 0.0};
-  const auto at_s = first_at(band, to_seconds(finding.time_a), to_seconds(finding.time_b));
+  const auto at_s = first_at(band, to_seconds(witness.time_a), to_seconds(witness.time_b));
   if (!at_s) return std::nullopt;
-  finding.at_s = *at_s;
-  pair_.place(finding.time_a, finding.time_b);
-  finding.distance_m = pair_.placed_distance(pair, pair.limit_m);
-  return finding.distance_m < pair.limit_m ? std::optional(finding) : std::nullopt;
+  witness.at_s = *at_s;
+  pair_.place(witness.time_a, witness.time_b);
+  witness.distance_m = pair_.placed_distance(pair, pair.limit_m);
+  return witness.distance_m < pair.limit_m ? std::optional(witness) : std::nullopt;
 }
 
 }  // namespace armloom

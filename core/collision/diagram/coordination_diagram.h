@@ -18,11 +18,11 @@ namespace armloom {
 // it, and kept, so that the same question asked again costs next to nothing. Of one arm against
 // what stands still, or against itself, the second axis has no length.
 //
-// A cell is free when for every pair of parts the distance at its middle, less what each part may
+// A cell is free when for every pair of bodies the distance at its middle, less what each body may
 // move during the cell (MotionTube), is at least the pair's limit: then so is the distance in every
 // state of the cell. Capsules answer first; where they leave it open, the exact distance of the two
-// parts at the middle does. What it leaves open for what the parts may move, whichever way, may
-// still be free for what they may move towards each other (part_sweep.h).
+// bodies at the middle does. What it leaves open for what the bodies may move, whichever way, may
+// still be free for what they may move towards each other (body_sweep.h).
 //
 // Not thread-safe; a tube may be shared by several diagrams of one thread.
 class CoordinationDiagram {
@@ -30,8 +30,8 @@ class CoordinationDiagram {
   explicit CoordinationDiagram(TubePair pair);
   [[nodiscard]] TubePair& pair() { return pair_; }
 
-  // Two parts too close to each other.
-  struct Finding {
+  // Two bodies too close to each other.
+  struct Witness {
     PairId pair;
     double distance_m;  // exact if it is below the limit; else (undecided) what is known
     Duration time_a;    // trajectory times
@@ -43,7 +43,7 @@ class CoordinationDiagram {
     bool exhausted = false;  // the budget ended before the question was decided
     // Not free: the first state in time that is proven to be a conflict, to within kFirst; or,
     // where none is proven, the first cell that could not be decided.
-    std::optional<Finding> conflict;
+    std::optional<Witness> conflict;
     bool proven = false;
     std::uint64_t evaluations = 0;  // cells and states that were looked at for this question
   };
@@ -70,7 +70,7 @@ class CoordinationDiagram {
   // order.
   struct Blocked {
     ProgressBox box;
-    std::optional<Finding> found;  // at the middle, exactly; at_s is not set
+    std::optional<Witness> found;  // at the middle, exactly; at_s is not set
     bool proven = false;           // that is closer than its limit
   };
   [[nodiscard]] std::vector<Blocked> blocked(Duration now_a, Duration now_b) const;
@@ -97,7 +97,7 @@ class CoordinationDiagram {
   inline static constexpr Duration kFinest = std::chrono::microseconds(500);
 
  private:
-  struct Cell {
+  struct DiagramNode {
     int a;  // nodes of the axes
     int b;
     int children = -1;  // first of two or four
@@ -105,11 +105,11 @@ class CoordinationDiagram {
     bool split_a = false;  // how to split: for the children of inner cells, and for mixed ones
     bool split_b = false;
     std::uint8_t levels = 1;  // of a mixed cell: how many halvings at once
-    int finding = -1;         // at its middle
+    int witness = -1;         // at its middle
 
     [[nodiscard]] int child_count() const { return (split_a ? 2 : 1) * (split_b ? 2 : 1); }
   };
-  struct Found {  // at the middle of a cell
+  struct NarrowWitness {  // at the middle of a cell
     PairId pair;
     int narrow;
     bool box;
@@ -122,19 +122,22 @@ class CoordinationDiagram {
   struct Search;
 
   // The tree (coordination_diagram.cc).
-  [[nodiscard]] Cell& at(int cell) { return cells_[static_cast<std::size_t>(cell)]; }
-  [[nodiscard]] const Cell& at(int cell) const { return cells_[static_cast<std::size_t>(cell)]; }
-  [[nodiscard]] ProgressBox box_of(const Cell& cell) const;
-  [[nodiscard]] Finding finding_at(const Cell& cell, PairId pair, double distance_m) const;
-  [[nodiscard]] std::optional<TimeRange> meets(const ProgressBand& band, const Cell& cell) const;
+  [[nodiscard]] DiagramNode& at(int cell) { return cells_[static_cast<std::size_t>(cell)]; }
+  [[nodiscard]] const DiagramNode& at(int cell) const {
+    return cells_[static_cast<std::size_t>(cell)];
+  }
+  [[nodiscard]] ProgressBox box_of(const DiagramNode& cell) const;
+  [[nodiscard]] Witness witness_at(const DiagramNode& cell, PairId pair, double distance_m) const;
+  [[nodiscard]] std::optional<TimeRange> meets(const ProgressBand& band,
+                                               const DiagramNode& cell) const;
   void collect(int cell, Search& search);
   void split(int cell, int levels);
-  [[nodiscard]] bool wider(const Cell& cell, Duration resolution) const;
+  [[nodiscard]] bool wider(const DiagramNode& cell, Duration resolution) const;
   void split_if_wide(int cell);
   void split_if_coarse(int cell, Duration resolution);
-  [[nodiscard]] const Found* proven(const Cell& cell) const;
+  [[nodiscard]] const NarrowWitness* proven(const DiagramNode& cell) const;
   void consider_conflict(const Open& open, Search& search);
-  [[nodiscard]] std::optional<Finding> on_the_line(const Open& open, const ProgressBand& band);
+  [[nodiscard]] std::optional<Witness> on_the_line(const Open& open, const ProgressBand& band);
 
   // Refinement (diagram_refinement.cc).
   template <class Expand, class Follow>
@@ -146,24 +149,24 @@ class CoordinationDiagram {
   [[nodiscard]] std::vector<OpenLeaf> open_leaves(Duration now_a, Duration now_b) const;
   [[nodiscard]] bool is_outlined(Duration now_a, Duration now_b,
                                  const Resolution& resolution) const;
-  [[nodiscard]] bool remains(const Cell& cell, Duration now_a, Duration now_b) const;
+  [[nodiscard]] bool remains(const DiagramNode& cell, Duration now_a, Duration now_b) const;
   template <class Visit>
-  bool leaves_at(const Cell& of, const Visit& visit) const;
+  bool leaves_at(const DiagramNode& of, const Visit& visit) const;
 
   // A batch of cells (diagram_cells.cc).
   void evaluate(std::span<const int> cells);
   void decide(int cell, std::vector<TubePair::Undecided>& undecided);
-  [[nodiscard]] TubePair::Nodes nodes_of(const Cell& cell) const;
-  void note(Cell& cell, const Found& found);
-  void choose_split(Cell& cell, const TubePair::Undecided& worst);
-  [[nodiscard]] bool clears(Cell& cell, TubePair::Undecided& undecided);
+  [[nodiscard]] TubePair::Nodes nodes_of(const DiagramNode& cell) const;
+  void note(DiagramNode& cell, const NarrowWitness& found);
+  void choose_split(DiagramNode& cell, const TubePair::Undecided& worst);
+  [[nodiscard]] bool clears(DiagramNode& cell, TubePair::Undecided& undecided);
 
   TubePair pair_;
   std::shared_ptr<TimeTree>
       a_;  // the axes: times of the tubes; of an arm and itself the second one
   std::shared_ptr<TimeTree> b_;  // has no length
-  std::vector<Cell> cells_;
-  std::vector<Found> found_;
+  std::vector<DiagramNode> cells_;
+  std::vector<NarrowWitness> found_;
   mutable std::vector<int> walk_;  // of leaves_at()
   struct Outlined {
     Duration now_a, now_b;

@@ -15,7 +15,7 @@ constexpr double kTowardsShare = 0.25;
 
 }  // namespace
 
-TubePair::Nodes CoordinationDiagram::nodes_of(const Cell& cell) const {
+TubePair::Nodes CoordinationDiagram::nodes_of(const DiagramNode& cell) const {
   return {cell.a, pair_.is_self() ? cell.a : cell.b};
 }
 
@@ -28,7 +28,7 @@ void CoordinationDiagram::evaluate(std::span<const int> cells) {
 }
 
 // Whether the pair keeps its limit all over the cell; notes it if not.
-bool CoordinationDiagram::clears(Cell& cell, TubePair::Undecided& u) {
+bool CoordinationDiagram::clears(DiagramNode& cell, TubePair::Undecided& u) {
   const NarrowPair& pair = pair_.narrow(u.narrow, u.box);
   const double enough_m = u.limit_m + u.moves_m();
   u.distance_m = pair_.distance(pair, nodes_of(cell), enough_m);
@@ -45,7 +45,7 @@ bool CoordinationDiagram::clears(Cell& cell, TubePair::Undecided& u) {
 // From what the filter has left open to the cell's state.
 void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& undecided) {
   using Undecided = TubePair::Undecided;
-  Cell& cell = at(index);
+  DiagramNode& cell = at(index);
   cell.state = CellState::free;
   if (undecided.empty()) return;
 
@@ -81,16 +81,16 @@ void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& un
 }
 
 // Keeps the closest pair of a cell's middle.
-void CoordinationDiagram::note(Cell& cell, const Found& found) {
-  if (cell.finding < 0) {
-    cell.finding = static_cast<int>(found_.size());
+void CoordinationDiagram::note(DiagramNode& cell, const NarrowWitness& found) {
+  if (cell.witness < 0) {
+    cell.witness = static_cast<int>(found_.size());
     found_.push_back(found);
-  } else if (found.distance_m < found_[static_cast<std::size_t>(cell.finding)].distance_m) {
-    found_[static_cast<std::size_t>(cell.finding)] = found;
+  } else if (found.distance_m < found_[static_cast<std::size_t>(cell.witness)].distance_m) {
+    found_[static_cast<std::size_t>(cell.witness)] = found;
   }
 }
 
-void CoordinationDiagram::choose_split(Cell& cell, const TubePair::Undecided& worst) {
+void CoordinationDiagram::choose_split(DiagramNode& cell, const TubePair::Undecided& worst) {
   cell.split_a = worst.moves_a_m >= kBothShare * worst.moves_b_m;
   cell.split_b = worst.moves_b_m >= kBothShare * worst.moves_a_m;
   if (!(cell.split_a && a_->width(cell.a) > kFinest) &&

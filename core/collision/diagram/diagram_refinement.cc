@@ -40,7 +40,7 @@ std::uint64_t CoordinationDiagram::refine(Duration now_a, Duration now_b, Durati
       split_if_wide(index);
       if (at(index).state == CellState::unknown) unknown.push_back(index);
       split_if_coarse(index, resolution);
-      const Cell now = at(index);
+      const DiagramNode now = at(index);
       if (now.state != CellState::inner) continue;
       for (int c = 0; c < now.child_count(); ++c) open.push_back(now.children + c);
     }
@@ -48,19 +48,19 @@ std::uint64_t CoordinationDiagram::refine(Duration now_a, Duration now_b, Durati
   return refine_from({0}, budget, expand, [](const std::vector<int>& seen) { return seen; });
 }
 
-bool CoordinationDiagram::remains(const Cell& cell, Duration now_a, Duration now_b) const {
+bool CoordinationDiagram::remains(const DiagramNode& cell, Duration now_a, Duration now_b) const {
   return a_->to(cell.a) >= now_a && b_->to(cell.b) >= now_b;
 }
 
 // Calls visit(leaf) for what touches the cell, corners included, until it says yes: whether it did.
 template <class Visit>
-bool CoordinationDiagram::leaves_at(const Cell& of, const Visit& visit) const {
+bool CoordinationDiagram::leaves_at(const DiagramNode& of, const Visit& visit) const {
   std::vector<int>& open = walk_;
   open.assign(1, 0);
   while (!open.empty()) {
     const int index = open.back();
     open.pop_back();
-    const Cell& cell = at(index);
+    const DiagramNode& cell = at(index);
     const bool touch = a_->from(cell.a) <= a_->to(of.a) && a_->to(cell.a) >= a_->from(of.a) &&
                        b_->from(cell.b) <= b_->to(of.b) && b_->to(cell.b) >= b_->from(of.b);
     if (!touch) continue;
@@ -79,7 +79,7 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
   if (is_outlined(now_a, now_b, resolution)) return 0;
   std::uint64_t looked_at = refine(now_a, now_b, kWide, budget);
   // A motion that is still to come finds the other one anywhere on its way: hence the edges.
-  const auto may_be_entered = [&](const Cell& cell) {
+  const auto may_be_entered = [&](const DiagramNode& cell) {
     return a_->from(cell.a) <= now_a || b_->from(cell.b) <= now_b ||
            leaves_at(cell, [&](int other) { return at(other).state == CellState::free; });
   };
@@ -98,7 +98,7 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
     for (const int index : leaves) {
       if (at(index).state == CellState::unknown) unknown.push_back(index);
       split_if_coarse(index, proven(at(index)) != nullptr ? resolution.coarse : resolution.fine);
-      const Cell cell = at(index);
+      const DiagramNode cell = at(index);
       if (cell.state != CellState::inner) continue;
       for (int child = cell.children; child < cell.children + cell.child_count(); ++child) {
         if (remains(at(child), now_a, now_b) && may_be_entered(at(child))) unknown.push_back(child);
@@ -145,7 +145,7 @@ bool CoordinationDiagram::is_outlined(Duration now_a, Duration now_b,
 std::vector<OpenLeaf> CoordinationDiagram::open_leaves(Duration now_a, Duration now_b) const {
   std::vector<OpenLeaf> leaves;
   for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
-    const Cell& cell = at(i);
+    const DiagramNode& cell = at(i);
     if (cell.state == CellState::inner || cell.state == CellState::free) continue;
     if (!remains(cell, now_a, now_b)) continue;
     const bool refinable = cell.state == CellState::mixed || cell.state == CellState::unknown;
@@ -159,7 +159,7 @@ std::vector<OpenLeaf> CoordinationDiagram::open_leaves(Duration now_a, Duration 
 void CoordinationDiagram::split_passing_edge(const CoarseLeaf& leaf, std::vector<int>& unknown) {
   const bool middle_is_open = proven(at(leaf.cell)) == nullptr;
   split_if_coarse(leaf.cell, leaf.allowed);
-  const Cell cell = at(leaf.cell);
+  const DiagramNode cell = at(leaf.cell);
   if (cell.state != CellState::inner) return;
   // In order: along B, then along A. The corner (to_a, from_b) is the one where A passes first.
   const int a_first = cell.split_a ? (cell.split_b ? 2 : 1) : 0;
@@ -195,13 +195,13 @@ std::uint64_t CoordinationDiagram::refine_passing_edges(Duration now_a, Duration
 std::vector<CoordinationDiagram::Blocked> CoordinationDiagram::blocked(Duration now_a,
                                                                        Duration now_b) const {
   std::vector<Blocked> blocked;
-  for (const Cell& cell : cells_) {
+  for (const DiagramNode& cell : cells_) {
     if (cell.state == CellState::inner || cell.state == CellState::free) continue;
     if (!remains(cell, now_a, now_b)) continue;
     Blocked& leaf = blocked.emplace_back(Blocked{.box = box_of(cell), .found = {}});
-    if (cell.finding < 0) continue;
-    const Found& found = found_[static_cast<std::size_t>(cell.finding)];
-    leaf.found = finding_at(cell, found.pair, found.distance_m);
+    if (cell.witness < 0) continue;
+    const NarrowWitness& found = found_[static_cast<std::size_t>(cell.witness)];
+    leaf.found = witness_at(cell, found.pair, found.distance_m);
     leaf.proven = proven(cell) != nullptr;
   }
   return blocked;
@@ -209,14 +209,14 @@ std::vector<CoordinationDiagram::Blocked> CoordinationDiagram::blocked(Duration 
 
 std::uint64_t CoordinationDiagram::refine_close_passes(const std::vector<ProgressBox>& areas,
                                                        Duration finest, std::uint64_t budget) {
-  const auto meant = [&](const Cell& cell) {
+  const auto meant = [&](const DiagramNode& cell) {
     const Duration a = a_->middle(cell.a);
     const Duration b = b_->middle(cell.b);
     return std::ranges::any_of(areas, [&](const ProgressBox& area) {
       return area.from_a <= a && a <= area.to_a && area.from_b <= b && b <= area.to_b;
     });
   };
-  const auto open = [&](const Cell& cell) {
+  const auto open = [&](const DiagramNode& cell) {
     return cell.state == CellState::mixed && wider(cell, finest);
   };
   std::vector<int> leaves;
@@ -230,14 +230,14 @@ std::uint64_t CoordinationDiagram::refine_close_passes(const std::vector<Progres
     for (const int index : wide) {
       if (at(index).state == CellState::unknown) continue;
       split_if_coarse(index, finest);
-      const Cell cell = at(index);
+      const DiagramNode cell = at(index);
       for (int c = 0; c < cell.child_count(); ++c) unknown.push_back(cell.children + c);
     }
   };
   const auto follow = [&](const std::vector<int>& seen) {
     std::vector<int> next;
     for (const int leaf : seen) {
-      const Cell& cell = at(leaf);
+      const DiagramNode& cell = at(leaf);
       if (cell.state == CellState::conflict || proven(cell) != nullptr) return std::vector<int>{};
       if (open(cell)) next.push_back(leaf);
     }

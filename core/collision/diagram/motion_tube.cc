@@ -21,8 +21,8 @@ struct MotionTube::Scratch {
   std::vector<double> q;
   std::vector<float> joint_span, joint_drift, joint_loose;  // [row][kLanes]
   std::vector<float> span, drift, loose;                    // [frame][kLanes]
-  std::vector<float> suffix;
-  std::vector<int> capsule_rows;  // in Block::inflation
+  std::vector<float> motion_bounds;
+  std::vector<int> capsule_rows;  // in Block::motion_bound
   std::vector<filter::Hit> hits;
   Eigen::VectorXd position, lower, upper;
   Trajectory::AboutLine line;
@@ -36,7 +36,7 @@ std::shared_ptr<MotionTube::Scratch> MotionTube::make_scratch(const ArmGeometry&
     rows->resize(lane_size(arm.joints().size()));
   }
   for (auto* rows : {&s->span, &s->drift, &s->loose}) rows->resize(lane_size(arm.frames().size()));
-  s->suffix.resize(lane_size(static_cast<std::size_t>(arm.suffix_rows())));
+  s->motion_bounds.resize(lane_size(static_cast<std::size_t>(arm.motion_bound_rows())));
   s->capsule_rows.resize(arm.capsules().size());
   std::iota(s->capsule_rows.begin(), s->capsule_rows.end(), 0);
   s->hits.resize(geometry.self.pairs.size() + 1);
@@ -154,7 +154,7 @@ void MotionTube::place_batch(std::span<const int> nodes) {
   blocks_.push_back(std::make_unique<Block>());
   Block& block = *blocks_.back();
   block.capsules.resize(lane_size(capsules * 6));
-  block.inflation.resize(lane_size(capsules));
+  block.motion_bound.resize(lane_size(capsules));
   block.ball.resize(lane_size(4));
   block.frames.resize(lane_size(arm.frames().size() * 12));
   block.axes.resize(lane_size(arm.frames().size() * 6));
@@ -164,14 +164,15 @@ void MotionTube::place_batch(std::span<const int> nodes) {
   kernel.place(arm.view(), s.q.data(),
                {block.frames.data(), block.axes.data(), block.capsules.data()});
   kernel.inflate(arm.view(), block.axes.data(), block.capsules.data(), s.span.data(),
-                 s.suffix.data(), block.bends.data());
+                 s.motion_bounds.data(), block.bends.data());
   for (std::size_t c = 0; c < capsules; ++c) {
-    const auto row = static_cast<std::size_t>(arm.capsules()[c].suffix_begin);
-    std::copy_n(s.suffix.data() + lane_size(row), kLanes, block.inflation.data() + lane_size(c));
+    const auto row = static_cast<std::size_t>(arm.capsules()[c].motion_bounds_begin);
+    std::copy_n(s.motion_bounds.data() + lane_size(row), kLanes,
+                block.motion_bound.data() + lane_size(c));
   }
-  kernel.enclose(arm.view(), block.capsules.data(), block.inflation.data(), s.capsule_rows.data(),
-                 block.ball.data());
-  const filter::Side side{block.capsules.data(), s.suffix.data(), nullptr};
+  kernel.enclose(arm.view(), block.capsules.data(), block.motion_bound.data(),
+                 s.capsule_rows.data(), block.ball.data());
+  const filter::Side side{block.capsules.data(), s.motion_bounds.data(), nullptr};
   const unsigned lanes = (1U << nodes.size()) - 1U;
   const int found =
       kernel.near_pairs(side, side, geometry_->self.pairs.data(),
@@ -184,7 +185,7 @@ void MotionTube::place_batch(std::span<const int> nodes) {
     for (int h = 0; h < found; ++h) {
       const filter::Hit& hit = s.hits[static_cast<std::size_t>(h)];
       if ((hit.lanes >> lane & 1U) == 0) continue;
-      self_hits_.push_back({hit.pair, hit.distance[lane], hit.inflation[lane]});
+      self_hits_.push_back({hit.pair, hit.distance[lane], hit.motion_bound[lane]});
     }
     node.self_end = self_hits_.size();
   }

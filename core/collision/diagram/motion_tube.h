@@ -12,7 +12,7 @@
 
 namespace armloom {
 
-// The linkage of an arm, or of what stands still, with the pairs of its own parts.
+// The linkage of an arm, or of what stands still, with the pairs of its own bodies.
 struct ArmGeometry {
   ArmGeometry(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm)
       : linkage(bodies, arm), self(arm ? pairs_between(bodies, linkage, linkage) : PairSet{}) {}
@@ -44,14 +44,14 @@ class MotionTube : public TimeTree {
 
   // Eight nodes side by side, as the kernels have placed them.
   struct Block {
-    std::vector<float> capsules;   // [capsule][6][kLanes]
-    std::vector<float> inflation;  // [capsule][kLanes]: motion bounds, m
-    std::vector<float> ball;       // [4][kLanes], filter::Side::ball
-    std::vector<double> frames;    // [frame][12][kLanes]
-    std::vector<float> axes;       // [frame][6][kLanes], filter::Placed::axes
-    std::vector<float> drifts;     // [frame][kLanes]: filter::Joints::drift, of its joint, rad or m
-    std::vector<float> looses;     // filter::Joints::loose
-    std::vector<float> bends;      // [capsule][kLanes], filter::Joints::bend
+    std::vector<float> capsules;      // [capsule][6][kLanes]
+    std::vector<float> motion_bound;  // [capsule][kLanes]: motion bounds, m
+    std::vector<float> ball;          // [4][kLanes], filter::Side::ball
+    std::vector<double> frames;       // [frame][12][kLanes]
+    std::vector<float> axes;          // [frame][6][kLanes], filter::Placed::axes
+    std::vector<float> drifts;  // [frame][kLanes]: filter::Joints::drift, of its joint, rad or m
+    std::vector<float> looses;  // filter::Joints::loose
+    std::vector<float> bends;   // [capsule][kLanes], filter::Joints::bend
   };
   struct Place {
     const Block* block;
@@ -69,7 +69,7 @@ class MotionTube : public TimeTree {
   struct SelfHit {
     int pair;
     float distance;
-    float inflation;
+    float motion_bound;
   };
   [[nodiscard]] std::span<const SelfHit> self_hits(int node) const;
 

@@ -64,31 +64,31 @@ std::vector<CoordinationDiagram::CellView> OrientedDiagram::cells() const {
   return views;
 }
 
-CoordinationDiagram::Finding OrientedDiagram::closest_at(Duration time_a, Duration time_b) const {
-  const TubePair::Close closest = turned_ ? cells_->pair().closest_at(time_b, time_a)
-                                          : cells_->pair().closest_at(time_a, time_b);
+CoordinationDiagram::Witness OrientedDiagram::closest_at(Duration time_a, Duration time_b) const {
+  const TubePair::PairDistance closest = turned_ ? cells_->pair().closest_at(time_b, time_a)
+                                                 : cells_->pair().closest_at(time_a, time_b);
   return {closest.pair, closest.distance_m, time_a, time_b, 0.0};
 }
 
-Proximity OrientedDiagram::proximity_of(const CoordinationDiagram::Finding& found) const {
+Proximity OrientedDiagram::proximity_of(const CoordinationDiagram::Witness& found) const {
   const PlanningScene::Bodies& bodies = *setting_.bodies;
-  const PartPair& pair = bodies.pairs[found.pair.index()];
+  const BodyPair& pair = bodies.pairs[found.pair.index()];
   Proximity proximity =
-      armloom::proximity_of(bodies.parts[pair.a], bodies.parts[pair.b], found.distance_m);
+      armloom::proximity_of(bodies.bodies[pair.a], bodies.bodies[pair.b], found.distance_m);
   return turned_ ? turned_around(std::move(proximity)) : proximity;
 }
 
-bool OrientedDiagram::is_self(const CoordinationDiagram::Finding& found) const {
+bool OrientedDiagram::is_self(const CoordinationDiagram::Witness& found) const {
   return setting_.bodies->group_of(found.pair).kind == PairGroup::Kind::self;
 }
 
 OrientedDiagram OrientedDiagram::parting_at(Duration now_a, Duration now_b) const {
   if (turned_) std::swap(now_a, now_b);
-  const std::vector<TubePair::Close> close = cells_->pair().too_close_at(now_a, now_b);
+  const std::vector<TubePair::PairDistance> close = cells_->pair().too_close_at(now_a, now_b);
   if (close.empty()) return {};
   auto parting = std::make_shared<Parting>(Parting{*setting_.pairs, std::nullopt});
   parting->pairs.set_limits([&](const NarrowPair& pair) {
-    const auto found = std::ranges::find(close, pair.pair, &TubePair::Close::pair);
+    const auto found = std::ranges::find(close, pair.pair, &TubePair::PairDistance::pair);
     return found == close.end() ? pair.limit_m : std::max(kPartingShare * found->distance_m, 1e-9);
   });
   const TubePair::Setting setting{setting_.bodies, &parting->pairs, setting_.scratch};

@@ -35,10 +35,10 @@ class OrientedDiagram {
   [[nodiscard]] std::vector<CoordinationDiagram::CellView> cells() const;
 
   // The closest pair there, exactly.
-  [[nodiscard]] CoordinationDiagram::Finding closest_at(Duration time_a, Duration time_b) const;
+  [[nodiscard]] CoordinationDiagram::Witness closest_at(Duration time_a, Duration time_b) const;
   // The evidence; body_a is the own one's.
-  [[nodiscard]] Proximity proximity_of(const CoordinationDiagram::Finding& found) const;
-  [[nodiscard]] bool is_self(const CoordinationDiagram::Finding& found) const;
+  [[nodiscard]] Proximity proximity_of(const CoordinationDiagram::Witness& found) const;
+  [[nodiscard]] bool is_self(const CoordinationDiagram::Witness& found) const;
 
   // Pairs that are too close where both stand now may part: the same motions, nothing known yet,
   // with each of these held to kPartingShare of the distance that it has there. Empty: none is.

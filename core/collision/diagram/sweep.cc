@@ -61,20 +61,20 @@ double Sweep::remainder(const Vector3d& center_W, double radius_m) const {
 }
 
 // The rim of a flat end about its centre: as round(), with what of the slope lies in the disc.
-double Sweep::of_cylinder(const ConvexShape& body, const PlacedConvexShape& placed) const {
+double Sweep::of_cylinder(const ConvexShape& shape, const PlacedConvexShape& placed) const {
   const Vector3d along = placed.X_WS.linear().col(2);
   const Vector3d across = n_ - n_.dot(along) * along;
   double squared = across.squaredNorm() + turn_ * turn_ + 2.0 * std::abs(across.dot(drift_.m));
   for (const Moment& moment : moments_) squared += 2.0 * std::abs(across.dot(moment.m));
   const Vector3d& center = placed.segment.center;
   return std::max(at(center + placed.segment.half), at(center - placed.segment.half)) +
-         body.radius_m * std::sqrt(squared);
+         shape.radius_m * std::sqrt(squared);
 }
 
-double Sweep::of_box(const ConvexShape& body, const PlacedConvexShape& placed) const {
+double Sweep::of_box(const ConvexShape& shape, const PlacedConvexShape& placed) const {
   double largest = -std::numeric_limits<double>::infinity();
   for (unsigned corner = 0; corner < 8; ++corner) {
-    Vector3d p = body.half_size_m;
+    Vector3d p = shape.half_size_m;
     for (unsigned k = 0; k < 3; ++k) {
       if ((corner >> k & 1U) != 0) p[k] = -p[k];
     }
@@ -83,29 +83,29 @@ double Sweep::of_box(const ConvexShape& body, const PlacedConvexShape& placed) c
   return largest;
 }
 
-double Sweep::of_hull(const ConvexShape& body, const PlacedConvexShape& placed) const {
+double Sweep::of_hull(const ConvexShape& shape, const PlacedConvexShape& placed) const {
   double largest = -std::numeric_limits<double>::infinity();
-  for (const Vector3d& p : body.hull->hull.vertices) {
+  for (const Vector3d& p : shape.hull->hull.vertices) {
     largest = std::max(largest, at(placed.X_WS * p));
   }
   return largest;
 }
 
-double Sweep::reach(const ConvexShape& body, const PlacedConvexShape& placed) const {
+double Sweep::reach(const ConvexShape& shape, const PlacedConvexShape& placed) const {
   const Vector3d& center = placed.segment.center;
-  const double rest = remainder(center, body.bounding_radius_m());
-  switch (body.kind) {
+  const double rest = remainder(center, shape.bounding_radius_m());
+  switch (shape.kind) {
     case ConvexShapeKind::box:
-      return of_box(body, placed) + rest;
+      return of_box(shape, placed) + rest;
     case ConvexShapeKind::cylinder:
-      return of_cylinder(body, placed) + rest;
+      return of_cylinder(shape, placed) + rest;
     case ConvexShapeKind::hull:
-      return of_hull(body, placed) + rest;
+      return of_hull(shape, placed) + rest;
     case ConvexShapeKind::round:
       break;
   }
   return std::max(at(center + placed.segment.half), at(center - placed.segment.half)) +
-         round(body.radius_m) + rest;
+         round(shape.radius_m) + rest;
 }
 
 double Sweep::reach(std::span<const Vector3d> p_W, double radius_m) const {
@@ -118,7 +118,7 @@ double Sweep::reach(std::span<const Vector3d> p_W, double radius_m) const {
   return largest + round(radius_m) + remainder(p_W.front(), size_m + radius_m);
 }
 
-double Sweep::excess(std::span<const Vector3d> p_W, double radius_m) const {
+double Sweep::overestimate(std::span<const Vector3d> p_W, double radius_m) const {
   Vector3d center_W = Vector3d::Zero();
   for (const Vector3d& p : p_W) center_W += p / static_cast<double>(p_W.size());
   double largest = 0.0;

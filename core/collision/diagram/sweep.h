@@ -9,8 +9,8 @@
 
 namespace armloom {
 
-// A joint that carries a part: its axis in the world at the configuration at hand, and how far the
-// joint may be from there: by s * drift + e, the same s of all joints of the part from -1 to 1 (the
+// A joint that carries a body: its axis in the world at the configuration at hand, and how far the
+// joint may be from there: by s * drift + e, the same s of all joints of the body from -1 to 1 (the
 // motion is a line in joint space, nearly), and |e| <= loose.
 struct MovingAxis {
   Eigen::Vector3d z_W;
@@ -22,7 +22,7 @@ struct MovingAxis {
   [[nodiscard]] double span() const { return std::abs(drift) + loose; }
 };
 
-// How far a part may reach along one direction n, wherever the joints that carry it are within
+// How far a body may reach along one direction n, wherever the joints that carry it are within
 // their spans: much less than the sum of spans times levers, which counts every motion as if it
 // went along n.
 //
@@ -37,20 +37,20 @@ struct MovingAxis {
 // for |d_j| <= s_j of any size; of a shift |n . z_j| takes the place of the first factor, 1 that of
 // l_j, and its own s_j does not turn. Where d_j = s drift_j + e_j, the first sum is at most
 //   |sum_j drift_j n . (z_j x r_j)| + sum_j loose_j |n . (z_j x r_j)|:
-// joints that move against each other take from each other. It is convex in p: over a convex body
+// joints that move against each other take from each other. It is convex in p: over a convex shape
 // it is largest in a corner.
 class Sweep {
  public:
   // n of unit length; axes base to tip, which must outlive the sweep.
   Sweep(std::span<const MovingAxis> axes, const Eigen::Vector3d& n_W);
 
-  // At least the largest n . x over a body, wherever the joints are.
-  [[nodiscard]] double reach(const ConvexShape& body, const PlacedConvexShape& placed) const;
+  // At least the largest n . x over a shape, wherever the joints are.
+  [[nodiscard]] double reach(const ConvexShape& shape, const PlacedConvexShape& placed) const;
   // The same over all points within radius_m of the hull of these.
   [[nodiscard]] double reach(std::span<const Eigen::Vector3d> p_W, double radius_m) const;
   // At least the largest n . (x - p) over the points p of the hull and x within radius_m of where p
   // comes to be.
-  [[nodiscard]] double excess(std::span<const Eigen::Vector3d> p_W, double radius_m) const;
+  [[nodiscard]] double overestimate(std::span<const Eigen::Vector3d> p_W, double radius_m) const;
 
  private:
   struct Moment {       // of an axis that turns
@@ -59,9 +59,9 @@ class Sweep {
   };
   [[nodiscard]] double added(const Eigen::Vector3d& p_W) const;
   [[nodiscard]] double at(const Eigen::Vector3d& p_W) const;
-  [[nodiscard]] double of_cylinder(const ConvexShape& body, const PlacedConvexShape& placed) const;
-  [[nodiscard]] double of_box(const ConvexShape& body, const PlacedConvexShape& placed) const;
-  [[nodiscard]] double of_hull(const ConvexShape& body, const PlacedConvexShape& placed) const;
+  [[nodiscard]] double of_cylinder(const ConvexShape& shape, const PlacedConvexShape& placed) const;
+  [[nodiscard]] double of_box(const ConvexShape& shape, const PlacedConvexShape& placed) const;
+  [[nodiscard]] double of_hull(const ConvexShape& shape, const PlacedConvexShape& placed) const;
   [[nodiscard]] double round(double radius_m) const;
   [[nodiscard]] double remainder(const Eigen::Vector3d& center_W, double radius_m) const;
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <limits>
 
-#include "core/collision/diagram/part_sweep.h"
+#include "core/collision/diagram/body_sweep.h"
 #include "core/collision/filter/kernels.h"
-#include "core/collision/state/part_distance.h"
+#include "core/collision/state/body_distance.h"
 
 namespace armloom {
 namespace {
@@ -18,7 +18,8 @@ using Block = MotionTube::Block;
 
 // Nodes of one tube that lie apart, side by side.
 struct TubePair::Gathered {
-  std::vector<float> capsules, inflation, ball, axes, drifts, looses, bends;  // MotionTube::Block
+  std::vector<float> capsules, motion_bound, ball, axes, drifts, looses,
+      bends;  // MotionTube::Block
 };
 
 // What is at hand: nodes to be filtered, what is open of one of them, one state.
@@ -44,7 +45,7 @@ struct TubePair::Batch {
   Batch(const MotionTube& tube_of, const std::vector<int>& nodes, Gathered& gathered)
       : tube(tube_of), to(gathered), count(nodes.size()) {
     for (std::size_t lane = 0; lane < count; ++lane) of[lane] = tube.place_of(nodes[lane]);
-    side = {rows(&Block::capsules, to.capsules), rows(&Block::inflation, to.inflation),
+    side = {rows(&Block::capsules, to.capsules), rows(&Block::motion_bound, to.motion_bound),
             rows(&Block::ball, to.ball)};
   }
   // The block that they are, in its order; null: they are none. That of a rest has it in all lanes.
@@ -142,15 +143,15 @@ std::vector<TubePair::Undecided>& TubePair::undecided(std::size_t lane) {
   s.undecided.clear();
   const auto add = [&](int entry, bool box, double distance_m, double moves_a_m, double moves_m) {
     const NarrowPair& pair = narrow(entry, box);
-    const PartPair& parts = setting_.bodies->pairs[pair.pair.index()];
-    const double slack_m = setting_.bodies->parts[parts.a].capsule_overestimate_m +
-                           setting_.bodies->parts[parts.b].capsule_overestimate_m;
+    const BodyPair& bodies = setting_.bodies->pairs[pair.pair.index()];
+    const double slack_m = setting_.bodies->bodies[bodies.a].capsule_overestimate_m +
+                           setting_.bodies->bodies[bodies.b].capsule_overestimate_m;
     s.undecided.push_back(
         {entry, box, distance_m, moves_a_m, moves_m - moves_a_m, pair.limit_m, slack_m});
   };
   if (is_self()) {
     for (const MotionTube::SelfHit& hit : a_->self_hits(s.nodes_a[lane])) {
-      add(hit.pair, false, hit.distance, hit.inflation, hit.inflation);
+      add(hit.pair, false, hit.distance, hit.motion_bound, hit.motion_bound);
     }
     return s.undecided;
   }
@@ -160,8 +161,8 @@ std::vector<TubePair::Undecided>& TubePair::undecided(std::size_t lane) {
       const auto entry = static_cast<std::size_t>(hit.pair);
       const auto row =
           static_cast<std::size_t>(box ? set.boxes[entry].row_a : set.pairs[entry].row_a);
-      add(hit.pair, box, hit.distance[lane], s.side_a.inflation[row * kLanes + lane],
-          hit.inflation[lane]);
+      add(hit.pair, box, hit.distance[lane], s.side_a.motion_bound[row * kLanes + lane],
+          hit.motion_bound[lane]);
     }
   };
   add_all(s.hits, s.hit_count, false);
@@ -174,23 +175,23 @@ const NarrowPair& TubePair::narrow(int entry, bool box) const {
   return box ? setting_.pairs->narrow_boxes[i] : setting_.pairs->narrow[i];
 }
 
-const KinematicPart& TubePair::part_a(const NarrowPair& pair) const {
-  return a_->linkage().parts()[static_cast<std::size_t>(pair.part_a)];
+const KinematicBody& TubePair::body_a(const NarrowPair& pair) const {
+  return a_->linkage().bodies()[static_cast<std::size_t>(pair.body_a)];
 }
-const KinematicPart& TubePair::part_b(const NarrowPair& pair) const {
-  return b_->linkage().parts()[static_cast<std::size_t>(pair.part_b)];
+const KinematicBody& TubePair::body_b(const NarrowPair& pair) const {
+  return b_->linkage().bodies()[static_cast<std::size_t>(pair.body_b)];
 }
 
 double TubePair::distance(const NarrowPair& pair, Nodes at, double limit_m) const {
-  const KinematicPart& a = part_a(pair);
-  const KinematicPart& b = part_b(pair);
-  return part_distance(*setting_.bodies, a.part, part_pose(a, a_->place_of(at.a).frames(), kLanes),
-                       b.part, part_pose(b, b_->place_of(at.b).frames(), kLanes), limit_m);
+  const KinematicBody& a = body_a(pair);
+  const KinematicBody& b = body_b(pair);
+  return body_distance(*setting_.bodies, a.body, body_pose(a, a_->place_of(at.a).frames(), kLanes),
+                       b.body, body_pose(b, b_->place_of(at.b).frames(), kLanes), limit_m);
 }
 
 bool TubePair::keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, double enough_m) {
-  const KinematicPart& a = part_a(pair);
-  const KinematicPart& b = part_b(pair);
+  const KinematicBody& a = body_a(pair);
+  const KinematicBody& b = body_b(pair);
   std::size_t common = 0;  // what moves both does not part them
   if (is_self()) {
     const auto of_a = a_->linkage().ancestors(a.frame);
@@ -200,10 +201,10 @@ bool TubePair::keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, dou
   Scratch& s = *setting_.scratch;
   a_->axes_of(at.a, a.frame, common, s.axes_a);
   b_->axes_of(at.b, b.frame, common, s.axes_b);
-  const std::vector<Part>& parts = setting_.bodies->parts;
-  return keep_apart(setting_.bodies->bodies,
-                    {{parts[a.part], part_pose(a, a_->place_of(at.a).frames(), kLanes)}, s.axes_a},
-                    {{parts[b.part], part_pose(b, b_->place_of(at.b).frames(), kLanes)}, s.axes_b},
+  const std::vector<CollisionBody>& bodies = setting_.bodies->bodies;
+  return keep_apart(setting_.bodies->shapes,
+                    {{bodies[a.body], body_pose(a, a_->place_of(at.a).frames(), kLanes)}, s.axes_a},
+                    {{bodies[b.body], body_pose(b, b_->place_of(at.b).frames(), kLanes)}, s.axes_b},
                     limit_m, enough_m);
 }
 
@@ -216,16 +217,16 @@ void TubePair::place(Duration time_a, Duration time_b) {
 }
 
 double TubePair::placed_distance(const NarrowPair& pair, double limit_m) const {
-  const KinematicPart& a = part_a(pair);
-  const KinematicPart& b = part_b(pair);
+  const KinematicBody& a = body_a(pair);
+  const KinematicBody& b = body_b(pair);
   const Scratch& s = *setting_.scratch;
-  return part_distance(*setting_.bodies, a.part, part_pose(a, s.point_a.data()), b.part,
-                       part_pose(b, s.point_b.data()), limit_m);
+  return body_distance(*setting_.bodies, a.body, body_pose(a, s.point_a.data()), b.body,
+                       body_pose(b, s.point_b.data()), limit_m);
 }
 
-std::vector<TubePair::Close> TubePair::too_close_at(Duration time_a, Duration time_b) {
+std::vector<TubePair::PairDistance> TubePair::too_close_at(Duration time_a, Duration time_b) {
   place(time_a, time_b);
-  std::vector<Close> close;
+  std::vector<PairDistance> close;
   for (const auto* pairs : {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
     for (std::size_t i = 0; i < pairs->size(); ++i) {
       const NarrowPair& pair = (*pairs)[i];
@@ -237,9 +238,9 @@ std::vector<TubePair::Close> TubePair::too_close_at(Duration time_a, Duration ti
   return close;
 }
 
-TubePair::Close TubePair::closest_at(Duration time_a, Duration time_b) {
+TubePair::PairDistance TubePair::closest_at(Duration time_a, Duration time_b) {
   place(time_a, time_b);
-  Close closest{PairId{0}, std::numeric_limits<double>::infinity()};
+  PairDistance closest{PairId{0}, std::numeric_limits<double>::infinity()};
   for (const auto* pairs : {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
     for (const NarrowPair& pair : *pairs) {
       const double distance_m = placed_distance(pair, closest.distance_m);

@@ -8,7 +8,7 @@
 
 namespace armloom {
 
-// The tubes of two motions and the pairs of parts that are held apart: of two arms, of an arm and
+// The tubes of two motions and the pairs of bodies that are held apart: of two arms, of an arm and
 // what stands still, or of an arm and itself (both tubes are one). Not thread-safe.
 class TubePair {
  public:
@@ -59,7 +59,7 @@ class TubePair {
   // are enough_m apart at the middle or do not come that close along their direction.
   [[nodiscard]] bool keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, double enough_m);
 
-  struct Close {
+  struct PairDistance {
     PairId pair;
     double distance_m;
   };
@@ -67,15 +67,15 @@ class TubePair {
   void place(Duration time_a, Duration time_b);
   [[nodiscard]] double placed_distance(const NarrowPair& pair, double limit_m) const;
   // Every pair that is closer than its limit there, exactly; and the closest pair.
-  [[nodiscard]] std::vector<Close> too_close_at(Duration time_a, Duration time_b);
-  [[nodiscard]] Close closest_at(Duration time_a, Duration time_b);
+  [[nodiscard]] std::vector<PairDistance> too_close_at(Duration time_a, Duration time_b);
+  [[nodiscard]] PairDistance closest_at(Duration time_a, Duration time_b);
 
  private:
   struct Gathered;
   struct Batch;
   [[nodiscard]] int left_open(const Batch& a, const Batch& b, int hits);
-  [[nodiscard]] const KinematicPart& part_a(const NarrowPair& pair) const;
-  [[nodiscard]] const KinematicPart& part_b(const NarrowPair& pair) const;
+  [[nodiscard]] const KinematicBody& body_a(const NarrowPair& pair) const;
+  [[nodiscard]] const KinematicBody& body_b(const NarrowPair& pair) const;
 
   Setting setting_;
   std::shared_ptr<MotionTube> a_;

@@ -46,10 +46,10 @@ ArmKinematics::ArmKinematics(const PlanningScene::Bodies& bodies, std::optional<
   std::vector<Carried> carried(cell.links.size());
   LinkPoses X_WL;
   if (!arm) forward_kinematics(cell, cell.home(), X_WL);
-  for (std::size_t part = 0; part < bodies.parts.size(); ++part) {
-    const Part& own = bodies.parts[part];
+  for (std::size_t body = 0; body < bodies.bodies.size(); ++body) {
+    const CollisionBody& own = bodies.bodies[body];
     if (own.arm != arm) continue;
-    add_part(bodies, part,
+    add_body(bodies, body,
              arm ? carry(cell, *own.carrier, seen, carried) : Carried{.X_FL = own.pose(X_WL)});
   }
   for (filter::Capsule& capsule : capsules_) {
@@ -58,8 +58,8 @@ ArmKinematics::ArmKinematics(const PlanningScene::Bodies& bodies, std::optional<
       capsule.ancestors_begin = ancestors_begin_[frame];
       capsule.depth = depth_[frame];
     }
-    capsule.suffix_begin = suffix_rows_;
-    suffix_rows_ += capsule.depth + 1;
+    capsule.motion_bounds_begin = motion_bound_rows_;
+    motion_bound_rows_ += capsule.depth + 1;
   }
 }
 
@@ -114,20 +114,20 @@ ArmKinematics::Carried ArmKinematics::carry(const Cell& cell, LinkId id, std::ve
   return carried[id.index()] = here;
 }
 
-void ArmKinematics::add_part(const PlanningScene::Bodies& bodies, std::size_t index,
+void ArmKinematics::add_body(const PlanningScene::Bodies& bodies, std::size_t index,
                              const Carried& carried) {
-  const Part& part = bodies.parts[index];
-  KinematicPart added{.part = index,
+  const CollisionBody& body = bodies.bodies[index];
+  KinematicBody added{.body = index,
                       .frame = carried.frame,
-                      .X_FP = part.held() ? carried.X_FL * part.X_CP : carried.X_FL,
+                      .X_FP = body.held() ? carried.X_FL * body.X_CP : carried.X_FL,
                       .capsules_begin = static_cast<int>(capsules_.size()),
                       .capsules_end = 0};
-  for (const LinkCapsule& capsule : part.capsules) {
+  for (const LinkCapsule& capsule : body.capsules) {
     filter::Capsule c = kernel_capsule(added.X_FP, capsule.p_PA, capsule.p_PB, capsule.radius_m);
     c.frame = carried.frame;
     capsules_.push_back(c);
-    const auto from_link = [&part](const Eigen::Vector3d& p_P) {
-      return part.held() ? (part.X_CP * p_P).norm() : p_P.norm();
+    const auto from_link = [&body](const Eigen::Vector3d& p_P) {
+      return body.held() ? (body.X_CP * p_P).norm() : p_P.norm();
     };
     const double far =
         std::max(from_link(capsule.p_PA), from_link(capsule.p_PB)) + capsule.radius_m;
@@ -135,7 +135,7 @@ void ArmKinematics::add_part(const PlanningScene::Bodies& bodies, std::size_t in
     reach_m_ = std::max(reach_m_, carried.from_root_m + far);
   }
   added.capsules_end = static_cast<int>(capsules_.size());
-  parts_.push_back(added);
+  bodies_.push_back(added);
 }
 
 filter::ArmKinematics ArmKinematics::view() const {
@@ -185,13 +185,13 @@ void place_frames(const ArmKinematics& linkage, const double* q, double* frames)
   }
 }
 
-Eigen::Isometry3d part_pose(const KinematicPart& part, const double* frames, int stride) {
-  if (part.frame < 0) return part.X_FP;
+Eigen::Isometry3d body_pose(const KinematicBody& body, const double* frames, int stride) {
+  if (body.frame < 0) return body.X_FP;
   Eigen::Isometry3d X_WF = Eigen::Isometry3d::Identity();
-  const double* from = frames + 12 * stride * part.frame;
+  const double* from = frames + 12 * stride * body.frame;
   for (int i = 0; i < 9; ++i) X_WF.linear()(i % 3, i / 3) = from[i * stride];
   for (int i = 0; i < 3; ++i) X_WF.translation()[i] = from[(9 + i) * stride];
-  return X_WF * part.X_FP;
+  return X_WF * body.X_FP;
 }
 
 filter::Capsule kernel_capsule(const Eigen::Isometry3d& X_FP, const Eigen::Vector3d& p_PA,

@@ -11,10 +11,10 @@
 
 namespace armloom {
 
-// A part (scene_bodies.h) of a linkage: the frame that carries it (-1: it stands in the world) and
+// A body (scene_bodies.h) of a linkage: the frame that carries it (-1: it stands in the world) and
 // its capsules in the filter.
-struct KinematicPart {
-  std::size_t part;  // in PlanningScene::Bodies::parts
+struct KinematicBody {
+  std::size_t body;  // in PlanningScene::Bodies::bodies
   int frame;
   Eigen::Isometry3d X_FP;
   int capsules_begin;
@@ -33,12 +33,12 @@ class ArmKinematics {
   [[nodiscard]] std::optional<ArmId> arm() const { return arm_; }
   // Rows of the q that the kernels take. Joints upstream that no arm moves are among them.
   [[nodiscard]] const std::vector<JointId>& joints() const { return joints_; }
-  [[nodiscard]] const std::vector<KinematicPart>& parts() const { return parts_; }
+  [[nodiscard]] const std::vector<KinematicBody>& bodies() const { return bodies_; }
   [[nodiscard]] const std::vector<filter::Frame>& frames() const { return frames_; }
   [[nodiscard]] const std::vector<filter::Capsule>& capsules() const { return capsules_; }
-  [[nodiscard]] int suffix_rows() const { return suffix_rows_; }
+  [[nodiscard]] int motion_bound_rows() const { return motion_bound_rows_; }
   [[nodiscard]] filter::ArmKinematics view() const;
-  // No point of a part, nor any joint, ever has a larger coordinate in the world (m).
+  // No point of a body, nor any joint, ever has a larger coordinate in the world (m).
   [[nodiscard]] double extent_m() const { return extent_m_; }
   // No point of the arm is ever farther than reach_m from here (in the world).
   [[nodiscard]] const Eigen::Vector3d& root() const { return root_; }
@@ -57,7 +57,7 @@ class ArmKinematics {
   };
   Carried carry(const Cell& cell, LinkId link, std::vector<int>& seen,
                 std::vector<Carried>& carried);
-  void add_part(const PlanningScene::Bodies& bodies, std::size_t part, const Carried& carried);
+  void add_body(const PlanningScene::Bodies& bodies, std::size_t body, const Carried& carried);
 
   std::optional<ArmId> arm_;
   std::vector<JointId> joints_;
@@ -66,8 +66,8 @@ class ArmKinematics {
   std::vector<int> ancestors_begin_;  // by frame
   std::vector<int> depth_;            // by frame
   std::vector<filter::Capsule> capsules_;
-  std::vector<KinematicPart> parts_;
-  int suffix_rows_ = 0;
+  std::vector<KinematicBody> bodies_;
+  int motion_bound_rows_ = 0;
   double extent_m_ = 0.0;
   Eigen::Vector3d root_ = Eigen::Vector3d::Zero();
   double reach_m_ = 0.0;
@@ -76,11 +76,11 @@ class ArmKinematics {
 // The pose of each frame of one configuration, in double: [frame][12] as filter::Frame::C.
 // q as ArmKinematics::joints.
 void place_frames(const ArmKinematics& linkage, const double* q, double* frames);
-// Where a part is; `frames` as above, `stride` between consecutive numbers.
-[[nodiscard]] Eigen::Isometry3d part_pose(const KinematicPart& part, const double* frames,
+// Where a body is; `frames` as above, `stride` between consecutive numbers.
+[[nodiscard]] Eigen::Isometry3d body_pose(const KinematicBody& body, const double* frames,
                                           int stride = 1);
 
-// A capsule of a part, fixed in the world or in a frame.
+// A capsule of a body, fixed in the world or in a frame.
 [[nodiscard]] filter::Capsule kernel_capsule(const Eigen::Isometry3d& X_FP,
                                              const Eigen::Vector3d& p_PA,
                                              const Eigen::Vector3d& p_PB, double radius_m);

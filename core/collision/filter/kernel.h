@@ -34,8 +34,8 @@ struct Capsule {
   float radius_up;   // rounded up
   float ball_up;     // radius and half length, rounded up
   int ancestors_begin;
-  int depth;         // number of ancestors
-  int suffix_begin;  // first of its depth + 1 rows in the array of motion bounds
+  int depth;                // number of ancestors
+  int motion_bounds_begin;  // first of its depth + 1 rows in the array of motion bounds
 };
 
 struct ArmKinematics {
@@ -56,10 +56,10 @@ struct Placed {
 
 // Capsules whose motion bounds are known, as one side of a comparison.
 struct Side {
-  const float* capsules;   // as Placed::capsules
-  const float* inflation;  // [row][kLanes], m; null on both sides: nothing moves
-  const float* ball;       // [4][kLanes]: centre and radius of a ball around all of them as far as
-                           // they may move (Kernel::enclose); not read where pairs have no groups
+  const float* capsules;      // as Placed::capsules
+  const float* motion_bound;  // [row][kLanes], m; null on both sides: nothing moves
+  const float* ball;  // [4][kLanes]: centre and radius of a ball around all of them as far as
+                      // they may move (Kernel::enclose); not read where pairs have no groups
 };
 
 // What moves the capsules of a side that is held apart along one direction.
@@ -73,8 +73,8 @@ struct Joints {
   const float* bend;  // as inflate() makes it, of spans |drift| + loose or more
 };
 
-// Two capsules to compare, with what does not change. Rows of the sides' inflation arrays say how
-// far each may move.
+// Two capsules to compare, with what does not change. Rows of the sides' motion_bound arrays say
+// how far each may move.
 struct Pair {
   int a, b;
   int row_a, row_b;
@@ -118,29 +118,29 @@ struct BoxPair {
 };
 
 // A pair that is not proven to keep its limit in some lanes. distance: a lower bound at the
-// configuration itself; inflation: what motion may take from it.
+// configuration itself; motion_bound: what motion may take from it.
 struct Hit {
   int pair;
   unsigned lanes;  // bit by lane
   float distance[kLanes];
-  float inflation[kLanes];
+  float motion_bound[kLanes];
 };
 
 struct Kernel {
   const char* name;
   void (*place)(const ArmKinematics& linkage, const double* q, const Placed& out);
   // span: [frame][kLanes], how far the joint of the frame may be from the configuration (rad, m),
-  // rounded up. suffix: [row][kLanes], see Capsule::suffix_begin: row m of a capsule bounds how far
-  // any point of it moves against anything that shares its first m ancestors: the sum over the
-  // other ancestors of span times the lever about that joint at this configuration. (Changing the
-  // joints one after another from base to tip, each turns what is behind it in the shape that it
-  // has here: hence the levers at hand bound motions of any size.)
-  // bend: [capsule][kLanes], what along any direction is to be added to the first order of
-  // that motion (sweep.h, the second sum, with what turning adds to a round end).
+  // rounded up. motion_bounds: [row][kLanes], see Capsule::motion_bounds_begin: row m of a capsule
+  // bounds how far any point of it moves against anything that shares its first m ancestors: the
+  // sum over the other ancestors of span times the lever about that joint at this configuration.
+  // (Changing the joints one after another from base to tip, each turns what is behind it in the
+  // shape that it has here: hence the levers at hand bound motions of any size.) bend:
+  // [capsule][kLanes], what along any direction is to be added to the first order of that motion
+  // (sweep.h, the second sum, with what turning adds to a round end).
   void (*inflate)(const ArmKinematics& linkage, const float* axes, const float* capsules,
-                  const float* span, float* suffix, float* bend);
-  // The ball of a side; rows[c] is the row of capsule c in `inflation`. Null: nothing moves.
-  void (*enclose)(const ArmKinematics& linkage, const float* capsules, const float* inflation,
+                  const float* span, float* motion_bounds, float* bend);
+  // The ball of a side; rows[c] is the row of capsule c in `motion_bound`. Null: nothing moves.
+  void (*enclose)(const ArmKinematics& linkage, const float* capsules, const float* motion_bound,
                   const int* rows, float* ball);
   // Writes the pairs that are undecided in one of `lanes`; returns their number. `hits` has room
   // for all pairs.

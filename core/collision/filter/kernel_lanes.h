@@ -153,11 +153,11 @@ inline Vec<F> minus(const Vec<F>& a, const Vec<F>& b) {
 // Float roundings of a lever are below one part in 1e5 and a micrometre.
 template <class F>
 void inflate(const ArmKinematics& linkage, const float* axes, const float* capsules,
-             const float* span, float* suffix, float* bend) {
+             const float* span, float* motion_bounds, float* bend) {
   for (int c = 0; c < linkage.capsule_count; ++c) {
     const Capsule& capsule = linkage.capsules[c];
     const int* ancestors = linkage.ancestors + capsule.ancestors_begin;
-    float* rows = suffix + capsule.suffix_begin * kLanes;
+    float* rows = motion_bounds + capsule.motion_bounds_begin * kLanes;
     const F extra = F::all(capsule.radius_up + 2e-6F);
     const F half_one = F::all(0.5F);
     for (int l = 0; l < kLanes; l += F::kLanes) {

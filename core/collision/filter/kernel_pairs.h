@@ -101,7 +101,7 @@ unsigned keep_apart(const Side& a, const Joints& of_a, const Side& b, const Join
 
 // About the middle of the box around the capsules' centres.
 template <class F>
-void enclose(const ArmKinematics& linkage, const float* capsules, const float* inflation,
+void enclose(const ArmKinematics& linkage, const float* capsules, const float* motion_bound,
              const int* rows, float* ball) {
   if (linkage.capsule_count == 0) {  // an arm without shapes: nothing is compared with it
     for (int i = 0; i < 4 * kLanes; ++i) ball[i] = 0.0F;
@@ -122,7 +122,7 @@ void enclose(const ArmKinematics& linkage, const float* capsules, const float* i
     for (int c = 0; c < linkage.capsule_count; ++c) {
       const Vec<F> w = minus(Vec<F>::load(capsules + c * 6 * kLanes + l), center);
       F far = F::sqrt(dot(w, w)) * F::all(1.00001F) + F::all(linkage.capsules[c].ball_up);
-      if (inflation != nullptr) far = far + F::load(inflation + rows[c] * kLanes + l);
+      if (motion_bound != nullptr) far = far + F::load(motion_bound + rows[c] * kLanes + l);
       radius = F::max(radius, far);
     }
     center.x.store(ball + l);
@@ -140,12 +140,12 @@ inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& h
   unsigned near = 0;
   for (int l = 0; l < kLanes; l += F::kLanes) {
     const Vec<F> w = minus(Vec<F>::load(at_a + l), Vec<F>::load(at_b + l));
-    F inflation = F::all(0.0F);
+    F motion_bound = F::all(0.0F);
     F keep = F::all(pair.limit_up + pair.radii_up);
     if constexpr (kMoving) {
-      inflation = F::load(a.inflation + pair.row_a * kLanes + l) +
-                  F::load(b.inflation + pair.row_b * kLanes + l);
-      keep = keep + inflation;
+      motion_bound = F::load(a.motion_bound + pair.row_a * kLanes + l) +
+                     F::load(b.motion_bound + pair.row_b * kLanes + l);
+      keep = keep + motion_bound;
     }
     const F reach = keep + F::all(pair.ends_up);
     if (F::not_at_least(dot(w, w), reach * reach) == 0) continue;
@@ -160,7 +160,7 @@ inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& h
     const F gap = axis_gap(w, ha, hb, pair);
     near |= F::not_at_least(gap, keep) << l;
     (gap - F::all(pair.radii_up)).store(hit.distance + l);
-    inflation.store(hit.inflation + l);
+    motion_bound.store(hit.motion_bound + l);
   }
   return near;
 }
@@ -173,7 +173,7 @@ inline bool near_ball(const Side& own, const Side& other, const Group& group) {
   for (int l = 0; l < kLanes; l += F::kLanes) {
     const Vec<F> w = minus(Vec<F>::load(at + l), Vec<F>::load(other.ball + l));
     F reach = F::load(other.ball + 3 * kLanes + l) + F::all(group.limit_up + group.size_up);
-    if constexpr (kMoving) reach = reach + F::load(own.inflation + group.row * kLanes + l);
+    if constexpr (kMoving) reach = reach + F::load(own.motion_bound + group.row * kLanes + l);
     near |= F::not_at_least(dot(w, w), reach * reach);
   }
   return near != 0;
@@ -229,7 +229,7 @@ int near_pairs_of(const Side& a, const Side& b, const Pair* pairs, int count, co
 template <class F>
 int near_pairs(const Side& a, const Side& b, const Pair* pairs, int count, const Groups& groups,
                unsigned lanes, Hit* hits) {
-  if (a.inflation == nullptr && b.inflation == nullptr) {
+  if (a.motion_bound == nullptr && b.motion_bound == nullptr) {
     return near_pairs_of<F, false>(a, b, pairs, count, groups, lanes, hits);
   }
   return near_pairs_of<F, true>(a, b, pairs, count, groups, lanes, hits);
@@ -255,12 +255,13 @@ int near_boxes(const Side& a, const BoxPair* pairs, int count, unsigned lanes, H
                              F::all(pair.R[3 * i + 2])};
         gap = F::max(gap, F::abs(dot(axis, w)) - F::abs(dot(axis, half)) - F::all(pair.half_up[i]));
       }
-      const F inflation =
-          a.inflation == nullptr ? F::all(0.0F) : F::load(a.inflation + pair.row_a * kLanes + l);
+      const F motion_bound = a.motion_bound == nullptr
+                                 ? F::all(0.0F)
+                                 : F::load(a.motion_bound + pair.row_a * kLanes + l);
       const F distance = gap - F::all(pair.radius_up);
-      near |= F::not_at_least(distance, F::all(pair.limit_up) + inflation) << l;
+      near |= F::not_at_least(distance, F::all(pair.limit_up) + motion_bound) << l;
       distance.store(hit.distance + l);
-      inflation.store(hit.inflation + l);
+      motion_bound.store(hit.motion_bound + l);
     }
     hit.pair = p;
     hit.lanes = near & lanes;

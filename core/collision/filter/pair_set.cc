@@ -10,10 +10,10 @@
 namespace armloom {
 namespace {
 
-// No point of the part's capsules has a larger coordinate.
-double extent_of(const KinematicPart& part, const ArmKinematics& still) {
+// No point of the body's capsules has a larger coordinate.
+double extent_of(const KinematicBody& body, const ArmKinematics& still) {
   double extent_m = 0.0;
-  for (int c = part.capsules_begin; c < part.capsules_end; ++c) {
+  for (int c = body.capsules_begin; c < body.capsules_end; ++c) {
     const filter::Capsule& capsule = still.capsules()[static_cast<std::size_t>(c)];
     extent_m = std::max(extent_m, Eigen::Map<const Eigen::Vector3d>(capsule.center).norm() +
                                       Eigen::Map<const Eigen::Vector3d>(capsule.half).norm());
@@ -21,18 +21,18 @@ double extent_of(const KinematicPart& part, const ArmKinematics& still) {
   return extent_m;
 }
 
-int index_of(const std::vector<KinematicPart>& parts, std::size_t part) {
-  const auto found = std::ranges::find(parts, part, &KinematicPart::part);
-  return found == parts.end() ? -1 : static_cast<int>(found - parts.begin());
+int index_of(const std::vector<KinematicBody>& bodies, std::size_t body) {
+  const auto found = std::ranges::find(bodies, body, &KinematicBody::body);
+  return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
 }
 
 double limit_of(const PlanningScene::Bodies& bodies, const PairGroup& group) {
   return group.limit_m(PairLimits::of(*bodies.cell));
 }
 
-// All pairs of capsules of the two parts.
-void add_capsules(PairSet& set, const NarrowPair& narrow, const KinematicPart& a,
-                  const std::vector<filter::Capsule>& capsules_a, const KinematicPart& b,
+// All pairs of capsules of the two bodies.
+void add_capsules(PairSet& set, const NarrowPair& narrow, const KinematicBody& a,
+                  const std::vector<filter::Capsule>& capsules_a, const KinematicBody& b,
                   const std::vector<filter::Capsule>& capsules_b, double margin_m) {
   for (int i = a.capsules_begin; i < a.capsules_end; ++i) {
     for (int j = b.capsules_begin; j < b.capsules_end; ++j) {
@@ -44,7 +44,7 @@ void add_capsules(PairSet& set, const NarrowPair& narrow, const KinematicPart& a
   }
 }
 
-void add_boxes(PairSet& set, const NarrowPair& narrow, const KinematicPart& a,
+void add_boxes(PairSet& set, const NarrowPair& narrow, const KinematicBody& a,
                const std::vector<filter::Capsule>& capsules_a, const ConvexShape& box,
                const Eigen::Isometry3d& X_WS, double margin_m) {
   for (int i = a.capsules_begin; i < a.capsules_end; ++i) {
@@ -129,29 +129,29 @@ PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& 
   for (const PairGroup& group : bodies.groups) {
     if (group.arm != *a.arm() || group.other != (self ? std::nullopt : b.arm())) continue;
     for (std::size_t i = group.pairs_begin; i < group.pairs_end; ++i) {
-      const PartPair& pair = bodies.pairs[i];
-      const NarrowPair narrow{PairId{static_cast<std::uint32_t>(i)}, index_of(a.parts(), pair.a),
-                              index_of(b.parts(), pair.b), limit_of(bodies, group)};
-      if (narrow.part_b < 0) continue;  // one that stands still, or moves
-      const KinematicPart& part_a = a.parts()[static_cast<std::size_t>(narrow.part_a)];
-      const KinematicPart& part_b = b.parts()[static_cast<std::size_t>(narrow.part_b)];
-      const double extent_m = std::max(a.extent_m(), b.arm() ? b.extent_m() : extent_of(part_b, b));
+      const BodyPair& pair = bodies.pairs[i];
+      const NarrowPair narrow{PairId{static_cast<std::uint32_t>(i)}, index_of(a.bodies(), pair.a),
+                              index_of(b.bodies(), pair.b), limit_of(bodies, group)};
+      if (narrow.body_b < 0) continue;  // one that stands still, or moves
+      const KinematicBody& body_a = a.bodies()[static_cast<std::size_t>(narrow.body_a)];
+      const KinematicBody& body_b = b.bodies()[static_cast<std::size_t>(narrow.body_b)];
+      const double extent_m = std::max(a.extent_m(), b.arm() ? b.extent_m() : extent_of(body_b, b));
       const auto of_pair_m = static_cast<double>(filter::rounding_margin(extent_m));
       margin_m = std::max(margin_m, of_pair_m);
-      const Part& other = bodies.parts[pair.b];
+      const CollisionBody& other = bodies.bodies[pair.b];
       if (!b.arm() && other.lone_box) {
-        const ConvexShape& box = bodies.bodies[other.bodies_begin];
-        add_boxes(set, narrow, part_a, a.capsules(), box, part_b.X_FP * box.X_PS, of_pair_m);
+        const ConvexShape& box = bodies.shapes[other.shapes_begin];
+        add_boxes(set, narrow, body_a, a.capsules(), box, body_b.X_FP * box.X_PS, of_pair_m);
       } else {
-        add_capsules(set, narrow, part_a, a.capsules(), part_b, b.capsules(), of_pair_m);
+        add_capsules(set, narrow, body_a, a.capsules(), body_b, b.capsules(), of_pair_m);
       }
     }
   }
   if (self) {
     for (filter::Pair& pair : set.pairs) {
       const int common = a.common_ancestors(pair.a, pair.b);
-      pair.row_a = a.capsules()[static_cast<std::size_t>(pair.a)].suffix_begin + common;
-      pair.row_b = a.capsules()[static_cast<std::size_t>(pair.b)].suffix_begin + common;
+      pair.row_a = a.capsules()[static_cast<std::size_t>(pair.a)].motion_bounds_begin + common;
+      pair.row_b = a.capsules()[static_cast<std::size_t>(pair.b)].motion_bounds_begin + common;
     }
     return set;
   }

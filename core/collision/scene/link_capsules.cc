@@ -26,37 +26,37 @@ LinkCapsule capsule_of(const ConvexShape& round) {
   return {center - round.p_SE_P, center + round.p_SE_P, round.radius_m};
 }
 
-// What is known of a body before any capsule is fitted.
+// What is known of a shape before any capsule is fitted.
 struct Spanned {
   Balls balls;
   Balls outer;  // those that matter when partitions are compared
   Points axes;
 };
 
-Spanned span(const ConvexShape& body) {
-  Spanned spanned{extreme_balls(body), {}, {}};
+Spanned span(const ConvexShape& shape) {
+  Spanned spanned{extreme_balls(shape), {}, {}};
   spanned.outer = outermost(spanned.balls);
-  if (body.kind == ConvexShapeKind::round && body.half_length_m == 0.0) return spanned;
-  spanned.axes.emplace_back(body.X_PS.linear().col(2));
-  if (body.kind == ConvexShapeKind::box) {
-    spanned.axes.emplace_back(body.X_PS.linear().col(0));
-    spanned.axes.emplace_back(body.X_PS.linear().col(1));
+  if (shape.kind == ConvexShapeKind::round && shape.half_length_m == 0.0) return spanned;
+  spanned.axes.emplace_back(shape.X_PS.linear().col(2));
+  if (shape.kind == ConvexShapeKind::box) {
+    spanned.axes.emplace_back(shape.X_PS.linear().col(0));
+    spanned.axes.emplace_back(shape.X_PS.linear().col(1));
   }
   return spanned;
 }
 
-// Which bodies go to the first capsule; the others go to the second.
+// Which shapes go to the first capsule; the others go to the second.
 using Partition = std::vector<bool>;
 
-LinkCapsule fit_group(const std::vector<Spanned>& bodies, const Partition& partition, bool group,
+LinkCapsule fit_group(const std::vector<Spanned>& shapes, const Partition& partition, bool group,
                       bool thorough) {
   Balls balls;
   Points axes;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (partition[i] != group) continue;
-    const Balls& of_body = thorough ? bodies[i].balls : bodies[i].outer;
-    balls.insert(balls.end(), of_body.begin(), of_body.end());
-    if (axes.size() < 6) axes.insert(axes.end(), bodies[i].axes.begin(), bodies[i].axes.end());
+    const Balls& of_shape = thorough ? shapes[i].balls : shapes[i].outer;
+    balls.insert(balls.end(), of_shape.begin(), of_shape.end());
+    if (axes.size() < 6) axes.insert(axes.end(), shapes[i].axes.begin(), shapes[i].axes.end());
   }
   return fit_capsule(balls, axes, thorough);
 }
@@ -71,16 +71,16 @@ std::vector<Partition> all_partitions(std::size_t count) {
   return partitions;
 }
 
-// The first k along each axis of the part against the rest.
-std::vector<Partition> partitions_along_axes(const std::vector<ConvexShape>& bodies) {
+// The first k along each axis of the body against the rest.
+std::vector<Partition> partitions_along_axes(const std::vector<ConvexShape>& shapes) {
   std::vector<Partition> partitions;
-  std::vector<std::size_t> order(bodies.size());
+  std::vector<std::size_t> order(shapes.size());
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return bodies[a].X_PS.translation()[axis] < bodies[b].X_PS.translation()[axis];
+      return shapes[a].X_PS.translation()[axis] < shapes[b].X_PS.translation()[axis];
     });
-    Partition partition(bodies.size(), false);
+    Partition partition(shapes.size(), false);
     for (std::size_t k = 0; k + 1 < order.size(); ++k) {
       partition[order[k]] = true;
       partitions.push_back(partition);
@@ -89,10 +89,10 @@ std::vector<Partition> partitions_along_axes(const std::vector<ConvexShape>& bod
   return partitions;
 }
 
-std::pair<LinkCapsule, LinkCapsule> fit_two(const std::vector<ConvexShape>& bodies,
+std::pair<LinkCapsule, LinkCapsule> fit_two(const std::vector<ConvexShape>& shapes,
                                             const std::vector<Spanned>& spanned) {
-  const auto partitions = bodies.size() <= kAllPartitionsUpTo ? all_partitions(bodies.size())
-                                                              : partitions_along_axes(bodies);
+  const auto partitions = shapes.size() <= kAllPartitionsUpTo ? all_partitions(shapes.size())
+                                                              : partitions_along_axes(shapes);
   std::vector<std::pair<double, const Partition*>> rated;
   for (const Partition& partition : partitions) {
     const double volume = fit_group(spanned, partition, true, false).volume_m3() +
@@ -114,18 +114,18 @@ std::pair<LinkCapsule, LinkCapsule> fit_two(const std::vector<ConvexShape>& bodi
   return best;
 }
 
-double distance_from(const ConvexShape& body, const Eigen::Vector3d& p_P) {
-  if (body.kind == ConvexShapeKind::round) {
-    return distance_to_axis(capsule_of(body), p_P) - body.radius_m;
+double distance_from(const ConvexShape& shape, const Eigen::Vector3d& p_P) {
+  if (shape.kind == ConvexShapeKind::round) {
+    return distance_to_axis(capsule_of(shape), p_P) - shape.radius_m;
   }
-  const Eigen::Vector3d p = body.X_PS.inverse(Eigen::Isometry) * p_P;
-  if (body.kind == ConvexShapeKind::box)
-    return (p.cwiseAbs() - body.half_size_m).cwiseMax(0.0).norm();
-  if (body.kind == ConvexShapeKind::cylinder) {
-    return std::hypot(std::max(0.0, std::abs(p.z()) - body.half_length_m),
-                      std::max(0.0, std::hypot(p.x(), p.y()) - body.radius_m));
+  const Eigen::Vector3d p = shape.X_PS.inverse(Eigen::Isometry) * p_P;
+  if (shape.kind == ConvexShapeKind::box)
+    return (p.cwiseAbs() - shape.half_size_m).cwiseMax(0.0).norm();
+  if (shape.kind == ConvexShapeKind::cylinder) {
+    return std::hypot(std::max(0.0, std::abs(p.z()) - shape.half_length_m),
+                      std::max(0.0, std::hypot(p.x(), p.y()) - shape.radius_m));
   }
-  return distance_to_surface(*body.solid->tree, body.solid->X_PT.inverse(Eigen::Isometry) * p_P);
+  return distance_to_surface(*shape.solid->tree, shape.solid->X_PT.inverse(Eigen::Isometry) * p_P);
 }
 
 // Points on the surface: rings along the side, and the caps.
@@ -151,8 +151,9 @@ Points surface_points(const LinkCapsule& capsule) {
   return points;
 }
 
-double excess_of(const std::vector<LinkCapsule>& capsules, const std::vector<ConvexShape>& bodies) {
-  double excess = 0.0;
+double overestimate_of(const std::vector<LinkCapsule>& capsules,
+                       const std::vector<ConvexShape>& shapes) {
+  double overestimate = 0.0;
   for (const LinkCapsule& capsule : capsules) {
     for (const Eigen::Vector3d& p : surface_points(capsule)) {
       const bool hidden = std::any_of(capsules.begin(), capsules.end(), [&](const auto& other) {
@@ -160,14 +161,14 @@ double excess_of(const std::vector<LinkCapsule>& capsules, const std::vector<Con
       });
       if (hidden) continue;
       double nearest = std::numeric_limits<double>::infinity();
-      for (const ConvexShape& body : bodies) {
-        nearest = std::min(nearest, distance_from(body, p));
-        if (nearest <= excess) break;
+      for (const ConvexShape& shape : shapes) {
+        nearest = std::min(nearest, distance_from(shape, p));
+        if (nearest <= overestimate) break;
       }
-      excess = std::max(excess, nearest);
+      overestimate = std::max(overestimate, nearest);
     }
   }
-  return excess;
+  return overestimate;
 }
 
 double volume_of(const std::vector<LinkCapsule>& capsules) {
@@ -176,13 +177,14 @@ double volume_of(const std::vector<LinkCapsule>& capsules) {
   return volume;
 }
 
-// A round body that holds all others: no fit can be better.
-std::optional<LinkCapsule> body_around_all(const std::vector<ConvexShape>& bodies) {
-  for (const ConvexShape& round : bodies) {
+// A round shape that holds all others: no fit can be better.
+std::optional<LinkCapsule> shape_around_all(const std::vector<ConvexShape>& shapes) {
+  for (const ConvexShape& round : shapes) {
     if (round.kind != ConvexShapeKind::round) continue;
     const LinkCapsule capsule = capsule_of(round);
-    const bool all = std::all_of(bodies.begin(), bodies.end(),
-                                 [&](const ConvexShape& body) { return contains(capsule, body); });
+    const bool all = std::all_of(shapes.begin(), shapes.end(), [&](const ConvexShape& shape) {
+      return contains(capsule, shape);
+    });
     if (all) return capsule;
   }
   return std::nullopt;
@@ -195,75 +197,75 @@ bool clearly_better(const LinkCapsules& two, const LinkCapsules& one) {
          two.overestimate_m < one.overestimate_m - kTwoGain_m;
 }
 
-void check(const LinkCapsules& fitted, const std::vector<ConvexShape>& bodies) {
-  for (const ConvexShape& body : bodies) {
+void check(const LinkCapsules& fitted, const std::vector<ConvexShape>& shapes) {
+  for (const ConvexShape& shape : shapes) {
     const bool inside = std::any_of(fitted.capsules.begin(), fitted.capsules.end(),
-                                    [&](const auto& capsule) { return contains(capsule, body); });
-    if (!inside) throw std::logic_error("a body lies in none of its part's capsules");
+                                    [&](const auto& capsule) { return contains(capsule, shape); });
+    if (!inside) throw std::logic_error("a shape lies in none of its body's capsules");
   }
 }
 
 }  // namespace
 
-std::vector<Ball> extreme_balls(const ConvexShape& body) {
+std::vector<Ball> extreme_balls(const ConvexShape& shape) {
   Balls balls;
-  switch (body.kind) {
+  switch (shape.kind) {
     case ConvexShapeKind::round: {
-      const LinkCapsule capsule = capsule_of(body);
-      balls.push_back({capsule.p_PA, body.radius_m});
-      if (body.half_length_m > 0.0) balls.push_back({capsule.p_PB, body.radius_m});
+      const LinkCapsule capsule = capsule_of(shape);
+      balls.push_back({capsule.p_PA, shape.radius_m});
+      if (shape.half_length_m > 0.0) balls.push_back({capsule.p_PB, shape.radius_m});
       break;
     }
     case ConvexShapeKind::box:
       for (int i = 0; i < 8; ++i) {
         const Eigen::Vector3d signs(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-        balls.push_back({body.X_PS * signs.cwiseProduct(body.half_size_m), 0.0});
+        balls.push_back({shape.X_PS * signs.cwiseProduct(shape.half_size_m), 0.0});
       }
       break;
     case ConvexShapeKind::cylinder:
       for (int i = 0; i < kCorners; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / kCorners;
-        const double r = body.radius_m / std::cos(std::numbers::pi / kCorners);
-        for (const double z : {-body.half_length_m, body.half_length_m}) {
+        const double r = shape.radius_m / std::cos(std::numbers::pi / kCorners);
+        for (const double z : {-shape.half_length_m, shape.half_length_m}) {
           const Eigen::Vector3d corner(r * std::cos(angle), r * std::sin(angle), z);
-          balls.push_back({body.X_PS * corner, 0.0});
+          balls.push_back({shape.X_PS * corner, 0.0});
         }
       }
       break;
     case ConvexShapeKind::hull:
-      for (const Eigen::Vector3d& p : body.hull->hull.vertices) {
-        balls.push_back({body.X_PS * p, 0.0});
+      for (const Eigen::Vector3d& p : shape.hull->hull.vertices) {
+        balls.push_back({shape.X_PS * p, 0.0});
       }
       break;
   }
   return balls;
 }
 
-bool contains(const LinkCapsule& capsule, const ConvexShape& body) {
-  const Balls balls = extreme_balls(body);
+bool contains(const LinkCapsule& capsule, const ConvexShape& shape) {
+  const Balls balls = extreme_balls(shape);
   return std::all_of(balls.begin(), balls.end(),
                      [&](const Ball& ball) { return contains(capsule, ball); });
 }
 
-LinkCapsules fit_capsules(const std::vector<ConvexShape>& bodies) {
-  if (bodies.empty()) throw std::invalid_argument("capsules around no body");
-  if (const auto around = body_around_all(bodies)) {
+LinkCapsules fit_capsules(const std::vector<ConvexShape>& shapes) {
+  if (shapes.empty()) throw std::invalid_argument("capsules around no shape");
+  if (const auto around = shape_around_all(shapes)) {
     LinkCapsules fitted{{*around}, 0.0};
-    fitted.overestimate_m = excess_of(fitted.capsules, bodies);
+    fitted.overestimate_m = overestimate_of(fitted.capsules, shapes);
     return fitted;
   }
   std::vector<Spanned> spanned;
-  for (const ConvexShape& body : bodies) spanned.push_back(span(body));
-  const Partition together(bodies.size(), true);
+  for (const ConvexShape& shape : shapes) spanned.push_back(span(shape));
+  const Partition together(shapes.size(), true);
   LinkCapsules fitted{{fit_group(spanned, together, true, true)}, 0.0};
-  fitted.overestimate_m = excess_of(fitted.capsules, bodies);
-  if (bodies.size() > 1) {
-    const auto [first, second] = fit_two(bodies, spanned);
+  fitted.overestimate_m = overestimate_of(fitted.capsules, shapes);
+  if (shapes.size() > 1) {
+    const auto [first, second] = fit_two(shapes, spanned);
     LinkCapsules two{{first, second}, 0.0};
-    two.overestimate_m = excess_of(two.capsules, bodies);
+    two.overestimate_m = overestimate_of(two.capsules, shapes);
     if (clearly_better(two, fitted)) fitted = std::move(two);
   }
-  check(fitted, bodies);
+  check(fitted, shapes);
   return fitted;
 }
 

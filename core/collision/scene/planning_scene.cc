@@ -12,68 +12,70 @@
 namespace armloom {
 namespace {
 
-// A sphere about the middle of the bodies' bounding boxes.
-void bound(const std::vector<ConvexShape>& bodies, Part& part) {
+// A sphere about the middle of the shapes' bounding boxes.
+void bound(const std::vector<ConvexShape>& shapes, CollisionBody& body) {
   Eigen::AlignedBox3d box;
-  for (std::size_t i = part.bodies_begin; i < part.bodies_end; ++i) {
-    const Eigen::Vector3d p = bodies[i].X_PS.translation();
+  for (std::size_t i = body.shapes_begin; i < body.shapes_end; ++i) {
+    const Eigen::Vector3d p = shapes[i].X_PS.translation();
     const Eigen::Vector3d half =
-        bodies[i].X_PS.linear().col(2).cwiseAbs() * bodies[i].half_length_m +
-        Eigen::Vector3d::Constant(bodies[i].radius_m);
+        shapes[i].X_PS.linear().col(2).cwiseAbs() * shapes[i].half_length_m +
+        Eigen::Vector3d::Constant(shapes[i].radius_m);
     box.extend(p - half);
     box.extend(p + half);
   }
-  part.p_PC = box.center();
-  for (std::size_t i = part.bodies_begin; i < part.bodies_end; ++i) {
-    const Eigen::Vector3d p = bodies[i].X_PS.translation() - part.p_PC;
-    const Eigen::Vector3d half = bodies[i].X_PS.linear().col(2) * bodies[i].half_length_m;
+  body.p_PC = box.center();
+  for (std::size_t i = body.shapes_begin; i < body.shapes_end; ++i) {
+    const Eigen::Vector3d p = shapes[i].X_PS.translation() - body.p_PC;
+    const Eigen::Vector3d half = shapes[i].X_PS.linear().col(2) * shapes[i].half_length_m;
     const double ends = std::max((p + half).norm(), (p - half).norm());
-    part.radius_m = std::max(part.radius_m, ends + bodies[i].radius_m);
+    body.radius_m = std::max(body.radius_m, ends + shapes[i].radius_m);
   }
 }
 
-void add_part(PlanningScene::Bodies& scene, Part part, const std::vector<PlacedShape>& shapes) {
+void add_body(PlanningScene::Bodies& scene, CollisionBody body,
+              const std::vector<PlacedShape>& shapes) {
   if (shapes.empty()) return;
-  part.bodies_begin = scene.bodies.size();
-  std::vector<ConvexShape> bodies = make_convex_shapes(shapes);
-  part.has_pieces = std::ranges::any_of(bodies, &ConvexShape::is_piece);
-  LinkCapsules fitted = fit_capsules(bodies);
-  part.capsules = std::move(fitted.capsules);
-  part.capsule_overestimate_m = fitted.overestimate_m;
-  scene.bodies.insert(scene.bodies.end(), std::make_move_iterator(bodies.begin()),
-                      std::make_move_iterator(bodies.end()));
-  part.bodies_end = scene.bodies.size();
-  bound(scene.bodies, part);
-  part.lone_box =
-      part.bodies_end == part.bodies_begin + 1 && scene.bodies.back().kind == ConvexShapeKind::box;
-  if (part.arm) scene.parts_of_arm[part.arm->index()].push_back(scene.parts.size());
-  scene.parts.push_back(std::move(part));
+  body.shapes_begin = scene.shapes.size();
+  std::vector<ConvexShape> convex = make_convex_shapes(shapes);
+  body.has_pieces = std::ranges::any_of(convex, &ConvexShape::is_piece);
+  LinkCapsules fitted = fit_capsules(convex);
+  body.capsules = std::move(fitted.capsules);
+  body.capsule_overestimate_m = fitted.overestimate_m;
+  scene.shapes.insert(scene.shapes.end(), std::make_move_iterator(convex.begin()),
+                      std::make_move_iterator(convex.end()));
+  body.shapes_end = scene.shapes.size();
+  bound(scene.shapes, body);
+  body.lone_box =
+      body.shapes_end == body.shapes_begin + 1 && scene.shapes.back().kind == ConvexShapeKind::box;
+  if (body.arm) scene.bodies_of_arm[body.arm->index()].push_back(scene.bodies.size());
+  scene.bodies.push_back(std::move(body));
 }
 
-// A link is one part, as its shapes move as one. Of one that stands still each box is a part, as it
+// A link is one body, as its shapes move as one. Of one that stands still each box is a body, as it
 // would be as an object: a sphere, or a capsule, says little about a table.
 void add_link(PlanningScene::Bodies& scene, LinkId id) {
   const Cell& cell = *scene.cell;
   const Link& link = cell.link(id);
-  Part part;
-  part.name = link.name;
-  part.link = part.carrier = id;
-  part.arm = link.arm;
-  part.robot = link.robot;
-  if (link.arm) return add_part(scene, std::move(part), link.shapes);
+  CollisionBody body;
+  body.name = link.name;
+  body.link = body.carrier = id;
+  body.arm = link.arm;
+  body.robot = link.robot;
+  if (link.arm) return add_body(scene, std::move(body), link.shapes);
   std::vector<PlacedShape> others;
   for (const PlacedShape& placed : link.shapes) {
     if (std::holds_alternative<Box>(placed.shape)) {
-      add_part(scene, part, {placed});
+      add_body(scene, body, {placed});
     } else {
       others.push_back(placed);
     }
   }
-  add_part(scene, std::move(part), others);
+  add_body(scene, std::move(body), others);
 }
 
 // What is held, against anything.
-bool held_allowed(const PlanningScene::Bodies& scene, std::size_t held, const Part& other) {
+bool held_allowed(const PlanningScene::Bodies& scene, std::size_t held,
+                  const CollisionBody& other) {
   if (!other.carrier) return false;
   const Attachment& attachment = (*scene.attachments)[held - scene.links_end];
   if (hand_of(*scene.cell, attachment.link)[other.carrier->index()]) return true;
@@ -83,21 +85,21 @@ bool held_allowed(const PlanningScene::Bodies& scene, std::size_t held, const Pa
 }
 
 bool allowed(const PlanningScene::Bodies& scene, std::size_t index_a, std::size_t index_b) {
-  const Part& a = scene.parts[index_a];
-  const Part& b = scene.parts[index_b];
+  const CollisionBody& a = scene.bodies[index_a];
+  const CollisionBody& b = scene.bodies[index_b];
   if (a.held()) return held_allowed(scene, index_a, b);
   if (b.held()) return held_allowed(scene, index_b, a);
   if (!b.link) return scene.cell->allowed_link_objects.contains({*a.link, b.name});
   return scene.cell->allowed_link_pairs.contains(std::minmax(*a.link, *b.link));
 }
 
-// Adds the pairs of the arm's parts with all parts that `wanted` names, as one group.
+// Adds the pairs of the arm's bodies with all bodies that `wanted` names, as one group.
 template <class Wanted>
 void add_group(PlanningScene::Bodies& scene, PairGroup group, const Wanted& wanted) {
   group.pairs_begin = scene.pairs.size();
-  for (const std::size_t a : scene.parts_of_arm[group.arm.index()]) {
-    for (std::size_t b = 0; b < scene.parts.size(); ++b) {
-      if (b == a || !wanted(a, scene.parts[b], b)) continue;
+  for (const std::size_t a : scene.bodies_of_arm[group.arm.index()]) {
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      if (b == a || !wanted(a, scene.bodies[b], b)) continue;
       if (allowed(scene, a, b)) continue;
       scene.pairs.push_back({a, b});
     }
@@ -113,59 +115,63 @@ void add_pairs(PlanningScene::Bodies& scene) {
   for (std::uint32_t i = 0; i < arm_count; ++i) {
     for (std::uint32_t j = i + 1; j < arm_count; ++j) {
       add_group(scene, {Kind::arms, ArmId{i}, ArmId{j}},
-                [&](std::size_t, const Part& part, std::size_t) { return part.arm == ArmId{j}; });
+                [&](std::size_t, const CollisionBody& body, std::size_t) {
+                  return body.arm == ArmId{j};
+                });
     }
   }
-  const auto is_mount = [&](const Part& part, ArmId arm) {
-    return part.link && cell.is_mount(*part.link, arm);
+  const auto is_mount = [&](const CollisionBody& body, ArmId arm) {
+    return body.link && cell.is_mount(*body.link, arm);
   };
   for (std::uint32_t i = 0; i < arm_count; ++i) {
     add_group(scene, {Kind::still, ArmId{i}, std::nullopt},
-              [&](std::size_t, const Part& part, std::size_t) {
-                return !part.arm && !is_mount(part, ArmId{i});
+              [&](std::size_t, const CollisionBody& body, std::size_t) {
+                return !body.arm && !is_mount(body, ArmId{i});
               });
     add_group(scene, {Kind::mount, ArmId{i}, std::nullopt},
-              [&](std::size_t, const Part& part, std::size_t) { return is_mount(part, ArmId{i}); });
+              [&](std::size_t, const CollisionBody& body, std::size_t) {
+                return is_mount(body, ArmId{i});
+              });
   }
   for (std::uint32_t i = 0; i < arm_count; ++i) {
     add_group(scene, {Kind::self, ArmId{i}, std::nullopt},
-              [&](std::size_t a, const Part& part, std::size_t b) {
-                return part.arm == ArmId{i} && b > a;
+              [&](std::size_t a, const CollisionBody& body, std::size_t b) {
+                return body.arm == ArmId{i} && b > a;
               });
   }
 }
 
 // Parts from `end` on are taken away.
 void cut(PlanningScene::Bodies& scene, std::size_t end) {
-  if (end == scene.parts.size()) return;
-  scene.bodies.resize(scene.parts[end].bodies_begin);
-  scene.parts.resize(end);
-  for (auto& parts : scene.parts_of_arm) {
-    std::erase_if(parts, [end](std::size_t part) { return part >= end; });
+  if (end == scene.bodies.size()) return;
+  scene.shapes.resize(scene.bodies[end].shapes_begin);
+  scene.bodies.resize(end);
+  for (auto& bodies : scene.bodies_of_arm) {
+    std::erase_if(bodies, [end](std::size_t body) { return body >= end; });
   }
 }
 
 void add_held(PlanningScene::Bodies& scene) {
   for (const Attachment& attachment : *scene.attachments) {
     const Link& link = scene.cell->link(attachment.link);
-    Part part;
-    part.name = attachment.object.name;
-    part.carrier = attachment.link;
-    part.arm = link.arm;
-    part.robot = link.robot;
-    part.X_CP = attachment.X_LO;
-    add_part(scene, std::move(part), {{attachment.object.shape, Eigen::Isometry3d::Identity()}});
+    CollisionBody body;
+    body.name = attachment.object.name;
+    body.carrier = attachment.link;
+    body.arm = link.arm;
+    body.robot = link.robot;
+    body.X_CP = attachment.X_LO;
+    add_body(scene, std::move(body), {{attachment.object.shape, Eigen::Isometry3d::Identity()}});
   }
-  scene.held_end = scene.parts.size();
+  scene.held_end = scene.bodies.size();
 }
 
-// Precondition: the parts end with what is held.
+// Precondition: the bodies end with what is held.
 void add_objects(PlanningScene::Bodies& scene) {
   for (const CollisionObject& object : scene.objects) {
-    Part part;
-    part.name = object.name;
-    part.X_CP = object.X_WO;
-    add_part(scene, std::move(part), {{object.shape, Eigen::Isometry3d::Identity()}});
+    CollisionBody body;
+    body.name = object.name;
+    body.X_CP = object.X_WO;
+    add_body(scene, std::move(body), {{object.shape, Eigen::Isometry3d::Identity()}});
   }
   scene.pairs.clear();
   scene.groups.clear();
@@ -198,9 +204,9 @@ Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
   Bodies& bodies = *links.bodies_;
   bodies.cell = cell;
   bodies.attachments = std::make_shared<const std::vector<Attachment>>();
-  bodies.parts_of_arm.resize(cell->arms.size());
+  bodies.bodies_of_arm.resize(cell->arms.size());
   for (std::uint32_t i = 0; i < cell->links.size(); ++i) add_link(bodies, LinkId{i});
-  bodies.links_end = bodies.held_end = bodies.parts.size();
+  bodies.links_end = bodies.held_end = bodies.bodies.size();
   return links.with_objects(cell->objects);
 }
 

@@ -23,8 +23,8 @@
 namespace armloom {
 
 // A link with shapes, a box of one that stands still, or an object, held or not: what is placed as
-// one, with its bodies.
-struct Part {
+// one, with its convex shapes.
+struct CollisionBody {
   std::string name;
   std::optional<LinkId> link;     // none: an object
   std::optional<LinkId> carrier;  // what it moves with: the link itself, or that which holds it
@@ -32,14 +32,14 @@ struct Part {
   std::optional<RobotId> robot;   // none: an object that stands still
   // In the carrier, or in the world if it has none; of a link the identity.
   Eigen::Isometry3d X_CP = Eigen::Isometry3d::Identity();
-  std::size_t bodies_begin = 0;  // range in Bodies::bodies
-  std::size_t bodies_end = 0;
+  std::size_t shapes_begin = 0;  // range in Bodies::shapes
+  std::size_t shapes_end = 0;
   Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // centre and radius of its bounding sphere
   double radius_m = 0.0;
-  bool has_pieces = false;            // of a closed mesh, among its bodies
-  bool lone_box = false;              // its only body is a box: a sphere says little about a table
-  std::vector<LinkCapsule> capsules;  // one or two, in P; each body lies in one (link_capsules.h)
-  double capsule_overestimate_m = 0.0;  // how far they stand off the bodies
+  bool has_pieces = false;            // of a closed mesh, among its shapes
+  bool lone_box = false;              // its only shape is a box: a sphere says little about a table
+  std::vector<LinkCapsule> capsules;  // one or two, in P; each shape lies in one (link_capsules.h)
+  double capsule_overestimate_m = 0.0;  // how far they stand off the shapes
 
   [[nodiscard]] bool held() const { return carrier && !link; }
   // `X_WL`: of all links.
@@ -49,13 +49,14 @@ struct Part {
   }
 };
 
-// The evidence of two parts that are `clearance_m` apart.
-[[nodiscard]] inline Proximity proximity_of(const Part& a, const Part& b, double clearance_m) {
+// The evidence of two bodies that are `clearance_m` apart.
+[[nodiscard]] inline Proximity proximity_of(const CollisionBody& a, const CollisionBody& b,
+                                            double clearance_m) {
   return {a.name, b.name, a.arm, b.arm, !b.carrier, clearance_m, a.held(), b.held()};
 }
 
-// Two parts that must not touch. The first belongs to the group's first arm.
-struct PartPair {
+// Two bodies that must not touch. The first belongs to the group's first arm.
+struct BodyPair {
   std::size_t a;
   std::size_t b;
 };
@@ -93,13 +94,14 @@ struct PlanningScene::Bodies {
   CellPtr cell;
   std::vector<CollisionObject> objects;
   std::shared_ptr<const std::vector<Attachment>> attachments;  // shared while objects change
-  std::vector<Part> parts;    // links in the order of their ids, then held objects, then objects
-  std::size_t links_end = 0;  // parts before it are links
-  std::size_t held_end = 0;   // parts from links_end to it are held
-  std::vector<ConvexShape> bodies;
-  std::vector<PartPair> pairs;
+  // Links in the order of their ids, then held objects, then objects.
+  std::vector<CollisionBody> bodies;
+  std::size_t links_end = 0;  // bodies before it are links
+  std::size_t held_end = 0;   // bodies from links_end to it are held
+  std::vector<ConvexShape> shapes;
+  std::vector<BodyPair> pairs;
   std::vector<PairGroup> groups;
-  std::vector<std::vector<std::size_t>> parts_of_arm;  // by ArmId
+  std::vector<std::vector<std::size_t>> bodies_of_arm;  // by ArmId
 
   [[nodiscard]] const PairGroup& group_of(PairId pair) const {
     return *std::ranges::upper_bound(groups, pair.index(), {}, &PairGroup::pairs_end);

@@ -21,8 +21,8 @@ bool includes(const PairGroup& group, const std::vector<bool>& arms) {
 struct ClearanceQuery::Scratch {
   // A pair that the filter leaves open in one lane.
   struct Open {
-    PlacedPart a;
-    PlacedPart b;
+    PlacedBody a;
+    PlacedBody b;
     double limit_m;
     std::size_t lane;
     float least_m;  // of the capsules
@@ -47,7 +47,7 @@ struct ClearanceQuery::Scratch {
   // ---- Many states ----
 
   [[nodiscard]] bool closer_than_limit(const Open& o) const {
-    return parts_closer_than(bodies.bodies, o.a, o.b, o.limit_m);
+    return bodies_closer_than(bodies.shapes, o.a, o.b, o.limit_m);
   }
 
   // Adds lanes in which one of the hits is too close indeed. Meshes that balls do not settle are
@@ -59,10 +59,10 @@ struct ClearanceQuery::Scratch {
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const unsigned bit = 1U << lane;
         if ((hit.lanes & ~close & bit) == 0) continue;
-        const Open o{placed.part(c.a, pair.part_a, lane), placed.part(c.b, pair.part_b, lane),
+        const Open o{placed.body(c.a, pair.body_a, lane), placed.body(c.b, pair.body_b, lane),
                      pair.limit_m, lane, hit.distance[lane]};
-        const bool meshes = o.a.part.has_pieces || o.b.part.has_pieces;
-        if (meshes ? parts_surely_closer_than(bodies.bodies, o.a, o.b, o.limit_m)
+        const bool meshes = o.a.body.has_pieces || o.b.body.has_pieces;
+        if (meshes ? bodies_surely_closer_than(bodies.shapes, o.a, o.b, o.limit_m)
                    : closer_than_limit(o)) {
           close |= bit;
         } else if (meshes) {
@@ -119,9 +119,9 @@ struct ClearanceQuery::Scratch {
 
   // min(distance of the pair, limit)
   [[nodiscard]] double distance(std::size_t pair, double limit_m) const {
-    const Part& a = bodies.parts[bodies.pairs[pair].a];
-    const Part& b = bodies.parts[bodies.pairs[pair].b];
-    return part_distance(bodies.bodies, {a, a.pose(X_WL)}, {b, b.pose(X_WL)}, limit_m);
+    const CollisionBody& a = bodies.bodies[bodies.pairs[pair].a];
+    const CollisionBody& b = bodies.bodies[bodies.pairs[pair].b];
+    return body_distance(bodies.shapes, {a, a.pose(X_WL)}, {b, b.pose(X_WL)}, limit_m);
   }
 
   // The closest pair of the group, when closer than the limit. What keeps the others from it is
@@ -219,9 +219,9 @@ std::vector<Proximity> ClearanceQuery::closest_apart(const Configuration& q, dou
 }
 
 Proximity ClearanceQuery::describe(const NearPair& near) const {
-  const PartPair& pair = scratch_->bodies.pairs[near.pair.index()];
-  Proximity proximity = proximity_of(scratch_->bodies.parts[pair.a], scratch_->bodies.parts[pair.b],
-                                     near.clearance_m);
+  const BodyPair& pair = scratch_->bodies.pairs[near.pair.index()];
+  Proximity proximity = proximity_of(scratch_->bodies.bodies[pair.a],
+                                     scratch_->bodies.bodies[pair.b], near.clearance_m);
   proximity.limit_m = near.limit_m;
   return proximity;
 }

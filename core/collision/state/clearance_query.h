@@ -24,7 +24,7 @@ struct NearPair {
 // exact distance does. What nothing proves apart counts as contact (clearance 0). Distances are
 // never larger than the true ones, nor smaller by more than 2e-7 m but in rare cases
 // (exact_distance.h) and for closed meshes that are farther apart than kSurfaceWithin_m: these may
-// be told the distance of their convex pieces, or that one (part_distance.h). What an arm holds is
+// be told the distance of their convex pieces, or that one (body_distance.h). What an arm holds is
 // one of its links in all that follows. Configurations have one entry per joint of the cell (throws
 // std::invalid_argument otherwise), arm masks one per arm. Holds the scratch: one per worker
 // thread, not thread-safe.

@@ -71,10 +71,10 @@ void PlacedCell::place(std::span<const Configuration* const> states) {
   }
 }
 
-PlacedPart PlacedCell::part(std::size_t side, int index, std::size_t lane) const {
+PlacedBody PlacedCell::body(std::size_t side, int index, std::size_t lane) const {
   const Side& arm = arms_[side];
-  const KinematicPart& part = arm.kinematics.parts()[static_cast<std::size_t>(index)];
-  return {bodies_.parts[part.part], part_pose(part, arm.frames.data() + lane, filter::kLanes)};
+  const KinematicBody& body = arm.kinematics.bodies()[static_cast<std::size_t>(index)];
+  return {bodies_.bodies[body.body], body_pose(body, arm.frames.data() + lane, filter::kLanes)};
 }
 
 }  // namespace armloom

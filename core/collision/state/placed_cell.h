@@ -5,7 +5,7 @@
 
 #include "core/collision/filter/kernels.h"
 #include "core/collision/filter/pair_set.h"
-#include "core/collision/state/part_distance.h"
+#include "core/collision/state/body_distance.h"
 
 namespace armloom {
 
@@ -45,7 +45,7 @@ class PlacedCell {
           set.narrow_boxes);
   }
   // Parts of a side (Comparison::a, b) where they are placed.
-  [[nodiscard]] PlacedPart part(std::size_t side, int index, std::size_t lane) const;
+  [[nodiscard]] PlacedBody body(std::size_t side, int index, std::size_t lane) const;
 
  private:
   struct Side {  // an arm with room for eight placements, or what stands still

@@ -17,7 +17,7 @@ namespace {
 constexpr int kEscapeDirections = 40;
 
 // A box of space and what lies of the surface in it.
-struct Cell3 {
+struct Block {
   Eigen::AlignedBox3d box;
   Polygons surface;
   ConvexHull hull;
@@ -79,8 +79,8 @@ double enclosed_volume(const MeshData& mesh) {
   return std::abs(sum) / 6.0;
 }
 
-std::optional<Cell3> side_of(const Cell3& cell, const Cut& cut, double sign, const MeshData& mesh) {
-  Cell3 side{cell.box, clipped(cell.surface, cut, sign), {}, 0.0};
+std::optional<Block> side_of(const Block& cell, const Cut& cut, double sign, const MeshData& mesh) {
+  Block side{cell.box, clipped(cell.surface, cut, sign), {}, 0.0};
   (sign > 0.0 ? side.box.min() : side.box.max())[cut.axis] = cut.at;
   Points points = side.surface.corners;
   const Points corners = enclosed_corners(side.box, mesh);
@@ -94,21 +94,21 @@ std::optional<Cell3> side_of(const Cell3& cell, const Cut& cut, double sign, con
 }
 
 // Both sides of the cell's best cut, when it gains enough.
-std::vector<Cell3> parted(const Cell3& cell, const MeshData& mesh, double least_gain_m3) {
+std::vector<Block> parted(const Block& cell, const MeshData& mesh, double least_gain_m3) {
   const Cut cut = best_cut(cell.surface);
   if (!(cut.volume_m3 < cell.volume_m3)) return {};
   auto low = side_of(cell, cut, -1.0, mesh);
   auto high = side_of(cell, cut, 1.0, mesh);
   if (!low || !high) return {};
   if (cell.volume_m3 - low->volume_m3 - high->volume_m3 < least_gain_m3) return {};
-  std::vector<Cell3> sides;
+  std::vector<Block> sides;
   sides.push_back(*std::move(low));
   sides.push_back(*std::move(high));
   return sides;
 }
 
-Cell3 whole(const MeshData& mesh) {
-  Cell3 cell;
+Block whole(const MeshData& mesh) {
+  Block cell;
   const double inf = std::numeric_limits<double>::infinity();
   cell.box = Eigen::AlignedBox3d(Eigen::Vector3d::Constant(-inf), Eigen::Vector3d::Constant(inf));
   for (const Triangle& t : mesh.triangles) {
@@ -124,7 +124,7 @@ Cell3 whole(const MeshData& mesh) {
 
 std::vector<ConvexHull> convex_pieces(const MeshData& mesh) {
   if (mesh.triangles.size() > kMaxTrianglesCut || !is_closed(mesh.triangles)) return {mesh.hull};
-  std::vector<Cell3> open{whole(mesh)};
+  std::vector<Block> open{whole(mesh)};
   const double least_gain_m3 = kCutGain * open.front().volume_m3;
   if (open.front().volume_m3 - enclosed_volume(mesh) < least_gain_m3) return {mesh.hull};
   std::vector<ConvexHull> pieces;
@@ -133,9 +133,9 @@ std::vector<ConvexHull> convex_pieces(const MeshData& mesh) {
     const auto largest =
         std::max_element(open.begin(), open.end(),
                          [](const auto& a, const auto& b) { return a.volume_m3 < b.volume_m3; });
-    Cell3 cell = std::move(*largest);
+    Block cell = std::move(*largest);
     open.erase(largest);
-    std::vector<Cell3> sides;
+    std::vector<Block> sides;
     if (pieces.size() + open.size() + 2 <= kMaxPieces) sides = parted(cell, mesh, least_gain_m3);
     if (sides.empty()) {
       pieces.push_back(std::move(cell.hull));

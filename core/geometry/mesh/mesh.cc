@@ -204,7 +204,7 @@ Result<MeshPtr> load_mesh(const std::string& path, const Eigen::Vector3d& scale,
                          whose + ": mesh " + path + ": " + refusal.why, std::move(refusal.value)});
 }
 
-Result<MeshPtr> MeshShelf::get(const std::string& path, const Eigen::Vector3d& scale,
+Result<MeshPtr> MeshCache::get(const std::string& path, const Eigen::Vector3d& scale,
                                const std::string& pointer, const std::string& whose) {
   const std::tuple key(path, scale.x(), scale.y(), scale.z());
   const auto known = meshes_.find(key);

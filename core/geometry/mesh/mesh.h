@@ -46,7 +46,7 @@ inline constexpr double kMaxMeshReach_m = 1000.0;  // of any coordinate
                                         const std::string& pointer, const std::string& whose);
 
 // Loads each file once for each scale: robots of one kind share their meshes.
-class MeshShelf {
+class MeshCache {
  public:
   [[nodiscard]] Result<MeshPtr> get(const std::string& path, const Eigen::Vector3d& scale,
                                     const std::string& pointer, const std::string& whose);

@@ -21,7 +21,7 @@ namespace {
 
 // Fills in the shape's triangles when it is a mesh.
 void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& whose,
-                  MeshShelf& meshes, Findings& findings) {
+                  MeshCache& meshes, Findings& findings) {
   auto* mesh = std::get_if<Mesh>(&shape);
   if (mesh == nullptr) return;
   auto data = meshes.get(mesh->path, mesh->scale, pointer, whose);
@@ -32,7 +32,7 @@ void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& w
   for (Problem& problem : data.error()) findings.add(std::move(problem));
 }
 
-void load_meshes_of(RobotTree& tree, MeshShelf& meshes, Findings& findings) {
+void load_meshes_of(RobotTree& tree, MeshCache& meshes, Findings& findings) {
   for (TreeLink& link : tree.links) {
     const std::string place = tree.place_of_link(link);
     for (PlacedShape& placed : link.shapes)
@@ -40,7 +40,7 @@ void load_meshes_of(RobotTree& tree, MeshShelf& meshes, Findings& findings) {
   }
 }
 
-void load_meshes_of_objects(Cell& cell, MeshShelf& meshes, Findings& findings) {
+void load_meshes_of_objects(Cell& cell, MeshCache& meshes, Findings& findings) {
   for (std::size_t o = 0; o < cell.objects.size(); ++o) {
     const auto* mesh = std::get_if<Mesh>(&cell.objects[o].shape);
     std::error_code error;
@@ -60,7 +60,7 @@ std::set<std::string> used_groups(const RobotDescription& robot) {
 
 // The robot's files as far as they can be read. Without a URDF its tree has nothing and no name can
 // be held against it; what the other files say is still held against each other.
-RobotBuild read_robot(const RobotDescription& description, std::size_t index, MeshShelf& meshes,
+RobotBuild read_robot(const RobotDescription& description, std::size_t index, MeshCache& meshes,
                       Findings& findings) {
   const std::string pointer = "/robots/" + std::to_string(index);
   const auto load = [&](const std::string& path, const char* key) {
@@ -255,7 +255,7 @@ Result<CellPtr> build_cell(const CellDescription& description, Problems& warning
 
   auto cell = std::make_shared<Cell>();
   copy_settings(description, *cell);
-  MeshShelf meshes;
+  MeshCache meshes;
   load_meshes_of_objects(*cell, meshes, findings);
   std::set<std::string> links;
   std::set<std::string> joints;

@@ -143,13 +143,6 @@ void check_settings(const CellDescription& d, Findings& findings) {
 
   positive(d.scheduling.backlog_timeout, "/scheduling/backlog_timeout_s");
   not_negative(to_seconds(d.scheduling.aging), "/scheduling/aging_s");
-  if (d.scheduling.on_idle_blocker != "report" && d.scheduling.on_idle_blocker != "park") {
-    findings.in_cell(
-        "setting-out-of-range", "/scheduling/on_idle_blocker",
-        "on_idle_blocker is '" + d.scheduling.on_idle_blocker + "', it must be report or park",
-        d.scheduling.on_idle_blocker);
-  }
-
   require(d.scheduling.horizon_legs >= 1 && d.scheduling.horizon_legs <= 32,
           d.scheduling.horizon_legs, "/scheduling/horizon_legs", "from 1 to 32", findings);
 

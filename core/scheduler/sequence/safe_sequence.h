@@ -109,8 +109,6 @@ class SafeSequence {
 
   static void move(State& state, const Leg& leg);
   [[nodiscard]] bool follows(const Leg& leg) const;
-  [[nodiscard]] bool may_go(const Leg& leg, const Order& among,
-                            const std::vector<JobId>& besides) const;
   Passes passes(Leg& leg, const State& state, std::vector<Passage>* unknown);
   Walk walk(State state, std::span<Leg* const> order);
   [[nodiscard]] Concerned concerned(const std::vector<JobId>& group, const State& then);

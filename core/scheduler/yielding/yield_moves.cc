@@ -45,7 +45,7 @@ bool has_been_there(const YieldsTried& tried, const Trajectory& way) {
 // A way aside of this arm that has not been tried for the job. Nobody makes way any more for what
 // was to help a job that has ended.
 std::optional<YieldTrial> untried(const State& state, const Record& record, ArmId arm) {
-  if (state.cell->scheduling.on_idle_blocker != "park" || state.arms.is_stopped(arm)) {
+  if (state.cell->scheduling.on_idle_blocker != OnIdleBlocker::park || state.arms.is_stopped(arm)) {
     return std::nullopt;
   }
   if (!state.jobs.is_active(record.on_behalf_of)) return std::nullopt;

@@ -4,25 +4,25 @@
 #include <vector>
 
 #include "core/collision/diagram/sweep.h"
-#include "core/collision/state/part_distance.h"
+#include "core/collision/state/body_distance.h"
 #include "core/geometry/surface/solid.h"
 
 namespace armloom {
 
-// A part somewhere in the world, and the joints that may move it, base to tip. Of two parts of one
+// A body somewhere in the world, and the joints that may move it, base to tip. Of two bodies of one
 // arm those joints only that carry one of them: what carries both does not part them.
-struct MovingPart {
-  PlacedPart at;
+struct MovingBody {
+  PlacedBody at;
   std::span<const MovingAxis> axes;
 };
 
-// Whether two parts are proven to keep limit_m wherever these joints are within their spans: for
-// each two bodies, or triangles of surfaces, there is a direction across which one never reaches
+// Whether two bodies are proven to keep limit_m wherever these joints are within their spans: for
+// each two shapes, or triangles of surfaces, there is a direction across which one never reaches
 // within limit_m of the other (Sweep). Those that are enough_m apart already are not looked at;
 // that this is enough is the caller's to know. May say no where yes is true, never the reverse.
-// Precondition: they are apart here (part_distance() is above zero).
-[[nodiscard]] bool keep_apart(const std::vector<ConvexShape>& bodies, const MovingPart& a,
-                              const MovingPart& b, double limit_m, double enough_m);
+// Precondition: they are apart here (body_distance() is above zero).
+[[nodiscard]] bool keep_apart(const std::vector<ConvexShape>& shapes, const MovingBody& a,
+                              const MovingBody& b, double limit_m, double enough_m);
 
 // The same of two surfaces; each stands at X_WT. Precondition: neither is inside of the other here.
 struct MovingSolid {
@@ -33,7 +33,7 @@ struct MovingSolid {
 [[nodiscard]] bool surfaces_keep_apart(const MovingSolid& a, const MovingSolid& b, double limit_m,
                                        double enough_m);
 
-// The gap along n (of unit length, from a to b) that two bodies keep so; negative: they may
+// The gap along n (of unit length, from a to b) that two shapes keep so; negative: they may
 // overlap.
 [[nodiscard]] double swept_gap(const ConvexShape& a, const PlacedConvexShape& at_a,
                                std::span<const MovingAxis> axes_a, const ConvexShape& b,

@@ -1,17 +1,17 @@
-#include "core/collision/diagram/part_sweep.h"
+#include "core/collision/diagram/body_sweep.h"
 
 #include <array>
 #include <optional>
 
-#include "core/collision/state/part_groups.h"
+#include "core/collision/state/shape_groups.h"
 
 namespace armloom {
 namespace {
 
 using Eigen::Vector3d;
 
-bool bodies_keep_apart(const MovingPart& a, const ConvexShape& body_a,
-                       const PlacedConvexShape& at_a, const MovingPart& b,
+bool shapes_keep_apart(const MovingBody& a, const ConvexShape& body_a,
+                       const PlacedConvexShape& at_a, const MovingBody& b,
                        const ConvexShape& body_b, const PlacedConvexShape& at_b, double limit_m,
                        double enough_m) {
   const double reach_m = enough_m + body_a.bounding_radius_m() + body_b.bounding_radius_m();
@@ -25,8 +25,8 @@ bool bodies_keep_apart(const MovingPart& a, const ConvexShape& body_a,
 }
 
 // All pieces of two groups, each convex.
-bool groups_keep_apart(const std::vector<ConvexShape>& bodies, const MovingPart& a,
-                       const PartGroups& of_a, const MovingPart& b, const PartGroups& of_b,
+bool groups_keep_apart(const std::vector<ConvexShape>& shapes, const MovingBody& a,
+                       const ShapeGroups& of_a, const MovingBody& b, const ShapeGroups& of_b,
                        double limit_m, double enough_m) {
   PlacedConvexShape own_a;
   PlacedConvexShape own_b;
@@ -34,7 +34,7 @@ bool groups_keep_apart(const std::vector<ConvexShape>& bodies, const MovingPart&
     const PlacedConvexShape& at_a = of_a.placed(i, own_a);
     for (std::size_t j = of_b.begin(); j < of_b.end(); ++j) {
       const PlacedConvexShape& at_b = of_b.placed(j, own_b);
-      if (!bodies_keep_apart(a, bodies[i], at_a, b, bodies[j], at_b, limit_m, enough_m)) {
+      if (!shapes_keep_apart(a, shapes[i], at_a, b, shapes[j], at_b, limit_m, enough_m)) {
         return false;
       }
     }
@@ -46,7 +46,7 @@ bool groups_keep_apart(const std::vector<ConvexShape>& bodies, const MovingPart&
 // halves are soon decided.
 constexpr int kMostAsked = 500;
 
-// The surfaces of two parts, everything in the frame of the first one's tree, T.
+// The surfaces of two bodies, everything in the frame of the first one's tree, T.
 class SweptSurfaces final : public KeptApart {
  public:
   SweptSurfaces(const MovingSolid& a, const MovingSolid& b, double limit_m)
@@ -62,8 +62,8 @@ class SweptSurfaces final : public KeptApart {
            limit_m_;
   }
   [[nodiscard]] double enough_along(const Vector3d& n_T) const override {
-    return limit_m_ + Sweep(a_.axes, n_T).excess(a_.corners, a_.radius_m) +
-           Sweep(b_.axes, -n_T).excess(b_.corners, b_.radius_m);
+    return limit_m_ + Sweep(a_.axes, n_T).overestimate(a_.corners, a_.radius_m) +
+           Sweep(b_.axes, -n_T).overestimate(b_.corners, b_.radius_m);
   }
 
  private:
@@ -112,11 +112,11 @@ bool surfaces_keep_apart(const MovingSolid& a, const MovingSolid& b, double limi
   return surfaces_apart(a.solid, a.X_WT, b.solid, b.X_WT, enough_m, swept);
 }
 
-bool keep_apart(const std::vector<ConvexShape>& bodies, const MovingPart& a, const MovingPart& b,
+bool keep_apart(const std::vector<ConvexShape>& shapes, const MovingBody& a, const MovingBody& b,
                 double limit_m, double enough_m) {
-  for (PartGroups of_a(bodies, a.at); !of_a.ended(); of_a.next()) {
-    for (PartGroups of_b(bodies, b.at); !of_b.ended(); of_b.next()) {
-      if (groups_keep_apart(bodies, a, of_a, b, of_b, limit_m, enough_m)) continue;
+  for (ShapeGroups of_a(shapes, a.at); !of_a.ended(); of_a.next()) {
+    for (ShapeGroups of_b(shapes, b.at); !of_b.ended(); of_b.next()) {
+      if (groups_keep_apart(shapes, a, of_a, b, of_b, limit_m, enough_m)) continue;
       if (!of_a.are_pieces() && !of_b.are_pieces()) return false;
       const MovingSolid solid_a{of_a.solid(), of_a.X_WT(), a.axes};
       const MovingSolid solid_b{of_b.solid(), of_b.X_WT(), b.axes};

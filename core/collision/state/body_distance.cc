@@ -1,0 +1,87 @@
+#include "core/collision/state/body_distance.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/collision/state/shape_groups.h"
+
+namespace armloom {
+namespace {
+
+constexpr double kFound = -std::numeric_limits<double>::max();  // no limit is closer
+
+// Of the convex shapes; where pieces are among them, the first that is close enough to ask their
+// surface.
+double shapes_distance(const std::vector<ConvexShape>& shapes, const ShapeGroups& a,
+                       const ShapeGroups& b, double limit_m) {
+  const bool pieces = a.are_pieces() || b.are_pieces();
+  double smallest = limit_m;
+  PlacedConvexShape own_a;
+  PlacedConvexShape own_b;
+  for (std::size_t i = a.begin(); i < a.end(); ++i) {
+    const PlacedConvexShape& at_a = a.placed(i, own_a);
+    for (std::size_t j = b.begin(); j < b.end(); ++j) {
+      smallest = distance_below(shapes[i], at_a, shapes[j], b.placed(j, own_b), smallest);
+      if (pieces && smallest < std::min(limit_m, kSurfaceWithin_m)) return smallest;
+    }
+  }
+  return smallest;
+}
+
+// `of_solids`(a, X_WA, b, X_WB, limit): what is to be known of two solids.
+template <class OfSolids>
+double smallest_distance(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
+                         const PlacedBody& b, double limit_m, const OfSolids& of_solids) {
+  double smallest = limit_m;
+  for (ShapeGroups of_a(shapes, a); !of_a.ended(); of_a.next()) {
+    for (ShapeGroups of_b(shapes, b); !of_b.ended(); of_b.next()) {
+      const double distance_m = shapes_distance(shapes, of_a, of_b, smallest);
+      if (distance_m >= smallest) continue;
+      const bool pieces = of_a.are_pieces() || of_b.are_pieces();
+      if (!pieces || distance_m >= kSurfaceWithin_m) {
+        smallest = distance_m;
+        continue;
+      }
+      const double within_m = std::min(smallest, kSurfaceWithin_m);
+      smallest = of_solids(of_a.solid(), of_a.X_WT(), of_b.solid(), of_b.X_WT(), within_m);
+    }
+  }
+  return smallest;
+}
+
+}  // namespace
+
+double body_distance(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
+                     const PlacedBody& b, double limit_m) {
+  return smallest_distance(shapes, a, b, limit_m, solid_distance);
+}
+
+double body_distance(const PlanningScene::Bodies& bodies, std::size_t body_a,
+                     const Eigen::Isometry3d& X_WA, std::size_t body_b,
+                     const Eigen::Isometry3d& X_WB, double limit_m) {
+  return body_distance(bodies.shapes, {bodies.bodies[body_a], X_WA}, {bodies.bodies[body_b], X_WB},
+                       limit_m);
+}
+
+bool bodies_surely_closer_than(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
+                               const PlacedBody& b, double limit_m) {
+  for (ShapeGroups of_a(shapes, a); !of_a.ended(); of_a.next()) {
+    for (ShapeGroups of_b(shapes, b); !of_b.ended(); of_b.next()) {
+      if (surely_closer_than(of_a.solid(), of_a.X_WT(), of_b.solid(), of_b.X_WT(), limit_m)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool bodies_closer_than(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
+                        const PlacedBody& b, double limit_m) {
+  const auto found = [](const Solid& of_a, const Eigen::Isometry3d& X_WA, const Solid& of_b,
+                        const Eigen::Isometry3d& X_WB, double within_m) {
+    return closer_than(of_a, X_WA, of_b, X_WB, within_m) ? kFound : within_m;
+  };
+  return smallest_distance(shapes, a, b, limit_m, found) < limit_m;
+}
+
+}  // namespace armloom

@@ -1,0 +1,15 @@
+#include "core/model/cell_description.h"
+
+namespace armloom {
+
+const char* to_string(OnIdleBlocker value) {
+  switch (value) {
+    case OnIdleBlocker::report:
+      return "report";
+    case OnIdleBlocker::park:
+      return "park";
+  }
+  return "?";
+}
+
+}  // namespace armloom
