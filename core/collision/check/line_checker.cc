@@ -165,15 +165,15 @@ LineChecker::Answer LineChecker::line(const Eigen::VectorXd& from, const Eigen::
   const Duration at = tube->middle(found->node);
   TubePair pair = pair_with(counterparts_[found->counterpart], tube);
   const auto close = pair.too_close_at(at, at);
-  const auto missing = [&](const TubePair::Close& c) {
+  const auto missing = [&](const TubePair::PairDistance& c) {
     return c.distance_m - scene_->bodies().group_of(c.pair).limit_m(PairLimits::of(scene_->cell()));
   };
-  const TubePair::Close worst =
+  const TubePair::PairDistance worst =
       close.empty() ? pair.closest_at(at, at) : *std::ranges::min_element(close, {}, missing);
-  const PartPair& parts = scene_->bodies().pairs[worst.pair.index()];
+  const BodyPair& bodies = scene_->bodies().pairs[worst.pair.index()];
   Answer answer{found->proven ? Kind::conflict : Kind::undecided,
                 to_seconds(at) / to_seconds(kLength),
-                proximity_of(scene_->bodies().parts[parts.a], scene_->bodies().parts[parts.b],
+                proximity_of(scene_->bodies().bodies[bodies.a], scene_->bodies().bodies[bodies.b],
                              worst.distance_m)};
   answer.proximity->limit_m =
       scene_->bodies().group_of(worst.pair).limit_m(PairLimits::of(scene_->cell()));
