@@ -1,10 +1,13 @@
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/problem.h"
 #include "core/model/cell.h"
+#include "core/trajectory/timing/joint_rates.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
@@ -14,11 +17,15 @@ struct WaypointRequest {
   std::vector<double> positions;      // rad or m, in the order of joint_names
   std::vector<double> velocities;     // empty: not given
   std::vector<double> accelerations;  // empty: not given
-  double time_from_start_s = 0.0;     // rounded to the nearest nanosecond
+  // Rounded to the nearest nanosecond; NaN: not given.
+  double time_from_start_s = std::numeric_limits<double>::quiet_NaN();
 };
 struct TrajectoryRequest {
   std::vector<std::string> joint_names;  // in any order; Trajectory::joints() keeps it
   std::vector<WaypointRequest> points;
+  // Times, velocities and accelerations are made, within these shares of the limits (retime.h);
+  // absent: as given.
+  std::optional<RateShares> retime = {};
 };
 
 // More waypoints than this are refused as too large before anything is computed.
@@ -33,7 +40,8 @@ inline constexpr double kRestVelocity = 1e-4;
 inline constexpr double kPositionTolerance = 1e-6;
 inline constexpr double kPositionOvershoot = 1e-4;
 
-// Parse, then trust. In this order:
+// Parse, then trust. Where times are to be made, retimed() (timing/retime.h) takes its place. In
+// this order:
 //  names:  known ("unknown-joint"), of an arm ("joint-of-no-arm"), once each ("duplicate-joint"),
 //          every joint of each arm that is touched ("missing-joint"); gripper joints are optional,
 //          joints of several arms make one motion of them all;

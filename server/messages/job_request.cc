@@ -32,7 +32,14 @@ bool is_name(std::string_view name) {
          std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
 }
 
+std::vector<TrajectoryRequest*> motions_of(JobRequest& request) {
+  std::vector<TrajectoryRequest*> motions{&request.trajectory};
+  for (TrajectoryRequest& other : request.alternatives) motions.push_back(&other);
+  return motions;
+}
+
 void slow_down(TrajectoryRequest& trajectory, double factor) {
+  if (trajectory.retime) trajectory.retime->velocity = factor;
   for (WaypointRequest& point : trajectory.points) {
     point.time_from_start_s /= factor;
     for (double& velocity : point.velocities) velocity *= factor;
@@ -123,9 +130,6 @@ FormatPtr<JobRequest> job_request_format() {
           not_served<Request>({"on_timeout", "not-served",
                                "\"on_timeout\" can only be \"abort\" in this version", "abort",
                                "What becomes of it then"}),
-          not_served<Request>({"retime", "not-served",
-                               "\"retime\" needs time parameterisation, which this version lacks",
-                               false, "Time parameterisation is not served yet"}),
           not_served<Request>(
               {"steps", "not-served",
                "\"steps\" are not served by this version; give one \"trajectory\""}),
@@ -143,7 +147,20 @@ FormatPtr<JobRequest> job_request_format() {
                 "Instead of a trajectory: the same work by several arms, each back to where it "
                 "begins; one of them does it"),
           at_most_one<Request>({"trajectory", "alternatives"}),
-          // Read after the trajectory, which it stretches.
+          // Both are read after the trajectory, which they time and stretch.
+          std::make_shared<MemberPart<Request, bool>>(
+              MemberText{"retime",
+                         "Times, velocities and accelerations are made: the fastest within the "
+                         "joints' limits along the waypoints (corners are cut by 0.01 rad at "
+                         "most), at rest at both ends. What the waypoints have of them is read "
+                         "over",
+                         Need::optional, Schema(false)},
+              flag(), [](const Request&) { return std::optional<bool>(); },
+              [](Request& request, bool retime) {
+                for (TrajectoryRequest* motion : motions_of(request)) {
+                  motion->retime = retime ? std::optional(RateShares{}) : std::nullopt;
+                }
+              }),
           std::make_shared<MemberPart<Request, double>>(
               MemberText{
                   "velocity_scaling_factor",
@@ -152,8 +169,7 @@ FormatPtr<JobRequest> job_request_format() {
                   Need::optional, Schema(1)},
               number({0.001, 1.0}), [](const Request&) { return std::optional<double>(); },
               [](Request& request, double factor) {
-                slow_down(request.trajectory, factor);
-                for (TrajectoryRequest& other : request.alternatives) slow_down(other, factor);
+                for (TrajectoryRequest* motion : motions_of(request)) slow_down(*motion, factor);
               }),
       }));
   return format;

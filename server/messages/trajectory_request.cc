@@ -66,7 +66,8 @@ FormatPtr<WaypointRequest> waypoint_format() {
                    field("accelerations", &Point::accelerations, number_list(),
                          "In all waypoints (quintic) or in none (cubic)"),
                    ignored<Point>("effort", anything("array"), "Read over"),
-                   required("time_from_start", &Point::time_from_start_s, time, ""),
+                   field("time_from_start", &Point::time_from_start_s, time,
+                         "Absent: refused, unless the job says \"retime\""),
                }));
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "server/messages/job_request.h"
@@ -89,7 +90,6 @@ INSTANTIATE_TEST_SUITE_P(
                  "a number"},
         BadField{"PositionIsNull", "/trajectory/points/3/positions/2", "null", kMalformed,
                  "a number"},
-        BadField{"NoTime", "/trajectory/points/4/time_from_start", nullptr, kInvalid, "missing"},
         BadField{"TimeIsText", "/trajectory/points/4/time_from_start", "\"1\"", kMalformed, "sec"},
         BadField{"NanosecTooLarge", "/trajectory/points/4/time_from_start",
                  R"({"sec": 1, "nanosec": 1000000000})", kInvalid, "1000000000",
@@ -114,8 +114,22 @@ INSTANTIATE_TEST_SUITE_P(
         BadField{"AfterHoldsNoId", "/after", "[\"x\", \"a b\"]", kInvalid, "128", "/after/1"},
         BadField{"FasterThanPlanned", "/velocity_scaling_factor", "2", kInvalid, "0.001..1"},
         BadField{"StepsAreNotServed", "/steps", "[]", kInvalid, "not served"},
-        BadField{"RetimeIsNotServed", "/retime", "true", kInvalid, "parameterisation"}),
+        BadField{"RetimeIsNoFlag", "/retime", "1", kMalformed, "true or false"}),
     [](const auto& tested) { return tested.param.name; });
+
+TEST(JobCodec, ReadsWaysWithoutTimes) {
+  json body = test::move("left", test::kHome, test::kMiddle);
+  for (json& point : body["trajectory"]["points"]) point = {{"positions", point["positions"]}};
+  body["retime"] = true;
+  body["velocity_scaling_factor"] = 0.25;
+  const auto job = read_job(body);
+  ASSERT_TRUE(job) << job.error().front().detail;
+  ASSERT_TRUE(job->trajectory.retime);
+  EXPECT_EQ(job->trajectory.retime->velocity, 0.25);
+  EXPECT_TRUE(std::isnan(job->trajectory.points[0].time_from_start_s));
+  body["retime"] = false;
+  EXPECT_FALSE(read_job(body).value().trajectory.retime);
+}
 
 TEST(JobCodec, ReadsPredecessors) {
   json body = test::move("left", test::kHome, test::kMiddle);

@@ -1,0 +1,100 @@
+#include "core/trajectory/request_checks.h"
+
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace armloom {
+namespace {
+
+void check_complete(const Cell& cell, const std::vector<ArmId>& arms,
+                    const std::set<JointId>& named, ProblemList& problems) {
+  for (const ArmId arm : arms) {
+    for (const JointId id : cell.arm(arm).joints) {
+      if (named.contains(id)) continue;
+      problems.add({ProblemKind::invalid, "missing-joint", "/joint_names",
+                    "joint " + cell.joint(id).name + " of arm " + cell.arm(arm).name +
+                        " is missing; a motion names every joint of each arm that it moves",
+                    static_cast<double>(named.size())});
+    }
+  }
+}
+
+}  // namespace
+
+std::string pointer_to(std::size_t waypoint) { return "/points/" + std::to_string(waypoint); }
+std::string waypoint(std::size_t index) { return "waypoint " + std::to_string(index); }
+
+Names resolve_names(const TrajectoryRequest& request, const Cell& cell, ProblemList& problems) {
+  Names names;
+  if (request.joint_names.empty()) {
+    problems.add(
+        {ProblemKind::invalid, "empty-trajectory", "/joint_names", "joint_names is empty", 0.0});
+  }
+  std::set<JointId> named;
+  std::set<ArmId> arms;
+  for (std::size_t i = 0; i < request.joint_names.size() && !problems.full(); ++i) {
+    const std::string& name = request.joint_names[i];
+    const auto refuse = [&](const char* slug, const char* why) {
+      problems.add({ProblemKind::invalid, slug, "/joint_names/" + std::to_string(i),
+                    "joint " + name + " " + why, name});
+    };
+    const std::optional<JointId> id = cell.find_joint(name);
+    if (!id) {
+      refuse("unknown-joint", "is not a movable joint of the cell");
+    } else if (!cell.joint(*id).arm) {
+      refuse(
+          "joint-of-no-arm",
+          "is in no arm's group of the cell, so nothing can move it: list it in the group, or let "
+          "the cell hold it (\"fixed\")");
+    } else if (!named.insert(*id).second) {
+      refuse("duplicate-joint", "is named twice");
+    } else {
+      names.joints.push_back(*id);
+      arms.insert(*cell.joint(*id).arm);
+    }
+  }
+  names.arms.assign(arms.begin(), arms.end());
+  check_complete(cell, names.arms, named, problems);
+  return names;
+}
+
+bool check_count(const TrajectoryRequest& request, ProblemList& problems) {
+  const std::size_t count = request.points.size();
+  if (count == 0) {
+    problems.add({ProblemKind::invalid, "empty-trajectory", "/points", "points is empty", 0.0});
+  } else if (count == 1) {
+    problems.add({ProblemKind::invalid, "too-few-points", "/points",
+                  "1 waypoint makes no motion; at least 2 are needed", 1.0});
+  } else if (count > kWaypointsMax) {
+    problems.add(
+        {ProblemKind::too_large, "too-many-points", "/points",
+         std::to_string(count) + " waypoints are more than " + std::to_string(kWaypointsMax),
+         static_cast<double>(count)});
+  } else {
+    return true;
+  }
+  return false;
+}
+
+void check_numbers(std::size_t k, const char* member, const std::vector<double>& numbers,
+                   const TrajectoryRequest& request, ProblemList& problems) {
+  const std::size_t expected = request.joint_names.size();
+  if (numbers.size() != expected) {
+    problems.add({ProblemKind::invalid, "size-mismatch", pointer_to(k) + "/" + member,
+                  waypoint(k) + ": " + std::to_string(numbers.size()) + " " + member + " for " +
+                      std::to_string(expected) + " joints",
+                  static_cast<double>(numbers.size())});
+    return;
+  }
+  for (std::size_t j = 0; j < numbers.size(); ++j) {
+    if (std::isfinite(numbers[j])) continue;
+    problems.add({ProblemKind::invalid, "not-finite",
+                  pointer_to(k) + "/" + member + "/" + std::to_string(j),
+                  waypoint(k) + ", " + request.joint_names[j] + ": " + to_text(numbers[j]) +
+                      " in " + member + " is not a finite number",
+                  to_text(numbers[j])});
+  }
+}
+
+}  // namespace armloom

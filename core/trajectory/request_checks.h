@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/trajectory/check_limits.h"
+
+// Inside of core/trajectory: the stages of validate() that a request without times goes through,
+// too. Slugs and sentences: validate.h.
+namespace armloom {
+
+[[nodiscard]] std::string pointer_to(std::size_t waypoint);  // "/points/3"
+[[nodiscard]] std::string waypoint(std::size_t index);       // "waypoint 3"
+
+struct Names {
+  std::vector<JointId> joints;
+  std::vector<ArmId> arms;  // ascending, each once
+};
+
+[[nodiscard]] Names resolve_names(const TrajectoryRequest& request, const Cell& cell,
+                                  ProblemList& problems);
+// Whether there are waypoints, and not too many or too few.
+[[nodiscard]] bool check_count(const TrajectoryRequest& request, ProblemList& problems);
+// One finite number for each joint.
+void check_numbers(std::size_t k, const char* member, const std::vector<double>& numbers,
+                   const TrajectoryRequest& request, ProblemList& problems);
+
+}  // namespace armloom

@@ -1,0 +1,129 @@
+// "retime": true, from the waypoints of a client to a motion.
+#include "core/trajectory/timing/retime.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "test/trajectory/timing/random_paths.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::random_posture;
+
+// A way of the left Panda of the test cell through this many random postures.
+struct Way {
+  explicit Way(std::size_t points, std::uint64_t seed = 1) : cell(testing::test_cell()) {
+    std::mt19937_64 random(seed);
+    for (const JointId joint : cell.arms[0].joints) {
+      request.joint_names.push_back(cell.joint(joint).name);
+    }
+    for (std::size_t i = 0; i < points; ++i) {
+      const Eigen::VectorXd at = random_posture(random, cell, cell.arms[0].joints);
+      request.points.push_back({.positions = {at.begin(), at.end()}});
+    }
+    request.retime = RateShares{};
+  }
+  [[nodiscard]] Result<TrajectoryPtr> read() const { return validate(request, cell); }
+
+  Cell cell;
+  TrajectoryRequest request;
+};
+
+TEST(Retime, GoesFromTheFirstWaypointToTheLastAndRestsThereOnly) {
+  const Way way(5);
+  const auto made = way.read();
+  ASSERT_TRUE(made) << made.error().front().detail;
+  const Trajectory& motion = **made;
+  JointState state;
+  for (const auto& [at, point] : {std::pair{Duration{}, way.request.points.front()},
+                                  std::pair{motion.duration(), way.request.points.back()}}) {
+    motion.sample(at, state);
+    for (std::size_t j = 0; j < point.positions.size(); ++j) {
+      EXPECT_NEAR(state.position[static_cast<Eigen::Index>(j)], point.positions[j], 1e-9);
+    }
+    EXPECT_LT(state.velocity.norm(), 1e-6);
+  }
+  int at_rest = 0;
+  const Duration step = motion.duration() / 20;
+  for (Duration t = step; t < motion.duration() - step / 2; t += step) {
+    motion.sample(t, state);
+    at_rest += state.velocity.norm() < 1e-3 ? 1 : 0;
+  }
+  EXPECT_EQ(at_rest, 0);
+}
+
+TEST(Retime, PassesEveryWaypointWithinWhatItSays) {
+  const Way way(6, 7);
+  const auto made = way.read();
+  ASSERT_TRUE(made);
+  JointState state;
+  for (const WaypointRequest& point : way.request.points) {
+    const Eigen::Map<const Eigen::VectorXd> at(point.positions.data(), 7);
+    double nearest = 1e9;
+    for (Duration t{}; t <= (*made)->duration(); t += std::chrono::milliseconds(1)) {
+      (*made)->sample(t, state);
+      nearest = std::min(nearest, (state.position - at).norm());
+    }
+    EXPECT_LT(nearest, kRetimeWithin + 3e-3);  // off the path, and between two milliseconds
+  }
+}
+
+TEST(Retime, TakesLongerWithASmallerShareAndReadsOverWhatTheWaypointsHave) {
+  Way way(3);
+  const Duration fast = (*way.read())->duration();
+  way.request.retime->velocity = 0.1;
+  EXPECT_GT((*way.read())->duration(), 2 * fast);
+  way.request.retime->velocity = 1.0;
+  for (WaypointRequest& point : way.request.points) {
+    point.velocities.assign(7, 99.0);
+    point.time_from_start_s = -3.0;
+  }
+  way.request.points.insert(way.request.points.begin() + 1, way.request.points[0]);
+  EXPECT_EQ((*way.read())->duration(), fast);
+}
+
+TEST(Retime, SaysWhatIsWrongWithTheWaypointsOfTheClient) {
+  const auto told = [](const Way& way) {
+    const auto made = way.read();
+    std::string text;
+    for (const Problem& problem : made ? Problems{} : made.error()) {
+      text += problem.slug + " " + problem.pointer + ": " + problem.detail + "\n";
+    }
+    return text;
+  };
+  Way far(3);
+  far.request.points[1].positions[2] = 50.0;
+  EXPECT_THAT(told(far), HasSubstr("position-limit /points/1/positions/2: waypoint 1, "));
+  Way torn(3);
+  torn.request.points[2].positions.pop_back();
+  torn.request.points[0].positions[0] = std::nan("");
+  EXPECT_THAT(told(torn), HasSubstr("size-mismatch /points/2/positions"));
+  EXPECT_THAT(told(torn), HasSubstr("not-finite /points/0/positions/0"));
+  Way still(2);
+  still.request.points[1] = still.request.points[0];
+  EXPECT_THAT(told(still), HasSubstr("no-way /points"));
+  Way lone(1);
+  EXPECT_THAT(told(lone), HasSubstr("too-few-points /points"));
+  Way unknown(2);
+  unknown.request.joint_names[3] = "elbow";
+  EXPECT_THAT(told(unknown), HasSubstr("unknown-joint /joint_names/3"));
+}
+
+TEST(Retime, WithoutItTimesHaveToBeThere) {
+  Way way(2);
+  way.request.retime.reset();
+  const auto made = way.read();
+  ASSERT_FALSE(made);
+  std::string slugs;
+  for (const Problem& problem : made.error()) slugs += problem.slug + " ";
+  EXPECT_THAT(slugs, HasSubstr("no-time"));
+}
+
+}  // namespace
+}  // namespace armloom
