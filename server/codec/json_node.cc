@@ -1,6 +1,7 @@
 #include "server/codec/json_node.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/nearest_name.h"
 #include "server/codec/json_pointer.h"
@@ -21,6 +22,25 @@ std::variant<std::monostate, double, std::string> shown(const json& value) {
 }
 
 std::string spelled(double number) { return json(number).dump(); }
+
+bool is_whole_double(const json& value) {
+  return value.is_number_float() && value.get<double>() == std::trunc(value.get<double>());
+}
+
+// Precondition: a whole number. None: beyond what the type holds.
+std::optional<std::int64_t> whole_within_int64(const json& value) {
+  constexpr double kBeyond = 9223372036854775808.0;  // 2^63
+  if (value.is_number_float()) {
+    const auto number = value.get<double>();
+    if (number < -kBeyond || number >= kBeyond) return std::nullopt;
+    return static_cast<std::int64_t>(number);
+  }
+  if (value.is_number_unsigned() &&
+      value.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max()) {
+    return std::nullopt;
+  }
+  return value.get<std::int64_t>();
+}
 
 }  // namespace
 
@@ -99,17 +119,15 @@ bool JsonNode::read(bool& out) const {
 }
 
 bool JsonNode::read_integer(std::int64_t& out, std::int64_t lowest, std::int64_t highest) const {
-  if (!value_->is_number_integer()) return wrong_type("an integer");
-  const bool beyond =
-      value_->is_number_unsigned() &&
-      value_->get<std::uint64_t>() > static_cast<std::uint64_t>(std::max<std::int64_t>(highest, 0));
-  const auto number = value_->get<std::int64_t>();
-  if (beyond || number < lowest || number > highest) {
+  const bool is_whole = value_->is_number_integer() || is_whole_double(*value_);
+  if (!is_whole) return wrong_type("an integer");
+  const auto number = whole_within_int64(*value_);
+  if (!number || *number < lowest || *number > highest) {
     invalid("out-of-range", value_->dump() + " is not within " + std::to_string(lowest) + ".." +
                                 std::to_string(highest));
     return false;
   }
-  out = number;
+  out = *number;
   return true;
 }
 

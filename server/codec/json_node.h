@@ -67,6 +67,7 @@ class JsonNode {
   bool read(double& out) const;
   bool read(std::string& out) const;
   bool read(bool& out) const;
+  // 1.0 and 1e3 are integers, too: by JSON Schema, which cannot tell them from 1 and 1000.
   bool read_integer(std::int64_t& out, std::int64_t lowest, std::int64_t highest) const;
   bool read(std::vector<double>& out) const;
   bool read(std::vector<std::string>& out) const;

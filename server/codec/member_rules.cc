@@ -56,6 +56,18 @@ void describe_companion(Schema& object, const std::string& key, const std::strin
   object["dependentRequired"][key] = Schema::array({companion});
 }
 
+void describe_unless(Schema& object, const std::string& key, const Schema& needed_before) {
+  const Schema all = object.value("required", Schema::array());
+  if (all.size() == needed_before.size()) return;
+  const Schema here(all.begin() + static_cast<std::ptrdiff_t>(needed_before.size()), all.end());
+  if (needed_before.empty()) {
+    object.erase("required");
+  } else {
+    object["required"] = needed_before;
+  }
+  add_rule(object, {{"anyOf", {has(key), {{"required", here}}}}});
+}
+
 void check_not_served(const JsonNode& object, const NotServed& rule) {
   object.optional(rule.key, [&](const JsonNode& node) {
     if (!rule.but_for) return node.invalid(rule.slug, rule.sentence);

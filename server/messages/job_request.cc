@@ -28,7 +28,7 @@ bool is_key(std::string_view key) {
 }
 
 bool is_name(std::string_view name) {
-  return name.size() <= kJobNameMax &&
+  return characters(name) <= kJobNameMax &&
          std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
 }
 
@@ -50,8 +50,8 @@ void slow_down(TrajectoryRequest& trajectory, double factor) {
 FormatPtr<std::string> name_format() {
   return text(TextRule{is_name,
                        "bad-name",
-                       "a name is at most 256 bytes without control characters",
-                       {{"maxLength", kJobNameMax}}});
+                       "a name is at most 256 characters without control characters",
+                       {{"maxLength", kJobNameMax}, {"pattern", R"(^[^\u0000-\u001f]*$)"}}});
 }
 
 FormatPtr<JobOrder> order_format() {
@@ -103,12 +103,12 @@ FormatPtr<std::vector<TimedJob>> jobs_file_format() {
 }  // namespace
 
 FormatPtr<std::string> job_id_format() {
-  static const auto format =
-      named("JobId", "The client's choice, or the server's.",
-            text(TextRule{is_key,
-                          "bad-id",
-                          "an id is 1 to 128 characters of A-Z a-z 0-9 . _ -",
-                          {{"pattern", "^[A-Za-z0-9._-]{1,128}$"}}}));
+  static const auto format = named(
+      "JobId", "The client's choice, or the server's.",
+      text(TextRule{is_key,
+                    "bad-id",
+                    "an id is 1 to 128 characters of A-Z a-z 0-9 . _ -",
+                    {{"pattern", "^[A-Za-z0-9._-]{1,128}$"}, {"not", {{"enum", {".", ".."}}}}}}));
   return format;
 }
 

@@ -22,25 +22,30 @@ bool is_object_name(std::string_view name) {
   const bool plain = std::ranges::none_of(name, [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '/' || c == '\\';
   });
-  return name.size() <= kObjectNameMax && plain && name != "." && name != ".." && !name.empty();
+  return characters(name) <= kObjectNameMax && plain && name != "." && name != ".." &&
+         !name.empty();
 }
 
 FormatPtr<std::string> object_name_format() {
   return text(TextRule{is_object_name,
                        "bad-name",
-                       "a name is 1 to 128 bytes without slashes and control characters, and not . "
-                       "or ..",
-                       {{"minLength", 1}}});
+                       "a name is 1 to 128 characters without slashes and control characters, and "
+                       "not . or ..",
+                       {{"minLength", 1},
+                        {"maxLength", kObjectNameMax},
+                        {"pattern", R"(^[^\u0000-\u001f\u007f/\\]*$)"},
+                        {"not", {{"enum", {".", ".."}}}}}});
 }
 
 FormatPtr<ObjectDescription> make_request_format(Need name) {
   return object<ObjectDescription>({
-      member({"name",
-              "At most 128 bytes; no slash, backslash or control character, not . or .., no name "
-              "of a link or robot",
-              name,
-              {}},
-             &ObjectDescription::name, object_name_format()),
+      member(
+          {"name",
+           "At most 128 characters; no slash, backslash or control character, not . or .., no name "
+           "of a link or robot",
+           name,
+           {}},
+          &ObjectDescription::name, object_name_format()),
       not_served<ObjectDescription>(
           {"mesh", "unsupported",
            "meshes are part of the cell file; over HTTP an object is a box, a cylinder or a "

@@ -118,7 +118,10 @@ class EmptyMultiDof final : public Format<Anything> {
     }
   }
   void write(JsonWriter& out, const Anything&) const override { out.value(nullptr); }
-  Schema schema(Way) const override { return {{"type", "object"}}; }
+  Schema schema(Way) const override {
+    const Schema nothing{{"type", "array"}, {"items", Schema::object()}, {"maxItems", 0}};
+    return {{"type", "object"}, {"properties", {{"joint_names", nothing}, {"points", nothing}}}};
+  }
 };
 
 FormatPtr<TrajectoryRequest> nested_format() {
