@@ -7,6 +7,7 @@
 namespace armloom {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class MeshPath : public testing::Test {
@@ -38,6 +39,8 @@ TEST_F(MeshPath, FindsFilesInPackagesAndNextToTheUrdf) {
             std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
   EXPECT_EQ(resolve("package://p/meshes/../meshes/inner.stl"),
             std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
+  EXPECT_EQ(resolve("../package/meshes/b.stl"),
+            std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
   EXPECT_EQ(resolve("meshes/a.stl"),
             std::filesystem::canonical(folder_.path() / "robot/meshes/a.stl"));
 }
@@ -46,7 +49,10 @@ TEST_F(MeshPath, StaysInsideItsFolderAsWritten) {
   EXPECT_THAT(refusal("package://p/../secret.stl"), HasSubstr("leaves its folder"));
   EXPECT_THAT(refusal("package://p/meshes/../../secret.stl"), HasSubstr("leaves its folder"));
   EXPECT_THAT(refusal("package://p//etc/hostname"), HasSubstr("leaves its folder"));
-  EXPECT_THAT(refusal("../secret.stl"), HasSubstr("leaves its folder"));
+  EXPECT_THAT(refusal("../secret.stl"),
+              AllOf(HasSubstr("lies neither below the URDF's folder nor below one of the cell's "
+                              "packages"),
+                    HasSubstr("add to the robot \"packages\": {")));
 }
 
 TEST_F(MeshPath, StaysInsideItsFolderThroughLinks) {

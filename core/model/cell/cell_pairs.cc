@@ -7,16 +7,33 @@ namespace armloom {
 
 namespace {
 
-// The Setup Assistant disables what did not meet in its random samples: between two arms that is no
-// proof.
-void warn_of_pairs_of_arms(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+bool of_two_arms(const Cell& cell, LinkId a, LinkId b) {
+  const auto& arm_a = cell.link(a).arm;
+  const auto& arm_b = cell.link(b).arm;
+  return arm_a && arm_b && arm_a != arm_b;
+}
+
+// An arm with a table, say: no part of what the arm is mounted on.
+bool of_arm_and_scene(const Cell& cell, LinkId a, LinkId b) {
+  if (cell.link(b).arm) std::swap(a, b);
+  const auto& arm = cell.link(a).arm;
+  return arm && !cell.link(b).arm && !cell.is_mount(b, *arm);
+}
+
+// The Setup Assistant disables what did not meet in its random samples: between two arms, or an arm
+// and what stands beside it, that is no proof.
+template <class Concerned>
+void warn_of_pairs(const RobotBuild& robot, const Cell& cell, Findings& findings,
+                   const Concerned& concerned, const char* whose, const char* consequence) {
   constexpr std::size_t kTold = 3;
   std::string pairs;
   std::size_t count = 0;
   for (const auto& [pair, line] : robot.semantics->allowed_pairs) {
-    const Link& a = cell.link(robot.links[pair.first]);
-    const Link& b = cell.link(robot.links[pair.second]);
-    if (!a.arm || !b.arm || a.arm == b.arm || a.shapes.empty() || b.shapes.empty()) continue;
+    const LinkId a = robot.links[pair.first];
+    const LinkId b = robot.links[pair.second];
+    if (!concerned(cell, a, b) || cell.link(a).shapes.empty() || cell.link(b).shapes.empty()) {
+      continue;
+    }
     if (++count > kTold) continue;
     pairs += (pairs.empty() ? "" : ", ") + robot.tree.links[pair.first].name + " and " +
              robot.tree.links[pair.second].name + " at line " + std::to_string(line);
@@ -24,11 +41,10 @@ void warn_of_pairs_of_arms(const RobotBuild& robot, const Cell& cell, Findings& 
   if (count == 0) return;
   if (count > kTold) pairs += ", ...";
   const std::string place = robot.semantics->file + ": disable_collisions";
-  findings.warn({ProblemKind::invalid, "unchecked-arms", place,
-                 place + ": " + std::to_string(count) + (count == 1 ? " pair" : " pairs") +
-                     " of links of different arms (" + pairs +
-                     "): they are not checked, so these arms may meet there; delete what is not "
-                     "known to be out of reach",
+  findings.warn({ProblemKind::invalid, "unchecked-pairs", place,
+                 place + ": " + std::to_string(count) + (count == 1 ? " pair" : " pairs") + whose +
+                     " (" + pairs + "): they are not checked, so " + consequence +
+                     " there; delete what is not known to be out of reach",
                  static_cast<double>(count)});
 }
 
@@ -51,7 +67,11 @@ void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Findings& finding
   }
   if (!robot.semantics) return;
   for (const auto& [pair, line] : robot.semantics->allowed_pairs) allow(pair.first, pair.second);
-  if (!robot.tree.patched) warn_of_pairs_of_arms(robot, cell, findings);
+  if (robot.tree.patched) return;
+  warn_of_pairs(robot, cell, findings, of_two_arms, " of links of different arms",
+                "these arms may meet");
+  warn_of_pairs(robot, cell, findings, of_arm_and_scene,
+                " of an arm's link and one that stands still", "the arm may meet it");
 }
 
 void allow_pairs_of_cell(const CellDescription& description, Cell& cell, Findings& findings) {

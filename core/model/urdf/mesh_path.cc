@@ -142,12 +142,16 @@ tl::expected<fs::path, std::string> resolve_mesh(
         "is neither package:// nor file:// nor a path from the URDF's folder");
   }
   if (folder.empty()) folder = ".";
+  std::error_code error;
 
   const fs::path lexical = inside.lexically_normal();
-  if (inside.is_absolute() || lexical.empty() || *lexical.begin() == "..") {
+  const bool leaves = !lexical.empty() && *lexical.begin() == "..";
+  if (leaves && inside == uri) {  // ../meshes, as beside an urdf folder
+    return resolve_absolute(fs::absolute(folder / lexical, error), urdf_folder, packages);
+  }
+  if (inside.is_absolute() || lexical.empty() || leaves) {
     return tl::unexpected("leaves its folder " + folder.string());
   }
-  std::error_code error;
   const fs::path real_folder = fs::canonical(folder, error);
   if (error) return tl::unexpected("lies in a folder that does not exist: " + folder.string());
   const fs::path real_file = fs::canonical(folder / lexical, error);

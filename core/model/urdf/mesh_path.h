@@ -9,7 +9,7 @@ namespace armloom {
 
 // Resolves a mesh reference of a URDF to a file that exists.
 //   package://name/rest          below the folder packages[name]
-//   relative/path                below the URDF's own folder
+//   relative/path                below the URDF's own folder; ../path as an absolute one
 //   file:///path, /absolute/path below the URDF's own folder or any of the packages' folders
 // Anything else (http://) is refused, and so is a path that leaves its folder, as written or
 // through symbolic links: a robot description from elsewhere must not make the server read, or
