@@ -50,7 +50,7 @@ TEST(Chains, SucceedOneByOneInTheOrderOfSubmission) {
   for (std::uint64_t seed = 1; seed <= seed_count(kLoads); ++seed) {
     const CrowdedWorkload load = load_of(seed);
     Closest closest;
-    auto created = Simulation::create(cell_of(load, "report"),
+    auto created = Simulation::create(cell_of(load, OnIdleBlocker::report),
                                       ExecutiveOptions{.policy = "sequential"}, closest);
     ASSERT_TRUE(created);
     Simulation& simulation = **created;

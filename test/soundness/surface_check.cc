@@ -24,7 +24,7 @@ constexpr double kLimit_m = 0.1;
 // A solid as the engine has it, and as the truth does.
 struct Shown {
   std::vector<ConvexShape> shapes;
-  CollisionBody part;
+  CollisionBody body;
   MeshPtr mesh;  // the truth: of one mind about outside; of a primitive: inscribed
   std::vector<std::uint32_t> components;
   std::shared_ptr<Model> model;
@@ -113,8 +113,8 @@ Shown show(bool primitive, double size_m, std::mt19937_64& random) {
     shapes = {{Mesh{"by hand", Eigen::Vector3d::Ones(),
                     turned ? turned_over(*made.mesh, random) : made.mesh}}};
   }
-  made.bodies = make_convex_shapes(shapes);
-  made.body.shapes_end = made.bodies.size();
+  made.shapes = make_convex_shapes(shapes);
+  made.body.shapes_end = made.shapes.size();
   made.components = components_of(*made.mesh);
   made.model = model_of(*made.mesh);
   return made;
@@ -201,25 +201,25 @@ class Checker {
 
   static double distance(const Shown& a, const Eigen::Isometry3d& X_WA, const Shown& b,
                          const Eigen::Isometry3d& X_WB, double limit_m) {
-    // One list of bodies, as in a scene.
-    std::vector<ConvexShape> bodies = a.bodies;
-    bodies.insert(bodies.end(), b.bodies.begin(), b.bodies.end());
+    // One list of shapes, as in a scene.
+    std::vector<ConvexShape> shapes = a.shapes;
+    shapes.insert(shapes.end(), b.shapes.begin(), b.shapes.end());
     CollisionBody body_b = b.body;
-    body_b.shapes_begin += a.bodies.size();
-    body_b.shapes_end += a.bodies.size();
-    return body_distance(bodies, {a.body, X_WA}, {body_b, X_WB}, limit_m);
+    body_b.shapes_begin += a.shapes.size();
+    body_b.shapes_end += a.shapes.size();
+    return body_distance(shapes, {a.body, X_WA}, {body_b, X_WB}, limit_m);
   }
 
   static double pieces_m(const Shown& a, const Eigen::Isometry3d& X_WA, const Shown& b,
                          const Eigen::Isometry3d& X_WB) {
     double least = 1e3;
-    for (const ConvexShape& body_a : a.bodies) {
-      for (const ConvexShape& body_b : b.bodies) {
+    for (const ConvexShape& shape_a : a.shapes) {
+      for (const ConvexShape& shape_b : b.shapes) {
         PlacedConvexShape at_a;
         PlacedConvexShape at_b;
-        place(body_a, X_WA, at_a);
-        place(body_b, X_WB, at_b);
-        least = distance_below(body_a, at_a, body_b, at_b, least);
+        place(shape_a, X_WA, at_a);
+        place(shape_b, X_WB, at_b);
+        least = distance_below(shape_a, at_a, shape_b, at_b, least);
       }
     }
     return least;
