@@ -85,12 +85,16 @@ TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
       "1\n"
       "  r_spin: {}\n"));
   EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:4: joint l_turn: max_velocity is 'fast'"));
-  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:6: joint l_turn: max_acceleration is -1, it must be"));
   EXPECT_THAT(problems,
-              HasSubstr("joint_limits.yaml:7: joint l_turn: has_jerk_limits is 'perhaps', not true or"));
+              HasSubstr("joint_limits.yaml:6: joint l_turn: max_acceleration is -1, it must be"));
+  EXPECT_THAT(
+      problems,
+      HasSubstr("joint_limits.yaml:7: joint l_turn: has_jerk_limits is 'perhaps', not true or"));
   EXPECT_THAT(problems, HasSubstr("min_position is missing, and has_position_limits is true"));
   EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:9: joint l_turn: max_position is '.nan'"));
-  EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:12: joint r_spin: has_velocity_limits stands there twice"));
+  EXPECT_THAT(
+      problems,
+      HasSubstr("joint_limits.yaml:12: joint r_spin: has_velocity_limits stands there twice"));
   EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:14: joint r_spin: more than one joint has"));
 }
 
@@ -99,15 +103,17 @@ TEST(JointLimitsFile, OfOtherJointsWarns) {
   const std::string warnings = warnings_of(with_limits_file(
       folder, "joint_limits:\n  elbow: {}\n  l_turn: {max_speed: 3}\n  l_grip_mirror: 5\n"));
   EXPECT_THAT(warnings, HasSubstr("joints that are not in two_arms.urdf are left out: elbow"));
-  EXPECT_THAT(warnings, HasSubstr("joint_limits.yaml:3: joint l_turn: max_speed is not known here"));
+  EXPECT_THAT(warnings,
+              HasSubstr("joint_limits.yaml:3: joint l_turn: max_speed is not known here"));
 }
 
 TEST(JointLimitsFile, AKeyThatNearlyIsOneIsNoWarning) {
   const ScratchFolder folder;
   EXPECT_THAT(
       problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: {max_velocty: 3}\n")),
-      HasSubstr("joint_limits.yaml:2: joint l_turn: max_velocty is not known here, so it would limit "
-                "nothing; did you mean max_velocity?"));
+      HasSubstr(
+          "joint_limits.yaml:2: joint l_turn: max_velocty is not known here, so it would limit "
+          "nothing; did you mean max_velocity?"));
 }
 
 TEST(JointLimitsFile, GivesTheBrakeAsItsDeceleration) {
@@ -121,11 +127,12 @@ TEST(JointLimitsFile, GivesTheBrakeAsItsDeceleration) {
     EXPECT_EQ(joint_of(*cell, "t_l_turn").brake, 0.5);
   }
   const ScratchFolder folder;
-  EXPECT_THAT(problems_of(with_limits_file(folder,
-                                           "joint_limits:\n  l_turn:\n"
-                                           "    has_deceleration_limits: true\n"
-                                           "    max_deceleration: 0\n")),
-              HasSubstr("joint_limits.yaml:4: joint l_turn: max_deceleration is 0, so nothing could stop"));
+  EXPECT_THAT(
+      problems_of(with_limits_file(folder,
+                                   "joint_limits:\n  l_turn:\n"
+                                   "    has_deceleration_limits: true\n"
+                                   "    max_deceleration: 0\n")),
+      HasSubstr("joint_limits.yaml:4: joint l_turn: max_deceleration is 0, so nothing could stop"));
 }
 
 }  // namespace
