@@ -273,7 +273,7 @@ TimelineView Executive::timeline() const {
 }
 TimePoint Executive::now() const { return impl_->now_; }
 bool Executive::all_ended() const { return impl_->active_ == 0; }
-bool Executive::settled() const { return impl_->settled(); }
+TimePoint Executive::settled_until() const { return impl_->settled_until(); }
 const RunFigures& Executive::figures() const { return impl_->figures_; }
 void Executive::tick(TimePoint now) { impl_->tick(now); }
 

@@ -208,13 +208,14 @@ class Executive {
   [[nodiscard]] TimelineView timeline() const;
   [[nodiscard]] TimePoint now() const;
   [[nodiscard]] bool all_ended() const;  // no job is active
-  // Time alone changes nothing any more: every arm stands until it gets a command, and no timeout
-  // or planned start is to come. What may still change something: an input, a judgement that is
-  // open.
-  [[nodiscard]] bool settled() const;
+  // Before this instant time alone changes nothing: every arm stands until it gets a command, and
+  // no timeout or planned start is to come sooner (TimePoint::max(): none at all); not later than
+  // now(): something goes on. What may change something sooner: an input, a judgement that is open.
+  [[nodiscard]] TimePoint settled_until() const;
   [[nodiscard]] const RunFigures& figures() const;
 
-  // One control cycle. `now` must grow by kControlPeriod from call to call.
+  // One control cycle. `now` must grow by kControlPeriod from call to call, or by a multiple of it
+  // up to settled_until().
   void tick(TimePoint now);
 
  private:

@@ -70,7 +70,9 @@ class Executive::Impl final : public JobNames {
 
   std::vector<ArmId> all_arms() const;
   bool any_moving() const;
-  bool settled() const { return !wake_at_ && motions_.all_settled(); }
+  TimePoint settled_until() const {
+    return motions_.all_settled() ? wake_at_.value_or(TimePoint::max()) : now_;
+  }
 
   CellPtr cell_;
   ExecutiveOptions options_;

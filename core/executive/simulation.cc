@@ -75,7 +75,17 @@ Result<std::unique_ptr<Simulation>> Simulation::create(CellPtr cell, ExecutiveOp
 
 const Judging& Simulation::judging() const { return judge_->judging(); }
 
-bool Simulation::settled() const { return judge_->is_idle() && executive_->settled(); }
+bool Simulation::settled() const {
+  return judge_->is_idle() && executive_->settled_until() == TimePoint::max();
+}
+
+void Simulation::pass_over_rest(TimePoint until) {
+  if (!judge_->is_idle()) return;
+  until = std::min(until, executive_->settled_until());
+  if (until <= next_) return;
+  const auto cycles = (until - next_ + kControlPeriod - Duration(1)) / kControlPeriod;
+  next_ += cycles * kControlPeriod;
+}
 
 void Simulation::tick() {
   executive_->tick(next_);
@@ -106,6 +116,8 @@ Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
   SimulationResult result;
   auto next = order.begin();
   while (!result.all_ended && !result.settled && (*simulation)->now() < time_limit) {
+    const TimePoint submitted = next == order.end() ? time_limit : jobs[*next].at;
+    (*simulation)->pass_over_rest(std::min(submitted, time_limit));
     (*simulation)->tick();
     for (; next != order.end() && jobs[*next].at <= executive.now(); ++next) {
       auto accepted = executive.submit(std::move(jobs[*next].job));

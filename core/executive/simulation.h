@@ -40,6 +40,9 @@ class Simulation {
 
   // One control cycle; the first one is at time zero.
   void tick();
+  // Where nothing would happen in them, leaves out all cycles before `until`: the next one is the
+  // first that is not before it, or before what happens sooner.
+  void pass_over_rest(TimePoint until);
   // Cycles up to and with `time`.
   void run_until(TimePoint time);
 

@@ -201,7 +201,9 @@ void StatesWriter::write(TimePoint time, const Configuration& q) {
 
 // The last row of a stretch, and where rows were left out before it, that they were.
 void StatesWriter::end_rest() {
-  if (rows_held_ > 1) idle_.write({*rest_from_, held_at_});
+  if (rows_held_ > 1 || (rows_held_ > 0 && held_at_ - *rest_from_ > kGapMax)) {
+    idle_.write({*rest_from_, held_at_});
+  }
   if (rows_held_ > 0) append(held_at_, held_q_);
   rows_held_ = 0;
   rest_from_.reset();
