@@ -45,6 +45,7 @@ TEST_P(Refuses, WithPlaceAndValueAndMovesNothing) {
 }
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 INSTANTIATE_TEST_SUITE_P(
     T12, Refuses,
@@ -63,8 +64,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "/trajectory/points/2/time_from_start", ""},
         BadInput{"NotANumber", points({{{-1}, {0}, {0}, 0}, {{kNan}, {0}, {0}, 2}}),
                  "/trajectory/points/1/positions/0", ""},
-        BadInput{"NotFiniteTime", points({{{-1}, {0}, {0}, 0}, {{0}, {0}, {0}, kNan}}),
+        BadInput{"NotFiniteTime", points({{{-1}, {0}, {0}, 0}, {{0}, {0}, {0}, kInfinity}}),
                  "/trajectory/points/1/time_from_start", ""},
+        BadInput{"NoTime", points({{{-1}, {0}, {0}, 0}, {{0}, {0}, {0}, kNan}}),
+                 "/trajectory/points/1", ""},
         BadInput{"BeyondAPositionLimit", points({{{-1}, {0}, {0}, 0}, {{2.5}, {0}, {0}, 20}}),
                  "/trajectory/points/1/positions/0", "2.5"},
         BadInput{"TooFastBetweenWaypoints", points({{{-1}, {0}, {0}, 0}, {{1}, {0}, {0}, 1}}),
