@@ -11,7 +11,7 @@
 namespace armloom {
 
 // Figures of a run of the server for Prometheus (text format 0.0.4), all called "armloom_...".
-// config/grafana.json shows them. Names and labels are part of the interface.
+// config/grafana/armloom.json shows them. Names and labels are part of the interface.
 class Metrics {
  public:
   // `speed`: cell seconds per wall second; periods that are longer by that count as kept.

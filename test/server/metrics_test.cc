@@ -47,7 +47,8 @@ TEST_F(MetricsRoute, CountsJobsWaitsAndDecisions) {
   const auto after = figures();
   EXPECT_EQ(after.at("armloom_jobs_total{outcome=\"succeeded\"}"), 1);
   EXPECT_EQ(after.at("armloom_jobs_total{outcome=\"canceled\"}"), 1);
-  EXPECT_EQ(after.at("armloom_decision_seconds_count"), 2);
+  EXPECT_GE(after.at("armloom_decision_seconds_count"),
+            2);  // the other is judged again while it waits
   double waits = 0;
   for (const auto& [name, value] : after) {
     if (name.starts_with("armloom_job_waits_total")) waits += value;
@@ -101,7 +102,7 @@ TEST_F(MetricsRoute, HaveEverythingThatTheGrafanaDashboardAsksFor) {
   (void)get("/healthz");
   const std::string body = get("/metrics").body;
   const auto text =
-      read_text_file(std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/grafana.json");
+      read_text_file(std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/grafana/armloom.json");
   ASSERT_TRUE(text);
   const json dashboard = json::parse(*text);
   const std::regex name("armloom_[a-z_]+");
