@@ -116,11 +116,16 @@ void Executive::Impl::tick(TimePoint now) {
     tell_tick();
     return;
   }
+  quiet_ = motions_.all_settled();
   if (wake_at_ && now_ >= *wake_at_) {
     wake_at_.reset();
+    quiet_ = false;
     step(Wake{});
   }
-  for (const MotionReport& report : motions_.tick(now_)) step(report);
+  for (const MotionReport& report : motions_.tick(now_)) {
+    quiet_ = false;
+    step(report);
+  }
   std::size_t in_motion = 0;
   for (ArmId arm : all_arms()) {
     if (!motions_.advances(arm)) continue;

@@ -71,7 +71,7 @@ class Executive::Impl final : public JobNames {
   std::vector<ArmId> all_arms() const;
   bool any_moving() const;
   TimePoint settled_until() const {
-    return motions_.all_settled() ? wake_at_.value_or(TimePoint::max()) : now_;
+    return quiet_ && motions_.all_settled() ? wake_at_.value_or(TimePoint::max()) : now_;
   }
 
   CellPtr cell_;
@@ -151,6 +151,7 @@ class Executive::Impl final : public JobNames {
   Configuration watched_;  // the configuration that the monitor looked at last
   std::vector<Proximity> clearance_;
   std::optional<TimePoint> wake_at_;
+  bool quiet_ = false;             // the last cycle found all arms settled, and nothing to report
   std::optional<Question> asked_;  // and not answered
 
   std::unordered_map<std::string, JobId> ids_;

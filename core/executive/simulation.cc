@@ -85,6 +85,7 @@ void Simulation::pass_over_rest(TimePoint until) {
   if (until <= next_) return;
   const auto cycles = (until - next_ + kControlPeriod - Duration(1)) / kControlPeriod;
   next_ += cycles * kControlPeriod;
+  judge_->deliver(next_ - kControlPeriod);  // nothing is pending: what it is asked next is timed
 }
 
 void Simulation::tick() {
