@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/trajectory/set_joints.h"
+
 namespace armloom {
 namespace {
 
@@ -124,7 +126,7 @@ void Motions::report(JobId job, Motion& motion) {
     const auto kind = fault          ? MotionReport::Kind::faulted
                       : all_finished ? MotionReport::Kind::finished
                                      : MotionReport::Kind::stopped;
-    reports_.push_back({job, kind, progress, measured_joints(*motion.trajectory),
+    reports_.push_back({job, kind, progress, joints_of(measured_, motion.trajectory->joints()),
                         fault ? fault->detail : std::string(), farthest});
   } else if (any_moves) {
     reports_.push_back({job, MotionReport::Kind::progressed, progress});
@@ -138,15 +140,6 @@ bool Motions::moving(ArmId arm) const {
 
 bool Motions::all_at_rest() const { return std::ranges::all_of(feedback_, &ArmFeedback::at_rest); }
 bool Motions::all_settled() const { return std::ranges::all_of(feedback_, &ArmFeedback::settled); }
-
-Eigen::VectorXd Motions::measured_joints(const Trajectory& trajectory) const {
-  Eigen::VectorXd q(static_cast<Eigen::Index>(trajectory.joints().size()));
-  for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
-    q[static_cast<Eigen::Index>(j)] =
-        measured_[static_cast<Eigen::Index>(trajectory.joints()[j].index())];
-  }
-  return q;
-}
 
 double Motions::deviation(ArmId arm) const {
   for (const auto& [job, motion] : motions_) {

@@ -56,7 +56,6 @@ class Motions {
   };
   void report(JobId job, Motion& motion);
   void keep_together(const Motion& motion);
-  [[nodiscard]] Eigen::VectorXd measured_joints(const Trajectory& trajectory) const;
 
   CellPtr cell_;
   std::vector<std::unique_ptr<ArmController>> controllers_;  // ArmId

@@ -9,6 +9,7 @@
 #include "core/collision/check/line_checker.h"
 #include "core/planning/shorten.h"
 #include "core/planning/tree_search.h"
+#include "core/trajectory/set_joints.h"
 #include "core/trajectory/validate.h"
 
 namespace armloom {
@@ -25,22 +26,12 @@ std::string mm(double metres) {
   return text;
 }
 
-Eigen::VectorXd joints_of(const Arm& arm, const Configuration& q) {
-  Eigen::VectorXd own(static_cast<Eigen::Index>(arm.joints.size()));
-  for (std::size_t j = 0; j < arm.joints.size(); ++j) {
-    own[static_cast<Eigen::Index>(j)] = q[static_cast<Eigen::Index>(arm.joints[j].index())];
-  }
-  return own;
-}
-
 std::optional<PlanRefusal> outside(const Cell& cell, const Arm& arm, const Eigen::VectorXd& q,
                                    const char* whose) {
   for (std::size_t j = 0; j < arm.joints.size(); ++j) {
     const Joint& joint = cell.joint(arm.joints[j]);
     const double value = q[static_cast<Eigen::Index>(j)];
-    if (value >= joint.lower - kPositionTolerance && value <= joint.upper + kPositionTolerance) {
-      continue;
-    }
+    if (is_within_limits(joint, value)) continue;
     char text[160];
     std::snprintf(text, sizeof text, "%s: %s at %.6g is outside its limits %.6g to %.6g", whose,
                   joint.name.c_str(), value, joint.lower, joint.upper);
@@ -73,7 +64,7 @@ class Search {
       : request_(request),
         cell_(scene->cell()),
         arm_(cell_.arm(request.arm)),
-        start_(joints_of(arm_, request.at)),
+        start_(joints_of(request.at, arm_.joints)),
         lines_(scene, request.arm, request.at, cell_.checking.tracking_error_rad) {}
 
   tl::expected<JointWay, PlanRefusal> run() {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/planning/kdl_chain.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
@@ -32,7 +33,11 @@ double halton(int index, int base) {
 class PoseSearch {
  public:
   PoseSearch(const Cell& cell, const PoseGoal& goal, const Configuration& at)
-      : cell_(cell), goal_(goal), arm_(cell.arm(goal.arm)), at_(at), standing_(joints_at(at)) {}
+      : cell_(cell),
+        goal_(goal),
+        arm_(cell.arm(goal.arm)),
+        at_(at),
+        standing_(joints_of(at, arm_.joints)) {}
 
   tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal> run() {
     forward_kinematics(cell_, at_, X_WL_);
@@ -52,15 +57,6 @@ class PoseSearch {
   }
 
  private:
-  [[nodiscard]] Eigen::VectorXd joints_at(const Configuration& q) const {
-    Eigen::VectorXd own(static_cast<Eigen::Index>(arm_.joints.size()));
-    for (Eigen::Index j = 0; j < own.size(); ++j) own[j] = q[column(j)];
-    return own;
-  }
-  [[nodiscard]] Eigen::Index column(Eigen::Index row) const {
-    return static_cast<Eigen::Index>(arm_.joints[static_cast<std::size_t>(row)].index());
-  }
-
   [[nodiscard]] std::vector<Eigen::VectorXd> seeds() const {
     std::vector<Eigen::VectorXd> seeds{standing_, arm_.home};
     for (const auto& [name, q] : arm_.named_states) seeds.push_back(q);
@@ -132,7 +128,7 @@ class PoseSearch {
     if (!q.allFinite()) return;
     unwind(q);
     Configuration whole = at_;
-    for (Eigen::Index j = 0; j < q.size(); ++j) whole[column(j)] = q[j];
+    set_joints(whole, arm_.joints, q);
     forward_kinematics(cell_, whole, X_WL_);
     const Eigen::Isometry3d X_LG = X_WL_[goal_.link.index()].inverse() * goal_.X_WL;
     const double off_m = X_LG.translation().norm();

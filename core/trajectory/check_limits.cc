@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/trajectory/polynomial.h"
+#include "core/trajectory/request_checks.h"
 
 namespace armloom {
 namespace {
@@ -42,8 +43,6 @@ std::string excess_text(const Joint& joint, const Quantity& quantity, double val
   return digits(value, count) + " " + unit(joint, quantity) + (below ? " is below " : " exceeds ") +
          digits(limit, count);
 }
-
-std::string waypoint_pointer(std::size_t k) { return "/points/" + std::to_string(k); }
 
 // Walks the waypoints once; each step checks a waypoint and the segment that ends there.
 class LimitCheck {
@@ -116,7 +115,7 @@ class LimitCheck {
     broken_[j] = static_cast<std::uint8_t>(broken_[j] | quantity.bit);
     if (problems_.full()) return;
     problems_.add({ProblemKind::invalid, quantity.slug,
-                   waypoint_pointer(k) + "/" + quantity.member + "/" + std::to_string(j),
+                   pointer_to(k) + "/" + quantity.member + "/" + std::to_string(j),
                    "waypoint " + std::to_string(k) + ", " + joint(j).name + ": " +
                        excess_text(joint(j), quantity, value, nominal(joint(j), quantity)),
                    value});
@@ -125,7 +124,7 @@ class LimitCheck {
   void not_at_rest(std::size_t k, std::size_t j) {
     const double value = request_.points[k].velocities[j];
     problems_.add({ProblemKind::invalid, "not-at-rest",
-                   waypoint_pointer(k) + "/velocities/" + std::to_string(j),
+                   pointer_to(k) + "/velocities/" + std::to_string(j),
                    "waypoint " + std::to_string(k) + ", " + joint(j).name + ": " + to_text(value) +
                        " " + unit(joint(j), kVelocity) + " at the " + (k == 0 ? "start" : "end") +
                        ", where the motion must be at rest (" + to_text(kRestVelocity) + ")",
@@ -154,7 +153,7 @@ class LimitCheck {
     const Polynomial a = derivative(v);
     if (!std::isfinite(magnitude(p, duration_s)) || !std::isfinite(magnitude(v, duration_s)) ||
         !std::isfinite(magnitude(a, duration_s))) {
-      problems_.add({ProblemKind::invalid, "not-finite", waypoint_pointer(k),
+      problems_.add({ProblemKind::invalid, "not-finite", pointer_to(k),
                      "between waypoints " + std::to_string(k - 1) + " and " + std::to_string(k) +
                          ", " + joint(j).name + ": too far apart to be interpolated",
                      "overflow"});
@@ -171,7 +170,7 @@ class LimitCheck {
     const std::optional<Extreme> worst =
         worst_outside(p, duration_s, allowed(joint(j), quantity, kPositionOvershoot));
     if (!worst || problems_.full()) return;
-    problems_.add({ProblemKind::invalid, quantity.slug, waypoint_pointer(k),
+    problems_.add({ProblemKind::invalid, quantity.slug, pointer_to(k),
                    "between waypoints " + std::to_string(k - 1) + " and " + std::to_string(k) +
                        " (t = " + to_text(to_seconds(times_[k - 1]) + worst->t_s) + " s), " +
                        joint(j).name + ": " +

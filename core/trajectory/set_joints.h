@@ -1,18 +1,32 @@
 #pragma once
 
+#include <vector>
+
 #include "core/model/cell.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
 
-// The trajectory's joints stand at `position` (in its order) of the configuration; all others as
-// they did.
+// These joints stand at `position` (in their order) of the configuration; all others as they did.
+inline void set_joints(Configuration& q, const std::vector<JointId>& joints,
+                       const Eigen::VectorXd& position) {
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    q[static_cast<Eigen::Index>(joints[j].index())] = position[static_cast<Eigen::Index>(j)];
+  }
+}
 inline void set_joints(Configuration& q, const Trajectory& trajectory,
                        const Eigen::VectorXd& position) {
-  for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
-    q[static_cast<Eigen::Index>(trajectory.joints()[j].index())] =
-        position[static_cast<Eigen::Index>(j)];
+  set_joints(q, trajectory.joints(), position);
+}
+
+// Where these joints stand, in their order.
+[[nodiscard]] inline Eigen::VectorXd joints_of(const Configuration& q,
+                                               const std::vector<JointId>& joints) {
+  Eigen::VectorXd position(static_cast<Eigen::Index>(joints.size()));
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    position[static_cast<Eigen::Index>(j)] = q[static_cast<Eigen::Index>(joints[j].index())];
   }
+  return position;
 }
 
 }  // namespace armloom

@@ -39,6 +39,11 @@ inline constexpr double kRestVelocity = 1e-4;
 // between waypoints (splines that swing out); rad or m.
 inline constexpr double kPositionTolerance = 1e-6;
 inline constexpr double kPositionOvershoot = 1e-4;
+// Whether a waypoint may have the joint there.
+[[nodiscard]] inline bool is_within_limits(const Joint& joint, double position) {
+  return position >= joint.lower - kPositionTolerance &&
+         position <= joint.upper + kPositionTolerance;
+}
 
 // Parse, then trust. Where times are to be made, retimed() (timing/retime.h) takes its place. In
 // this order:

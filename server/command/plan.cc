@@ -5,6 +5,7 @@
 #include "core/base/nearest_name.h"
 #include "core/planning/plan_motion.h"
 #include "core/planning/pose_goal.h"
+#include "core/trajectory/set_joints.h"
 #include "server/codec/json_writer.h"
 #include "server/command/command.h"
 #include "server/messages/plan_goal.h"
@@ -126,10 +127,7 @@ Result<PlanRequest> request_of(const PlanOptions& options, const Cell& cell) {
   if (!from) return failure(from.error());
   const auto q = joints_of(*from, cell.arm(*arm), "--from");
   if (!q) return failure(q.error());
-  for (Eigen::Index j = 0; j < q->size(); ++j) {
-    const JointId joint = cell.arm(*arm).joints[static_cast<std::size_t>(j)];
-    request.at[static_cast<Eigen::Index>(joint.index())] = (*q)[j];
-  }
+  set_joints(request.at, cell.arm(*arm).joints, *q);
   return request;
 }
 

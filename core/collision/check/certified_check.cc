@@ -7,6 +7,7 @@
 #include "core/collision/check/motion_checker.h"
 #include "core/collision/check/pair_regions.h"
 #include "core/coordination/in_step.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
@@ -207,10 +208,7 @@ PassageAnswer check_passage(MotionStore& store, const PassageQuestion& passage, 
   }
   const auto& joints = store.scene()->cell().arm(passage.arm).joints;
   Configuration at_rest = rest;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    at_rest[static_cast<Eigen::Index>(joints[j].index())] =
-        passage.rest[static_cast<Eigen::Index>(j)];
-  }
+  set_joints(at_rest, joints, passage.rest);
   MotionStore::Entry& other = store.motion(nullptr, passage.arm, at_rest, tracking_error);
   for (const ArmId arm : arms) {
     MotionStore::Entry& own = store.motion(passage.motion.trajectory, arm, rest, tracking_error);

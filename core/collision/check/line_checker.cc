@@ -165,8 +165,11 @@ LineChecker::Answer LineChecker::line(const Eigen::VectorXd& from, const Eigen::
   const Duration at = tube->middle(found->node);
   TubePair pair = pair_with(counterparts_[found->counterpart], tube);
   const auto close = pair.too_close_at(at, at);
+  const auto limit_m = [&](PairId id) {
+    return scene_->bodies().group_of(id).limit_m(PairLimits::of(scene_->cell()));
+  };
   const auto missing = [&](const TubePair::PairDistance& c) {
-    return c.distance_m - scene_->bodies().group_of(c.pair).limit_m(PairLimits::of(scene_->cell()));
+    return c.distance_m - limit_m(c.pair);
   };
   const TubePair::PairDistance worst =
       close.empty() ? pair.closest_at(at, at) : *std::ranges::min_element(close, {}, missing);
@@ -175,8 +178,7 @@ LineChecker::Answer LineChecker::line(const Eigen::VectorXd& from, const Eigen::
                 to_seconds(at) / to_seconds(kLength),
                 proximity_of(scene_->bodies().bodies[bodies.a], scene_->bodies().bodies[bodies.b],
                              worst.distance_m)};
-  answer.proximity->limit_m =
-      scene_->bodies().group_of(worst.pair).limit_m(PairLimits::of(scene_->cell()));
+  answer.proximity->limit_m = limit_m(worst.pair);
   return answer;
 }
 

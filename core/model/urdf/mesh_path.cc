@@ -146,7 +146,7 @@ tl::expected<fs::path, std::string> resolve_mesh(
 
   const fs::path lexical = inside.lexically_normal();
   const bool leaves = !lexical.empty() && *lexical.begin() == "..";
-  if (leaves && inside == uri) {  // ../meshes, as beside an urdf folder
+  if (leaves && !uri.starts_with(kPackage)) {  // ../meshes, as beside an urdf folder
     return resolve_absolute(fs::absolute(folder / lexical, error), urdf_folder, packages);
   }
   if (inside.is_absolute() || lexical.empty() || leaves) {

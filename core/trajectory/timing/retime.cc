@@ -12,8 +12,7 @@ namespace {
 
 void check_position(std::size_t k, std::size_t j, double value, const Joint& joint,
                     ProblemList& problems) {
-  if (value >= joint.lower - kPositionTolerance && value <= joint.upper + kPositionTolerance)
-    return;
+  if (is_within_limits(joint, value)) return;
   problems.add({ProblemKind::invalid, "position-limit",
                 pointer_to(k) + "/positions/" + std::to_string(j),
                 waypoint(k) + ", " + joint.name + ": position " + to_text(value) + " is outside [" +
