@@ -16,7 +16,7 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
   }
   jobs.push_back(submission(std::move(*prepared)));
   for (Submit& job : jobs) job.job = JobId{next++};
-  walk(std::make_shared<Trial>(scheduler_, asked_, jobs, now_), std::move(done));
+  walk(std::make_shared<Trial>(scheduler_, asked_, jobs, jobs.back().job, now_), std::move(done));
 }
 
 // As admission would, in this instant.
@@ -30,16 +30,13 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
                 });
     return;
   }
-  const Trial::Outcome outcome = trial->outcome();
-  CheckView view{.kind = outcome.kind, .scene_version = scene_version_};
-  if (outcome.starts_in) view.earliest_start_s = to_seconds(*outcome.starts_in);
-  view.tell(outcome.clearance_bound);
-  view.evaluations = outcome.evaluations;
-  for (Wait wait : outcome.waits) {
+  Trial::Outcome outcome = trial->outcome();
+  for (Wait& wait : outcome.waits) {
     const bool is_known = wait.job && scheduler_.find(*wait.job) != nullptr;
     if (wait.job && !is_known) wait.job.reset();  // its arm's own way back, or forgotten meanwhile
-    view.conflicts.push_back(view_of(wait, *cell_, *this));
   }
+  CheckView view = view_of(outcome, *cell_, *this);
+  view.scene_version = scene_version_;
   done(std::move(view));
 }
 

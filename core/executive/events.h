@@ -27,6 +27,17 @@ struct WaitView {
   std::optional<double> clearance_m;
   std::string detail;
 };
+
+// The answer to "what if": the Verdict of the design.
+struct CheckView {
+  Verdict::Kind kind = Verdict::Kind::free;
+  std::optional<double> earliest_start_s;        // from now; absent: not known
+  std::optional<double> clearance_bound_m;       // ClearanceBound; absent: nothing is proven
+  std::optional<double> self_clearance_bound_m;  // likewise
+  std::vector<WaitView> conflicts;
+  std::uint64_t evaluations = 0;
+  std::uint64_t scene_version = 0;
+};
 // That it was taken before others, or by one of several arms (scheduler/job.h, Choice).
 struct ChoiceView {
   std::vector<std::string> among;  // keys of jobs, or names of arms

@@ -97,23 +97,6 @@ struct RunFigures {
   std::uint64_t monitor_stops = 0;
 };
 
-// The answer to "what if": the Verdict of the design.
-struct CheckView {
-  Verdict::Kind kind = Verdict::Kind::free;
-  std::optional<double> earliest_start_s;        // from now; absent: not known
-  std::optional<double> clearance_bound_m;       // ClearanceBound; absent: nothing is proven
-  std::optional<double> self_clearance_bound_m;  // likewise
-  std::vector<WaitView> conflicts;
-  std::uint64_t evaluations = 0;
-  std::uint64_t scene_version = 0;
-
-  void tell(const std::optional<ClearanceBound>& bound) {
-    if (!bound) return;
-    clearance_bound_m = bound->apart_m;
-    self_clearance_bound_m = bound->self_m;
-  }
-};
-
 // The coordination diagram of two jobs: a layer for each arm of A and each other arm of B, whose
 // cells cover the rectangle of both durations. Times of cells and sides are trajectory time.
 struct DiagramView {

@@ -149,4 +149,16 @@ const char* to_string(ArmState state) {
   return "unknown";
 }
 
+CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobNames& names) {
+  CheckView view{.kind = outcome.kind, .scene_version = 0};
+  if (outcome.starts_in) view.earliest_start_s = to_seconds(*outcome.starts_in);
+  if (outcome.clearance_bound) {
+    view.clearance_bound_m = outcome.clearance_bound->apart_m;
+    view.self_clearance_bound_m = outcome.clearance_bound->self_m;
+  }
+  view.evaluations = outcome.evaluations;
+  for (const Wait& wait : outcome.waits) view.conflicts.push_back(view_of(wait, cell, names));
+  return view;
+}
+
 }  // namespace armloom

@@ -5,6 +5,7 @@
 #include "core/executive/events.h"
 #include "core/model/cell.h"
 #include "core/scheduler/job.h"
+#include "core/scheduler/trial.h"
 
 namespace armloom {
 
@@ -26,5 +27,9 @@ class JobNames {
 
 // The scheduler's job with names instead of ids.
 [[nodiscard]] JobView view_of(const Job& job, const Cell& cell, const JobNames& names);
+
+// What would become of a job, but for the version of the scene.
+[[nodiscard]] CheckView view_of(const Trial::Outcome& outcome, const Cell& cell,
+                                const JobNames& names);
 
 }  // namespace armloom

@@ -9,6 +9,7 @@
 #include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/invariants.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
 
@@ -31,9 +32,16 @@ void note_progress(State& state, Record& record) {
 
 }  // namespace
 
-Scheduler::Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configuration rest)
+Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest)
     : state_(std::move(cell), std::move(policy), std::move(rest)) {
   if (!state_.policy) throw std::invalid_argument("Scheduler: no policy");
+}
+
+Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
+                     const std::vector<Motion>& under_way, TimePoint now)
+    : Scheduler(std::move(cell), std::move(policy), std::move(rest)) {
+  state_.now = now;
+  put_under_way(state_, under_way);
 }
 
 std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {

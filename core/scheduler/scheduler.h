@@ -32,7 +32,12 @@ namespace armloom {
 class Scheduler {
  public:
   // `rest` is where every joint stands at the beginning. The policy is not null.
-  Scheduler(CellPtr cell, std::unique_ptr<const Policy> policy, Configuration rest);
+  Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest);
+  // As it would be at `now` amid motions that are under way, each at its progress, nothing having
+  // been decided between them: for questions about what else could go (Trial). At most one of an
+  // arm; their ids grow. `rest` is where these set out.
+  Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
+            const std::vector<Motion>& under_way, TimePoint now);
 
   // Time never goes backwards (throws std::invalid_argument). An input that names an unknown or
   // ended job is ignored. Effects are to be carried out in order. Throws std::logic_error where an

@@ -8,8 +8,8 @@
 namespace armloom {
 
 Trial::Trial(Scheduler scheduler, std::optional<Question> open, const std::vector<Submit>& jobs,
-             TimePoint now)
-    : scheduler_(std::move(scheduler)), job_(jobs.back().job), now_(now), open_(std::move(open)) {
+             JobId asked, TimePoint now)
+    : scheduler_(std::move(scheduler)), job_(asked), now_(now), open_(std::move(open)) {
   for (const Submit& job : jobs) step(job);
 }
 

@@ -14,10 +14,10 @@ namespace armloom {
 //   for (auto question = trial.next(); question; question = trial.next()) trial.answer(...);
 class Trial {
  public:
-  // `open`: the scheduler's open question, if there is one. The job that is asked about is the last
-  // one; the others come before it.
+  // `open`: the scheduler's open question, if there is one. `asked` is one of the jobs that come
+  // now, in this order.
   Trial(Scheduler scheduler, std::optional<Question> open, const std::vector<Submit>& jobs,
-        TimePoint now);
+        JobId asked, TimePoint now);
 
   // What has to be answered next; nothing: the outcome is known.
   [[nodiscard]] std::optional<Question> next() const;

@@ -1,0 +1,29 @@
+#include "core/scheduler/under_way.h"
+
+#include "core/scheduler/motion_questions.h"
+#include "core/scheduler/phases.h"
+#include "core/scheduler/policy.h"
+
+namespace armloom {
+
+void put_under_way(State& state, const std::vector<Motion>& motions) {
+  std::vector<CoordinatedMotion> admitted;
+  for (const Motion& motion : motions) {
+    const Submit job{.job = motion.job, .trajectory = motion.trajectory, .backlog_timeout = {}};
+    add(state, record_of(state, job));
+  }
+  state.round = state.policy->next_round(state);
+  for (const Motion& motion : motions) {
+    Record& record = state.jobs.at(motion.job);
+    record.job.progress = motion.progress;
+    const bool has_moved = motion.progress > Duration{};
+    if (has_moved) record.job.times.started_at = state.now;
+    enter(state, record, Admitted{});
+    enter(state, record,
+          Moving{.overrun_at = TimePoint::max(), .moved_at = state.now, .is_under_way = has_moved});
+    admitted.push_back(as_candidate(record.job));
+  }
+  state.graph.admit(admitted, PassingOrders{});
+}
+
+}  // namespace armloom
