@@ -45,7 +45,7 @@ ClearanceQuery Executive::Impl::monitored(const PlanningScenePtr& scene) {
 }
 
 Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
-                      std::unique_ptr<const Policy> policy,
+                      std::shared_ptr<const Policy> policy,
                       std::vector<std::unique_ptr<FaultyArm>> arms, JudgePool& judges,
                       Observer& observer)
     : cell_(cell),
@@ -186,16 +186,24 @@ void Executive::Impl::watch() {
   observer_.on_state(StateFrame{now_, q, clearance_});
 }
 
+namespace {
+
+Result<std::shared_ptr<const Policy>> policy_of(const Cell& cell, const ExecutiveOptions& options) {
+  if (options.own_policy) return options.own_policy;
+  auto named = make_policy(options.policy.empty() ? cell.scheduling.policy : options.policy, cell);
+  if (named) return std::shared_ptr<const Policy>(std::move(*named));
+  if (!options.policy.empty()) named.error().front().pointer = "--policy";
+  return failure(std::move(named.error()));
+}
+
+}  // namespace
+
 // ---- The public face ----
 
 Result<std::unique_ptr<Executive>> Executive::create(CellPtr cell, ExecutiveOptions options,
                                                      JudgePool& judges, Observer& observer) {
-  auto policy =
-      make_policy(options.policy.empty() ? cell->scheduling.policy : options.policy, *cell);
-  if (!policy) {
-    if (!options.policy.empty()) policy.error().front().pointer = "--policy";
-    return failure(std::move(policy.error()));
-  }
+  auto policy = policy_of(*cell, options);
+  if (!policy) return failure(std::move(policy.error()));
   auto scene = PlanningScene::build(cell);
   if (!scene) return failure(std::move(scene.error()));
   if (auto problems = check_home(*scene); !problems.empty()) return failure(std::move(problems));

@@ -61,6 +61,8 @@ class JudgePool {
                                   std::function<void(Diagram)> done) = 0;
 };
 
+class Policy;
+
 // Where everything that happens is told. Called on the strand; must not block.
 class Observer {
  public:
@@ -76,10 +78,11 @@ class Observer {
 };
 
 struct ExecutiveOptions {
-  std::string policy;                // empty: the cell's
-  std::uint64_t seed = 1;            // of the simulated arms' noise
-  std::size_t ended_kept = 1000;     // ended jobs that stay readable
-  std::size_t waiting_max = 10'000;  // jobs that may be active at once
+  std::string policy;                             // empty: the cell's
+  std::shared_ptr<const Policy> own_policy = {};  // instead of one that has a name
+  std::uint64_t seed = 1;                         // of the simulated arms' noise
+  std::size_t ended_kept = 1000;                  // ended jobs that stay readable
+  std::size_t waiting_max = 10'000;               // jobs that may be active at once
   // For tests: from then on only the arms' controllers go on, as if the executive's thread had
   // ended.
   std::optional<TimePoint> dies_at = {};

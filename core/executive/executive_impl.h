@@ -26,7 +26,7 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
 class Executive::Impl final : public JobNames {
  public:
   Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
-       std::unique_ptr<const Policy> policy, std::vector<std::unique_ptr<FaultyArm>> arms,
+       std::shared_ptr<const Policy> policy, std::vector<std::unique_ptr<FaultyArm>> arms,
        JudgePool& judges, Observer& observer);
 
   // submission.cc

@@ -51,7 +51,11 @@ void dispatch_if_ready(State& state, Record& record) {
   }
   const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.id));
   state.graph.granted(job.id, authority);
-  enter(state, record, Moving{.overrun_at = overrun_after(state, job), .moved_at = state.now});
+  enter(state, record,
+        Moving{.overrun_at = overrun_after(state, job),
+               .moved_at = state.now,
+               .goes_since = state.now,
+               .goes_from = job.progress});
   job.times.scheduled_at = state.now;
   state.jobs.set_waits(record, {});
   state.effects.push_back(Dispatch{job.id, state.now, job.progress, authority});
@@ -105,6 +109,8 @@ void see_pauses(State& state, Record& record, Duration progress_before) {
   if (is_held && job.progress + state.graph.horizon(job.id) >= limit) {
     moving->overrun_at = overrun_after(state, job);
     moving->moved_at = state.now;
+    moving->goes_since = state.now;
+    moving->goes_from = job.progress;
   }
   if (job.progress > progress_before) {
     if (!moving->pause) return;

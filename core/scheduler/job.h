@@ -96,6 +96,9 @@ struct Admitted {
 struct Moving {
   TimePoint overrun_at;       // if it does not move before
   TimePoint moved_at;         // last
+  // Since when, and from where, it has gone on without a stand and without coming near its limit.
+  TimePoint goes_since = {};
+  Duration goes_from = {};
   bool is_under_way = false;  // it has been seen to move; until then it is `scheduled`
   std::optional<Pause> pause = {};
 };

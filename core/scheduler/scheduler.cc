@@ -16,6 +16,14 @@
 namespace armloom {
 namespace {
 
+void note_moved(Moving& moving, Duration progress, TimePoint now) {
+  if (is_standing(moving, now)) {
+    moving.goes_since = now;
+    moving.goes_from = progress;
+  }
+  moving.moved_at = now;
+}
+
 // The first one of a job: it has started.
 void note_progress(State& state, Record& record) {
   auto* moving = std::get_if<Moving>(&record.job.phase);
@@ -129,7 +137,7 @@ void Scheduler::on(const MotionReport& input) {
   const Duration before = std::exchange(record->job.progress, input.progress);
   record->job.progress_seen_at = state_.now;
   auto* moving = std::get_if<Moving>(&record->job.phase);
-  if (moving != nullptr && input.progress > before) moving->moved_at = state_.now;
+  if (moving != nullptr && input.progress > before) note_moved(*moving, input.progress, state_.now);
   state_.graph.progress(record->job.id, input.progress);
   see_pauses(state_, *record, before);
   if (input.kind == MotionReport::Kind::progressed) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "test/experiments/fixed_orders.h"
 #include "test/experiments/job_delays.h"
 
 namespace armloom::experiments {
@@ -115,7 +116,11 @@ Run run_policy(const Workload& workload, const std::string& name, const std::str
   std::vector<TimedJob> jobs;
   for (const PlannedJob& job : planned) jobs.push_back(job.timed);
   ExecutiveOptions options;
-  options.policy = alone ? "sequential" : policy;
+  if (policy == kFixedOrders) {
+    options.own_policy = make_fixed_orders(*workload.cell);
+  } else {
+    options.policy = alone ? "sequential" : policy;
+  }
   options.seed = seed;
   Spectator spectator(*workload.cell);
   const bool delayed =

@@ -6,6 +6,8 @@
 #include <mutex>
 #include <thread>
 
+#include "test/experiments/fixed_orders.h"
+
 namespace armloom::experiments {
 namespace {
 
@@ -27,6 +29,9 @@ SeedRuns run_seed(const WorkloadKind& kind, std::uint64_t seed,
   SeedRuns done{workload.cell, {}};
   if (!workload.one_arm.empty()) {
     done.runs.push_back(run_policy(workload, kind.name, kOneArm, seed, limits));
+  }
+  if (kind.delayed) {
+    done.runs.push_back(run_policy(workload, kind.name, kFixedOrders, seed, limits));
   }
   for (const std::string& policy : policies) {
     done.runs.push_back(run_policy(workload, kind.name, policy, seed, limits));

@@ -101,13 +101,26 @@ TEST_F(Horizon, WhoStallsIsExpectedToStandOn) {
     bench.progressed(second, progress, now += 50ms);
     bench.step(Wake{}, now);
   }
-  for (Duration progress = 1610ms; progress <= 2s; progress += 10ms) {
+  for (Duration progress = 1610ms; progress <= 2300ms; progress += 30ms) {
     bench.progressed(second, progress, now += 100ms);
     bench.step(Wake{}, now);
   }
   ASSERT_LT(bench.authority(first), 4s);
   bench.progressed(second, 3800ms, now += 1ms);  // before anything is weighed again
   EXPECT_GT(bench.authority(second), 4s);
+}
+
+// Nearer to the place all the time, but at two fifths of its speed it comes there later.
+TEST_F(Horizon, WhoIsSlowIsExpectedToStaySo) {
+  const auto [first, second] = meet();
+  for (Duration step = 1ms; step <= 10ms; step += 1ms) {
+    bench.progressed(first, 800ms + 40 * step, now += 50ms);
+    bench.progressed(second, 100 * step, now += 50ms);
+    bench.step(Wake{}, now);
+  }
+  bench.progressed(second, 3800ms, now += 1ms);
+  EXPECT_GT(bench.authority(second), 4s);
+  EXPECT_LT(bench.authority(first), 4s);
 }
 
 TEST_F(Horizon, WhoIsStoppedLosesItsTurn) {

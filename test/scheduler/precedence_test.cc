@@ -65,6 +65,8 @@ TEST(Prediction, NamesTheRingThatIsStuck) {
 
 TEST(Prediction, AMotionBeginsWhenTheOneBeforeItHasEnded) {
   EXPECT_EQ(predict({{1s, 5s}, {0s, 2s, kBehindFirst}}, {}).ends[1], 6s);
+  const MotionAhead slow{.progress = 1s, .duration = 5s, .pace = 1.5};
+  EXPECT_EQ(predict({slow, {0s, 2s, kBehindFirst}}, {}).ends[1], 8s);
 }
 
 struct Graph : ::testing::Test {
@@ -191,7 +193,7 @@ TEST_F(Graph, LargerPriorityPassesFirstWhateverItCostsOthers) {
 
 TEST_F(Graph, WhoKeepsItsPlaceIsNotOvertaken) {
   admit({motion(kA, 0, 10s)}, {});
-  graph.set_outlook(kA, true, {});
+  graph.set_outlook(kA, {.keeps_its_place = true});
   admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
   EXPECT_EQ(graph.limit(kA), 10s);
   EXPECT_EQ(graph.limit(kB), 0s) << "that costs less than a stop on its way";

@@ -24,7 +24,13 @@ class Expectation {
   [[nodiscard]] bool is_missed(const std::vector<CoordinatedMotion>& motions, TimePoint now) const;
 
  private:
-  std::map<JobId, std::vector<Prediction::Stage>> stages_;
+  struct Way {
+    std::vector<Prediction::Stage> stages;
+    double pace;
+  };
+  [[nodiscard]] static Duration progress_at(const Way& way, Duration time);
+
+  std::map<JobId, Way> expected_;
   TimePoint at_{};
   bool is_spoilt_ = false;
 };

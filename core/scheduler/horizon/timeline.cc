@@ -45,7 +45,8 @@ class Timetable {
                        .duration = motions_[m].duration,
                        .after = chains_.before(m),
                        .held_at = motions_[m].held_at,
-                       .stands_for = stands_[m]});
+                       .stands_for = stands_[m],
+                       .pace = pace_of(job(m), now)});
     }
     prediction_ = predict(ahead, dependencies_);
   }

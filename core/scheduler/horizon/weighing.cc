@@ -11,6 +11,9 @@ namespace {
 constexpr Duration kEvery = std::chrono::milliseconds(250);
 // An arm that sets out or brakes may be seen so long in one place.
 constexpr Duration kStandsFrom = std::chrono::milliseconds(250);
+// The pace of a motion is told from so much of its way, and counts from there on.
+constexpr Duration kPaceFrom = std::chrono::milliseconds(100);
+constexpr double kHardlySlow = 1.1;
 // Who has stood for so long is not looked at any more.
 constexpr Duration kStandsForGood = std::chrono::minutes(10);
 
@@ -25,21 +28,36 @@ std::optional<TimePoint> stands_since(const Job& job) {
 
 }  // namespace
 
+bool is_standing(const Moving& moving, TimePoint now) {
+  return now - moving.moved_at >= kStandsFrom;
+}
+
 Duration stood_for(const Job& job, TimePoint now) {
   const auto since = stands_since(job);
   const Duration stood = since ? now - *since : Duration{};
   return stood < kStandsFrom ? Duration{} : stood;
 }
 
+double pace_of(const Job& job, TimePoint now) {
+  const auto* moving = job.in<Moving>();
+  if (moving == nullptr || moving->pause || is_standing(*moving, now)) return 1.0;
+  const Duration way = job.progress - moving->goes_from;
+  if (way < kPaceFrom) return 1.0;
+  const double pace = to_seconds(moving->moved_at - moving->goes_since) / to_seconds(way);
+  return pace < kHardlySlow ? 1.0 : pace;
+}
+
 void prepare_choice(State& state, const std::vector<JobId>& jobs) {
   std::vector<JobId> in_front = jobs;
   for (const CoordinatedMotion& motion : state.graph.motions()) {
     const Record& record = state.jobs.at(motion.job);
-    const Duration stands =
-        state.policy->weighs_again() ? stood_for(record.job, state.now) : Duration{};
+    const bool weighs = state.policy->weighs_again();
+    const Duration stands = weighs ? stood_for(record.job, state.now) : Duration{};
     const bool is_aged =
         record.ages_from && state.now - *record.ages_from >= state.cell->scheduling.aging;
-    state.graph.set_outlook(motion.job, is_aged && stands <= Duration{}, stands);
+    state.graph.set_outlook(motion.job, {.keeps_its_place = is_aged && stands <= Duration{},
+                                         .stands_for = stands,
+                                         .pace = weighs ? pace_of(record.job, state.now) : 1.0});
     in_front.push_back(motion.job);
   }
   state.graph.set_work_behind(state.jobs.work_behind(in_front));

@@ -31,7 +31,8 @@ OpenOrders::OpenOrders(const OrderQuestion& question)
     ahead_.push_back({.progress = motions_[m].progress,
                       .duration = motions_[m].duration,
                       .after = chains_.before(m),
-                      .stands_for = motions_[m].stands_for});
+                      .stands_for = motions_[m].outlook.stands_for,
+                      .pace = motions_[m].outlook.pace});
   }
   for (const Precedence& precedence : question.precedences) add_decided(precedence);
   decided_ = orders_.size();
@@ -71,7 +72,7 @@ void OpenOrders::add_decided(const Precedence& precedence) {
     if (motions_[b].is_beyond(box.to_b)) continue;
     if (reaches(a, box.from_a, b) || blocks_end(b, box.to_b, a)) order.b_may = false;
   }
-  if (motions_[a].keeps_its_place) order.b_may = false;
+  if (motions_[a].outlook.keeps_its_place) order.b_may = false;
   order.at_start = precedence.waits_at_start();
   order.made[variant(true, order.at_start)] = precedence;
   orders_.push_back(std::move(order));
@@ -90,8 +91,10 @@ void OpenOrders::add(std::size_t a, std::size_t b, const ConflictRegion& region)
     if (blocks_end(b, box.to_b, a)) note_in_the_way(b);
   }
   if (order.a_may && order.b_may) {
-    if (motions_[a].keeps_its_place && !motions_[b].keeps_its_place) order.b_may = false;
-    if (motions_[b].keeps_its_place && !motions_[a].keeps_its_place) order.a_may = false;
+    if (motions_[a].outlook.keeps_its_place && !motions_[b].outlook.keeps_its_place)
+      order.b_may = false;
+    if (motions_[b].outlook.keeps_its_place && !motions_[a].outlook.keeps_its_place)
+      order.a_may = false;
   }
   orders_.push_back(std::move(order));
 }

@@ -163,10 +163,8 @@ void PrecedenceGraph::granted(JobId job, Duration authority) {
   found->authority = std::max(found->authority, authority);
 }
 
-void PrecedenceGraph::set_outlook(JobId job, bool keeps_its_place, Duration stands_for) {
-  CoordinatedMotion& found = *motion(job);
-  found.keeps_its_place = keeps_its_place;
-  found.stands_for = stands_for;
+void PrecedenceGraph::set_outlook(JobId job, const Outlook& outlook) {
+  motion(job)->outlook = outlook;
 }
 
 void PrecedenceGraph::finish(JobId job) {

@@ -51,7 +51,7 @@ class PrecedenceGraph {
   // Told to the arm. No more than limit(): else throws std::logic_error.
   void granted(JobId job, Duration authority);
   // What is known of a motion besides its progress. Precondition: it holds it.
-  void set_outlook(JobId job, bool keeps_its_place, Duration stands_for);
+  void set_outlook(JobId job, const Outlook& outlook);
 
   // The motion has ended: at its goal, or where it rests instead for good. In the latter case
   // motions that would pass there stay where they may be until its arm moves again. Of several arms

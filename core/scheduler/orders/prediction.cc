@@ -17,11 +17,11 @@ struct Gate {
 };
 
 // Precondition: it comes there.
-Duration time_at(std::span<const Stage> stages, Duration progress) {
+Duration time_at(std::span<const Stage> stages, Duration progress, double pace) {
   if (progress <= stages.front().progress) return Duration{};
   const auto after = std::ranges::lower_bound(stages, progress, {}, &Stage::progress);
   const Stage& from = *(after - 1);
-  return from.time + progress - from.progress;
+  return from.time + paced(progress - from.progress, pace);
 }
 
 }  // namespace
@@ -35,6 +35,7 @@ class Race {
     place_gates(dependencies);
     prediction_.first_.resize(motions.size());
     prediction_.count_.resize(motions.size());
+    for (const MotionAhead& motion : motions) prediction_.pace_.push_back(motion.pace);
     std::size_t stages = 0;
     for (std::size_t m = 0; m < motions.size(); ++m) {
       prediction_.first_[m] = stages;
@@ -104,6 +105,10 @@ class Race {
     return first.progress > Duration{} ? Duration{} : waits ? stages[1].time : first.time;
   }
 
+  [[nodiscard]] Duration time_for(std::size_t m, Duration way) const {
+    return paced(way, motions_[m].pace);
+  }
+
   void add_stage(std::size_t m, Stage stage) {
     prediction_.stages_[prediction_.first_[m] + prediction_.count_[m]++] = stage;
   }
@@ -113,7 +118,8 @@ class Race {
     if (prediction_.count_[m] == 0) return;
     const Stage here = prediction_.stages(m).back();
     const Duration limit = gates_[runners_[m].next_gate].limit;
-    if (limit > here.progress) add_stage(m, {limit, here.time + limit - here.progress});
+    if (limit > here.progress)
+      add_stage(m, {limit, here.time + time_for(m, limit - here.progress)});
   }
 
   // When it comes to `progress`; nothing: not known yet.
@@ -125,7 +131,7 @@ class Race {
     const bool known = runner.ended || (runner.next_gate < runner.gates_end &&
                                         progress <= gates_[runner.next_gate].limit);
     if (!known) return std::nullopt;
-    return time_at(stages, std::min(progress, motions_[m].duration));
+    return time_at(stages, std::min(progress, motions_[m].duration), motions_[m].pace);
   }
 
   // Whether it may leave its start.
@@ -162,7 +168,7 @@ class Race {
       }
       const Stage here = prediction_.stages(m).back();
       const Duration limit = std::max(gate.limit, here.progress);
-      const Duration arrives = here.time + (limit - here.progress);
+      const Duration arrives = here.time + time_for(m, limit - here.progress);
       moved = true;
       if (*opens <= arrives) continue;
       const Duration loss = limit > Duration{} ? kPauseLoss : Duration{};
@@ -171,7 +177,7 @@ class Race {
     }
     const Stage here = prediction_.stages(m).back();
     const Duration duration = motions_[m].duration;
-    add_stage(m, {duration, here.time + (duration - here.progress)});
+    add_stage(m, {duration, here.time + time_for(m, duration - here.progress)});
     runner.ended = true;
     return true;
   }
@@ -198,7 +204,7 @@ std::optional<Duration> Prediction::comes_to(std::size_t motion, Duration progre
   const auto way = stages(motion);
   if (way.empty()) return std::nullopt;
   if (progress > way.back().progress) return std::nullopt;
-  return time_at(way, progress);
+  return time_at(way, progress, pace_[motion]);
 }
 
 std::optional<Duration> Prediction::goes_beyond(std::size_t motion, Duration progress) const {
@@ -207,7 +213,7 @@ std::optional<Duration> Prediction::goes_beyond(std::size_t motion, Duration pro
   if (after == way.end()) return std::nullopt;
   if (after == way.begin()) return Duration{};
   const Stage& from = *(after - 1);
-  return from.time + progress - from.progress;
+  return from.time + time_for(motion, progress - from.progress);
 }
 
 Prediction predict(const std::vector<MotionAhead>& motions,

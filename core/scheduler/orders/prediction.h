@@ -17,6 +17,7 @@ struct MotionAhead {
   std::span<const std::size_t> after = {};  // motions of the same arms that end before it begins
   std::optional<Duration> held_at = {};     // goes no farther than this, as things are
   Duration stands_for{};                    // before it goes on
+  double pace = 1.0;                        // of time for one of its trajectory
 };
 
 // `second` may pass as Precedence says when `first` has got far enough. Indices into the motions.
@@ -26,15 +27,23 @@ struct Dependency {
   const Precedence* precedence;
 };
 
-// When everything goes as fast as its trajectory says and waits where it has to. All times count
-// from now.
+[[nodiscard]] inline Duration paced(Duration way, double pace) {
+  return pace == 1.0 ? way : from_seconds(to_seconds(way) * pace);
+}
+
+// When everything goes as fast as its trajectory and its pace say, and waits where it has to. All
+// times count from now.
 class Prediction {
  public:
-  // How a motion advances: at `progress` at `time`, from there second by second to the next entry.
+  // How a motion advances: at `progress` at `time`, from there at its pace to the next entry.
   struct Stage {
     Duration progress;
     Duration time;
   };
+  // What it takes for so much of a motion's way.
+  [[nodiscard]] Duration time_for(std::size_t motion, Duration way) const {
+    return paced(way, pace_[motion]);
+  }
   // Up to where it comes; empty: it never begins.
   [[nodiscard]] std::span<const Stage> stages(std::size_t motion) const {
     return {stages_.data() + first_[motion], count_[motion]};
@@ -53,6 +62,7 @@ class Prediction {
   std::vector<Stage> stages_ = {};
   std::vector<std::size_t> first_ = {};  // of each motion's stages
   std::vector<std::size_t> count_ = {};
+  std::vector<double> pace_ = {};
 };
 
 // What a stop on the way and the start after it cost besides the wait.
