@@ -7,15 +7,15 @@
 
 namespace armloom {
 
-Result<std::vector<LinkShapeReport>> report_shapes(CellPtr cell) {
+Result<std::vector<ShapeReport>> report_shapes(CellPtr cell) {
   const auto scene = PlanningScene::build(std::move(cell));
   if (!scene) return failure(scene.error());
   const PlanningScene::Bodies& bodies = (*scene)->bodies();
-  std::vector<LinkShapeReport> report;
-  for (std::size_t i = 0; i < bodies.links_end; ++i) {
+  std::vector<ShapeReport> report;
+  for (std::size_t i = 0; i < bodies.bodies.size(); ++i) {
     const CollisionBody& part = bodies.bodies[i];
-    if (i > 0 && part.link == bodies.bodies[i - 1].link) {
-      LinkShapeReport& link = report.back();
+    if (i > 0 && i < bodies.links_end && part.link == bodies.bodies[i - 1].link) {
+      ShapeReport& link = report.back();
       link.convex_shapes += part.shapes_end - part.shapes_begin;
       link.capsules += part.capsules.size();
       link.excess_m = std::max(link.excess_m, part.capsule_overestimate_m);

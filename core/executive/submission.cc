@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/told.h"
+#include "core/base/whole_turns.h"
 #include "core/executive/executive_impl.h"
 #include "core/scheduler/sequence/places.h"
 #include "core/trajectory/set_joints.h"
@@ -175,8 +176,11 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
                   "waypoint 0, %s: begins at %.6g, but will stand at %.6g when the jobs accepted "
                   "for the arm have run",
                   joint.name.c_str(), told(begins), told(stands));
+    std::string detail = text;
+    if (joint.kind != JointKind::prismatic)
+      detail += whole_turns_apart(stands, begins, cell.execution.start_tolerance_rad);
     problems.push_back({ProblemKind::invalid, "start-mismatch",
-                        "/points/0/positions/" + std::to_string(j), text, begins});
+                        "/points/0/positions/" + std::to_string(j), std::move(detail), begins});
   }
 }
 

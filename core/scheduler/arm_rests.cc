@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/told.h"
+#include "core/base/whole_turns.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -97,12 +98,14 @@ std::optional<std::string> ArmRests::start_mismatch(const Cell& cell,
   const auto joint = begins_elsewhere(cell, trajectory);
   if (!joint) return std::nullopt;
   const auto j = std::ranges::find(trajectory.joints(), *joint) - trajectory.joints().begin();
+  const double stands = rest_[static_cast<Eigen::Index>(joint->index())];
+  const double begins = trajectory.start()[j];
   char text[256];
   std::snprintf(text, sizeof text, "%s stands at %.6g, the trajectory begins at %.6g",
-                cell.joint(*joint).name.c_str(),
-                told(rest_[static_cast<Eigen::Index>(joint->index())]),
-                told(trajectory.start()[j]));
-  return text;
+                cell.joint(*joint).name.c_str(), told(stands), told(begins));
+  const bool turns_round = cell.joint(*joint).kind != JointKind::prismatic;
+  return text + (turns_round ? whole_turns_apart(stands, begins, cell.execution.start_tolerance_rad)
+                             : std::string());
 }
 
 }  // namespace armloom

@@ -59,7 +59,7 @@ PartPtr<Shape> shape_part() {
   parts.insert(
       parts.end(),
       {field("mesh", &ShapeWords::mesh, path(),
-             "A mesh (STL, OBJ, DAE): a file; in every check convex pieces that contain it."),
+             "A mesh (STL, OBJ, DAE): a file. All that it encloses counts as solid, cavities too."),
        field("scale", &ShapeWords::scale, vector3(kAnyNumber),
              "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1}),
        exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"}),

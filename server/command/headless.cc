@@ -142,6 +142,7 @@ RunSummary summarise(const SimulationResult& result, TimePoint first_submit) {
   }
   if (started > 0) summary.wait_mean = wait_sum / started;
   if (started > 0) summary.makespan = result.figures.last_end - first_submit;
+  summary.span = result.all_ended ? summary.makespan : result.ended_at - first_submit;
   return summary;
 }
 

@@ -40,7 +40,10 @@ void complain_of_ends(const SimulationResult& result, const std::string& under =
 
 // Of the clients' jobs; moves aside of the server's own are not counted.
 struct RunSummary {
-  Duration makespan{};  // from the first submission; zero: no job started
+  Duration makespan{};  // from the first submission to the last end; zero: no job started
+  // To the end of the run where that is later, as with jobs that do not end and go on moving arms:
+  // what the arms' busy times are shares of.
+  Duration span{};
   // Every terminal state and "refused"; other states only when the time limit came first.
   std::map<std::string, std::size_t> jobs;
   Duration wait_mean{};  // of jobs that started, from submission to start

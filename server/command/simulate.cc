@@ -52,7 +52,7 @@ std::string summary_json(const std::string& policy, std::size_t backlogged,
   out.end_object().field("backlogged", backlogged).key("arm_busy_ratio").begin_object();
   for (std::size_t arm = 0; arm < cell.arms.size(); ++arm) {
     const double busy_s = to_seconds(result.figures.busy[arm]);
-    const double whole_s = to_seconds(summary.makespan);
+    const double whole_s = to_seconds(summary.span);
     out.key(cell.arms[arm].name).rounded(whole_s > 0.0 ? busy_s / whole_s : 0.0, 6);
   }
   out.end_object().key("wait_s").begin_object().field("mean", summary.wait_mean);

@@ -123,15 +123,15 @@ void print_cell(const Cell& cell) {
   print_settings(cell);
 }
 
-void print_shapes(const std::vector<LinkShapeReport>& report) {
-  std::cout << std::left << std::setw(34) << "link" << std::right << std::setw(14)
+void print_shapes(const std::vector<ShapeReport>& report) {
+  std::cout << std::left << std::setw(34) << "link or object" << std::right << std::setw(14)
             << "convex shapes" << std::setw(10) << "capsules" << std::setw(24)
             << "capsules stand off" << '\n';
-  for (const LinkShapeReport& link : report) {
+  for (const ShapeReport& body : report) {
     std::ostringstream millimetres;
-    millimetres << std::fixed << std::setprecision(1) << 1000.0 * link.excess_m << " mm";
-    std::cout << std::left << std::setw(34) << link.link << std::right << std::setw(14)
-              << link.convex_shapes << std::setw(10) << link.capsules << std::setw(24)
+    millimetres << std::fixed << std::setprecision(1) << 1000.0 * body.excess_m << " mm";
+    std::cout << std::left << std::setw(34) << body.body << std::right << std::setw(14)
+              << body.convex_shapes << std::setw(10) << body.capsules << std::setw(24)
               << millimetres.str() << '\n';
   }
 }

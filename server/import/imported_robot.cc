@@ -3,6 +3,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/model/srdf/srdf_reader.h"
 #include "core/model/urdf/urdf_reader.h"
@@ -40,18 +41,23 @@ HeldJoint hold(const RobotTree& tree, const RobotSemantics& semantics, std::size
   return held;
 }
 
+// With the names of the SRDF that the URDF does not have, as most often these are why.
 tl::unexpected<Problems> no_arm(const RobotSemantics& semantics,
-                                const std::vector<GroupChoice>& choices) {
+                                const std::vector<GroupChoice>& choices, const Problems& warnings) {
   std::string why;
   for (const GroupChoice& choice : choices) {
     why += (why.empty() ? ": " : "; ") + choice.group + ": " + choice.why;
   }
-  return failure(Problem{ProblemKind::invalid,
-                         "no-arm",
-                         semantics.file + ": robot",
-                         semantics.file + ": robot: no group of it is an arm" +
-                             (choices.empty() ? ", it has none" : why),
-                         {}});
+  Problems problems{{ProblemKind::invalid,
+                     "no-arm",
+                     semantics.file + ": robot",
+                     semantics.file + ": robot: no group of it is an arm" +
+                         (choices.empty() ? ", it has none" : why),
+                     {}}};
+  std::ranges::copy_if(warnings, std::back_inserter(problems), [](const Problem& warning) {
+    return warning.slug == "unknown-name" || warning.slug == "other-robot";
+  });
+  return failure(std::move(problems));
 }
 
 }  // namespace
@@ -98,7 +104,7 @@ Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
       robot.left_out.push_back(choice);
     }
   }
-  if (robot.arms.empty()) return no_arm(*semantics, choices);
+  if (robot.arms.empty()) return no_arm(*semantics, choices, findings.take_warnings());
   for (const std::size_t joint : joints_above_arms(*tree, *semantics, choices)) {
     robot.held.push_back(hold(*tree, *semantics, joint));
   }

@@ -1,7 +1,10 @@
-// Decided states of two meshed arms. Compiles against any earlier engine as well, for before and
-// after: names are "decided_<question>/<cell>/<states>".
+// Decided states of two meshed arms: of the two cells below, or of those whose files are named,
+//   mesh_bench [--benchmark_...] [CELL.json ...]
+// Names are "decided_<question>/<cell>/<states>".
 #include <benchmark/benchmark.h>
 
+#include <filesystem>
+#include <span>
 #include <string>
 
 #include "core/collision/filter/kernel.h"
@@ -63,8 +66,15 @@ void register_cell(const std::string& name, const CellPtr& cell) {
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  armloom::bench::register_cell("two_shuttles", armloom::bench::two_shuttles());
-  armloom::bench::register_cell("two_channel_arms", armloom::bench::two_channel_arms());
+  const std::span<char*> files(argv + 1, static_cast<std::size_t>(argc) - 1);
+  for (const std::string file : files) {
+    if (file.starts_with("-")) return benchmark::ReportUnrecognizedArguments(argc, argv), 2;
+    armloom::bench::register_cell(std::filesystem::path(file).stem(),
+                                  armloom::bench::cell_of_file(file));
+  }
+  if (files.empty()) {
+    armloom::bench::register_cell("two_shuttles", armloom::bench::two_shuttles());
+    armloom::bench::register_cell("two_channel_arms", armloom::bench::two_channel_arms());
+  }
   return armloom::bench::run_benchmarks();
 }

@@ -109,13 +109,15 @@ bool frames_near(const Cell& cell, const Configuration& q, LinkPoses& X_WL) {
 
 }  // namespace
 
-CellPtr two_shuttles() {
-  const std::string folder = ARMLOOM_SOURCE_DIR "/config";
-  std::ifstream file(folder + "/two_shuttles.json");
+CellPtr cell_of_file(const fs::path& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path.string() + " cannot be read");
   std::ostringstream text;
   text << file.rdbuf();
-  return cell_of(text.str(), folder);
+  return cell_of(text.str(), path.parent_path().string());
 }
+
+CellPtr two_shuttles() { return cell_of_file(ARMLOOM_SOURCE_DIR "/config/two_shuttles.json"); }
 
 CellPtr two_channel_arms() {
   const fs::path folder =

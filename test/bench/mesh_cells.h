@@ -1,11 +1,15 @@
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "core/model/cell.h"
 #include "core/model/kinematics.h"
 
 namespace armloom::bench {
+
+// The cell of such a file; throws with the first fault where it does not load.
+[[nodiscard]] CellPtr cell_of_file(const std::filesystem::path& path);
 
 // config/two_shuttles.json
 [[nodiscard]] CellPtr two_shuttles();

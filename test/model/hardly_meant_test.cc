@@ -66,6 +66,10 @@ INSTANTIATE_TEST_SUITE_P(
               "does not see what happens between two such steps"),
         DOUBT(cell.monitor.reaction = 5ms, "/monitor/reaction_s",
               "reaction_s is 0.005, less than from one look of the monitor to the next (0.01 s)"),
+        DOUBT(cell.monitor.reaction = 5s, "/monitor/reaction_s",
+              "reaction_s is 5: an arm that is to stop goes on that long before it brakes"),
+        DOUBT(cell.monitor.rate_hz = 1, "/monitor/rate_hz",
+              "rate_hz is 1: the monitor looks only every 1 s"),
         DOUBT(turn(cell).acceleration = 180, "two_arms.urdf:28: joint l_turn",
               "its acceleration is 180 rad/s^2, hardly meant (degrees?)"),
         DOUBT(turn(cell).brake = 100, "/robots/0/arms/0/limits/l_turn/brake_rad_s2",
@@ -129,6 +133,21 @@ TEST(LimitsInDegrees, AreToldOf) {
                     "<limit lower=\"-120\" upper=\"150\" effort=\"50\" velocity=\"180\"/>")),
       AllOf(HasSubstr("joint l_turn: it may go from -120 to 150 rad, hardly meant (degrees?)"),
             HasSubstr("joint l_turn: its velocity is 180 rad/s, hardly meant (degrees?)")));
+}
+
+TEST(Axes, OfAnotherLengthThanOneAreDirectionsAndToldOf) {
+  const ScratchFolder folder;
+  const CellDescription cell =
+      with_urdf(folder, "<axis xyz=\"0 0.6 0.8\"/>", "<axis xyz=\"0 1.2 1.6\"/>");
+  EXPECT_THAT(
+      warnings_of(cell),
+      HasSubstr("twin.urdf:26: joint l_slide: axis xyz '0 1.2 1.6' is not of length 1: only "
+                "its direction counts"));
+  const CellPtr built = build_or_fail(cell);
+  EXPECT_TRUE(built->link(*built->find_link("t_l1")).axis.isApprox(Eigen::Vector3d(0, 0.6, 0.8)));
+  const CellDescription rounded =
+      with_urdf(folder, "<axis xyz=\"0 0.6 0.8\"/>", "<axis xyz=\"0 0.602 0.8\"/>");
+  EXPECT_EQ(warnings_of(rounded), "");
 }
 
 TEST(DisabledPairs, OfTwoArmsAreToldOf) {

@@ -8,7 +8,10 @@
 namespace armloom {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
 
 constexpr const char* kTurnLimits =
     "default_velocity_scaling_factor: 0.1\n"
@@ -74,8 +77,10 @@ TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
   const ScratchFolder folder;
   EXPECT_THAT(problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: [\n")),
               HasSubstr("joint_limits.yaml:3: the YAML is malformed"));
-  EXPECT_THAT(problems_of(with_limits_file(folder, "limits: {}\n")),
-              HasSubstr("joint_limits.yaml: there is no joint_limits with joints in it"));
+  EXPECT_THAT(
+      problems_of(with_limits_file(folder, "limits: {}\n")),
+      HasSubstr("joint_limits.yaml: there is no joint_limits with joints in it; it has to hold "
+                "joint_limits: and below it"));
   const std::string problems = problems_of(with_limits_file(
       folder,
       "joint_limits:\n  l_turn:\n    has_velocity_limits: true\n    max_velocity: fast\n"
@@ -96,6 +101,21 @@ TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
       problems,
       HasSubstr("joint_limits.yaml:12: joint r_spin: has_velocity_limits stands there twice"));
   EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:14: joint r_spin: more than one joint has"));
+}
+
+// What it would have said is not known: nobody has to give it in the cell instead.
+TEST(JointLimitsFile, ThatCannotBeReadHasNoFollowUp) {
+  const ScratchFolder folder;
+  for (const char* text : {"joint_limits:\n  l_turn: [\n", "limits: {}\n"}) {
+    CellDescription cell = with_limits_file(folder, text);
+    cell.robots[0].urdf = folder.write(
+        "twin.urdf",
+        file_with(data_file("two_arms.urdf"), "effort=\"50\" velocity=\"2\"", "effort=\"50\""));
+    EXPECT_THAT(problems_of(cell),
+                AllOf(StartsWith("joint_limits.yaml"), Not(HasSubstr("l_turn"))));
+    cell.robots[0].joint_limits.clear();
+    EXPECT_THAT(problems_of(cell), HasSubstr("gives no limit of velocity of l_turn"));
+  }
 }
 
 TEST(JointLimitsFile, OfOtherJointsWarns) {

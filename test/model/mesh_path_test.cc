@@ -73,25 +73,43 @@ TEST_F(MeshPath, TakesAbsolutePathsBelowTheFoldersThatTheCellNames) {
 
 TEST_F(MeshPath, SaysTheLineThatLetsAnAbsolutePathIn) {
   folder_.write("elsewhere/arm_description/meshes/visual/c.stl", "solid c");
-  folder_.write("elsewhere/other/package.xml", "<package/>");
-  folder_.write("elsewhere/other/deep/d.stl", "solid d");
   const auto real = std::filesystem::canonical(folder_.path() / "elsewhere").string();
   EXPECT_THAT(refusal("file://" + real + "/arm_description/meshes/visual/c.stl"),
               HasSubstr("add to the robot \"packages\": {\"arm_description\": \"" + real +
                         "/arm_description\"}"));
-  EXPECT_THAT(refusal(real + "/other/deep/d.stl"),
-              HasSubstr("{\"other\": \"" + real + "/other\"}"));
   EXPECT_THAT(refusal("package://package/x.stl"),
               HasSubstr("add to the robot \"packages\": {\"package\": \""));
   EXPECT_THAT(refusal("file:///etc/hostname"), HasSubstr("lies neither below the URDF's folder"));
-  EXPECT_THAT(refusal("/etc/no-such-file"), HasSubstr("does not exist"));
   EXPECT_THAT(refusal("file://host/a.stl"), HasSubstr("another host"));
   EXPECT_THAT(refusal("file://" + (folder_.path() / "package/meshes/link.stl").string()),
               HasSubstr("lies neither"));
 }
 
+// What exists on the machine is nobody's business who writes a URDF.
+TEST_F(MeshPath, AnswersTheSameOfWhatIsElsewhereWhetherOrNotItIsThere) {
+  folder_.write("elsewhere/arm/meshes/c.stl", "solid c");
+  folder_.write("elsewhere/arm/package.xml", "<package/>");
+  const std::string arm = (folder_.path() / "elsewhere/arm").string();
+  std::filesystem::create_symlink(folder_.path() / "elsewhere", folder_.path() / "robot/out");
+  const std::string there = refusal("file://" + arm + "/meshes/c.stl");
+  EXPECT_THAT(there, HasSubstr("{\"arm\": \"" + arm + "\"}"));
+  EXPECT_EQ(refusal("file://" + arm + "/meshes/d.stl"), there);
+  EXPECT_EQ(refusal(arm + "/meshes/no/d.stl"), there);
+  EXPECT_EQ(refusal("../elsewhere/arm/meshes/c.stl"), refusal("../elsewhere/arm/meshes/d.stl"));
+  EXPECT_EQ(refusal("out/arm/package.xml"), refusal("out/arm/no.xml"));
+  EXPECT_EQ(refusal("file:///etc/hostname"), refusal("file:///etc/no-such-file"));
+}
+
+TEST_F(MeshPath, SaysOfAnAbsolutePathBelowThemWhatIsWrongWithTheFile) {
+  EXPECT_THAT(refusal("file://" + (folder_.path() / "package/meshes/B.stl").string()),
+              AllOf(HasSubstr("does not exist"), HasSubstr("; there is b.stl")));
+  EXPECT_THAT(refusal("file://" + (folder_.path() / "package/meshes").string()),
+              HasSubstr("is not a regular file"));
+}
+
 TEST_F(MeshPath, RefusesOtherSchemesAndWhatIsNoFile) {
-  EXPECT_THAT(refusal("http://127.0.0.1/a.stl"), HasSubstr("neither package://"));
+  EXPECT_THAT(refusal("http://127.0.0.1/a.stl"),
+              AllOf(HasSubstr("neither package://"), HasSubstr("save the file beside the URDF")));
   EXPECT_THAT(refusal("package://q/a.stl"), HasSubstr("package 'q'"));
   EXPECT_THAT(refusal("package://p"), HasSubstr("names no file"));
   EXPECT_THAT(refusal("package://p/meshes"), HasSubstr("not a regular file"));

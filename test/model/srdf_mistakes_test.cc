@@ -38,8 +38,9 @@ TEST_P(SrdfMistake, InWhatAnArmNeedsIsAProblem) {
 INSTANTIATE_TEST_SUITE_P(
     All, SrdfMistake,
     testing::Values(
-        Mistake{"<joint name=\"l_turn\"/>", "<joint name=\"l_torn\"/>", "/robots/0/arms/0/home",
-                "arm left: home has 2 values, the group has 1 joints: l_slide"},
+        Mistake{
+            "<joint name=\"l_turn\"/>", "<joint name=\"l_torn\"/>", "/robots/0/arms/0/home",
+            "arm left: home has 2 values, the group has 1 joints; give one for each of l_slide"},
         Mistake{
             "tip_link=\"r_tip\"", "tip_link=\"r_top\"", "/robots/0/arms/1/group",
             "arm right: group 'right_arm' holds no movable joint; groups that do: both, gripper, "

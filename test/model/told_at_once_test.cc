@@ -98,6 +98,51 @@ TEST(ToldAtOnce, AValueThatCannotBeHeldHasNoFollowUp) {
             "0.7]\n");
 }
 
+// Held, it needs no limits; they would only be told a second time.
+TEST(ToldAtOnce, AJointThatArmsShareHasNoFollowUp) {
+  const ScratchFolder folder;
+  CellDescription cell = two_arms_description();
+  cell.robots[0].urdf =
+      folder.write("twin.urdf", file_with(data_file("two_arms.urdf"),
+                                          "<joint name=\"base_post\" type=\"fixed\">",
+                                          "<joint name=\"base_post\" type=\"revolute\">"));
+  for (const char* group : {"left", "right"}) {
+    const std::string from = std::string("<group name=\"") + group + "_arm\">";
+    const std::string to = from + "<joint name=\"base_post\"/>";
+    cell.robots[0].srdf = folder.write(
+        "twin.srdf", file_with(cell.robots[0].srdf, from + (group[0] == 'l' ? "<joint" : "<chain"),
+                               to + (group[0] == 'l' ? "<joint" : "<chain")));
+  }
+  for (ArmDescription& arm : cell.robots[0].arms) arm.home.clear();
+  EXPECT_EQ(problems_of(cell),
+            "/robots/0/arms | robot twin: arms left, right share the movable joints base_post, so "
+            "that each moves the other; hold what they share (add to the robot \"fixed\": "
+            "{\"base_post\": 0}) or make them one arm\n");
+}
+
+TEST(Remedies, AreToldOfWhatIsMissing) {
+  const ScratchFolder folder;
+  CellDescription cell = two_arms_description();
+  cell.robots[0].urdf =
+      folder.write("twin.urdf", file_with(data_file("two_arms.urdf"), "mimic joint=\"l_grip\"",
+                                          "mimic joint=\"drive_shaft\""));
+  EXPECT_THAT(problems_of(cell),
+              HasSubstr("mimic joint drive_shaft does not exist; the joints that one can follow: "
+                        "l_grip, l_slide, l_turn, r_bend, r_last, r_spin"));
+  cell = two_arms_description();
+  cell.robots[0].srdf = folder.write(
+      "twin.srdf",
+      file_with(data_file("two_arms.srdf"), "<joint name=\"l_turn\" value=\"1.5\"/>", ""));
+  cell.robots[0].arms[0].home.clear();
+  cell.robots[0].arms[0].home_state = "out";
+  cell.robots[0].arms[1].home = {0.1};
+  EXPECT_THAT(problems_of(cell),
+              AllOf(HasSubstr("group_state out of left_arm: joint l_turn has no value; add to it "
+                              "<joint name=\"l_turn\" value=\"...\"/>"),
+                    HasSubstr("arm right: home has 1 values, the group has 3 joints; give one for "
+                              "each of r_spin, r_bend, r_last, or the name of one of its states")));
+}
+
 TEST(LimitUnits, HaveToFitHowTheJointMoves) {
   CellDescription cell = two_arms_description();
   auto& limits = cell.robots[0].arms[0].limits;

@@ -305,6 +305,7 @@ TEST(UrdfLimits, ThatAreNoneAreToldWithWhatTheCellCanSayInstead) {
     EXPECT_THAT(problems, HasSubstr(std::string("twin.urdf:30: joint l_turn: ") + fault.told));
     EXPECT_THAT(problems,
                 HasSubstr("add to the arm \"limits\": {\"l_turn\": {" + std::string(fault.line)));
+    EXPECT_THAT(problems, HasSubstr("gives no usable limit of "));
     cell.robots[0].arms[0].limits["l_turn"] = {.lower = -1, .upper = 1, .velocity = 1};
     EXPECT_THAT(warnings_of(cell), HasSubstr(fault.told));
   }

@@ -179,7 +179,7 @@ def of_urdf():
 
 def of_srdf():
     yield srdf('<joint name="left_pan"/><joint name="left_bend"/>', '<joint name="pan"/><joint name="bend"/>', "group left_arm: joint pan is not in robot.urdf", "arm left: group 'left_arm' holds no movable joint; groups that do:", subject="left")
-    yield srdf('<joint name="left_bend"/>', '<joint name="bend"/>', "joint bend is not in robot.urdf; the group is without it", "arm left: home has 2 values, the group has 1 joints: left_pan", subject="left")
+    yield srdf('<joint name="left_bend"/>', '<joint name="bend"/>', "joint bend is not in robot.urdf; the group is without it", "arm left: home has 2 values, the group has 1 joints; give one for each of left_pan", subject="left")
     yield srdf('tip_link="right_fore"', 'tip_link="fore"', "chain tip_link fore is not in robot.urdf", "arm right: group 'right_arm' holds no movable joint", subject="right")
     yield srdf(' tip_link="right_fore"', '', "robot.srdf: group right_arm: chain tip_link is missing", subject="right")
     yield srdf('base_link="base"', 'base_link="left_upper"', "tip_link right_fore is not below base_link left_upper", subject="right")
@@ -230,7 +230,7 @@ def of_cell():
     yield cell('"joint_limits.yaml"', '"gone.yaml"', f"{robot}/joint_limits", "gone.yaml: there is no such file", hides=True)
     yield cell('"robot.srdf"', '"meshes"', f"{robot}/srdf", "it is not a regular file", hides=True)
     yield cell('"group": "left_arm"', '"group": "arm"', f"{left}/group", "group 'arm' is not in robot.srdf", "groups that do: left_arm, right_arm", subject="left")
-    yield cell('[2.0, 0.4]', '[2.0]', f"{left}/home", "home has 1 values, the group has 2 joints: left_pan, left_bend", subject="left")
+    yield cell('[2.0, 0.4]', '[2.0]', f"{left}/home", "home has 1 values, the group has 2 joints; give one for each of left_pan, left_bend", subject="left")
     yield cell('[2.0, 0.4]', '[2.9, 0.4]', f"{left}/home/0", "home of r_left_pan is 2.9, outside [-2.8, 2.8] rad", subject="left")
     yield cell('"home": "ready"', '"home": "there"', f"{right}/home", "home 'there' is no state of group 'right_arm' in robot.srdf; its states: ready")
     yield cell('{"left_pan"', '{"pan"', f"{left}/limits/pan", "arm left has no joint pan to limit", subject="left")

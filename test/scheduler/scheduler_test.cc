@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+
 #include "core/coordination/effort.h"
 #include "core/scheduler/deadlines.h"
 #include "test/scheduler/bench_cell.h"
@@ -220,6 +222,19 @@ TEST(Order, AJobThatCannotBeginWhereItsArmStandsFailsAtItsTurn) {  // T11
   EXPECT_EQ(bench.job(same_start).reason(), Reason::start_mismatch);
   EXPECT_EQ(bench.job(same_start).detail(), "a_joint stands at 1, the trajectory begins at 0");
   EXPECT_EQ(bench.terminal_events[same_start], 1);
+}
+
+TEST(Order, AStartThatIsWholeTurnsAwaySaysSo) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  Bench bench(1);
+  const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  const JobId turned = bench.submit(move({0}, 1 - 2.0 * kTurn, 0.5, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.finished(first, at(2s));
+  EXPECT_EQ(bench.job(turned).reason(), Reason::start_mismatch);
+  EXPECT_EQ(bench.job(turned).detail(),
+            "a_joint stands at 1, the trajectory begins at -11.5664, 2 whole turns away: positions "
+            "are not taken modulo 2 pi");
 }
 
 TEST(Order, AThousandJobsBehindACanceledOneAllAnswer) {

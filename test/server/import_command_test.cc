@@ -11,6 +11,7 @@ namespace armloom {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -147,6 +148,17 @@ TEST_F(Import, NamesTheOptionThatIsWrong) {
     EXPECT_THAT(outcome.err, HasSubstr(bad.says)) << bad.arguments;
   }
   EXPECT_EQ(run("import --urdf " + panda).exit_code, 2);
+}
+
+// What is missing in the URDF is why no group is an arm.
+TEST_F(Import, NamesTheLinksThatAnotherRobotsSrdfMeans) {
+  const std::string models = (test::kSource / "models").string();
+  const test::Outcome outcome =
+      run("import --urdf " + models + "/panda.urdf --srdf " + models + "/ur5e.srdf");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("no group of it is an arm"),
+                                 HasSubstr("the SRDF is of robot ur5e, panda.urdf of robot panda"),
+                                 HasSubstr("is not in panda.urdf; the group is without it")));
 }
 
 TEST_F(Import, ItsSchemaIsPrinted) {

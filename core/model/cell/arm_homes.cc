@@ -49,7 +49,8 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
       state.faults.add({ProblemKind::invalid,
                         "missing",
                         place,
-                        place + ": joint " + plain + " has no value",
+                        place + ": joint " + plain + " has no value; add to it <joint name=\"" +
+                            plain + "\" value=\"...\"/>",
                         {}});
     } else if (value->second < joint.lower || value->second > joint.upper) {
       fault("limit-exceeded",
@@ -153,7 +154,8 @@ std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBui
     findings.in_cell("wrong-size", build.pointer + "/home",
                      "arm " + arm.name + ": home has " + std::to_string(home.size()) +
                          " values, the group has " + std::to_string(arm.joints.size()) +
-                         " joints: " + names,
+                         " joints; give one for each of " + names +
+                         (robot.semantics ? ", or the name of one of its states" : ""),
                      static_cast<double>(home.size()));
     return std::nullopt;
   }

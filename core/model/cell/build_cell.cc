@@ -88,7 +88,8 @@ RobotBuild read_robot(const RobotDescription& description, std::size_t index, Me
                    .limits_file = std::move(limits_file),
                    .links = {},
                    .joints = {},
-                   .arms = {}};
+                   .arms = {},
+                   .shared = {}};
   if (srdf) {
     robot.semantics = read_srdf(*std::move(srdf), description.srdf, robot.tree,
                                 used_groups(description), findings);

@@ -129,11 +129,11 @@ void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Findings& finding
 void report_needs(const ArmBuild& arm, const Needs& needs, const std::string& urdf,
                   Findings& findings) {
   if (needs.members.empty()) return;
+  const char* none = needs.faulty ? " gives no usable limit of " : " gives no limit of ";
   const bool first = arm.description->limits.empty();
   findings.in_cell(
       "limits-missing", arm.pointer + (first ? "" : "/limits"),
-      "arm " + arm.description->name + ": " + urdf + " gives no limit of " + needs.names +
-          "; add to the arm" +
+      "arm " + arm.description->name + ": " + urdf + none + needs.names + "; add to the arm" +
           (first ? " \"limits\": {" + needs.members + "}" : "'s \"limits\" " + needs.members) +
           ", with what the robot really allows");
 }
@@ -149,7 +149,9 @@ void settle_limits(RobotBuild& robot, Cell& cell, Findings& findings) {
       continue;
     }
     Joint& joint = cell.joints[robot.joints[i]->index()];
-    const ArmBuild* arm = arm_of(robot, joint);
+    // What is to be held needs no limits.
+    const bool shared = robot.shared.contains(*robot.joints[i]);
+    const ArmBuild* arm = shared ? nullptr : arm_of(robot, joint);
     const bool own =
         arm != nullptr && std::find(arm->group.begin(), arm->group.end(), i) != arm->group.end();
     LimitsFile::Joint* filed = nullptr;

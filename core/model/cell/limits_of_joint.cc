@@ -56,6 +56,7 @@ void LimitsOfJoint::settle(LimitsFile::Joint* filed, Needs& needs) {
   warn_of_units();
   // A faulty limit that another file replaces, or nobody needs, is only odd.
   if (own_ && !missing_.empty()) {
+    needs.faulty = needs.faulty || link_.limits.faults.count() > 0;
     findings_.merge(std::move(link_.limits.faults));
     append_item(needs.names, ", ", words_ + " of " + link_.joint);
     append_item(needs.members, ", ", json_member(link_.joint, "{" + missing_ + "}"));
@@ -144,7 +145,7 @@ void LimitsOfJoint::settle_velocity() {
                          urdf && file_.velocity ? *file_.velocity - *urdf : 0.0);
   joint_.assumed.velocity = !velocity.has_value();
   joint_.velocity_max = velocity.value_or(kDefaultVelocity);
-  if (velocity || arm_ == nullptr || cell_.velocity) return;
+  if (velocity || arm_ == nullptr || cell_.velocity || robot_.limits_unread()) return;
   const std::string limit = json_member(name, "1");
   if (own_) return need("velocity", limit);
   warn("missing", place_in_urdf(),

@@ -11,6 +11,7 @@ namespace armloom {
 struct Needs {
   std::string names;    // "velocity of j1, position of j2"
   std::string members;  // "\"j1\": {\"velocity_rad_s\": 1}"
+  bool faulty = false;  // the URDF gives some of them, with faults that are told
 };
 
 void append_item(std::string& list, const char* separator, const std::string& item);

@@ -66,7 +66,7 @@ void LimitsOfJoint::refuse_crossed() {
 }
 
 void LimitsOfJoint::need_positions(bool lower, bool upper) {
-  if (arm_ == nullptr) return;
+  if (arm_ == nullptr || robot_.limits_unread()) return;
   std::string members;
   if (lower) append_item(members, ", ", json_member(key("lower", "_rad", "_m"), "-1"));
   if (upper) append_item(members, ", ", json_member(key("upper", "_rad", "_m"), "1"));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,12 @@ struct RobotBuild {
   std::vector<LinkId> links;                   // tree index -> link of the cell
   std::vector<std::optional<JointId>> joints;  // tree index -> joint of the cell, if independent
   std::vector<ArmBuild> arms;                  // those whose groups could be found
+  std::set<JointId> shared;                    // joints that move several arms, which is told
+
+  // Its file of joint limits, which is told: what it says of a joint is not known.
+  [[nodiscard]] bool limits_unread() const {
+    return !limits_file && !description->joint_limits.empty();
+  }
 };
 
 // Adds the robot's arms to the cell, with their joints; then settles which arm each joint and link
@@ -42,7 +49,7 @@ void assign_to_arms(const RobotBuild& robot, Cell& cell);
 
 // Arms of one robot must not move each other: a shared joint, also upstream and also one of no arm,
 // is a problem, which holding the joint solves.
-void refuse_shared_joints(const RobotBuild& robot, const Cell& cell, Findings& findings);
+void refuse_shared_joints(RobotBuild& robot, const Cell& cell, Findings& findings);
 
 // Joints of no arm stand still. One that would move an arm is a problem, as nobody has said where
 // it stands; others that move shapes, or stand between joints of an arm's group, are warned of.

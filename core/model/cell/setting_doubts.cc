@@ -10,6 +10,8 @@ constexpr double kLargeError_rad = 0.1;
 constexpr double kLargeTolerance = 0.5;
 constexpr double kLargeStart_rad = 0.1;
 constexpr double kLongStep_s = 0.2;
+constexpr double kSeldom_hz = 10.0;
+constexpr double kLongReaction_s = 0.5;
 constexpr double kStrongBrake = 10.0;  // times the acceleration
 constexpr double kFar_m = 100.0;
 
@@ -79,6 +81,15 @@ class SettingDoubts {
            ": the monitor stops arms only when they touch; a share of clearance_m leaves them way "
            "to brake");
     const double reaction_s = to_seconds(given_.monitor.reaction);
+    const double rate_hz = given_.monitor.rate_hz;
+    if (rate_hz > 0.0 && rate_hz < kSeldom_hz)
+      warn("/monitor/rate_hz", rate_hz,
+           ": the monitor looks only every " + text_of(1.0 / rate_hz) +
+               " s, and sees an arm that leaves its path that much later");
+    if (reaction_s > kLongReaction_s)
+      warn("/monitor/reaction_s", reaction_s,
+           ": an arm that is to stop goes on that long before it brakes, so that much of its way "
+           "ahead has to be free, and others wait for it");
     if (given_.monitor.rate_hz > 0.0 && reaction_s * given_.monitor.rate_hz < 1.0)
       warn("/monitor/reaction_s", reaction_s,
            ", less than from one look of the monitor to the next (" +

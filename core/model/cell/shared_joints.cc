@@ -55,7 +55,7 @@ std::string line_to_hold(const RobotBuild& robot, const Cell& cell,
 
 }  // namespace
 
-void refuse_shared_joints(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+void refuse_shared_joints(RobotBuild& robot, const Cell& cell, Findings& findings) {
   if (robot.tree.patched) return;  // joints may hang elsewhere than meant
   const auto above = joints_above(robot, cell);
   std::vector<JointsOfTheCell> places;
@@ -78,6 +78,7 @@ void refuse_shared_joints(const RobotBuild& robot, const Cell& cell, Findings& f
   }
   if (shared.empty()) return;
 
+  robot.shared = shared;
   const std::vector<JointId> joints(shared.begin(), shared.end());
   std::string names;
   for (const JointId joint : joints)

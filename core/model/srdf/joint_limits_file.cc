@@ -213,7 +213,10 @@ std::optional<LimitsFile> read_document(const YAML::Node& document, const std::s
   const YAML::Node holder = holder_of_limits(document);
   const YAML::Node joints = holder.IsMap() ? holder["joint_limits"] : YAML::Node();
   if (!holder.IsMap() || !joints || !(joints.IsMap() || joints.IsNull())) {
-    report(file, "missing", "there is no joint_limits with joints in it", {}, findings);
+    report(file, "missing",
+           "there is no joint_limits with joints in it; it has to hold joint_limits: and below it, "
+           "indented, each joint: with its has_velocity_limits: true, max_velocity: 1 and the like",
+           {}, findings);
     return std::nullopt;
   }
   check_scaling(holder, file, findings);

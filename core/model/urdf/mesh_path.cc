@@ -41,14 +41,9 @@ std::string path_of_file_uri(std::string_view uri) {
   return path;
 }
 
-// The folder that a user would name as the package of a mesh: the nearest one above it with a
-// package.xml, else the one that holds "meshes", else the mesh's own.
+// The folder that a user would name as the package of a mesh: the one that holds "meshes", else the
+// mesh's own. By its name alone, as it lies where nothing may be looked at.
 fs::path package_folder_of(const fs::path& mesh) {
-  std::error_code error;
-  for (fs::path folder = mesh.parent_path(); folder.has_relative_path();
-       folder = folder.parent_path()) {
-    if (fs::exists(folder / "package.xml", error)) return folder;
-  }
   fs::path above;
   for (const fs::path& part : mesh.parent_path()) {
     if (part == "meshes" && above.has_relative_path()) return above;
@@ -77,25 +72,31 @@ std::string line_of_package(const std::string& name, const std::string& folder) 
   return "add to the robot \"packages\": {\"" + name + "\": \"" + folder + "\"}";
 }
 
-// An absolute path: below the URDF's own folder or one that the cell names.
+// An absolute path: below the URDF's own folder or one that the cell names. Of what lies elsewhere
+// the answer is the same whether or not it is there.
 tl::expected<fs::path, std::string> resolve_absolute(
     const fs::path& file, const fs::path& urdf_folder,
     const std::map<std::string, std::string>& packages) {
   std::error_code error;
   if (!file.is_absolute()) return tl::unexpected<std::string>("names a file of another host");
-  const fs::path real_file = fs::canonical(file, error);
-  if (error) return tl::unexpected<std::string>("does not exist");
-  if (!fs::is_regular_file(real_file, error))
-    return tl::unexpected<std::string>("is not a regular file");
+  fs::path real_file = fs::weakly_canonical(file, error);
+  if (error) real_file = file.lexically_normal();  // one that must not be looked at
+  const auto found = [&]() -> tl::expected<fs::path, std::string> {
+    if (!fs::exists(real_file, error))
+      return tl::unexpected("does not exist: " + real_file.string() + spelt_otherwise(real_file));
+    if (!fs::is_regular_file(real_file, error))
+      return tl::unexpected("is not a regular file: " + real_file.string());
+    return real_file;
+  };
   const auto holds = [&](const fs::path& folder) {
     const fs::path real_folder = fs::canonical(folder.empty() ? "." : folder, error);
     return !error && is_below(real_folder, real_file);
   };
-  if (holds(urdf_folder)) return real_file;
+  if (holds(urdf_folder)) return found();
   for (const auto& [name, folder] : packages) {
-    if (holds(folder)) return real_file;
+    if (holds(folder)) return found();
   }
-  const fs::path package = package_folder_of(real_file);
+  const fs::path package = package_folder_of(file.lexically_normal());
   return tl::unexpected(
       "lies neither below the URDF's folder nor below one of the cell's packages; " +
       line_of_package(package.filename().string(), package.string()));
@@ -139,7 +140,8 @@ tl::expected<fs::path, std::string> resolve_mesh(
     inside = uri.substr(slash + 1);
   } else if (uri.find("://") != std::string::npos) {
     return tl::unexpected<std::string>(
-        "is neither package:// nor file:// nor a path from the URDF's folder");
+        "is neither package:// nor file:// nor a path from the URDF's folder; nothing is fetched "
+        "from elsewhere: save the file beside the URDF, and name that");
   }
   if (folder.empty()) folder = ".";
   std::error_code error;
@@ -154,13 +156,12 @@ tl::expected<fs::path, std::string> resolve_mesh(
   }
   const fs::path real_folder = fs::canonical(folder, error);
   if (error) return tl::unexpected("lies in a folder that does not exist: " + folder.string());
-  const fs::path real_file = fs::canonical(folder / lexical, error);
-  if (error)
+  const fs::path real_file = fs::weakly_canonical(real_folder / lexical, error);
+  if (error || !is_below(real_folder, real_file))
+    return tl::unexpected("leaves its folder " + folder.string() + " through a link");
+  if (!fs::exists(real_file, error))
     return tl::unexpected("does not exist: " + (folder / lexical).string() +
                           spelt_otherwise(folder / lexical));
-  if (!is_below(real_folder, real_file)) {
-    return tl::unexpected("leaves its folder " + folder.string() + " through a link");
-  }
   if (!fs::is_regular_file(real_file, error)) {
     return tl::unexpected("is not a regular file: " + real_file.string());
   }

@@ -13,8 +13,8 @@ namespace armloom {
 //   file:///path, /absolute/path below the URDF's own folder or any of the packages' folders
 // Anything else (http://) is refused, and so is a path that leaves its folder, as written or
 // through symbolic links: a robot description from elsewhere must not make the server read, or
-// show, other files than those that the cell file lets it. The error is half a sentence for "mesh
-// <uri> ...", with the line that the cell lacks where one would help.
+// show, other files than those that the cell file lets it, nor tell which there are. The error is
+// half a sentence for "mesh <uri> ...", with the line that the cell lacks where one would help.
 [[nodiscard]] tl::expected<std::filesystem::path, std::string> resolve_mesh(
     const std::string& uri, const std::filesystem::path& urdf_folder,
     const std::map<std::string, std::string>& packages);

@@ -15,6 +15,9 @@ namespace {
 
 using tinyxml2::XMLElement;
 
+// Files round their axes: one is off by less than this.
+constexpr double kUnitAxis = 0.01;
+
 // The limits of a <safety_controller> count where they are narrower, as for MoveIt.
 void narrow_to_soft_limits(const XMLElement& joint, double lower, double upper,
                            const XmlPlace& place, XMLElement& limit) {
@@ -78,7 +81,15 @@ void check_axis(const XMLElement& joint, const XmlPlace& place, XMLElement& to) 
   XMLElement& copy = *to.InsertNewChildElement("axis");
   const auto xyz = copy_numbers(*axis, "xyz", 3, Presence::required, place, copy);
   const double norm = xyz ? norm_of(*xyz) : 0.0;
-  if (norm >= 1e-6 && std::isfinite(norm)) return;
+  if (norm >= 1e-6 && std::isfinite(norm)) {
+    if (std::abs(norm - 1.0) > kUnitAxis)
+      place.at(*axis).warn("axis-not-unit",
+                           std::string("axis xyz '") + axis->Attribute("xyz") +
+                               "' is not of length 1: only its direction counts, and a value of "
+                               "the joint is radians or metres along it all the same",
+                           norm);
+    return;
+  }
   to.DeleteChild(&copy);
   const char* text = axis->Attribute("xyz");
   if (xyz)

@@ -161,6 +161,17 @@ class TreeMender {
     }
   }
 
+  std::string known_joint_instead_of(const std::string& unknown) const {
+    const std::string meant = did_you_mean(unknown, joints_);
+    if (!meant.empty()) return meant;
+    std::set<std::string> movable;
+    for (const auto& [name, joint] : joints_) {
+      const bool fixed = joint->Attribute("type", "fixed") != nullptr;
+      if (!fixed && joint->FirstChildElement("mimic") == nullptr) movable.insert(name);
+    }
+    return "; the joints that one can follow: " + (movable.empty() ? "none" : listed(movable));
+  }
+
   bool is_mimic_right(const std::string& name, const std::string& followed) const {
     if (followed.empty()) return false;  // told with the element
     const auto refuse = [&](const std::string& slug, const std::string& sentence) {
@@ -170,7 +181,7 @@ class TreeMender {
     const auto driver = joints_.find(followed);
     if (driver == joints_.end())
       return refuse("unknown-joint", "mimic joint " + followed + " does not exist" +
-                                         did_you_mean(followed, joints_));
+                                         known_joint_instead_of(followed));
     if (followed == name) return refuse("mimic-ring", "the joint mimics itself");
     if (driver->second->Attribute("type", "fixed") != nullptr)
       return refuse("mimic-fixed", "mimic joint " + followed + " is fixed");

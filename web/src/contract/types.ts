@@ -424,7 +424,7 @@ export interface components {
             sphere?: [
                 number
             ];
-            /** @description A mesh (STL, OBJ, DAE): a file; in every check convex pieces that contain it. */
+            /** @description A mesh (STL, OBJ, DAE): a file. All that it encloses counts as solid, cavities too. */
             mesh?: string;
             /** @description Of a mesh: factors along x, y, z of the file's lengths. */
             scale?: [
