@@ -237,6 +237,10 @@ Result<std::vector<Result<JobView>>> Executive::submit_batch(std::vector<JobRequ
 void Executive::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
   impl_->check(std::move(request), std::move(done));
 }
+void Executive::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+                     std::function<void(Result<PlanOutcome>)> done) {
+  impl_->plan(std::move(inquiry), std::move(cancelled), std::move(done));
+}
 void Executive::diagram(const std::string& key_a, const std::string& key_b,
                         std::function<void(Result<DiagramView>)> done) {
   impl_->diagram(key_a, key_b, std::move(done));

@@ -15,6 +15,7 @@
 #include "core/coordination/verdict.h"
 #include "core/executive/events.h"
 #include "core/executive/plan_ahead.h"
+#include "core/executive/plan_task.h"
 #include "core/model/cell.h"
 #include "core/trajectory/validate.h"
 
@@ -59,6 +60,10 @@ class JudgePool {
   // `done` is not called.
   [[nodiscard]] virtual bool draw(Drawing drawing, PlanningScenePtr scene,
                                   std::function<void(Diagram)> done) = 0;
+  // For jobs.
+  virtual void plan(PlanTask task) = 0;
+  // For people who ask, in the same way as draw().
+  [[nodiscard]] virtual bool draft(PlanTask task) = 0;
 };
 
 // Where everything that happens is told. Called on the strand; must not block.
@@ -154,6 +159,12 @@ class Executive {
   // Judges the job as if it were to start now, beside everything that holds a reservation, and
   // changes nothing. `done` is called on the strand, at once or when the verdict is there.
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
+  // How an arm would get there: a trajectory, not executed, with what check() says of it; beside
+  // all other arms where they will be when all accepted jobs have run. `done` as of check(). An
+  // inquiry whose `cancelled` is set is answered soon. Problems: names, sizes, limits (pointers
+  // "/arm", "/to/...", "/start/..."); unavailable: too many are being planned.
+  void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+            std::function<void(Result<PlanOutcome>)> done);
   // What the motions of two jobs do to each other, ended jobs included while they are known. `done`
   // is called on the strand, at once or when it is drawn. Problems: not_found; invalid: no two
   // different arms are in it; unavailable: too many are being drawn. Pointers: "?with" for B.

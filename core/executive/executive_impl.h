@@ -37,6 +37,10 @@ class Executive::Impl final : public JobNames {
   // checking.cc
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
 
+  // planning.cc
+  void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+            std::function<void(Result<PlanOutcome>)> done);
+
   // drawing.cc
   void diagram(const std::string& key_a, const std::string& key_b,
                std::function<void(Result<DiagramView>)> done);

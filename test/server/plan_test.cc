@@ -1,0 +1,106 @@
+// POST /plan, over the loopback.
+#include <gtest/gtest.h>
+
+#include "test/server/panda_jobs.h"
+#include "test/server/running_server.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+using test::RunningServer;
+
+class PlanOverHttp : public RunningServer {
+ protected:
+  test::Answer plan(const json& body) { return post("/api/v1/plan", body.dump()); }
+  json planned(const json& body) {
+    const auto answer = plan(body);
+    EXPECT_EQ(answer.status, 200) << answer.body;
+    return answer.json();
+  }
+};
+
+TEST_F(PlanOverHttp, AnswersATrajectoryThatPostJobsTakesAsItIs) {
+  start(20.0);
+  const json plan = planned({{"arm", "left"}, {"to", {{"named", "ready"}}}});
+  EXPECT_EQ(plan["verdict"]["verdict"], "free") << plan["verdict"];
+  EXPECT_GE(plan["length"].get<double>(), plan["straight"].get<double>() - 1e-9);
+  EXPECT_GT(plan["evaluations"], 0);
+  EXPECT_EQ(get("/api/v1/jobs").json()["jobs"].size(), 0U) << "it is not executed";
+  test::Listener listener(port());
+  const json job = {{"id", "planned"}, {"trajectory", plan["trajectory"]}};
+  ASSERT_EQ(post("/api/v1/jobs", job.dump()).status, 202);
+  const json done = until(listener, "planned", "succeeded");
+  EXPECT_NEAR(done["duration_s"], plan["duration_s"], 1e-6);
+}
+
+TEST_F(PlanOverHttp, BeginsWhereTheAcceptedJobsWillLeaveTheArm) {
+  start(1.0);
+  const json first = planned({{"arm", "left"}, {"to", {{"named", "ready"}}}});
+  const json job = {{"id", "first"}, {"trajectory", first["trajectory"]}};
+  ASSERT_EQ(post("/api/v1/jobs", job.dump()).status, 202);
+  const json next = planned({{"arm", "left"}, {"to", {{"named", "home"}}}});
+  const auto& ends = first["trajectory"]["points"].back()["positions"];
+  const auto& begins = next["trajectory"]["points"].front()["positions"];
+  for (std::size_t j = 0; j < ends.size(); ++j) EXPECT_NEAR(ends[j], begins[j], 1e-9);
+}
+
+TEST_F(PlanOverHttp, OfAnotherStartIsPlannedAndSaidNotToBeJudged) {
+  start(1.0);
+  const json plan =
+      planned({{"arm", "left"}, {"to", {{"named", "home"}}}, {"start", {{"named", "ready"}}}});
+  EXPECT_FALSE(plan.contains("verdict"));
+  EXPECT_EQ(plan["not_judged"]["type"], "urn:armloom:problem:start-mismatch");
+}
+
+TEST_F(PlanOverHttp, RepeatsForASeedAndGoesSlowerWhenAsked) {
+  start(1.0);
+  const json body = {{"arm", "right"}, {"to", {{"named", "extended"}}}, {"seed", 7}};
+  json plan = planned(body), again = planned(body);
+  EXPECT_EQ(plan["trajectory"], again["trajectory"]);
+  json slow = body;
+  slow["velocity_scaling_factor"] = 0.25;
+  EXPECT_GT(planned(slow)["duration_s"], 1.5 * plan["duration_s"].get<double>());
+}
+
+TEST_F(PlanOverHttp, SaysWhyThereIsNone) {
+  start(1.0);
+  const auto in_table =
+      plan({{"arm", "left"}, {"to", {{"joints", {0.0, 1.7, 0.0, -1.0, 0.0, 1.0, 0.0}}}}});
+  EXPECT_EQ(in_table.status, 422);
+  const json collides = in_table.json();
+  EXPECT_EQ(collides["type"], "urn:armloom:problem:goal-in-collision");
+  EXPECT_EQ(collides["links"].size(), 2U);
+  EXPECT_LT(collides["clearance_m"], 0.02);
+  const json far = plan({{"arm", "left"}, {"to", {{"pose", {{"xyz", {3, 0, 0.5}}}}}}}).json();
+  EXPECT_EQ(far["type"], "urn:armloom:problem:goal-not-reached");
+  EXPECT_EQ(far["nearest"].size(), 7U);
+}
+
+TEST_F(PlanOverHttp, RefusesWhatItDoesNotKnowWithItsPlace) {
+  start(1.0);
+  const json arm = plan({{"arm", "lft"}, {"to", {{"named", "ready"}}}}).json();
+  EXPECT_EQ(arm["pointer"], "/arm");
+  const json state = plan({{"arm", "left"}, {"to", {{"named", "redy"}}}}).json();
+  EXPECT_EQ(state["pointer"], "/to/named");
+  EXPECT_EQ(state["status"], 422);
+  const json pose =
+      plan({{"arm", "left"}, {"to", {{"named", "ready"}}}, {"start", {{"pose", json::object()}}}})
+          .json();
+  EXPECT_EQ(pose["pointer"], "/start/pose");
+}
+
+// The client goes away; the next one is served, and the server ends without waiting for the plan.
+TEST_F(PlanOverHttp, EndsWhileAPlanIsBeingMade) {
+  start(1.0);
+  for (int i = 0; i < 4; ++i) {
+    test::Wire wire(port());
+    const std::string body =
+        R"({"arm": "left", "to": {"joints": [2.5, 1.0, 0.0, -2.0, 0.0, 2.0, 0.8]}})";
+    wire.send(test::request_text("POST", "/api/v1/plan", body, "application/json"));
+  }
+  EXPECT_EQ(get("/api/v1/arms").status, 200);
+}
+
+}  // namespace
+}  // namespace armloom
