@@ -92,6 +92,8 @@ void Executive::Impl::carry_out(const Effect& effect) {
       asked_.reset();
       step(Judged{std::move(verdict)});
     });
+  } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
+    ask_plan(*plan);
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
     motions_.dispatch(*dispatch, scheduler_.find(dispatch->job)->trajectory);
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {

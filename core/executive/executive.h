@@ -32,10 +32,14 @@ enum class JobOrder { as_given, any };
 struct JobRequest {
   std::string key;  // the client's id; empty: one is given ("job-17")
   std::string name;
-  TrajectoryRequest trajectory;  // not read where there are alternatives
+  TrajectoryRequest trajectory;  // not read where there are alternatives, or a goal
   // The same work by several arms, of which one will do it: each moves one arm, and back to where
   // it begins. None, or at least two.
   std::vector<TrajectoryRequest> alternatives = {};
+  // Instead: where this arm is to go, and at which share of its speed.
+  std::optional<PlanGoal> move_to = {};
+  std::string arm = {};
+  double speed = 1.0;
   JobOrder order = JobOrder::as_given;
   int priority = 0;
   std::optional<Duration> backlog_timeout;  // absent: the cell's
@@ -150,7 +154,7 @@ class Executive {
   // finds (pointers begin with "/trajectory"), a key in use (conflict), the queue full
   // (unavailable), a start away from where the arm will be, an `after` that is not known, has
   // failed, or is the job itself. A motion in which the arm hits itself is found later (the job
-  // fails with Reason::self_collision).
+  // fails with Reason::self_collision), so is whether there is a way to a goal (no_plan).
   [[nodiscard]] Result<JobView> submit(JobRequest request);
   // Several at once, in order; a job may come `after` an earlier one of the batch. Atomic: all are
   // accepted or none; problems point to "/jobs/<index>/...". Else each has its own answer.
