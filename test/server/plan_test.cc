@@ -90,6 +90,52 @@ TEST_F(PlanOverHttp, RefusesWhatItDoesNotKnowWithItsPlace) {
   EXPECT_EQ(pose["pointer"], "/start/pose");
 }
 
+class GoalsOverHttp : public RunningServer {};
+
+TEST_F(GoalsOverHttp, AJobToANamedStateIsPlannedToldAndDone) {
+  start(20.0);
+  test::Listener listener(port());
+  const json body = {{"id", "go"},
+                     {"arm", "left"},
+                     {"move_to", {{"named", "ready"}}},
+                     {"velocity_scaling_factor", 0.5}};
+  const auto accepted = post("/api/v1/jobs", body.dump());
+  ASSERT_EQ(accepted.status, 202) << accepted.body;
+  EXPECT_EQ(accepted.json()["planned"], false);
+  EXPECT_EQ(accepted.json()["arms"], json::array({"left"}));
+  const json waits =
+      next_job(listener, "go", [](const json& job) { return job["planned"] == false; });
+  EXPECT_EQ(waits["waits_on"][0]["kind"], "plan");
+  const json planned =
+      next_job(listener, "go", [](const json& job) { return job["planned"] == true; });
+  EXPECT_TRUE(planned["result"].is_null());
+  EXPECT_EQ(until(listener, "go", "succeeded")["result"]["reason"], "completed");
+  const json full = post("/api/v1/plan",
+                         R"({"arm": "left", "start": {"named": "home"}, "to": {"named": "ready"}})")
+                        .json();
+  EXPECT_GT(planned["duration_s"], 1.5 * full["duration_s"].get<double>()) << "at half the speed";
+}
+
+TEST_F(GoalsOverHttp, AGoalThatIsNotReachedFailsTheJobWithThePlannersReason) {
+  start(20.0);
+  test::Listener listener(port());
+  const json body = {{"id", "far"}, {"arm", "left"}, {"move_to", {{"pose", {{"xyz", {3, 0, 1}}}}}}};
+  ASSERT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
+  const json failed = until(listener, "far", "failed");
+  EXPECT_EQ(failed["result"]["reason"], "no_plan");
+  EXPECT_NE(failed["result"]["detail"].get<std::string>().find("does not reach"),
+            std::string::npos);
+}
+
+TEST_F(GoalsOverHttp, OneOfAGoalAndATrajectoryIsGiven) {
+  start(1.0);
+  json both = test::move("left", test::kHome, test::kMiddle);
+  both["move_to"] = {{"named", "ready"}};
+  EXPECT_EQ(post("/api/v1/jobs", both.dump()).status, 422);
+  const json no_arm = {{"move_to", {{"named", "ready"}}}};
+  EXPECT_EQ(post("/api/v1/jobs", no_arm.dump()).json()["pointer"], "/arm");
+}
+
 // The client goes away; the next one is served, and the server ends without waiting for the plan.
 TEST_F(PlanOverHttp, EndsWhileAPlanIsBeingMade) {
   start(1.0);
