@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/collision/scene/planning_scene.h"
-#include "core/executive/check_view.h"
+#include "core/executive/events.h"
 #include "core/planning/answer_plan.h"
 #include "core/planning/plan_goal.h"
 

@@ -102,7 +102,7 @@ void Executive::Impl::ask_plan(const PlanMotion& asked) {
   judges_.plan({asked.question, scene_, cancelled,
                 [this, job = asked.job, number = asked.number](PlanAnswer answer) {
                   plans_.erase(job);
-                  Planned planned{.job = job, .question = number, .trajectory = nullptr};
+                  PlanMade planned{.job = job, .question = number, .trajectory = nullptr};
                   if (answer) {
                     planned.trajectory = answer->timed.trajectory;
                   } else {

@@ -100,7 +100,7 @@ void plan_goals(State& state) {
   }
 }
 
-void take_plan(State& state, const Planned& answer) {
+void take_plan(State& state, const PlanMade& answer) {
   Record* record = state.jobs.find(answer.job);
   if (record == nullptr || record->job.has_ended() || !record->job.goal) return;
   JobGoal& goal = *record->job.goal;

@@ -17,6 +17,6 @@ inline constexpr int kPlansMax = 5;
 inline constexpr std::size_t kPlannedAhead = 16;
 
 // An answer. One that no longer fits is left to plan_goals().
-void take_plan(State& state, const Planned& answer);
+void take_plan(State& state, const PlanMade& answer);
 
 }  // namespace armloom

@@ -41,7 +41,7 @@ struct Judged {
   Verdict verdict;
 };
 // The answer to the PlanMotion effect of this number.
-struct Planned {
+struct PlanMade {
   JobId job;
   std::uint64_t question;
   TrajectoryPtr trajectory;  // from question.at to the goal; null: there is none
@@ -81,7 +81,7 @@ struct Interrupt {};
 // A time asked for by WakeAt has come. Every other input does the same work besides.
 struct Wake {};
 
-using Input = std::variant<Submit, Cancel, Judged, Planned, MotionReport, Stop, Resume,
+using Input = std::variant<Submit, Cancel, Judged, PlanMade, MotionReport, Stop, Resume,
                            SceneChanged, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
@@ -90,7 +90,8 @@ using Input = std::variant<Submit, Cancel, Judged, Planned, MotionReport, Stop, 
 struct Judge {
   Question question;
 };
-// Plan this job's motion, on a worker, and come back with Planned. Of each job one is open at most.
+// Plan this job's motion, on a worker, and come back with PlanMade. Of each job one is open at
+// most.
 struct PlanMotion {
   JobId job;
   std::uint64_t number;
