@@ -91,13 +91,16 @@ Record* plan_lane(State& state, ArmId arm) {
 
 }  // namespace
 
-void plan_goals(State& state) {
-  if (!state.jobs.has_goals()) return;
+bool plan_goals(State& state) {
+  bool any_failed = false;
+  if (!state.jobs.has_goals()) return any_failed;
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
     while (Record* record = plan_lane(state, ArmId{arm})) {
       end(state, *record, JobState::failed, Reason::no_plan, *record->job.goal->refusal);
+      any_failed = true;
     }
   }
+  return any_failed;
 }
 
 void take_plan(State& state, const PlanMade& answer) {

@@ -10,8 +10,9 @@ namespace armloom {
 // is an estimate.
 
 // Asks for what has no plan (PlanMotion), or one that no longer fits: the arm will be elsewhere, or
-// the scene is another one. A job is given kPlansMax tries in a row, then it fails.
-void plan_goals(State& state);
+// the scene is another one. A job is given kPlansMax tries in a row, then it fails. Whether one
+// did: then others may begin elsewhere.
+[[nodiscard]] bool plan_goals(State& state);
 inline constexpr int kPlansMax = 5;
 // Of each arm's jobs the first ones are planned.
 inline constexpr std::size_t kPlannedAhead = 16;

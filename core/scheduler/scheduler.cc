@@ -73,8 +73,9 @@ void Scheduler::settle() {
   cycles_.settle(state_);
   weigh_again(state_);
   dispatch_ready(state_);
-  fail_impossible_starts();
-  plan_goals(state_);
+  do {
+    fail_impossible_starts();
+  } while (plan_goals(state_));
   bool put_off = true;
   while (put_off) {  // until a question is open, or nothing is left to be asked
     state_.lanes.renew(state_.jobs, state_.arms);

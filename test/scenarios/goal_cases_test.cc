@@ -86,6 +86,29 @@ TEST_P(Goals, APlanFromElsewhereIsMadeAgain) {
   expect_at(0.5, -1.0);
 }
 
+TEST_P(Goals, WhatIsBehindOneThatFailsIsToldAtOnce) {
+  ASSERT_TRUE(cell->simulation->executive().add_object(box_at("post", 0.5, 0.0)));
+  cell->submit(move_to("x", 0.5, "fails"));
+  cell->submit(slide("x", 0.5, 0.0, 1.0, "cannot begin"));
+  cell->submit(move_to("x", 0.0, "begins anywhere"));
+  cell->run_to_the_end(at(10s));
+  EXPECT_EQ(cell->job("fails").reason, Reason::no_plan);
+  EXPECT_EQ(cell->job("cannot begin").reason, Reason::start_mismatch);
+  EXPECT_EQ(cell->job("begins anywhere").state, JobState::succeeded);
+  expect_at(0.0, -1.0);
+}
+
+// Nobody waits in vain where what it was told has changed as often as it was asked.
+TEST_P(Goals, ASceneThatNeverStaysEndsTheTries) {
+  cell->submit(move_to("x", 0.5, "restless"));
+  for (int i = 0; i < 20 && !cell->simulation->executive().all_ended(); ++i) {
+    const std::string name = "fly " + std::to_string(i);
+    ASSERT_TRUE(cell->simulation->executive().add_object(box_at(name, 3.0, 3.0 + i)));
+    cell->run_until(cell->simulation->now() + kSimulatedPlanning);
+  }
+  EXPECT_EQ(cell->job("restless").reason, Reason::no_plan);
+}
+
 TEST_P(Goals, OneThatIsReachedAlreadyIsDone) {
   cell->submit(move_to("x", -1.0, "here"));
   cell->run_to_the_end(at(10s));
