@@ -6,6 +6,11 @@
 namespace armloom {
 
 void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
+  if (request.move_to) {
+    return done(failure(Problem{ProblemKind::invalid, "not-served", "/move_to",
+                                "a goal has no trajectory yet that could be judged: POST /plan "
+                                "plans one, and says how it is judged"}));
+  }
   Ahead ahead = ahead_now();
   auto prepared = prepare(std::move(request), ahead);
   if (!prepared) return done(failure(std::move(prepared.error())));

@@ -58,6 +58,12 @@ class Plan {
                 "no job before this one has the id \"" + key + "\"", key});
       }
     }
+    if (timed.job.move_to) {
+      refuse({ProblemKind::invalid, "not-served", "/move_to",
+              "a goal has no trajectory yet that could be judged: `armloom plan` plans one"});
+      ++refused_;
+      return;
+    }
     const auto motion = timed.job.motions().front();  // as if that were chosen
     auto trajectory = validate(motion.motion, cell_);
     Problems found = trajectory ? Problems{} : std::move(trajectory.error());
@@ -197,7 +203,7 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
   std::vector<CheckedJob> checked(jobs.size());
   std::vector<std::size_t> begun;
   for (std::size_t index : order) {
-    const Planned& job = plan.jobs()[index];
+    const auto& job = plan.jobs()[index];
     checked[index].key = job.key;
     CheckView& view = checked[index].verdict;
     view = judged(Instant(plan, *cell, index, begun), cell, policy, checker);

@@ -59,6 +59,7 @@ struct JobView {
   std::optional<TimePoint> ended_at;
   double progress = 0.0;  // 0..1
   Duration duration{};
+  std::optional<bool> planned;  // of a goal: else the duration is an estimate
   bool stopping = false;
   std::vector<WaitView> waits_on;
   std::vector<std::string> alternatives;  // names of arms of which one does it

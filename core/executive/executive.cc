@@ -92,6 +92,8 @@ void Executive::Impl::carry_out(const Effect& effect) {
       asked_.reset();
       step(Judged{std::move(verdict)});
     });
+  } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
+    ask_plan(*plan);
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
     motions_.dispatch(*dispatch, scheduler_.find(dispatch->job)->trajectory);
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {
@@ -244,6 +246,10 @@ Result<std::vector<Result<JobView>>> Executive::submit_batch(std::vector<JobRequ
 }
 void Executive::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
   impl_->check(std::move(request), std::move(done));
+}
+void Executive::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+                     std::function<void(Result<PlanOutcome>)> done) {
+  impl_->plan(std::move(inquiry), std::move(cancelled), std::move(done));
 }
 void Executive::diagram(const std::string& key_a, const std::string& key_b,
                         std::function<void(Result<DiagramView>)> done) {

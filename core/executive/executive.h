@@ -15,6 +15,7 @@
 #include "core/coordination/verdict.h"
 #include "core/executive/events.h"
 #include "core/executive/plan_ahead.h"
+#include "core/executive/plan_task.h"
 #include "core/model/cell.h"
 #include "core/trajectory/validate.h"
 
@@ -31,10 +32,14 @@ enum class JobOrder { as_given, any };
 struct JobRequest {
   std::string key;  // the client's id; empty: one is given ("job-17")
   std::string name;
-  TrajectoryRequest trajectory;  // not read where there are alternatives
+  TrajectoryRequest trajectory;  // not read where there are alternatives, or a goal
   // The same work by several arms, of which one will do it: each moves one arm, and back to where
   // it begins. None, or at least two.
   std::vector<TrajectoryRequest> alternatives = {};
+  // Instead: where this arm is to go, and at which share of its speed.
+  std::optional<PlanGoal> move_to = {};
+  std::string arm = {};
+  double speed = 1.0;
   JobOrder order = JobOrder::as_given;
   int priority = 0;
   std::optional<Duration> backlog_timeout;  // absent: the cell's
@@ -59,6 +64,10 @@ class JudgePool {
   // `done` is not called.
   [[nodiscard]] virtual bool draw(Drawing drawing, PlanningScenePtr scene,
                                   std::function<void(Diagram)> done) = 0;
+  // For jobs.
+  virtual void plan(PlanTask task) = 0;
+  // For people who ask, in the same way as draw().
+  [[nodiscard]] virtual bool draft(PlanTask task) = 0;
 };
 
 class Policy;
@@ -148,7 +157,7 @@ class Executive {
   // finds (pointers begin with "/trajectory"), a key in use (conflict), the queue full
   // (unavailable), a start away from where the arm will be, an `after` that is not known, has
   // failed, or is the job itself. A motion in which the arm hits itself is found later (the job
-  // fails with Reason::self_collision).
+  // fails with Reason::self_collision), so is whether there is a way to a goal (no_plan).
   [[nodiscard]] Result<JobView> submit(JobRequest request);
   // Several at once, in order; a job may come `after` an earlier one of the batch. Atomic: all are
   // accepted or none; problems point to "/jobs/<index>/...". Else each has its own answer.
@@ -157,6 +166,12 @@ class Executive {
   // Judges the job as if it were to start now, beside everything that holds a reservation, and
   // changes nothing. `done` is called on the strand, at once or when the verdict is there.
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
+  // How an arm would get there: a trajectory, not executed, with what check() says of it; beside
+  // all other arms where they will be when all accepted jobs have run. `done` as of check(). An
+  // inquiry whose `cancelled` is set is answered soon. Problems: names, sizes, limits (pointers
+  // "/arm", "/to/...", "/start/..."); unavailable: too many are being planned.
+  void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+            std::function<void(Result<PlanOutcome>)> done);
   // What the motions of two jobs do to each other, ended jobs included while they are known. `done`
   // is called on the strand, at once or when it is drawn. Problems: not_found; invalid: no two
   // different arms are in it; unavailable: too many are being drawn. Pointers: "?with" for B.

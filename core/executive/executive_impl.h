@@ -37,6 +37,10 @@ class Executive::Impl final : public JobNames {
   // checking.cc
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
 
+  // planning.cc
+  void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+            std::function<void(Result<PlanOutcome>)> done);
+
   // drawing.cc
   void diagram(const std::string& key_a, const std::string& key_b,
                std::function<void(Result<DiagramView>)> done);
@@ -95,6 +99,7 @@ class Executive::Impl final : public JobNames {
     std::string key;  // empty: one is to be given
     std::string name;
     std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; the only one, mostly
+    std::optional<MotionGoal> goal;           // the trajectory is an estimate
     JobOrder order;
     int priority;
     Duration backlog_timeout;
@@ -106,11 +111,16 @@ class Executive::Impl final : public JobNames {
     Configuration rest;
     std::vector<std::string> keys;
     std::map<ArmId, TrajectoryPtr> ways_back;  // of arms that were sent aside
+    std::vector<ArmId> open = {};              // whose end of `rest` is not known yet
   };
   Result<Prepared> prepare(JobRequest request, Ahead& ahead) const;
   [[nodiscard]] std::vector<TrajectoryPtr> read_motions(const JobRequest& request, Ahead& ahead,
                                                         std::vector<TrajectoryPtr>& returns,
                                                         Problems& problems) const;
+  [[nodiscard]] std::optional<MotionGoal> read_goal(const JobRequest& request,
+                                                    Problems& problems) const;
+  [[nodiscard]] TrajectoryPtr estimate_for(const MotionGoal& goal, Ahead& ahead) const;
+  void begin_where_open(const Trajectory& motion, Ahead& ahead) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   JobView accept(Prepared prepared);
   void walk(std::shared_ptr<Trial> trial, std::function<void(Result<CheckView>)> done);
@@ -128,6 +138,7 @@ class Executive::Impl final : public JobNames {
   std::string free_key(JobId id) const;
 
   void carry_out(const Effect& effect);
+  void ask_plan(const PlanMotion& asked);
   void note_aside(const YieldMove& aside);
   void watch();
   void tell_tick();
@@ -153,6 +164,7 @@ class Executive::Impl final : public JobNames {
   std::optional<TimePoint> wake_at_;
   bool quiet_ = false;             // the last cycle found all arms settled, and nothing to report
   std::optional<Question> asked_;  // and not answered
+  std::map<JobId, std::shared_ptr<std::atomic<bool>>> plans_;  // open ones; set: given up
 
   std::unordered_map<std::string, JobId> ids_;
   std::unordered_map<JobId, Label> labels_;

@@ -7,6 +7,7 @@ namespace armloom {
 const char* to_string(JobOrder order) { return order == JobOrder::any ? "any" : "as_given"; }
 
 std::vector<JobRequest::PlacedMotion> JobRequest::motions() const {
+  if (move_to) return {};
   if (alternatives.empty()) return {{"/trajectory", trajectory}};
   std::vector<PlacedMotion> all;
   for (std::size_t i = 0; i < alternatives.size(); ++i) {

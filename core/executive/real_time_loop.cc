@@ -22,6 +22,8 @@ constexpr Wall::duration kCatchUpMax = std::chrono::milliseconds(50);
 
 // So many diagrams may be asked for and not drawn yet.
 constexpr int kDrawingsMax = 16;
+// And so many plans of clients.
+constexpr int kDraftsMax = 16;
 
 // A closed-off inbox: posted by any thread, taken whole by the one that owns it.
 template <class Item>
@@ -60,7 +62,7 @@ class RealTimeLoop::Impl final : public JudgePool {
 
   ~Impl() override {
     // The workers first: they post into the loop's inbox.
-    for (std::jthread* thread : {&judge_, &artist_, &loop_}) {
+    for (std::jthread* thread : {&judge_, &artist_, &planner_, &drafter_, &loop_}) {
       if (!thread->joinable()) continue;
       thread->request_stop();
       thread->join();
@@ -71,6 +73,8 @@ class RealTimeLoop::Impl final : public JudgePool {
     executive_ = std::move(executive);
     judge_ = std::jthread([this](std::stop_token stop) { judge_questions(stop); });
     artist_ = std::jthread([this](std::stop_token stop) { draw_diagrams(stop); });
+    planner_ = std::jthread([this](std::stop_token stop) { make_plans(plans_, stop); });
+    drafter_ = std::jthread([this](std::stop_token stop) { make_plans(drafts_, stop); });
     loop_ = std::jthread([this](std::stop_token stop) { cycle(stop); });
   }
 
@@ -83,6 +87,19 @@ class RealTimeLoop::Impl final : public JudgePool {
     if (open_drawings_ >= kDrawingsMax) return false;
     ++open_drawings_;
     drawings_.post({std::move(drawing), std::move(scene), std::move(done)});
+    return true;
+  }
+
+  void plan(PlanTask task) override { plans_.post(std::move(task)); }
+
+  bool draft(PlanTask task) override {
+    if (open_drafts_ >= kDraftsMax) return false;
+    ++open_drafts_;
+    task.done = [this, done = std::move(task.done)](const PlanAnswer& answer) {
+      --open_drafts_;
+      done(answer);
+    };
+    drafts_.post(std::move(task));
     return true;
   }
 
@@ -133,6 +150,17 @@ class RealTimeLoop::Impl final : public JudgePool {
     }
   }
 
+  // On threads of their own: what clients ask to be planned delays no job.
+  void make_plans(Inbox<PlanTask>& tasks, std::stop_token stop) {
+    while (!stop.stop_requested()) {
+      for (PlanTask& task : tasks.take(stop)) {
+        const std::stop_callback at_end(stop, [&task] { *task.cancelled = true; });
+        post([answer = answer_plan(task.scene, task.question, task.cancelled.get()),
+              done = std::move(task.done)](Executive&) { done(answer); });
+      }
+    }
+  }
+
   void cycle(std::stop_token stop) {
     Wall::time_point due = Wall::now();
     TimePoint cell_now{};
@@ -153,10 +181,15 @@ class RealTimeLoop::Impl final : public JudgePool {
   Inbox<Asked> questions_;
   Inbox<ToDraw> drawings_;
   int open_drawings_ = 0;  // the loop thread's
+  Inbox<PlanTask> plans_;
+  Inbox<PlanTask> drafts_;
+  int open_drafts_ = 0;  // the loop thread's
   Inbox<std::function<void(Executive&)>> commands_;
   std::unique_ptr<Executive> executive_;  // the loop thread's
   std::jthread judge_;
   std::jthread artist_;
+  std::jthread planner_;
+  std::jthread drafter_;
   std::jthread loop_;
 };
 

@@ -33,6 +33,16 @@ class Simulation::Judge final : public JudgePool {
     return true;
   }
 
+  void plan(PlanTask task) override {
+    answer([planned = answer_plan(task.scene, task.question, task.cancelled.get()),
+            done = std::move(task.done)] { done(planned); },
+           kSimulatedPlanning);
+  }
+  bool draft(PlanTask task) override {
+    plan(std::move(task));
+    return true;
+  }
+
   void deliver(TimePoint now) {
     now_ = now;
     while (!pending_.empty() && pending_.front().due <= now) {
@@ -50,8 +60,10 @@ class Simulation::Judge final : public JudgePool {
     TimePoint due;
     std::function<void()> deliver;
   };
-  void answer(std::function<void()> deliver) {
-    pending_.push_back({now_ + kSimulatedJudgement, std::move(deliver)});
+  void answer(std::function<void()> deliver, Duration takes = kSimulatedJudgement) {
+    const TimePoint due = now_ + takes;
+    const auto later = std::ranges::upper_bound(pending_, due, {}, &Answer::due);
+    pending_.insert(later, {due, std::move(deliver)});
   }
 
   std::optional<MotionChecker> checker_;

@@ -13,6 +13,9 @@ namespace armloom {
 // A judgement takes this much simulated time, whatever it took the machine.
 inline constexpr Duration kSimulatedJudgement = std::chrono::milliseconds(2);
 
+// And a plan this much.
+inline constexpr Duration kSimulatedPlanning = std::chrono::milliseconds(20);
+
 // What deciding took: how often a question was judged, the combined states looked at for it, and
 // the time of the machine. `wall` alone differs from run to run.
 struct Judging {

@@ -64,7 +64,7 @@ Result<JobView> Executive::Impl::submit(JobRequest request) {
 }
 
 Executive::Impl::Ahead Executive::Impl::ahead_now() const {
-  return {scheduler_.predicted_rest(), {}, ways_back_};
+  return {scheduler_.predicted_rest(), {}, ways_back_, scheduler_.open_ends()};
 }
 
 Result<std::vector<Result<JobView>>> Executive::Impl::submit_batch(std::vector<JobRequest> requests,
@@ -111,16 +111,32 @@ Result<Executive::Impl::Prepared> Executive::Impl::prepare(JobRequest request, A
       ids_.contains(request.key) || std::ranges::find(ahead.keys, request.key) != ahead.keys.end();
   if (!request.key.empty() && taken) problems.push_back(key_in_use(request.key));
   find_bad_after(request, ahead, problems);
-  std::vector<TrajectoryPtr> motions = read_motions(request, ahead, returns, problems);
+  std::optional<MotionGoal> goal;
+  std::vector<TrajectoryPtr> motions;
+  if (!request.move_to && !request.arm.empty()) {
+    problems.push_back({ProblemKind::invalid, "unknown-field", "/arm",
+                        "an arm is named with move_to; a trajectory's joints say which arms move",
+                        request.arm});
+  }
+  if (request.move_to) {
+    goal = read_goal(request, problems);
+    if (goal && problems.empty()) motions.push_back(estimate_for(*goal, ahead));
+  } else {
+    motions = read_motions(request, ahead, returns, problems);
+  }
   if (!problems.empty()) return failure(std::move(problems));
 
   set_joints(ahead.rest, *motions.front(), motions.front()->goal());
   ahead.keys.push_back(request.key);
-  return Prepared{
-      std::move(request.key),   std::move(request.name),
-      std::move(motions),       request.order,
-      request.priority,         request.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
-      std::move(request.after), std::move(returns)};
+  return Prepared{std::move(request.key),
+                  std::move(request.name),
+                  std::move(motions),
+                  std::move(goal),
+                  request.order,
+                  request.priority,
+                  request.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
+                  std::move(request.after),
+                  std::move(returns)};
 }
 
 // Its trajectory, or its alternatives; and what has to move first so that they can begin.
@@ -132,6 +148,7 @@ std::vector<TrajectoryPtr> Executive::Impl::read_motions(const JobRequest& reque
     auto motion = validate(asked, *cell_);
     Problems found = motion ? Problems{} : std::move(motion.error());
     if (motion) {
+      begin_where_open(**motion, ahead);
       for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
       find_start_elsewhere(*cell_, **motion, ahead.rest, found);
       motions.push_back(std::move(*motion));
@@ -140,6 +157,19 @@ std::vector<TrajectoryPtr> Executive::Impl::read_motions(const JobRequest& reque
   }
   if (problems.empty() && motions.size() > 1) find_bad_alternatives(*cell_, motions, problems);
   return motions;
+}
+
+// Where it is not known yet where an arm will be, it is taken to be where the motion begins; at its
+// turn that is seen.
+void Executive::Impl::begin_where_open(const Trajectory& motion, Ahead& ahead) const {
+  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
+    const JointId joint = motion.joints()[j];
+    const auto arm = cell_->joint(joint).arm;
+    if (!arm || std::ranges::find(ahead.open, *arm) == ahead.open.end()) continue;
+    ahead.rest[static_cast<Eigen::Index>(joint.index())] =
+        motion.start()[static_cast<Eigen::Index>(j)];
+  }
+  for (ArmId arm : motion.arms()) std::erase(ahead.open, arm);
 }
 
 // A job can only come after one that is known before it: so there are no rings.
@@ -220,7 +250,8 @@ Submit Executive::Impl::submission(Prepared prepared) const {
              .priority = prepared.priority,
              .backlog_timeout = prepared.backlog_timeout,
              .after = std::move(after),
-             .any_order = prepared.order == JobOrder::any};
+             .any_order = prepared.order == JobOrder::any,
+             .goal = std::move(prepared.goal)};
   if (prepared.alternatives.size() > 1) job.alternatives = std::move(prepared.alternatives);
   return job;
 }

@@ -45,6 +45,7 @@ void Executive::Impl::tell_job(JobId job) {
 
 void Executive::Impl::count(const JobView& ended) {
   figures_.last_end = std::max(figures_.last_end, *ended.ended_at);
+  if (const auto plan = plans_.find(ended.id); plan != plans_.end()) *plan->second = true;
   ended_.push_back(ended.id);
   --active_;
   while (ended_.size() > options_.ended_kept) {

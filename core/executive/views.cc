@@ -108,6 +108,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .started_at = job.times.started_at,
                .ended_at = job.ended_at(),
                .duration = job.trajectory->duration(),
+               .planned = job.goal ? std::optional(!job.is_unplanned()) : std::nullopt,
                .stopping = job.stopping(),
                .any_order = job.any_order,
                .reason = job.reason(),

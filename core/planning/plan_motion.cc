@@ -1,5 +1,7 @@
 #include "core/planning/plan_motion.h"
 
+#include <algorithm>
+
 #include "core/collision/check/motion_checker.h"
 
 namespace armloom {
@@ -20,7 +22,14 @@ bool is_free(MotionChecker& checker, const PlanRequest& request, const Trajector
                                          .others = {},
                                          .rest = request.at,
                                          .method = Swept{tracking_error}});
-  return verdict.kind == Verdict::Kind::free;
+  if (verdict.kind == Verdict::Kind::free) return true;
+  // Arms that are left out are found by the judgement all the same; nothing else may be.
+  return !verdict.conflicts.empty() &&
+         std::ranges::all_of(verdict.conflicts, [&](const Conflict& conflict) {
+           const auto& arm = conflict.proximity.arm_b;
+           return conflict.with == Conflict::With::rest && arm &&
+                  std::ranges::find(request.left_out, *arm) != request.left_out.end();
+         });
 }
 
 // The way with times, where a judgement finds it free.

@@ -27,6 +27,9 @@ struct PlanRefusal {
   std::string detail;                       // one sentence
   std::optional<Proximity> proximity = {};  // of collisions
   std::uint64_t evaluations = 0;
+  // Joint positions that come nearest to what was asked, where they are known: of a pose that is
+  // not reached.
+  std::optional<Eigen::VectorXd> nearest = {};
 };
 // "start-in-collision": for programs.
 [[nodiscard]] std::string reason_name(PlanRefusal::Reason reason);
@@ -36,6 +39,7 @@ struct PlanRequest {
   ArmId arm;
   Configuration at;                    // of the whole cell: the arm's own joints are the start
   std::vector<Eigen::VectorXd> goals;  // one or more, rows as the arm's joints
+  std::vector<ArmId> left_out = {};    // other arms that are as good as gone
   std::uint64_t seed = 1;
   // Stretches of lines that may be looked at (LineChecker::evaluations), shortening included.
   std::uint64_t budget = kDefaultBudget;

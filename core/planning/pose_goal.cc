@@ -149,7 +149,9 @@ class PoseSearch {
                   "found is %.3g mm and %.3g "
                   "degrees off",
                   link.c_str(), 1e3 * nearest_.off_m, nearest_.off_rad * 180.0 / std::numbers::pi);
-    return {Reason::goal_not_reached, text};
+    PlanRefusal refusal{Reason::goal_not_reached, text};
+    if (nearest_.q.size() > 0) refusal.nearest = nearest_.q;
+    return refusal;
   }
 
   struct Nearest {

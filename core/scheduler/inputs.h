@@ -9,6 +9,7 @@
 #include "core/base/ids.h"
 #include "core/base/time.h"
 #include "core/coordination/motion.h"
+#include "core/coordination/plan_question.h"
 #include "core/coordination/verdict.h"
 #include "core/trajectory/trajectory.h"
 
@@ -29,6 +30,8 @@ struct Submit {
   // The same work by one of several arms, `trajectory` first; none, or two or more. Each moves one
   // arm, of which no other one is, and ends where it begins.
   std::vector<TrajectoryPtr> alternatives = {};
+  // Where its arm is to go: the way is planned first (PlanMotion); `trajectory` is an estimate.
+  std::optional<MotionGoal> goal = {};
 };
 struct Cancel {
   JobId job;
@@ -36,6 +39,13 @@ struct Cancel {
 // The answer to the Judge effect with the same version.
 struct Judged {
   Verdict verdict;
+};
+// The answer to the PlanMotion effect of this number.
+struct PlanMade {
+  JobId job;
+  std::uint64_t question;
+  TrajectoryPtr trajectory;  // from question.at to the goal; null: there is none
+  std::string why = {};      // there is none: one sentence
 };
 // What a controller measured of a job's motion. Sent for every job in motion at every tick that
 // matters; `kind` says what has changed.
@@ -71,14 +81,21 @@ struct Interrupt {};
 // A time asked for by WakeAt has come. Every other input does the same work besides.
 struct Wake {};
 
-using Input =
-    std::variant<Submit, Cancel, Judged, MotionReport, Stop, Resume, SceneChanged, Interrupt, Wake>;
+using Input = std::variant<Submit, Cancel, Judged, PlanMade, MotionReport, Stop, Resume,
+                           SceneChanged, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 
 // Answer the question, on a worker, and come back with Judged. At most one is open at a time.
 struct Judge {
   Question question;
+};
+// Plan this job's motion, on a worker, and come back with PlanMade. Of each job one is open at
+// most.
+struct PlanMotion {
+  JobId job;
+  std::uint64_t number;
+  PlanQuestion question;
 };
 // Start (progress zero) or continue (a job that was held) this job's motion at `start_at`.
 struct Dispatch {
@@ -122,6 +139,7 @@ struct WakeAt {
   TimePoint when;
 };
 
-using Effect = std::variant<Judge, Dispatch, Grant, Brake, YieldMove, Release, JobChanged, WakeAt>;
+using Effect =
+    std::variant<Judge, PlanMotion, Dispatch, Grant, Brake, YieldMove, Release, JobChanged, WakeAt>;
 
 }  // namespace armloom

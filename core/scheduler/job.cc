@@ -42,6 +42,8 @@ const char* to_string(Wait::Kind kind) {
       return "capacity";
     case Wait::Kind::stop:
       return "stop";
+    case Wait::Kind::plan:
+      return "plan";
   }
   return "unknown";
 }
@@ -68,6 +70,8 @@ const char* to_string(Reason reason) {
       return "server_restart";
     case Reason::deadlock:
       return "deadlock";
+    case Reason::no_plan:
+      return "no_plan";
   }
   return "unknown";
 }

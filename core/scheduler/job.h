@@ -7,6 +7,7 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
+#include "core/coordination/plan_question.h"
 #include "core/coordination/verdict.h"
 #include "core/trajectory/trajectory.h"
 
@@ -30,7 +31,7 @@ enum class JobState {
 
 // Why a job does not move.
 struct Wait {
-  enum class Kind { job, arm, object, order, capacity, stop };
+  enum class Kind { job, arm, object, order, capacity, stop, plan };
   Kind kind;
   std::optional<JobId> job;            // job, order, capacity
   std::optional<ArmId> arm;            // arm, stop; job: the other's arm that comes too close
@@ -58,6 +59,7 @@ enum class Reason {
   overrun,  // took longer than execution.duration_scaling and _margin allow, and stands still
   server_restart,
   deadlock,  // it waited in a ring of jobs none of which could ever move, and came last
+  no_plan,   // no way to its goal was found, or none that still fitted when it was there
 };
 [[nodiscard]] const char* to_string(Reason reason);
 
@@ -135,6 +137,18 @@ struct Choice {
   std::optional<Duration> saves = {};
 };
 
+// Where a job is to go, of which the way is still to be planned, or has been (goals.h).
+struct JobGoal {
+  MotionGoal goal;
+  bool is_planned = false;                     // the job's trajectory is the plan; else an estimate
+  std::optional<std::uint64_t> question = {};  // that is open: its number
+  std::uint64_t questions = 0;                 // so many have been asked
+  int tries = 0;                               // since a plan last fitted
+  Eigen::VectorXd from = {};                   // the last question: where the arm will be, ...
+  Version asked_at = 0;                        // ... and when it was asked
+  std::optional<std::string> refusal = {};     // the answer to it, where there is no plan
+};
+
 // A job as the scheduler knows it. Read-only for everyone else.
 struct Job {
   JobId id;
@@ -147,6 +161,7 @@ struct Job {
   std::vector<TrajectoryPtr> alternatives =
       {};  // `trajectory` is one of them: until it is admitted
            // it is as good as chosen, but may be another
+  std::optional<JobGoal> goal = {};
   std::optional<Choice> choice = {};
   JobPhase phase = Queued{};
   JobTimes times = {};
@@ -162,6 +177,8 @@ struct Job {
     return std::get_if<P>(&phase);
   }
   [[nodiscard]] JobState state() const;
+  // Its way has to be planned (again) before it can be judged.
+  [[nodiscard]] bool is_unplanned() const { return goal && !goal->is_planned; }
   [[nodiscard]] bool has_ended() const { return in<Ended>() != nullptr; }
   [[nodiscard]] bool has_started() const { return times.started_at.has_value(); }
   // Braking: on the way to canceled, holding or failed.

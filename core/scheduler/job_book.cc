@@ -52,6 +52,7 @@ Record& JobBook::add(Record record) {
   count(job, work_, 1);
   active_.insert(job.id);
   if (!job.alternatives.empty()) undecided_.insert(job.id);
+  if (job.goal) ++goals_;
   unexplained_.insert(job.id);
   if (record.before) unexplained_.insert(*record.before);
   ++priorities_[job.priority];
@@ -159,6 +160,19 @@ void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg, std
   explain_with_next(job);
 }
 
+void JobBook::set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
+  Job& job = record.job;
+  count(job, work_, -1);
+  job.trajectory = std::move(trajectory);
+  record.leg = std::move(leg);
+  record.effort = 1;
+  record.raised = 0;
+  if (auto* queued = std::get_if<Queued>(&job.phase)) queued->judgement = {};
+  count(job, work_, 1);
+  explain_with_next(job);
+  changed(record);
+}
+
 // What comes next on its arms may have waited for it, or does now.
 void JobBook::explain_with_next(const Job& job) {
   unexplained_.insert(job.id);
@@ -203,6 +217,7 @@ std::vector<JobId> JobBook::end(Record& record, Ended how) {
   }
   count(job, work_, -1);
   active_.erase(job.id);
+  if (job.goal) --goals_;
   unexplained_.erase(job.id);
   if (--priorities_.at(job.priority) == 0) priorities_.erase(job.priority);
   changed(record);

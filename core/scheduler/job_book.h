@@ -75,6 +75,10 @@ class JobBook {
   void put_in_order(const std::vector<JobId>& jobs);
   // By another arm, before which so many of that one's jobs stand. Precondition: it waits.
   void take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg, std::size_t place);
+  // Its way is known now, or is another one. Precondition: it waits in the queue.
+  void set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg leg);
+  // Any that say where to go.
+  [[nodiscard]] bool has_goals() const { return goals_ > 0; }
   // That could still go on other arms.
   [[nodiscard]] const std::set<JobId>& undecided() const { return undecided_; }
   // The same jobs, each after those before it.
@@ -104,6 +108,7 @@ class JobBook {
   std::set<JobId> active_;
   std::set<JobId> past_queue_;
   std::set<JobId> undecided_;
+  std::size_t goals_ = 0;
   std::map<JobId, std::vector<JobId>> followers_;  // those that name it in Submit::after
   std::map<int, std::size_t> priorities_;          // how many active jobs have it
   std::vector<std::deque<JobId>> queues_;

@@ -86,6 +86,7 @@ Record record_of(State& state, const Submit& job) {
                 .turn = job.job,
                 .on_behalf_of = job.job};
   record.job.times.submitted_at = state.now;
+  if (job.goal) record.job.goal = JobGoal{.goal = *job.goal};
   return record;
 }
 

@@ -81,7 +81,9 @@ void Scheduler::settle() {
   cycles_.settle(state_);
   weigh_again(state_);
   dispatch_ready(state_);
-  fail_impossible_starts();
+  do {
+    fail_impossible_starts();
+  } while (plan_goals(state_));
   bool put_off = true;
   while (put_off) {  // until a question is open, or nothing is left to be asked
     state_.lanes.renew(state_.jobs, state_.arms);
@@ -104,6 +106,7 @@ void Scheduler::fail_impossible_starts() {
     Record& head = state_.jobs.at(queues[arm].front());
     const Job& job = head.job;
     if (!job.is_waiting() || job.has_started() || !state_.jobs.at_head(head)) continue;
+    if (job.goal) continue;  // its way begins where the arm stands
     if (auto mismatch = state_.arms.start_mismatch(*state_.cell, *job.trajectory)) {
       unchanged = 0;
       if (begins_on_other_arm(state_, head)) continue;
@@ -201,6 +204,18 @@ Configuration Scheduler::predicted_rest() const {
     }
   }
   return q;
+}
+
+std::vector<ArmId> Scheduler::open_ends() const {
+  std::vector<ArmId> open;
+  for (std::uint32_t arm = 0; arm < state_.cell->arms.size(); ++arm) {
+    const auto& queue = state_.jobs.queue(ArmId{arm});
+    if (queue.empty()) continue;
+    const Job& last = state_.jobs.at(queue.back()).job;
+    const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->goal.to);
+    if (is_pose && last.is_unplanned()) open.push_back(ArmId{arm});
+  }
+  return open;
 }
 
 std::optional<Duration> Scheduler::earliest_start(const Question& question,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scheduler/admission.h"
+#include "core/scheduler/goals.h"
 #include "core/scheduler/horizon/timeline.h"
 #include "core/scheduler/inputs.h"
 #include "core/scheduler/phases.h"
@@ -49,6 +50,8 @@ class Scheduler {
   // Where every joint will stand when all accepted jobs have succeeded: a new job has to begin
   // there.
   [[nodiscard]] Configuration predicted_rest() const;
+  // Arms of which that is an estimate: the last goal is a pose, and not planned yet.
+  [[nodiscard]] std::vector<ArmId> open_ends() const;
 
   // What the next job is to be called: not what an effect has called one of the scheduler's own.
   [[nodiscard]] JobId next_job() const { return state_.jobs.next_id(); }
@@ -76,6 +79,7 @@ class Scheduler {
   void on(const Submit& input) { add(state_, record_of(state_, input)); }
   void on(const Cancel& input);
   void on(const Judged& input) { admission_.on(input, state_, cycles_); }
+  void on(const PlanMade& input) { take_plan(state_, input); }
   void on(const MotionReport& input);
   void on(const Stop& input);
   void on(const Resume& input);

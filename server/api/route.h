@@ -66,6 +66,7 @@ struct Route {
 // The routes by resource. All of them, in the order in which they are tried.
 [[nodiscard]] std::vector<Route> job_routes();         // /jobs, /queue, /timeline
 [[nodiscard]] std::vector<Route> submission_routes();  // POST /jobs, /batches, /check
+[[nodiscard]] std::vector<Route> plan_routes();        // /plan
 [[nodiscard]] std::vector<Route> arm_routes();         // /arms, /stop, /resume
 [[nodiscard]] std::vector<Route> scene_routes();       // /scene
 [[nodiscard]] std::vector<Route> cell_routes();        // /cell and its meshes

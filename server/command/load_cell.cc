@@ -16,6 +16,8 @@ class NoJudges final : public JudgePool {
  public:
   void ask(Question, PlanningScenePtr, std::function<void(Verdict)>) override {}
   bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
+  void plan(PlanTask) override {}
+  bool draft(PlanTask) override { return false; }
 };
 class NoObserver final : public Observer {
  public:

@@ -1,10 +1,8 @@
-#include <algorithm>
 #include <fstream>
 #include <iostream>
 
-#include "core/base/nearest_name.h"
-#include "core/planning/plan_motion.h"
-#include "core/planning/pose_goal.h"
+#include "core/planning/answer_plan.h"
+#include "core/planning/plan_goal.h"
 #include "core/trajectory/set_joints.h"
 #include "server/codec/json_writer.h"
 #include "server/command/command.h"
@@ -14,81 +12,10 @@
 namespace armloom {
 namespace {
 
-using Goals = tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal>;
-
-tl::unexpected<Problems> fault(const char* option, const std::string& slug, std::string detail,
-                               const std::string& value) {
-  return failure(Problem{ProblemKind::invalid, slug, option, std::move(detail), value});
-}
-
-// "a, b and c" of what there is.
-template <class Names>
-std::string listed(const Names& names) {
-  std::string all;
-  for (const auto& name : names) all += (all.empty() ? "" : ", ") + name;
-  return all;
-}
-
-Result<ArmId> find_arm(const Cell& cell, const std::string& name) {
-  if (const auto arm = cell.find_arm(name)) return *arm;
-  std::vector<std::string> names;
-  for (const Arm& arm : cell.arms) names.push_back(arm.name);
-  return fault("--arm", "unknown-arm", "the cell has no arm " + name + "; it has " + listed(names),
-               name);
-}
-
-Result<Eigen::VectorXd> named_state(const Arm& arm, const std::string& name, const char* option) {
-  if (const auto state = arm.named_states.find(name); state != arm.named_states.end()) {
-    return state->second;
-  }
-  if (name == "home") return arm.home;
-  std::string known = "home";
-  for (const auto& [state, q] : arm.named_states) {
-    if (state != "home") known += ", " + state;
-  }
-  return fault(option, "unknown-state",
-               "arm " + arm.name + " has no named state " + name +
-                   did_you_mean(name, arm.named_states) + "; it has " + known,
-               name);
-}
-
-// Of joints or a name.
-Result<Eigen::VectorXd> joints_of(const PlanGoal& goal, const Arm& arm, const char* option) {
-  if (goal.named) return named_state(arm, *goal.named, option);
-  if (goal.pose) {
-    return fault(option, "not-served", "a pose does not say where each joint stands: give joints",
-                 "pose");
-  }
-  if (goal.joints->size() != arm.joints.size()) {
-    return fault(option, "size-mismatch",
-                 "arm " + arm.name + " has " + std::to_string(arm.joints.size()) +
-                     " joints, found " + std::to_string(goal.joints->size()) + " positions",
-                 std::to_string(goal.joints->size()));
-  }
-  return Eigen::Map<const Eigen::VectorXd>(goal.joints->data(),
-                                           static_cast<Eigen::Index>(goal.joints->size()));
-}
-
-Result<Goals> goals_of(const PlanGoal& goal, const Cell& cell, const PlanRequest& request) {
-  const Arm& arm = cell.arm(request.arm);
-  if (!goal.pose) {
-    auto q = joints_of(goal, arm, "--to");
-    if (!q) return failure(std::move(q.error()));
-    return Goals(std::vector<Eigen::VectorXd>{*std::move(q)});
-  }
-  std::optional<LinkId> link;
-  if (goal.pose->link) {
-    link = cell.find_link(*goal.pose->link);
-  } else {
-    for (const LinkId id : arm.links) {
-      if (cell.link(id).driver == arm.joints.back() && !link) link = id;
-    }
-  }
-  if (!link) {
-    const std::string name = goal.pose->link.value_or("");
-    return fault("--to", "unknown-link", "the cell has no link " + name, name);
-  }
-  return reach_pose(cell, {request.arm, *link, goal.pose->X_WL}, request.at);
+// At the option instead of the place in a message.
+tl::unexpected<Problems> at_option(const char* option, Problems problems) {
+  for (Problem& problem : problems) problem.pointer = option;
+  return failure(std::move(problems));
 }
 
 void say(const PlanRefusal& refusal) {
@@ -117,18 +44,21 @@ std::string job_text(const PlanOptions& options, const TrajectoryRequest& reques
   return out.take();
 }
 
-// The request, but for its goals.
-Result<PlanRequest> request_of(const PlanOptions& options, const Cell& cell) {
+Result<PlanQuestion> question_of(const PlanOptions& options, const Cell& cell) {
   const auto arm = find_arm(cell, options.arm);
-  if (!arm) return failure(arm.error());
-  PlanRequest request{.arm = *arm, .at = cell.home(), .goals = {}, .seed = options.seed};
-  if (options.from.empty()) return request;
+  if (!arm) return at_option("--arm", arm.error());
+  const auto said = read_plan_goal(options.to);
+  if (!said) return at_option("--to", said.error());
+  const auto goal = goal_of(cell, *arm, *said);
+  if (!goal) return at_option("--to", goal.error());
+  PlanQuestion question{.goal = *goal, .at = cell.home(), .seed = options.seed};
+  if (options.from.empty()) return question;
   const auto from = read_plan_goal(options.from);
-  if (!from) return failure(from.error());
-  const auto q = joints_of(*from, cell.arm(*arm), "--from");
-  if (!q) return failure(q.error());
-  set_joints(request.at, cell.arm(*arm).joints, *q);
-  return request;
+  if (!from) return at_option("--from", from.error());
+  const auto q = joints_of(cell, *arm, *from);
+  if (!q) return at_option("--from", q.error());
+  set_joints(question.at, cell.arm(*arm).joints, *q);
+  return question;
 }
 
 }  // namespace
@@ -138,15 +68,9 @@ int plan_way(const PlanOptions& options) {
   if (!loaded) return kExitBadInput;
   const auto scene = PlanningScene::build(loaded->cell);
   if (!scene) return refuse(options.cell_file, scene.error());
-  auto request = request_of(options, *loaded->cell);
-  if (!request) return refuse("plan", request.error());
-  const auto to = read_plan_goal(options.to);
-  if (!to) return refuse("--to", to.error());
-  const auto goals = goals_of(*to, *loaded->cell, *request);
-  if (!goals) return refuse("plan", goals.error());
-  if (!*goals) return say(goals->error()), kExitFound;
-  request->goals = **goals;
-  const auto planned = plan_motion(Planner(*scene), *request);
+  const auto question = question_of(options, *loaded->cell);
+  if (!question) return refuse("plan", question.error());
+  const auto planned = answer_plan(*scene, *question);
   if (!planned) return say(planned.error()), kExitFound;
 
   const std::string job = job_text(options, planned->timed.request);

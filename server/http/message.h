@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -59,6 +60,8 @@ struct Request {
   std::optional<Refusal> stranger = {};  // why whoever asks may not even read; absent: may
   std::optional<Refusal> foreign = {};   // why whoever asks may not command; absent: may
   bool upgrade = false;                  // wants a WebSocket
+  // Set when nobody waits for the answer any more: the connection has gone, or it took too long.
+  std::shared_ptr<std::atomic<bool>> gone = std::make_shared<std::atomic<bool>>(false);
   std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
 };
 

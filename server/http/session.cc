@@ -11,8 +11,19 @@
 namespace armloom {
 namespace {
 
+// What arrives while an answer is made is the next request, or that the peer has gone.
+void watch_peer(tcp::socket& socket, std::shared_ptr<std::atomic<bool>> gone) {
+  socket.async_wait(tcp::socket::wait_read, [&socket, gone = std::move(gone)](ErrorCode over) {
+    if (over) return;
+    char next = 0;
+    ErrorCode end;
+    socket.receive(asio::buffer(&next, 1), tcp::socket::message_peek, end);
+    if (end) *gone = true;
+  });
+}
+
 // Hands the request to the site and waits for its answer.
-asio::awaitable<Response> answer(const Site& site, const Request& request) {
+asio::awaitable<Response> answer(const Site& site, const Request& request, tcp::socket& socket) {
   struct Pending {
     explicit Pending(const asio::any_io_executor& executor)
         : arrived(executor, std::chrono::steady_clock::now() + kWriteTime) {}
@@ -25,8 +36,13 @@ asio::awaitable<Response> answer(const Site& site, const Request& request) {
     pending->arrived.cancel();
   });
   ErrorCode ignored;
-  if (!pending->response) co_await pending->arrived.async_wait(into(ignored));
+  if (!pending->response) {
+    watch_peer(socket, request.gone);
+    co_await pending->arrived.async_wait(into(ignored));
+    socket.cancel(ignored);
+  }
   if (pending->response) co_return std::move(*pending->response);
+  *request.gone = true;
   co_return site.refuse({503, "no-answer", "the server did not answer in time"});
 }
 
@@ -58,7 +74,7 @@ asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
     co_return false;
   }
   const Request& request = arrived->request;
-  Response response = co_await answer(site, request);
+  Response response = co_await answer(site, request, connection.stream.socket());
   if (response.events && response.status == 101) {
     co_await serve_websocket(std::move(connection.stream), std::move(arrived->header),
                              std::move(*response.events), site);

@@ -23,7 +23,8 @@ FormatPtr<Reason> reason_format() {
       "Reason", "A closed list; core/scheduler/README.md explains each.",
       choice<Reason>({Reason::completed, Reason::canceled_by_client, Reason::backlog_timeout,
                       Reason::start_mismatch, Reason::self_collision, Reason::predecessor_failed,
-                      Reason::arm_fault, Reason::overrun, Reason::server_restart, Reason::deadlock},
+                      Reason::arm_fault, Reason::overrun, Reason::server_restart, Reason::deadlock,
+                      Reason::no_plan},
                      to_string));
 }
 
@@ -147,25 +148,25 @@ FormatPtr<JobState> job_state_format() {
 
 FormatPtr<WaitView> wait_format() {
   using Kind = Wait::Kind;
-  static const auto format = named(
-      "Wait", "What a job waits for, with the evidence.",
-      object<WaitView>({
-          told("kind", &WaitView::kind,
-               choice<Kind>(
-                   {Kind::job, Kind::arm, Kind::object, Kind::order, Kind::capacity, Kind::stop},
-                   to_string)),
-          told("id", &WaitView::job, text_or_null(), "The other job"),
-          told("arm", &WaitView::arm, text_or_null(), "The other arm"),
-          told("links", &WaitView::links, list(text(), {.most = 2}),
-               "Own link, then the other's, or an object; empty without evidence"),
-          told("own_time_s", &WaitView::own_time_s, nullable(number(kAnyNumber)),
-               "From the start of this trajectory"),
-          told("other_time_s", &WaitView::other_time_s, nullable(number(kAnyNumber)),
-               "From the start of the other's"),
-          told("clearance_m", &WaitView::clearance_m, nullable(number(kAnyNumber)),
-               "Distance found; zero or less in contact"),
-          told_if("detail", detail_of, text(), "Of a stop: its cause"),
-      }));
+  static const auto format =
+      named("Wait", "What a job waits for, with the evidence.",
+            object<WaitView>({
+                told("kind", &WaitView::kind,
+                     choice<Kind>({Kind::job, Kind::arm, Kind::object, Kind::order, Kind::capacity,
+                                   Kind::stop, Kind::plan},
+                                  to_string)),
+                told("id", &WaitView::job, text_or_null(), "The other job"),
+                told("arm", &WaitView::arm, text_or_null(), "The other arm"),
+                told("links", &WaitView::links, list(text(), {.most = 2}),
+                     "Own link, then the other's, or an object; empty without evidence"),
+                told("own_time_s", &WaitView::own_time_s, nullable(number(kAnyNumber)),
+                     "From the start of this trajectory"),
+                told("other_time_s", &WaitView::other_time_s, nullable(number(kAnyNumber)),
+                     "From the start of the other's"),
+                told("clearance_m", &WaitView::clearance_m, nullable(number(kAnyNumber)),
+                     "Distance found; zero or less in contact"),
+                told_if("detail", detail_of, text(), "Of a stop: its cause"),
+            }));
   return format;
 }
 
@@ -186,6 +187,8 @@ FormatPtr<JobView> job_format() {
           told_times("ended", &View::ended_at, "When it ended; null: not yet"),
           told("progress", &View::progress, number(kShare), "Share of the trajectory's time"),
           told("duration_s", &View::duration, seconds(kPositive), "Of the trajectory"),
+          told_if("planned", &View::planned, flag(),
+                  "Of a goal: whether its way is planned; until then duration_s is an estimate"),
           told("stopping", &View::stopping, flag(), "Brakes on its path"),
           told("waits_on", &View::waits_on, list(wait_format()), "Empty when it does not wait"),
           told_if("order", order_of, choice<JobOrder>({JobOrder::any}, to_string),

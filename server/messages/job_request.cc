@@ -8,6 +8,7 @@
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
+#include "server/messages/plan_goal.h"
 #include "server/messages/trajectory_request.h"
 
 namespace armloom {
@@ -139,14 +140,19 @@ FormatPtr<JobRequest> job_request_format() {
               "\"any\": jobs of one arm that begin and end at one place, and say so, may be taken "
               "in another order"),
           unless("steps",
-                 unless("alternatives", required("trajectory", &Request::trajectory,
-                                                 trajectory_request_format(), "The motion"))),
+                 unless("alternatives",
+                        unless("move_to", required("trajectory", &Request::trajectory,
+                                                   trajectory_request_format(), "The motion")))),
           field("alternatives", &Request::alternatives,
                 list(trajectory_request_format(),
                      {.fewest = 2, .most = kAlternativesMax, .noun = "trajectories"}),
                 "Instead of a trajectory: the same work by several arms, each back to where it "
                 "begins; one of them does it"),
-          at_most_one<Request>({"trajectory", "alternatives"}),
+          field("move_to", &Request::move_to, plan_goal_format(),
+                "Instead of a trajectory: where `arm` is to go. The way is planned from where it "
+                "will be when the jobs before it have run, and again where that has changed"),
+          field("arm", &Request::arm, formats::name(), "With move_to: which arm goes there"),
+          at_most_one<Request>({"trajectory", "alternatives", "move_to"}),
           // Both are read after the trajectory, which they time and stretch.
           std::make_shared<MemberPart<Request, bool>>(
               MemberText{"retime",
@@ -169,6 +175,7 @@ FormatPtr<JobRequest> job_request_format() {
                   Need::optional, Schema(1)},
               number({0.001, 1.0}), [](const Request&) { return std::optional<double>(); },
               [](Request& request, double factor) {
+                request.speed = factor;
                 for (TrajectoryRequest* motion : motions_of(request)) slow_down(*motion, factor);
               }),
       }));

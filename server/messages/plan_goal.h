@@ -1,12 +1,8 @@
 #pragma once
 
-#include <Eigen/Geometry>
-#include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "core/base/problem.h"
+#include "core/planning/plan_goal.h"
 #include "server/codec/format.h"
 
 namespace armloom {
@@ -14,17 +10,7 @@ namespace armloom {
 // Where an arm is to be, as clients say it: one of
 //   {"joints": [...]}      rad or m, in the order of the arm's group
 //   {"named": "ready"}     a named state of the SRDF, or "home"
-//   {"pose": {"link": "left_tool0", "xyz": [...], "rpy": [...]}}   of a link, in the world; without
-//                          a link that of the arm's last joint
-struct PlanPose {
-  std::optional<std::string> link;
-  Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
-};
-struct PlanGoal {
-  std::optional<std::vector<double>> joints;
-  std::optional<std::string> named;
-  std::optional<PlanPose> pose;
-};
+//   {"pose": {"link": "left_tool0", "xyz": [...], "rpy": [...]}}   of a link, in the world
 [[nodiscard]] FormatPtr<PlanGoal> plan_goal_format();
 
 // A name, or the JSON of a goal ("{" begins it), or a list of joint positions ("[").

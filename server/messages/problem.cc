@@ -91,6 +91,13 @@ FormatPtr<ProblemDocument> problem_format() {
                 told_if("value", &Document::value, value_format(), "What was found there"),
                 told_if("errors", errors_of, list(error_format(), {.fewest = 2}),
                         "When several faults were found: all of them, the first one too"),
+                told_if("links", &Document::links, list(text(), {.fewest = 2, .most = 2}),
+                        "Where there is no plan: which come too close, ..."),
+                told_if("clearance_m", &Document::clearance_m, number(kAnyNumber),
+                        "... and how close; zero or less in contact"),
+                told_if("nearest", &Document::nearest, number_list(),
+                        "Of a pose that is not reached: joint positions that come nearest"),
+                told_if("evaluations", &Document::evaluations, count(), "What planning took"),
             }));
   return format;
 }

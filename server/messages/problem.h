@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,6 +28,11 @@ struct ProblemDocument {
   std::optional<std::string> pointer;
   std::optional<decltype(Problem::value)> value;
   std::vector<Error> errors;  // empty: only the one above
+  // Why there is no plan; absent for all other problems.
+  std::optional<std::vector<std::string>> links = {};  // that come too close
+  std::optional<double> clearance_m = {};              // of these
+  std::optional<std::vector<double>> nearest = {};     // joint positions that come nearest
+  std::optional<std::uint64_t> evaluations = {};
 };
 [[nodiscard]] FormatPtr<ProblemDocument> problem_format();
 

@@ -46,8 +46,9 @@ class Metrics::Impl {
                                  JobState::failed, JobState::interrupted}) {
       jobs_.Add({{"outcome", to_string(state)}});
     }
-    for (const Wait::Kind kind : {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object,
-                                  Wait::Kind::order, Wait::Kind::capacity, Wait::Kind::stop}) {
+    for (const Wait::Kind kind :
+         {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object, Wait::Kind::order,
+          Wait::Kind::capacity, Wait::Kind::stop, Wait::Kind::plan}) {
       waits_.Add({{"reason", to_string(kind)}});
     }
     for (const char* state : {"queued", "backlogged", "scheduled", "running"}) at(state);

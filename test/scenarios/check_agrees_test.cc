@@ -30,6 +30,8 @@ class Judges final : public JudgePool {
         .push_back({std::move(question), std::move(scene), std::move(done)});
   }
   bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
+  void plan(PlanTask) override {}
+  bool draft(PlanTask) override { return false; }
 
   // Everything that is asked within `begin`, and what follows from the answers.
   void check(const std::function<void()>& begin) {

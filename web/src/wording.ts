@@ -47,6 +47,7 @@ export function wait_in_words(w: WaitsOn): string {
     case 'object': return how ? `waits for ${who} to be clear: ${how}` : `waits for ${who} to be clear`;
     case 'order': return w.id ? `waits its turn: ${short_id(w.id)}${w.arm ? ` of ${w.arm}` : ''} comes first` : `waits its turn${w.arm ? ` on ${w.arm}` : ''}`;
     case 'capacity': return w.id ? `waits until ${who} has ended: one at a time` : 'waits for a free place';
+    case 'plan': return 'waits until the way to its goal is planned';
     case 'stop': return `waits for resume: ${w.arm ?? 'the cell'} is stopped${w.detail ? ` (${w.detail})` : ''}`;
   }
 }

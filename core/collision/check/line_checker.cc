@@ -19,7 +19,7 @@ constexpr Duration kLength = std::chrono::seconds(1);
 }  // namespace
 
 LineChecker::LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration& rest,
-                         double tracking_error)
+                         double tracking_error, const std::vector<ArmId>& left_out)
     : scene_(std::move(scene)),
       arm_(arm),
       rest_(rest),
@@ -41,7 +41,8 @@ LineChecker::LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration&
         {std::move(pairs), std::make_shared<MotionTube>(geometry, nullptr, rest, error)});
   };
   for (std::uint32_t a = 0; a < cell.arms.size(); ++a) {
-    if (ArmId{a} != arm) add(ArmId{a}, tracking_error);
+    const bool is_out = std::ranges::find(left_out, ArmId{a}) != left_out.end();
+    if (ArmId{a} != arm && !is_out) add(ArmId{a}, tracking_error);
   }
   add(std::nullopt, 0.0);
   if (!geometry_->self.empty()) counterparts_.push_back({geometry_->self, nullptr});

@@ -23,8 +23,10 @@ namespace armloom {
 class LineChecker {
  public:
   // `rest`: where every joint of the cell stands, those of the arm's group excepted. Tracking error
-  // of every joint (rad, m). Throws std::invalid_argument unless rest has an entry for each joint.
-  LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration& rest, double tracking_error);
+  // of every joint (rad, m). Arms that are left out are as good as gone, with what they hold.
+  // Throws std::invalid_argument unless rest has an entry for each joint.
+  LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration& rest, double tracking_error,
+              const std::vector<ArmId>& left_out = {});
 
   enum class Kind {
     free,       // proven for the whole line

@@ -7,7 +7,7 @@ namespace armloom {
 
 void Lanes::add(const Record& record) {
   if (record.before) is_stale_ = true;
-  if (is_stale_) return;
+  if (is_stale_ || record.job.is_unplanned()) return;
   WaitingLeg leg = record.leg;
   leg.after = record.job.after;
   sequence_.append(std::move(leg));
@@ -32,7 +32,7 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
     for (JobId id : book.queues()[arm]) {
       const Record& record = book.at(id);
       if (record.job.in<Queued>() != nullptr) {
-        waiting.insert(id);
+        if (!record.job.is_unplanned()) waiting.insert(id);
         continue;
       }
       for (std::size_t i = 0; i < record.leg.arms.size(); ++i) {

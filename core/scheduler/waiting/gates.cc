@@ -63,6 +63,11 @@ void add_after(const State& state, const Record& record, Edges& edges) {
   }
 }
 
+Closed plan(const Turns&, const Record& record) {
+  if (!record.job.is_unplanned()) return std::nullopt;
+  return only(Wait{.kind = Wait::Kind::plan});
+}
+
 Closed lets_pass(const Turns& turns, const Record& record) {
   if (!turns.state().jobs.lets_another_pass(record)) return std::nullopt;
   return order(*record.lets_pass);
@@ -119,9 +124,13 @@ struct Gate {
 
 constexpr Gate kGates[] = {
     {GateKind::behind, behind, nullptr, true},  // edges: add_behind(), queue by queue
-    {GateKind::after, after, add_after},          {GateKind::lets_pass, lets_pass, add_lets_pass},
-    {GateKind::stop, stop, nullptr, true},        {GateKind::place, place},
-    {GateKind::conflict, conflict, add_conflict}, {GateKind::aging, aging},
+    {GateKind::after, after, add_after},
+    {GateKind::plan, plan},
+    {GateKind::lets_pass, lets_pass, add_lets_pass},
+    {GateKind::stop, stop, nullptr, true},
+    {GateKind::place, place},
+    {GateKind::conflict, conflict, add_conflict},
+    {GateKind::aging, aging},
 };
 
 }  // namespace

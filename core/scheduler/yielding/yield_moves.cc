@@ -169,6 +169,7 @@ bool is_counted_on(const State& state, const Record& own) {
   const auto of_a_client = [&](JobId id) { return !state.jobs.at(id).job.system_job; };
   const auto next = std::find_if(std::ranges::find(queue, own.job.id), queue.end(), of_a_client);
   if (next == queue.end()) return false;
+  if (state.jobs.at(*next).job.goal) return false;  // begins wherever the arm stands
   if (own.job.has_started()) return true;
   return state.arms.begins_elsewhere(*state.cell, *state.jobs.at(*next).job.trajectory, arm)
       .has_value();

@@ -111,6 +111,8 @@ export interface components {
             progress: number;
             /** @description Of the trajectory */
             duration_s: number;
+            /** @description Of a goal: whether its way is planned; until then duration_s is an estimate */
+            planned?: boolean;
             /** @description Brakes on its path */
             stopping: boolean;
             /** @description Empty when it does not wait */
@@ -187,6 +189,17 @@ export interface components {
                 /** @description What was found there */
                 value: string | number | null;
             }[];
+            /** @description Where there is no plan: which come too close, ... */
+            links?: [
+                string,
+                string
+            ];
+            /** @description ... and how close; zero or less in contact */
+            clearance_m?: number;
+            /** @description Of a pose that is not reached: joint positions that come nearest */
+            nearest?: number[];
+            /** @description What planning took */
+            evaluations?: number;
         };
         /** @description The answer of the admission code to: what if this job came now? */
         Verdict: {
@@ -470,7 +483,7 @@ export interface components {
         /** @description What a job waits for, with the evidence. */
         Wait: {
             /** @enum {string} */
-            kind: "job" | "arm" | "object" | "order" | "capacity" | "stop";
+            kind: "job" | "arm" | "object" | "order" | "capacity" | "stop" | "plan";
             /** @description The other job */
             id: string | null;
             /** @description The other arm */
@@ -490,7 +503,7 @@ export interface components {
          * @description A closed list; core/scheduler/README.md explains each.
          * @enum {string}
          */
-        Reason: "completed" | "canceled_by_client" | "backlog_timeout" | "start_mismatch" | "self_collision" | "predecessor_failed" | "arm_fault" | "overrun" | "server_restart" | "deadlock";
+        Reason: "completed" | "canceled_by_client" | "backlog_timeout" | "start_mismatch" | "self_collision" | "predecessor_failed" | "arm_fault" | "overrun" | "server_restart" | "deadlock" | "no_plan";
         DiagramSide: {
             id: components["schemas"]["JobId"];
             state: components["schemas"]["JobState"];

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/model/cell.h"
+
+namespace armloom {
+
+// Where one arm is to be, and how fast it goes there. Plain data.
+struct LinkTarget {
+  LinkId link;
+  Eigen::Isometry3d X_WL;  // in the world (m)
+};
+struct MotionGoal {
+  ArmId arm;
+  // Of the arm's joints, in its order (rad, m); or of one of its links.
+  std::variant<Eigen::VectorXd, LinkTarget> to;
+  double speed = 1.0;  // share of the joints' velocities, in (0, 1]
+};
+
+// "How does the arm get there?" Plain data: complete, self-contained, safe to hand to another
+// thread.
+struct PlanQuestion {
+  MotionGoal goal;
+  Configuration at;  // where every joint stands: the arm's own are the start
+  // Arms that do not rest there for good: a way past them is looked for first, and where there is
+  // none, one as if they were gone.
+  std::vector<ArmId> may_move = {};
+  std::uint64_t seed = 1;
+};
+
+}  // namespace armloom

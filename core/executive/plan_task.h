@@ -1,0 +1,47 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/collision/scene/planning_scene.h"
+#include "core/executive/events.h"
+#include "core/planning/answer_plan.h"
+#include "core/planning/plan_goal.h"
+
+namespace armloom {
+
+// A plan that is asked for. `cancelled` may be set by any thread; what asked for it, or the pool
+// when it ends.
+struct PlanTask {
+  PlanQuestion question;
+  PlanningScenePtr scene;
+  std::shared_ptr<std::atomic<bool>> cancelled;
+  std::function<void(PlanAnswer)> done;
+};
+
+// What a client asks: how an arm would get somewhere.
+struct PlanInquiry {
+  std::string arm;
+  PlanGoal to;
+  std::optional<PlanGoal> from;  // absent: where the arm will be when what is admitted has run
+  std::uint64_t seed = 1;
+  double speed = 1.0;  // MotionGoal::speed
+};
+
+// A motion that nobody has been asked to make.
+struct PlanView {
+  PlannedMotion motion;
+  double length;    // in joint space (rad, m), ...
+  double straight;  // ... and of the straight line
+  // What would become of it as a job now; or why that is not told: it begins elsewhere.
+  Result<CheckView> verdict;
+};
+
+// The plan, or why there is none.
+using PlanOutcome = tl::expected<PlanView, PlanRefusal>;
+
+}  // namespace armloom

@@ -1,0 +1,78 @@
+#include "core/planning/plan_goal.h"
+
+#include <algorithm>
+
+#include "core/base/nearest_name.h"
+
+namespace armloom {
+namespace {
+
+tl::unexpected<Problems> fault(const char* slug, std::string pointer, std::string detail,
+                               const std::string& value) {
+  return failure(Problem{ProblemKind::invalid, slug, std::move(pointer), std::move(detail), value});
+}
+
+Result<Eigen::VectorXd> named_state(const Arm& arm, const std::string& name) {
+  if (const auto state = arm.named_states.find(name); state != arm.named_states.end()) {
+    return state->second;
+  }
+  if (name == "home") return arm.home;
+  std::string known = "home";
+  for (const auto& [state, q] : arm.named_states) {
+    if (state != "home") known += ", " + state;
+  }
+  return fault("unknown-state", "/named",
+               "arm " + arm.name + " has no named state " + name +
+                   did_you_mean(name, arm.named_states) + "; it has " + known,
+               name);
+}
+
+Result<LinkTarget> target_of(const Cell& cell, const Arm& arm, const PlanPose& pose) {
+  if (pose.link) {
+    if (const auto link = cell.find_link(*pose.link)) return LinkTarget{*link, pose.X_WL};
+    return fault("unknown-link", "/pose/link", "the cell has no link " + *pose.link, *pose.link);
+  }
+  const auto last = std::ranges::find_if(
+      arm.links, [&](LinkId id) { return cell.link(id).driver == arm.joints.back(); });
+  return LinkTarget{*last, pose.X_WL};
+}
+
+}  // namespace
+
+Result<ArmId> find_arm(const Cell& cell, const std::string& name) {
+  if (const auto arm = cell.find_arm(name)) return *arm;
+  std::string known;
+  for (const Arm& arm : cell.arms) known += (known.empty() ? "" : ", ") + arm.name;
+  return fault("unknown-arm", "", "the cell has no arm " + name + "; it has " + known, name);
+}
+
+Result<Eigen::VectorXd> joints_of(const Cell& cell, ArmId id, const PlanGoal& said) {
+  const Arm& arm = cell.arm(id);
+  if (said.named) return named_state(arm, *said.named);
+  if (!said.joints) {
+    return fault("not-served", "/pose",
+                 "a pose does not say where each joint stands: give joints or a named state",
+                 "pose");
+  }
+  if (said.joints->size() != arm.joints.size()) {
+    return fault("size-mismatch", "/joints",
+                 "arm " + arm.name + " has " + std::to_string(arm.joints.size()) +
+                     " joints, found " + std::to_string(said.joints->size()) + " positions",
+                 std::to_string(said.joints->size()));
+  }
+  return Eigen::Map<const Eigen::VectorXd>(said.joints->data(),
+                                           static_cast<Eigen::Index>(said.joints->size()));
+}
+
+Result<MotionGoal> goal_of(const Cell& cell, ArmId arm, const PlanGoal& said) {
+  if (said.pose) {
+    auto target = target_of(cell, cell.arm(arm), *said.pose);
+    if (!target) return failure(std::move(target.error()));
+    return MotionGoal{.arm = arm, .to = *std::move(target)};
+  }
+  auto q = joints_of(cell, arm, said);
+  if (!q) return failure(std::move(q.error()));
+  return MotionGoal{.arm = arm, .to = *std::move(q)};
+}
+
+}  // namespace armloom

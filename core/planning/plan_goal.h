@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/problem.h"
+#include "core/coordination/plan_question.h"
+
+namespace armloom {
+
+// Where an arm is to be, as people say it: exactly one of the three.
+struct PlanPose {
+  std::optional<std::string> link;  // with prefix; absent: that of the arm's last joint
+  Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();  // in the world (m)
+};
+struct PlanGoal {
+  std::optional<std::vector<double>> joints;  // rad or m, in the order of the arm's group
+  std::optional<std::string> named;           // a named state of the SRDF, or "home"
+  std::optional<PlanPose> pose;
+};
+
+// Problems: pointer "".
+[[nodiscard]] Result<ArmId> find_arm(const Cell& cell, const std::string& name);
+// The same in the cell's terms. Problems: a state or link that there is not, another number of
+// joints; pointers are below the goal ("/named"). Limits are the planner's to look at.
+[[nodiscard]] Result<MotionGoal> goal_of(const Cell& cell, ArmId arm, const PlanGoal& said);
+// Of joints or a named state; a pose does not say where each joint stands.
+[[nodiscard]] Result<Eigen::VectorXd> joints_of(const Cell& cell, ArmId arm, const PlanGoal& said);
+
+}  // namespace armloom

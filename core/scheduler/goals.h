@@ -1,0 +1,23 @@
+#pragma once
+
+#include "core/scheduler/state.h"
+
+namespace armloom {
+
+// Jobs that say where an arm is to go (Submit::goal). Each waits at a gate of its own until its
+// trajectory is planned from where the arm will be at the end of what is before it, beside all else
+// where the jobs before it leave that; then it is a job like any other. Until then its trajectory
+// is an estimate.
+
+// Asks for what has no plan (PlanMotion), or one that no longer fits: the arm will be elsewhere, or
+// the scene is another one. A job is given kPlansMax tries in a row, then it fails. Whether one
+// did: then others may begin elsewhere.
+[[nodiscard]] bool plan_goals(State& state);
+inline constexpr int kPlansMax = 5;
+// Of each arm's jobs the first ones are planned.
+inline constexpr std::size_t kPlannedAhead = 16;
+
+// An answer. One that no longer fits is left to plan_goals().
+void take_plan(State& state, const PlanMade& answer);
+
+}  // namespace armloom

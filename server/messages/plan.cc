@@ -1,0 +1,104 @@
+#include "server/messages/plan.h"
+
+#include "server/codec/object_format.h"
+#include "server/codec/read_text.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/told_part.h"
+#include "server/codec/value_formats.h"
+#include "server/messages/job.h"
+#include "server/messages/plan_goal.h"
+#include "server/messages/trajectory_request.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+// What is said is what may be posted: one schema for both.
+class PostedTrajectory final : public Format<TrajectoryRequest> {
+ public:
+  void read(const JsonNode&, TrajectoryRequest&) const override {}
+  void write(JsonWriter& out, const TrajectoryRequest& trajectory) const override {
+    format_->write(out, trajectory);
+  }
+  Schema schema(Way) const override { return format_->schema(Way::in); }
+
+ private:
+  FormatPtr<TrajectoryRequest> format_ = trajectory_request_format();
+};
+
+}  // namespace
+
+FormatPtr<PlanInquiry> plan_inquiry_format() {
+  using Inquiry = PlanInquiry;
+  static const auto format = formats::named(
+      "PlanRequest", "",
+      object<Inquiry>({
+          required("arm", &Inquiry::arm, name(), "That is to move"),
+          required("to", &Inquiry::to, plan_goal_format(), "Where it is to be"),
+          field("start", &Inquiry::from, plan_goal_format(),
+                "Where it begins, as joints or a named state; absent: where it will be when all "
+                "jobs that are accepted have run"),
+          field("seed", &Inquiry::seed, count(), "Of the search: the same one repeats the plan"),
+          field("velocity_scaling_factor", &Inquiry::speed, number({0.001, 1.0}),
+                "The share of its speed at which it goes"),
+      }));
+  return format;
+}
+
+Result<PlanInquiry> read_plan_inquiry_text(std::string_view text) {
+  return read_text(*plan_inquiry_format(), text);
+}
+
+FormatPtr<PlanView> plan_format() {
+  using View = PlanView;
+  static const auto format = formats::named(
+      "Plan", "A motion, not executed.",
+      object<View>({
+          told(
+              "trajectory", [](const View& plan) { return &plan.motion.timed.request; },
+              FormatPtr<TrajectoryRequest>(std::make_shared<PostedTrajectory>()),
+              "As POST /jobs takes it"),
+          told(
+              "duration_s",
+              [](const View& plan) { return plan.motion.timed.trajectory->duration(); },
+              seconds(kPositive)),
+          told("length", &View::length, number({0.0}), "Of the way in joint space, rad or m"),
+          told("straight", &View::straight, number({0.0}), "The same of the straight line"),
+          told(
+              "evaluations", [](const View& plan) { return plan.motion.way.evaluations; }, count(),
+              "Stretches of lines that were looked at"),
+          told_if(
+              "verdict",
+              [](const View& plan) {
+                return plan.verdict ? std::optional(*plan.verdict) : std::nullopt;
+              },
+              verdict_format(), "What POST /check says of it now"),
+          told_if(
+              "not_judged",
+              [](const View& plan) {
+                return plan.verdict ? std::nullopt
+                                    : std::optional(document_of(plan.verdict.error()));
+              },
+              problem_format(), "Instead: why POST /jobs would refuse it now"),
+      }));
+  return format;
+}
+
+ProblemDocument document_of(const PlanRefusal& refusal) {
+  const std::string slug = reason_name(refusal.reason);
+  ProblemDocument document{.type = problem_type(slug),
+                           .title = problem_title(slug),
+                           .status = 422,
+                           .detail = refusal.detail,
+                           .evaluations = refusal.evaluations};
+  if (refusal.proximity) {
+    document.links = {refusal.proximity->body_a, refusal.proximity->body_b};
+    document.clearance_m = refusal.proximity->clearance_m;
+  }
+  if (refusal.nearest) document.nearest = {refusal.nearest->begin(), refusal.nearest->end()};
+  return document;
+}
+
+}  // namespace armloom

@@ -1,0 +1,192 @@
+// Jobs that say where to go: planned on the way, then jobs like any other.
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+JobRequest move_to(const std::string& arm, double to_m, std::string key) {
+  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
+  request.arm = arm;
+  request.move_to = PlanGoal{.joints = std::vector{to_m}, .named = {}, .pose = {}};
+  return request;
+}
+
+CollisionObject box_at(const std::string& name, double x, double y) {
+  CollisionObject object{.name = name, .shape = Box{{0.1, 0.1, 0.1}}};
+  object.X_WO.translation() = Eigen::Vector3d(x, y, 0.0);
+  return object;
+}
+
+class Goals : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { cell.emplace(crossing_description(), GetParam()); }
+  void expect_at(double x, double y) const {
+    EXPECT_NEAR(cell->log.last[0], x, 1e-3);
+    EXPECT_NEAR(cell->log.last[1], y, 1e-3);
+  }
+  std::optional<Crossing> cell;
+};
+INSTANTIATE_TEST_SUITE_P(Policies, Goals, ::testing::ValuesIn(known_policies()));
+
+TEST_P(Goals, AJobWaitsForItsPlanAndThenGoesThere) {
+  const JobView accepted = cell->submit(move_to("x", 0.5, "there"));
+  EXPECT_EQ(accepted.planned, false);
+  EXPECT_EQ(accepted.arms, std::vector<std::string>{"x"});
+  EXPECT_EQ(cell->job("there").waits_on.at(0).kind, Wait::Kind::plan);
+  cell->run_to_the_end(at(10s));
+  EXPECT_EQ(cell->job("there").state, JobState::succeeded);
+  EXPECT_EQ(cell->job("there").planned, true);
+  expect_at(0.5, -1.0);
+}
+
+TEST_P(Goals, OneBehindAnotherBeginsWhereThatEnds) {
+  cell->submit(move_to("x", 0.5, "a"));
+  cell->submit(move_to("x", -0.5, "b"));
+  cell->submit(slide("x", -0.5, 0.3, 1.0, "c"));
+  cell->run_to_the_end(at(20s));
+  for (const char* key : {"a", "b", "c"}) EXPECT_EQ(cell->job(key).state, JobState::succeeded);
+  expect_at(0.3, -1.0);
+}
+
+TEST_P(Goals, TwoThatCrossBothArriveAndNeverTouch) {
+  cell->submit(move_to("x", 1.0, "x"));
+  cell->submit(move_to("y", 1.0, "y"));
+  cell->run_to_the_end(at(20s));
+  expect_at(1.0, 1.0);
+  EXPECT_GT(cell->log.closest_m, 0.0);
+}
+
+TEST_P(Goals, OneThatIsBehindAnObjectFailsWithThePlannersReason) {
+  ASSERT_TRUE(cell->simulation->executive().add_object(box_at("post", 0.5, 0.0)));
+  cell->submit(move_to("x", 0.5, "into it"));
+  cell->run_to_the_end(at(10s));
+  const JobView failed = cell->job("into it");
+  EXPECT_EQ(failed.reason, Reason::no_plan);
+  EXPECT_NE(failed.detail.find("post"), std::string::npos) << failed.detail;
+  expect_at(-1.0, -1.0);
+}
+
+// The plan was made without the object, and is made again with it.
+TEST_P(Goals, APlanOfAnotherSceneIsMadeAgain) {
+  cell->submit(move_to("x", 0.5, "late"));
+  ASSERT_TRUE(cell->simulation->executive().add_object(box_at("post", 0.5, 0.0)));
+  cell->run_to_the_end(at(10s));
+  EXPECT_EQ(cell->job("late").reason, Reason::no_plan);
+  expect_at(-1.0, -1.0);
+}
+
+TEST_P(Goals, APlanFromElsewhereIsMadeAgain) {
+  cell->submit(slide("x", -1, 0, 2, "first"));
+  cell->submit(move_to("x", 0.5, "then"));
+  cell->run_until(at(1s));
+  ASSERT_TRUE(cell->simulation->executive().cancel("first"));
+  cell->run_to_the_end(at(20s));
+  EXPECT_EQ(cell->job("first").state, JobState::canceled);
+  EXPECT_EQ(cell->job("then").state, JobState::succeeded) << cell->job("then").detail;
+  expect_at(0.5, -1.0);
+}
+
+TEST_P(Goals, WhatIsBehindOneThatFailsIsToldAtOnce) {
+  ASSERT_TRUE(cell->simulation->executive().add_object(box_at("post", 0.5, 0.0)));
+  cell->submit(move_to("x", 0.5, "fails"));
+  cell->submit(slide("x", 0.5, 0.0, 1.0, "cannot begin"));
+  cell->submit(move_to("x", 0.0, "begins anywhere"));
+  cell->run_to_the_end(at(10s));
+  EXPECT_EQ(cell->job("fails").reason, Reason::no_plan);
+  EXPECT_EQ(cell->job("cannot begin").reason, Reason::start_mismatch);
+  EXPECT_EQ(cell->job("begins anywhere").state, JobState::succeeded);
+  expect_at(0.0, -1.0);
+}
+
+// Nobody waits in vain where what it was told has changed as often as it was asked.
+TEST_P(Goals, ASceneThatNeverStaysEndsTheTries) {
+  cell->submit(move_to("x", 0.5, "restless"));
+  for (int i = 0; i < 20 && !cell->simulation->executive().all_ended(); ++i) {
+    const std::string name = "fly " + std::to_string(i);
+    ASSERT_TRUE(cell->simulation->executive().add_object(box_at(name, 3.0, 3.0 + i)));
+    cell->run_until(cell->simulation->now() + kSimulatedPlanning);
+  }
+  EXPECT_EQ(cell->job("restless").reason, Reason::no_plan);
+}
+
+TEST_P(Goals, OneThatIsReachedAlreadyIsDone) {
+  cell->submit(move_to("x", -1.0, "here"));
+  cell->run_to_the_end(at(10s));
+  EXPECT_EQ(cell->job("here").state, JobState::succeeded) << cell->job("here").detail;
+}
+
+TEST_P(Goals, OneThatIsCanceledBeforeItsPlanIsThereStaysCanceled) {
+  cell->submit(move_to("x", 0.5, "never"));
+  ASSERT_TRUE(cell->simulation->executive().cancel("never"));
+  cell->run_until(at(2s));
+  EXPECT_EQ(cell->job("never").state, JobState::canceled);
+  expect_at(-1.0, -1.0);
+}
+
+// Who stands there may leave: that is for the schedule to see, as with a trajectory.
+TEST_P(Goals, WhereAnotherArmStandsItWaitsForThatOne) {
+  cell->submit(slide("y", -1, 0, 2, "in the way"));
+  cell->run_until(at(3s));
+  cell->submit(move_to("x", 0.5, "passes"));
+  cell->run_until(at(6s));
+  const JobView waits = cell->job("passes");
+  EXPECT_EQ(waits.state, JobState::backlogged) << waits.detail;
+  ASSERT_FALSE(waits.waits_on.empty());
+  EXPECT_EQ(waits.waits_on[0].arm, "y");
+  cell->submit(move_to("y", 1.0, "leaves"));
+  cell->run_to_the_end(at(20s));
+  EXPECT_EQ(cell->job("passes").state, JobState::succeeded);
+  expect_at(0.5, 1.0);
+}
+
+TEST_P(Goals, APoseIsReachedAndTheNextJobMayBeginThere) {
+  JobRequest pose{.key = "pose", .name = "", .trajectory = {}};
+  pose.arm = "x";
+  pose.move_to = PlanGoal{.joints = {}, .named = {}, .pose = PlanPose{}};
+  pose.move_to->pose->X_WL.translation().x() = 0.25;
+  cell->submit(pose);
+  cell->submit(slide("x", 0.25, 0.5, 1.0, "on"));
+  cell->submit(slide("x", 0.5, 0.0, 1.0, "and back"));
+  cell->run_to_the_end(at(20s));
+  for (const char* key : {"pose", "on", "and back"}) {
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail;
+  }
+  expect_at(0.0, -1.0);
+}
+
+TEST_P(Goals, TheSameJobsGoTheSameWayTwice) {
+  const auto run = [&] {
+    Crossing again(crossing_description(), GetParam());
+    again.submit(move_to("x", 1.0, "x"));
+    again.submit(move_to("y", 0.0, "y"));
+    again.submit(move_to("y", 1.0, "y on"));
+    again.run_to_the_end(at(30s));
+    std::vector<std::int64_t> times;
+    for (const Event& event : again.log.events)
+      times.push_back(event.time.time_since_epoch().count());
+    return times;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST_P(Goals, WhatCanNeverBeIsRefusedAtOnce) {
+  const auto refused = [&](JobRequest request, const std::string& pointer) {
+    const auto answer = cell->simulation->executive().submit(std::move(request));
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().front().pointer, pointer) << answer.error().front().detail;
+  };
+  refused(move_to("z", 0.5, "a"), "/arm");
+  refused(move_to("x", 7.0, "b"), "/move_to/joints/0");
+  JobRequest named = move_to("x", 0.0, "c");
+  named.move_to = PlanGoal{.joints = {}, .named = "nowhere", .pose = {}};
+  refused(named, "/move_to/named");
+  JobRequest any = move_to("x", 0.0, "d");
+  any.order = JobOrder::any;
+  refused(any, "/order");
+  JobRequest both = slide("x", -1, 0, 2, "e");
+  both.arm = "x";
+  refused(both, "/arm");
+}
+
+}  // namespace
+}  // namespace armloom

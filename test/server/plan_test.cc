@@ -1,0 +1,169 @@
+// POST /plan, over the loopback.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <thread>
+
+#include "server/http/http_server.h"
+#include "test/server/panda_jobs.h"
+#include "test/server/running_server.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+using test::RunningServer;
+
+class PlanOverHttp : public RunningServer {
+ protected:
+  test::Answer plan(const json& body) { return post("/api/v1/plan", body.dump()); }
+  json planned(const json& body) {
+    const auto answer = plan(body);
+    EXPECT_EQ(answer.status, 200) << answer.body;
+    return answer.json();
+  }
+};
+
+TEST_F(PlanOverHttp, AnswersATrajectoryThatPostJobsTakesAsItIs) {
+  start(20.0);
+  const json plan = planned({{"arm", "left"}, {"to", {{"named", "ready"}}}});
+  EXPECT_EQ(plan["verdict"]["verdict"], "free") << plan["verdict"];
+  EXPECT_GE(plan["length"].get<double>(), plan["straight"].get<double>() - 1e-9);
+  EXPECT_GT(plan["evaluations"], 0);
+  EXPECT_EQ(get("/api/v1/jobs").json()["jobs"].size(), 0U) << "it is not executed";
+  test::Listener listener(port());
+  const json job = {{"id", "planned"}, {"trajectory", plan["trajectory"]}};
+  ASSERT_EQ(post("/api/v1/jobs", job.dump()).status, 202);
+  const json done = until(listener, "planned", "succeeded");
+  EXPECT_NEAR(done["duration_s"], plan["duration_s"], 1e-6);
+}
+
+TEST_F(PlanOverHttp, BeginsWhereTheAcceptedJobsWillLeaveTheArm) {
+  start(1.0);
+  const json first = planned({{"arm", "left"}, {"to", {{"named", "ready"}}}});
+  const json job = {{"id", "first"}, {"trajectory", first["trajectory"]}};
+  ASSERT_EQ(post("/api/v1/jobs", job.dump()).status, 202);
+  const json next = planned({{"arm", "left"}, {"to", {{"named", "home"}}}});
+  const auto& ends = first["trajectory"]["points"].back()["positions"];
+  const auto& begins = next["trajectory"]["points"].front()["positions"];
+  for (std::size_t j = 0; j < ends.size(); ++j) EXPECT_NEAR(ends[j], begins[j], 1e-9);
+}
+
+TEST_F(PlanOverHttp, OfAnotherStartIsPlannedAndSaidNotToBeJudged) {
+  start(1.0);
+  const json plan =
+      planned({{"arm", "left"}, {"to", {{"named", "home"}}}, {"start", {{"named", "ready"}}}});
+  EXPECT_FALSE(plan.contains("verdict"));
+  EXPECT_EQ(plan["not_judged"]["type"], "urn:armloom:problem:start-mismatch");
+}
+
+TEST_F(PlanOverHttp, RepeatsForASeedAndGoesSlowerWhenAsked) {
+  start(1.0);
+  const json body = {{"arm", "right"}, {"to", {{"named", "extended"}}}, {"seed", 7}};
+  json plan = planned(body), again = planned(body);
+  EXPECT_EQ(plan["trajectory"], again["trajectory"]);
+  json slow = body;
+  slow["velocity_scaling_factor"] = 0.25;
+  EXPECT_GT(planned(slow)["duration_s"], 1.5 * plan["duration_s"].get<double>());
+}
+
+TEST_F(PlanOverHttp, SaysWhyThereIsNone) {
+  start(1.0);
+  const auto in_table =
+      plan({{"arm", "left"}, {"to", {{"joints", {0.0, 1.7, 0.0, -1.0, 0.0, 1.0, 0.0}}}}});
+  EXPECT_EQ(in_table.status, 422);
+  const json collides = in_table.json();
+  EXPECT_EQ(collides["type"], "urn:armloom:problem:goal-in-collision");
+  EXPECT_EQ(collides["links"].size(), 2U);
+  EXPECT_LT(collides["clearance_m"], 0.02);
+  const json far = plan({{"arm", "left"}, {"to", {{"pose", {{"xyz", {3, 0, 0.5}}}}}}}).json();
+  EXPECT_EQ(far["type"], "urn:armloom:problem:goal-not-reached");
+  EXPECT_EQ(far["nearest"].size(), 7U);
+}
+
+TEST_F(PlanOverHttp, RefusesWhatItDoesNotKnowWithItsPlace) {
+  start(1.0);
+  const json arm = plan({{"arm", "lft"}, {"to", {{"named", "ready"}}}}).json();
+  EXPECT_EQ(arm["pointer"], "/arm");
+  const json state = plan({{"arm", "left"}, {"to", {{"named", "redy"}}}}).json();
+  EXPECT_EQ(state["pointer"], "/to/named");
+  EXPECT_EQ(state["status"], 422);
+  const json pose =
+      plan({{"arm", "left"}, {"to", {{"named", "ready"}}}, {"start", {{"pose", json::object()}}}})
+          .json();
+  EXPECT_EQ(pose["pointer"], "/start/pose");
+}
+
+class GoalsOverHttp : public RunningServer {};
+
+TEST_F(GoalsOverHttp, AJobToANamedStateIsPlannedToldAndDone) {
+  start(20.0);
+  test::Listener listener(port());
+  const json body = {{"id", "go"},
+                     {"arm", "left"},
+                     {"move_to", {{"named", "ready"}}},
+                     {"velocity_scaling_factor", 0.1}};
+  const auto accepted = post("/api/v1/jobs", body.dump());
+  ASSERT_EQ(accepted.status, 202) << accepted.body;
+  EXPECT_EQ(accepted.json()["planned"], false);
+  EXPECT_EQ(accepted.json()["arms"], json::array({"left"}));
+  const json waits =
+      next_job(listener, "go", [](const json& job) { return job["planned"] == false; });
+  EXPECT_EQ(waits["waits_on"][0]["kind"], "plan");
+  const json planned =
+      next_job(listener, "go", [](const json& job) { return job["planned"] == true; });
+  EXPECT_TRUE(planned["result"].is_null());
+  EXPECT_EQ(until(listener, "go", "succeeded")["result"]["reason"], "completed");
+  const json full = post("/api/v1/plan",
+                         R"({"arm": "left", "start": {"named": "home"}, "to": {"named": "ready"}})")
+                        .json();
+  EXPECT_GT(planned["duration_s"], 1.5 * full["duration_s"].get<double>()) << "slowly";
+}
+
+TEST_F(GoalsOverHttp, AGoalThatIsNotReachedFailsTheJobWithThePlannersReason) {
+  start(20.0);
+  test::Listener listener(port());
+  const json body = {{"id", "far"}, {"arm", "left"}, {"move_to", {{"pose", {{"xyz", {3, 0, 1}}}}}}};
+  ASSERT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
+  const json failed = until(listener, "far", "failed");
+  EXPECT_EQ(failed["result"]["reason"], "no_plan");
+  EXPECT_NE(failed["result"]["detail"].get<std::string>().find("does not reach"),
+            std::string::npos);
+}
+
+TEST_F(GoalsOverHttp, OneOfAGoalAndATrajectoryIsGiven) {
+  start(1.0);
+  json both = test::move("left", test::kHome, test::kMiddle);
+  both["move_to"] = {{"named", "ready"}};
+  EXPECT_EQ(post("/api/v1/jobs", both.dump()).status, 422);
+  const json no_arm = {{"move_to", {{"named", "ready"}}}};
+  EXPECT_EQ(post("/api/v1/jobs", no_arm.dump()).json()["pointer"], "/arm");
+}
+
+// A verb that never answers is told that nobody waits for it any more.
+TEST(Http, ARequestKnowsWhenItsClientHasGone) {
+  auto http = HttpServer::listen("127.0.0.1", 0, 4);
+  ASSERT_TRUE(http);
+  std::promise<std::shared_ptr<std::atomic<bool>>> asked;
+  Site site;
+  site.handle = [&](const Request& request, const Respond&) { asked.set_value(request.gone); };
+  site.refuse_unread = [](const Request&) { return std::nullopt; };
+  std::thread server([&] { (*http)->run(site, false); });
+  std::shared_ptr<std::atomic<bool>> gone;
+  {
+    test::Wire wire((*http)->port());
+    ASSERT_TRUE(wire.send(test::request_text("GET", "/", "", "application/json")));
+    gone = asked.get_future().get();
+    EXPECT_FALSE(*gone);
+  }
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!*gone && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+  EXPECT_TRUE(*gone);
+  (*http)->stop();
+  server.join();
+}
+
+}  // namespace
+}  // namespace armloom
