@@ -27,6 +27,9 @@ struct Submit {
   bool system_job = false;        // the caller's own: in a ring it gives way to jobs of clients
   // Jobs of one arm that say so, and begin and end at one place, may be taken in another order.
   bool any_order = false;
+  // It waited when a former run ended: whether it can begin where its arms stand is not looked at
+  // while one of them is stopped, but when they are resumed.
+  bool is_restored = false;
   // The same work by one of several arms, `trajectory` first; none, or two or more. Each moves one
   // arm, of which no other one is, and ends where it begins.
   std::vector<TrajectoryPtr> alternatives = {};
@@ -76,8 +79,11 @@ struct Resume {
 };
 // The planning scene is another one: what was judged on the old one is judged again.
 struct SceneChanged {};
-// The server ends: every job that has not ended is interrupted. Sent when the arms are at rest.
-struct Interrupt {};
+// The server ends: every job that has not ended is interrupted; or only those that have begun,
+// where the others are kept for the next run. Sent when the arms are at rest.
+struct Interrupt {
+  bool keeps_waiting = false;
+};
 // A time asked for by WakeAt has come. Every other input does the same work besides.
 struct Wake {};
 

@@ -81,6 +81,7 @@ Record record_of(State& state, const Submit& job) {
                         .after = job.after,
                         .system_job = job.system_job,
                         .any_order = job.any_order,
+                        .is_restored = job.is_restored,
                         .alternatives = job.alternatives},
                 .leg = state.arms.leg_of(*state.cell, job.job, *motion),
                 .turn = job.job,
@@ -123,8 +124,11 @@ void end(State& state, Record& record, JobState how, Reason reason, std::string 
   }
 }
 
-void interrupt(State& state) {
-  const std::vector<JobId> ids(state.jobs.active().begin(), state.jobs.active().end());
+void interrupt(State& state, bool keeps_waiting) {
+  std::vector<JobId> ids(state.jobs.active().begin(), state.jobs.active().end());
+  if (keeps_waiting) {
+    std::erase_if(ids, [&](JobId id) { return !state.jobs.at(id).job.has_started(); });
+  }
   for (JobId id : ids) state.jobs.at(id).job.after.clear();  // none fails for another's sake
   for (JobId id : ids) {
     Record& record = state.jobs.at(id);
