@@ -1,11 +1,13 @@
 #include "server/service.h"
 
+#include <atomic>
 #include <chrono>
 #include <utility>
 
 #include "core/executive/real_time_loop.h"
 #include "server/api/api.h"
 #include "server/codec/stream_id.h"
+#include "server/durable/restart.h"
 #include "server/http/http_server.h"
 #include "server/http/static_files.h"
 #include "server/hub/broadcast.h"
@@ -23,6 +25,7 @@ class Service::Impl {
     if (!http) return std::move(http.error());
     http_ = std::move(*http);
     if (options_.data) {
+      if (auto problems = open_store(*options_.data)) return problems;
       auto recording = Recording::create(Recording::unused_folder(*options_.data), source, *cell,
                                          options_.record_states);
       if (!recording) return std::move(recording.error());
@@ -37,18 +40,29 @@ class Service::Impl {
     const auto post = [http_server = http_.get()](std::function<void()> task) {
       http_server->post(std::move(task));
     };
-    broadcast_ = std::make_unique<Broadcast>(Broadcast::Parts{
-        cell, stream_, *clock_, hub_, recording_.get(), post, options_.alarm, *metrics_});
+    broadcast_ = std::make_unique<Broadcast>(Broadcast::Parts{cell, stream_, *clock_, hub_,
+                                                              recording_.get(), keeper_.get(), post,
+                                                              options_.alarm, *metrics_});
     ExecutiveOptions executive_options;
     executive_options.policy = options_.policy;
+    std::optional<Restart> restart;
+    if (keeper_) {
+      keeper_->serve(*clock_, post);
+      auto prepared = Restart::prepare(*keeper_);
+      if (!prepared) return std::move(prepared.error());
+      restart = std::move(*prepared);
+      executive_options.starts = keeper_.get();
+      executive_options.first_job = JobId{keeper_->store().leftover().last_number + 1};
+    }
     auto loop =
         RealTimeLoop::start(cell, std::move(executive_options), options_.speed, *broadcast_);
     if (!loop) return std::move(loop.error());
     loop_ = std::move(*loop);
+    if (restart) go_on(std::move(*restart), cell);
     const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
-    api_ = std::make_unique<Api>(
-        ApiParts{cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), post,
-                 [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_});
+    api_ = std::make_unique<Api>(ApiParts{
+        cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), post,
+        [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;
@@ -69,19 +83,24 @@ class Service::Impl {
     site.memory_max = options_.memory_max;
     site.read_time = options_.read_time;
     site.wind_down = [this](std::function<void()> done) {
-      loop_->post([done = std::move(done)](Executive& executive) {
-        executive.wind_down("the server ends", done);
+      const auto waiting = keeper_ ? Executive::Waiting::is_kept : Executive::Waiting::ends;
+      loop_->post([waiting, done = std::move(done)](Executive& executive) {
+        executive.wind_down("the server ends", waiting, done);
       });
     };
     site.end = [this] { hub_.end(); };
     http_->run(std::move(site), until_signal);
   }
 
+  ~Impl() { (void)close(); }
+
+  // The store first: what it has written it tells the loop.
   std::optional<std::string> close() {
+    const auto fault = keeper_ ? keeper_->store().close() : std::nullopt;
     loop_.reset();
-    if (!recording_) return std::nullopt;
-    recording_->close();
-    return recording_->fault();
+    if (recording_) recording_->close();
+    if (fault) return "jobs: " + fault->text;
+    return recording_ ? recording_->fault() : std::nullopt;
   }
 
   HttpServer& http() { return *http_; }
@@ -90,6 +109,32 @@ class Service::Impl {
   }
 
  private:
+  std::optional<Problems> open_store(const std::filesystem::path& folder) {
+    StoreOptions store_options = options_.store;
+    store_options.on_fault = [this](const StoreFault* fault) { store_fails(fault); };
+    auto keeper = JobKeeper::open(folder, std::move(store_options));
+    if (!keeper) return std::move(keeper.error());
+    keeper_ = std::move(*keeper);
+    return std::nullopt;
+  }
+
+  // On the store's thread. No arm is let go that could not be put down as moving.
+  void store_fails(const StoreFault* fault) {
+    const std::string text = fault != nullptr
+                                 ? "jobs cannot be stored: " + fault->text
+                                 : "jobs can be stored again; arms stay stopped until resumed";
+    if (options_.alarm) http_->post([this, text] { options_.alarm(text); });
+    if (fault == nullptr || !loop_is_there_) return;
+    loop_->post([text](Executive& executive) { executive.stop_all(text); });
+  }
+
+  void go_on(Restart restart, const CellPtr& cell) {
+    keeper_->runs_on(*loop_);
+    loop_is_there_ = true;
+    loop_->post([this, cell, restart = std::make_shared<Restart>(std::move(restart))](
+                    Executive& executive) { restart->go_on(executive, *cell, *keeper_); });
+  }
+
   Response answer_file(const Request& request) {
     if (!request.target.path.starts_with("/api/")) return files_.answer(request);
     return refusal_response({404, "not-found", "nothing is served at " + request.target.path,
@@ -103,6 +148,8 @@ class Service::Impl {
   std::optional<WallClock> clock_;
   Hub hub_;
   Router router_{refusal_response};
+  std::unique_ptr<JobKeeper> keeper_;
+  std::atomic<bool> loop_is_there_{false};  // what the store's thread asks
   std::unique_ptr<Recording> recording_;
   std::unique_ptr<Metrics> metrics_;
   std::unique_ptr<HttpServer> http_;

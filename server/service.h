@@ -13,6 +13,7 @@
 #include "core/base/problem.h"
 #include "core/model/cell.h"
 #include "server/recording/recording.h"
+#include "server/store/job_store.h"
 
 namespace armloom {
 
@@ -25,6 +26,7 @@ struct ServiceOptions {
   std::filesystem::path web;                     // the dashboard's files
   std::optional<std::filesystem::path> data;     // where a recording is written; one in
                                                  // it is kept (Recording::unused_folder)
+  StoreOptions store = {};                       // of the jobs in `data`
   bool record_states = false;                    // states.csv as well
   std::size_t connections_max = 4096;            // one more is refused with 503
   std::chrono::milliseconds keep_alive{15'000};  // of /events, when there are none

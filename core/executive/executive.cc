@@ -71,6 +71,7 @@ void Executive::Impl::step(const Input& input) {
   const std::vector<Effect> effects = decided(input);
   for (const Effect& effect : effects) carry_out(effect);
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
+  tell_stops();
   tell_queue();
 }
 
@@ -95,9 +96,9 @@ void Executive::Impl::carry_out(const Effect& effect) {
   } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
     ask_plan(*plan);
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
-    motions_.dispatch(*dispatch, scheduler_.find(dispatch->job)->trajectory);
+    this->dispatch(*dispatch);
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {
-    motions_.grant(*grant);
+    this->grant(*grant);
   } else if (const auto* aside = std::get_if<YieldMove>(&effect)) {
     note_aside(*aside);
   } else if (const auto* brake = std::get_if<Brake>(&effect)) {
@@ -142,7 +143,7 @@ void Executive::Impl::tick(TimePoint now) {
   tell_arms();
   tell_tick();
   if (wound_down_ && !any_moving()) {
-    step(Interrupt{});
+    step(Interrupt{keeps_waiting_});
     std::exchange(wound_down_, nullptr)();
   }
 }
@@ -265,9 +266,13 @@ void Executive::resume(const std::vector<ArmId>& arms) {
   impl_->tell(Alert{Alert::Level::info, "resumed: " + impl_->names_of(arms)});
   impl_->step(Resume{arms});
 }
-void Executive::wind_down(const std::string& cause, std::function<void()> done) {
+void Executive::wind_down(const std::string& cause, Waiting waiting, std::function<void()> done) {
   impl_->wound_down_ = std::move(done);
+  impl_->keeps_waiting_ = waiting == Waiting::is_kept;
   stop_all(cause);
+}
+std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
+  return impl_->restore(std::move(jobs));
 }
 void Executive::stop_all(const std::string& cause) { stop(impl_->all_arms(), cause); }
 void Executive::resume_all() { resume(impl_->all_arms()); }

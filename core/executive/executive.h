@@ -44,6 +44,8 @@ struct JobRequest {
   int priority = 0;
   std::optional<Duration> backlog_timeout;  // absent: the cell's
   std::vector<std::string> after;           // keys of jobs that have to succeed first
+  // Of those, the ones that are known to have succeeded, in a former run or long ago.
+  std::vector<std::string> succeeded = {};
 
   // The trajectory, or the alternatives, each with its place in the request ("/alternatives/0").
   struct PlacedMotion {
@@ -82,8 +84,27 @@ class Observer {
   // Told before on_tick() when it has changed: from this tick on no arm moves, or one does. At the
   // beginning arms count as moving.
   virtual void on_rest(bool /*at_rest*/) {}
+  // Other arms than before are stopped until they are resumed. None are at the beginning.
+  virtual void on_stops(const std::vector<ArmId>& /*stopped*/) {}
   // Every monitor period.
   virtual void on_state(const StateFrame& frame) = 0;
+};
+
+// Where it is put down that a job is about to move, before it does: whoever starts again after a
+// crash has none of them done twice. Called on the strand; must not block.
+class StartLog {
+ public:
+  virtual ~StartLog() = default;
+  // Of each job of a client once, before its first motion. Until `written` is called, on the
+  // strand, the job's arms have no authority to leave where they stand.
+  virtual void about_to_move(JobId job, std::function<void()> written) = 0;
+};
+
+// A job of a former run, with the id that it had.
+struct RestoredJob {
+  JobId id;
+  JobRequest request;
+  TimePoint submitted_at;  // before this run began: less than zero
 };
 
 struct ExecutiveOptions {
@@ -92,6 +113,8 @@ struct ExecutiveOptions {
   std::uint64_t seed = 1;                         // of the simulated arms' noise
   std::size_t ended_kept = 1000;                  // ended jobs that stay readable
   std::size_t waiting_max = 10'000;               // jobs that may be active at once
+  JobId first_job{1};          // of those that clients submit; former runs had the ones before
+  StartLog* starts = nullptr;  // outlives the executive; null: nobody asks
   // For tests: from then on only the arms' controllers go on, as if the executive's thread had
   // ended.
   std::optional<TimePoint> dies_at = {};
@@ -163,6 +186,10 @@ class Executive {
   // accepted or none; problems point to "/jobs/<index>/...". Else each has its own answer.
   [[nodiscard]] Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests,
                                                                   bool atomic);
+  // Jobs that had not begun when a former run ended, in the order of their ids, before any job of
+  // this one; each has its answer. Unlike a client's they may begin elsewhere than where their arms
+  // will stand: such a one fails at its turn. Problems: as submit() has them.
+  [[nodiscard]] std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
   // Judges the job as if it were to start now, beside everything that holds a reservation, and
   // changes nothing. `done` is called on the strand, at once or when the verdict is there.
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
@@ -185,8 +212,10 @@ class Executive {
   void stop_all(const std::string& cause);
   void resume_all();
   // The last act: stops all arms, and when they are at rest every job that has not ended becomes
-  // `interrupted`; then `done` is called, on the strand. Accepts no job from now on.
-  void wind_down(const std::string& cause, std::function<void()> done);
+  // `interrupted`, or every one that has begun where others are kept for the next run; then `done`
+  // is called, on the strand. Accepts no job from now on.
+  enum class Waiting { ends, is_kept };
+  void wind_down(const std::string& cause, Waiting waiting, std::function<void()> done);
 
   // Objects of the planning scene. Every motion under way and every waiting job is judged again.
   // Problems: a name in use or unknown, a shape inside an arm as measured (nearer than the

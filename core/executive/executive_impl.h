@@ -33,6 +33,7 @@ class Executive::Impl final : public JobNames {
   Result<JobView> submit(JobRequest request);
   Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests, bool atomic);
   Result<JobView> cancel(const std::string& key);
+  std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
 
   // checking.cc
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
@@ -87,11 +88,18 @@ class Executive::Impl final : public JobNames {
   std::size_t active_ = 0;  // jobs that have not ended
   TimePoint now_{};
   std::function<void()> wound_down_;  // set: the last act has begun
+  bool keeps_waiting_ = false;        // in it
 
  private:
   struct Label {
     std::string key;
     std::string name;
+    std::optional<TimePoint> submitted_at = {};  // in a former run
+  };
+  // Of a job that has been dispatched, where starts are put down.
+  struct Start {
+    bool is_written = false;
+    std::optional<Duration> withheld = {};  // authority, until then
   };
 
   // What a request has become once everything about it has been checked.
@@ -112,6 +120,7 @@ class Executive::Impl final : public JobNames {
     std::vector<std::string> keys;
     std::map<ArmId, TrajectoryPtr> ways_back;  // of arms that were sent aside
     std::vector<ArmId> open = {};              // whose end of `rest` is not known yet
+    bool begins_anywhere = false;              // jobs need not begin at `rest`
   };
   Result<Prepared> prepare(JobRequest request, Ahead& ahead) const;
   [[nodiscard]] std::vector<TrajectoryPtr> read_motions(const JobRequest& request, Ahead& ahead,
@@ -124,11 +133,12 @@ class Executive::Impl final : public JobNames {
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   JobView accept(Prepared prepared);
   void walk(std::shared_ptr<Trial> trial, std::function<void(Result<CheckView>)> done);
-  JobId enter(Submit submitted, std::string key, std::string name);
+  void enter(Submit submitted, Label label);
+  [[nodiscard]] JobId next_job() const;
   [[nodiscard]] Submit submission(Prepared prepared) const;
   [[nodiscard]] Submit return_of(TrajectoryPtr back, int priority) const;
   void remember_way_back(ArmId arm, const Trajectory& way);
-  void label(JobId id, std::string key, std::string name);
+  void label(JobId id, Label label);
   [[nodiscard]] Ahead ahead_now() const;
   std::vector<TrajectoryPtr> returns_for(const Trajectory& motion, Ahead& ahead) const;
   std::string own_key();
@@ -139,12 +149,17 @@ class Executive::Impl final : public JobNames {
 
   void carry_out(const Effect& effect);
   void ask_plan(const PlanMotion& asked);
+  void dispatch(Dispatch dispatch);
+  void grant(const Grant& grant);
+  void start_is_written(JobId job);
+  [[nodiscard]] JobView view(const Job& job) const;
   void note_aside(const YieldMove& aside);
   void watch();
   void tell_tick();
   static ClearanceQuery monitored(const PlanningScenePtr& scene);
   void tell_job(JobId job);
   void tell_arms();
+  void tell_stops();
   void tell_queue();
   void count(const JobView& ended);
   ArmState state_of(ArmId arm) const;
@@ -169,6 +184,7 @@ class Executive::Impl final : public JobNames {
   std::unordered_map<std::string, JobId> ids_;
   std::unordered_map<JobId, Label> labels_;
   std::deque<JobId> ended_;  // oldest first
+  std::unordered_map<JobId, Start> starts_;
   std::uint64_t next_fault_ = 1;
   std::uint64_t next_aside_ = 1;
   std::map<ArmId, TrajectoryPtr> ways_back_;
@@ -176,6 +192,7 @@ class Executive::Impl final : public JobNames {
   bool told_rest_ = false;
   std::vector<ArmState> told_arms_;
   std::vector<std::string> told_arm_jobs_;
+  std::vector<ArmId> told_stops_;
   QueueView told_queue_;
 
   struct Drawn {

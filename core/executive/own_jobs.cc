@@ -40,9 +40,8 @@ Submit Executive::Impl::return_of(TrajectoryPtr back, int priority) const {
 
 void Executive::Impl::note_aside(const YieldMove& aside) {
   const std::string arm = cell_->arm(aside.arm).name;
-  label(aside.job, own_key(),
-        aside.returns ? arm + " returns to where it stood"
-                      : arm + " moves aside for " + key(aside.blocked_job));
+  label(aside.job, {own_key(), aside.returns ? arm + " returns to where it stood"
+                                             : arm + " moves aside for " + key(aside.blocked_job)});
   if (!aside.in_ring) remember_way_back(aside.arm, *scheduler_.find(aside.job)->trajectory);
 }
 

@@ -150,7 +150,7 @@ std::vector<TrajectoryPtr> Executive::Impl::read_motions(const JobRequest& reque
     if (motion) {
       begin_where_open(**motion, ahead);
       for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
-      find_start_elsewhere(*cell_, **motion, ahead.rest, found);
+      if (!ahead.begins_anywhere) find_start_elsewhere(*cell_, **motion, ahead.rest, found);
       motions.push_back(std::move(*motion));
     }
     for (Problem& p : prefixed(place, std::move(found))) problems.push_back(std::move(p));
@@ -179,6 +179,7 @@ void Executive::Impl::find_bad_after(const JobRequest& request, const Ahead& ahe
     const std::string& key = request.after[i];
     const std::string pointer = "/after/" + std::to_string(i);
     if (!key.empty() && std::ranges::find(ahead.keys, key) != ahead.keys.end()) continue;
+    if (std::ranges::find(request.succeeded, key) != request.succeeded.end()) continue;
     if (key == request.key) {
       problems.push_back({ProblemKind::invalid, "after-itself", pointer,
                           "job \"" + key + "\" cannot come after itself", key});
@@ -217,33 +218,40 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
 JobView Executive::Impl::accept(Prepared prepared) {
   for (TrajectoryPtr& back : prepared.returns) {
     std::string name = cell_->arm(back->arms().front()).name + " returns to where it was left";
-    (void)enter(return_of(std::move(back), prepared.priority), own_key(), std::move(name));
+    Submit way = return_of(std::move(back), prepared.priority);
+    way.job = next_job();
+    enter(std::move(way), {own_key(), std::move(name)});
   }
-  std::string key = std::move(prepared.key), name = std::move(prepared.name);
-  const JobId id = enter(submission(std::move(prepared)), std::move(key), std::move(name));
-  return view_of(*scheduler_.find(id), *cell_, *this);
+  const JobId id = next_job();
+  Label label{std::move(prepared.key), std::move(prepared.name)};
+  if (label.key.empty()) label.key = free_key(id);
+  Submit submitted = submission(std::move(prepared));
+  submitted.job = id;
+  enter(std::move(submitted), std::move(label));
+  return view(*scheduler_.find(id));
 }
 
-// Under the next id; an empty key: one is given.
-JobId Executive::Impl::enter(Submit submitted, std::string key, std::string name) {
-  const JobId id = submitted.job = scheduler_.next_job();
-  if (key.empty()) key = free_key(id);
-  label(id, std::move(key), std::move(name));
+JobId Executive::Impl::next_job() const {
+  return std::max(scheduler_.next_job(), options_.first_job);
+}
+
+void Executive::Impl::enter(Submit submitted, Label label) {
+  this->label(submitted.job, std::move(label));
   step(submitted);
-  return id;
 }
 
-void Executive::Impl::label(JobId id, std::string key, std::string name) {
-  ids_.emplace(key, id);
-  labels_.emplace(id, Label{std::move(key), std::move(name)});
+void Executive::Impl::label(JobId id, Label label) {
+  ids_.emplace(label.key, id);
+  labels_.emplace(id, std::move(label));
   ++active_;
 }
 
 Submit Executive::Impl::submission(Prepared prepared) const {
   std::vector<JobId> after;
   for (const std::string& before : prepared.after) {
-    const JobId job = ids_.at(before);
-    if (!is_terminal(scheduler_.find(job)->state())) after.push_back(job);
+    const auto job = ids_.find(before);
+    if (job == ids_.end()) continue;  // it is known to have succeeded
+    if (!is_terminal(scheduler_.find(job->second)->state())) after.push_back(job->second);
   }
   Submit job{.job = JobId{0},
              .trajectory = prepared.alternatives.front(),
@@ -277,7 +285,7 @@ Result<JobView> Executive::Impl::cancel(const std::string& key) {
                            "job \"" + key + "\" has ended: " + to_string(state), key});
   }
   step(Cancel{id});
-  return view_of(*scheduler_.find(id), *cell_, *this);
+  return view(*scheduler_.find(id));
 }
 
 }  // namespace armloom

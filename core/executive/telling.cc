@@ -31,7 +31,7 @@ bool Executive::Impl::has_job(ArmId arm) const {
 bool Executive::Impl::is_stopped(ArmId arm) const { return scheduler_.stopped(arm); }
 
 void Executive::Impl::tell_job(JobId job) {
-  JobView view = view_of(*scheduler_.find(job), *cell_, *this);
+  JobView view = this->view(*scheduler_.find(job));
   if (is_terminal(view.state)) count(view);
   std::optional<Alert> alert;
   if (view.state == JobState::failed || view.state == JobState::expired) {
@@ -47,6 +47,7 @@ void Executive::Impl::count(const JobView& ended) {
   figures_.last_end = std::max(figures_.last_end, *ended.ended_at);
   if (const auto plan = plans_.find(ended.id); plan != plans_.end()) *plan->second = true;
   ended_.push_back(ended.id);
+  starts_.erase(ended.id);
   --active_;
   while (ended_.size() > options_.ended_kept) {
     const JobId oldest = ended_.front();
@@ -67,6 +68,14 @@ void Executive::Impl::tell_arms() {
     told_arm_jobs_[arm.index()] = job;
     tell(view_of_arm(arm));
   }
+}
+
+void Executive::Impl::tell_stops() {
+  std::vector<ArmId> stops = all_arms();
+  std::erase_if(stops, [&](ArmId arm) { return !scheduler_.stopped(arm); });
+  if (stops == told_stops_) return;
+  told_stops_ = std::move(stops);
+  observer_.on_stops(told_stops_);
 }
 
 void Executive::Impl::tell_queue() {
@@ -150,7 +159,7 @@ bool Executive::Impl::any_moving() const {
 std::optional<JobView> Executive::Impl::job(const std::string& key) const {
   const auto it = ids_.find(key);
   if (it == ids_.end()) return std::nullopt;
-  return view_of(*scheduler_.find(it->second), *cell_, *this);
+  return view(*scheduler_.find(it->second));
 }
 
 std::vector<ArmView> Executive::Impl::arms() const {
@@ -163,10 +172,10 @@ Snapshot Executive::Impl::snapshot(std::size_t ended_max) const {
   Snapshot snapshot{.seq = seq_, .time = now_, .queue = queue(), .arms = arms()};
   snapshot.scene = SceneView{scene_version_, scene_->objects()};
   for (std::size_t i = ended_.size() - std::min(ended_max, ended_.size()); i < ended_.size(); ++i) {
-    snapshot.jobs.push_back(view_of(*scheduler_.find(ended_[i]), *cell_, *this));
+    snapshot.jobs.push_back(view(*scheduler_.find(ended_[i])));
   }
   for (JobId id : scheduler_.active()) {
-    snapshot.jobs.push_back(view_of(*scheduler_.find(id), *cell_, *this));
+    snapshot.jobs.push_back(view(*scheduler_.find(id)));
   }
   std::ranges::sort(snapshot.jobs, {}, &JobView::id);
   return snapshot;

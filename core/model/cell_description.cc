@@ -12,4 +12,14 @@ const char* to_string(OnIdleBlocker value) {
   return "?";
 }
 
+const char* to_string(OnRestart value) {
+  switch (value) {
+    case OnRestart::ask:
+      return "ask";
+    case OnRestart::continue_:
+      return "continue";
+  }
+  return "?";
+}
+
 }  // namespace armloom

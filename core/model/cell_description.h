@@ -84,12 +84,20 @@ enum class OnIdleBlocker {
 };
 [[nodiscard]] const char* to_string(OnIdleBlocker value);
 
+// What a server that is started again does with jobs that had not ended when it did.
+enum class OnRestart {
+  ask,       // they wait until someone says go on
+  continue_  // those that had not begun go on by themselves
+};
+[[nodiscard]] const char* to_string(OnRestart value);
+
 struct SchedulingSettings {
   std::string policy = "earliest_start";
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
   OnIdleBlocker on_idle_blocker = OnIdleBlocker::park;
   int horizon_legs = 6;  // of each lane, admitted ahead by policies that look ahead
+  OnRestart on_restart = OnRestart::ask;
 };
 struct MonitorSettings {
   double rate_hz = 100.0;

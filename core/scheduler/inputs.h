@@ -76,8 +76,11 @@ struct Resume {
 };
 // The planning scene is another one: what was judged on the old one is judged again.
 struct SceneChanged {};
-// The server ends: every job that has not ended is interrupted. Sent when the arms are at rest.
-struct Interrupt {};
+// The server ends: every job that has not ended is interrupted; or only those that have begun,
+// where the others are kept for the next run. Sent when the arms are at rest.
+struct Interrupt {
+  bool keeps_waiting = false;
+};
 // A time asked for by WakeAt has come. Every other input does the same work besides.
 struct Wake {};
 

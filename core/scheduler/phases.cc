@@ -123,8 +123,11 @@ void end(State& state, Record& record, JobState how, Reason reason, std::string 
   }
 }
 
-void interrupt(State& state) {
-  const std::vector<JobId> ids(state.jobs.active().begin(), state.jobs.active().end());
+void interrupt(State& state, bool keeps_waiting) {
+  std::vector<JobId> ids(state.jobs.active().begin(), state.jobs.active().end());
+  if (keeps_waiting) {
+    std::erase_if(ids, [&](JobId id) { return !state.jobs.at(id).job.has_started(); });
+  }
   for (JobId id : ids) state.jobs.at(id).job.after.clear();  // none fails for another's sake
   for (JobId id : ids) {
     Record& record = state.jobs.at(id);

@@ -17,8 +17,8 @@ void add(State& state, Record record);
 void enter(State& state, Record& record, JobPhase phase);
 // Nobody waits for a job that has ended: those that named it in `after` go on, or fail with it.
 void end(State& state, Record& record, JobState how, Reason reason, std::string detail);
-// The server ends: all are interrupted.
-void interrupt(State& state);
+// The server ends: all are interrupted, or all that have begun.
+void interrupt(State& state, bool keeps_waiting);
 
 // Its arms are to come to rest on their path, and it is then held, canceled or failed. One whose
 // arms know nothing of it yet is withdrawn. A cancel or a failure outlives a later stop; a stop

@@ -40,7 +40,15 @@ void stop_arm(Call call) {
   with_arm(call, 202,
            [](Executive& executive, const Arms& arms) { executive.stop(arms, "operator"); });
 }
+// Arms are not let go while it cannot be put down that they move.
+bool is_held_by_store(const Call& call) {
+  const auto refusal = call.parts.keeper != nullptr ? call.parts.keeper->refusal() : std::nullopt;
+  if (refusal) call.respond(refusal_response(*refusal));
+  return refusal.has_value();
+}
+
 void resume_arm(Call call) {
+  if (is_held_by_store(call)) return;
   with_arm(call, 202, [](Executive& executive, const Arms& arms) { executive.resume(arms); });
 }
 
@@ -64,6 +72,7 @@ void stop_all(Call call) {
   });
 }
 void resume_all(Call call) {
+  if (is_held_by_store(call)) return;
   with_all(call, false, [](Executive& executive) { executive.resume_all(); });
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
+#include <map>
 #include <utility>
 
 namespace armloom {
@@ -60,19 +62,20 @@ Result<JobFilter> read_job_filter(const Target& target, const Cell& cell) {
   return filter;
 }
 
-JobPage select(std::vector<JobView> jobs, const JobFilter& filter) {
-  std::sort(jobs.begin(), jobs.end(),
-            [](const JobView& a, const JobView& b) { return a.id > b.id; });
-  JobPage page;
+JobPage select(std::vector<JobView> jobs, std::vector<StoredJob> stored, const JobFilter& filter) {
+  std::map<std::uint64_t, ListedJob, std::greater<>> found;
   for (JobView& job : jobs) {
-    if (filter.before && job.id.value() >= *filter.before) continue;
+    const std::uint64_t number = job.id.value();
+    if (filter.before && number >= *filter.before) continue;
     if (!filter.state.empty() && filter.state != to_string(job.state)) continue;
-    if (!filter.arm.empty() &&
-        std::find(job.arms.begin(), job.arms.end(), filter.arm) == job.arms.end()) {
-      continue;
-    }
+    if (!filter.arm.empty() && std::ranges::find(job.arms, filter.arm) == job.arms.end()) continue;
+    found.emplace(number, std::move(job));
+  }
+  for (StoredJob& job : stored) found.emplace(job.number, std::move(job.view));
+  JobPage page;
+  for (auto& [number, job] : found) {
     if (page.jobs.size() == filter.limit) {
-      page.next_cursor = std::to_string(page.jobs.back().id.value());
+      page.next_cursor = std::to_string(number + 1);
       break;
     }
     page.jobs.push_back(std::move(job));

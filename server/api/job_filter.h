@@ -10,6 +10,7 @@
 #include "core/model/cell.h"
 #include "server/http/message.h"
 #include "server/messages/job.h"
+#include "server/store/stored_job.h"
 
 namespace armloom {
 
@@ -27,6 +28,9 @@ struct JobFilter {
 // Problems (invalid): unknown state, arm; limit or cursor that is no number in range.
 [[nodiscard]] Result<JobFilter> read_job_filter(const Target& target, const Cell& cell);
 
-[[nodiscard]] JobPage select(std::vector<JobView> jobs, const JobFilter& filter);
+// Of jobs as the executive has them, and older ones as they are stored: the latter newest first,
+// within the filter, and none of the former.
+[[nodiscard]] JobPage select(std::vector<JobView> jobs, std::vector<StoredJob> stored,
+                             const JobFilter& filter);
 
 }  // namespace armloom

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <memory>
+#include <set>
 #include <utility>
 
 #include "server/api/job_filter.h"
@@ -11,16 +13,48 @@
 namespace armloom {
 namespace {
 
+// Of those that only the store has, one more than a page holds.
+Result<std::vector<StoredJob>> stored_jobs(const JobHistory& history, const JobFilter& filter,
+                                           const std::vector<JobView>& known) {
+  std::set<std::uint64_t> numbers;
+  for (const JobView& job : known) numbers.insert(job.id.value());
+  std::vector<StoredJob> jobs;
+  const HistoryFilter wanted{.state = filter.state, .arm = filter.arm, .before = filter.before};
+  const auto read = history.newest_first(wanted, [&](StoredJob job) {
+    if (!numbers.contains(job.number)) jobs.push_back(std::move(job));
+    return jobs.size() <= filter.limit;
+  });
+  if (!read) return failure(read.error());
+  return jobs;
+}
+
 void list_jobs(Call call) {
   const ApiParts& parts = call.parts;
   const auto filter = read_job_filter(call.request.target, *parts.cell);
   if (!filter) return call.respond(problem_response(filter.error()));
+  const auto tell = [&parts, respond = call.respond, filter = *filter](
+                        std::vector<JobView> jobs, Result<std::vector<StoredJob>> stored) {
+    if (!stored) return respond(problem_response(stored.error()));
+    const JobPage page = select(std::move(jobs), std::move(*stored), filter);
+    respond(answer(200, job_page_format(), page, &parts.clock));
+  };
   ask(
       parts, [](Executive& executive) { return executive.snapshot(); },
-      [&parts, respond = call.respond, filter = *filter](Snapshot& snapshot) {
-        const JobPage page = select(std::move(snapshot.jobs), filter);
-        respond(answer(200, job_page_format(), page, &parts.clock));
+      [&parts, tell, filter = *filter](Snapshot& snapshot) {
+        if (parts.keeper == nullptr) return tell(std::move(snapshot.jobs), {});
+        const auto jobs = std::make_shared<std::vector<JobView>>(std::move(snapshot.jobs));
+        parts.aside([&parts, tell, filter, jobs] {
+          const auto stored = std::make_shared<Result<std::vector<StoredJob>>>(
+              stored_jobs(parts.keeper->lists(), filter, *jobs));
+          parts.post([tell, jobs, stored] { tell(std::move(*jobs), std::move(*stored)); });
+        });
       });
+}
+
+// One that the executive does not know, or no more: as the store has it.
+Result<std::optional<StoredJob>> stored_job(const ApiParts& parts, const std::string& key) {
+  if (parts.keeper == nullptr) return std::nullopt;
+  return parts.keeper->history().find(key);
 }
 
 void get_job(Call call) {
@@ -29,17 +63,27 @@ void get_job(Call call) {
   ask(
       parts, [key](Executive& executive) { return executive.job(key); },
       [&parts, respond = call.respond, key](const std::optional<JobView>& job) {
-        respond(job ? answer(200, job_format(), *job, &parts.clock) : no_such("job", key));
+        if (job) return respond(answer(200, job_format(), *job, &parts.clock));
+        const auto stored = stored_job(parts, key);
+        if (!stored) return respond(problem_response(stored.error()));
+        respond(*stored ? json_response(200, (*stored)->view) : no_such("job", key));
       });
 }
 
 void cancel_job(Call call) {
   const ApiParts& parts = call.parts;
+  const std::string& key = call.arguments.front();
   ask(
-      parts, [key = call.arguments.front()](Executive& executive) { return executive.cancel(key); },
-      [&parts, respond = call.respond](const Result<JobView>& job) {
-        respond(job ? answer(202, job_format(), *job, &parts.clock)
-                    : problem_response(job.error()));
+      parts, [key](Executive& executive) { return executive.cancel(key); },
+      [&parts, respond = call.respond, key](const Result<JobView>& job) {
+        if (job) return respond(answer(202, job_format(), *job, &parts.clock));
+        const auto stored = stored_job(parts, key);
+        const bool ended_before = stored && *stored && (*stored)->has_ended &&
+                                  job.error().front().kind == ProblemKind::not_found;
+        if (!ended_before) return respond(problem_response(job.error()));
+        respond(
+            problem_response({Problem{ProblemKind::conflict, "job-has-ended", "",
+                                      "job \"" + key + "\" has ended: " + (*stored)->state, key}}));
       });
 }
 

@@ -11,6 +11,7 @@
 #include "core/model/cell.h"
 #include "server/api/answers.h"
 #include "server/codec/wall_clock.h"
+#include "server/durable/job_keeper.h"
 #include "server/hub/hub.h"
 #include "server/metrics/metrics.h"
 #include "server/recording/recording.h"
@@ -28,6 +29,7 @@ struct ApiParts {
   RealTimeLoop& loop;
   Hub& hub;
   Recording* recording;                             // null: none
+  JobKeeper* keeper;                                // null: jobs end with the server
   std::function<void(std::function<void()>)> post;  // to the server's thread, in order
   // To a thread for what takes long and needs nothing of this.
   std::function<void(std::function<void()>)> aside;

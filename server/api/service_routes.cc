@@ -24,6 +24,10 @@ void get_ready(Call call) {
     return call.respond(refusal_response(
         {503, "recording-lost", "the recording is no longer whole: " + *lost, "--data", *lost}));
   }
+  if (const auto refusal =
+          call.parts.keeper != nullptr ? call.parts.keeper->refusal() : std::nullopt) {
+    return call.respond(refusal_response(*refusal));
+  }
   ask(
       call.parts, [](Executive& executive) { return Ready{executive.now()}; },
       [respond = call.respond](const Ready& ready) {

@@ -8,9 +8,32 @@
 namespace armloom {
 namespace {
 
+// What the store has to say of it first. The answer, where it cannot be submitted.
+std::optional<Response> refused_by_store(const ApiParts& parts, JobRequest& job) {
+  if (parts.keeper == nullptr) return std::nullopt;
+  if (const auto refusal = parts.keeper->refusal()) return refusal_response(*refusal);
+  if (const auto known = parts.keeper->look_up(job); !known) return problem_response(known.error());
+  return std::nullopt;
+}
+
+// Jobs that the executive has accepted, each with its body, are only said to be when they are on
+// disk, where there is a store.
+void acknowledge(const ApiParts& parts, std::vector<std::pair<JobView, std::string>> jobs,
+                 const Respond& respond, std::function<Response()> answer) {
+  if (parts.recording != nullptr) {
+    for (const auto& [job, body] : jobs) parts.recording->job(job.submitted_at, body);
+  }
+  if (parts.keeper == nullptr || jobs.empty()) return respond(answer());
+  parts.keeper->accept(std::move(jobs), [respond, answer = std::move(answer)](
+                                            const std::optional<Refusal>& refusal) {
+    respond(refusal ? refusal_response(*refusal) : answer());
+  });
+}
+
 void post_job(Call call) {
   const ApiParts& parts = call.parts;
   const auto submit = [&parts, respond = call.respond, body = call.request.body](JobRequest job) {
+    if (auto refused = refused_by_store(parts, job)) return respond(std::move(*refused));
     ask(
         parts,
         [job = std::make_shared<JobRequest>(std::move(job))](Executive& executive) {
@@ -18,9 +41,9 @@ void post_job(Call call) {
         },
         [&parts, respond, body](const Result<JobView>& accepted) {
           if (!accepted) return respond(problem_response(accepted.error()));
-          if (parts.recording != nullptr) parts.recording->job(accepted->submitted_at, *body);
-          respond(located(answer(202, job_format(), *accepted, &parts.clock),
-                          "/jobs/" + accepted->key));
+          acknowledge(parts, {{*accepted, *body}}, respond, [&parts, job = *accepted] {
+            return located(answer(202, job_format(), job, &parts.clock), "/jobs/" + job.key);
+          });
         });
   };
   read_body(parts, call.request, call.respond, read_job_text, submit);
@@ -54,20 +77,44 @@ Result<std::vector<Result<JobView>>> submit(Executive& executive, const BatchReq
   return results;
 }
 
+std::optional<Response> refused_by_store(const ApiParts& parts, BatchRequest& batch) {
+  Problems problems;
+  if (parts.keeper == nullptr) return std::nullopt;
+  if (const auto refusal = parts.keeper->refusal()) return refusal_response(*refusal);
+  for (std::size_t i = 0; i < batch.jobs.size(); ++i) {
+    Result<JobRequest>& job = batch.jobs[i].job;
+    if (!job) continue;
+    const auto known = parts.keeper->look_up(*job);
+    if (known) continue;
+    if (!batch.atomic) {
+      job = failure(known.error());
+      continue;
+    }
+    for (Problem problem : known.error()) {
+      problem.pointer.insert(0, "/jobs/" + std::to_string(i));
+      problems.push_back(std::move(problem));
+    }
+  }
+  if (problems.empty()) return std::nullopt;
+  return problem_response(problems);
+}
+
 void post_batch(Call call) {
   const ApiParts& parts = call.parts;
   const auto submit_all = [&parts, respond = call.respond](BatchRequest read) {
+    if (auto refused = refused_by_store(parts, read)) return respond(std::move(*refused));
     const auto batch = std::make_shared<const BatchRequest>(std::move(read));
     ask(
         parts, [batch](Executive& executive) { return submit(executive, *batch); },
         [&parts, respond, batch](const Result<std::vector<Result<JobView>>>& results) {
           if (!results) return respond(problem_response(results.error()));
-          for (std::size_t i = 0; parts.recording != nullptr && i < results->size(); ++i) {
-            if (const auto& job = (*results)[i]) {
-              parts.recording->job(job->submitted_at, batch->jobs[i].text);
-            }
+          std::vector<std::pair<JobView, std::string>> accepted;
+          for (std::size_t i = 0; i < results->size(); ++i) {
+            if (const auto& job = (*results)[i]) accepted.emplace_back(*job, batch->jobs[i].text);
           }
-          respond(batch_response(*batch, *results, parts.clock));
+          acknowledge(parts, std::move(accepted), respond, [&parts, batch, results = *results] {
+            return batch_response(*batch, results, parts.clock);
+          });
         });
   };
   read_body(parts, call.request, call.respond, read_batch_text, submit_all);

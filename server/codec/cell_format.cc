@@ -52,6 +52,11 @@ FormatPtr<SchedulingSettings> scheduling_format() {
           "horizon_legs", &Scheduling::horizon_legs, integer(1, 32),
           "Of each arm so many jobs are admitted together, the one under way included; who passes "
           "first is chosen for all of them (coordinated only)."),
+      field("on_restart", &Scheduling::on_restart,
+            choice<OnRestart>({OnRestart::ask, OnRestart::continue_}, to_string),
+            "What a server with `--data` that is started again does with jobs that had not ended: "
+            "ask stops all arms until they are resumed, continue goes on with those that had not "
+            "begun."),
   });
 }
 

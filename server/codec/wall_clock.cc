@@ -1,5 +1,6 @@
 #include "server/codec/wall_clock.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 
@@ -20,6 +21,14 @@ WallClock::Wall WallClock::wall_at(TimePoint time) const {
   while (anchor->time > time && std::next(anchor) != anchors_.rend()) ++anchor;
   const std::chrono::duration<double> since(to_seconds(time - anchor->time) / anchor->speed);
   return anchor->wall + std::chrono::duration_cast<Wall::duration>(since);
+}
+
+TimePoint WallClock::time_before(Wall wall) const {
+  constexpr double kLongAgo_s = 9e8;
+  const std::chrono::duration<double> since = wall - anchors_.front().wall;
+  const double cell_s = since.count() * anchors_.front().speed;
+  return std::min(anchors_.front().time, TimePoint{}) +
+         from_seconds(std::clamp(cell_s, -kLongAgo_s, 0.0));
 }
 
 std::string WallClock::at(TimePoint time) const {

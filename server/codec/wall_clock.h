@@ -28,6 +28,9 @@ class WallClock {
   void observe(TimePoint time, Wall wall);
 
   [[nodiscard]] Wall wall_at(TimePoint time) const;
+  // The cell time that is told as `wall`, which was before the beginning: less than zero, or zero
+  // where the wall's clock was set back since.
+  [[nodiscard]] TimePoint time_before(Wall wall) const;
   // RFC 3339 in UTC with milliseconds: "2026-11-21T09:33:00.125Z".
   [[nodiscard]] std::string at(TimePoint time) const;
 

@@ -12,6 +12,8 @@ void Broadcast::on_event(const Event& event) {
     const auto text =
         std::make_shared<const std::string>(event_json(*event, parts_.stream, &parts_.clock));
     if (parts_.recording != nullptr) parts_.recording->event(*text);
+    const auto* job = std::get_if<JobView>(&event->body);
+    if (job != nullptr && parts_.keeper != nullptr) parts_.keeper->see(*job);
     parts_.hub.publish(event->seq, text);
     parts_.metrics.happened(*event);
   });
@@ -32,6 +34,13 @@ void Broadcast::on_tick(TimePoint now, const Configuration& measured) {
 
 void Broadcast::on_rest(bool at_rest) {
   if (parts_.recording != nullptr) parts_.recording->at_rest(at_rest);
+}
+
+void Broadcast::on_stops(const std::vector<ArmId>& stopped) {
+  if (parts_.keeper == nullptr) return;
+  std::vector<std::string> names;
+  for (ArmId arm : stopped) names.push_back(parts_.cell->arm(arm).name);
+  parts_.keeper->stopped(std::move(names));
 }
 
 void Broadcast::on_state(const StateFrame& frame) {

@@ -8,6 +8,7 @@
 
 #include "core/executive/executive.h"
 #include "server/codec/wall_clock.h"
+#include "server/durable/job_keeper.h"
 #include "server/hub/hub.h"
 #include "server/metrics/metrics.h"
 #include "server/recording/recording.h"
@@ -28,6 +29,7 @@ class Broadcast final : public Observer {
     WallClock& clock;  // the server's thread's
     Hub& hub;
     Recording* recording;                             // null: none
+    JobKeeper* keeper;                                // null: jobs end with the server
     std::function<void(std::function<void()>)> post;  // to the server's thread, in order
     // Is told once that the recording is lost, and why; empty: nobody.
     std::function<void(const std::string&)> alarm;
@@ -38,6 +40,7 @@ class Broadcast final : public Observer {
   void on_event(const Event& event) override;
   void on_tick(TimePoint now, const Configuration& measured) override;
   void on_rest(bool at_rest) override;
+  void on_stops(const std::vector<ArmId>& stopped) override;
   void on_state(const StateFrame& frame) override;
 
  private:

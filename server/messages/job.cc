@@ -205,13 +205,31 @@ FormatPtr<JobView> job_format() {
   return format;
 }
 
+namespace {
+
+class ListedJobFormat final : public Format<ListedJob> {
+ public:
+  void read(const JsonNode&, ListedJob&) const override {}
+  void write(JsonWriter& out, const ListedJob& job) const override {
+    if (const auto* text = std::get_if<std::string>(&job)) {
+      out.raw(*text);
+    } else {
+      job_format()->write(out, std::get<JobView>(job));
+    }
+  }
+  Schema schema(Way way) const override { return job_format()->schema(way); }
+};
+
+}  // namespace
+
 FormatPtr<JobPage> job_page_format() {
-  static const auto format = named("JobPage", "",
-                                   object<JobPage>({
-                                       told("jobs", &JobPage::jobs, list(job_format())),
-                                       told("next_cursor", &JobPage::next_cursor, nullable(text()),
-                                            "For ?cursor=; null on the last page"),
-                                   }));
+  static const auto format =
+      named("JobPage", "",
+            object<JobPage>({
+                told("jobs", &JobPage::jobs, list<ListedJob>(std::make_shared<ListedJobFormat>())),
+                told("next_cursor", &JobPage::next_cursor, nullable(text()),
+                     "For ?cursor=; null on the last page"),
+            }));
   return format;
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/executive/events.h"
@@ -19,9 +20,11 @@ namespace armloom {
 // Which jobs are in which list, by their ids.
 [[nodiscard]] FormatPtr<QueueView> queue_ids_format();
 
+// As the executive has it; or as it was told last, JSON already, where only the store has it.
+using ListedJob = std::variant<JobView, std::string>;
 // The answer to GET /jobs.
 struct JobPage {
-  std::vector<JobView> jobs;  // newest first
+  std::vector<ListedJob> jobs;  // newest first
   std::optional<std::string> next_cursor;
 };
 [[nodiscard]] FormatPtr<JobPage> job_page_format();

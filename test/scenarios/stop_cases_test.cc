@@ -69,7 +69,8 @@ TEST(WindDown, BringsArmsToRestAndEndsEveryJobOnce) {
   cell.submit(slide("y", -1, 1, 4, "waits"));
   cell.run_until(at(1500ms));
   bool done = false;
-  cell.simulation->executive().wind_down("the server ends", [&] { done = true; });
+  cell.simulation->executive().wind_down("the server ends", Executive::Waiting::ends,
+                                         [&] { done = true; });
   EXPECT_FALSE(cell.simulation->executive().submit(slide("x", 1, -1, 4)));
   cell.run_until(at(3s));
   EXPECT_TRUE(done);

@@ -1,0 +1,97 @@
+#include "server/durable/job_keeper.h"
+
+#include <chrono>
+
+#include "server/codec/json_writer.h"
+#include "server/codec/read_text.h"
+#include "server/messages/job.h"
+
+namespace armloom {
+namespace {
+
+std::int64_t since_1970_ms(WallClock::Wall wall) {
+  return std::chrono::floor<std::chrono::milliseconds>(wall).time_since_epoch().count();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<JobKeeper>> JobKeeper::open(const std::filesystem::path& folder,
+                                                   StoreOptions options) {
+  auto store = JobStore::open(folder, std::move(options));
+  if (!store) return failure(std::move(store.error()));
+  std::unique_ptr<JobKeeper> keeper(new JobKeeper());
+  keeper->store_ = std::move(*store);
+  for (auto* reader : {&keeper->history_, &keeper->lists_}) {
+    auto history = JobHistory::open(folder);
+    if (!history) return failure(std::move(history.error()));
+    *reader = std::move(*history);
+  }
+  return keeper;
+}
+
+Result<void> JobKeeper::look_up(JobRequest& job) const {
+  if (!job.key.empty()) {
+    const auto found = history_->find(job.key);
+    if (!found) return failure(found.error());
+    if (*found && (*found)->has_ended) {
+      return failure(Problem{ProblemKind::conflict, "id-in-use", "/id",
+                             "id \"" + job.key + "\" is that of a job that has ended", job.key});
+    }
+  }
+  for (const std::string& before : job.after) {
+    const auto found = history_->find(before);
+    if (!found) return failure(found.error());
+    if (*found && (*found)->state == to_string(JobState::succeeded))
+      job.succeeded.push_back(before);
+  }
+  return {};
+}
+
+StoredJob JobKeeper::stored(const JobView& job) const {
+  StoredJob stored{.number = job.id.value(),
+                   .id = job.key,
+                   .state = to_string(job.state),
+                   .has_ended = is_terminal(job.state),
+                   .submitted_ms = since_1970_ms(clock_->wall_at(job.submitted_at)),
+                   .arms = JsonWriter().value(job.arms).take(),
+                   .view = text_of(*job_format(), job, clock_)};
+  if (job.ended_at) stored.ended_ms = since_1970_ms(clock_->wall_at(*job.ended_at));
+  return stored;
+}
+
+void JobKeeper::see(const JobView& job) { store_->see(stored(job)); }
+
+void JobKeeper::accept(std::vector<std::pair<JobView, std::string>> jobs,
+                       std::function<void(std::optional<Refusal>)> then) {
+  std::vector<JobStore::Accepted> accepted;
+  std::vector<std::string> keys;
+  for (auto& [job, body] : jobs) {
+    accepted.push_back({stored(job), std::move(body)});
+    keys.push_back(job.key);
+  }
+  store_->accept(std::move(accepted),
+                 [this, keys = std::move(keys), then = std::move(then)](bool is_written) {
+                   if (!is_written) {
+                     loop_->post([keys](Executive& executive) {
+                       for (const std::string& key : keys) (void)executive.cancel(key);
+                     });
+                   }
+                   post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });
+                 });
+}
+
+std::optional<Refusal> JobKeeper::refusal() const {
+  const auto fault = store_->fault();
+  if (!fault) return std::nullopt;
+  return Refusal{fault->is_full ? 507 : 503, fault->is_full ? "storage-full" : "storage-failed",
+                 "jobs cannot be stored at present, and arms stay where they are: " + fault->text,
+                 "--data", fault->text};
+}
+
+void JobKeeper::about_to_move(JobId job, std::function<void()> written) {
+  store_->about_to_move(job.value(), [loop = loop_, written = std::move(written)](bool) {
+    loop->post([written](Executive&) { written(); });
+  });
+}
+
+}  // namespace armloom

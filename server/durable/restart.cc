@@ -1,0 +1,128 @@
+#include "server/durable/restart.h"
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "server/codec/json_text.h"
+#include "server/messages/job_request.h"
+#include "server/messages/problem.h"
+
+namespace armloom {
+namespace {
+
+// The job as it was told last, ended as this run begins.
+StoredJob ended(StoredJob job, JobState state, Reason reason, const std::string& detail,
+                const WallClock& clock) {
+  const auto now = clock.wall_at(TimePoint{});
+  job.state = to_string(state);
+  job.has_ended = true;
+  job.ended_ms = std::chrono::floor<std::chrono::milliseconds>(now).time_since_epoch().count();
+  nlohmann::ordered_json view = nlohmann::ordered_json::parse(job.view);
+  view["state"] = job.state;
+  view["stopping"] = false;
+  view["waits_on"] = nlohmann::ordered_json::array();
+  view["ring"] = nlohmann::ordered_json::array();
+  view["ended_s"] = view["started_s"].is_null() ? view["submitted_s"] : view["started_s"];
+  view["ended_at"] = clock.at(TimePoint{});
+  view["result"] = {{"reason", to_string(reason)}, {"detail", detail}};
+  job.view = view.dump();
+  return job;
+}
+
+TimePoint submitted_at(const StoredJob& job, const WallClock& clock) {
+  const std::chrono::milliseconds since_1970(job.submitted_ms.value_or(0));
+  return clock.time_before(WallClock::Wall(since_1970));
+}
+
+}  // namespace
+
+Result<Restart> Restart::prepare(JobKeeper& keeper) {
+  const Leftover& left = keeper.store().leftover();
+  Restart restart;
+  restart.stopped_arms_ = left.stopped_arms;
+  for (const LeftJob& job : left.jobs) restart.sort_out(job, keeper);
+  for (const WrittenOff& off : restart.written_off_) {
+    keeper.store().see(ended(off.job, off.state, off.reason, off.detail, keeper.clock()));
+  }
+  if (!keeper.store().flush()) {
+    const auto fault = keeper.store().fault();
+    return failure(Problem{ProblemKind::unavailable, "cannot-write", "--data",
+                           "the jobs of the data folder cannot be written: " +
+                               (fault ? fault->text : std::string("not known why"))});
+  }
+  return restart;
+}
+
+bool Restart::failed_before(const JobRequest& request) const {
+  return std::ranges::any_of(written_off_, [&](const WrittenOff& off) {
+    return std::ranges::find(request.after, off.job.id) != request.after.end();
+  });
+}
+
+void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
+  const StoredJob& job = left.job;
+  constexpr auto kInterrupted = JobState::interrupted;
+  constexpr auto kRestart = Reason::server_restart;
+  if (left.may_have_moved) {
+    return write_off(job, kInterrupted, kRestart, "the server ended while it was under way");
+  }
+  // The server's own, or one whose client has no answer.
+  if (!left.body) return write_off(job, kInterrupted, kRestart, "the server ended before it began");
+  auto request = read_job_text(*left.body);
+  if (!request) {
+    return write_off(job, kInterrupted, kRestart,
+                     "it can no longer be read: " + problem_sentence("", request.error().front()));
+  }
+  request->key = job.id;
+  if (failed_before(*request)) {
+    return write_off(job, JobState::failed, Reason::predecessor_failed,
+                     "a job that it comes after did not succeed");
+  }
+  for (const std::string& before : request->after) {
+    const bool waits =
+        std::ranges::any_of(stored_, [&](const StoredJob& other) { return other.id == before; });
+    if (waits) continue;
+    const auto found =
+        keeper.history().find(before);  // none: it ended so long ago that it is deleted
+    if (found && *found && (*found)->state != to_string(JobState::succeeded)) {
+      return write_off(job, JobState::failed, Reason::predecessor_failed,
+                       "a job that it comes after did not succeed");
+    }
+    request->succeeded.push_back(before);
+  }
+  waiting_.push_back({JobId{job.number}, std::move(*request), submitted_at(job, keeper.clock())});
+  stored_.push_back(job);
+}
+
+std::string Restart::summary() const {
+  return "the server was started again: " + std::to_string(stored_.size()) + " jobs wait, " +
+         std::to_string(written_off_.size()) + " were interrupted; resume to go on";
+}
+
+void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
+  const bool asks = cell.scheduling.on_restart == OnRestart::ask;
+  if (asks && (!waiting_.empty() || !written_off_.empty())) {
+    executive.stop_all(summary());
+  } else {
+    std::vector<ArmId> arms;
+    for (const std::string& name : stopped_arms_) {
+      if (const auto arm = cell.find_arm(name)) arms.push_back(*arm);
+    }
+    if (!arms.empty()) executive.stop(arms, "stopped before the server was started again");
+  }
+  const auto answers = executive.restore(std::move(waiting_));
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (answers[i]) continue;
+    const Problem& why = answers[i].error().front();
+    const bool after = why.pointer.starts_with("/after");
+    keeper.post(
+        [&keeper, off = WrittenOff{stored_[i], after ? JobState::failed : JobState::interrupted,
+                                   after ? Reason::predecessor_failed : Reason::server_restart,
+                                   "the cell no longer fits it: " + problem_sentence("", why)}] {
+          keeper.store().see(ended(off.job, off.state, off.reason, off.detail, keeper.clock()));
+        });
+  }
+}
+
+}  // namespace armloom

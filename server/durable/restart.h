@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/cell.h"
+#include "server/durable/job_keeper.h"
+
+namespace armloom {
+
+// What becomes of the jobs that had not ended when a former run did: those that had not begun are
+// submitted again, with the ids, the order and the conditions that they had. Those that had, or may
+// have, are `interrupted`, what came `after` one of them fails, and what the cell no longer fits is
+// interrupted, too.
+class Restart {
+ public:
+  // Writes off what has to be, on disk when this returns. Problem (unavailable): it cannot be
+  // written.
+  [[nodiscard]] static Result<Restart> prepare(JobKeeper& keeper);
+
+  // The first thing that the executive does. Stops arms first: all of them where the cell says
+  // `ask` and something was left, else those that were stopped when the former run ended. `keeper`
+  // outlives it.
+  void go_on(Executive& executive, const Cell& cell, JobKeeper& keeper);
+
+ private:
+  struct WrittenOff {
+    StoredJob job;
+    JobState state;
+    Reason reason;
+    std::string detail;
+  };
+  void sort_out(const LeftJob& left, const JobKeeper& keeper);
+  [[nodiscard]] bool failed_before(const JobRequest& request) const;
+  void write_off(const StoredJob& job, JobState state, Reason reason, std::string detail) {
+    written_off_.push_back({job, state, reason, std::move(detail)});
+  }
+  [[nodiscard]] std::string summary() const;
+
+  std::vector<RestoredJob> waiting_;
+  std::vector<StoredJob> stored_;  // as waiting_
+  std::vector<WrittenOff> written_off_;
+  std::vector<std::string> stopped_arms_;
+};
+
+}  // namespace armloom

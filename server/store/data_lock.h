@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "core/base/problem.h"
+
+namespace armloom {
+
+// That a data folder is this process's. Given back when it is destroyed, or with the process,
+// however that ends.
+class DataLock {
+ public:
+  // Makes the folder. Problem: another process has it, or it cannot be written.
+  [[nodiscard]] static Result<std::unique_ptr<DataLock>> take(const std::filesystem::path& folder);
+  ~DataLock();
+  DataLock(const DataLock&) = delete;
+  DataLock& operator=(const DataLock&) = delete;
+
+ private:
+  explicit DataLock(int file) : file_(file) {}
+  int file_;
+};
+
+}  // namespace armloom

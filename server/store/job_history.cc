@@ -1,0 +1,115 @@
+#include "server/store/job_history.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/store/database.h"
+#include "server/store/tables.h"
+
+namespace armloom {
+namespace {
+
+const std::string kColumns =
+    "SELECT number, id, state, has_ended, submitted_ms, ended_ms, arms, view FROM job ";
+
+StoredJob row_of(const Statement& row) {
+  return {.number = static_cast<std::uint64_t>(row.number(0)),
+          .id = row.text(1),
+          .state = row.text(2),
+          .has_ended = row.number(3) != 0,
+          .submitted_ms = row.maybe_number(4),
+          .ended_ms = row.maybe_number(5),
+          .arms = row.text(6),
+          .view = row.text(7)};
+}
+
+}  // namespace
+
+class JobHistory::Impl {
+ public:
+  explicit Impl(const std::filesystem::path& file)
+      : file_(file), database_(file, Database::Access::read) {
+    (void)database_.number("SELECT count(*) FROM job WHERE number = 0");  // it is one of ours
+  }
+
+  template <class Read>
+  auto reading(Read read) const -> Result<decltype(read())> {
+    try {
+      return read();
+    } catch (const SqlFault& fault) {
+      return cannot_read(file_, fault.what());
+    }
+  }
+
+  std::optional<StoredJob> find(const std::string& id) const {
+    Statement row =
+        database_.prepare(kColumns + "WHERE id = ?1 AND view != '' ORDER BY number DESC LIMIT 1");
+    row.bind_all(std::string_view(id));
+    return row.step() ? std::optional(row_of(row)) : std::nullopt;
+  }
+
+  bool each(const HistoryFilter& filter, const char* order,
+            const std::function<bool(StoredJob)>& take) const {
+    Statement rows = database_.prepare(
+        kColumns +
+        "WHERE view != '' AND (?1 = '' OR state = ?1) AND (?2 = '' OR EXISTS (SELECT 1 FROM "
+        "json_each(arms) WHERE value = ?2)) AND number < ?3 AND coalesce(submitted_ms, 0) >= ?4 "
+        "ORDER BY number " +
+        order);
+    constexpr auto kAny = std::uint64_t{1} << 62U;
+    const auto before = static_cast<std::int64_t>(std::min(filter.before.value_or(kAny), kAny));
+    rows.bind_all(std::string_view(filter.state), std::string_view(filter.arm), before,
+                  filter.since_ms.value_or(-static_cast<std::int64_t>(kAny)));
+    while (rows.step()) {
+      if (!take(row_of(rows))) return false;
+    }
+    return true;
+  }
+
+  static tl::unexpected<Problems> cannot_read(const std::filesystem::path& file,
+                                              const std::string& why) {
+    return failure(Problem{ProblemKind::unavailable, "store-unreadable", "--data",
+                           file.string() + " cannot be read: " + why, file.string()});
+  }
+
+ private:
+  std::filesystem::path file_;
+  Database database_;
+};
+
+Result<std::unique_ptr<JobHistory>> JobHistory::open(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kStoreFile;
+  try {
+    return std::unique_ptr<JobHistory>(new JobHistory(std::make_unique<Impl>(file)));
+  } catch (const SqlFault& fault) {
+    return Impl::cannot_read(file, fault.what());
+  }
+}
+
+JobHistory::JobHistory(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+JobHistory::~JobHistory() = default;
+
+Result<std::optional<StoredJob>> JobHistory::find(const std::string& id) const {
+  return impl_->reading([&] { return impl_->find(id); });
+}
+
+Result<void> JobHistory::newest_first(const HistoryFilter& filter,
+                                      const std::function<bool(StoredJob)>& take) const {
+  auto read = impl_->reading([&] { return impl_->each(filter, "DESC", take); });
+  if (!read) return failure(std::move(read.error()));
+  return {};
+}
+
+Result<void> JobHistory::oldest_first(const HistoryFilter& filter,
+                                      const std::function<void(StoredJob)>& take) const {
+  auto read = impl_->reading([&] {
+    return impl_->each(filter, "ASC", [&](StoredJob job) {
+      take(std::move(job));
+      return true;
+    });
+  });
+  if (!read) return failure(std::move(read.error()));
+  return {};
+}
+
+}  // namespace armloom

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/problem.h"
+#include "server/store/stored_job.h"
+
+namespace armloom {
+
+// Which jobs are asked for; empty: any.
+struct HistoryFilter {
+  std::string state = {};
+  std::string arm = {};
+  std::optional<std::uint64_t> before = {};   // number: only those that were accepted earlier
+  std::optional<std::int64_t> since_ms = {};  // submitted then or later
+};
+
+// Reads what a JobStore has written, while it is written or not. Sees what was on disk when each
+// call began. One thread at a time.
+class JobHistory {
+ public:
+  // Problem: there is no store, or it cannot be read.
+  [[nodiscard]] static Result<std::unique_ptr<JobHistory>> open(
+      const std::filesystem::path& folder);
+  ~JobHistory();
+
+  // The last one that was accepted under this id.
+  [[nodiscard]] Result<std::optional<StoredJob>> find(const std::string& id) const;
+  // Newest first, until `take` says enough (false).
+  [[nodiscard]] Result<void> newest_first(const HistoryFilter& filter,
+                                          const std::function<bool(StoredJob)>& take) const;
+  // Oldest first.
+  [[nodiscard]] Result<void> oldest_first(const HistoryFilter& filter,
+                                          const std::function<void(StoredJob)>& take) const;
+
+ private:
+  class Impl;
+  explicit JobHistory(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,210 @@
+#include "server/store/job_store.h"
+
+#include <condition_variable>
+#include <future>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "server/store/data_lock.h"
+#include "server/store/job_tables.h"
+#include "server/store/tables.h"
+
+namespace armloom {
+namespace {
+
+using Wall = std::chrono::steady_clock;
+constexpr Wall::duration kCleaned = std::chrono::minutes(1);
+
+tl::unexpected<Problems> cannot_use(const std::filesystem::path& file, const std::string& why) {
+  return failure(
+      Problem{ProblemKind::unavailable, "store-unusable", "--data",
+              file.string() + ": " + why +
+                  "; nothing was changed: repair it, put back a copy, or move it away to "
+                  "begin with an empty one",
+              file.string()});
+}
+
+}  // namespace
+
+class JobStore::Impl {
+ public:
+  Impl(std::unique_ptr<DataLock> lock, std::unique_ptr<JobTables> tables, StoreOptions options)
+      : lock_(std::move(lock)),
+        tables_(std::move(tables)),
+        options_(std::move(options)),
+        leftover_(tables_->leftover()),
+        thread_([this](const std::stop_token& stop) { work(stop); }) {}
+
+  void add(Pending changes) {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (is_closed_) return;
+      pending_.join(std::move(changes));
+    }
+    arrived_.notify_one();
+  }
+
+  std::optional<StoreFault> fault() const {
+    const std::scoped_lock lock(mutex_);
+    return fault_;
+  }
+
+  std::optional<StoreFault> close() {
+    {
+      const std::scoped_lock lock(mutex_);
+      is_closed_ = true;
+    }
+    thread_.request_stop();
+    if (thread_.joinable()) thread_.join();
+    const std::scoped_lock lock(mutex_);
+    return fault_;
+  }
+
+  const Leftover& leftover() const { return leftover_; }
+
+ private:
+  void work(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      {
+        std::unique_lock lock(mutex_);
+        const bool has_come = arrived_.wait_until(lock, stop, cleaned_at_ + kCleaned,
+                                                  [this] { return !pending_.is_empty(); });
+        if (!has_come && !stop.stop_requested()) {
+          lock.unlock();
+          clean_up();
+          continue;
+        }
+      }
+      if (write_pending()) continue;
+      std::unique_lock lock(mutex_);  // a while, before it is tried again
+      arrived_.wait_for(lock, stop, options_.retry, [] { return false; });
+    }
+    (void)write_pending();
+  }
+
+  // Everything there is; false: it could not be, and is there again.
+  bool write_pending() {
+    Pending batch;
+    {
+      const std::scoped_lock lock(mutex_);
+      batch = std::exchange(pending_, {});
+    }
+    if (batch.is_empty()) return true;
+    try {
+      tables_->write(batch);
+    } catch (const SqlFault& fault) {
+      give_back(std::move(batch), {fault.is_full(), fault.what()});
+      return false;
+    }
+    bool was_faulty = false;
+    {
+      const std::scoped_lock lock(mutex_);
+      was_faulty = std::exchange(fault_, std::nullopt).has_value();
+    }
+    if (was_faulty && options_.on_fault) options_.on_fault(nullptr);
+    for (const Pending::Acceptance& acceptance : batch.acceptances) acceptance.done(true);
+    for (const Pending::Done& start : batch.starts) start(true);
+    return true;
+  }
+
+  void give_back(Pending batch, const StoreFault& fault) {
+    const auto refused = batch.give_up_acceptances();
+    bool is_new = false;
+    {
+      const std::scoped_lock lock(mutex_);
+      batch.join(std::exchange(pending_, {}));
+      pending_ = std::move(batch);
+      is_new = !fault_;
+      fault_ = fault;
+    }
+    if (is_new && options_.on_fault) options_.on_fault(&fault);
+    for (const Pending::Done& done : refused) done(false);
+  }
+
+  void clean_up() {
+    cleaned_at_ = Wall::now();
+    try {
+      if (tables_->clean_up(options_.retention, std::chrono::system_clock::now())) {
+        cleaned_at_ -= kCleaned;  // there is more
+      }
+    } catch (const SqlFault&) {  // said when something has to be written
+    }
+  }
+
+  std::unique_ptr<DataLock> lock_;  // the last to go
+  std::unique_ptr<JobTables> tables_;
+  StoreOptions options_;
+  Leftover leftover_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any arrived_;
+  Pending pending_;
+  std::optional<StoreFault> fault_;
+  bool is_closed_ = false;
+  Wall::time_point cleaned_at_{};  // the thread's
+  std::jthread thread_;
+};
+
+Result<std::unique_ptr<JobStore>> JobStore::open(const std::filesystem::path& folder,
+                                                 StoreOptions options) {
+  auto lock = DataLock::take(folder);
+  if (!lock) return failure(std::move(lock.error()));
+  const std::filesystem::path file = folder / kStoreFile;
+  try {
+    auto tables = std::make_unique<JobTables>(file, options.vfs);
+    return std::unique_ptr<JobStore>(new JobStore(
+        std::make_unique<Impl>(std::move(*lock), std::move(tables), std::move(options))));
+  } catch (const std::runtime_error& fault) {
+    return cannot_use(file, fault.what());
+  }
+}
+
+JobStore::JobStore(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+JobStore::~JobStore() { (void)close(); }
+
+const Leftover& JobStore::leftover() const { return impl_->leftover(); }
+
+void JobStore::accept(std::vector<Accepted> jobs, Done done) {
+  Pending changes;
+  Pending::Acceptance acceptance{.jobs = {}, .done = std::move(done)};
+  for (Accepted& accepted : jobs) {
+    const std::uint64_t number = accepted.job.number;
+    acceptance.jobs.push_back(number);
+    JobChange change{.body = std::move(accepted.body)};
+    change.seen = std::move(accepted.job);
+    changes.jobs.emplace(number, std::move(change));
+  }
+  changes.acceptances.push_back(std::move(acceptance));
+  impl_->add(std::move(changes));
+}
+
+void JobStore::see(StoredJob job) {
+  Pending changes;
+  const std::uint64_t number = job.number;
+  changes.jobs.emplace(number, JobChange{.seen = std::move(job)});
+  impl_->add(std::move(changes));
+}
+
+void JobStore::about_to_move(std::uint64_t number, Done done) {
+  Pending changes;
+  changes.jobs.emplace(number, JobChange{.may_have_moved = true});
+  changes.starts.push_back(std::move(done));
+  impl_->add(std::move(changes));
+}
+
+void JobStore::stopped(std::vector<std::string> arms) {
+  Pending changes;
+  changes.stopped_arms = std::move(arms);
+  impl_->add(std::move(changes));
+}
+
+bool JobStore::flush() {
+  const auto written = std::make_shared<std::promise<bool>>();
+  accept({}, [written](bool is_written) { written->set_value(is_written); });
+  return written->get_future().get();
+}
+
+std::optional<StoreFault> JobStore::fault() const { return impl_->fault(); }
+std::optional<StoreFault> JobStore::close() { return impl_->close(); }
+
+}  // namespace armloom

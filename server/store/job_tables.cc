@@ -1,0 +1,127 @@
+#include "server/store/job_tables.h"
+
+#include <algorithm>
+
+#include "server/store/tables.h"
+
+namespace armloom {
+namespace {
+
+constexpr std::int64_t kCleanedAtOnce = 1000;
+
+Database opened(const std::filesystem::path& file, const std::string& vfs) {
+  Database database(file, Database::Access::write, vfs);
+  if (database.is_read_only()) throw SqlFault(0, "it is read-only");
+  bring_up_to_date(database);
+  check_whole(database);
+  if (database.text("PRAGMA journal_mode = WAL") != "wal") {
+    throw SqlFault(0, "it cannot be written ahead (WAL), as on a network's file system");
+  }
+  database.run("PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 16777216");
+  return database;
+}
+
+std::int64_t as_stored(std::uint64_t number) { return static_cast<std::int64_t>(number); }
+std::uint64_t as_number(std::int64_t stored) { return static_cast<std::uint64_t>(stored); }
+
+}  // namespace
+
+JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
+    : database_(opened(file, vfs)),
+      see_(database_.prepare(
+          "INSERT INTO job(number, id, state, has_ended, may_have_moved, submitted_ms, ended_ms, "
+          "arms, view) VALUES(?1, ?2, ?3, ?4, 0, ?5, ?6, ?7, ?8) ON CONFLICT(number) DO UPDATE SET "
+          "id = ?2, state = ?3, has_ended = ?4, submitted_ms = ?5, ended_ms = ?6, arms = ?7, "
+          "view = ?8")),
+      expect_(database_.prepare(
+          "INSERT INTO job(number, id, state, has_ended, may_have_moved, arms, view) "
+          "VALUES(?1, '', '', 0, 0, '[]', '') ON CONFLICT(number) DO NOTHING")),
+      move_(database_.prepare("UPDATE job SET may_have_moved = 1 WHERE number = ?1")),
+      put_body_(database_.prepare("INSERT OR REPLACE INTO body(number, text) VALUES(?1, ?2)")),
+      drop_body_(database_.prepare("DELETE FROM body WHERE number = ?1")),
+      stop_(database_.prepare("INSERT OR IGNORE INTO stopped_arm(name) VALUES(?1)")),
+      forget_stops_(database_.prepare("DELETE FROM stopped_arm")) {
+  database_.run(
+      "DELETE FROM job WHERE view = ''");  // never acknowledged, and nothing is known of it
+}
+
+Leftover JobTables::leftover() const {
+  Leftover left;
+  left.last_number = as_number(database_.number("SELECT max(number) FROM job"));
+  Statement jobs = database_.prepare(
+      "SELECT job.number, id, state, submitted_ms, arms, view, may_have_moved, body.text FROM job "
+      "LEFT JOIN body USING(number) WHERE has_ended = 0 ORDER BY job.number");
+  while (jobs.step()) {
+    LeftJob& found = left.jobs.emplace_back();
+    found.job = {.number = as_number(jobs.number(0)),
+                 .id = jobs.text(1),
+                 .state = jobs.text(2),
+                 .submitted_ms = jobs.maybe_number(3),
+                 .arms = jobs.text(4),
+                 .view = jobs.text(5)};
+    found.may_have_moved = jobs.number(6) != 0;
+    if (!jobs.is_null(7)) found.body = jobs.text(7);
+  }
+  Statement arms = database_.prepare("SELECT name FROM stopped_arm ORDER BY name");
+  while (arms.step()) left.stopped_arms.push_back(arms.text(0));
+  return left;
+}
+
+void JobTables::write(const Pending& changes) {
+  Transaction transaction(database_);
+  for (const auto& [number, change] : changes.jobs) write(number, change);
+  if (changes.stopped_arms) {
+    forget_stops_.run();
+    for (const std::string& name : *changes.stopped_arms)
+      stop_.bind_all(std::string_view(name)).run();
+  }
+  transaction.commit();
+}
+
+void JobTables::write(std::uint64_t number, const JobChange& change) {
+  const std::int64_t key = as_stored(number);
+  if (const auto& job = change.seen) {
+    see_.bind_all(key, std::string_view(job->id), std::string_view(job->state),
+                  std::int64_t{job->has_ended}, job->submitted_ms, job->ended_ms,
+                  std::string_view(job->arms), std::string_view(job->view));
+    see_.run();
+  } else {
+    expect_.bind_all(key).run();
+  }
+  if (change.may_have_moved) move_.bind_all(key).run();
+  const bool has_ended = change.seen && change.seen->has_ended;
+  if (has_ended) {
+    drop_body_.bind_all(key).run();
+  } else if (change.body) {
+    put_body_.bind_all(key, std::string_view(*change.body)).run();
+  }
+}
+
+bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::time_point now) {
+  using std::chrono::milliseconds;
+  std::int64_t deleted = 0;
+  Transaction transaction(database_);
+  const auto remove = [&](const char* which, std::int64_t bound) {
+    Statement statement = database_.prepare(
+        std::string("DELETE FROM job WHERE number IN (") + which +
+        ") AND number < (SELECT max(number) FROM job)");  // numbers are never given again
+    statement.bind_all(bound, kCleanedAtOnce).run();
+    deleted = std::max(deleted, database_.number("SELECT changes()"));
+  };
+  const std::int64_t ended = database_.number("SELECT count(*) FROM job WHERE has_ended = 1");
+  const std::int64_t over = ended - static_cast<std::int64_t>(retention.jobs_max);
+  if (over > 0) {
+    remove("SELECT number FROM job WHERE has_ended = 1 ORDER BY ended_ms LIMIT min(?1, ?2)", over);
+  }
+  if (retention.age_max) {
+    const auto oldest =
+        std::chrono::floor<milliseconds>((now - *retention.age_max).time_since_epoch());
+    remove(
+        "SELECT number FROM job WHERE has_ended = 1 AND ended_ms < ?1 ORDER BY ended_ms LIMIT ?2",
+        oldest.count());
+  }
+  transaction.commit();
+  return deleted == kCleanedAtOnce;
+}
+
+}  // namespace armloom

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+
+#include "server/store/database.h"
+#include "server/store/job_store.h"
+#include "server/store/pending.h"
+
+namespace armloom {
+
+// The statements by which a store writes. All throw SqlFault. One thread.
+class JobTables {
+ public:
+  // Opens the file, brings its tables up to date and looks whether it is whole.
+  JobTables(const std::filesystem::path& file, const std::string& vfs);
+
+  [[nodiscard]] Leftover leftover() const;
+  // All of it, synced, or nothing.
+  void write(const Pending& changes);
+  // Deletes some of what is over the bounds, oldest first; whether there is more.
+  bool clean_up(const Retention& retention, std::chrono::system_clock::time_point now);
+
+ private:
+  void write(std::uint64_t number, const JobChange& change);
+  Database database_;
+  Statement see_, expect_, move_, put_body_, drop_body_, stop_, forget_stops_;
+};
+
+}  // namespace armloom

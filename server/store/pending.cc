@@ -1,0 +1,29 @@
+#include "server/store/pending.h"
+
+#include <iterator>
+#include <utility>
+
+namespace armloom {
+
+void Pending::join(Pending later) {
+  for (auto& [number, change] : later.jobs) {
+    JobChange& mine = jobs[number];
+    if (change.seen) mine.seen = std::move(change.seen);
+    if (change.body) mine.body = std::move(change.body);
+    mine.may_have_moved = mine.may_have_moved || change.may_have_moved;
+  }
+  if (later.stopped_arms) stopped_arms = std::move(later.stopped_arms);
+  std::ranges::move(later.acceptances, std::back_inserter(acceptances));
+  std::ranges::move(later.starts, std::back_inserter(starts));
+}
+
+std::vector<Pending::Done> Pending::give_up_acceptances() {
+  std::vector<Done> callers;
+  for (Acceptance& acceptance : std::exchange(acceptances, {})) {
+    for (std::uint64_t number : acceptance.jobs) jobs.erase(number);
+    callers.push_back(std::move(acceptance.done));
+  }
+  return callers;
+}
+
+}  // namespace armloom

@@ -1,0 +1,65 @@
+#include "server/store/tables.h"
+
+#include <iterator>
+#include <string>
+
+namespace armloom {
+namespace {
+
+constexpr int kApplication = 0x41726d6c;  // "Arml"
+
+// What each version adds to the one before. Never changed once released: a new one is added.
+constexpr const char* kVersions[] = {
+    // A job as it was told last (`view`, JSON); `number` is the order of acceptance over all runs.
+    // `may_have_moved` is set before it moves. `body`, as the client sent it, is needed to run it,
+    // and dropped when it has ended.
+    R"(
+    CREATE TABLE job(
+      number INTEGER PRIMARY KEY,
+      id TEXT NOT NULL,
+      state TEXT NOT NULL,
+      has_ended INTEGER NOT NULL,
+      may_have_moved INTEGER NOT NULL,
+      submitted_ms INTEGER,
+      ended_ms INTEGER,
+      arms TEXT NOT NULL,
+      view TEXT NOT NULL
+    ) STRICT;
+    CREATE INDEX job_by_id ON job(id);
+    CREATE INDEX job_left ON job(number) WHERE has_ended = 0;
+    CREATE INDEX job_by_end ON job(ended_ms) WHERE has_ended = 1;
+    CREATE TABLE body(number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT;
+    CREATE TABLE stopped_arm(name TEXT PRIMARY KEY) STRICT;
+    )",
+};
+constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
+
+}  // namespace
+
+void bring_up_to_date(Database& database) {
+  const std::int64_t version = database.number("PRAGMA user_version");
+  const std::int64_t application = database.number("PRAGMA application_id");
+  const bool is_empty = database.number("SELECT count(*) FROM sqlite_schema") == 0;
+  if (application != kApplication && !(is_empty && application == 0)) {
+    throw std::runtime_error("it is another program's database");
+  }
+  if (version > kNewest) {
+    throw std::runtime_error("it was written by a newer version of armloom (tables of version " +
+                             std::to_string(version) + ", this one knows " +
+                             std::to_string(kNewest) + ")");
+  }
+  for (std::int64_t next = version; next < kNewest; ++next) {
+    Transaction transaction(database);
+    database.run(kVersions[next]);
+    database.run("PRAGMA application_id = " + std::to_string(kApplication));
+    database.run("PRAGMA user_version = " + std::to_string(next + 1));
+    transaction.commit();
+  }
+}
+
+void check_whole(const Database& database) {
+  const std::string found = database.text("PRAGMA quick_check(1)");
+  if (found != "ok") throw std::runtime_error("it is corrupt: " + found);
+}
+
+}  // namespace armloom
