@@ -35,7 +35,17 @@ int run(int argc, char** argv) {
   CLI::App* serve_command = app.add_subcommand("serve", "run the server with simulated arms");
   add_cell(*serve_command, serving.cell_file);
   serve_command->add_option("--listen", serving.listen, "ADDRESS:PORT")->capture_default_str();
-  serve_command->add_option("--data", serving.data, "folder for a recording of the run");
+  serve_command->add_option(
+      "--data", serving.data,
+      "folder for jobs, kept when the server ends, and a recording of the run");
+  serve_command
+      ->add_option("--keep-jobs", serving.keep_jobs, "with --data: so many that have ended")
+      ->check(CLI::Range(0, 100'000'000))
+      ->capture_default_str();
+  serve_command
+      ->add_option("--keep-days", serving.keep_days,
+                   "with --data: those that have ended for so long at most (for ever)")
+      ->check(CLI::Range(1, 36'500));
   serve_command->add_flag("--record", serving.record, "with --data: write states.csv, too");
   serve_command->add_option("--speed", serving.speed, "cell seconds per second")
       ->check(CLI::Range(0.001, 1000.0));
@@ -127,6 +137,14 @@ int run(int argc, char** argv) {
   add_seed(*compare_command, comparing.seed);
   compare_command->add_option("--out", comparing.out, "folder for compare.csv and compare.svg");
 
+  HistoryOptions reading;
+  CLI::App* history_command =
+      app.add_subcommand("history", "print the jobs of a data folder, one a line");
+  history_command->add_option("--data", reading.data, "folder of `serve --data`")->required();
+  history_command->add_option("--state", reading.state, "only those in this state");
+  history_command->add_option("--arm", reading.arm, "only those that move this arm");
+  history_command->add_flag("--csv", reading.csv, "as CSV instead of JSON lines");
+
   AuditOptions auditing;
   CLI::App* audit_command = app.add_subcommand("audit", "re-check a recording for contacts");
   add_cell(*audit_command, auditing.cell_file);
@@ -149,6 +167,7 @@ int run(int argc, char** argv) {
   if (plan_command->parsed()) return plan_way(planning);
   if (simulate_command->parsed()) return simulate_jobs(simulating);
   if (compare_command->parsed()) return compare_policies(comparing);
+  if (history_command->parsed()) return print_history(reading);
   return audit_recording(auditing);
 }
 

@@ -47,6 +47,7 @@ std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> j
     Label label{std::move(prepared->key), std::move(prepared->name), job.submitted_at};
     Submit submitted = submission(std::move(*prepared));
     submitted.job = job.id;
+    submitted.is_restored = true;
     enter(submitted, std::move(label));
     answers.push_back(view(*scheduler_.find(job.id)));
   }

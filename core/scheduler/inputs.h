@@ -27,6 +27,9 @@ struct Submit {
   bool system_job = false;        // the caller's own: in a ring it gives way to jobs of clients
   // Jobs of one arm that say so, and begin and end at one place, may be taken in another order.
   bool any_order = false;
+  // It waited when a former run ended: whether it can begin where its arms stand is not looked at
+  // while one of them is stopped, but when they are resumed.
+  bool is_restored = false;
   // The same work by one of several arms, `trajectory` first; none, or two or more. Each moves one
   // arm, of which no other one is, and ends where it begins.
   std::vector<TrajectoryPtr> alternatives = {};

@@ -81,6 +81,7 @@ Record record_of(State& state, const Submit& job) {
                         .after = job.after,
                         .system_job = job.system_job,
                         .any_order = job.any_order,
+                        .is_restored = job.is_restored,
                         .alternatives = job.alternatives},
                 .leg = state.arms.leg_of(*state.cell, job.job, *motion),
                 .turn = job.job,

@@ -95,9 +95,8 @@ void Scheduler::settle() {
   ask_for_wake();
 }
 
-// A job at the head of its arms that cannot begin where they stand will never be able to; under a
-// stop it is left to who resumes. The end of a job of several arms gives each of them a new head:
-// hence until there are none.
+// A job at the head of its arms that cannot begin where they stand will never be able to. The end
+// of a job of several arms gives each of them a new head: hence until there are none.
 void Scheduler::fail_impossible_starts() {
   const auto& queues = state_.jobs.queues();
   for (std::size_t unchanged = 0, arm = 0; unchanged < queues.size();
@@ -108,7 +107,7 @@ void Scheduler::fail_impossible_starts() {
     const Job& job = head.job;
     if (!job.is_waiting() || job.has_started() || !state_.jobs.at_head(head)) continue;
     if (job.goal) continue;  // its way begins where the arm stands
-    if (state_.arms.stop_of(job)) continue;
+    if (job.is_restored && state_.arms.stop_of(job)) continue;
     if (auto mismatch = state_.arms.start_mismatch(*state_.cell, *job.trajectory)) {
       unchanged = 0;
       if (begins_on_other_arm(state_, head)) continue;

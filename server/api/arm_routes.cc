@@ -42,9 +42,11 @@ void stop_arm(Call call) {
 }
 // Arms are not let go while it cannot be put down that they move.
 bool is_held_by_store(const Call& call) {
-  const auto refusal = call.parts.keeper != nullptr ? call.parts.keeper->refusal() : std::nullopt;
-  if (refusal) call.respond(refusal_response(*refusal));
-  return refusal.has_value();
+  auto refusal = call.parts.keeper != nullptr ? call.parts.keeper->refusal() : std::nullopt;
+  if (!refusal) return false;
+  refusal->status = 503;
+  call.respond(refusal_response(*refusal));
+  return true;
 }
 
 void resume_arm(Call call) {

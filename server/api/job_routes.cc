@@ -76,7 +76,12 @@ void cancel_job(Call call) {
   ask(
       parts, [key](Executive& executive) { return executive.cancel(key); },
       [&parts, respond = call.respond, key](const Result<JobView>& job) {
-        if (job) return respond(answer(202, job_format(), *job, &parts.clock));
+        if (job) {  // who cancels a job may rely on it, whatever happens to the server
+          const auto tell = [&parts, respond, job = *job] {
+            respond(answer(202, job_format(), job, &parts.clock));
+          };
+          return parts.keeper != nullptr ? parts.keeper->when_written(tell) : tell();
+        }
         const auto stored = stored_job(parts, key);
         const bool ended_before = stored && *stored && (*stored)->has_ended &&
                                   job.error().front().kind == ProblemKind::not_found;

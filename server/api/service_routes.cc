@@ -24,9 +24,11 @@ void get_ready(Call call) {
     return call.respond(refusal_response(
         {503, "recording-lost", "the recording is no longer whole: " + *lost, "--data", *lost}));
   }
-  if (const auto refusal =
-          call.parts.keeper != nullptr ? call.parts.keeper->refusal() : std::nullopt) {
-    return call.respond(refusal_response(*refusal));
+  if (call.parts.keeper != nullptr) {
+    if (auto refusal = call.parts.keeper->refusal()) {
+      refusal->status = 503;
+      return call.respond(refusal_response(*refusal));
+    }
   }
   ask(
       call.parts, [](Executive& executive) { return Ready{executive.now()}; },

@@ -147,12 +147,14 @@ std::vector<Route> submission_routes() {
        .id = "submitJob",
        .tag = "jobs",
        .summary = "Submit a job",
-       .text = "Refused (422) when it can never run: limits, names, shape, or it does not begin "
-               "where its arm will stand. An id in use: 409.",
+       .text =
+           "Refused (422) when it can never run: limits, names, shape, or it does not begin "
+           "where its arm will stand. An id in use: 409. With `--data` it is on disk when it is "
+           "said to be accepted, and there again when the server is; a full disk: 507.",
        .reads = body(job_request_format(),
                      {{"reach", example_job(head, "left")}, {"moveit", example_moveit_job()}}),
        .outcomes = {created(202, "Accepted; it may still wait in the backlog", job_format())},
-       .refuses = {409, 422},
+       .refuses = {409, 422, 507},
        .who = Who::commander,
        .run = post_job},
       {.method = "POST",
@@ -166,7 +168,7 @@ std::vector<Route> submission_routes() {
        .outcomes = {outcome(202, "All were accepted", batch_accepted_format()),
                     outcome(207, "With \"atomic\": false, an answer for each",
                             batch_results_format())},
-       .refuses = {409, 422},
+       .refuses = {409, 422, 507},
        .who = Who::commander,
        .run = post_batch},
       {.method = "POST",

@@ -21,7 +21,9 @@ inline constexpr int kExitNotWritten = 74;  // ran, but what it was to keep is n
 struct ServeOptions {
   std::string cell_file;
   std::string listen = "127.0.0.1:8080";
-  std::string data;  // empty: nothing is recorded
+  std::string data;  // empty: nothing is recorded or stored
+  std::size_t keep_jobs = 100'000;
+  std::size_t keep_days = 0;  // zero: for ever
   bool record = false;
   double speed = 1.0;
   std::string web;                         // empty: looked for beside the binary
@@ -98,6 +100,16 @@ struct AuditOptions {
   double step_s = 0.001;
 };
 int audit_recording(const AuditOptions& options);
+
+// The jobs of a data folder, also while a server uses it: oldest first, on stdout, one a line, as
+// JSON or as CSV.
+struct HistoryOptions {
+  std::string data;
+  std::string state;  // empty: any
+  std::string arm;    // likewise
+  bool csv = false;
+};
+int print_history(const HistoryOptions& options);
 
 // ---- What they share ----
 

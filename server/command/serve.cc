@@ -97,6 +97,10 @@ int serve(const ServeOptions& options) {
   service_options.web = web_folder(options.web);
   if (!options.data.empty()) service_options.data = options.data;
   service_options.record_states = options.record;
+  service_options.store.retention.jobs_max = options.keep_jobs;
+  if (options.keep_days > 0) {
+    service_options.store.retention.age_max = std::chrono::days(options.keep_days);
+  }
   service_options.connections_max = connections_within_descriptors(service_options.connections_max);
   service_options.alarm = [](const std::string& what) { spdlog::error("{}", what); };
   std::signal(SIGPIPE, SIG_IGN);

@@ -80,6 +80,10 @@ void JobKeeper::accept(std::vector<std::pair<JobView, std::string>> jobs,
                  });
 }
 
+void JobKeeper::when_written(std::function<void()> then) {
+  store_->accept({}, [this, then = std::move(then)](bool) { post_(then); });
+}
+
 std::optional<Refusal> JobKeeper::refusal() const {
   const auto fault = store_->fault();
   if (!fault) return std::nullopt;

@@ -41,6 +41,8 @@ class JobKeeper final : public StartLog {
   // the reason why not; they are canceled then.
   void accept(std::vector<std::pair<JobView, std::string>> jobs,
               std::function<void(std::optional<Refusal>)> then);
+  // When all that was told before is on disk, or cannot be written at present.
+  void when_written(std::function<void()> then);
   // Why nothing can be accepted, nor any arm be let go, at present.
   [[nodiscard]] std::optional<Refusal> refusal() const;
   void stopped(std::vector<std::string> arms) { store_->stopped(std::move(arms)); }

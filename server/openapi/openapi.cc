@@ -41,7 +41,8 @@ const std::map<int, RefusalText>& refusal_texts() {
       {503,
        {"Unavailable",
         "Right, but not now: the queue is full, the server ends, or too many connections are "
-        "open"}}};
+        "open, or what the server keeps cannot be written"}},
+      {507, {"StorageFull", "There is no space left to store it: nothing was accepted"}}};
   return texts;
 }
 

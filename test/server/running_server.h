@@ -26,6 +26,7 @@ class RunningServer : public ::testing::Test {
     auto description = read_cell_text(*text, file.parent_path());
     ASSERT_TRUE(description);
     if (on_idle_blocker_) description->scheduling.on_idle_blocker = *on_idle_blocker_;
+    if (on_restart_) description->scheduling.on_restart = *on_restart_;
     const auto cell = build_cell(*description);
     ASSERT_TRUE(cell);
     options_.port = 0;
@@ -36,10 +37,13 @@ class RunningServer : public ::testing::Test {
     service_ = std::move(*service);
     thread_ = std::thread([this] { service_->run(false); });
   }
-  void TearDown() override {
+  void TearDown() override { end(); }
+  // As a process that is killed: nothing is wound down.
+  void end() {
     if (!service_) return;
     service_->stop();
     thread_.join();
+    service_.reset();
   }
 
   std::uint16_t port() const { return service_->port(); }
@@ -71,6 +75,7 @@ class RunningServer : public ::testing::Test {
 
   ServiceOptions options_;                        // for start(), which sets port, speed and web
   std::optional<OnIdleBlocker> on_idle_blocker_;  // for start(); absent: as in the file
+  std::optional<OnRestart> on_restart_;           // likewise
 
  private:
   std::unique_ptr<Service> service_;

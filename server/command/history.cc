@@ -1,0 +1,67 @@
+// What a data folder holds of jobs, those of former runs too: as JSON lines or CSV.
+#include <cctype>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "server/command/command.h"
+#include "server/store/job_history.h"
+
+namespace armloom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// RFC 4180: quoted where it has to be.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  std::string quotes = "\"";
+  for (char c : text) quotes += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quotes + '"';
+}
+
+std::string cell_of(const Json& value) {
+  if (value.is_null()) return "";
+  return quoted(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+constexpr const char* kColumns[] = {"id",           "name",       "state",    "priority",
+                                    "submitted_at", "started_at", "ended_at", "duration_s"};
+
+void print_row(const Json& job) {
+  std::string line;
+  for (const char* column : kColumns) line += cell_of(job.value(column, Json())) + ",";
+  std::string arms;
+  for (const Json& arm : job.value("arms", Json::array())) {
+    arms += (arms.empty() ? "" : " ") + arm.get<std::string>();
+  }
+  const Json result = job.value("result", Json());
+  const auto of_result = [&](const char* key) {
+    return result.is_object() ? cell_of(result.value(key, Json())) : std::string();
+  };
+  std::cout << line << quoted(arms) << ',' << of_result("reason") << ',' << of_result("detail")
+            << "\r\n";
+}
+
+void print_header() {
+  for (const char* column : kColumns) std::cout << column << ',';
+  std::cout << "arms,reason,detail\r\n";
+}
+
+}  // namespace
+
+int print_history(const HistoryOptions& options) {
+  const auto history = JobHistory::open(options.data);
+  if (!history) return refuse("", history.error());
+  if (options.csv) print_header();
+  const auto read = (*history)->oldest_first({.state = options.state, .arm = options.arm},
+                                             [&](const StoredJob& job) {
+                                               if (options.csv)
+                                                 return print_row(Json::parse(job.view));
+                                               std::cout << job.view << '\n';
+                                             });
+  if (!read) return refuse("", read.error());
+  std::cout.flush();
+  return std::cout ? kExitDone : kExitNotWritten;
+}
+
+}  // namespace armloom

@@ -1,0 +1,236 @@
+// The server with a data folder, in one process: disks that fail, and what a run finds of the ones
+// before. How it stands being killed: kills.py.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "test/server/failing_disk.h"
+#include "test/server/panda_jobs.h"
+#include "test/server/running_server.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+using test::FailingDisk;
+
+class Durable : public test::RunningServer {
+ protected:
+  void SetUp() override {
+    FailingDisk::reset();
+    data_ = std::filesystem::path(::testing::TempDir()) / "armloom-durable" /
+            ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::remove_all(data_);
+    options_.data = data_;
+    options_.store.vfs = FailingDisk::name();
+    options_.store.retry = std::chrono::milliseconds(5);
+  }
+  void TearDown() override {
+    RunningServer::TearDown();
+    FailingDisk::reset();
+  }
+  void restart(double speed = 1) {
+    end();
+    start(speed);
+  }
+  json swing(const std::string& id, const std::string& arm) {
+    test::Pose away = test::kHome;
+    away[0] += 0.3;
+    json job = test::move(arm, test::kHome, away, 1.0);
+    json back = test::move(arm, away, test::kHome, 1.0);
+    auto& points = job["trajectory"]["points"];
+    for (json& point : back["trajectory"]["points"]) {
+      if (point["time_from_start"] == 0.0) continue;
+      point["time_from_start"] = point["time_from_start"].get<double>() + 1.0;
+      points.push_back(point);
+    }
+    job["id"] = id;
+    return job;
+  }
+  test::Answer submit(const std::string& id, const std::string& arm = "left",
+                      const json& more = json::object()) {
+    json job = swing(id, arm);
+    job.update(more);
+    return post("/api/v1/jobs", job.dump());
+  }
+  json job(const std::string& id) { return get("/api/v1/jobs/" + id).json(); }
+  void wait_for(const std::string& id, const std::string& state) {
+    test::Listener listener(port());
+    if (job(id)["state"] == state) return;
+    until(listener, id, state);
+  }
+  template <class Is>
+  void wait_until(Is is) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (!is()) ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+  }
+
+  std::filesystem::path data_;
+};
+
+TEST_F(Durable, WhatWaitedWaitsAgainUnderAStopAndGoesOnWhenResumed) {
+  start(1);
+  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  const std::string submitted = submit("a").json()["submitted_at"];
+  EXPECT_EQ(submit("b", "left", {{"after", {"a"}}, {"priority", 3}}).status, 202);
+  EXPECT_EQ(submit("", "right", {{"id", "c"}, {"order", "any"}}).status, 202);
+  json nameless = swing("x", "right");
+  nameless.erase("id");
+  const std::string given = post("/api/v1/jobs", nameless.dump()).json()["id"];
+  restart(20);
+  EXPECT_TRUE(get("/api/v1/queue").json()["stopped"]);
+  EXPECT_EQ(job("a")["state"], "queued");
+  EXPECT_EQ(job("a")["submitted_at"], submitted);
+  EXPECT_EQ(job("b")["priority"], 3);
+  EXPECT_EQ(job("c")["order"], "any");
+  EXPECT_EQ(job(given)["state"], "queued");
+  std::vector<std::string> ids;
+  const json page = get("/api/v1/jobs").json();
+  for (const json& listed : page["jobs"]) ids.push_back(listed["id"]);
+  EXPECT_EQ(ids, (std::vector<std::string>{given, "c", "b", "a"}));
+  ASSERT_EQ(post("/api/v1/resume", "").status, 202);
+  wait_for("b", "succeeded");
+  wait_for(given, "succeeded");
+  EXPECT_LE(job("a")["ended_s"].get<double>(), job("b")["started_s"].get<double>());
+}
+
+TEST_F(Durable, WhatRanIsInterruptedAndWhatCameAfterItFails) {
+  start(1);
+  submit("ran");
+  submit("after", "right", {{"after", {"ran"}}});
+  submit("next");
+  wait_for("ran", "running");
+  restart();
+  EXPECT_EQ(job("ran")["state"], "interrupted");
+  EXPECT_EQ(job("ran")["result"]["reason"], "server_restart");
+  EXPECT_FALSE(job("ran")["started_at"].is_null());
+  EXPECT_FALSE(job("ran")["ended_at"].is_null());
+  EXPECT_EQ(job("after")["result"]["reason"], "predecessor_failed");
+  EXPECT_EQ(job("next")["state"], "queued");
+  restart();
+  EXPECT_EQ(job("ran")["state"], "interrupted") << "it is final";
+  const auto again = remove("/api/v1/jobs/ran");
+  EXPECT_EQ(again.status, 409);
+  EXPECT_EQ(submit("ran").status, 409) << "an id of a former run";
+}
+
+TEST_F(Durable, WhatHasSucceededCountsInLaterRuns) {
+  start(20);
+  submit("done");
+  wait_for("done", "succeeded");
+  restart(20);
+  EXPECT_FALSE(get("/api/v1/queue").json()["stopped"]) << "nothing was left";
+  EXPECT_EQ(submit("then", "right", {{"after", {"done"}}}).status, 202);
+  wait_for("then", "succeeded");
+  EXPECT_EQ(job("then")["id"], "then");
+}
+
+TEST_F(Durable, AnOperatorsStopOutlivesTheServer) {
+  start(1);
+  ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
+  restart();
+  EXPECT_EQ(get("/api/v1/arms/left").json()["state"], "stopped");
+  EXPECT_EQ(get("/api/v1/arms/right").json()["state"], "idle");
+}
+
+TEST_F(Durable, ContinueGoesOnByItselfWithWhatHadNotBegun) {
+  on_restart_ = OnRestart::continue_;
+  start(1);
+  ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
+  submit("held");
+  submit("ran", "right");
+  submit("next", "right");
+  wait_for("ran", "running");
+  restart(20);
+  wait_for("next", "succeeded");
+  EXPECT_EQ(job("ran")["state"], "interrupted");
+  EXPECT_EQ(job("held")["state"], "queued") << "its arm was stopped, and is";
+}
+
+TEST_F(Durable, ListsGoOnIntoFormerRuns) {
+  start(20);
+  for (int i = 0; i < 7; ++i) submit("old-" + std::to_string(i), i % 2 == 0 ? "left" : "right");
+  wait_for("old-6", "succeeded");
+  wait_for("old-5", "succeeded");
+  restart(1);
+  for (int i = 0; i < 3; ++i) submit("new-" + std::to_string(i));
+  std::vector<std::string> ids;
+  std::string cursor;
+  for (int pages = 0; pages < 10; ++pages) {
+    const json page = get("/api/v1/jobs?limit=3" + cursor).json();
+    for (const json& listed : page["jobs"]) ids.push_back(listed["id"]);
+    if (page["next_cursor"].is_null()) break;
+    cursor = "&cursor=" + page["next_cursor"].get<std::string>();
+  }
+  EXPECT_EQ(ids, (std::vector<std::string>{"new-2", "new-1", "new-0", "old-6", "old-5", "old-4",
+                                           "old-3", "old-2", "old-1", "old-0"}));
+  EXPECT_EQ(get("/api/v1/jobs?arm=right&state=succeeded").json()["jobs"].size(), 3U);
+}
+
+TEST_F(Durable, AFullDiskRefusesJobsStopsArmsAndIsOverWhenItIs) {
+  start(1);
+  submit("runs");
+  wait_for("runs", "running");
+  FailingDisk::fail(FailingDisk::Fault::full, 0);
+  const auto refused = submit("refused", "right");
+  EXPECT_EQ(refused.status, 507) << refused.body;
+  EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:storage-full");
+  EXPECT_EQ(get("/readyz").status, 503);
+  EXPECT_EQ(get("/healthz").status, 200);
+  const json batch = {{"jobs", json::array({swing("refused-2", "right")})}};
+  EXPECT_EQ(post("/api/v1/batches", batch.dump()).status, 507);
+  wait_until([&] { return get("/api/v1/queue").json()["stopped"] == true; });
+  EXPECT_EQ(post("/api/v1/resume", "").status, 503);
+  EXPECT_EQ(post("/api/v1/arms/left/resume", "").status, 503);
+  EXPECT_EQ(post("/api/v1/stop", "").status, 202);
+  wait_until([&] { return get("/api/v1/arms/left").json()["state"] == "holding"; });
+
+  FailingDisk::fail(FailingDisk::Fault::none, 0);
+  wait_until([&] { return get("/readyz").status == 200; });
+  EXPECT_TRUE(get("/api/v1/queue").json()["stopped"]) << "until someone resumes";
+  EXPECT_EQ(submit("again", "right").status, 202);
+  ASSERT_EQ(post("/api/v1/resume", "").status, 202);
+  wait_for("runs", "succeeded");
+  restart();
+  EXPECT_EQ(job("runs")["state"], "succeeded");
+  EXPECT_NE(job("refused")["state"], "queued") << "its client was told that it is not accepted";
+}
+
+TEST_F(Durable, ABrokenDiskIsNoFullOne) {
+  start(1);
+  FailingDisk::fail(FailingDisk::Fault::broken, 0);
+  const auto refused = submit("refused");
+  EXPECT_EQ(refused.status, 503) << refused.body;
+  EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:storage-failed");
+}
+
+TEST_F(Durable, AJobThatTheCellNoLongerFitsIsInterruptedAndSaysWhy) {
+  start(1);
+  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  submit("gone", "right");
+  submit("after", "left", {{"after", {"gone"}}});
+  submit("stays", "left");
+  end();
+  json cell = json::parse(
+      read_text_file(std::string(ARMLOOM_SOURCE_DIR) + "/config/two_pandas.json").value(), nullptr,
+      true, true);
+  for (json& robot : cell["robots"]) {
+    for (const char* key : {"urdf", "srdf"}) {
+      robot[key] = std::string(ARMLOOM_SOURCE_DIR) + "/config/" + robot[key].get<std::string>();
+    }
+  }
+  cell["robots"].erase(cell["robots"][0]["name"] == "right" ? 0 : 1);
+  cell["allowed_collisions"] = json::array();
+  const auto file = data_ / "one_panda.json";
+  std::ofstream(file) << cell.dump();
+  start(1, {}, file);
+  wait_until([&] { return job("gone")["state"] == "interrupted"; });
+  EXPECT_NE(job("gone")["result"]["detail"].get<std::string>().find("no longer fits"),
+            std::string::npos);
+  wait_until([&] { return job("after")["state"] == "failed"; });
+  EXPECT_EQ(job("stays")["state"], "queued");
+}
+
+}  // namespace
+}  // namespace armloom
