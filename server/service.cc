@@ -99,7 +99,7 @@ class Service::Impl {
     const auto fault = keeper_ ? keeper_->store().close() : std::nullopt;
     loop_.reset();
     if (recording_) recording_->close();
-    if (fault) return "jobs: " + fault->text;
+    if (fault) return "jobs cannot be stored: " + fault->text;
     return recording_ ? recording_->fault() : std::nullopt;
   }
 

@@ -55,7 +55,7 @@ class Service {
   void run(bool until_signal);  // until stop(), or SIGINT, SIGTERM, SIGHUP
   void stop();                  // thread-safe
 
-  // After run(): ends the executive and writes the rest of the recording. What of it could not be
+  // After run(): ends the executive and writes the rest of jobs and recording. What could not be
   // written, if anything.
   [[nodiscard]] std::optional<std::string> close();
 

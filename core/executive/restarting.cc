@@ -38,7 +38,8 @@ void Executive::Impl::start_is_written(JobId job) {
 std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> jobs) {
   std::vector<Result<JobView>> answers;
   for (RestoredJob& job : jobs) {
-    Ahead ahead{.rest = scheduler_.predicted_rest(), .begins_anywhere = true};
+    Ahead ahead = ahead_now();
+    ahead.begins_anywhere = true;
     auto prepared = prepare(std::move(job.request), ahead);
     if (!prepared) {
       answers.push_back(failure(std::move(prepared.error())));
@@ -47,7 +48,7 @@ std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> j
     Label label{std::move(prepared->key), std::move(prepared->name), job.submitted_at};
     Submit submitted = submission(std::move(*prepared));
     submitted.job = job.id;
-    submitted.is_restored = true;
+    submitted.is_held_over = true;
     enter(submitted, std::move(label));
     answers.push_back(view(*scheduler_.find(job.id)));
   }

@@ -28,8 +28,8 @@ struct Submit {
   // Jobs of one arm that say so, and begin and end at one place, may be taken in another order.
   bool any_order = false;
   // It waited when a former run ended: whether it can begin where its arms stand is not looked at
-  // while one of them is stopped, but when they are resumed.
-  bool is_restored = false;
+  // while one of them is stopped, but when they are resumed. (As of those that Interrupt keeps.)
+  bool is_held_over = false;
   // The same work by one of several arms, `trajectory` first; none, or two or more. Each moves one
   // arm, of which no other one is, and ends where it begins.
   std::vector<TrajectoryPtr> alternatives = {};

@@ -158,7 +158,7 @@ struct Job {
   std::vector<JobId> after = {};  // those that have not ended yet
   bool system_job = false;        // the server's: a move aside
   bool any_order = false;         // Submit::any_order
-  bool is_restored = false;       // Submit::is_restored
+  bool is_held_over = false;      // Submit::is_held_over
   std::vector<TrajectoryPtr> alternatives =
       {};  // `trajectory` is one of them: until it is admitted
            // it is as good as chosen, but may be another

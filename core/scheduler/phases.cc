@@ -81,7 +81,7 @@ Record record_of(State& state, const Submit& job) {
                         .after = job.after,
                         .system_job = job.system_job,
                         .any_order = job.any_order,
-                        .is_restored = job.is_restored,
+                        .is_held_over = job.is_held_over,
                         .alternatives = job.alternatives},
                 .leg = state.arms.leg_of(*state.cell, job.job, *motion),
                 .turn = job.job,
@@ -127,7 +127,11 @@ void end(State& state, Record& record, JobState how, Reason reason, std::string 
 void interrupt(State& state, bool keeps_waiting) {
   std::vector<JobId> ids(state.jobs.active().begin(), state.jobs.active().end());
   if (keeps_waiting) {
-    std::erase_if(ids, [&](JobId id) { return !state.jobs.at(id).job.has_started(); });
+    const auto kept =
+        std::ranges::partition(ids, [&](JobId id) { return state.jobs.at(id).job.has_started(); });
+    for (JobId id : kept) state.jobs.at(id).job.is_held_over = true;
+    ids.erase(kept.begin(), kept.end());
+    std::ranges::sort(ids);
   }
   for (JobId id : ids) state.jobs.at(id).job.after.clear();  // none fails for another's sake
   for (JobId id : ids) {

@@ -107,7 +107,7 @@ void Scheduler::fail_impossible_starts() {
     const Job& job = head.job;
     if (!job.is_waiting() || job.has_started() || !state_.jobs.at_head(head)) continue;
     if (job.goal) continue;  // its way begins where the arm stands
-    if (job.is_restored && state_.arms.stop_of(job)) continue;
+    if (job.is_held_over && state_.arms.stop_of(job)) continue;
     if (auto mismatch = state_.arms.start_mismatch(*state_.cell, *job.trajectory)) {
       unchanged = 0;
       if (begins_on_other_arm(state_, head)) continue;

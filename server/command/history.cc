@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // RFC 4180: quoted where it has to be.
-std::string quoted(const std::string& text) {
+std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string quotes = "\"";
   for (char c : text) quotes += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -21,7 +21,7 @@ std::string quoted(const std::string& text) {
 
 std::string cell_of(const Json& value) {
   if (value.is_null()) return "";
-  return quoted(value.is_string() ? value.get<std::string>() : value.dump());
+  return csv_field(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 constexpr const char* kColumns[] = {"id",           "name",       "state",    "priority",
@@ -38,7 +38,7 @@ void print_row(const Json& job) {
   const auto of_result = [&](const char* key) {
     return result.is_object() ? cell_of(result.value(key, Json())) : std::string();
   };
-  std::cout << line << quoted(arms) << ',' << of_result("reason") << ',' << of_result("detail")
+  std::cout << line << csv_field(arms) << ',' << of_result("reason") << ',' << of_result("detail")
             << "\r\n";
 }
 

@@ -124,7 +124,7 @@ int serve(const ServeOptions& options) {
             << std::endl;
   (*service)->run(true);
   const auto lost = (*service)->close();
-  if (lost) spdlog::error("the recording is not whole: {}", *lost);
+  if (lost) spdlog::error("not all is written: {}", *lost);
   spdlog::info("stopped");
   return lost ? kExitNotWritten : kExitDone;
 }

@@ -92,6 +92,9 @@ std::vector<std::string> breaches_in(const std::string& path, const std::string&
       breaches.push_back(path + " includes " + (*it)[1].str() + " of a room above it");
     }
   }
+  if (!path.starts_with("server/store/") && text.find("sqlite3.h") != std::string::npos) {
+    breaches.push_back(path + " knows SQL");
+  }
   for (const auto& [where, words] : kMustNotSay) {
     if (!path.starts_with(where + "/")) continue;
     for (const std::string& word : words) {
@@ -142,6 +145,8 @@ TEST(Floors, ABreachIsFound) {
   EXPECT_FALSE(breaches_in("core/monitor/x.cc", "auto t = Clock::now();\n").empty());
   EXPECT_FALSE(breaches_in("core/executive/x.cc", "#include <nlohmann/json.hpp>\n").empty());
   EXPECT_FALSE(breaches_in("core/misc/x.cc", "").empty());
+  EXPECT_FALSE(breaches_in("server/api/x.cc", "#include <sqlite3.h>\n").empty());
+  EXPECT_TRUE(breaches_in("server/store/x.cc", "#include <sqlite3.h>\n").empty());
   EXPECT_TRUE(breaches_in("core/audit/x.cc", "#include \"core/geometry/mesh/mesh.h\"\n").empty());
   EXPECT_TRUE(
       breaches_in("core/geometry/convex/x.cc", "#include \"core/geometry/mesh/mesh.h\"\n").empty());

@@ -173,6 +173,7 @@ TEST(WindDown, LeavesWhatHasNotBegunToTheNextRun) {
   Crossing cell;
   cell.submit(slide("x", -1, 1, 4, "moves"));
   cell.submit(slide("y", -1, 1, 4, "waits"));
+  cell.submit(slide("x", 1, -1, 4, "next"));
   cell.run_until(at(1500ms));
   bool done = false;
   cell.simulation->executive().wind_down("the server ends", Executive::Waiting::is_kept,
@@ -181,6 +182,7 @@ TEST(WindDown, LeavesWhatHasNotBegunToTheNextRun) {
   EXPECT_TRUE(done);
   EXPECT_EQ(cell.job("moves").state, JobState::interrupted);
   EXPECT_FALSE(is_terminal(cell.job("waits").state));
+  EXPECT_EQ(cell.job("next").state, JobState::queued) << "though its arm stands elsewhere";
 }
 
 }  // namespace

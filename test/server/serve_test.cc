@@ -98,16 +98,18 @@ TEST_F(Serve, EventsAreOnTheirWayToTheDiskWhenTheyAreTold) {
   EXPECT_FALSE(events().empty());
 }
 
-// No file may grow beyond this, as on a disk that is full.
+// No file may grow beyond 128 kB, as on a disk that is full. Of the store on such a disk: Durable.
 TEST_F(Serve, ADiskThatFillsUpIsSaidAtOnceAndAtTheEnd) {
   test::ServeProcess server({"--cell", test::kCell, "--data", data(), "--speed", "20"}, log(),
-                            [] { test::set_limit(RLIMIT_FSIZE, 16'384); });
-  EXPECT_EQ(test::request(server.port(), "GET", "/readyz").status, 200);
+                            [] { test::set_limit(RLIMIT_FSIZE, 131'072); });
+  const json box = {{"name", "box"}, {"box", {0.1, 0.1, 0.1}}, {"xyz", {0, 0, 3}}};
   const auto deadline = Clock::now() + std::chrono::seconds(20);
   auto ready = test::request(server.port(), "GET", "/readyz");
-  for (int n = 0; ready.status == 200; ++n) {
+  EXPECT_EQ(ready.status, 200);
+  while (ready.status == 200) {
     ASSERT_LT(Clock::now(), deadline);
-    test::request(server.port(), "POST", n % 2 == 0 ? "/api/v1/stop" : "/api/v1/resume");
+    test::request(server.port(), "POST", "/api/v1/scene/objects", box.dump());
+    test::request(server.port(), "DELETE", "/api/v1/scene/objects/box");
     ready = test::request(server.port(), "GET", "/readyz");
   }
   EXPECT_EQ(ready.status, 503);
@@ -119,7 +121,38 @@ TEST_F(Serve, ADiskThatFillsUpIsSaidAtOnceAndAtTheEnd) {
   }
   server.signal(SIGTERM);
   EXPECT_EQ(server.wait(), 74);
-  EXPECT_NE(server.log().find("the recording is not whole: "), std::string::npos) << server.log();
+  EXPECT_NE(server.log().find("not all is written: "), std::string::npos) << server.log();
+}
+
+TEST_F(Serve, ASignalLeavesWhatHasNotBegunToTheNextServer) {
+  {
+    test::ServeProcess server({"--cell", test::kCell, "--data", data()}, log());
+    begin_job(server.port(), "go", "left");
+    ASSERT_NO_FATAL_FAILURE(wait_until_moving(server.port()));
+    json back = test::move("left", test::kMiddle, test::kHome);
+    back["id"] = "back";
+    EXPECT_EQ(test::request(server.port(), "POST", "/api/v1/jobs", back.dump()).status, 202);
+    server.signal(SIGTERM);
+    EXPECT_EQ(server.wait(), 0);
+  }
+  test::ServeProcess server({"--cell", test::kCell, "--data", data()}, log());
+  const auto job = [&](const std::string& id) {
+    return test::request(server.port(), "GET", "/api/v1/jobs/" + id).json();
+  };
+  EXPECT_EQ(job("go")["state"], "interrupted");
+  EXPECT_EQ(job("back")["state"], "queued") << "though the arm stands elsewhere: the queue is held";
+  EXPECT_EQ(test::request(server.port(), "GET", "/api/v1/queue").json()["stopped"], true);
+
+  const auto second = run("serve --cell " + test::kCell + " --listen 127.0.0.1:0 --data " + data());
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_NE(second.err.find("is in use by process"), std::string::npos) << second.err;
+
+  const auto lines = run("history --data " + data() + " --state interrupted");
+  EXPECT_EQ(lines.last_line(), job("go"));
+  const auto table = run("history --data " + data() + " --csv");
+  EXPECT_NE(table.out.find("\r\ngo,,interrupted,0,"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find(",left,server_restart,"), std::string::npos) << table.out;
+  EXPECT_EQ(run("history --data " + folder_.string()).exit_code, 2) << "there is no store";
 }
 
 TEST_F(Serve, WithFewDescriptorsWhoComesIsToldSo) {
