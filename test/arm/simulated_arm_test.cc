@@ -3,36 +3,13 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "test/arm/arm_fixture.h"
+#include "test/arm/started_arm.h"
 
 namespace armloom {
 namespace {
 
 using namespace std::chrono_literals;
 using Phase = ArmFeedback::Phase;
-
-struct Example {
-  explicit Example(CellOptions options = {}, std::uint64_t seed = 1)
-      : random(seed),
-        cell(two_arm_cell(options)),
-        trajectory(random_trajectory(*cell, joints_of(*cell, kLeft), {kLeft}, random)),
-        bench(cell, kLeft, *trajectory, seed) {}
-
-  void start_now(Duration from = {}) {
-    bench.arm.start(trajectory, bench.now, from, trajectory->duration());
-  }
-  // How far the first seven measured joints are from the path at `progress`.
-  double off_path(const ArmFeedback& feedback, Duration progress) const {
-    Eigen::VectorXd q;
-    trajectory->sample_positions(progress, q);
-    return (feedback.measured.head(7) - q).cwiseAbs().maxCoeff();
-  }
-
-  std::mt19937_64 random;
-  CellPtr cell;
-  TrajectoryPtr trajectory;
-  Bench bench;
-};
 
 TEST(SimulatedArm, IsIdleWhereItStandsUntilTheFirstStart) {
   Example e;
@@ -103,116 +80,6 @@ TEST(SimulatedArm, AStartInThePastBeginsAtTheNextTick) {
   e.bench.arm.start(e.trajectory, at(40ms), {}, e.trajectory->duration());
   EXPECT_EQ(e.bench.tick().commanded_progress, 0ms);
   EXPECT_EQ(e.bench.tick().commanded_progress, 1ms);
-}
-
-TEST(SimulatedArm, BrakesWithinTheLimitsAndComesToRestOnItsPath) {
-  for (const double brake : {1.0, 2.0, 4.0}) {
-    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-      Example e({.brake_per_acceleration = brake}, seed);
-      AccelerationGauge gauge(*e.cell, e.trajectory);
-      e.start_now();
-      const auto ticks = e.trajectory->duration() / kControlPeriod;
-      for (auto until = static_cast<Duration::rep>(e.random() % static_cast<std::uint64_t>(ticks));
-           until > 0; --until) {
-        gauge.observe(e.bench.tick(), false);
-      }
-      e.bench.arm.brake();
-      Duration last{};
-      int braking = 0;
-      while (true) {
-        const ArmFeedback& feedback = e.bench.tick();
-        gauge.observe(feedback, true);
-        ASSERT_GE(feedback.commanded_progress, last) << seed;
-        ASSERT_LT(e.off_path(feedback, feedback.measured_progress), 1e-12) << seed;
-        last = feedback.commanded_progress;
-        if (feedback.phase != Phase::braking) break;
-        ASSERT_LT(++braking, 20'000) << seed;
-      }
-      const ArmFeedback& rest = e.bench.tick();
-      EXPECT_TRUE(rest.phase == Phase::stopped ||
-                  (rest.phase == Phase::finished && last == e.trajectory->duration()))
-          << seed;
-      EXPECT_EQ(rest.measured_progress, rest.commanded_progress) << seed;
-      EXPECT_EQ(rest.commanded_progress, last) << seed;
-      EXPECT_LE(gauge.worst_share(), 1.0 + e.cell->checking.limit_tolerance)
-          << "seed " << seed << " brake " << brake;
-    }
-  }
-}
-
-TEST(SimulatedArm, ABrakeEndsSoon) {
-  Duration longest{};
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    Example e({}, seed);
-    e.start_now();
-    e.bench.tick_for(e.trajectory->duration() * static_cast<int>(1 + seed % 9) / 10);
-    const TimePoint asked = e.bench.now;
-    e.bench.arm.brake();
-    while (e.bench.tick().phase == Phase::braking) {
-    }
-    longest = std::max(longest, e.bench.now - asked);
-  }
-  // 2.61 rad/s over (7.5 - 3.75) rad/s^2 is 0.7 s, the lag settles on top of it.
-  EXPECT_LT(longest, 900ms);
-  EXPECT_GT(longest, 100ms);
-}
-
-TEST(SimulatedArm, ContinuesAfterABrakeAndEndsAtItsGoal) {
-  Example e;
-  e.start_now();
-  e.bench.tick_for(600ms);
-  e.bench.arm.brake();
-  const Duration stopped_at = e.bench.tick_until(Phase::stopped).measured_progress;
-  e.bench.tick_for(300ms);
-  e.start_now(stopped_at);
-  const ArmFeedback& feedback = e.bench.tick();
-  EXPECT_EQ(feedback.phase, Phase::moving);
-  EXPECT_LT(feedback.commanded_progress - stopped_at, 100us);  // it ramps up
-  e.bench.tick_until(Phase::finished);
-  EXPECT_EQ(feedback.measured.head(7), e.trajectory->goal());
-}
-
-TEST(SimulatedArm, KeepsItsLimitsThroughBrakesAndContinuationsAtRandomTimes) {
-  for (const Pieces pieces : {Pieces::quintic, Pieces::cubic}) {
-    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-      std::mt19937_64 random(seed);
-      const CellPtr cell = two_arm_cell({.brake_per_acceleration = seed % 2 == 0 ? 1.0 : 2.0});
-      const TrajectoryPtr trajectory =
-          random_trajectory(*cell, joints_of(*cell, kLeft), {kLeft}, random, pieces);
-      Bench bench(cell, kLeft, *trajectory);
-      AccelerationGauge gauge(*cell, trajectory);
-      bench.arm.start(trajectory, at(0ms), {}, trajectory->duration());
-      for (int i = 0; i < 200'000; ++i) {
-        const ArmFeedback& feedback = bench.tick();
-        gauge.observe(feedback,
-                      feedback.phase == Phase::braking || feedback.phase == Phase::stopped);
-        if (feedback.phase == Phase::finished) break;
-        if (feedback.phase == Phase::moving && random() % 500 == 0) bench.arm.brake();
-        if (feedback.phase == Phase::stopped) {
-          bench.arm.start(trajectory, bench.now, feedback.measured_progress,
-                          trajectory->duration());
-        }
-      }
-      EXPECT_EQ(bench.tick().phase, Phase::finished) << seed;
-      EXPECT_LE(gauge.worst_share(), 1.0 + cell->checking.limit_tolerance)
-          << "seed " << seed << (pieces == Pieces::cubic ? " cubic" : " quintic");
-    }
-  }
-}
-
-TEST(SimulatedArm, ABrakeWhileWaitingStopsAtOnceAndTheMotionCanBeDropped) {
-  Example e;
-  e.bench.arm.start(e.trajectory, at(1s), {}, e.trajectory->duration());
-  e.bench.tick_for(10ms);
-  e.bench.arm.brake();
-  const ArmFeedback& feedback = e.bench.tick();
-  EXPECT_EQ(feedback.phase, Phase::stopped);
-  EXPECT_EQ(feedback.measured_progress, 0ms);
-  e.bench.tick_for(2s);
-  EXPECT_EQ(feedback.phase, Phase::stopped);
-  EXPECT_EQ(feedback.measured, at_start(*e.trajectory, *e.cell, kLeft));
-  e.bench.arm.release();
-  EXPECT_EQ(e.bench.tick().phase, Phase::idle);
 }
 
 TEST(SimulatedArm, RunsOneTrajectoryAfterAnother) {

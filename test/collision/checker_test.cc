@@ -1,4 +1,3 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,50 +5,15 @@
 #include <random>
 #include <set>
 
-#include "core/collision/state/check_home.h"
-#include "core/collision/state/clearance_query.h"
 #include "core/model/kinematics.h"
+#include "test/collision/busy_cell.h"
 #include "test/collision/scaled_query.h"
-#include "test/collision/small_cell.h"
 #include "test/geometry/reference_distance.h"
 
 namespace armloom {
 namespace {
 
-const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
-const Eigen::Vector3d kY = Eigen::Vector3d::UnitY();
-const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
-
-// Two arms of four links face to face over a table, with a rod and a crate; a static post on the
-// left robot, a flat cylinder and a box on the right one's last link.
-Cell busy_cell() {
-  Cell cell;
-  cell.clearance_m = 0.02;
-  small::add_robot(cell, "left", small::at_xyz(-0.3, 0, 0.4), {kZ, kY, kY, kX}, 0.2, 0.05);
-  Eigen::Isometry3d facing = small::at_xyz(0.3, 0, 0.4);
-  facing.rotate(Eigen::AngleAxisd(small::kHalfTurn, kZ));
-  small::add_robot(cell, "right", facing, {kZ, kY, kY, kX}, 0.2, 0.05);
-  cell.links.back().shapes.clear();
-  small::add_shape(cell.links.back(), Cylinder{0.04, 0.1}, small::at_xyz(0.1, 0, 0));
-  small::add_shape(cell.links.back(), Box{{0.05, 0.1, 0.02}}, small::at_xyz(0.15, 0, 0.03));
-  Link post = small::static_link("left_post", RobotId{0}, small::at_xyz(-0.3, 0.3, 0.5));
-  small::add_shape(post, Box{{0.05, 0.05, 0.6}}, Eigen::Isometry3d::Identity());
-  small::add_link(cell, post);
-  cell.objects.push_back({"table", Box{{2, 2, 0.1}}, small::at_xyz(0, 0, -0.05)});
-  Eigen::Isometry3d leaning = small::at_xyz(0.0, 0.3, 0.3);
-  leaning.rotate(Eigen::AngleAxisd(0.7, kX));
-  cell.objects.push_back({"rod", Cylinder{0.015, 0.5}, leaning});
-  cell.objects.push_back({"crate", Box{{0.2, 0.3, 0.2}}, small::at_xyz(0.1, -0.4, 0.1)});
-  cell.objects.push_back({"ball", Sphere{0.1}, small::at_xyz(-0.2, 0.5, 0.5)});
-  cell.allowed_link_objects.insert({LinkId{1}, "table"});
-  return cell;
-}
-
-PlanningScenePtr scene_of(const CellPtr& cell) {
-  auto scene = PlanningScene::build(cell);
-  EXPECT_TRUE(scene.has_value());
-  return *scene;
-}
+using namespace busy;
 
 using NamePair = std::pair<std::string, std::string>;
 NamePair names(const std::string& a, const std::string& b) { return std::minmax(a, b); }
@@ -284,47 +248,6 @@ TEST(ClearanceQuery, ForbidsContactEvenWhereNoClearanceIsAsked) {
     contacts += found ? 1 : 0;
   }
   EXPECT_GT(contacts, 50);
-}
-
-TEST(PlanningScene, RefusesMeshesThatWereNotLoadedAndNamesThemAll) {
-  Cell cell = busy_cell();
-  small::add_shape(cell.links[2], Mesh{"hand.stl"}, Eigen::Isometry3d::Identity());
-  cell.objects.push_back({"part", Mesh{"part.stl"}});
-  const auto scene = PlanningScene::build(small::shared(cell));
-  ASSERT_FALSE(scene.has_value());
-  ASSERT_EQ(scene.error().size(), 2U);
-  EXPECT_EQ(scene.error()[0].kind, ProblemKind::unsupported);
-  EXPECT_THAT(scene.error()[0].detail, ::testing::HasSubstr("hand.stl"));
-  EXPECT_EQ(scene.error()[1].pointer, "/objects/4/mesh");
-}
-
-TEST(PlanningScene, RefusesANameUsedTwiceAndAnAllowedNameThatIsNone) {
-  Cell cell = busy_cell();
-  cell.objects.push_back({"rod", Sphere{0.1}});
-  cell.allowed_link_objects.insert({LinkId{1}, "tabel"});
-  const auto scene = PlanningScene::build(small::shared(cell));
-  ASSERT_FALSE(scene.has_value());
-  ASSERT_EQ(scene.error().size(), 2U);
-  EXPECT_EQ(scene.error()[0].pointer, "/objects/4/name");
-  EXPECT_THAT(scene.error()[1].detail, ::testing::HasSubstr("tabel"));
-}
-
-TEST(CheckHome, IsQuietWhenHomesAreFreeAndNamesEveryPairThatIsNot) {
-  Cell cell;
-  cell.clearance_m = 0.02;
-  small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ}, 0.3, 0.05);
-  small::add_robot(cell, "right", small::at_xyz(0, 0.13, 0), {kZ}, 0.3, 0.05);
-  EXPECT_TRUE(check_home(scene_of(small::shared(cell))).empty());
-  cell.clearance_m = 0.031;
-  cell.objects.push_back({"shelf", Box{{1, 1, 0.1}}, small::at_xyz(0, 0, -0.12)});
-  const Problems problems = check_home(scene_of(small::shared(cell)));
-  ASSERT_EQ(problems.size(), 3U);
-  EXPECT_EQ(problems[0].pointer, "/robots/0/arms/0/home");
-  EXPECT_EQ(
-      problems[0].detail,
-      "left_link1 and right_link1: 0.0300 m apart at home, clearance_m is 0.0310 (give another "
-      "\"home\", or place one of them elsewhere)");
-  EXPECT_THAT(problems[2].detail, ::testing::StartsWith("right_link1 and shelf: 0.0200 m"));
 }
 
 }  // namespace

@@ -4,80 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/collision/check/motion_checker.h"
 #include "core/collision/check/pair_regions.h"
-#include "test/collision/small_cell.h"
+#include "test/collision/rails.h"
 
 namespace armloom {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr double kRadius_m = 0.05;
-constexpr double kClearance_m = 0.02;
-constexpr double kTracking_m = 0.001;
-constexpr double kApart_m = 2 * kRadius_m + kClearance_m;  // of two centres
-constexpr double kSpeed_m_s = 0.5;
-
-void add_rail(Cell& cell, const std::string& name, const Eigen::Isometry3d& X_WB,
-              const Eigen::Vector3d& along) {
-  const ArmId arm = small::add_robot(cell, name, X_WB, {along}, 0.0, kRadius_m);
-  Joint& joint = cell.joints.back();
-  joint.kind = JointKind::prismatic;
-  joint.lower = -2.0;
-  joint.upper = 2.0;
-  Link& link = cell.links.back();
-  link.motion = JointKind::prismatic;
-  link.shapes.clear();
-  small::add_shape(link, Sphere{kRadius_m}, small::at_xyz(0, 0, 0));
-  cell.arms[arm.index()].home[0] = 1.5;
-}
-
-const ArmId kX{0};       // along x at y = 0
-const ArmId kY{1};       // along y at x = 0
-const ArmId kSecond{2};  // along x at y = 1
-
-struct Rails {
-  Rails() {
-    Cell made;
-    made.clearance_m = kClearance_m;
-    add_rail(made, "x", small::at_xyz(0, 0, 0), Eigen::Vector3d::UnitX());
-    add_rail(made, "y", small::at_xyz(0, 0, 0), Eigen::Vector3d::UnitY());
-    add_rail(made, "second", small::at_xyz(0, 1, 0), Eigen::Vector3d::UnitX());
-    // A post beside x's rail, far from all others.
-    Link post = small::static_link("post", RobotId{1}, small::at_xyz(-1.8, 0, 0));
-    small::add_shape(post, Sphere{kRadius_m}, small::at_xyz(0, 0, 0));
-    small::add_link(made, post);
-    cell = small::shared(std::move(made));
-    question.rest = cell->home();
-    question.method = Coordinated{kTracking_m};
-    checker.emplace(*PlanningScene::build(cell));
-  }
-
-  // At constant speed; all arms the same way.
-  [[nodiscard]] Motion motion(std::uint64_t job, const std::vector<ArmId>& arms, double from,
-                              double to) const {
-    const Duration duration = from_seconds(std::abs(to - from) / kSpeed_m_s);
-    std::vector<JointId> joints;
-    for (const ArmId arm : arms) joints.push_back(cell->arm(arm).joints[0]);
-    Segment segment{Duration{}, duration, {}};
-    segment.coefficients.setZero(static_cast<Eigen::Index>(joints.size()), 6);
-    segment.coefficients.col(0).setConstant(from);
-    segment.coefficients.col(1).setConstant((to - from) / to_seconds(duration));
-    return {JobId{job},
-            std::make_shared<const Trajectory>(joints, arms, std::vector<Segment>{segment}),
-            {}};
-  }
-  [[nodiscard]] Motion to_come(Motion motion) const {
-    motion.to_come = true;
-    return motion;
-  }
-  [[nodiscard]] Verdict judge() { return checker->judge(question); }
-
-  CellPtr cell;
-  std::optional<MotionChecker> checker;
-  Question question{};
-};
+using namespace rails;
 
 bool hold(const std::vector<ConflictRegion>& regions, Duration a, Duration b) {
   return std::ranges::any_of(regions, [&](const ConflictRegion& region) {

@@ -1,51 +1,13 @@
 #include <gtest/gtest.h>
 
-#include "core/collision/check/timed_discrete_check.h"
-#include "test/collision/scaled_query.h"
-#include "test/collision/small_cell.h"
+#include "test/collision/row_of_arms.h"
 
 namespace armloom {
 namespace {
 
 using namespace std::chrono_literals;
+using namespace row_of_arms;
 using With = Conflict::With;
-const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
-
-// Three arms in a row along x, bases 0.7 m apart, each one link of 0.4 m that turns about z: at
-// zero it points to its right neighbour, at pi to its left one. Two neighbours that point at each
-// other overlap; one that points there while the other points up (pi/2) does not.
-Cell row() {
-  Cell cell;
-  cell.clearance_m = 0.02;
-  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, 0.4, 0.03);
-  small::add_robot(cell, "b", small::at_xyz(0.7, 0, 0), {kZ}, 0.4, 0.03);
-  small::add_robot(cell, "c", small::at_xyz(1.4, 0, 0), {kZ}, 0.4, 0.03);
-  return cell;
-}
-const ArmId kA{0};
-const ArmId kB{1};
-const ArmId kC{2};
-constexpr double kPi = small::kHalfTurn;
-constexpr double kUp = kPi / 2;
-
-struct Judged {
-  explicit Judged(Cell made)
-      : cell(small::shared(std::move(made))), checker(*PlanningScene::build(cell)) {
-    question.version = 42;
-    question.start_at = at(0s);
-    question.rest = Configuration::Constant(static_cast<Eigen::Index>(cell->joints.size()), kUp);
-    question.method = TimedDiscrete{50ms};
-  }
-  Motion motion(std::uint64_t job, ArmId arm, double from, double to, Duration duration,
-                Duration progress = 0s) const {
-    return {JobId{job}, small::sweep(*cell, {arm}, {from}, {to}, duration), progress};
-  }
-  Verdict operator()() { return timed_discrete_check(question, checker); }
-
-  CellPtr cell;
-  small::ScaledQuery checker;
-  Question question;
-};
 
 TEST(Judge, IsFreeWhenNothingIsNearAndLooksAtEveryStepAndTheEnd) {
   Judged judged(row());
@@ -116,60 +78,6 @@ TEST(Judge, FindsTheRestBeforeAMotionThatIsStillToStart) {
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
 }
 
-TEST(Judge, NamesAnArmAtRestThatNoJobWillMove) {
-  Judged judged(row());
-  judged.question.rest[1] = kPi;
-  judged.question.candidates = {judged.motion(2, kA, kUp, 0, 2s)};
-  const Verdict verdict = judged();
-  ASSERT_EQ(verdict.conflicts.size(), 1U);
-  EXPECT_EQ(verdict.conflicts[0].with, With::rest);
-  EXPECT_EQ(verdict.conflicts[0].proximity.arm_b, kB);
-  EXPECT_FALSE(verdict.conflicts[0].other_job.has_value());
-}
-
-TEST(Judge, PutsTheCandidateFirstInTheEvidenceWhicheverArmItIs) {
-  Judged judged(row());
-  judged.question.rest[0] = 0;
-  judged.question.candidates = {judged.motion(2, kB, kUp, kPi, 2s)};
-  const Verdict verdict = judged();
-  ASSERT_EQ(verdict.conflicts.size(), 1U);
-  EXPECT_EQ(verdict.conflicts[0].proximity.body_a, "b_link1");
-  EXPECT_EQ(verdict.conflicts[0].proximity.arm_a, kB);
-  EXPECT_EQ(verdict.conflicts[0].proximity.body_b, "a_link1");
-}
-
-TEST(Judge, NamesEachCounterpartOfTheFirstInstantThatHasOne) {
-  Cell cell = row();
-  cell.objects.push_back({"post", Cylinder{0.02, 0.5}, small::at_xyz(0.2, -0.03, 0)});
-  cell.objects.push_back({"ball", Sphere{0.02}, small::at_xyz(0.1, -0.03, 0)});
-  Judged judged(cell);
-  judged.question.method = TimedDiscrete{30s};  // the goal is the only instant after the start
-  judged.question.rest[2] = kPi;                // c points at b, which will point at it
-  judged.question.candidates = {judged.motion(5, kA, kUp, 0, 2s)};
-  judged.question.others = {judged.motion(3, kB, kUp, kPi, 2s)};
-  const Verdict verdict = judged();
-  ASSERT_EQ(verdict.conflicts.size(), 3U);  // b and c among themselves are not the question
-  EXPECT_EQ(verdict.conflicts[0].with, With::motion);
-  EXPECT_EQ(verdict.conflicts[0].other_job, JobId{3});
-  EXPECT_EQ(verdict.conflicts[1].proximity.body_b, "post");
-  EXPECT_EQ(verdict.conflicts[2].proximity.body_b, "ball");
-  for (const Conflict& conflict : verdict.conflicts) EXPECT_EQ(conflict.candidate, JobId{5});
-}
-
-TEST(Judge, NamesTheStaticLinkOfAnotherRobotAsScene) {
-  Cell cell = row();
-  Link post = small::static_link("b_post", RobotId{1}, small::at_xyz(0.3, 0, 0));
-  small::add_shape(post, Sphere{0.05}, Eigen::Isometry3d::Identity());
-  small::add_link(cell, post);
-  Judged judged(cell);
-  judged.question.candidates = {judged.motion(5, kA, kUp, 0, 2s)};
-  const Verdict verdict = judged();
-  ASSERT_EQ(verdict.conflicts.size(), 1U);
-  EXPECT_EQ(verdict.conflicts[0].with, With::scene);
-  EXPECT_EQ(verdict.conflicts[0].proximity.body_b, "b_post");
-  EXPECT_FALSE(verdict.conflicts[0].proximity.object_b);
-}
-
 // What the discrete check promises, and what it does not: the defect T4.
 TEST(Judge, MissesAThinRodBetweenCoarseStepsAndFindsItWithFineOnes) {
   Cell cell = row();
@@ -231,57 +139,6 @@ TEST(Judge, AllowsNoReturnOncePartedPairsHaveCleared) {
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_GT(verdict.conflicts[0].own_time, 3s);
-}
-
-TEST(Judge, KnowsTheSceneAndTheCandidatesOwnLinks) {
-  Cell cell;
-  cell.clearance_m = 0.02;
-  const ArmId arm = small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.03);
-  Judged judged(cell);
-  judged.question.candidates = {
-      {JobId{1}, small::sweep(*judged.cell, {arm}, {0, 0, 0}, {0, 2.8, 2.8}, 2s), 0s}};
-  const Verdict self = judged();
-  ASSERT_EQ(self.conflicts.size(), 1U);
-  EXPECT_EQ(self.conflicts[0].with, With::self);
-  EXPECT_EQ(self.conflicts[0].proximity.body_a, "a_link1");
-  EXPECT_EQ(self.conflicts[0].proximity.body_b, "a_link3");
-
-  cell.objects.push_back({"wall", Box{{2, 0.1, 2}}, small::at_xyz(0, 0.3, 0)});
-  Judged walled(cell);
-  walled.question.candidates = {
-      {JobId{1}, small::sweep(*walled.cell, {arm}, {0, 0, 0}, {1.5, 0, 0}, 2s), 0s}};
-  const Verdict scene = walled();
-  ASSERT_EQ(scene.conflicts.size(), 1U);
-  EXPECT_EQ(scene.conflicts[0].with, With::scene);
-  EXPECT_EQ(scene.conflicts[0].proximity.body_a, "a_link3");
-}
-
-TEST(Judge, ChecksCandidatesAgainstEachOther) {
-  Judged judged(row());
-  judged.question.candidates = {judged.motion(8, kB, kUp, kPi, 2s),
-                                judged.motion(7, kA, kUp, 0, 2s)};
-  const Verdict verdict = judged();
-  ASSERT_EQ(verdict.conflicts.size(), 1U);
-  EXPECT_EQ(verdict.conflicts[0].with, With::motion);
-  EXPECT_EQ(verdict.conflicts[0].candidate, JobId{8});  // named first
-  EXPECT_EQ(verdict.conflicts[0].other_job, JobId{7});
-  EXPECT_EQ(verdict.conflicts[0].proximity.body_a, "b_link1");
-}
-
-TEST(Judge, CallsTheArmsOfOneSynchronousMotionItself) {
-  Judged judged(row());
-  judged.question.candidates = {
-      {JobId{1}, small::sweep(*judged.cell, {kA, kB}, {kUp, kUp}, {0, kPi}, 2s), 0s}};
-  const Verdict verdict = judged();
-  ASSERT_EQ(verdict.conflicts.size(), 1U);
-  EXPECT_EQ(verdict.conflicts[0].with, With::self);
-}
-
-TEST(Judge, LeavesOthersAmongThemselvesAlone) {
-  Judged judged(row());
-  judged.question.candidates = {judged.motion(3, kA, kUp, kPi, 2s)};
-  judged.question.others = {judged.motion(1, kB, kUp, 0, 2s), judged.motion(2, kC, kUp, kPi, 2s)};
-  EXPECT_EQ(judged().kind, Verdict::Kind::free);
 }
 
 TEST(Judge, AnswersTheSameQuestionTheSameWay) {

@@ -1,13 +1,9 @@
-#include "core/geometry/mesh/mesh.h"
-
 #include <gmock/gmock.h>
 
 #include <chrono>
-#include <cmath>
 #include <random>
 
-#include "test/geometry/small_meshes.h"
-#include "test/model/test_cells.h"
+#include "test/geometry/mesh_file.h"
 
 // assimp 5.2 loses about a kilobyte for each file that it refuses; none for those that it reads.
 extern "C" const char* __lsan_default_suppressions();
@@ -17,47 +13,6 @@ namespace armloom {
 namespace {
 
 using testing::HasSubstr;
-const Eigen::Vector3d kOne = Eigen::Vector3d::Ones();
-
-class MeshFile : public testing::Test {
- protected:
-  MeshPtr load(const std::string& name, const std::string& bytes,
-               const Eigen::Vector3d& scale = kOne) {
-    auto mesh = load_mesh(folder_.write(name, bytes), scale, "/here", "robot a");
-    EXPECT_TRUE(mesh.has_value()) << mesh.error().front().detail;
-    return mesh ? *mesh : std::make_shared<const MeshData>();
-  }
-  Problem refusal(const std::string& path) {
-    const auto mesh = load_mesh(path, kOne, "/here", "robot a");
-    EXPECT_FALSE(mesh.has_value()) << path;
-    return mesh ? Problem{} : mesh.error().front();
-  }
-  Problem refusal(const std::string& name, const std::string& bytes) {
-    return refusal(folder_.write(name, bytes));
-  }
-
-  ScratchFolder folder_;
-  const small::Surface box_ = small::box_surface({-0.1, -0.2, 0.5}, {0.3, 0.4, 0.75});
-};
-
-Eigen::AlignedBox3d bounds(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : points) box.extend(p);
-  return box;
-}
-
-void expect_bounds(const MeshData& mesh, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  EXPECT_LT((bounds(mesh.vertices).min() - low).norm(), 1e-6)
-      << bounds(mesh.vertices).min().transpose();
-  EXPECT_LT((bounds(mesh.vertices).max() - high).norm(), 1e-6)
-      << bounds(mesh.vertices).max().transpose();
-}
-
-double volume(const std::vector<Eigen::Vector3d>& p, const std::vector<Triangle>& triangles) {
-  double six = 0.0;
-  for (const Triangle& t : triangles) six += p[t[0]].cross(p[t[1]]).dot(p[t[2]]);
-  return six / 6.0;
-}
 
 constexpr const char* kPlaced = R"(<node><instance_geometry url="#g"/></node>)";
 
@@ -265,107 +220,6 @@ TEST_F(MeshFile, SurvivesBrokenBytes) {
     }
   }
   EXPECT_GT(refused, 300);
-}
-
-TEST(ConvexHullOf, ContainsEveryPointAndIsClosed) {
-  std::srand(7);
-  for (const int count : {4, 50, 3000, 20000}) {
-    std::vector<Eigen::Vector3d> points;
-    for (int i = 0; i < count; ++i) {
-      const Eigen::Vector3d p = Eigen::Vector3d::Random();
-      points.push_back(count == 20000 ? p.normalized() : p);  // a ball: all on the hull
-    }
-    const ConvexHull hull = convex_hull(points).value();
-    EXPECT_LE(hull.vertices.size(), kMaxHullVertices) << count;
-    EXPECT_EQ(hull.faces.size(), 2 * hull.vertices.size() - 4) << "Euler, " << count;
-    for (const Triangle& face : hull.faces) {
-      const Eigen::Vector3d& a = hull.vertices[face[0]];
-      const Eigen::Vector3d n = (hull.vertices[face[1]] - a).cross(hull.vertices[face[2]] - a);
-      if (n.norm() < 1e-9) continue;  // a sliver has no plane
-      for (const Eigen::Vector3d& p : points)
-        ASSERT_LE(n.normalized().dot(p - a), kHullTolerance_m);
-    }
-    if (count == 20000) {
-      for (const Eigen::Vector3d& p : hull.vertices) EXPECT_LT(p.norm(), 1.035);
-    }
-  }
-}
-
-TEST(ConvexHullOf, OfAFlatSheetIsAThinPlateAroundIt) {
-  const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, 3).normalized();
-  std::vector<Eigen::Vector3d> sheet;
-  for (int i = 0; i < 20; ++i) {
-    const Eigen::Vector3d p(std::cos(i), std::sin(i), 0);
-    sheet.push_back(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal) * p);
-  }
-  for (const auto& points :
-       {sheet, std::vector<Eigen::Vector3d>(3, kOne), {kOne, 2 * kOne, 3 * kOne}}) {
-    const ConvexHull hull = convex_hull(points).value();
-    EXPECT_GT(volume(hull.vertices, hull.faces), 0.0);
-    for (const Eigen::Vector3d& p : hull.vertices) {
-      double nearest = 1e9;
-      for (const Eigen::Vector3d& point : points) nearest = std::min(nearest, (p - point).norm());
-      EXPECT_LT(nearest, kFlat_m);
-    }
-  }
-}
-
-constexpr const char* kRobot = R"(<robot name="r"><link name="l">
-  <visual><geometry><mesh filename="look.dae"/></geometry></visual>
-  <visual><geometry><mesh filename="gone.dae"/></geometry></visual>
-  <collision><geometry><mesh filename="package://p/part.stl" scale="0.5 1 -1"/></geometry></collision>
-</link><link name="tip"/><joint name="j" type="revolute"><parent link="l"/><child link="tip"/>
-<limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>)";
-
-class MeshCell : public MeshFile {
- protected:
-  CellDescription description() {
-    CellDescription cell;
-    cell.name = "c";
-    cell.robots.push_back(
-        {.name = "r", .urdf = folder_.write("r.urdf", kRobot), .srdf = "", .prefix = "r_"});
-    cell.robots[0].packages["p"] = (folder_.path() / "package").string();
-    cell.robots[0].arms.push_back({.name = "r", .group = ""});
-    return cell;
-  }
-};
-
-TEST_F(MeshCell, HoldsTheMeshesOfItsLinksAndObjects) {
-  const std::string part = folder_.write("package/part.stl", small::stl_bytes(box_));
-  folder_.write("look.dae", "seen by browsers only");
-  CellDescription description = this->description();
-  description.objects.push_back({"crate", Mesh{part, 2 * kOne}});
-  const CellPtr cell = build_or_fail(description);
-  const Mesh& link = std::get<Mesh>(cell->links[0].shapes[0].shape);
-  ASSERT_NE(link.data, nullptr);
-  expect_bounds(*link.data, {-0.05, -0.2, -0.75}, {0.15, 0.4, -0.5});
-  const Mesh& crate = std::get<Mesh>(cell->objects[0].shape);
-  ASSERT_NE(crate.data, nullptr);
-  expect_bounds(*crate.data, {-0.2, -0.4, 1.0}, {0.6, 0.8, 1.5});
-  const std::map<std::string, std::string> files{
-      {"look.dae", std::filesystem::canonical(folder_.path() / "look.dae").string()},
-      {"package://p/part.stl", std::filesystem::canonical(part).string()}};
-  EXPECT_EQ(cell->robots[0].mesh_files, files);
-}
-
-TEST_F(MeshCell, NamesTheLinkOrObjectWhoseMeshIsBad) {
-  folder_.write("package/part.stl", "solid a\nendsolid a\n");
-  CellDescription cell = description();
-  cell.objects.push_back({"crate", Mesh{folder_.write("crate.obj", "")}});
-  cell.objects.push_back({"gone", Mesh{(folder_.path() / "gone.obj").string()}});
-  const std::string problems = problems_of(cell);
-  EXPECT_THAT(problems, HasSubstr("r.urdf:1: link l | r.urdf:1: link l: mesh "));
-  EXPECT_THAT(problems, HasSubstr("/objects/0/mesh | object crate: mesh "));
-  EXPECT_THAT(problems, HasSubstr("/objects/1/mesh | object gone: mesh "));
-}
-
-TEST_F(MeshCell, RefusesAMeshThatALinkLeadsOutOfItsPackage) {
-  folder_.write("secret.stl", small::stl_bytes(box_));
-  std::filesystem::create_directory(folder_.path() / "package");
-  std::filesystem::create_symlink(folder_.path() / "secret.stl",
-                                  folder_.path() / "package/part.stl");
-  EXPECT_THAT(problems_of(description()),
-              testing::AllOf(HasSubstr("r.urdf:4: link l"), HasSubstr("through a link")));
 }
 
 }  // namespace

@@ -10,31 +10,40 @@ namespace {
 
 using Eigen::Vector3d;
 
-bool shapes_keep_apart(const MovingBody& a, const ConvexShape& body_a,
-                       const PlacedConvexShape& at_a, const MovingBody& b,
-                       const ConvexShape& body_b, const PlacedConvexShape& at_b, double limit_m,
+struct MovingShape {
+  const ConvexShape& shape;
+  const PlacedConvexShape& at;
+  std::span<const MovingAxis> axes;
+};
+
+bool shapes_keep_apart(const MovingShape& a, const MovingShape& b, double limit_m,
                        double enough_m) {
-  const double reach_m = enough_m + body_a.bounding_radius_m() + body_b.bounding_radius_m();
-  if ((at_a.segment.center - at_b.segment.center).squaredNorm() >= reach_m * reach_m) return true;
-  if (lower_bound(body_a, at_a, body_b, at_b).distance_m >= enough_m) return true;
-  const std::optional<Separation> apart = separation(body_a, at_a, body_b, at_b);
+  const double reach_m = enough_m + a.shape.bounding_radius_m() + b.shape.bounding_radius_m();
+  if ((a.at.segment.center - b.at.segment.center).squaredNorm() >= reach_m * reach_m) return true;
+  if (lower_bound(a.shape, a.at, b.shape, b.at).distance_m >= enough_m) return true;
+  const std::optional<Separation> apart = separation(a.shape, a.at, b.shape, b.at);
   if (!apart) return false;
   if (apart->distance_m >= enough_m) return true;
   if (apart->distance_m < limit_m) return false;
-  return swept_gap(body_a, at_a, a.axes, body_b, at_b, b.axes, apart->n_W) >= limit_m;
+  return swept_gap(a.shape, a.at, a.axes, b.shape, b.at, b.axes, apart->n_W) >= limit_m;
 }
 
+struct MovingGroup {
+  const ShapeGroups& group;
+  std::span<const MovingAxis> axes;
+};
+
 // All pieces of two groups, each convex.
-bool groups_keep_apart(const std::vector<ConvexShape>& shapes, const MovingBody& a,
-                       const ShapeGroups& of_a, const MovingBody& b, const ShapeGroups& of_b,
-                       double limit_m, double enough_m) {
+bool groups_keep_apart(const std::vector<ConvexShape>& shapes, const MovingGroup& a,
+                       const MovingGroup& b, double limit_m, double enough_m) {
   PlacedConvexShape own_a;
   PlacedConvexShape own_b;
-  for (std::size_t i = of_a.begin(); i < of_a.end(); ++i) {
-    const PlacedConvexShape& at_a = of_a.placed(i, own_a);
-    for (std::size_t j = of_b.begin(); j < of_b.end(); ++j) {
-      const PlacedConvexShape& at_b = of_b.placed(j, own_b);
-      if (!shapes_keep_apart(a, shapes[i], at_a, b, shapes[j], at_b, limit_m, enough_m)) {
+  for (std::size_t i = a.group.begin(); i < a.group.end(); ++i) {
+    const PlacedConvexShape& at_a = a.group.placed(i, own_a);
+    for (std::size_t j = b.group.begin(); j < b.group.end(); ++j) {
+      const PlacedConvexShape& at_b = b.group.placed(j, own_b);
+      if (!shapes_keep_apart({shapes[i], at_a, a.axes}, {shapes[j], at_b, b.axes}, limit_m,
+                             enough_m)) {
         return false;
       }
     }
@@ -116,7 +125,7 @@ bool keep_apart(const std::vector<ConvexShape>& shapes, const MovingBody& a, con
                 double limit_m, double enough_m) {
   for (ShapeGroups of_a(shapes, a.at); !of_a.ended(); of_a.next()) {
     for (ShapeGroups of_b(shapes, b.at); !of_b.ended(); of_b.next()) {
-      if (groups_keep_apart(shapes, a, of_a, b, of_b, limit_m, enough_m)) continue;
+      if (groups_keep_apart(shapes, {of_a, a.axes}, {of_b, b.axes}, limit_m, enough_m)) continue;
       if (!of_a.are_pieces() && !of_b.are_pieces()) return false;
       const MovingSolid solid_a{of_a.solid(), of_a.X_WT(), a.axes};
       const MovingSolid solid_b{of_b.solid(), of_b.X_WT(), b.axes};

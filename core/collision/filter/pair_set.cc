@@ -30,34 +30,45 @@ double limit_of(const PlanningScene::Bodies& bodies, const PairGroup& group) {
   return group.limit_m(PairLimits::of(*bodies.cell));
 }
 
+// A body with the capsules of its side.
+struct BodyCapsules {
+  const KinematicBody& body;
+  const std::vector<filter::Capsule>& of_side;
+
+  [[nodiscard]] int begin() const { return body.capsules_begin; }
+  [[nodiscard]] int end() const { return body.capsules_end; }
+  [[nodiscard]] const filter::Capsule& operator[](int index) const {
+    return of_side[static_cast<std::size_t>(index)];
+  }
+};
+
 // All pairs of capsules of the two bodies.
-void add_capsules(PairSet& set, const NarrowPair& narrow, const KinematicBody& a,
-                  const std::vector<filter::Capsule>& capsules_a, const KinematicBody& b,
-                  const std::vector<filter::Capsule>& capsules_b, double margin_m) {
-  for (int i = a.capsules_begin; i < a.capsules_end; ++i) {
-    for (int j = b.capsules_begin; j < b.capsules_end; ++j) {
-      set.pairs.push_back(kernel_pair(i, capsules_a[static_cast<std::size_t>(i)], j,
-                                      capsules_b[static_cast<std::size_t>(j)], narrow.limit_m,
-                                      margin_m));
+void add_capsules(PairSet& set, const NarrowPair& narrow, const BodyCapsules& a,
+                  const BodyCapsules& b, double margin_m) {
+  for (int i = a.begin(); i < a.end(); ++i) {
+    for (int j = b.begin(); j < b.end(); ++j) {
+      set.pairs.push_back(kernel_pair(i, a[i], j, b[j], narrow.limit_m, margin_m));
       set.narrow.push_back(narrow);
     }
   }
 }
 
-void add_boxes(PairSet& set, const NarrowPair& narrow, const KinematicBody& a,
-               const std::vector<filter::Capsule>& capsules_a, const ConvexShape& box,
-               const Eigen::Isometry3d& X_WS, double margin_m) {
-  for (int i = a.capsules_begin; i < a.capsules_end; ++i) {
+struct StandingBox {
+  const ConvexShape& box;
+  Eigen::Isometry3d X_WS;
+};
+void add_boxes(PairSet& set, const NarrowPair& narrow, const BodyCapsules& a, const StandingBox& b,
+               double margin_m) {
+  for (int i = a.begin(); i < a.end(); ++i) {
     filter::BoxPair pair{};
     pair.a = pair.row_a = i;
     for (int k = 0; k < 3; ++k) {
-      for (int c = 0; c < 3; ++c) pair.R[3 * k + c] = static_cast<float>(X_WS.linear()(c, k));
-      pair.center[k] = static_cast<float>(X_WS.translation()[k]);
-      pair.half_up[k] = round_up(box.half_size_m[k]);
+      for (int c = 0; c < 3; ++c) pair.R[3 * k + c] = static_cast<float>(b.X_WS.linear()(c, k));
+      pair.center[k] = static_cast<float>(b.X_WS.translation()[k]);
+      pair.half_up[k] = round_up(b.box.half_size_m[k]);
     }
     pair.limit_up = round_up(narrow.limit_m);
-    pair.radius_up =
-        round_up(static_cast<double>(capsules_a[static_cast<std::size_t>(i)].radius_up) + margin_m);
+    pair.radius_up = round_up(static_cast<double>(a[i].radius_up) + margin_m);
     set.boxes.push_back(pair);
     set.narrow_boxes.push_back(narrow);
   }
@@ -141,9 +152,9 @@ PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& 
       const CollisionBody& other = bodies.bodies[pair.b];
       if (!b.arm() && other.lone_box) {
         const ConvexShape& box = bodies.shapes[other.shapes_begin];
-        add_boxes(set, narrow, body_a, a.capsules(), box, body_b.X_FP * box.X_PS, of_pair_m);
+        add_boxes(set, narrow, {body_a, a.capsules()}, {box, body_b.X_FP * box.X_PS}, of_pair_m);
       } else {
-        add_capsules(set, narrow, body_a, a.capsules(), body_b, b.capsules(), of_pair_m);
+        add_capsules(set, narrow, {body_a, a.capsules()}, {body_b, b.capsules()}, of_pair_m);
       }
     }
   }

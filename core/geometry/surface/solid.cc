@@ -23,11 +23,10 @@ bool lies_inside(const SurfaceTree& inner, const SurfaceTree& outer,
   });
 }
 
-double distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
-                const Eigen::Isometry3d& X_WB, double limit_m, double enough_m) {
+double distance(const Solid& a, const Solid& b, const Eigen::Isometry3d& X_AB, double limit_m,
+                double enough_m) {
   const double radii_m = a.radius_m + b.radius_m;
   if (limit_m + radii_m <= 0.0) return limit_m;
-  const Eigen::Isometry3d X_AB = X_WA.inverse(Eigen::Isometry) * X_WB;
   if (a.inner.surely_meet(b.inner, X_AB, enough_m)) {
     return std::min(limit_m, 0.0);
   }
@@ -46,12 +45,12 @@ double distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
 
 double solid_distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
                       const Eigen::Isometry3d& X_WB, double limit_m) {
-  return distance(a, X_WA, b, X_WB, limit_m, 0.0);
+  return distance(a, b, X_WA.inverse(Eigen::Isometry) * X_WB, limit_m, 0.0);
 }
 
 bool closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
                  const Eigen::Isometry3d& X_WB, double limit_m) {
-  return distance(a, X_WA, b, X_WB, limit_m, limit_m) < limit_m;
+  return distance(a, b, X_WA.inverse(Eigen::Isometry) * X_WB, limit_m, limit_m) < limit_m;
 }
 
 bool surely_closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,

@@ -22,16 +22,21 @@ bool of_arm_and_scene(const Cell& cell, LinkId a, LinkId b) {
 
 // The Setup Assistant disables what did not meet in its random samples: between two arms, or an arm
 // and what stands beside it, that is no proof.
-template <class Concerned>
-void warn_of_pairs(const RobotBuild& robot, const Cell& cell, Findings& findings,
-                   const Concerned& concerned, const char* whose, const char* consequence) {
+struct DoubtfulPairs {
+  bool (*concerned)(const Cell& cell, LinkId a, LinkId b);
+  const char* whose;
+  const char* consequence;
+};
+void warn_of_pairs(const RobotBuild& robot, const Cell& cell, const DoubtfulPairs& doubtful,
+                   Findings& findings) {
   constexpr std::size_t kTold = 3;
   std::string pairs;
   std::size_t count = 0;
   for (const auto& [pair, line] : robot.semantics->allowed_pairs) {
     const LinkId a = robot.links[pair.first];
     const LinkId b = robot.links[pair.second];
-    if (!concerned(cell, a, b) || cell.link(a).shapes.empty() || cell.link(b).shapes.empty()) {
+    if (!doubtful.concerned(cell, a, b) || cell.link(a).shapes.empty() ||
+        cell.link(b).shapes.empty()) {
       continue;
     }
     if (++count > kTold) continue;
@@ -42,9 +47,9 @@ void warn_of_pairs(const RobotBuild& robot, const Cell& cell, Findings& findings
   if (count > kTold) pairs += ", ...";
   const std::string place = robot.semantics->file + ": disable_collisions";
   findings.warn({ProblemKind::invalid, "unchecked-pairs", place,
-                 place + ": " + std::to_string(count) + (count == 1 ? " pair" : " pairs") + whose +
-                     " (" + pairs + "): they are not checked, so " + consequence +
-                     " there; delete what is not known to be out of reach",
+                 place + ": " + std::to_string(count) + (count == 1 ? " pair" : " pairs") +
+                     doubtful.whose + " (" + pairs + "): they are not checked, so " +
+                     doubtful.consequence + " there; delete what is not known to be out of reach",
                  static_cast<double>(count)});
 }
 
@@ -68,10 +73,12 @@ void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Findings& finding
   if (!robot.semantics) return;
   for (const auto& [pair, line] : robot.semantics->allowed_pairs) allow(pair.first, pair.second);
   if (robot.tree.patched) return;
-  warn_of_pairs(robot, cell, findings, of_two_arms, " of links of different arms",
-                "these arms may meet");
-  warn_of_pairs(robot, cell, findings, of_arm_and_scene,
-                " of an arm's link and one that stands still", "the arm may meet it");
+  warn_of_pairs(robot, cell, {of_two_arms, " of links of different arms", "these arms may meet"},
+                findings);
+  warn_of_pairs(
+      robot, cell,
+      {of_arm_and_scene, " of an arm's link and one that stands still", "the arm may meet it"},
+      findings);
 }
 
 void allow_pairs_of_cell(const CellDescription& description, Cell& cell, Findings& findings) {

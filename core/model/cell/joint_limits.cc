@@ -159,7 +159,7 @@ void settle_limits(RobotBuild& robot, Cell& cell, Findings& findings) {
       const auto found = robot.limits_file->joints.find(link.joint);
       if (found != robot.limits_file->joints.end()) filed = &found->second;
     }
-    LimitsOfJoint(robot, link, joint, arm, own, findings).settle(filed, needs[arm]);
+    LimitsOfJoint(robot, link, joint, {arm, own}, findings).settle(filed, needs[arm]);
   }
   for (const ArmBuild& arm : robot.arms) {
     check_names(robot, arm, cell, findings);

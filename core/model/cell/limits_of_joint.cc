@@ -30,9 +30,14 @@ void append_item(std::string& list, const char* separator, const std::string& it
   list += item;
 }
 
-LimitsOfJoint::LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint,
-                             const ArmBuild* arm, bool own, Findings& findings)
-    : robot_(robot), link_(link), joint_(joint), arm_(arm), own_(own), findings_(findings) {
+LimitsOfJoint::LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint, Mover mover,
+                             Findings& findings)
+    : robot_(robot),
+      link_(link),
+      joint_(joint),
+      arm_(mover.arm),
+      own_(mover.own),
+      findings_(findings) {
   if (arm_ != nullptr) {
     const auto given = arm_->description->limits.find(link.joint);
     if (given != arm_->description->limits.end()) cell_ = given->second;

@@ -22,8 +22,12 @@ void append_item(std::string& list, const char* separator, const std::string& it
 // nothing.
 class LimitsOfJoint {
  public:
-  LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint, const ArmBuild* arm,
-                bool own, Findings& findings);
+  struct Mover {
+    const ArmBuild* arm;  // none: no arm moves the joint
+    bool own;             // of the arm's group, not of its gripper
+  };
+  LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint, Mover mover,
+                Findings& findings);
 
   void settle(LimitsFile::Joint* filed, Needs& needs);
 
@@ -75,8 +79,8 @@ class LimitsOfJoint {
   const RobotBuild& robot_;
   TreeLink& link_;
   Joint& joint_;
-  const ArmBuild* arm_;  // none: no arm moves the joint
-  bool own_;             // of the arm's group, not of its gripper
+  const ArmBuild* arm_;  // as of its Mover
+  bool own_;
   Findings& findings_;
   JointLimitsDescription cell_;
   JointLimitsDescription file_;

@@ -151,11 +151,10 @@ class GroupReader {
 }  // namespace
 
 std::map<std::string, JointSet> read_groups(const XMLElement& srdf, const std::string& file,
-                                            const RobotTree& tree,
-                                            const std::set<std::string>& virtual_joints,
-                                            const std::set<std::string>& used, Findings& findings) {
+                                            const RobotTree& tree, const GroupNames& names,
+                                            Findings& findings) {
   constexpr std::size_t kMaxGroups = 1000;  // also bounds how deep groups can hold each other
-  GroupReader reader(file, tree, virtual_joints, findings);
+  GroupReader reader(file, tree, names.virtual_joints, findings);
   std::size_t count = 0;
   for (const auto* group = srdf.FirstChildElement("group"); group != nullptr;
        group = group->NextSiblingElement("group")) {
@@ -167,7 +166,7 @@ std::map<std::string, JointSet> read_groups(const XMLElement& srdf, const std::s
     }
     reader.read(*group);
   }
-  return reader.resolve(used);
+  return reader.resolve(names.used);
 }
 
 }  // namespace armloom

@@ -36,7 +36,7 @@ class SrdfReader {
             {"group_state", "end_effector", "virtual_joint", "passive_joint", "joint_property",
              "link_sphere_approximation"});
     const std::set<std::string> virtual_joints = read_virtual_joints();
-    semantics.groups = read_groups(srdf_, file_, tree_, virtual_joints, used_groups, findings_);
+    semantics.groups = read_groups(srdf_, file_, tree_, {virtual_joints, used_groups}, findings_);
     for_each("group_state",
              [&](const XMLElement& state) { read_state(state, virtual_joints, semantics); });
     for_each("passive_joint", [&](const XMLElement& passive) {

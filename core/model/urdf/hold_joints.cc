@@ -11,13 +11,19 @@
 namespace armloom {
 namespace {
 
+struct NamedTree {
+  const std::string& robot;
+  const RobotTree& tree;
+};
+
 // The tree index of a joint that can be held, or nothing with the reason told. A value beyond the
 // limits is told, too, and put to the nearest one.
 std::optional<std::size_t> holdable(const std::string& name, double& value,
-                                    const std::string& pointer, const std::string& robot,
-                                    const RobotTree& tree, Findings& findings) {
+                                    const std::string& pointer, const NamedTree& of,
+                                    Findings& findings) {
+  const RobotTree& tree = of.tree;
   const auto refuse = [&](const std::string& slug, const std::string& why) {
-    findings.in_cell(slug, pointer, "robot " + robot + ": " + why, value);
+    findings.in_cell(slug, pointer, "robot " + of.robot + ": " + why, value);
     return std::nullopt;
   };
   const auto found = tree.by_joint.find(name);
@@ -28,7 +34,7 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
     // Held under the name that is meant: that arms hang on that joint need not be told then.
     const auto meant = nearest_key(name, tree.by_joint);
     Findings unsaid;
-    return meant ? holdable(*meant, value, pointer, robot, tree, unsaid) : std::nullopt;
+    return meant ? holdable(*meant, value, pointer, of, unsaid) : std::nullopt;
   }
   const TreeLink& link = tree.links[found->second];
   if (link.mimic) {
@@ -120,7 +126,7 @@ void hold_joints(const std::map<std::string, double>& fixed, const std::string& 
   std::map<std::size_t, double> held;
   for (auto [name, value] : fixed) {
     const std::string at = pointer + "/fixed/" + pointer_token(name);
-    if (const auto joint = holdable(name, value, at, robot, tree, findings))
+    if (const auto joint = holdable(name, value, at, {robot, tree}, findings))
       held.emplace(*joint, value);
   }
   bool any = false;

@@ -50,7 +50,7 @@ void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace&
   faults.only_attributes(
       *limit, {"lower", "upper", "velocity", "effort", "acceleration", "deceleration", "jerk"});
   const auto number = [&](const char* attribute) {
-    const auto one = copy_numbers(*limit, attribute, 1, Presence::optional, faults, copy);
+    const auto one = copy_numbers(*limit, {attribute, 1, Presence::optional}, faults, copy);
     return one ? std::optional(one->front()) : std::nullopt;
   };
   place.only_warning("efforts play no part in the checks")
@@ -79,7 +79,7 @@ void check_axis(const XMLElement& joint, const XmlPlace& place, XMLElement& to) 
   if (axis == nullptr) return;
   place.only_attributes(*axis, {"xyz"});
   XMLElement& copy = *to.InsertNewChildElement("axis");
-  const auto xyz = copy_numbers(*axis, "xyz", 3, Presence::required, place, copy);
+  const auto xyz = copy_numbers(*axis, {"xyz", 3, Presence::required}, place, copy);
   const double norm = xyz ? norm_of(*xyz) : 0.0;
   if (norm >= 1e-6 && std::isfinite(norm)) {
     if (std::abs(norm - 1.0) > kUnitAxis)

@@ -23,21 +23,21 @@ void warn_if_far(double length_m, const std::string& what, const XmlPlace& place
              length_m);
 }
 
-std::optional<std::vector<double>> copy_numbers(const XMLElement& from, const char* attribute,
-                                                std::size_t size, Presence presence,
+std::optional<std::vector<double>> copy_numbers(const XMLElement& from,
+                                                const NumbersAttribute& attribute,
                                                 const XmlPlace& place, XMLElement& to) {
-  auto numbers = place.numbers(from, attribute, size, presence);
+  auto numbers = place.numbers(from, attribute.name, attribute.size, attribute.presence);
   if (!numbers) return std::nullopt;
   std::string text;
   for (const double number : *numbers) text += (text.empty() ? "" : " ") + text_of(number);
-  to.SetAttribute(attribute, text.c_str());
+  to.SetAttribute(attribute.name, text.c_str());
   return numbers;
 }
 
 bool copy_if_there(const XMLElement& from, const char* attribute, std::size_t size,
                    const XmlPlace& place, XMLElement& to) {
   return from.Attribute(attribute) == nullptr ||
-         copy_numbers(from, attribute, size, Presence::optional, place, to);
+         copy_numbers(from, {attribute, size, Presence::optional}, place, to);
 }
 
 double norm_of(const std::vector<double>& v) { return Eigen::Vector3d(v[0], v[1], v[2]).norm(); }
@@ -63,8 +63,8 @@ bool copy_origin(const XMLElement& parent, const XmlPlace& place, XMLElement& to
   else
     place.only_attributes(*origin, {"xyz", "rpy"});
   XMLElement& copy = *to.InsertNewChildElement("origin");
-  const auto xyz = copy_numbers(*origin, "xyz", 3, Presence::optional, place, copy);
-  const auto rpy = copy_numbers(*origin, "rpy", 3, Presence::optional, place, copy);
+  const auto xyz = copy_numbers(*origin, {"xyz", 3, Presence::optional}, place, copy);
+  const auto rpy = copy_numbers(*origin, {"rpy", 3, Presence::optional}, place, copy);
   if (rpy) warn_if_degrees(*rpy, place.at(*origin));
   if ((!rpy && origin->Attribute("rpy") != nullptr) ||
       (!xyz && origin->Attribute("xyz") != nullptr))

@@ -13,10 +13,14 @@ namespace armloom {
 // tells what is wrong.
 
 // An attribute of `size` finite numbers, written anew: urdfdom knows no white space but blanks.
+struct NumbersAttribute {
+  const char* name;
+  std::size_t size;
+  Presence presence;
+};
 std::optional<std::vector<double>> copy_numbers(const tinyxml2::XMLElement& from,
-                                                const char* attribute, std::size_t size,
-                                                Presence presence, const XmlPlace& place,
-                                                tinyxml2::XMLElement& to);
+                                                const NumbersAttribute& attribute,
+                                                const XmlPlace& place, tinyxml2::XMLElement& to);
 
 // The same of one that may be absent. Whether it is right, or absent.
 bool copy_if_there(const tinyxml2::XMLElement& from, const char* attribute, std::size_t size,

@@ -15,7 +15,7 @@ using tinyxml2::XMLElement;
 
 bool copy_lengths(const XMLElement& shape, const char* attribute, std::size_t size,
                   const XmlPlace& place, XMLElement& to) {
-  const auto read = copy_numbers(shape, attribute, size, Presence::required, place, to);
+  const auto read = copy_numbers(shape, {attribute, size, Presence::required}, place, to);
   if (!read) return false;
   const std::string what = std::string(shape.Name()) + " " + attribute;
   for (const double number : *read) {
@@ -34,7 +34,7 @@ bool copy_mesh(const XMLElement& mesh, const XmlPlace& place, const MeshFolders&
   place.only_attributes(mesh, {"filename", "scale"});
   const std::string name = place.name(mesh, "filename");
   to.SetAttribute("filename", name.c_str());
-  const auto scale = copy_numbers(mesh, "scale", 3, Presence::optional, place, to);
+  const auto scale = copy_numbers(mesh, {"scale", 3, Presence::optional}, place, to);
   const bool flat = scale && std::find(scale->begin(), scale->end(), 0.0) != scale->end();
   if (flat) place.at(mesh).report("not-positive", "mesh scale holds a 0", 0.0);
   if (name.empty()) return false;

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "test/model/test_cells.h"
+
+namespace armloom {
+
+// The cell of two_arms_description() with this text as its URDF.
+inline CellDescription cell_with_urdf(const ScratchFolder& folder, const std::string& text) {
+  CellDescription cell = two_arms_description();
+  cell.robots[0].urdf = folder.write("twin.urdf", text);
+  return cell;
+}
+inline std::string robot_of(const std::string& body) {
+  return "<robot name='r'>" + body + "</robot>";
+}
+
+}  // namespace armloom
