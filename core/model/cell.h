@@ -106,6 +106,10 @@ struct Cell {
   std::vector<Link> links;               // LinkId; parents before children
   std::vector<CollisionObject> objects;  // the scene at start
 
+  // Joints of the robots that have no value of their own, by their names with prefix: why not, as
+  // "follows left_finger" says it.
+  std::map<std::string, std::string> joints_without_value;
+
   // Pairs of links that need no check (SRDF, same rigid body), smaller id first.
   std::set<std::pair<LinkId, LinkId>> allowed_link_pairs;
   // Pairs (link, object name) that may touch, from the cell file.

@@ -35,12 +35,15 @@ Names resolve_names(const TrajectoryRequest& request, const Cell& cell, ProblemL
   std::set<ArmId> arms;
   for (std::size_t i = 0; i < request.joint_names.size() && !problems.full(); ++i) {
     const std::string& name = request.joint_names[i];
-    const auto refuse = [&](const char* slug, const char* why) {
+    const auto refuse = [&](const char* slug, const std::string& why) {
       problems.add({ProblemKind::invalid, slug, "/joint_names/" + std::to_string(i),
                     "joint " + name + " " + why, name});
     };
     const std::optional<JointId> id = cell.find_joint(name);
-    if (!id) {
+    const auto still = cell.joints_without_value.find(name);
+    if (!id && still != cell.joints_without_value.end()) {
+      refuse("unknown-joint", still->second + ", and has no value of its own: leave it out");
+    } else if (!id) {
       refuse("unknown-joint", "is not a movable joint of the cell");
     } else if (!cell.joint(*id).arm) {
       refuse(

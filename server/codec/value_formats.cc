@@ -131,10 +131,6 @@ FormatPtr<TimePoint> cell_time(double highest_s) {
 }
 FormatPtr<std::string> text_or_null() { return std::make_shared<TextOrNullFormat>(); }
 FormatPtr<std::string> text(TextRule rule) { return std::make_shared<RuledText>(std::move(rule)); }
-std::size_t characters(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
 FormatPtr<Anything> anything(std::string type) {
   return std::make_shared<AnythingFormat>(std::move(type));
 }

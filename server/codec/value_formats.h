@@ -36,8 +36,6 @@ struct TextRule {
   Schema said;
 };
 [[nodiscard]] FormatPtr<std::string> text(TextRule rule);
-// Of UTF-8, as maxLength of a schema counts them.
-[[nodiscard]] std::size_t characters(std::string_view text);
 
 // What is read over or stands for itself: any value of a JSON type; empty: of any.
 struct Anything {};

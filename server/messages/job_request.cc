@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/plain_name.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
 #include "server/codec/read_text.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/plain_name.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
 #include "server/codec/read_text.h"
@@ -18,21 +19,12 @@ using namespace formats;
 
 namespace {
 
-bool is_object_name(std::string_view name) {
-  const bool plain = std::ranges::none_of(name, [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '/' || c == '\\';
-  });
-  return characters(name) <= kObjectNameMax && plain && name != "." && name != ".." &&
-         !name.empty();
-}
-
 FormatPtr<std::string> object_name_format() {
-  return text(TextRule{is_object_name,
+  return text(TextRule{is_plain_name,
                        "bad-name",
-                       "a name is 1 to 128 characters without slashes and control characters, and "
-                       "not . or ..",
+                       kPlainNameRule,
                        {{"minLength", 1},
-                        {"maxLength", kObjectNameMax},
+                        {"maxLength", kPlainNameMax},
                         {"pattern", R"(^[^\u0000-\u001f\u007f/\\]*$)"},
                         {"not", {{"enum", {".", ".."}}}}}});
 }

@@ -17,7 +17,6 @@ namespace armloom {
 
 // The body of POST /scene/objects, and with a name of the URL, which one in the body has to agree
 // with, of PUT: an object as in a cell file, but no mesh: a client names no file of the server.
-inline constexpr std::size_t kObjectNameMax = 128;
 [[nodiscard]] FormatPtr<ObjectDescription> object_request_format();
 [[nodiscard]] FormatPtr<ObjectDescription> named_object_request_format();
 [[nodiscard]] Result<CollisionObject> read_object_text(std::string_view text,

@@ -51,8 +51,11 @@ INSTANTIATE_TEST_SUITE_P(
         MISTAKE(cell.clearance_m = -0.01; cell.monitor.stop_clearance_m = 0, "/clearance_m",
                                           "clearance_m is -0.01, it must be 0 m or more"),
         MISTAKE(cell.clearance_m = kNaN, "/clearance_m", "clearance_m is nan"),
-        MISTAKE(left(cell).name = "a/b", "/robots/0/arms/0/name",
-                "the name a/b of an arm holds a slash, and names stand in the paths of the API"),
+        MISTAKE(
+            left(cell).name = "a/b", "/robots/0/arms/0/name",
+            "the name of an arm stands in paths of the API: a name is 1 to 128 characters without "
+            "slashes and control characters, and not . or .."),
+        MISTAKE(left(cell).name = "..", "/robots/0/arms/0/name", "and not . or .."),
         MISTAKE(cell.checking.time_step = 0s, "/checking/time_step_s",
                 "time_step_s is 0, it must be greater than 0 s"),
         MISTAKE(cell.checking.tracking_error_rad = -1, "/checking/tracking_error_rad",

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
         DOUBT(turn(cell).brake = 100, "/robots/0/arms/0/limits/l_turn/brake_rad_s2",
               "stops are certified for a brake that strong"),
         DOUBT(cell.objects[0].X_WO.translation().x() = 800, "/objects/0",
-              "object table stands 800 m away, hardly meant (millimetres?): nothing there is met"),
+              "object table stands 800 m away from the cell's origin, hardly meant (millimetres?)"),
         DOUBT(cell.robots[0].X_WB.translation() = Eigen::Vector3d(0, -500, 0), "/robots/0/base",
               "robot twin stands 500 m away")));
 

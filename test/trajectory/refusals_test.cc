@@ -222,6 +222,19 @@ TEST(Validate, RefusesMotionsLongerThanTheBound) {
   expect_only(request, "too-long", "/points/2/time_from_start", 1e300);
 }
 
+TEST(Validate, SaysWhyAJointHasNoValueOfItsOwn) {
+  Cell cell = test_cell();
+  cell.joints_without_value = {{"torso", "is held at 0.3"}, {"finger", "follows thumb"}};
+  const auto why = [&](const std::string& joint) {
+    TrajectoryRequest request = pair_request();
+    request.joint_names.push_back(joint);
+    const auto result = validate(request, cell);
+    return result ? "" : result.error().front().detail;
+  };
+  EXPECT_EQ(why("torso"), "joint torso is held at 0.3, and has no value of its own: leave it out");
+  EXPECT_EQ(why("finger"), "joint finger follows thumb, and has no value of its own: leave it out");
+}
+
 TEST(Validate, ReturnsAllProblemsOfNamesAndShapeTogetherUpToTheBound) {
   TrajectoryRequest request = pair_request();
   request.joint_names[1] = "pair_x";

@@ -36,14 +36,19 @@ Problems check_home(const PlanningScenePtr& scene) {
                   : mount ? "mount_clearance_m"
                           : "clearance_m",
                   proximity.limit_m);
+    const std::string allow = "add [\"" + proximity.body_a + "\", \"" + proximity.body_b +
+                              "\"] to the cell's \"allowed_collisions\"";
     std::string remedy =
         self ? " (where these always are so close add to the SRDF <disable_collisions link1=\"" +
                    proximity.body_a + "\" link2=\"" + proximity.body_b +
                    "\" reason=\"Adjacent\"/>, with the names there; else give another \"home\")"
-             : " (give another \"home\", or place one of them elsewhere)";
+             : " (give another \"home\", or place one of them elsewhere" +
+                   (proximity.arm_b ? "" : "; where these two may touch, " + allow) + ")";
     if (query.is_mount(pair.pair) && proximity.clearance_m > 0.0) {
-      remedy = " (" + proximity.body_b + " carries the arm: where it passes this link so closely " +
-               "by design, and not a table, add \"mount_clearance_m\": " +
+      remedy = " (" + proximity.body_b + " carries the arm: where only this link stands so close " +
+               "to it, " + allow +
+               "; where all of the arm passes it so closely by design, and it " +
+               "is no table, add \"mount_clearance_m\": " +
                text_of(std::floor(proximity.clearance_m * 1000.0) / 1000.0) + " to the cell)";
     }
     problems.push_back({ProblemKind::invalid, "home-conflict", home_pointer(cell, *proximity.arm_a),

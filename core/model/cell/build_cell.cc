@@ -97,9 +97,17 @@ RobotBuild read_robot(const RobotDescription& description, std::size_t index, Me
   return robot;
 }
 
+std::string why_no_value(const RobotBuild& robot, const TreeLink& link) {
+  if (link.held) return "is held at " + text_of(*link.held);
+  if (!link.mimic) return "is fixed";
+  return "follows " + robot.description->prefix + robot.tree.links[link.mimic->driver].joint;
+}
+
 void add_joints(RobotBuild& robot, Cell& cell) {
   for (const TreeLink& link : robot.tree.links) {
     if (!link.is_independent()) {
+      const std::string name = robot.description->prefix + link.joint;
+      if (!link.joint.empty()) cell.joints_without_value[name] = why_no_value(robot, link);
       robot.joints.push_back(std::nullopt);
       continue;
     }

@@ -5,6 +5,8 @@
 #include <set>
 #include <system_error>
 
+#include "core/base/plain_name.h"
+
 namespace armloom {
 namespace {
 
@@ -15,12 +17,10 @@ void check_name(const std::string& name, const std::string& kind, const std::str
   } else if (!known.insert(name).second) {
     findings.in_cell("duplicate-name", pointer, "the name " + name + " of " + kind + " is taken",
                      name);
-  } else if (name.find_first_of("/\\") != std::string::npos) {
-    findings.in_cell(
-        "bad-name", pointer,
-        "the name " + name + " of " + kind +
-            " holds a slash, and names stand in the paths of the API; take another one",
-        name);
+  } else if (!is_plain_name(name)) {
+    findings.in_cell("bad-name", pointer,
+                     "the name of " + kind + " stands in paths of the API: " + kPlainNameRule,
+                     name);
   }
 }
 

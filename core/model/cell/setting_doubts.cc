@@ -104,7 +104,7 @@ class SettingDoubts {
       if (away_m <= kFar_m) return;
       findings_.warn({ProblemKind::invalid, "far-away", pointer,
                       whose + " stands " + text_of(away_m) +
-                          " m away, hardly meant (millimetres?): nothing there is met",
+                          " m away from the cell's origin, hardly meant (millimetres?)",
                       away_m});
     };
     for (std::size_t r = 0; r < given_.robots.size(); ++r)

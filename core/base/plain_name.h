@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace armloom {
+
+// Of what stands in paths of the API (robots, arms, objects): 1 to kPlainNameMax characters of
+// UTF-8, no slashes, no control characters, and not "." or "..", which clients take for folders.
+inline constexpr std::size_t kPlainNameMax = 128;
+inline constexpr const char* kPlainNameRule =
+    "a name is 1 to 128 characters without slashes and control characters, and not . or ..";
+[[nodiscard]] bool is_plain_name(std::string_view name);
+
+// Of UTF-8.
+[[nodiscard]] std::size_t characters(std::string_view text);
+
+}  // namespace armloom
