@@ -152,6 +152,7 @@ class Executive::Impl final : public JobNames {
   void dispatch(Dispatch dispatch);
   void grant(const Grant& grant);
   void start_is_written(JobId job);
+  [[nodiscard]] bool is_withheld(JobId job) const;
   [[nodiscard]] JobView view(const Job& job) const;
   void note_aside(const YieldMove& aside);
   void watch();

@@ -9,7 +9,7 @@ namespace armloom {
 // What has not been put down as about to move has no authority until it is.
 void Executive::Impl::dispatch(Dispatch dispatch) {
   const Job& job = *scheduler_.find(dispatch.job);
-  if (options_.starts != nullptr && !job.system_job && !job.has_started()) {
+  if (options_.starts != nullptr && !job.system_job) {
     const auto [start, is_first] = starts_.try_emplace(job.id);
     if (is_first) {
       options_.starts->about_to_move(job.id, [this, id = job.id] { start_is_written(id); });
@@ -22,9 +22,8 @@ void Executive::Impl::dispatch(Dispatch dispatch) {
 }
 
 void Executive::Impl::grant(const Grant& grant) {
-  const auto start = starts_.find(grant.job);
-  if (start == starts_.end() || start->second.is_written) return motions_.grant(grant);
-  start->second.withheld = grant.authority;
+  if (!is_withheld(grant.job)) return motions_.grant(grant);
+  starts_.at(grant.job).withheld = grant.authority;
 }
 
 void Executive::Impl::start_is_written(JobId job) {
@@ -33,6 +32,12 @@ void Executive::Impl::start_is_written(JobId job) {
   start->second.is_written = true;
   const auto withheld = std::exchange(start->second.withheld, std::nullopt);
   if (withheld && scheduler_.find(job)->in<Moving>() != nullptr) motions_.grant({job, *withheld});
+}
+
+// Its arms are told of it and may not leave where they stand: it has not begun.
+bool Executive::Impl::is_withheld(JobId job) const {
+  const auto start = starts_.find(job);
+  return start != starts_.end() && !start->second.is_written;
 }
 
 std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> jobs) {

@@ -13,7 +13,8 @@ namespace {
 
 tl::unexpected<Problems> cannot_write(const std::filesystem::path& folder, const std::string& why) {
   return failure(Problem{ProblemKind::unavailable, "cannot-write", "--data",
-                         folder.string() + " cannot be written: " + why, folder.string()});
+                         "the folder " + folder.string() + " cannot be written: " + why,
+                         folder.string()});
 }
 
 std::string holder(int file) {

@@ -146,6 +146,13 @@ test('What only reads', async () => {
 
 test('Jobs, good and bad', async () => {
   await call(200, 'POST', `${v1}/check`, {body: example(`${v1}/check`, 'POST', 'reach')});
+  for (const goal of ['named', 'pose']) {
+    const plan = await call(200, 'POST', `${v1}/plan`, {body: example(`${v1}/plan`, 'POST', goal)});
+    assert.equal(plan.verdict.verdict, 'free', JSON.stringify(plan));
+  }
+  const far = {pose: {link: 'left_panda_link8', xyz: [0, 9, 0.5], rpy: [0, 0, 0]}};
+  const refusal = await call(422, 'POST', `${v1}/plan`, {body: {arm: 'left', to: far}});
+  assert.match(refusal.type, /goal-not-reached/);
   const reach = example(`${v1}/jobs`, 'POST', 'reach');
   await call(202, 'POST', `${v1}/jobs`, {body: reach});
   await call(409, 'POST', `${v1}/jobs`, {body: reach});

@@ -46,6 +46,8 @@ TEST(StartLog, NoArmMovesBeforeItsJobIsPutDown) {
     cell.run_until(at(1s));
     ASSERT_EQ(starts.open.size(), 1U) << policy;
     EXPECT_EQ(cell.x(), -1.0) << policy;
+    EXPECT_EQ(cell.job("go").state, JobState::scheduled) << policy;
+    EXPECT_FALSE(cell.job("go").started_at) << policy;
     starts.write_all();
     cell.run_to_the_end();
     EXPECT_EQ(cell.job("go").state, JobState::succeeded) << policy;
@@ -64,6 +66,21 @@ TEST(StartLog, WhoIsStoppedMeanwhileGoesOnWhenResumed) {
   cell.run_until(at(2s));
   EXPECT_EQ(cell.x(), -1.0) << "it was written, but all is stopped";
   cell.executive().resume_all();
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("go").state, JobState::succeeded);
+}
+
+TEST(StartLog, WhoIsStoppedAndResumedMeanwhileStillWaits) {
+  SlowLog starts;
+  Restarted cell(&starts);
+  cell.submit(slide("x", -1, 1, 4, "go"));
+  cell.run_until(at(500ms));
+  cell.executive().stop_all("test");
+  cell.run_until(at(1s));
+  cell.executive().resume_all();
+  cell.run_until(at(2s));
+  EXPECT_EQ(cell.x(), -1.0);
+  starts.write_all();
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("go").state, JobState::succeeded);
 }

@@ -102,7 +102,7 @@ TEST_F(Command, AnOptionThatCannotBeFollowedIsNamed) {
       {simulate + " --out " + taken.string(),
        "armloom: --out: the folder " + taken.string() + " cannot be written\n"},
       {"serve --listen 127.0.0.1:0 --cell " + kCell + " --data " + taken.string(),
-       "armloom: --data: the folder " + taken.string() + " cannot be written\n"},
+       "armloom: --data: the folder " + taken.string() + " cannot be written: Not a directory\n"},
       {"serve --cell " + kCell + " --listen 8080", "armloom: --listen: expected ADDRESS:PORT"},
       {"serve --cell " + kCell + " --listen 127.0.0.1:70000",
        "armloom: --listen: expected ADDRESS:PORT"},

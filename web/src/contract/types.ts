@@ -49,6 +49,11 @@ export interface components {
                 on_idle_blocker: "report" | "park";
                 /** @description Of each arm so many jobs are admitted together, the one under way included; who passes first is chosen for all of them (coordinated only). */
                 horizon_legs: number;
+                /**
+                 * @description What a server with `--data` that is started again does with jobs that had not ended: ask stops all arms until they are resumed, continue goes on with those that had not begun.
+                 * @enum {string}
+                 */
+                on_restart: "ask" | "continue";
             };
             /** @description The watch over the measured state of all arms. */
             monitor: {
