@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -10,15 +9,12 @@
 #include "core/model/xml/text_file.h"
 #include "server/codec/cell_codec.h"
 #include "test/experiments/job_delays.h"
+#include "test/experiments/short_beside_long.h"
 #include "test/experiments/shuttles.h"
+#include "test/experiments/table_work.h"
 
 namespace armloom::experiments {
 namespace {
-
-constexpr double kLow_m = 0.17;    // of the tool over the world's floor: 7 cm above the table
-constexpr double kAbove_m = 0.29;  // before and after it goes down
-constexpr double kGrip_s = 0.3;    // the fingers close or open
-constexpr int kTries = 2000;
 
 template <class T>
 T value_of(Result<T> result) {
@@ -38,39 +34,6 @@ std::vector<ArmId> arms_of(const Cell& cell) {
   return arms;
 }
 
-void until_taken(const std::function<bool()>& task) {
-  for (int i = 0; i < kTries; ++i) {
-    if (task()) return;
-  }
-  throw std::runtime_error("no open task found");
-}
-
-// A tool position over the table, low and above.
-struct Spot {
-  Eigen::VectorXd low;
-  Eigen::VectorXd above;
-};
-std::optional<Spot> spot(const JobMaker& maker, ArmId arm, double x_m, double y_m) {
-  auto low = maker.tool_at(arm, {x_m, y_m, kLow_m});
-  auto above = maker.tool_at(arm, {x_m, y_m, kAbove_m});
-  if (!low || !above) return std::nullopt;
-  return Spot{*std::move(low), *std::move(above)};
-}
-
-struct Box2 {
-  double x0, x1, y0, y1;
-};
-std::optional<Spot> spot_in(JobMaker& maker, ArmId arm, const Box2& box_W) {
-  const double x_m = maker.draw(box_W.x0, box_W.x1);
-  return spot(maker, arm, x_m, maker.draw(box_W.y0, box_W.y1));
-}
-// The arm's own tray, in the frame of its base, which looks to the middle.
-std::optional<Spot> spot_in_tray(JobMaker& maker, ArmId arm, const Box2& box_B) {
-  const double x_m = maker.draw(box_B.x0, box_B.x1);
-  const Eigen::Vector3d p_WT = maker.from_base(arm, {x_m, maker.draw(box_B.y0, box_B.y1), 0.0});
-  return spot(maker, arm, p_WT.x(), p_WT.y());
-}
-
 // Two jobs: to the tray and down on the part, where it rests while the fingers close; then up, to
 // the middle, down, open, up and home.
 bool pick_and_place_task(JobMaker& maker, ArmId arm, const Box2& tray_B, const Box2& middle_W) {
@@ -87,9 +50,6 @@ bool pick_and_place_task(JobMaker& maker, ArmId arm, const Box2& tray_B, const B
                       {place->above, speed},
                       {maker.home(arm), speed}}}});
 }
-
-constexpr Box2 kTray_B{0.05, 0.25, 0.38, 0.52};
-constexpr Box2 kMiddle_W{-0.06, 0.06, -0.15, 0.15};
 
 // The same work for the first arm of two that stand face to face: what the second would do is
 // turned about the middle with it, joint for joint.
@@ -135,87 +95,6 @@ Workload four_pandas(std::uint64_t seed) {
         return pick_and_place_task(maker, arm, {-0.25, 0.0, 0.4, 0.5}, {-0.2, 0.2, -0.2, 0.2});
       });
     }
-  }
-  workload.jobs = maker.take();
-  return workload;
-}
-
-// A part from the tray to the middle, and down on the next one in the tray.
-bool short_task(JobMaker& maker, ArmId arm, Spot& part) {
-  const double speed = maker.draw(0.9, 1.0);
-  const auto place = spot_in(maker, arm, kMiddle_W);
-  const auto next = spot_in_tray(maker, arm, kTray_B);
-  if (!place || !next) return false;
-  if (!maker.add(arm, TimePoint{},
-                 {{"short",
-                   {{part.above, speed},
-                    {place->above, speed},
-                    {place->low, speed, kGrip_s},
-                    {place->above, speed},
-                    {next->above, speed},
-                    {next->low, speed, kGrip_s}}}})) {
-    return false;
-  }
-  part = *next;
-  return true;
-}
-// From home down on the first part, or seam.
-bool first_part(JobMaker& maker, ArmId arm, Spot& part) {
-  const auto first = spot_in_tray(maker, arm, kTray_B);
-  if (!first ||
-      !maker.add(arm, TimePoint{}, {{"ready", {{first->above}, {first->low, 1.0, kGrip_s}}}})) {
-    return false;
-  }
-  part = *first;
-  return true;
-}
-
-// Slows one leg down until the whole way from `start` takes `wanted_s`; false: it takes longer.
-bool fill_time(const Cell& cell, ArmId arm, const Eigen::VectorXd& start, double wanted_s,
-               std::size_t leg, std::vector<Leg>& legs) {
-  const std::vector<WaypointRequest> points = way(cell, arm, start, legs).points;
-  const double spare_s = wanted_s - points.back().time_from_start_s;
-  if (spare_s < 0.0) return false;
-  const double fastest_s = line_time_s(cell, arm, leg == 0 ? start : legs[leg - 1].q, legs[leg].q);
-  legs[leg].speed = fastest_s / (whole_10_ms(fastest_s) + spare_s);
-  return true;
-}
-
-// Slowly along a seam in the own tray, then down in the middle once, and down on the next seam.
-bool long_task(JobMaker& maker, ArmId arm, double wanted_s, Spot& seam) {
-  const auto end = spot_in_tray(maker, arm, kTray_B);
-  const auto next = spot_in_tray(maker, arm, kTray_B);
-  const auto place = spot_in(maker, arm, kMiddle_W);
-  if (!end || !next || !place) return false;
-  std::vector<Leg> legs = {
-      {end->low},     {end->above},  {place->above},           {place->low, 1.0, kGrip_s},
-      {place->above}, {next->above}, {next->low, 1.0, kGrip_s}};
-  if (!fill_time(maker.cell(), arm, seam.low, wanted_s, 0, legs)) return false;
-  if (!maker.add(arm, TimePoint{}, {{"long", legs}})) return false;
-  seam = *next;
-  return true;
-}
-
-// Twelve short tasks beside four that take three times as long, equal work. Odd seeds give the
-// short ones to the first arm.
-Workload short_beside_long(std::uint64_t seed) {
-  Workload workload{config("two_pandas")};
-  JobMaker maker(workload.cell, seed);
-  const ArmId quick(seed % 2 == 1 ? 0U : 1U);
-  const ArmId slow(seed % 2 == 1 ? 1U : 0U);
-  constexpr int kLong = 4;
-  Spot part;
-  until_taken([&] { return first_part(maker, quick, part); });
-  for (int task = 0; task < 3 * kLong; ++task) {
-    until_taken([&] { return short_task(maker, quick, part); });
-  }
-  Spot seam;
-  until_taken([&] { return first_part(maker, slow, seam); });
-  const std::vector<PlannedJob>& shorts = maker.jobs_of(quick);
-  for (std::size_t task = 0; task < kLong; ++task) {
-    Duration work{};
-    for (std::size_t i = 0; i < 3; ++i) work += shorts[1 + 3 * task + i].trajectory->duration();
-    until_taken([&] { return long_task(maker, slow, to_seconds(work), seam); });
   }
   workload.jobs = maker.take();
   return workload;
@@ -327,7 +206,8 @@ const std::vector<WorkloadKind>& workload_kinds() {
   static const std::vector<WorkloadKind> kinds = {
       {"pick_and_place", "Pick and place, two Pandas", true, pick_and_place},
       {"four_pandas", "Pick and place, four Pandas", true, four_pandas},
-      {"short_beside_long", "Short beside long tasks, two Pandas", true, short_beside_long},
+      {"short_beside_long", "Short beside long tasks, two Pandas", true,
+       of_two_pandas<short_beside_long>},
       {"random_mix", "A random mix that arrives over time, two Pandas", true, random_mix},
       {"shuttles", "To and fro between home and poses in the middle, two Pandas", false,
        of_two_pandas<shuttle_jobs>},
