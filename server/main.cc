@@ -72,13 +72,18 @@ int run(int argc, char** argv) {
   ImportOptions importing;
   CLI::App* import_command =
       app.add_subcommand("import", "write a cell file from a robot's URDF and SRDF");
-  import_command->add_option("--urdf", importing.urdf, "URDF; several: one for each --robot")
+  import_command
+      ->add_option("--urdf", importing.urdf, "URDF; repeated for several: one for each --robot")
       ->required()
       ->allow_extra_args(false);
-  import_command->add_option("--srdf", importing.srdf, "SRDF, as many as URDFs")
+  import_command
+      ->add_option("--srdf", importing.srdf,
+                   "SRDF; repeated, the first for the first URDF, and so on")
       ->required()
       ->allow_extra_args(false);
-  import_command->add_option("--joint-limits", importing.joint_limits, "MoveIt's joint_limits.yaml")
+  import_command
+      ->add_option("--joint-limits", importing.joint_limits,
+                   "MoveIt's joint_limits.yaml; repeated as --urdf is")
       ->allow_extra_args(false);
   import_command
       ->add_option("--robot", importing.robots,

@@ -3,11 +3,14 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <optional>
+
+#include "server/import/joint_sets.h"
+#include "server/import/one_arm.h"
 
 namespace armloom {
 namespace {
 
-using JointSet = RobotSemantics::JointSet;
 using tinyxml2::XMLElement;
 
 constexpr std::size_t kFewestJoints = 3;
@@ -21,42 +24,6 @@ std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
-}
-
-bool share_a_joint(const JointSet& a, const JointSet& b) {
-  return std::ranges::any_of(a, [&](std::size_t joint) { return b.contains(joint); });
-}
-
-bool holds(const JointSet& whole, const JointSet& part) {
-  return std::ranges::includes(whole, part);
-}
-
-// Whether every joint of `below` moves with a joint of `above`.
-bool is_above(const RobotTree& tree, const JointSet& above, const JointSet& below) {
-  return std::ranges::all_of(below, [&](std::size_t joint) {
-    for (auto link = tree.links[joint].parent; link; link = tree.links[*link].parent) {
-      if (above.contains(*link)) return true;
-    }
-    return false;
-  });
-}
-
-bool stand_side_by_side(const RobotTree& tree, const JointSet& a, const JointSet& b) {
-  return !share_a_joint(a, b) && !is_above(tree, a, b) && !is_above(tree, b, a);
-}
-
-// Chains that both begin at the base of a torso: it can be held, and each has an arm of its own.
-bool share_a_torso(const RobotTree& tree, const JointSet& a, const JointSet& b) {
-  JointSet shared;
-  JointSet rest_a;
-  JointSet rest_b;
-  for (const std::size_t joint : a) (b.contains(joint) ? shared : rest_a).insert(joint);
-  for (const std::size_t joint : b) {
-    if (!a.contains(joint)) rest_b.insert(joint);
-  }
-  return !rest_a.empty() && !rest_b.empty() && is_above(tree, shared, rest_a) &&
-         is_above(tree, shared, rest_b) && stand_side_by_side(tree, rest_a, rest_b) &&
-         shared.size() <= std::min(rest_a.size(), rest_b.size());
 }
 
 // Which of two candidates goes, and why: nothing when both can be arms.
@@ -123,9 +90,8 @@ std::string listed(const std::vector<const GroupChoice*>& choices) {
   return listed(names);
 }
 
-// What moves two others that are no smaller (a torso), then groups that are two others by their
-// joints: two by two an arm may seem a small part of them.
-void leave_out_unions(const RobotTree& tree, const RobotSemantics& semantics,
+// What moves two others that are no smaller.
+void leave_out_torsos(const RobotTree& tree, const RobotSemantics& semantics,
                       std::vector<GroupChoice>& choices) {
   for (GroupChoice& torso : choices) {
     const JointSet& joints = semantics.groups.at(torso.group);
@@ -135,6 +101,11 @@ void leave_out_unions(const RobotTree& tree, const RobotSemantics& semantics,
     });
     if (torso.is_arm && moved.size() >= 2) leave_out(torso, "it moves " + listed(moved));
   }
+}
+
+// Groups that are two others by their joints: two by two an arm may seem a small part of them.
+void leave_out_unions(const RobotTree& tree, const RobotSemantics& semantics,
+                      std::vector<GroupChoice>& choices) {
   for (GroupChoice& whole : choices) {
     const JointSet& joints = semantics.groups.at(whole.group);
     const auto parts = side_by_side(tree, semantics, choices, [&](const JointSet& part) {
@@ -144,6 +115,30 @@ void leave_out_unions(const RobotTree& tree, const RobotSemantics& semantics,
     for (const GroupChoice* part : parts) held += semantics.groups.at(part->group).size();
     if (whole.is_arm && parts.size() >= 2 && 2 * held >= joints.size())
       leave_out(whole, "it is made of " + listed(parts));
+  }
+}
+
+// Arms whose pieces are groups, too: the pieces go. Of other groups the ones made of subgroups go.
+void put_pieces_together(const RobotTree& tree, const RobotSemantics& semantics,
+                         const GroupNames& names, std::vector<GroupChoice>& choices) {
+  std::vector<GroupChoice*> smallest_first;
+  for (GroupChoice& choice : choices) smallest_first.push_back(&choice);
+  const auto joints_of = [&](const GroupChoice& choice) -> const JointSet& {
+    return semantics.groups.at(choice.group);
+  };
+  std::ranges::stable_sort(smallest_first, {},
+                           [&](const GroupChoice* choice) { return joints_of(*choice).size(); });
+  for (GroupChoice* whole : smallest_first) {
+    if (!whole->is_arm) continue;
+    const JointSet& joints = joints_of(*whole);
+    if (is_one_arm(*whole, tree, semantics, names, choices)) {
+      for (GroupChoice& part : choices) {
+        if (part.is_arm && joints_of(part).size() < joints.size() && holds(joints, joints_of(part)))
+          leave_out(part, "it is a part of " + whole->group);
+      }
+    } else if (const auto parts = names.parts.find(whole->group); parts != names.parts.end()) {
+      leave_out(*whole, "it is made of " + listed(parts->second));
+    }
   }
 }
 
@@ -180,7 +175,8 @@ std::vector<GroupChoice> choose_arm_groups(const RobotTree& tree, const RobotSem
     const auto known = semantics.groups.find(group);
     if (known == semantics.groups.end()) continue;
     GroupChoice choice{.group = group, .is_arm = true, .why = {}};
-    if (const auto parts = names.parts.find(group); parts != names.parts.end()) {
+    const auto parts = names.parts.find(group);
+    if (parts != names.parts.end() && !is_chain(tree, known->second)) {
       leave_out(choice, "it is made of " + listed(parts->second));
     } else if (known->second.empty()) {
       leave_out(choice, "it holds no movable joint");
@@ -189,6 +185,8 @@ std::vector<GroupChoice> choose_arm_groups(const RobotTree& tree, const RobotSem
     }
     choices.push_back(std::move(choice));
   }
+  leave_out_torsos(tree, semantics, choices);
+  put_pieces_together(tree, semantics, names, choices);
   leave_out_unions(tree, semantics, choices);
   for (std::size_t a = 0; a < choices.size(); ++a) {
     for (std::size_t b = a + 1; b < choices.size() && choices[a].is_arm; ++b) {

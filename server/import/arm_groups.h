@@ -25,12 +25,12 @@ struct GroupChoice {
   std::string why;  // half a sentence, why it is none: "made of left_arm, right_arm"
 };
 // Which groups are the robot's arms, in the order of the file. An arm is a group of joints of its
-// own: no end effector, not made of other groups (by name, or two that stand side by side by their
-// joints), sharing no joint with another arm but those of a torso at its base, not above or below a
-// larger one nor above two (a torso, a gripper), and of three joints at least where there is such a
-// one.
-// Of two that hold the same joints the first; of two where one holds the other the smaller, unless
-// that is less than half of it (a wrist).
+// own: no end effector, not made of arms (by name, or two that stand side by side by their joints)
+// nor of an arm and a gripper, sharing no joint with another arm but those of a torso at its base,
+// not above or below a larger one nor above two (a torso, a gripper), and of three joints at least
+// where there is such a one. A chain of groups that each are no arm for itself is one arm, as an
+// upper arm and a forearm. Of two that hold the same joints the first; of two where one holds the
+// other the smaller, unless that is less than half of it (a wrist).
 [[nodiscard]] std::vector<GroupChoice> choose_arm_groups(const RobotTree& tree,
                                                          const RobotSemantics& semantics,
                                                          const GroupNames& names);

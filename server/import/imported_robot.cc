@@ -95,19 +95,20 @@ Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
   }
 
   const auto choices = choose_arm_groups(*tree, *semantics, read_group_names(semantics->text));
+  const auto held = joints_above_arms(*tree, *semantics, choices);
   for (const GroupChoice& choice : choices) {
-    if (choice.is_arm) {
-      robot.arms.push_back(choice.group);
-      robot.guesses.push_back(guess_limits(*tree, semantics->groups.at(choice.group),
-                                           limits_file ? &*limits_file : nullptr));
-    } else {
+    if (!choice.is_arm) {
       robot.left_out.push_back(choice);
+      continue;
     }
+    robot.arms.push_back(choice.group);
+    RobotSemantics::JointSet moving;
+    std::ranges::set_difference(semantics->groups.at(choice.group), held,
+                                std::inserter(moving, moving.end()));
+    robot.guesses.push_back(guess_limits(*tree, moving, limits_file ? &*limits_file : nullptr));
   }
   if (robot.arms.empty()) return no_arm(*semantics, choices, findings.take_warnings());
-  for (const std::size_t joint : joints_above_arms(*tree, *semantics, choices)) {
-    robot.held.push_back(hold(*tree, *semantics, joint));
-  }
+  for (const std::size_t joint : held) robot.held.push_back(hold(*tree, *semantics, joint));
   return robot;
 }
 

@@ -25,8 +25,8 @@ struct ImportedRobot {
   std::string name;                   // as the URDF has it
   std::vector<std::string> arms;      // groups, in the order of the SRDF
   std::vector<GroupChoice> left_out;  // groups that are no arms
-  std::vector<HeldJoint> held;        // joints above the arms that are in none
-  // Limits that no file gives, for each of `arms`, by joint.
+  std::vector<HeldJoint> held;        // joints above the arms that are in none or in several
+  // Limits that no file gives, for each of `arms`, by joint that is left to move.
   std::vector<std::map<std::string, JointLimitsDescription>> guesses;
   Packages packages;
 };

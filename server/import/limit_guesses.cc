@@ -12,10 +12,10 @@ constexpr double kSpeed_m_s = 0.05;
 }  // namespace
 
 std::map<std::string, JointLimitsDescription> guess_limits(const RobotTree& tree,
-                                                           const RobotSemantics::JointSet& group,
+                                                           const RobotSemantics::JointSet& joints,
                                                            const LimitsFile* file) {
   std::map<std::string, JointLimitsDescription> guesses;
-  for (const std::size_t index : group) {
+  for (const std::size_t index : joints) {
     const TreeLink& link = tree.links[index];
     if (!link.is_independent()) continue;
     JointLimitsDescription filed;

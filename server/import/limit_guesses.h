@@ -9,9 +9,9 @@
 
 namespace armloom {
 
-// Limits that a cell needs of the group's joints and that neither the URDF nor joint_limits.yaml
+// Limits that a cell needs of an arm's joints and that neither the URDF nor joint_limits.yaml
 // (null: there is none) gives, by joint: cautious guesses, for somebody to replace.
 [[nodiscard]] std::map<std::string, JointLimitsDescription> guess_limits(
-    const RobotTree& tree, const RobotSemantics::JointSet& group, const LimitsFile* file);
+    const RobotTree& tree, const RobotSemantics::JointSet& joints, const LimitsFile* file);
 
 }  // namespace armloom

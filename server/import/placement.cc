@@ -11,11 +11,11 @@
 namespace armloom {
 namespace {
 
-tl::unexpected<Problems> refused(const std::string& text, const std::string& why) {
+tl::unexpected<Problems> refused(const std::string& text, const std::string& faults) {
   return failure(Problem{ProblemKind::invalid,
                          "bad-robot",
                          "--robot",
-                         "in \"" + text + "\": " + why +
+                         "in \"" + text + "\": " + faults +
                              "; expected NAME or NAME:x=0.75,yaw_deg=180 with x, y, z (m), "
                              "roll_deg, pitch_deg, yaw_deg",
                          {}});
@@ -43,25 +43,33 @@ double* member_of(PoseWords& base, std::string_view key) {
   return nullptr;
 }
 
+// One KEY=NUMBER; what is wrong with it, or nothing.
+std::string read_member(std::string_view one, PoseWords& base) {
+  const std::size_t equals = one.find('=');
+  const std::string_view key = one.substr(0, equals);
+  double* member = member_of(base, key);
+  if (member == nullptr) return "\"" + std::string(key) + "\" is not known";
+  const auto number = equals == one.npos ? std::nullopt : number_of(one.substr(equals + 1));
+  if (!number) return "\"" + std::string(one) + "\" gives no number";
+  *member = key.ends_with("_deg") ? *number * std::numbers::pi / 180.0 : *number;
+  return {};
+}
+
 }  // namespace
 
 Result<Placement> read_placement(const std::string& text) {
   const std::size_t colon = text.find(':');
   Placement placement{.name = text.substr(0, colon), .base = {}};
-  if (placement.name.empty()) return refused(text, "the name is missing");
+  std::string faults = placement.name.empty() ? "the name is missing" : "";
   std::string_view rest(text);
   rest.remove_prefix(colon == text.npos ? text.size() : colon + 1);
   while (!rest.empty()) {
     const std::string_view one = rest.substr(0, rest.find(','));
     rest.remove_prefix(std::min(rest.size(), one.size() + 1));
-    const std::size_t equals = one.find('=');
-    const std::string_view key = one.substr(0, equals);
-    double* member = member_of(placement.base, key);
-    if (member == nullptr) return refused(text, "\"" + std::string(key) + "\" is not known");
-    const auto number = equals == one.npos ? std::nullopt : number_of(one.substr(equals + 1));
-    if (!number) return refused(text, "\"" + std::string(one) + "\" gives no number");
-    *member = key.ends_with("_deg") ? *number * std::numbers::pi / 180.0 : *number;
+    const std::string fault = read_member(one, placement.base);
+    if (!fault.empty()) faults += (faults.empty() ? "" : "; ") + fault;
   }
+  if (!faults.empty()) return refused(text, faults);
   return placement;
 }
 

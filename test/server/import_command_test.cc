@@ -13,6 +13,7 @@ namespace {
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 namespace fs = std::filesystem;
 
 class Import : public test::CommandFixture {
@@ -109,6 +110,45 @@ TEST_F(Import, GuessesWhatNoFileSaysAndHoldsTheTorso) {
   ASSERT_EQ(told.exit_code, 0) << told.err;
   EXPECT_FALSE(written("told.json")["robots"][0]["arms"][0].contains("limits"));
   EXPECT_EQ(written("told.json")["robots"][0]["joint_limits"], "joint_limits.yaml");
+}
+
+// Both arms hold the lift, which says nothing of its velocity, and neither moves it.
+TEST_F(Import, GuessesNoLimitsOfWhatItHolds) {
+  std::string urdf = test::torso_urdf();
+  for (const std::string joint : {"torso_lift", "left_1"}) {
+    const std::string limit = R"(velocity="1")";
+    urdf.replace(urdf.find(limit, urdf.find("<joint name=\"" + joint + "\"")), limit.size(), "");
+  }
+  const fs::path srdf = file("torso.srdf", R"(<robot name="torso_robot">
+    <group name="l"><chain base_link="base" tip_link="left_3_link"/></group>
+    <group name="r"><chain base_link="base" tip_link="right_3_link"/></group></robot>)");
+  const fs::path cell = folder_ / "cell.json";
+  const test::Outcome made = run("import --urdf " + file("torso.urdf", urdf).string() + " --srdf " +
+                                 srdf.string() + " --out " + cell.string());
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const json robot = written("cell.json")["robots"][0];
+  EXPECT_EQ(robot["fixed"], json({{"torso_lift", 0.0}}));
+  EXPECT_EQ(robot["arms"][0]["limits"], json({{"left_1", {{"velocity_rad_s", 0.5}}}}));
+  EXPECT_FALSE(robot["arms"][1].contains("limits"));
+  EXPECT_THAT(made.err, HasSubstr("does not give all limits of left_1:"));
+  EXPECT_THAT(run("validate --cell " + cell.string()).err, Not(HasSubstr("limits")));
+}
+
+TEST_F(Import, TakesAWholeArmMadeOfSubgroupsAndItsState) {
+  const fs::path srdf = file("whole.srdf", R"(<robot name="torso_robot">
+    <group name="lo"><joint name="left_1"/><joint name="left_2"/></group>
+    <group name="hi"><joint name="left_3"/></group>
+    <group name="manip"><group name="lo"/><group name="hi"/></group>
+    <group_state name="ready" group="manip"><joint name="left_1" value="0.1"/>
+      <joint name="left_2" value="-0.6"/><joint name="left_3" value="0.5"/></group_state></robot>)");
+  const test::Outcome made =
+      run("import --urdf " + file("torso.urdf", test::torso_urdf()).string() + " --srdf " +
+          srdf.string());
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const json arms = parse_json(made.out, JsonComments::allowed).value()["robots"][0]["arms"];
+  ASSERT_EQ(arms.size(), 1U);
+  EXPECT_EQ(arms[0]["group"], "manip");
+  EXPECT_EQ(arms[0]["home"], "ready");
 }
 
 TEST_F(Import, WritesWhatDoesNotLoadAndEndsWithTwo) {
