@@ -96,8 +96,8 @@ struct Admitted {
   std::optional<Pause> pause = {};  // it was stopped on its way
 };
 struct Moving {
-  TimePoint overrun_at;       // if it does not move before
-  TimePoint moved_at;         // last
+  TimePoint overrun_at;  // if it does not move before
+  TimePoint moved_at;    // last
   // Since when, and from where, it has gone on without a stand and without coming near its limit.
   TimePoint goes_since = {};
   Duration goes_from = {};

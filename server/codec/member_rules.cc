@@ -56,16 +56,27 @@ void describe_companion(Schema& object, const std::string& key, const std::strin
   object["dependentRequired"][key] = Schema::array({companion});
 }
 
-void describe_unless(Schema& object, const std::string& key, const Schema& needed_before) {
-  const Schema all = object.value("required", Schema::array());
-  if (all.size() == needed_before.size()) return;
-  const Schema here(all.begin() + static_cast<std::ptrdiff_t>(needed_before.size()), all.end());
-  if (needed_before.empty()) {
-    object.erase("required");
-  } else {
-    object["required"] = needed_before;
+void describe_unless(Schema& object, const std::string& key, const Schema& before) {
+  // The entries of a list that `before` does not have; they are taken out.
+  const auto take_new = [&](const char* list) {
+    const Schema all = object.value(list, Schema::array());
+    const Schema old = before.value(list, Schema::array());
+    object.erase(list);
+    if (!old.empty()) object[list] = old;
+    return Schema(all.begin() + static_cast<std::ptrdiff_t>(old.size()), all.end());
+  };
+  const Schema needed = take_new("required");
+  Schema rules = take_new("allOf");
+  if (!needed.empty()) rules.push_back({{"required", needed}});
+  for (const Schema& rule : rules) {
+    Schema either{has(key)};
+    if (rule.contains("anyOf")) {  // of another one around the same part
+      either.insert(either.end(), rule["anyOf"].begin(), rule["anyOf"].end());
+    } else {
+      either.push_back(rule);
+    }
+    add_rule(object, {{"anyOf", either}});
   }
-  add_rule(object, {{"anyOf", {has(key), {{"required", here}}}}});
 }
 
 void check_not_served(const JsonNode& object, const NotServed& rule) {

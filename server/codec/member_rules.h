@@ -63,8 +63,9 @@ template <class T>
   return std::make_shared<CompanionRule<T>>(std::move(key), std::move(companion));
 }
 
-// What `object` requires and `needed_before` does not have is only needed without `key`.
-void describe_unless(Schema& object, const std::string& key, const Schema& needed_before);
+// What `object` demands beyond `before`, its description without the part, it demands only without
+// `key`.
+void describe_unless(Schema& object, const std::string& key, const Schema& before);
 
 // The part, where the object has no member of that name.
 template <class T>
@@ -77,9 +78,9 @@ class UnlessPart final : public Part<T> {
   }
   void write(JsonWriter& out, const T& value) const override { part_->write(out, value); }
   void describe(Schema& object, const T& defaults, Way way) const override {
-    const Schema needed_before = object.value("required", Schema::array());
+    const Schema before = object;
     part_->describe(object, defaults, way);
-    describe_unless(object, key_, needed_before);
+    describe_unless(object, key_, before);
   }
 
  private:

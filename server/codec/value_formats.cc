@@ -32,16 +32,23 @@ class IntegerFormat final : public Format<int> {
   int highest_;
 };
 
+// What clients say; up to here every integer is a number of JSON (RFC 8259, 6).
+constexpr std::int64_t kLargestCount = std::int64_t{1} << 53;
+
 class CountFormat final : public Format<std::uint64_t> {
  public:
   void read(const JsonNode& node, std::uint64_t& out) const override {
     std::int64_t number = 0;
-    if (node.read_integer(number, 0, std::numeric_limits<std::int64_t>::max())) {
+    if (node.read_integer(number, 0, kLargestCount)) {
       out = static_cast<std::uint64_t>(number);
     }
   }
   void write(JsonWriter& out, const std::uint64_t& number) const override { out.value(number); }
-  Schema schema(Way) const override { return {{"type", "integer"}, {"minimum", 0}}; }
+  Schema schema(Way way) const override {
+    Schema schema{{"type", "integer"}, {"minimum", 0}};
+    if (way == Way::in) schema["maximum"] = kLargestCount;
+    return schema;
+  }
 };
 
 class NumberListFormat final : public Format<std::vector<double>> {

@@ -12,6 +12,7 @@
 #include "server/codec/schema_names.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_request.h"
+#include "server/messages/plan.h"
 #include "server/messages/plan_goal.h"
 #include "server/messages/scene.h"
 
@@ -58,7 +59,8 @@ std::vector<Incoming> all_incoming() {
           incoming("FaultRequest", *fault_request_format()),
           incoming("Speed", *speed_format()),
           incoming("Goal", *plan_goal_format()),
-          incoming("cell file", cell_format())};
+          incoming("cell file", cell_format()),
+          incoming("PlanRequest", *plan_inquiry_format())};
 }
 
 // Every body of a route is among them.
@@ -102,8 +104,10 @@ json value_of(const Schema& schema, Random& random) {
   if (schema.contains("const")) return json::parse(schema["const"].dump());
   if (schema.contains("enum"))
     return json::parse(schema["enum"][below(random, schema["enum"].size())].dump());
-  if (schema.contains("oneOf"))
-    return value_of(schema["oneOf"][below(random, schema["oneOf"].size())], random);
+  for (const char* some : {"oneOf", "anyOf"}) {
+    if (schema.contains(some))
+      return value_of(schema[some][below(random, schema[some].size())], random);
+  }
   const std::string type = schema.value("type", "null");
   if (type == "object") return object_of(schema, random);
   if (type == "array") {
