@@ -1,7 +1,6 @@
 // Deadlocks in the scheduler: found when they arise, named, and resolved by a job that fails.
 #include <gmock/gmock.h>
 
-#include "core/trajectory/joint_line.h"
 #include "test/scheduler/bench_cell.h"
 
 namespace armloom {

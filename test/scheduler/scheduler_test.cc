@@ -4,7 +4,6 @@
 
 #include <numbers>
 
-#include "core/coordination/effort.h"
 #include "core/scheduler/deadlines.h"
 #include "test/scheduler/bench_cell.h"
 

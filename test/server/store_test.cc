@@ -1,85 +1,20 @@
-// Jobs on disk: what was said to be written is there, whenever and however it ends.
-#include <gtest/gtest.h>
-#include <sqlite3.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
+// Jobs on disk: what was said to be written is there in the next run, in its order, as long as it
+// is to be kept.
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <future>
-#include <map>
 
 #include "server/store/job_history.h"
-#include "server/store/job_store.h"
-#include "test/server/failing_disk.h"
+#include "test/server/store_fixture.h"
 
 namespace armloom {
 namespace {
 
-using test::FailingDisk;
 namespace fs = std::filesystem;
-
-StoredJob job(std::uint64_t number, const std::string& state = "queued") {
-  const std::string id = "j" + std::to_string(number);
-  return {.number = number,
-          .id = id,
-          .state = state,
-          .has_ended = state == "succeeded",
-          .submitted_ms = static_cast<std::int64_t>(number),
-          .ended_ms = state == "succeeded" ? std::optional<std::int64_t>(number) : std::nullopt,
-          .arms = R"(["left"])",
-          .view = R"({"id":")" + id + R"(","state":")" + state + "\"}"};
-}
-
-class Store : public ::testing::Test {
- protected:
-  void SetUp() override {
-    FailingDisk::reset();
-    folder_ = fs::path(::testing::TempDir()) / "armloom-store" /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-  }
-  void TearDown() override { FailingDisk::reset(); }
-
-  StoreOptions options() const {
-    StoreOptions options;
-    options.retry = std::chrono::milliseconds(5);
-    options.vfs = FailingDisk::name();
-    return options;
-  }
-  std::unique_ptr<JobStore> open(const StoreOptions& options) const {
-    auto store = JobStore::open(folder_, options);
-    if (!store) throw std::runtime_error(store.error().front().detail);
-    return std::move(*store);
-  }
-  std::unique_ptr<JobStore> open() const { return open(options()); }
-  std::string why_not() const {
-    const auto store = JobStore::open(folder_, options());
-    return store ? "" : store.error().front().detail;
-  }
-  fs::path file() const { return folder_ / "armloom.db"; }
-  void sql(const std::string& text) const {
-    sqlite3* database = nullptr;
-    ASSERT_EQ(sqlite3_open(file().c_str(), &database), SQLITE_OK);
-    ASSERT_EQ(sqlite3_exec(database, text.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
-    sqlite3_close(database);
-  }
-
-  fs::path folder_;
-};
-
-std::future<bool> accept(JobStore& store, std::uint64_t number) {
-  auto promise = std::make_shared<std::promise<bool>>();
-  store.accept({{job(number), "body of " + std::to_string(number)}},
-               [promise](bool is_written) { promise->set_value(is_written); });
-  return promise->get_future();
-}
-std::future<bool> start(JobStore& store, std::uint64_t number) {
-  auto promise = std::make_shared<std::promise<bool>>();
-  store.about_to_move(number, [promise](bool is_written) { promise->set_value(is_written); });
-  return promise->get_future();
-}
+using test::accept;
+using test::FailingDisk;
+using test::job;
+using test::start;
+using test::Store;
 
 TEST_F(Store, WhatHadNotEndedIsThereAgainInItsOrder) {
   {
@@ -239,134 +174,6 @@ TEST_F(Store, HistoryIsReadByStateArmAndPage) {
 }
 
 // ---- A disk that fails ----
-
-TEST_F(Store, AFullDiskIsSaidAndWhatWaitsIsWrittenWhenThereIsSpace) {
-  std::vector<std::string> told;
-  StoreOptions watched = options();
-  watched.on_fault = [&](const StoreFault* fault) { told.push_back(fault ? fault->text : "well"); };
-  {
-    const auto store = open(watched);
-    EXPECT_TRUE(accept(*store, 1).get());
-    FailingDisk::fail(FailingDisk::Fault::full, 0);
-    EXPECT_FALSE(accept(*store, 2).get());
-    ASSERT_TRUE(store->fault());
-    EXPECT_TRUE(store->fault()->is_full);
-    auto started = start(*store, 1);
-    store->see(job(1, "running"));
-    EXPECT_EQ(started.wait_for(std::chrono::milliseconds(30)), std::future_status::timeout)
-        << "nothing moves that is not put down";
-    FailingDisk::fail(FailingDisk::Fault::none, 0);
-    EXPECT_TRUE(started.get());
-    EXPECT_FALSE(store->fault());
-  }
-  EXPECT_EQ(told.size(), 2U);
-  EXPECT_EQ(told.back(), "well");
-  const auto store = open();
-  ASSERT_EQ(store->leftover().jobs.size(), 1U) << "the one that was refused is not there";
-  EXPECT_TRUE(store->leftover().jobs.front().may_have_moved);
-}
-
-// What a client and the executive do to ten jobs; `acknowledged` is told what they may rely on.
-void live(JobStore& store, const std::function<void(const std::string&)>& acknowledged) {
-  for (std::uint64_t number = 1; number <= 10; ++number) {
-    if (!accept(store, number).get()) continue;
-    acknowledged("a" + std::to_string(number));
-    if (number % 2 == 0) continue;
-    if (!start(store, number).get()) continue;
-    acknowledged("m" + std::to_string(number));
-    store.see(job(number, "running"));
-    if (number % 3 != 0) continue;
-    store.see(job(number, "succeeded"));
-    if (store.flush()) acknowledged("e" + std::to_string(number));
-  }
-}
-
-// Whatever was acknowledged is there, once; nothing that may have moved can be run again.
-void expect_kept(const fs::path& folder, const std::string& acknowledged, const std::string& when) {
-  StoreOptions options;
-  options.vfs = FailingDisk::name();
-  const auto store = JobStore::open(folder, options);
-  ASSERT_TRUE(store) << when << ": " << store.error().front().detail;
-  std::map<std::uint64_t, LeftJob> left;
-  std::uint64_t before = 0;
-  for (const LeftJob& found : (*store)->leftover().jobs) {
-    EXPECT_GT(found.job.number, before) << when;
-    before = found.job.number;
-    left.emplace(before, found);
-  }
-  const auto history = JobHistory::open(folder);
-  std::istringstream lines(acknowledged);
-  for (std::string what; lines >> what;) {
-    const std::uint64_t number = std::stoull(what.substr(1));
-    const auto found = (*history)->find("j" + std::to_string(number)).value();
-    ASSERT_TRUE(found) << when << ": job " << number << " is lost";
-    EXPECT_TRUE(what[0] != 'e' || found->has_ended) << when << ": " << what;
-    if (found->has_ended) continue;
-    ASSERT_TRUE(left.contains(number)) << when;
-    EXPECT_EQ(left[number].body, "body of " + std::to_string(number)) << when;
-    EXPECT_TRUE(what[0] != 'm' || left[number].may_have_moved) << when << ": " << what;
-  }
-}
-
-class Cut : public Store, public ::testing::WithParamInterface<const char*> {};
-
-// The process ends at its Nth write, or the power does: for every N.
-TEST_P(Cut, LosesNothingThatWasAcknowledgedWhereverItComes) {
-  const bool is_power = std::string(GetParam()) == "power";
-  const fs::path said = folder_.string() + "-said";
-  std::uint64_t cuts = 0;
-  for (std::uint64_t nth = 1;; ++nth) {
-    fs::remove_all(folder_);
-    fs::remove(said);
-    const pid_t child = fork();
-    if (child == 0) {
-      FailingDisk::reset();
-      FailingDisk::instead_of(nth, [&] {
-        if (is_power) FailingDisk::lose_unsynced();
-        _exit(1);
-      });
-      std::ofstream out(said);
-      auto store = JobStore::open(folder_, options());
-      if (store) live(**store, [&](const std::string& what) { out << what << std::endl; });
-      if (store) (*store)->close();
-      _exit(0);
-    }
-    int status = 0;
-    waitpid(child, &status, 0);
-    if (is_power) fs::remove(file().string() + "-shm");  // it is memory
-    std::ifstream in(said);
-    const std::string acknowledged{std::istreambuf_iterator<char>(in), {}};
-    expect_kept(folder_, acknowledged, "cut at operation " + std::to_string(nth));
-    if (HasFatalFailure() || WEXITSTATUS(status) == 0) break;
-    ++cuts;
-  }
-  EXPECT_GT(cuts, 50U);
-}
-INSTANTIATE_TEST_SUITE_P(Store, Cut, ::testing::Values("process", "power"));
-
-// The Nth write fails, or that and some after it: for every N.
-TEST_F(Store, NoWriteThatFailsLosesWhatWasAcknowledged) {
-  std::uint64_t faults = 0;
-  for (const auto fault : {FailingDisk::Fault::full, FailingDisk::Fault::broken}) {
-    for (std::uint64_t nth = 1;; ++nth) {
-      fs::remove_all(folder_);
-      FailingDisk::reset();
-      FailingDisk::fail(fault, nth, nth + nth % 3);
-      std::string acknowledged;
-      bool has_failed = true;
-      if (auto store = JobStore::open(folder_, options())) {
-        live(**store, [&](const std::string& what) { acknowledged += what + "\n"; });
-        (*store)->close();
-        has_failed = FailingDisk::operations() >= nth;
-      }
-      FailingDisk::reset();
-      expect_kept(folder_, acknowledged, "fault at operation " + std::to_string(nth));
-      if (HasFatalFailure() || !has_failed) break;
-      ++faults;
-    }
-  }
-  EXPECT_GT(faults, 100U);
-}
 
 }  // namespace
 }  // namespace armloom

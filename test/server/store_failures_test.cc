@@ -1,0 +1,152 @@
+// Jobs on disk: what was said to be written is there, wherever a disk fails or the process ends.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+
+#include "server/store/job_history.h"
+#include "test/server/store_fixture.h"
+
+namespace armloom {
+namespace {
+
+namespace fs = std::filesystem;
+using test::accept;
+using test::FailingDisk;
+using test::job;
+using test::start;
+using test::Store;
+
+TEST_F(Store, AFullDiskIsSaidAndWhatWaitsIsWrittenWhenThereIsSpace) {
+  std::vector<std::string> told;
+  StoreOptions watched = options();
+  watched.on_fault = [&](const StoreFault* fault) { told.push_back(fault ? fault->text : "well"); };
+  {
+    const auto store = open(watched);
+    EXPECT_TRUE(accept(*store, 1).get());
+    FailingDisk::fail(FailingDisk::Fault::full, 0);
+    EXPECT_FALSE(accept(*store, 2).get());
+    ASSERT_TRUE(store->fault());
+    EXPECT_TRUE(store->fault()->is_full);
+    auto started = start(*store, 1);
+    store->see(job(1, "running"));
+    EXPECT_EQ(started.wait_for(std::chrono::milliseconds(30)), std::future_status::timeout)
+        << "nothing moves that is not put down";
+    FailingDisk::fail(FailingDisk::Fault::none, 0);
+    EXPECT_TRUE(started.get());
+    EXPECT_FALSE(store->fault());
+  }
+  EXPECT_EQ(told.size(), 2U);
+  EXPECT_EQ(told.back(), "well");
+  const auto store = open();
+  ASSERT_EQ(store->leftover().jobs.size(), 1U) << "the one that was refused is not there";
+  EXPECT_TRUE(store->leftover().jobs.front().may_have_moved);
+}
+
+// What a client and the executive do to ten jobs; `acknowledged` is told what they may rely on.
+void live(JobStore& store, const std::function<void(const std::string&)>& acknowledged) {
+  for (std::uint64_t number = 1; number <= 10; ++number) {
+    if (!accept(store, number).get()) continue;
+    acknowledged("a" + std::to_string(number));
+    if (number % 2 == 0) continue;
+    if (!start(store, number).get()) continue;
+    acknowledged("m" + std::to_string(number));
+    store.see(job(number, "running"));
+    if (number % 3 != 0) continue;
+    store.see(job(number, "succeeded"));
+    if (store.flush()) acknowledged("e" + std::to_string(number));
+  }
+}
+
+// Whatever was acknowledged is there, once; nothing that may have moved can be run again.
+void expect_kept(const fs::path& folder, const std::string& acknowledged, const std::string& when) {
+  StoreOptions options;
+  options.vfs = FailingDisk::name();
+  const auto store = JobStore::open(folder, options);
+  ASSERT_TRUE(store) << when << ": " << store.error().front().detail;
+  std::map<std::uint64_t, LeftJob> left;
+  std::uint64_t before = 0;
+  for (const LeftJob& found : (*store)->leftover().jobs) {
+    EXPECT_GT(found.job.number, before) << when;
+    before = found.job.number;
+    left.emplace(before, found);
+  }
+  const auto history = JobHistory::open(folder);
+  std::istringstream lines(acknowledged);
+  for (std::string what; lines >> what;) {
+    const std::uint64_t number = std::stoull(what.substr(1));
+    const auto found = (*history)->find("j" + std::to_string(number)).value();
+    ASSERT_TRUE(found) << when << ": job " << number << " is lost";
+    EXPECT_TRUE(what[0] != 'e' || found->has_ended) << when << ": " << what;
+    if (found->has_ended) continue;
+    ASSERT_TRUE(left.contains(number)) << when;
+    EXPECT_EQ(left[number].body, "body of " + std::to_string(number)) << when;
+    EXPECT_TRUE(what[0] != 'm' || left[number].may_have_moved) << when << ": " << what;
+  }
+}
+
+class Cut : public Store, public ::testing::WithParamInterface<const char*> {};
+
+// The process ends at its Nth write, or the power does: for every N.
+TEST_P(Cut, LosesNothingThatWasAcknowledgedWhereverItComes) {
+  const bool is_power = std::string(GetParam()) == "power";
+  const fs::path said = folder_.string() + "-said";
+  std::uint64_t cuts = 0;
+  for (std::uint64_t nth = 1;; ++nth) {
+    fs::remove_all(folder_);
+    fs::remove(said);
+    const pid_t child = fork();
+    if (child == 0) {
+      FailingDisk::reset();
+      FailingDisk::instead_of(nth, [&] {
+        if (is_power) FailingDisk::lose_unsynced();
+        _exit(1);
+      });
+      std::ofstream out(said);
+      auto store = JobStore::open(folder_, options());
+      if (store) live(**store, [&](const std::string& what) { out << what << std::endl; });
+      if (store) (*store)->close();
+      _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    if (is_power) fs::remove(file().string() + "-shm");  // it is memory
+    std::ifstream in(said);
+    const std::string acknowledged{std::istreambuf_iterator<char>(in), {}};
+    expect_kept(folder_, acknowledged, "cut at operation " + std::to_string(nth));
+    if (HasFatalFailure() || WEXITSTATUS(status) == 0) break;
+    ++cuts;
+  }
+  EXPECT_GT(cuts, 50U);
+}
+INSTANTIATE_TEST_SUITE_P(Store, Cut, ::testing::Values("process", "power"));
+
+// The Nth write fails, or that and some after it: for every N.
+TEST_F(Store, NoWriteThatFailsLosesWhatWasAcknowledged) {
+  std::uint64_t faults = 0;
+  for (const auto fault : {FailingDisk::Fault::full, FailingDisk::Fault::broken}) {
+    for (std::uint64_t nth = 1;; ++nth) {
+      fs::remove_all(folder_);
+      FailingDisk::reset();
+      FailingDisk::fail(fault, nth, nth + nth % 3);
+      std::string acknowledged;
+      bool has_failed = true;
+      if (auto store = JobStore::open(folder_, options())) {
+        live(**store, [&](const std::string& what) { acknowledged += what + "\n"; });
+        (*store)->close();
+        has_failed = FailingDisk::operations() >= nth;
+      }
+      FailingDisk::reset();
+      expect_kept(folder_, acknowledged, "fault at operation " + std::to_string(nth));
+      if (HasFatalFailure() || !has_failed) break;
+      ++faults;
+    }
+  }
+  EXPECT_GT(faults, 100U);
+}
+
+}  // namespace
+}  // namespace armloom
