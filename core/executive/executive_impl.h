@@ -163,6 +163,7 @@ class Executive::Impl final : public JobNames {
   void tell_stops();
   void tell_queue();
   void count(const JobView& ended);
+  [[nodiscard]] bool is_told_of_a_start(ArmId arm) const;
   ArmState state_of(ArmId arm) const;
   ArmView view_of_arm(ArmId arm) const;
   QueueView queue() const;

@@ -107,6 +107,12 @@ QueueView Executive::Impl::queue() const {
   return view;
 }
 
+// Of a job that has not begun: it may not leave where it stands before that is on disk.
+bool Executive::Impl::is_told_of_a_start(ArmId arm) const {
+  const auto job = scheduler_.occupant(arm);
+  return job && starts_.contains(*job) && !scheduler_.find(*job)->has_started();
+}
+
 ArmState Executive::Impl::state_of(ArmId arm) const {
   using Phase = ArmFeedback::Phase;
   const Phase phase = motions_.feedback(arm).phase;
@@ -114,7 +120,7 @@ ArmState Executive::Impl::state_of(ArmId arm) const {
   if (const auto job = scheduler_.occupant(arm); job && scheduler_.find(*job)->pausing()) {
     return ArmState::holding;
   }
-  if (motions_.moving(arm)) return ArmState::moving;
+  if (motions_.moving(arm) && !is_told_of_a_start(arm)) return ArmState::moving;
   if (phase == Phase::stopped && scheduler_.occupant(arm)) return ArmState::holding;
   return scheduler_.stopped(arm) ? ArmState::stopped : ArmState::idle;
 }
