@@ -7,7 +7,7 @@
 #include "core/base/told.h"
 #include "core/base/whole_turns.h"
 #include "core/executive/executive_impl.h"
-#include "core/scheduler/sequence/places.h"
+#include "core/sequence/places.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {

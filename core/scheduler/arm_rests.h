@@ -6,7 +6,7 @@
 
 #include "core/model/cell.h"
 #include "core/scheduler/job.h"
-#include "core/scheduler/sequence/safe_sequence.h"
+#include "core/sequence/safe_sequence.h"
 
 namespace armloom {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/scheduler/job.h"
-#include "core/scheduler/sequence/safe_sequence.h"
+#include "core/sequence/safe_sequence.h"
 
 namespace armloom {
 

@@ -7,7 +7,7 @@
 #include "core/base/problem.h"
 #include "core/coordination/motion.h"
 #include "core/model/cell.h"
-#include "core/scheduler/orders/passing_orders.h"
+#include "core/precedence/passing_orders.h"
 #include "core/scheduler/policy_names.h"
 #include "core/scheduler/state.h"
 

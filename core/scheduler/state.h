@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "core/model/cell.h"
+#include "core/precedence/precedence_graph.h"
 #include "core/scheduler/arm_rests.h"
 #include "core/scheduler/horizon/expectation.h"
 #include "core/scheduler/inputs.h"
 #include "core/scheduler/job_book.h"
-#include "core/scheduler/orders/precedence_graph.h"
-#include "core/scheduler/sequence/lanes.h"
+#include "core/scheduler/lanes.h"
 
 namespace armloom {
 

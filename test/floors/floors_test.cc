@@ -27,7 +27,11 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"core/planning",
      {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
       "core/collision"}},
-    {"core/scheduler", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
+    {"core/precedence", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
+    {"core/sequence", {"core/base"}},
+    {"core/scheduler",
+     {"core/base", "core/model", "core/trajectory", "core/coordination", "core/precedence",
+      "core/sequence"}},
     {"core/monitor", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
     {"core/arm", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
     // Shares nothing with admission but the model and what a mesh's file says.
@@ -36,7 +40,8 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
       "core/geometry/mesh/surface_tree.h"}},
     {"core/executive",
      {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
-      "core/collision", "core/planning", "core/scheduler", "core/monitor", "core/arm"}},
+      "core/collision", "core/planning", "core/precedence", "core/sequence", "core/scheduler",
+      "core/monitor", "core/arm"}},
     {"server",
      {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
       "core/planning", "core/executive", "core/audit"}},
@@ -52,6 +57,10 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
 // Text that has no place in a folder, whatever floor it comes from.
 const std::map<std::string, std::vector<std::string>> kMustNotSay = {
     {"core", {"nlohmann", "boost/asio", "boost/beast", "spdlog", "std::cout", "std::cerr"}},
+    {"core/precedence",
+     {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
+    {"core/sequence",
+     {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
     {"core/scheduler",
      {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
     {"core/monitor",

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/scheduler/orders/open_orders.h"
+#include "core/precedence/open_orders.h"
 #include "test/scheduler/ideal_arms.h"
 
 namespace armloom {

@@ -1,5 +1,5 @@
 // Branch and bound against all assignments there are.
-#include "core/scheduler/orders/order_search.h"
+#include "core/precedence/order_search.h"
 
 #include <gtest/gtest.h>
 

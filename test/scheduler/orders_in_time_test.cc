@@ -1,8 +1,8 @@
 // Orders as times make them: now or later, at the start; and none.
 #include <gmock/gmock.h>
 
-#include "core/scheduler/orders/motion_chains.h"
-#include "core/scheduler/orders/precedence_graph.h"
+#include "core/precedence/motion_chains.h"
+#include "core/precedence/precedence_graph.h"
 #include "test/scheduler/bench_cell.h"
 
 namespace armloom {

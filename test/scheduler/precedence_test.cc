@@ -1,7 +1,7 @@
 // Passing orders as plain data: who may go how far, and when everything comes to its end.
 #include <gtest/gtest.h>
 
-#include "core/scheduler/orders/precedence_graph.h"
+#include "core/precedence/precedence_graph.h"
 
 namespace armloom {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
-#include "core/scheduler/orders/coordinated_motion.h"
-#include "core/scheduler/orders/prediction.h"
+#include "core/precedence/coordinated_motion.h"
+#include "core/precedence/prediction.h"
 
 namespace armloom {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/precedence/motion_chains.h"
+#include "core/precedence/prediction.h"
 #include "core/scheduler/horizon/weighing.h"
-#include "core/scheduler/orders/motion_chains.h"
-#include "core/scheduler/orders/prediction.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/waiting/waits.h"
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <utility>
 
+#include "core/precedence/order_search.h"
 #include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/orders/order_search.h"
 #include "core/scheduler/policy.h"
 
 namespace armloom {

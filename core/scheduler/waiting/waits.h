@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/coordination/verdict.h"
+#include "core/precedence/passing_orders.h"
 #include "core/scheduler/job.h"
-#include "core/scheduler/orders/passing_orders.h"
 
 namespace armloom {
 

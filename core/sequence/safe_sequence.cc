@@ -1,4 +1,4 @@
-#include "core/scheduler/sequence/safe_sequence.h"
+#include "core/sequence/safe_sequence.h"
 
 #include <algorithm>
 #include <iterator>

@@ -5,7 +5,7 @@
 #include "core/coordination/verdict.h"
 #include "core/scheduler/arm_rests.h"
 #include "core/scheduler/job_book.h"
-#include "core/scheduler/sequence/safe_sequence.h"
+#include "core/sequence/safe_sequence.h"
 
 namespace armloom {
 

@@ -1,4 +1,4 @@
-#include "core/scheduler/sequence/lanes.h"
+#include "core/scheduler/lanes.h"
 
 #include <algorithm>
 #include <utility>

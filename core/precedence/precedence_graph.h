@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scheduler/orders/passing_orders.h"
+#include "core/precedence/passing_orders.h"
 
 namespace armloom {
 

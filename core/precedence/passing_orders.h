@@ -8,9 +8,9 @@
 #include "core/base/time.h"
 #include "core/coordination/conflict_region.h"
 #include "core/coordination/verdict.h"
-#include "core/scheduler/orders/coordinated_motion.h"
-#include "core/scheduler/orders/precedence.h"
-#include "core/scheduler/orders/prediction.h"
+#include "core/precedence/coordinated_motion.h"
+#include "core/precedence/precedence.h"
+#include "core/precedence/prediction.h"
 
 namespace armloom {
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "core/scheduler/sequence/safe_sequence.h"
+#include "core/sequence/safe_sequence.h"
 
 namespace armloom {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scheduler/sequence/places.h"
+#include "core/sequence/places.h"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
-#include "core/scheduler/orders/passing_orders.h"
+#include "core/precedence/passing_orders.h"
 
 #include <utility>
 
-#include "core/scheduler/orders/open_orders.h"
-#include "core/scheduler/orders/order_search.h"
+#include "core/precedence/open_orders.h"
+#include "core/precedence/order_search.h"
 
 namespace armloom {
 PassingOrders cheapest_orders(const OrderQuestion& question) {

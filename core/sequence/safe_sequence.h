@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/ids.h"
-#include "core/scheduler/sequence/places.h"
+#include "core/sequence/places.h"
 
 namespace armloom {
 

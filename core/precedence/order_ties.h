@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/scheduler/orders/open_orders.h"
+#include "core/precedence/open_orders.h"
 
 namespace armloom {
 

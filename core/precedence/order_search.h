@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/base/time.h"
-#include "core/scheduler/orders/open_orders.h"
-#include "core/scheduler/orders/prediction.h"
+#include "core/precedence/open_orders.h"
+#include "core/precedence/prediction.h"
 
 namespace armloom {
 

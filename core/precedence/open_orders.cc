@@ -1,9 +1,9 @@
-#include "core/scheduler/orders/open_orders.h"
+#include "core/precedence/open_orders.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "core/scheduler/orders/order_ties.h"
+#include "core/precedence/order_ties.h"
 
 namespace armloom {
 namespace {

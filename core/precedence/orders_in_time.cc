@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/scheduler/orders/open_orders.h"
+#include "core/precedence/open_orders.h"
 
 namespace armloom {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
-#include "core/scheduler/orders/coordinated_motion.h"
+#include "core/precedence/coordinated_motion.h"
 
 namespace armloom {
 

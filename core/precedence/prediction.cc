@@ -1,4 +1,4 @@
-#include "core/scheduler/orders/prediction.h"
+#include "core/precedence/prediction.h"
 
 #include <algorithm>
 

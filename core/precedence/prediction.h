@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/time.h"
-#include "core/scheduler/orders/precedence.h"
+#include "core/precedence/precedence.h"
 
 namespace armloom {
 

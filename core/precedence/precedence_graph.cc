@@ -1,4 +1,4 @@
-#include "core/scheduler/orders/precedence_graph.h"
+#include "core/precedence/precedence_graph.h"
 
 #include <algorithm>
 #include <iterator>
@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "core/scheduler/orders/motion_chains.h"
+#include "core/precedence/motion_chains.h"
 
 namespace armloom {
 namespace {

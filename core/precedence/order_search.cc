@@ -1,4 +1,4 @@
-#include "core/scheduler/orders/order_search.h"
+#include "core/precedence/order_search.h"
 
 #include <algorithm>
 #include <functional>

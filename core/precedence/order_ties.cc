@@ -1,4 +1,4 @@
-#include "core/scheduler/orders/order_ties.h"
+#include "core/precedence/order_ties.h"
 
 #include <algorithm>
 

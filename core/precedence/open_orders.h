@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/scheduler/orders/motion_chains.h"
-#include "core/scheduler/orders/passing_orders.h"
+#include "core/precedence/motion_chains.h"
+#include "core/precedence/passing_orders.h"
 
 namespace armloom {
 

@@ -1,4 +1,4 @@
-#include "core/scheduler/orders/precedence.h"
+#include "core/precedence/precedence.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "core/scheduler/orders/motion_chains.h"
+#include "core/precedence/motion_chains.h"
 
 #include <algorithm>
 #include <map>
