@@ -37,7 +37,7 @@ std::vector<std::unique_ptr<FaultyArm>> simulated_arms(const CellPtr& cell, std:
 }  // namespace
 
 Result<std::unique_ptr<Executive>> Executive::create(CellPtr cell, ExecutiveOptions options,
-                                                     JudgePool& judges, Observer& observer) {
+                                                     JudgementService& judges, Observer& observer) {
   auto policy = policy_of(*cell, options);
   if (!policy) return failure(std::move(policy.error()));
   auto scene = PlanningScene::build(cell);

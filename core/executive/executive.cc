@@ -44,7 +44,7 @@ ClearanceQuery Executive::Impl::monitored(const PlanningScenePtr& scene) {
 
 Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
                       std::shared_ptr<const Policy> policy,
-                      std::vector<std::unique_ptr<FaultyArm>> arms, JudgePool& judges,
+                      std::vector<std::unique_ptr<FaultyArm>> arms, JudgementService& judges,
                       Observer& observer)
     : cell_(cell),
       options_(std::move(options)),

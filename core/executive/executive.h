@@ -57,9 +57,9 @@ struct JobRequest {
 
 // Where judgements are computed. Called on the strand; `done` must be called exactly once, on the
 // strand again, with the answer.
-class JudgePool {
+class JudgementService {
  public:
-  virtual ~JudgePool() = default;
+  virtual ~JudgementService() = default;
   virtual void ask(Question question, PlanningScenePtr scene,
                    std::function<void(Verdict)> done) = 0;
   // For people who look: changes no verdict and delays none. False: too many are being drawn, and
@@ -172,7 +172,7 @@ class Executive {
   // Problems: homes in conflict, unknown policy, controller type unknown.
   [[nodiscard]] static Result<std::unique_ptr<Executive>> create(CellPtr cell,
                                                                  ExecutiveOptions options,
-                                                                 JudgePool& judges,
+                                                                 JudgementService& judges,
                                                                  Observer& observer);
   ~Executive();
 

@@ -27,7 +27,7 @@ class Executive::Impl final : public JobNames {
  public:
   Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
        std::shared_ptr<const Policy> policy, std::vector<std::unique_ptr<FaultyArm>> arms,
-       JudgePool& judges, Observer& observer);
+       JudgementService& judges, Observer& observer);
 
   // submission.cc
   Result<JobView> submit(JobRequest request);
@@ -46,7 +46,7 @@ class Executive::Impl final : public JobNames {
   void diagram(const std::string& key_a, const std::string& key_b,
                std::function<void(Result<DiagramView>)> done);
 
-  // surroundings.cc
+  // scene_and_faults.cc
   Result<void> change_objects(std::vector<CollisionObject> objects);
   Result<void> add_object(CollisionObject object);
   Result<void> replace_object(CollisionObject object);
@@ -59,7 +59,7 @@ class Executive::Impl final : public JobNames {
   [[nodiscard]] std::vector<Effect> decided(const Input& input);
   void tick(TimePoint now);
 
-  // telling.cc
+  // publishing.cc
   std::optional<JobView> job(const std::string& key) const;
   Snapshot snapshot(std::size_t ended_max) const;
   std::vector<ArmView> arms() const;
@@ -168,7 +168,7 @@ class Executive::Impl final : public JobNames {
   ArmView view_of_arm(ArmId arm) const;
   QueueView queue() const;
 
-  JudgePool& judges_;
+  JudgementService& judges_;
   Observer& observer_;
   std::vector<FaultyArm*> faulty_;  // ArmId; owned by motions_
   Motions motions_;

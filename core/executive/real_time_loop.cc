@@ -56,7 +56,7 @@ class Inbox {
 
 }  // namespace
 
-class RealTimeLoop::Impl final : public JudgePool {
+class RealTimeLoop::Impl final : public JudgementService {
  public:
   explicit Impl(double speed) : speed_(speed) {}
 

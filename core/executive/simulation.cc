@@ -12,7 +12,7 @@
 namespace armloom {
 
 // Computes at once, answers kSimulatedJudgement later.
-class Simulation::Judge final : public JudgePool {
+class Simulation::Judge final : public JudgementService {
  public:
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
     if (!checker_) checker_.emplace(scene);

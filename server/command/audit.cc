@@ -65,14 +65,14 @@ int audit_recording(const AuditOptions& options) {
                           "there is no folder " + options.recording, options.recording}});
     return kExitBadInput;
   }
-  std::vector<std::string> doubts;
-  const auto states =
-      read_states(std::filesystem::path(options.recording) / "states.csv", *loaded->cell, &doubts);
+  std::vector<std::string> warnings;
+  const auto states = read_states(std::filesystem::path(options.recording) / "states.csv",
+                                  *loaded->cell, &warnings);
   if (!states) {
     complain(options.recording, states.error());
     return kExitBadInput;
   }
-  for (const std::string& doubt : doubts) std::cerr << "armloom: warning: " << doubt << '\n';
+  for (const std::string& warning : warnings) std::cerr << "armloom: warning: " << warning << '\n';
   const auto report = audit(*loaded->cell, *states, from_seconds(options.step_s));
   if (!report) {
     complain(options.cell_file, report.error());

@@ -12,7 +12,7 @@ namespace armloom {
 namespace {
 
 // Nothing runs here: the executive is only built, to learn what it would refuse.
-class NoJudges final : public JudgePool {
+class NoJudgements final : public JudgementService {
  public:
   void ask(Question, PlanningScenePtr, std::function<void(Verdict)>) override {}
   bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
@@ -99,7 +99,7 @@ std::optional<LoadedCell> load_cell_text(std::string text, const std::string& ce
 
 bool is_fit_to_run(const LoadedCell& loaded) {
   warn(loaded.file.string(), loaded.warnings);
-  NoJudges judges;
+  NoJudgements judges;
   NoObserver observer;
   const auto executive = Executive::create(loaded.cell, {}, judges, observer);
   if (!executive) complain(loaded.file.string(), executive.error());

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "core/audit/audit.h"
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/executive/shape_report.h"
 #include "server/command/command.h"
 

@@ -64,24 +64,24 @@ tl::unexpected<Problems> no_arm(const RobotSemantics& semantics,
 
 Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
                                           const std::map<std::string, std::string>& packages) {
-  Findings findings;
-  auto urdf = load_robot_file(files.urdf, "--urdf", "the robot", findings);
-  auto srdf = load_robot_file(files.srdf, "--srdf", "the robot", findings);
+  Diagnostics diagnostics;
+  auto urdf = load_robot_file(files.urdf, "--urdf", "the robot", diagnostics);
+  auto srdf = load_robot_file(files.srdf, "--srdf", "the robot", diagnostics);
   std::optional<std::string> limits;
   if (!files.joint_limits.empty())
-    limits = load_robot_file(files.joint_limits, "--joint-limits", "the robot", findings);
-  if (findings.count() > 0) return failure(findings.take());
+    limits = load_robot_file(files.joint_limits, "--joint-limits", "the robot", diagnostics);
+  if (diagnostics.count() > 0) return failure(diagnostics.take());
 
   ImportedRobot robot{.files = files};
   robot.name = name_in(*urdf);
   robot.packages = find_packages(*urdf, files.urdf, packages, installed_package_folders());
-  auto tree = read_urdf(*std::move(urdf), files.urdf, robot.packages.folders, findings);
+  auto tree = read_urdf(*std::move(urdf), files.urdf, robot.packages.folders, diagnostics);
   if (!tree) tree = unread_robot(files.urdf);
-  const auto semantics = read_srdf(*std::move(srdf), files.srdf, *tree, {}, findings);
+  const auto semantics = read_srdf(*std::move(srdf), files.srdf, *tree, {}, diagnostics);
   std::optional<LimitsFile> limits_file;
-  if (limits) limits_file = read_limits_file(*limits, files.joint_limits, findings);
-  if (findings.count() > 0) {
-    Problems problems = findings.take();
+  if (limits) limits_file = read_limits_file(*limits, files.joint_limits, diagnostics);
+  if (diagnostics.count() > 0) {
+    Problems problems = diagnostics.take();
     for (const std::string& package : robot.packages.missing) {
       problems.push_back({ProblemKind::invalid,
                           "package-missing",
@@ -107,7 +107,7 @@ Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
                                 std::inserter(moving, moving.end()));
     robot.guesses.push_back(guess_limits(*tree, moving, limits_file ? &*limits_file : nullptr));
   }
-  if (robot.arms.empty()) return no_arm(*semantics, choices, findings.take_warnings());
+  if (robot.arms.empty()) return no_arm(*semantics, choices, diagnostics.take_warnings());
   for (const std::size_t joint : held) robot.held.push_back(hold(*tree, *semantics, joint));
   return robot;
 }

@@ -14,7 +14,7 @@ constexpr std::size_t kBuffer = 1U << 20U;
 
 // A recording has one row per control tick in which an arm moves. What happened in a longer hole
 // cannot be audited.
-constexpr std::size_t kDoubtsMax = 10;
+constexpr std::size_t kWarningsMax = 10;
 constexpr Duration kGapMax = std::chrono::milliseconds(50);
 
 // While no arm is commanded to move, none should leave where it rests by more than this.
@@ -24,12 +24,12 @@ double rest_tolerance(const Cell& cell) { return cell.checking.tracking_error_ra
 class StatesReader {
  public:
   StatesReader(const std::filesystem::path& file, const Cell& cell,
-               std::vector<std::string>* doubts)
+               std::vector<std::string>* warnings)
       : in_(file),
         name_(file.filename().string()),
         idle_file_(idle_file_of(file)),
         cell_(cell),
-        doubts_(doubts) {}
+        warnings_(warnings) {}
 
   Result<std::vector<RecordedState>> read() {
     if (!in_) return fault("", "cannot be opened", {});
@@ -41,7 +41,7 @@ class StatesReader {
     std::vector<RecordedState> states;
     while (next_line()) {
       if (in_.eof()) {
-        doubt("the last row has no end of line: the run was cut off there, the row is left out");
+        warn("the last row has no end of line: the run was cut off there, the row is left out");
         break;
       }
       RecordedState state{TimePoint{},
@@ -55,7 +55,7 @@ class StatesReader {
     }
     if (states.empty()) return fault("", "there is no row of states", {});
     if (idle_next_ < idle_.size()) {
-      doubt("rows are missing: " + idle_file_.filename().string() + " goes on");
+      warn("rows are missing: " + idle_file_.filename().string() + " goes on");
     }
     return states;
   }
@@ -65,7 +65,7 @@ class StatesReader {
   // were not, or something did move.
   void look_between(const RecordedState& before, RecordedState& state) {
     while (idle_next_ < idle_.size() && idle_[idle_next_].to < state.time) {
-      doubt("rows are missing before this one, between which nothing moved");
+      warn("rows are missing before this one, between which nothing moved");
       ++idle_next_;
     }
     if (idle_next_ < idle_.size() && idle_[idle_next_] == IdleStretch{before.time, state.time}) {
@@ -73,16 +73,16 @@ class StatesReader {
       const double moved = (state.q - before.q).cwiseAbs().maxCoeff();
       state.after_rest = moved <= rest_tolerance(cell_);
       if (!state.after_rest) {
-        doubt("arms have moved in what was to be a rest: what happened in between is not known");
+        warn("arms have moved in what was to be a rest: what happened in between is not known");
       }
     } else if (state.time - before.time > kGapMax) {
-      doubt("more than 50 ms without a row before this one: what happened in between is not known");
+      warn("more than 50 ms without a row before this one: what happened in between is not known");
     }
   }
 
-  void doubt(const std::string& what) const {
-    if (doubts_ == nullptr || doubts_->size() >= kDoubtsMax) return;
-    doubts_->push_back(name_ + ":" + std::to_string(line_number_) + ": " + what);
+  void warn(const std::string& what) const {
+    if (warnings_ == nullptr || warnings_->size() >= kWarningsMax) return;
+    warnings_->push_back(name_ + ":" + std::to_string(line_number_) + ": " + what);
   }
 
   bool next_line() {
@@ -155,7 +155,7 @@ class StatesReader {
   std::vector<IdleStretch> idle_;
   std::size_t idle_next_ = 0;
   const Cell& cell_;
-  std::vector<std::string>* doubts_;
+  std::vector<std::string>* warnings_;
   std::string line_;
   std::size_t line_number_ = 0;
   std::vector<std::string> columns_;
@@ -226,8 +226,8 @@ void StatesWriter::flush() {
 }
 
 Result<std::vector<RecordedState>> read_states(const std::filesystem::path& file, const Cell& cell,
-                                               std::vector<std::string>* doubts) {
-  return StatesReader(file, cell, doubts).read();
+                                               std::vector<std::string>* warnings) {
+  return StatesReader(file, cell, warnings).read();
 }
 
 }  // namespace armloom

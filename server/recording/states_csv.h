@@ -53,11 +53,11 @@ class StatesWriter {
 
 // Reads such a file strictly: every joint of the cell has its column (in any order, no others),
 // every field is a finite number, times increase. Problems say "states.csv:LINE" and the column.
-// `doubts`, if given, gets a sentence for each hole in the times that is no rest, and for a last
+// `warnings`, if given, gets a sentence for each hole in the times that is no rest, and for a last
 // row without an end of line, which is left out (the first ten): what can be read, but need not be
 // all that happened.
 [[nodiscard]] Result<std::vector<RecordedState>> read_states(
     const std::filesystem::path& file, const Cell& cell,
-    std::vector<std::string>* doubts = nullptr);
+    std::vector<std::string>* warnings = nullptr);
 
 }  // namespace armloom

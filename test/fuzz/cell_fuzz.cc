@@ -17,15 +17,15 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::demand_readable(cell.error());
     return 0;
   }
-  Findings findings;
-  check_names(*cell, findings);
-  check_objects(*cell, findings);
-  check_settings(*cell, findings);
+  Diagnostics diagnostics;
+  check_names(*cell, diagnostics);
+  check_objects(*cell, diagnostics);
+  check_settings(*cell, diagnostics);
   for (const RobotDescription& robot : cell->robots) {
-    check_pose(robot.X_WB, "/robots", "robot", findings);
+    check_pose(robot.X_WB, "/robots", "robot", diagnostics);
   }
-  const std::size_t count = findings.count();
-  const Problems problems = findings.take();
+  const std::size_t count = diagnostics.count();
+  const Problems problems = diagnostics.take();
   fuzz::demand((count == 0) == problems.empty());
   if (!problems.empty()) fuzz::demand_readable(problems);
 

@@ -93,10 +93,10 @@ int expect_same_shapes(const urdf::Link& link, const std::vector<PlacedShape>& s
 }
 
 RobotTree tree_of(const std::string& text, const std::string& path) {
-  Findings findings;
+  Diagnostics diagnostics;
   const std::map<std::string, std::string> packages{{"shapes", data_file("shapes")}};
-  auto tree = read_urdf(text, path, packages, findings);
-  for (const Problem& problem : findings.take()) ADD_FAILURE() << problem.detail;
+  auto tree = read_urdf(text, path, packages, diagnostics);
+  for (const Problem& problem : diagnostics.take()) ADD_FAILURE() << problem.detail;
   return tree.value();
 }
 
@@ -164,9 +164,9 @@ TEST(Urdfdom, ThatRefusesOrDropsWhatWasCheckedIsToldWithItsWords) {
   const auto refused = [](const std::string& body) {
     tinyxml2::XMLDocument document;
     EXPECT_EQ(document.Parse(("<robot name='r'>" + body + "</robot>").c_str()), 0);
-    Findings findings;
-    EXPECT_FALSE(read_with_urdfdom(*document.RootElement(), "r.urdf", {}, findings));
-    const Problems problems = findings.take();
+    Diagnostics diagnostics;
+    EXPECT_FALSE(read_with_urdfdom(*document.RootElement(), "r.urdf", {}, diagnostics));
+    const Problems problems = diagnostics.take();
     return problems.size() == 1 ? problems[0].slug + " | " + problems[0].detail : "not told";
   };
   EXPECT_THAT(refused("<link name='a'/><link name='b'/>"),
@@ -179,7 +179,7 @@ TEST(Urdfdom, ThatRefusesOrDropsWhatWasCheckedIsToldWithItsWords) {
 
 // A joint that is its own links' loop, below a joint that is left out.
 TEST(UrdfTree, ThatIsNoneIsToldAndPatchedWithEveryName) {
-  Findings findings;
+  Diagnostics diagnostics;
   const auto tree = read_urdf(
       "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='above all'/>"
       "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
@@ -188,12 +188,12 @@ TEST(UrdfTree, ThatIsNoneIsToldAndPatchedWithEveryName) {
       "<joint name='l' type='revolute'><parent link='x'/><child link='y'/><mimic "
       "joint='l'/></joint>"
       "</robot>",
-      "/r.urdf", {}, findings);
+      "/r.urdf", {}, diagnostics);
   ASSERT_TRUE(tree.has_value());
   EXPECT_TRUE(tree->patched);
   EXPECT_EQ(tree->by_link.size(), 4u);
   EXPECT_EQ(tree->by_joint.size(), 3u);
-  for (const Problem& problem : findings.take()) EXPECT_NE(problem.slug, "urdf-refused");
+  for (const Problem& problem : diagnostics.take()) EXPECT_NE(problem.slug, "urdf-refused");
   const TreeLink& nameless = tree->links[tree->by_joint.at("l")];
   EXPECT_TRUE(nameless.name.empty() && nameless.is_rigid());
   EXPECT_EQ(nameless.parent, std::nullopt);

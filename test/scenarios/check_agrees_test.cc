@@ -23,7 +23,7 @@ namespace {
 using namespace std::chrono_literals;
 
 // Judges when it is told to: what a check asks for apart from the rest.
-class Judges final : public JudgePool {
+class Judges final : public JudgementService {
  public:
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
     (checking_ ? of_check_ : of_scheduler_)

@@ -13,13 +13,13 @@ namespace {
 class ArmGroups : public ::testing::Test {
  protected:
   void SetUp() override {
-    tree_ = read_urdf(test::torso_urdf(), "/torso.urdf", {}, findings_);
-    ASSERT_TRUE(tree_) << findings_.take().front().detail;
+    tree_ = read_urdf(test::torso_urdf(), "/torso.urdf", {}, diagnostics_);
+    ASSERT_TRUE(tree_) << diagnostics_.take().front().detail;
     choose(test::torso_srdf());
   }
   void choose(const std::string& srdf) {
-    semantics_ = read_srdf(srdf, "/torso.srdf", *tree_, {}, findings_);
-    ASSERT_TRUE(semantics_) << findings_.take().front().detail;
+    semantics_ = read_srdf(srdf, "/torso.srdf", *tree_, {}, diagnostics_);
+    ASSERT_TRUE(semantics_) << diagnostics_.take().front().detail;
     choices_ = choose_arm_groups(*tree_, *semantics_, read_group_names(srdf));
   }
   std::string why(const std::string& group) const {
@@ -29,7 +29,7 @@ class ArmGroups : public ::testing::Test {
     return "unknown";
   }
 
-  Findings findings_;
+  Diagnostics diagnostics_;
   std::optional<RobotTree> tree_;
   std::optional<RobotSemantics> semantics_;
   std::vector<GroupChoice> choices_;

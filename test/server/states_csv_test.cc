@@ -43,22 +43,22 @@ TEST(StatesCsv, ReadsBackWhatItWrote) {
   EXPECT_NE(text.find("\n0.001,-0.123456789,"), std::string::npos);
   EXPECT_NE(text.find("\n1.002,0.000000000,-1.200000000,"), std::string::npos);
   EXPECT_EQ(text.find("-0.000000000"), std::string::npos);
-  std::vector<std::string> doubts;
-  const auto states = read_states(file, *cell, &doubts);
+  std::vector<std::string> warnings;
+  const auto states = read_states(file, *cell, &warnings);
   ASSERT_TRUE(states) << states.error().front().detail;
   ASSERT_EQ(states->size(), 3U);
-  EXPECT_EQ(doubts.size(), 2U) << "two holes of a second";
+  EXPECT_EQ(warnings.size(), 2U) << "two holes of a second";
   EXPECT_EQ((*states)[2].time, at(std::chrono::nanoseconds(2'000'000'001)));
   EXPECT_LT(((*states)[0].q - q).cwiseAbs().maxCoeff(), 0.6e-9);
 
   for (const std::size_t cut : {1U, 5U, 40U}) {  // killed while it wrote
     std::ofstream(file) << text.substr(0, text.size() - cut);
-    doubts.clear();
-    const auto begun = read_states(file, *cell, &doubts);
+    warnings.clear();
+    const auto begun = read_states(file, *cell, &warnings);
     ASSERT_TRUE(begun);
     EXPECT_EQ(begun->size(), 2U);
     EXPECT_EQ(
-        doubts.back(),
+        warnings.back(),
         "states.csv:4: the last row has no end of line: the run was cut off there, the row is "
         "left out");
   }
@@ -87,7 +87,7 @@ std::vector<std::int64_t> times_ms(const std::vector<RecordedState>& states) {
   return times;
 }
 using Times = std::vector<std::int64_t>;
-using Doubts = std::vector<std::string>;
+using Warnings = std::vector<std::string>;
 
 TEST(IdleStretches, HaveTheirFirstAndTheirLastRowAndAreDeclared) {
   const CellPtr cell = two_pandas();
@@ -97,11 +97,11 @@ TEST(IdleStretches, HaveTheirFirstAndTheirLastRowAndAreDeclared) {
   for (int ms = 504; ms <= 900; ++ms) rows.push_back({ms, 0.003 + 1e-5 * (ms % 7), true});  // noise
   const fs::path file = recorded(*cell, rows);
   EXPECT_EQ(read_text_file(idle_file_of(file)).value(), "from_s,to_s\n0.001,0.500\n0.504,0.900\n");
-  Doubts doubts;
-  const auto states = read_states(file, *cell, &doubts);
+  Warnings warnings;
+  const auto states = read_states(file, *cell, &warnings);
   ASSERT_TRUE(states);
   EXPECT_EQ(times_ms(*states), (Times{1, 500, 501, 502, 503, 504, 900}));
-  EXPECT_EQ(doubts, Doubts{});
+  EXPECT_EQ(warnings, Warnings{});
   std::vector<bool> after_rest;
   for (const RecordedState& s : *states) after_rest.push_back(s.after_rest);
   EXPECT_EQ(after_rest, (std::vector<bool>{false, true, false, false, false, false, true}));
@@ -124,9 +124,9 @@ TEST(IdleStretches, EndWhereAJointLeavesItsPlace) {
   for (int ms = 201; ms <= 203; ++ms) rows.push_back({ms, 0.005 * (ms - 200), true});
   for (int ms = 204; ms <= 400; ++ms) rows.push_back({ms, 0.015, true});
   const fs::path file = recorded(*cell, rows);
-  Doubts doubts;
-  EXPECT_EQ(times_ms(*read_states(file, *cell, &doubts)), (Times{1, 200, 201, 202, 203, 400}));
-  EXPECT_EQ(doubts, Doubts{});
+  Warnings warnings;
+  EXPECT_EQ(times_ms(*read_states(file, *cell, &warnings)), (Times{1, 200, 201, 202, 203, 400}));
+  EXPECT_EQ(warnings, Warnings{});
 }
 
 // What is lost is not taken for a rest: not between rows, not at the end, not what has moved.
@@ -139,29 +139,30 @@ TEST(IdleStretches, AreNoExcuseForRowsThatAreLost) {
   const fs::path file = recorded(*cell, rows);
   const std::string text = read_text_file(file).value();
   const auto from_row = [&](const std::string& time) { return text.find("\n" + time) + 1; };
-  const auto doubts_of = [&](const std::string& changed) {
+  const auto warnings_of = [&](const std::string& changed) {
     std::ofstream(file) << changed;
-    Doubts doubts;
-    EXPECT_TRUE(read_states(file, *cell, &doubts));
-    return doubts;
+    Warnings warnings;
+    EXPECT_TRUE(read_states(file, *cell, &warnings));
+    return warnings;
   };
-  EXPECT_EQ(doubts_of(text), Doubts{});
+  EXPECT_EQ(warnings_of(text), Warnings{});
   const std::string hole = text.substr(0, from_row("0.250")) + text.substr(from_row("0.350"));
-  EXPECT_EQ(doubts_of(hole).size(), 1U) << "the motion has a hole";
+  EXPECT_EQ(warnings_of(hole).size(), 1U) << "the motion has a hole";
   const std::string cut = text.substr(0, from_row("0.300"));
-  EXPECT_EQ(doubts_of(cut), Doubts{"states.csv:102: rows are missing: states_idle.csv goes on"});
+  EXPECT_EQ(warnings_of(cut),
+            Warnings{"states.csv:102: rows are missing: states_idle.csv goes on"});
   const std::string no_begin = text.substr(0, from_row("0.200")) + text.substr(from_row("0.230"));
-  EXPECT_EQ(doubts_of(no_begin).size(), 2U) << "the rest has no end, and there is a hole";
+  EXPECT_EQ(warnings_of(no_begin).size(), 2U) << "the rest has no end, and there is a hole";
 
   std::ofstream(idle_file_of(file)) << "from_s,to_s\n0.001,0.200\n0.401,0.600\n0.700,0.650\n";
   const auto states = read_states(file, *cell);
   ASSERT_FALSE(states);
   EXPECT_EQ(states.error().front().pointer, "states_idle.csv:4");
   std::ofstream(idle_file_of(file)) << "from_s,to_s\n0.001,0.200\n0.210,0.400\n";
-  Doubts doubts;
+  Warnings warnings;
   std::ofstream(file) << text.substr(0, from_row("0.211")) + text.substr(from_row("0.400"));
-  ASSERT_TRUE(read_states(file, *cell, &doubts));
-  EXPECT_NE(doubts.at(0).find("arms have moved in what was to be a rest"), std::string::npos);
+  ASSERT_TRUE(read_states(file, *cell, &warnings));
+  EXPECT_NE(warnings.at(0).find("arms have moved in what was to be a rest"), std::string::npos);
 }
 
 struct BadRecording {

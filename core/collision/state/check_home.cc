@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/collision/state/clearance_query.h"
 
 namespace armloom {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <system_error>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/geometry/mesh/convex_pieces.h"
 #include "core/geometry/mesh/mesh_import.h"
 #include "core/geometry/mesh/obj_text.h"

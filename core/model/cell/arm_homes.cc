@@ -13,14 +13,14 @@ std::string span_text(const Joint& joint) {
 }
 
 void warn_if_held_elsewhere(const RobotBuild& robot, const ArmBuild& build, std::size_t index,
-                            double value, Findings& findings) {
+                            double value, Diagnostics& diagnostics) {
   const TreeLink& link = robot.tree.links[index];
   if (!link.held || std::abs(*link.held - value) <= 1e-6) return;
-  findings.warn({ProblemKind::invalid, "held-joint", build.pointer + "/home",
-                 "arm " + build.description->name + ": home has joint " + link.joint + " at " +
-                     text_of(value) + ", and \"fixed\" holds it at " + text_of(*link.held) +
-                     ", which counts",
-                 value});
+  diagnostics.warn({ProblemKind::invalid, "held-joint", build.pointer + "/home",
+                    "arm " + build.description->name + ": home has joint " + link.joint + " at " +
+                        text_of(value) + ", and \"fixed\" holds it at " + text_of(*link.held) +
+                        ", which counts",
+                    value});
 }
 
 // Adds to `faults` why the state can be no home, and returns its values in the arm's order.
@@ -65,15 +65,16 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
 // Reads the states of the arm's group. Those with faults are left out: their faults are problems
 // when the arm's home is such a one, and else warnings.
 void read_named_states(const RobotBuild& robot, const ArmBuild& build,
-                       std::map<std::string, NamedState>& states, Cell& cell, Findings& findings) {
+                       std::map<std::string, NamedState>& states, Cell& cell,
+                       Diagnostics& diagnostics) {
   for (auto& [name, state] : states) {
     Eigen::VectorXd values = values_of(robot, build, name, state, cell);
     if (state.faults.count() == 0)
       cell.arms[build.id.index()].named_states.emplace(name, std::move(values));
     if (name == build.description->home_state)
-      findings.merge(std::move(state.faults));
+      diagnostics.merge(std::move(state.faults));
     else
-      findings.merge_as_warnings(std::move(state.faults));
+      diagnostics.merge_as_warnings(std::move(state.faults));
   }
 }
 
@@ -87,7 +88,7 @@ std::string listed(const std::map<std::string, NamedState>& states) {
 
 // Of an arm whose home is a state's name. A state that is there and has faults told them itself.
 void refuse_unknown_state(const RobotBuild& robot, const ArmDescription& arm,
-                          const std::string& pointer, Findings& findings) {
+                          const std::string& pointer, Diagnostics& diagnostics) {
   std::map<std::string, NamedState> none;
   const std::map<std::string, NamedState>* states = &none;
   if (robot.semantics) {
@@ -95,16 +96,17 @@ void refuse_unknown_state(const RobotBuild& robot, const ArmDescription& arm,
     if (of_group != robot.semantics->states.end()) states = &of_group->second;
   }
   if (states->contains(arm.home_state)) return;
-  findings.in_cell("unknown-state", pointer + "/home",
-                   "arm " + arm.name + ": home '" + arm.home_state + "' is no state of group '" +
-                       arm.group + "'" + (robot.semantics ? " in " + robot.semantics->file : "") +
-                       "; its states: " + listed(*states),
-                   arm.home_state);
+  diagnostics.in_cell("unknown-state", pointer + "/home",
+                      "arm " + arm.name + ": home '" + arm.home_state + "' is no state of group '" +
+                          arm.group + "'" +
+                          (robot.semantics ? " in " + robot.semantics->file : "") +
+                          "; its states: " + listed(*states),
+                      arm.home_state);
 }
 
 // Of a robot whose tree is not known: the SRDF's states and the cell's homes, each against the
 // other.
-void tell_homes_without_tree(RobotBuild& robot, Findings& findings) {
+void tell_homes_without_tree(RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.semantics) return;
   const auto& arms = robot.description->arms;
   for (std::size_t a = 0; a < arms.size(); ++a) {
@@ -112,29 +114,29 @@ void tell_homes_without_tree(RobotBuild& robot, Findings& findings) {
     if (!robot.semantics->groups.contains(arm.group)) continue;  // which is told
     for (auto& [name, state] : robot.semantics->states[arm.group]) {
       if (name == arm.home_state)
-        findings.merge(std::exchange(state.faults, {}));
+        diagnostics.merge(std::exchange(state.faults, {}));
       else
-        findings.merge_as_warnings(std::exchange(state.faults, {}));
+        diagnostics.merge_as_warnings(std::exchange(state.faults, {}));
     }
     if (!arm.home_state.empty())
-      refuse_unknown_state(robot, arm, robot.pointer + "/arms/" + std::to_string(a), findings);
+      refuse_unknown_state(robot, arm, robot.pointer + "/arms/" + std::to_string(a), diagnostics);
   }
 }
 
 // The home that the description names as a state, or nothing with the reason told.
 std::optional<Eigen::VectorXd> named_home(const RobotBuild& robot, const ArmBuild& build,
-                                          const Arm& arm, Findings& findings) {
+                                          const Arm& arm, Diagnostics& diagnostics) {
   const std::string& name = build.description->home_state;
   const auto state = arm.named_states.find(name);
   if (state != arm.named_states.end()) return state->second;
-  refuse_unknown_state(robot, *build.description, build.pointer, findings);
+  refuse_unknown_state(robot, *build.description, build.pointer, diagnostics);
   return std::nullopt;
 }
 
 // The home that the description lists: a value for each joint of the group, those that are held
 // also or left out.
 std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBuild& build,
-                                           const Arm& arm, Findings& findings) {
+                                           const Arm& arm, Diagnostics& diagnostics) {
   const std::vector<double>& home = build.description->home;
   std::vector<double> values;
   if (home.size() == arm.joints.size()) {
@@ -144,38 +146,38 @@ std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBui
       if (robot.joints[build.group[j]])
         values.push_back(home[j]);
       else
-        warn_if_held_elsewhere(robot, build, build.group[j], home[j], findings);
+        warn_if_held_elsewhere(robot, build, build.group[j], home[j], diagnostics);
     }
   } else {
     std::string names;
     for (const std::size_t joint : build.group) {
       if (robot.joints[joint]) names += (names.empty() ? "" : ", ") + robot.tree.links[joint].joint;
     }
-    findings.in_cell("wrong-size", build.pointer + "/home",
-                     "arm " + arm.name + ": home has " + std::to_string(home.size()) +
-                         " values, the group has " + std::to_string(arm.joints.size()) +
-                         " joints; give one for each of " + names +
-                         (robot.semantics ? ", or the name of one of its states" : ""),
-                     static_cast<double>(home.size()));
+    diagnostics.in_cell("wrong-size", build.pointer + "/home",
+                        "arm " + arm.name + ": home has " + std::to_string(home.size()) +
+                            " values, the group has " + std::to_string(arm.joints.size()) +
+                            " joints; give one for each of " + names +
+                            (robot.semantics ? ", or the name of one of its states" : ""),
+                        static_cast<double>(home.size()));
     return std::nullopt;
   }
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-void check_home(const ArmBuild& build, const Arm& arm, const Cell& cell, Findings& findings) {
+void check_home(const ArmBuild& build, const Arm& arm, const Cell& cell, Diagnostics& diagnostics) {
   for (std::size_t j = 0; j < arm.joints.size(); ++j) {
     const Joint& joint = cell.joint(arm.joints[j]);
     const double value = arm.home[static_cast<Eigen::Index>(j)];
     if (std::isfinite(value) && value >= joint.lower && value <= joint.upper) continue;
-    findings.in_cell("limit-exceeded", build.pointer + "/home/" + std::to_string(j),
-                     "arm " + arm.name + ": home of " + joint.name + " is " + text_of(value) +
-                         ", outside " + span_text(joint),
-                     value);
+    diagnostics.in_cell("limit-exceeded", build.pointer + "/home/" + std::to_string(j),
+                        "arm " + arm.name + ": home of " + joint.name + " is " + text_of(value) +
+                            ", outside " + span_text(joint),
+                        value);
   }
 }
 
 // Where the grippers' joints start.
-void settle_grippers(const RobotBuild& robot, Cell& cell, Findings& findings) {
+void settle_grippers(const RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
   for (const auto& joint : robot.joints) {
     if (!joint) continue;
     Joint& one = cell.joints[joint->index()];
@@ -185,8 +187,8 @@ void settle_grippers(const RobotBuild& robot, Cell& cell, Findings& findings) {
     for (const auto& [name, value] : build.description->gripper) {
       const auto refuse = [&, &named = name, &given = value](const char* slug,
                                                              const std::string& rest) {
-        findings.in_cell(slug, build.pointer + "/gripper/" + pointer_token(named),
-                         "arm " + build.description->name + rest, given);
+        diagnostics.in_cell(slug, build.pointer + "/gripper/" + pointer_token(named),
+                            "arm " + build.description->name + rest, given);
       };
       const auto link = robot.tree.by_joint.find(name);
       if (link == robot.tree.by_joint.end()) {
@@ -215,9 +217,9 @@ void settle_grippers(const RobotBuild& robot, Cell& cell, Findings& findings) {
 
 }  // namespace
 
-void settle_homes(RobotBuild& robot, Cell& cell, Findings& findings) {
-  settle_grippers(robot, cell, findings);
-  if (robot.tree.patched) tell_homes_without_tree(robot, findings);
+void settle_homes(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
+  settle_grippers(robot, cell, diagnostics);
+  if (robot.tree.patched) tell_homes_without_tree(robot, diagnostics);
   for (const ArmBuild& build : robot.arms) {
     Arm& arm = cell.arms[build.id.index()];
     arm.home = Eigen::VectorXd(static_cast<Eigen::Index>(arm.joints.size()));
@@ -228,14 +230,14 @@ void settle_homes(RobotBuild& robot, Cell& cell, Findings& findings) {
     if (robot.tree.patched) continue;  // the group may hold other joints than meant
     const std::string& named = build.description->home_state;
     if (robot.semantics)
-      read_named_states(robot, build, robot.semantics->states[arm.group], cell, findings);
+      read_named_states(robot, build, robot.semantics->states[arm.group], cell, diagnostics);
     std::optional<Eigen::VectorXd> home;
     if (!named.empty())
-      home = named_home(robot, build, arm, findings);
+      home = named_home(robot, build, arm, diagnostics);
     else if (!build.description->home.empty())
-      home = listed_home(robot, build, arm, findings);
+      home = listed_home(robot, build, arm, diagnostics);
     if (home) arm.home = *std::move(home);
-    check_home(build, arm, cell, findings);
+    check_home(build, arm, cell, diagnostics);
   }
 }
 

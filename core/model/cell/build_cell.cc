@@ -5,12 +5,12 @@
 #include <set>
 #include <system_error>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/geometry/mesh/mesh.h"
 #include "core/model/cell/cell_checks.h"
-#include "core/model/cell/cell_doubts.h"
+#include "core/model/cell/cell_warnings.h"
 #include "core/model/cell/robot_build.h"
-#include "core/model/cell/setting_doubts.h"
+#include "core/model/cell/setting_warnings.h"
 #include "core/model/urdf/hold_joints.h"
 #include "core/model/urdf/mesh_path.h"
 #include "core/model/urdf/urdf_reader.h"
@@ -21,7 +21,7 @@ namespace {
 
 // Fills in the shape's triangles when it is a mesh.
 void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& whose,
-                  MeshCache& meshes, Findings& findings) {
+                  MeshCache& meshes, Diagnostics& diagnostics) {
   auto* mesh = std::get_if<Mesh>(&shape);
   if (mesh == nullptr) return;
   auto data = meshes.get(mesh->path, mesh->scale, pointer, whose);
@@ -29,18 +29,18 @@ void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& w
     mesh->data = *std::move(data);
     return;
   }
-  for (Problem& problem : data.error()) findings.add(std::move(problem));
+  for (Problem& problem : data.error()) diagnostics.add(std::move(problem));
 }
 
-void load_meshes_of(RobotTree& tree, MeshCache& meshes, Findings& findings) {
+void load_meshes_of(RobotTree& tree, MeshCache& meshes, Diagnostics& diagnostics) {
   for (TreeLink& link : tree.links) {
     const std::string place = tree.place_of_link(link);
     for (PlacedShape& placed : link.shapes)
-      load_mesh_of(placed.shape, place, place, meshes, findings);
+      load_mesh_of(placed.shape, place, place, meshes, diagnostics);
   }
 }
 
-void load_meshes_of_objects(Cell& cell, MeshCache& meshes, Findings& findings) {
+void load_meshes_of_objects(Cell& cell, MeshCache& meshes, Diagnostics& diagnostics) {
   for (std::size_t o = 0; o < cell.objects.size(); ++o) {
     const auto* mesh = std::get_if<Mesh>(&cell.objects[o].shape);
     std::error_code error;
@@ -48,7 +48,7 @@ void load_meshes_of_objects(Cell& cell, MeshCache& meshes, Findings& findings) {
     if (mesh == nullptr || !std::filesystem::is_regular_file(mesh->path, error)) continue;
     if (!mesh->scale.allFinite() || (mesh->scale.array() == 0.0).any()) continue;
     load_mesh_of(cell.objects[o].shape, "/objects/" + std::to_string(o) + "/mesh",
-                 "object " + cell.objects[o].name, meshes, findings);
+                 "object " + cell.objects[o].name, meshes, diagnostics);
   }
 }
 
@@ -61,24 +61,25 @@ std::set<std::string> used_groups(const RobotDescription& robot) {
 // The robot's files as far as they can be read. Without a URDF its tree has nothing and no name can
 // be held against it; what the other files say is still held against each other.
 RobotBuild read_robot(const RobotDescription& description, std::size_t index, MeshCache& meshes,
-                      Findings& findings) {
+                      Diagnostics& diagnostics) {
   const std::string pointer = "/robots/" + std::to_string(index);
   const auto load = [&](const std::string& path, const char* key) {
-    return path.empty()
-               ? std::nullopt
-               : load_robot_file(path, pointer + "/" + key, "robot " + description.name, findings);
+    return path.empty() ? std::nullopt
+                        : load_robot_file(path, pointer + "/" + key, "robot " + description.name,
+                                          diagnostics);
   };
-  auto urdf =
-      load_robot_file(description.urdf, pointer + "/urdf", "robot " + description.name, findings);
+  auto urdf = load_robot_file(description.urdf, pointer + "/urdf", "robot " + description.name,
+                              diagnostics);
   auto srdf = load(description.srdf, "srdf");
   const auto limits = load(description.joint_limits, "joint_limits");
   auto limits_file =
-      limits ? read_limits_file(*limits, description.joint_limits, findings) : std::nullopt;
-  auto tree = urdf ? read_urdf(*std::move(urdf), description.urdf, description.packages, findings)
-                   : std::nullopt;
+      limits ? read_limits_file(*limits, description.joint_limits, diagnostics) : std::nullopt;
+  auto tree = urdf
+                  ? read_urdf(*std::move(urdf), description.urdf, description.packages, diagnostics)
+                  : std::nullopt;
   if (!tree) tree = unread_robot(description.urdf);
-  load_meshes_of(*tree, meshes, findings);
-  hold_joints(description.fixed, pointer, description.name, *tree, findings);
+  load_meshes_of(*tree, meshes, diagnostics);
+  hold_joints(description.fixed, pointer, description.name, *tree, diagnostics);
 
   RobotBuild robot{.id = RobotId(static_cast<std::uint32_t>(index)),
                    .pointer = pointer,
@@ -92,7 +93,7 @@ RobotBuild read_robot(const RobotDescription& description, std::size_t index, Me
                    .shared = {}};
   if (srdf) {
     robot.semantics = read_srdf(*std::move(srdf), description.srdf, robot.tree,
-                                used_groups(description), findings);
+                                used_groups(description), diagnostics);
   }
   return robot;
 }
@@ -158,7 +159,7 @@ void add_links(RobotBuild& robot, Cell& cell) {
 // Prefixed names must not repeat. Two robots of one URDF without prefixes repeat all of them: the
 // first is enough to tell.
 void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links,
-                          std::set<std::string>& joints, Findings& findings) {
+                          std::set<std::string>& joints, Diagnostics& diagnostics) {
   const auto first_taken = [&](const auto& by_name, std::set<std::string>& known) {
     std::optional<std::string> taken;
     for (const auto& entry : by_name) {
@@ -169,31 +170,31 @@ void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links,
   };
   const auto report = [&](const std::string& kind, const std::optional<std::string>& name) {
     if (!name) return;
-    findings.in_cell("duplicate-name", robot.pointer + "/prefix",
-                     "robot " + robot.description->name + ": " + kind + " " + *name +
-                         " is a name of another robot too; prefixes must differ",
-                     robot.description->prefix);
+    diagnostics.in_cell("duplicate-name", robot.pointer + "/prefix",
+                        "robot " + robot.description->name + ": " + kind + " " + *name +
+                            " is a name of another robot too; prefixes must differ",
+                        robot.description->prefix);
   };
   report("link", first_taken(robot.tree.by_link, links));
   report("joint", first_taken(robot.tree.by_joint, joints));
 }
 
 void check_objects_are_no_links(const CellDescription& description,
-                                const std::set<std::string>& links, Findings& findings) {
+                                const std::set<std::string>& links, Diagnostics& diagnostics) {
   std::set<std::string> robots;
   for (const RobotDescription& robot : description.robots) robots.insert(robot.name);
   for (std::size_t o = 0; o < description.objects.size(); ++o) {
     const std::string& name = description.objects[o].name;
     const bool link = links.contains(name);
     if (!link && !robots.contains(name)) continue;
-    findings.in_cell(
+    diagnostics.in_cell(
         "duplicate-name", "/objects/" + std::to_string(o) + "/name",
         "the name " + name + " of an object is a " + (link ? "link" : "robot") + "'s name too",
         name);
   }
 }
 
-void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
+void add_robot(RobotBuild robot, Cell& cell, Diagnostics& diagnostics) {
   Robot& added = cell.robots[robot.id.index()];
   added.urdf_text = robot.tree.text;
   added.mesh_files =
@@ -204,16 +205,16 @@ void add_robot(RobotBuild robot, Cell& cell, Findings& findings) {
   add_links(robot, cell);
   const bool groups_known = robot.semantics || robot.description->srdf.empty();
   if (groups_known) {
-    add_arms(robot, cell, findings);
+    add_arms(robot, cell, diagnostics);
     assign_to_arms(robot, cell);
-    refuse_shared_joints(robot, cell, findings);
-    tell_standing_joints(robot, cell, findings);
-    warn_of_passive_joints(robot, cell, findings);
-    warn_of_seen_only(robot, cell, findings);
+    refuse_shared_joints(robot, cell, diagnostics);
+    tell_standing_joints(robot, cell, diagnostics);
+    warn_of_passive_joints(robot, cell, diagnostics);
+    warn_of_seen_only(robot, cell, diagnostics);
   }
-  settle_limits(robot, cell, findings);
-  if (groups_known) settle_homes(robot, cell, findings);
-  allow_pairs_of_robot(robot, cell, findings);
+  settle_limits(robot, cell, diagnostics);
+  if (groups_known) settle_homes(robot, cell, diagnostics);
+  allow_pairs_of_robot(robot, cell, diagnostics);
 }
 
 void copy_settings(const CellDescription& description, Cell& cell) {
@@ -239,13 +240,13 @@ void copy_settings(const CellDescription& description, Cell& cell) {
   }
 }
 
-void require_an_arm(const CellDescription& description, Findings& findings) {
+void require_an_arm(const CellDescription& description, Diagnostics& diagnostics) {
   if (description.robots.empty())
-    return findings.in_cell("no-robot", "/robots", "the cell has no robot");
+    return diagnostics.in_cell("no-robot", "/robots", "the cell has no robot");
   for (const auto& robot : description.robots) {
     if (!robot.arms.empty()) return;
   }
-  findings.in_cell("no-arm", "/robots/0/arms", "no robot of the cell has an arm");
+  diagnostics.in_cell("no-arm", "/robots/0/arms", "no robot of the cell has an arm");
 }
 
 }  // namespace
@@ -256,36 +257,36 @@ Result<CellPtr> build_cell(const CellDescription& description) {
 }
 
 Result<CellPtr> build_cell(const CellDescription& description, Problems& warnings) {
-  Findings findings;
-  require_an_arm(description, findings);
-  check_names(description, findings);
-  check_objects(description, findings);
-  check_settings(description, findings);
+  Diagnostics diagnostics;
+  require_an_arm(description, diagnostics);
+  check_names(description, diagnostics);
+  check_objects(description, diagnostics);
+  check_settings(description, diagnostics);
 
   auto cell = std::make_shared<Cell>();
   copy_settings(description, *cell);
   MeshCache meshes;
-  load_meshes_of_objects(*cell, meshes, findings);
+  load_meshes_of_objects(*cell, meshes, diagnostics);
   std::set<std::string> links;
   std::set<std::string> joints;
   bool complete = true;
   for (std::size_t r = 0; r < description.robots.size(); ++r) {
     const RobotDescription& robot = description.robots[r];
     check_pose(robot.X_WB, "/robots/" + std::to_string(r) + "/base",
-               "robot " + robot.name + ": base", findings);
-    RobotBuild build = read_robot(robot, r, meshes, findings);
+               "robot " + robot.name + ": base", diagnostics);
+    RobotBuild build = read_robot(robot, r, meshes, diagnostics);
     complete = complete && !build.tree.nameless;
-    check_prefixed_names(build, links, joints, findings);
-    add_robot(std::move(build), *cell, findings);
+    check_prefixed_names(build, links, joints, diagnostics);
+    add_robot(std::move(build), *cell, diagnostics);
   }
-  check_objects_are_no_links(description, links, findings);
+  check_objects_are_no_links(description, links, diagnostics);
   // Without the names of a robot's links those would seem unknown.
-  if (complete) allow_pairs_of_cell(description, *cell, findings);
-  warn_of_doubts(description, *cell, findings);
-  warn_of_settings(description, *cell, findings);
+  if (complete) allow_pairs_of_cell(description, *cell, diagnostics);
+  warn_of_cell(description, *cell, diagnostics);
+  warn_of_settings(description, *cell, diagnostics);
 
-  warnings = findings.take_warnings();
-  if (findings.count() > 0) return failure(findings.take());
+  warnings = diagnostics.take_warnings();
+  if (diagnostics.count() > 0) return failure(diagnostics.take());
   return CellPtr(std::move(cell));
 }
 

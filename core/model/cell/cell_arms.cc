@@ -22,10 +22,10 @@ std::string usable_groups(const RobotBuild& robot) {
 std::optional<RobotSemantics::JointSet> group_joints(const RobotBuild& robot,
                                                      const ArmDescription& arm,
                                                      const std::string& pointer,
-                                                     Findings& findings) {
+                                                     Diagnostics& diagnostics) {
   const auto refuse = [&](const std::string& why) {
-    findings.in_cell("unknown-group", pointer + "/group", "arm " + arm.name + ": " + why,
-                     arm.group);
+    diagnostics.in_cell("unknown-group", pointer + "/group", "arm " + arm.name + ": " + why,
+                        arm.group);
     return std::nullopt;
   };
   RobotSemantics::JointSet joints;
@@ -55,11 +55,11 @@ std::optional<RobotSemantics::JointSet> group_joints(const RobotBuild& robot,
 
 }  // namespace
 
-void add_arms(RobotBuild& robot, Cell& cell, Findings& findings) {
+void add_arms(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
   for (std::size_t a = 0; a < robot.description->arms.size(); ++a) {
     const ArmDescription& description = robot.description->arms[a];
     const std::string pointer = robot.pointer + "/arms/" + std::to_string(a);
-    const auto group = group_joints(robot, description, pointer, findings);
+    const auto group = group_joints(robot, description, pointer, diagnostics);
     if (!group) continue;
     const ArmId id(static_cast<std::uint32_t>(cell.arms.size()));
     Arm arm{.name = description.name,

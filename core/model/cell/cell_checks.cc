@@ -11,33 +11,33 @@ namespace armloom {
 namespace {
 
 void check_name(const std::string& name, const std::string& kind, const std::string& pointer,
-                std::set<std::string>& known, Findings& findings) {
+                std::set<std::string>& known, Diagnostics& diagnostics) {
   if (name.empty()) {
-    findings.in_cell("missing", pointer, "a name of " + kind + " is empty", name);
+    diagnostics.in_cell("missing", pointer, "a name of " + kind + " is empty", name);
   } else if (!known.insert(name).second) {
-    findings.in_cell("duplicate-name", pointer, "the name " + name + " of " + kind + " is taken",
-                     name);
+    diagnostics.in_cell("duplicate-name", pointer, "the name " + name + " of " + kind + " is taken",
+                        name);
   } else if (!is_plain_name(name)) {
-    findings.in_cell("bad-name", pointer,
-                     "the name of " + kind + " stands in paths of the API: " + kPlainNameRule,
-                     name);
+    diagnostics.in_cell("bad-name", pointer,
+                        "the name of " + kind + " stands in paths of the API: " + kPlainNameRule,
+                        name);
   }
 }
 
 // The rule that a setting breaks is said in words; `holds` is false for NaN with all the
 // comparisons that are used below.
 void require(bool holds, double value, const std::string& pointer, const std::string& rule,
-             Findings& findings) {
+             Diagnostics& diagnostics) {
   if (holds && std::isfinite(value)) return;
   const std::string key = pointer.substr(pointer.rfind('/') + 1);
-  findings.in_cell("setting-out-of-range", pointer,
-                   key + " is " + text_of(value) + ", it must be " + rule, value);
+  diagnostics.in_cell("setting-out-of-range", pointer,
+                      key + " is " + text_of(value) + ", it must be " + rule, value);
 }
 
 class ShapeCheck {
  public:
-  ShapeCheck(const ObjectDescription& object, std::string pointer, Findings& findings)
-      : object_(object), pointer_(std::move(pointer)), findings_(findings) {}
+  ShapeCheck(const ObjectDescription& object, std::string pointer, Diagnostics& diagnostics)
+      : object_(object), pointer_(std::move(pointer)), diagnostics_(diagnostics) {}
 
   void operator()(const Box& box) const {
     for (int i = 0; i < 3; ++i) positive(box.size_m[i], "/box/" + std::to_string(i), "box side");
@@ -52,86 +52,86 @@ class ShapeCheck {
   void operator()(const Mesh& mesh) const {
     std::error_code error;
     if (!std::filesystem::is_regular_file(mesh.path, error)) {
-      findings_.in_cell(
+      diagnostics_.in_cell(
           "file-missing", pointer_ + "/mesh",
           "object " + object_.name + ": mesh " + mesh.path + " is not a file that exists",
           mesh.path);
     }
     if (!mesh.scale.allFinite() || (mesh.scale.array() == 0.0).any()) {
-      findings_.in_cell("not-positive", pointer_ + "/mesh",
-                        "object " + object_.name + ": mesh scale must be finite and not 0",
-                        mesh.path);
+      diagnostics_.in_cell("not-positive", pointer_ + "/mesh",
+                           "object " + object_.name + ": mesh scale must be finite and not 0",
+                           mesh.path);
     }
   }
 
  private:
   void positive(double length, const std::string& at, const std::string& what) const {
     if (std::isfinite(length) && length > 0.0) return;
-    findings_.in_cell("not-positive", pointer_ + at,
-                      "object " + object_.name + ": " + what + " is " + text_of(length) +
-                          " m, it must be greater than 0",
-                      length);
+    diagnostics_.in_cell("not-positive", pointer_ + at,
+                         "object " + object_.name + ": " + what + " is " + text_of(length) +
+                             " m, it must be greater than 0",
+                         length);
   }
 
   const ObjectDescription& object_;
   std::string pointer_;
-  Findings& findings_;
+  Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-void check_names(const CellDescription& description, Findings& findings) {
+void check_names(const CellDescription& description, Diagnostics& diagnostics) {
   std::set<std::string> robots;
   std::set<std::string> arms;
   std::set<std::string> objects;
   for (std::size_t r = 0; r < description.robots.size(); ++r) {
     const RobotDescription& robot = description.robots[r];
     const std::string pointer = "/robots/" + std::to_string(r);
-    check_name(robot.name, "a robot", pointer + "/name", robots, findings);
+    check_name(robot.name, "a robot", pointer + "/name", robots, diagnostics);
     for (std::size_t a = 0; a < robot.arms.size(); ++a) {
       check_name(robot.arms[a].name, "an arm", pointer + "/arms/" + std::to_string(a) + "/name",
-                 arms, findings);
+                 arms, diagnostics);
     }
   }
   for (std::size_t o = 0; o < description.objects.size(); ++o) {
     check_name(description.objects[o].name, "an object", "/objects/" + std::to_string(o) + "/name",
-               objects, findings);
+               objects, diagnostics);
   }
 }
 
-void check_objects(const CellDescription& description, Findings& findings) {
+void check_objects(const CellDescription& description, Diagnostics& diagnostics) {
   for (std::size_t o = 0; o < description.objects.size(); ++o) {
     const ObjectDescription& object = description.objects[o];
     const std::string pointer = "/objects/" + std::to_string(o);
-    std::visit(ShapeCheck(object, pointer, findings), object.shape);
-    check_pose(object.X_WO, pointer, "object " + object.name, findings);
+    std::visit(ShapeCheck(object, pointer, diagnostics), object.shape);
+    check_pose(object.X_WO, pointer, "object " + object.name, diagnostics);
   }
 }
 
 void check_pose(const Eigen::Isometry3d& X, const std::string& pointer, const std::string& whose,
-                Findings& findings) {
+                Diagnostics& diagnostics) {
   constexpr double kRounding = 1e-9;
   if (!X.matrix().allFinite()) {
-    findings.in_cell("pose-not-finite", pointer,
-                     whose + ": the pose holds a number that is not finite");
+    diagnostics.in_cell("pose-not-finite", pointer,
+                        whose + ": the pose holds a number that is not finite");
   } else if (!X.linear().isUnitary(kRounding) || X.linear().determinant() < 0.0) {
-    findings.in_cell("pose-not-rigid", pointer,
-                     whose + ": the pose is not a rotation and a translation");
+    diagnostics.in_cell("pose-not-rigid", pointer,
+                        whose + ": the pose is not a rotation and a translation");
   }
 }
 
-void check_settings(const CellDescription& d, Findings& findings) {
-  require(d.clearance_m >= 0.0, d.clearance_m, "/clearance_m", "0 m or more", findings);
+void check_settings(const CellDescription& d, Diagnostics& diagnostics) {
+  require(d.clearance_m >= 0.0, d.clearance_m, "/clearance_m", "0 m or more", diagnostics);
   require(d.self_clearance_m >= 0.0, d.self_clearance_m, "/self_clearance_m", "0 m or more",
-          findings);
+          diagnostics);
   const double mount_m = d.mount_clearance_m.value_or(0.0);
-  require(mount_m >= 0.0, mount_m, "/mount_clearance_m", "0 m or more", findings);
+  require(mount_m >= 0.0, mount_m, "/mount_clearance_m", "0 m or more", diagnostics);
 
   const auto positive = [&](Duration time, const char* pointer) {
-    require(time > Duration::zero(), to_seconds(time), pointer, "greater than 0 s", findings);
+    require(time > Duration::zero(), to_seconds(time), pointer, "greater than 0 s", diagnostics);
   };
   const auto not_negative = [&](double value, const char* pointer) {
-    require(value >= 0.0, value, pointer, "0 or more", findings);
+    require(value >= 0.0, value, pointer, "0 or more", diagnostics);
   };
   const CheckingSettings& checking = d.checking;
   positive(checking.time_step, "/checking/time_step_s");
@@ -139,27 +139,27 @@ void check_settings(const CellDescription& d, Findings& findings) {
   not_negative(to_seconds(checking.delay), "/checking/delay_s");
   require(checking.limit_tolerance >= 0.0 && checking.limit_tolerance < 1.0,
           checking.limit_tolerance, "/checking/limit_tolerance", "at least 0 and less than 1",
-          findings);
+          diagnostics);
 
   positive(d.scheduling.backlog_timeout, "/scheduling/backlog_timeout_s");
   not_negative(to_seconds(d.scheduling.aging), "/scheduling/aging_s");
   require(d.scheduling.horizon_legs >= 1 && d.scheduling.horizon_legs <= 32,
-          d.scheduling.horizon_legs, "/scheduling/horizon_legs", "from 1 to 32", findings);
+          d.scheduling.horizon_legs, "/scheduling/horizon_legs", "from 1 to 32", diagnostics);
 
   const MonitorSettings& monitor = d.monitor;
   require(monitor.rate_hz > 0.0 && monitor.rate_hz <= 1000.0, monitor.rate_hz, "/monitor/rate_hz",
-          "greater than 0 and at most 1000 Hz", findings);
+          "greater than 0 and at most 1000 Hz", diagnostics);
   not_negative(to_seconds(monitor.reaction), "/monitor/reaction_s");
   not_negative(monitor.stop_clearance_m, "/monitor/stop_clearance_m");
   require(!(monitor.stop_clearance_m > d.clearance_m && d.clearance_m >= 0.0),
           monitor.stop_clearance_m, "/monitor/stop_clearance_m",
-          "at most clearance_m (" + text_of(d.clearance_m) + " m)", findings);
+          "at most clearance_m (" + text_of(d.clearance_m) + " m)", diagnostics);
 
   const ExecutionSettings& execution = d.execution;
   require(execution.start_tolerance_rad > 0.0, execution.start_tolerance_rad,
-          "/execution/start_tolerance_rad", "greater than 0", findings);
+          "/execution/start_tolerance_rad", "greater than 0", diagnostics);
   require(execution.duration_scaling >= 1.0, execution.duration_scaling,
-          "/execution/duration_scaling", "1 or more", findings);
+          "/execution/duration_scaling", "1 or more", diagnostics);
   not_negative(to_seconds(execution.duration_margin), "/execution/duration_margin_s");
 
   for (std::size_t r = 0; r < d.robots.size(); ++r) {

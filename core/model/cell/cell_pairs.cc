@@ -28,7 +28,7 @@ struct DoubtfulPairs {
   const char* consequence;
 };
 void warn_of_pairs(const RobotBuild& robot, const Cell& cell, const DoubtfulPairs& doubtful,
-                   Findings& findings) {
+                   Diagnostics& diagnostics) {
   constexpr std::size_t kTold = 3;
   std::string pairs;
   std::size_t count = 0;
@@ -46,16 +46,17 @@ void warn_of_pairs(const RobotBuild& robot, const Cell& cell, const DoubtfulPair
   if (count == 0) return;
   if (count > kTold) pairs += ", ...";
   const std::string place = robot.semantics->file + ": disable_collisions";
-  findings.warn({ProblemKind::invalid, "unchecked-pairs", place,
-                 place + ": " + std::to_string(count) + (count == 1 ? " pair" : " pairs") +
-                     doubtful.whose + " (" + pairs + "): they are not checked, so " +
-                     doubtful.consequence + " there; delete what is not known to be out of reach",
-                 static_cast<double>(count)});
+  diagnostics.warn({ProblemKind::invalid, "unchecked-pairs", place,
+                    place + ": " + std::to_string(count) + (count == 1 ? " pair" : " pairs") +
+                        doubtful.whose + " (" + pairs + "): they are not checked, so " +
+                        doubtful.consequence +
+                        " there; delete what is not known to be out of reach",
+                    static_cast<double>(count)});
 }
 
 }  // namespace
 
-void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Findings& findings) {
+void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
   const auto allow = [&](std::size_t a, std::size_t b) {
     cell.allowed_link_pairs.insert(std::minmax(robot.links[a], robot.links[b]));
   };
@@ -74,14 +75,14 @@ void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Findings& finding
   for (const auto& [pair, line] : robot.semantics->allowed_pairs) allow(pair.first, pair.second);
   if (robot.tree.patched) return;
   warn_of_pairs(robot, cell, {of_two_arms, " of links of different arms", "these arms may meet"},
-                findings);
+                diagnostics);
   warn_of_pairs(
       robot, cell,
       {of_arm_and_scene, " of an arm's link and one that stands still", "the arm may meet it"},
-      findings);
+      diagnostics);
 }
 
-void allow_pairs_of_cell(const CellDescription& description, Cell& cell, Findings& findings) {
+void allow_pairs_of_cell(const CellDescription& description, Cell& cell, Diagnostics& diagnostics) {
   const auto is_object = [&](const std::string& name) {
     return std::any_of(description.objects.begin(), description.objects.end(),
                        [&](const ObjectDescription& object) { return object.name == name; });
@@ -94,21 +95,21 @@ void allow_pairs_of_cell(const CellDescription& description, Cell& cell, Finding
     const bool a_object = !a && is_object(first);
     const bool b_object = !b && is_object(second);
     if (!a && !a_object) {
-      findings.in_cell("unknown-name", pointer + "/0",
-                       "allowed collision: there is no link or object " + first, first);
+      diagnostics.in_cell("unknown-name", pointer + "/0",
+                          "allowed collision: there is no link or object " + first, first);
     }
     if (!b && !b_object) {
-      findings.in_cell("unknown-name", pointer + "/1",
-                       "allowed collision: there is no link or object " + second, second);
+      diagnostics.in_cell("unknown-name", pointer + "/1",
+                          "allowed collision: there is no link or object " + second, second);
     }
     if (a_object && b_object) {
-      findings.in_cell("two-objects", pointer,
-                       "allowed collision: " + first + " and " + second +
-                           " are both objects, which are never checked against each other",
-                       first);
+      diagnostics.in_cell("two-objects", pointer,
+                          "allowed collision: " + first + " and " + second +
+                              " are both objects, which are never checked against each other",
+                          first);
     } else if (a && b && a == b) {
-      findings.in_cell("same-link", pointer, "allowed collision: " + first + " is named twice",
-                       first);
+      diagnostics.in_cell("same-link", pointer, "allowed collision: " + first + " is named twice",
+                          first);
     } else if (a && b) {
       cell.allowed_link_pairs.insert(std::minmax(*a, *b));
     } else if (a && b_object) {

@@ -38,15 +38,15 @@ std::string no_such_joint(const RobotBuild& robot, const ArmDescription& arm,
 
 // Limits may name joints of the arm and of its gripper.
 void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
-                 Findings& findings) {
+                 Diagnostics& diagnostics) {
   for (const auto& [name, given] : arm.description->limits) {
     const std::string pointer = arm.pointer + "/limits/" + pointer_token(name);
     const auto link = robot.tree.by_joint.find(name);
     if (link != robot.tree.by_joint.end() && robot.tree.links[link->second].held) {
-      findings.warn({ProblemKind::invalid, "held-joint", pointer,
-                     "arm " + arm.description->name + ": the limits of " + name +
-                         " say nothing, as \"fixed\" holds it",
-                     name});
+      diagnostics.warn({ProblemKind::invalid, "held-joint", pointer,
+                        "arm " + arm.description->name + ": the limits of " + name +
+                            " say nothing, as \"fixed\" holds it",
+                        name});
       continue;
     }
     if (link == robot.tree.by_joint.end() && robot.tree.nameless) continue;
@@ -54,12 +54,13 @@ void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
         link == robot.tree.by_joint.end() ? std::nullopt : robot.joints[link->second];
     if (joint && cell.joint(*joint).arm == arm.id) continue;
     if (joint && robot.tree.patched) continue;  // it may hang elsewhere than meant
-    findings.in_cell("unknown-joint", pointer, no_such_joint(robot, *arm.description, name), name);
+    diagnostics.in_cell("unknown-joint", pointer, no_such_joint(robot, *arm.description, name),
+                        name);
   }
 }
 
 // Of arms whose groups could not be found: names that no joint has.
-void check_names_without_group(const RobotBuild& robot, Findings& findings) {
+void check_names_without_group(const RobotBuild& robot, Diagnostics& diagnostics) {
   if (robot.tree.nameless) return;
   const auto& arms = robot.description->arms;
   for (std::size_t a = 0; a < arms.size(); ++a) {
@@ -69,7 +70,7 @@ void check_names_without_group(const RobotBuild& robot, Findings& findings) {
     if (found) continue;
     for (const auto& [name, given] : arms[a].limits) {
       if (robot.tree.by_joint.contains(name)) continue;
-      findings.in_cell(
+      diagnostics.in_cell(
           "unknown-joint",
           robot.pointer + "/arms/" + std::to_string(a) + "/limits/" + pointer_token(name),
           no_such_joint(robot, arms[a], name), name);
@@ -78,7 +79,7 @@ void check_names_without_group(const RobotBuild& robot, Findings& findings) {
 }
 
 // Of a file that is behind its URDF.
-void warn_of_stale_joints(const RobotBuild& robot, Findings& findings) {
+void warn_of_stale_joints(const RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.limits_file || robot.tree.nameless) return;
   std::string names;
   for (const auto& [name, joint] : robot.limits_file->joints) {
@@ -87,21 +88,21 @@ void warn_of_stale_joints(const RobotBuild& robot, Findings& findings) {
   }
   if (names.empty()) return;
   const std::string& file = robot.limits_file->file;
-  findings.warn({ProblemKind::invalid, "unknown-name", file,
-                 file + ": joints that are not in " + robot.tree.file + " are left out: " + names,
-                 names});
+  diagnostics.warn(
+      {ProblemKind::invalid, "unknown-name", file,
+       file + ": joints that are not in " + robot.tree.file + " are left out: " + names, names});
 }
 
 // Of a robot whose joints are not known, faults in joint_limits.yaml could be of any of them.
-void tell_limits_without_joint(RobotBuild& robot, Findings& findings) {
+void tell_limits_without_joint(RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.limits_file || !robot.tree.nameless) return;
   for (auto& [name, joint] : robot.limits_file->joints) {
-    if (!robot.tree.by_joint.contains(name)) findings.merge(std::exchange(joint.faults, {}));
+    if (!robot.tree.by_joint.contains(name)) diagnostics.merge(std::exchange(joint.faults, {}));
   }
 }
 
 // Joints that follow another one go where that takes them, beyond their own limits, too.
-void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
   constexpr double kRounding = 2e-3;  // rad or m: two limits that were meant to fit
   for (const TreeLink& link : robot.tree.links) {
     if (!link.mimic) continue;
@@ -116,22 +117,22 @@ void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Findings& finding
     const bool above = own.upper && to > *own.upper + kRounding;
     if (link.motion == JointKind::continuous || !(below || above)) continue;
     const std::string place = robot.tree.place_of_joint(link);
-    findings.warn({ProblemKind::invalid, "mimic-beyond-limits", place,
-                   place + ": it follows " + robot.tree.links[link.mimic->driver].joint + " from " +
-                       text_of(from) + " to " + text_of(to) + ", beyond its own limits [" +
-                       (own.lower ? text_of(*own.lower) : "-inf") + ", " +
-                       (own.upper ? text_of(*own.upper) : "inf") +
-                       "]: here it goes there, the robot may stop short; check <mimic>",
-                   below ? from : to});
+    diagnostics.warn({ProblemKind::invalid, "mimic-beyond-limits", place,
+                      place + ": it follows " + robot.tree.links[link.mimic->driver].joint +
+                          " from " + text_of(from) + " to " + text_of(to) +
+                          ", beyond its own limits [" + (own.lower ? text_of(*own.lower) : "-inf") +
+                          ", " + (own.upper ? text_of(*own.upper) : "inf") +
+                          "]: here it goes there, the robot may stop short; check <mimic>",
+                      below ? from : to});
   }
 }
 
 void report_needs(const ArmBuild& arm, const Needs& needs, const std::string& urdf,
-                  Findings& findings) {
+                  Diagnostics& diagnostics) {
   if (needs.members.empty()) return;
   const char* none = needs.faulty ? " gives no usable limit of " : " gives no limit of ";
   const bool first = arm.description->limits.empty();
-  findings.in_cell(
+  diagnostics.in_cell(
       "limits-missing", arm.pointer + (first ? "" : "/limits"),
       "arm " + arm.description->name + ": " + urdf + none + needs.names + "; add to the arm" +
           (first ? " \"limits\": {" + needs.members + "}" : "'s \"limits\" " + needs.members) +
@@ -140,12 +141,12 @@ void report_needs(const ArmBuild& arm, const Needs& needs, const std::string& ur
 
 }  // namespace
 
-void settle_limits(RobotBuild& robot, Cell& cell, Findings& findings) {
+void settle_limits(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
   std::map<const ArmBuild*, Needs> needs;
   for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
     TreeLink& link = robot.tree.links[i];
     if (!robot.joints[i]) {
-      findings.merge_as_warnings(std::move(link.limits.faults));
+      diagnostics.merge_as_warnings(std::move(link.limits.faults));
       continue;
     }
     Joint& joint = cell.joints[robot.joints[i]->index()];
@@ -159,16 +160,16 @@ void settle_limits(RobotBuild& robot, Cell& cell, Findings& findings) {
       const auto found = robot.limits_file->joints.find(link.joint);
       if (found != robot.limits_file->joints.end()) filed = &found->second;
     }
-    LimitsOfJoint(robot, link, joint, {arm, own}, findings).settle(filed, needs[arm]);
+    LimitsOfJoint(robot, link, joint, {arm, own}, diagnostics).settle(filed, needs[arm]);
   }
   for (const ArmBuild& arm : robot.arms) {
-    check_names(robot, arm, cell, findings);
-    report_needs(arm, needs[&arm], robot.tree.file, findings);
+    check_names(robot, arm, cell, diagnostics);
+    report_needs(arm, needs[&arm], robot.tree.file, diagnostics);
   }
-  check_names_without_group(robot, findings);
-  if (!robot.tree.patched) warn_of_mimics(robot, cell, findings);
-  warn_of_stale_joints(robot, findings);
-  tell_limits_without_joint(robot, findings);
+  check_names_without_group(robot, diagnostics);
+  if (!robot.tree.patched) warn_of_mimics(robot, cell, diagnostics);
+  warn_of_stale_joints(robot, diagnostics);
+  tell_limits_without_joint(robot, diagnostics);
 }
 
 }  // namespace armloom

@@ -31,13 +31,13 @@ void append_item(std::string& list, const char* separator, const std::string& it
 }
 
 LimitsOfJoint::LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint, Mover mover,
-                             Findings& findings)
+                             Diagnostics& diagnostics)
     : robot_(robot),
       link_(link),
       joint_(joint),
       arm_(mover.arm),
       own_(mover.own),
-      findings_(findings) {
+      diagnostics_(diagnostics) {
   if (arm_ != nullptr) {
     const auto given = arm_->description->limits.find(link.joint);
     if (given != arm_->description->limits.end()) cell_ = given->second;
@@ -48,9 +48,9 @@ LimitsOfJoint::LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joi
 void LimitsOfJoint::settle(LimitsFile::Joint* filed, Needs& needs) {
   if (filed != nullptr) {
     if (arm_ != nullptr)
-      findings_.merge(filed->faults);
+      diagnostics_.merge(filed->faults);
     else
-      findings_.merge_as_warnings(filed->faults);
+      diagnostics_.merge_as_warnings(filed->faults);
     file_ = filed->limits;
     place_ = filed->place;
   }
@@ -62,11 +62,11 @@ void LimitsOfJoint::settle(LimitsFile::Joint* filed, Needs& needs) {
   // A faulty limit that another file replaces, or nobody needs, is only odd.
   if (own_ && !missing_.empty()) {
     needs.faulty = needs.faulty || link_.limits.faults.count() > 0;
-    findings_.merge(std::move(link_.limits.faults));
+    diagnostics_.merge(std::move(link_.limits.faults));
     append_item(needs.names, ", ", words_ + " of " + link_.joint);
     append_item(needs.members, ", ", json_member(link_.joint, "{" + missing_ + "}"));
   } else {
-    findings_.merge_as_warnings(std::move(link_.limits.faults));
+    diagnostics_.merge_as_warnings(std::move(link_.limits.faults));
   }
 }
 
@@ -84,8 +84,8 @@ void LimitsOfJoint::check_units() {
                             : " is of joints that slide, and this one turns");
     rest += ": give ";
     rest += right;
-    findings_.in_cell("wrong-unit", pointer_ + "/" + key,
-                      "joint " + link_.joint + ": " + key + rest);
+    diagnostics_.in_cell("wrong-unit", pointer_ + "/" + key,
+                         "joint " + link_.joint + ": " + key + rest);
   }
 }
 
@@ -95,7 +95,7 @@ std::string LimitsOfJoint::key(const char* what, const char* angular, const char
 
 void LimitsOfJoint::warn(const std::string& slug, const std::string& place,
                          const std::string& sentence, double value) {
-  findings_.warn({ProblemKind::invalid, slug, place, place + ": " + sentence, value});
+  diagnostics_.warn({ProblemKind::invalid, slug, place, place + ": " + sentence, value});
 }
 
 void LimitsOfJoint::need(const std::string& word, const std::string& members) {
@@ -119,8 +119,8 @@ std::optional<double> LimitsOfJoint::from_cell(const std::optional<double>& valu
 
 void LimitsOfJoint::refuse(const char* slug, const std::string& name, const std::string& rest,
                            double value) {
-  findings_.in_cell(slug, pointer_ + "/" + name, "joint " + link_.joint + ": " + name + rest,
-                    value);
+  diagnostics_.in_cell(slug, pointer_ + "/" + name, "joint " + link_.joint + ": " + name + rest,
+                       value);
 }
 
 std::optional<double> LimitsOfJoint::from_file(const std::optional<double>& value, const char* name,

@@ -27,7 +27,7 @@ class LimitsOfJoint {
     bool own;             // of the arm's group, not of its gripper
   };
   LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint, Mover mover,
-                Findings& findings);
+                Diagnostics& diagnostics);
 
   void settle(LimitsFile::Joint* filed, Needs& needs);
 
@@ -81,7 +81,7 @@ class LimitsOfJoint {
   Joint& joint_;
   const ArmBuild* arm_;  // as of its Mover
   bool own_;
-  Findings& findings_;
+  Diagnostics& diagnostics_;
   JointLimitsDescription cell_;
   JointLimitsDescription file_;
   std::string pointer_;  // of the joint's limits in the cell file

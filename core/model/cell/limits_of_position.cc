@@ -59,9 +59,9 @@ void LimitsOfJoint::refuse_crossed() {
   const std::string sentence = "joint " + link_.joint + ": the limits leave nothing, from " +
                                text_of(joint_.lower) + " to " + text_of(joint_.upper);
   if (cell_.lower || cell_.upper)
-    return findings_.in_cell("limits-crossed", pointer_, sentence, joint_.lower);
+    return diagnostics_.in_cell("limits-crossed", pointer_, sentence, joint_.lower);
   if (arm_ != nullptr)
-    findings_.add(
+    diagnostics_.add(
         {ProblemKind::invalid, "limits-crossed", place_, place_ + ": " + sentence, joint_.lower});
 }
 

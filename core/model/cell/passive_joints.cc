@@ -4,7 +4,7 @@
 
 namespace armloom {
 
-void warn_of_passive_joints(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+void warn_of_passive_joints(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
   if (!robot.semantics) return;
   for (const auto& [index, place] : robot.semantics->passive) {
     for (const ArmBuild& build : robot.arms) {
@@ -12,14 +12,14 @@ void warn_of_passive_joints(const RobotBuild& robot, const Cell& cell, Findings&
           std::find(build.group.begin(), build.group.end(), index) != build.group.end();
       if (!in_group || !robot.joints[index]) continue;  // or held
       const std::string& joint = robot.tree.links[index].joint;
-      findings.warn({ProblemKind::invalid, "passive-joint", place,
-                     place + ": joint " + joint +
-                         " is passive, so the robot has no motor for it, " + "and arm " +
-                         cell.arm(build.id).name +
-                         " has it in its group: jobs move it here like the others; take it out of "
-                         "group " +
-                         cell.arm(build.id).group + ", or hold it with \"fixed\"",
-                     joint});
+      diagnostics.warn(
+          {ProblemKind::invalid, "passive-joint", place,
+           place + ": joint " + joint + " is passive, so the robot has no motor for it, " +
+               "and arm " + cell.arm(build.id).name +
+               " has it in its group: jobs move it here like the others; take it out of "
+               "group " +
+               cell.arm(build.id).group + ", or hold it with \"fixed\"",
+           joint});
     }
   }
 }

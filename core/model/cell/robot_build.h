@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/model/cell.h"
 #include "core/model/srdf/joint_limits_file.h"
 #include "core/model/srdf/srdf_reader.h"
@@ -44,35 +44,35 @@ struct RobotBuild {
 
 // Adds the robot's arms to the cell, with their joints; then settles which arm each joint and link
 // belongs to.
-void add_arms(RobotBuild& robot, Cell& cell, Findings& findings);
+void add_arms(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics);
 void assign_to_arms(const RobotBuild& robot, Cell& cell);
 
 // Arms of one robot must not move each other: a shared joint, also upstream and also one of no arm,
 // is a problem, which holding the joint solves.
-void refuse_shared_joints(RobotBuild& robot, const Cell& cell, Findings& findings);
+void refuse_shared_joints(RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics);
 
 // Joints of no arm stand still. One that would move an arm is a problem, as nobody has said where
 // it stands; others that move shapes, or stand between joints of an arm's group, are warned of.
-void tell_standing_joints(const RobotBuild& robot, const Cell& cell, Findings& findings);
+void tell_standing_joints(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics);
 
 // Warns of joints that the SRDF has as passive and an arm's group holds.
-void warn_of_passive_joints(const RobotBuild& robot, const Cell& cell, Findings& findings);
+void warn_of_passive_joints(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics);
 
 // Warns of what is seen and not checked: links with a visual and without a collision shape, and
 // arms without any shape.
-void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Findings& findings);
+void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics);
 
 // Settles every limit of the robot's joints, from the cell file's `limits` over joint_limits.yaml
 // over the URDF and the defaults. Positions and velocities are never wider than the URDF's. What an
 // arm's own joints need and no file gives is a problem.
-void settle_limits(RobotBuild& robot, Cell& cell, Findings& findings);
+void settle_limits(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics);
 
 // Named states and homes of the robot's arms. Precondition: its limits are settled.
-void settle_homes(RobotBuild& robot, Cell& cell, Findings& findings);
+void settle_homes(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics);
 
 // Adds the pairs of the robot's links that need no check: those of the SRDF and those within one
 // rigid body. Without an SRDF also links on both sides of one movable joint. Warns of pairs of two
 // arms.
-void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Findings& findings);
+void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Diagnostics& diagnostics);
 
 }  // namespace armloom

@@ -2,11 +2,11 @@
 
 namespace armloom {
 
-void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
   const auto tell = [&](const std::string& whose, const std::string& sentence,
                         const std::string& value) {
     const std::string place = robot.tree.file + ": " + whose;
-    findings.warn({ProblemKind::invalid, "no-collision", place, place + ": " + sentence, value});
+    diagnostics.warn({ProblemKind::invalid, "no-collision", place, place + ": " + sentence, value});
   };
   std::string links;
   std::size_t more = 0;

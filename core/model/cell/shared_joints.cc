@@ -55,7 +55,7 @@ std::string line_to_hold(const RobotBuild& robot, const Cell& cell,
 
 }  // namespace
 
-void refuse_shared_joints(RobotBuild& robot, const Cell& cell, Findings& findings) {
+void refuse_shared_joints(RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
   if (robot.tree.patched) return;  // joints may hang elsewhere than meant
   const auto above = joints_above(robot, cell);
   std::vector<JointsOfTheCell> places;
@@ -91,11 +91,11 @@ void refuse_shared_joints(RobotBuild& robot, const Cell& cell, Findings& finding
       leaves_arms
           ? "hold what they share (" + line_to_hold(robot, cell, joints) + ") or make them one arm"
           : "one of them moves the other, so make them one arm";
-  findings.in_cell("shared-joint", robot.pointer + "/arms",
-                   "robot " + robot.description->name + ": arms " + arms +
-                       " share the movable joints " + names + ", so that each moves the other; " +
-                       remedy,
-                   names);
+  diagnostics.in_cell("shared-joint", robot.pointer + "/arms",
+                      "robot " + robot.description->name + ": arms " + arms +
+                          " share the movable joints " + names +
+                          ", so that each moves the other; " + remedy,
+                      names);
 }
 
 }  // namespace armloom

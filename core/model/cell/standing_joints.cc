@@ -19,8 +19,8 @@ std::set<JointId> standing_above(const Cell& cell, LinkId id) {
 
 class StandingJoints {
  public:
-  StandingJoints(const RobotBuild& robot, const Cell& cell, Findings& findings)
-      : robot_(robot), cell_(cell), findings_(findings) {}
+  StandingJoints(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics)
+      : robot_(robot), cell_(cell), diagnostics_(diagnostics) {}
 
   void tell() {
     find_above_arms();
@@ -31,12 +31,13 @@ class StandingJoints {
       list(joint, names, line, std::string::npos);
     }
     if (!names.empty()) {
-      findings_.in_cell("standing-joint", robot_.pointer,
-                        "robot " + robot_.description->name + ": " + names +
-                            " would move an arm and is in no arm's group, so where it stands has "
-                            "to be said: " +
-                            how_to_hold(line),
-                        names);
+      diagnostics_.in_cell(
+          "standing-joint", robot_.pointer,
+          "robot " + robot_.description->name + ": " + names +
+              " would move an arm and is in no arm's group, so where it stands has "
+              "to be said: " +
+              how_to_hold(line),
+          names);
     }
     warn_of_others();
     warn_of_gaps();
@@ -64,12 +65,13 @@ class StandingJoints {
     std::string line;
     for (const JointId joint : others) list(joint, names, line, kLongest);
     if (names.empty()) return;
-    findings_.warn({ProblemKind::invalid, "standing-joint", robot_.pointer,
-                    "robot " + robot_.description->name + ": " + names +
-                        " in no arm's group, so what hangs there is checked where it stands at 0 "
-                        "(or at the limit next to it); if it stands elsewhere " +
-                        how_to_hold(line),
-                    names});
+    diagnostics_.warn(
+        {ProblemKind::invalid, "standing-joint", robot_.pointer,
+         "robot " + robot_.description->name + ": " + names +
+             " in no arm's group, so what hangs there is checked where it stands at 0 "
+             "(or at the limit next to it); if it stands elsewhere " +
+             how_to_hold(line),
+         names});
   }
 
   // A joint between those of an arm's group moves what the group's motions are checked with.
@@ -86,12 +88,13 @@ class StandingJoints {
         }
       }
       for (const std::string& name : skipped) {
-        findings_.warn({ProblemKind::invalid, "group-with-gap", build.pointer + "/group",
-                        "arm " + build.description->name + ": joint " + name +
-                            " is between joints of group '" + build.description->group +
-                            "' and not in it: it counts as a gripper's joint, and jobs that do not "
-                            "name it leave it where it is",
-                        name});
+        diagnostics_.warn(
+            {ProblemKind::invalid, "group-with-gap", build.pointer + "/group",
+             "arm " + build.description->name + ": joint " + name +
+                 " is between joints of group '" + build.description->group +
+                 "' and not in it: it counts as a gripper's joint, and jobs that do not "
+                 "name it leave it where it is",
+             name});
       }
     }
   }
@@ -116,15 +119,15 @@ class StandingJoints {
 
   const RobotBuild& robot_;
   const Cell& cell_;
-  Findings& findings_;
+  Diagnostics& diagnostics_;
   std::map<JointId, std::set<ArmId>> arms_above_;
 };
 
 }  // namespace
 
-void tell_standing_joints(const RobotBuild& robot, const Cell& cell, Findings& findings) {
+void tell_standing_joints(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
   if (robot.tree.patched) return;  // joints may hang elsewhere than meant
-  StandingJoints(robot, cell, findings).tell();
+  StandingJoints(robot, cell, diagnostics).tell();
 }
 
 }  // namespace armloom

@@ -20,13 +20,13 @@ std::string at_line(const std::string& file, const YAML::Mark& mark) {
 }
 
 void report(const std::string& place, const std::string& slug, const std::string& sentence,
-            decltype(Problem::value) value, Findings& findings) {
-  findings.add({ProblemKind::invalid, slug, place, place + ": " + sentence, std::move(value)});
+            decltype(Problem::value) value, Diagnostics& diagnostics) {
+  diagnostics.add({ProblemKind::invalid, slug, place, place + ": " + sentence, std::move(value)});
 }
 
 void warn(const std::string& place, const std::string& slug, const std::string& sentence,
-          const std::string& value, Findings& findings) {
-  findings.warn({ProblemKind::invalid, slug, place, place + ": " + sentence, value});
+          const std::string& value, Diagnostics& diagnostics) {
+  diagnostics.warn({ProblemKind::invalid, slug, place, place + ": " + sentence, value});
 }
 
 std::string scalar_of(const YAML::Node& node) {
@@ -186,7 +186,7 @@ class JointReader {
   LimitsFile::Joint& joint_;
 };
 
-void check_scaling(const YAML::Node& root, const std::string& file, Findings& findings) {
+void check_scaling(const YAML::Node& root, const std::string& file, Diagnostics& diagnostics) {
   for (const char* key :
        {"default_velocity_scaling_factor", "default_acceleration_scaling_factor"}) {
     const YAML::Node value = root[key];
@@ -196,7 +196,7 @@ void check_scaling(const YAML::Node& root, const std::string& file, Findings& fi
     warn(at_line(file, value.Mark()), "not-a-number",
          std::string(key) + " is '" + scalar_of(value) +
              "', not a number above 0 and at most 1; it is of plans, and plays no part here",
-         scalar_of(value), findings);
+         scalar_of(value), diagnostics);
   }
 }
 
@@ -209,17 +209,17 @@ YAML::Node holder_of_limits(YAML::Node node) {
 }
 
 std::optional<LimitsFile> read_document(const YAML::Node& document, const std::string& file,
-                                        Findings& findings) {
+                                        Diagnostics& diagnostics) {
   const YAML::Node holder = holder_of_limits(document);
   const YAML::Node joints = holder.IsMap() ? holder["joint_limits"] : YAML::Node();
   if (!holder.IsMap() || !joints || !(joints.IsMap() || joints.IsNull())) {
     report(file, "missing",
            "there is no joint_limits with joints in it; it has to hold joint_limits: and below it, "
            "indented, each joint: with its has_velocity_limits: true, max_velocity: 1 and the like",
-           {}, findings);
+           {}, diagnostics);
     return std::nullopt;
   }
-  check_scaling(holder, file, findings);
+  check_scaling(holder, file, diagnostics);
   LimitsFile limits{.file = file, .joints = {}};
   for (const auto& member : joints) {
     const std::string name = scalar_of(member.first);
@@ -240,16 +240,17 @@ std::optional<LimitsFile> read_document(const YAML::Node& document, const std::s
 }  // namespace
 
 std::optional<LimitsFile> read_limits_file(const std::string& text,
-                                           const std::filesystem::path& path, Findings& findings) {
+                                           const std::filesystem::path& path,
+                                           Diagnostics& diagnostics) {
   const std::string file = path.filename().string();
   try {
-    return read_document(YAML::Load(text), file, findings);
+    return read_document(YAML::Load(text), file, diagnostics);
   } catch (const YAML::Exception& error) {
-    findings.add({ProblemKind::malformed,
-                  "yaml-malformed",
-                  at_line(file, error.mark),
-                  at_line(file, error.mark) + ": the YAML is malformed (" + error.msg + ")",
-                  {}});
+    diagnostics.add({ProblemKind::malformed,
+                     "yaml-malformed",
+                     at_line(file, error.mark),
+                     at_line(file, error.mark) + ": the YAML is malformed (" + error.msg + ")",
+                     {}});
     return std::nullopt;
   }
 }

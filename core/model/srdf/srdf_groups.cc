@@ -17,18 +17,18 @@ struct Group {
   JointSet joints;
   std::vector<std::string> subgroups;
   int line = 0;
-  Findings faults;  // problems if the group is used, warnings if not
+  Diagnostics faults;  // problems if the group is used, warnings if not
   enum class Mark { fresh, open, done } mark = Mark::fresh;
 };
 
 class GroupReader {
  public:
   GroupReader(const std::string& file, const RobotTree& tree,
-              const std::set<std::string>& virtual_joints, Findings& findings)
-      : file_(file), tree_(tree), virtual_joints_(virtual_joints), findings_(findings) {}
+              const std::set<std::string>& virtual_joints, Diagnostics& diagnostics)
+      : file_(file), tree_(tree), virtual_joints_(virtual_joints), diagnostics_(diagnostics) {}
 
   void read(const XMLElement& element) {
-    const XmlPlace nameless(file_, element.GetLineNum(), "group", findings_);
+    const XmlPlace nameless(file_, element.GetLineNum(), "group", diagnostics_);
     const std::string name =
         nameless.only_warning("no arm can be this group").name(element, "name");
     if (name.empty()) return;
@@ -47,7 +47,7 @@ class GroupReader {
     std::map<std::string, JointSet> resolved;
     for (auto& [name, group] : groups_) resolved[name] = joints_of(name, group);
     for (const std::string& name : used) tell_faults(name);
-    for (auto& [name, group] : groups_) findings_.merge_as_warnings(std::move(group.faults));
+    for (auto& [name, group] : groups_) diagnostics_.merge_as_warnings(std::move(group.faults));
     return resolved;
   }
 
@@ -136,14 +136,14 @@ class GroupReader {
   void tell_faults(const std::string& name) {
     const auto found = groups_.find(name);
     if (found == groups_.end() || !told_.insert(name).second) return;
-    findings_.merge(std::exchange(found->second.faults, {}));
+    diagnostics_.merge(std::exchange(found->second.faults, {}));
     for (const auto& subgroup : found->second.subgroups) tell_faults(subgroup);
   }
 
   const std::string& file_;
   const RobotTree& tree_;
   const std::set<std::string>& virtual_joints_;
-  Findings& findings_;
+  Diagnostics& diagnostics_;
   std::map<std::string, Group> groups_;
   std::set<std::string> told_;
 };
@@ -152,14 +152,14 @@ class GroupReader {
 
 std::map<std::string, JointSet> read_groups(const XMLElement& srdf, const std::string& file,
                                             const RobotTree& tree, const GroupNames& names,
-                                            Findings& findings) {
+                                            Diagnostics& diagnostics) {
   constexpr std::size_t kMaxGroups = 1000;  // also bounds how deep groups can hold each other
-  GroupReader reader(file, tree, names.virtual_joints, findings);
+  GroupReader reader(file, tree, names.virtual_joints, diagnostics);
   std::size_t count = 0;
   for (const auto* group = srdf.FirstChildElement("group"); group != nullptr;
        group = group->NextSiblingElement("group")) {
     if (++count > kMaxGroups) {
-      XmlPlace(file, group->GetLineNum(), "robot", findings)
+      XmlPlace(file, group->GetLineNum(), "robot", diagnostics)
           .report("too-many-groups", "more than " + std::to_string(kMaxGroups) + " groups", {},
                   ProblemKind::too_large);
       break;

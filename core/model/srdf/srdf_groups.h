@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/model/srdf/srdf_reader.h"
 #include "core/model/urdf/robot_tree.h"
 
@@ -27,6 +27,6 @@ struct GroupNames {
 // is, and else a warning.
 [[nodiscard]] std::map<std::string, RobotSemantics::JointSet> read_groups(
     const tinyxml2::XMLElement& srdf, const std::string& file, const RobotTree& tree,
-    const GroupNames& names, Findings& findings);
+    const GroupNames& names, Diagnostics& diagnostics);
 
 }  // namespace armloom

@@ -23,20 +23,22 @@ struct StaleElements {
 
 class SrdfReader {
  public:
-  SrdfReader(const XMLElement& srdf, std::string file, const RobotTree& tree, Findings& findings)
-      : srdf_(srdf), file_(std::move(file)), tree_(tree), findings_(findings) {}
+  SrdfReader(const XMLElement& srdf, std::string file, const RobotTree& tree,
+             Diagnostics& diagnostics)
+      : srdf_(srdf), file_(std::move(file)), tree_(tree), diagnostics_(diagnostics) {}
 
   RobotSemantics read(const std::set<std::string>& used_groups) {
     RobotSemantics semantics;
     check_name();
-    XmlPlace(file_, srdf_.GetLineNum(), "robot", findings_)
+    XmlPlace(file_, srdf_.GetLineNum(), "robot", diagnostics_)
         .only_children(
             srdf_,
             {"group", "disable_collisions", "disable_default_collisions", "enable_collisions"},
             {"group_state", "end_effector", "virtual_joint", "passive_joint", "joint_property",
              "link_sphere_approximation"});
     const std::set<std::string> virtual_joints = read_virtual_joints();
-    semantics.groups = read_groups(srdf_, file_, tree_, {virtual_joints, used_groups}, findings_);
+    semantics.groups =
+        read_groups(srdf_, file_, tree_, {virtual_joints, used_groups}, diagnostics_);
     for_each("group_state",
              [&](const XMLElement& state) { read_state(state, virtual_joints, semantics); });
     for_each("passive_joint", [&](const XMLElement& passive) {
@@ -57,11 +59,11 @@ class SrdfReader {
   }
 
   XmlPlace at_line(const XMLElement& element) const {
-    return {file_, element.GetLineNum(), element.Name(), findings_};
+    return {file_, element.GetLineNum(), element.Name(), diagnostics_};
   }
 
   void check_name() const {
-    const XmlPlace place(file_, srdf_.GetLineNum(), "robot", findings_);
+    const XmlPlace place(file_, srdf_.GetLineNum(), "robot", diagnostics_);
     const std::string name =
         place.only_warning("whether it is of the URDF's robot is not known").name(srdf_, "name");
     if (name.empty() || name == tree_.name || tree_.links.empty()) return;
@@ -126,7 +128,7 @@ class SrdfReader {
     state.place = place.text();
     const auto found = semantics.groups.find(group);
     if (found == semantics.groups.end()) {
-      return place.telling(findings_)
+      return place.telling(diagnostics_)
           .only_warning(consequence)
           .report("unknown-name", "group " + group + " does not exist", group);
     }
@@ -193,7 +195,7 @@ class SrdfReader {
   void warn_of_stale_elements() const {
     for (const auto& [tag, stale] : stale_) {
       if (stale.stale == 0) continue;
-      XmlPlace(file_, 0, tag, findings_)
+      XmlPlace(file_, 0, tag, diagnostics_)
           .warn("unknown-name",
                 std::to_string(stale.stale) + " of " + std::to_string(stale.all) +
                     " name links that are not in " + tree_.file + " (" + stale.examples +
@@ -235,7 +237,7 @@ class SrdfReader {
   const XMLElement& srdf_;
   std::string file_;
   const RobotTree& tree_;
-  Findings& findings_;
+  Diagnostics& diagnostics_;
   std::map<std::string, StaleElements> stale_;  // tag -> those with unknown links
   const XMLElement* last_stale_ = nullptr;
 };
@@ -245,12 +247,12 @@ class SrdfReader {
 std::optional<RobotSemantics> read_srdf(std::string text, const std::filesystem::path& path,
                                         const RobotTree& tree,
                                         const std::set<std::string>& used_groups,
-                                        Findings& findings) {
+                                        Diagnostics& diagnostics) {
   const std::string file = told_file_name(path);
   tinyxml2::XMLDocument document;
-  const auto* srdf = parse_robot_xml(text, file, document, findings);
+  const auto* srdf = parse_robot_xml(text, file, document, diagnostics);
   if (srdf == nullptr) return std::nullopt;
-  RobotSemantics semantics = SrdfReader(*srdf, file, tree, findings).read(used_groups);
+  RobotSemantics semantics = SrdfReader(*srdf, file, tree, diagnostics).read(used_groups);
   semantics.file = file;
   semantics.text = std::move(text);
   return semantics;

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/model/urdf/robot_tree.h"
 
 namespace armloom {
@@ -19,7 +19,8 @@ struct NamedState {
   std::string place;                     // "arm.srdf:12: group_state ready of arm"
   std::map<std::size_t, double> values;  // joint -> rad or m
   std::set<std::size_t> unread;          // joints whose values are none
-  Findings faults;  // why it can be no home and no goal; problems only of an arm whose home it is
+  Diagnostics
+      faults;  // why it can be no home and no goal; problems only of an arm whose home it is
 };
 struct RobotSemantics {
   using JointSet = std::set<std::size_t>;  // in tree order: from base to tip
@@ -36,11 +37,11 @@ struct RobotSemantics {
 // order; group states; disable_collisions, disable_default_collisions and enable_collisions.
 // Virtual joints are ignored: the cell file places the base. As MoveIt does, leaves out what names
 // links, joints or groups that are not there, with a warning; so it does with all that the cell's
-// `used_groups` do not need. Nothing, with the reasons in `findings`, when the text is no XML.
+// `used_groups` do not need. Nothing, with the reasons in `diagnostics`, when the text is no XML.
 [[nodiscard]] std::optional<RobotSemantics> read_srdf(std::string text,
                                                       const std::filesystem::path& path,
                                                       const RobotTree& tree,
                                                       const std::set<std::string>& used_groups,
-                                                      Findings& findings);
+                                                      Diagnostics& diagnostics);
 
 }  // namespace armloom

@@ -20,10 +20,10 @@ struct NamedTree {
 // limits is told, too, and put to the nearest one.
 std::optional<std::size_t> holdable(const std::string& name, double& value,
                                     const std::string& pointer, const NamedTree& of,
-                                    Findings& findings) {
+                                    Diagnostics& diagnostics) {
   const RobotTree& tree = of.tree;
   const auto refuse = [&](const std::string& slug, const std::string& why) {
-    findings.in_cell(slug, pointer, "robot " + of.robot + ": " + why, value);
+    diagnostics.in_cell(slug, pointer, "robot " + of.robot + ": " + why, value);
     return std::nullopt;
   };
   const auto found = tree.by_joint.find(name);
@@ -33,7 +33,7 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
                                                   did_you_mean(name, tree.by_joint)));
     // Held under the name that is meant: that arms hang on that joint need not be told then.
     const auto meant = nearest_key(name, tree.by_joint);
-    Findings unsaid;
+    Diagnostics unsaid;
     return meant ? holdable(*meant, value, pointer, of, unsaid) : std::nullopt;
   }
   const TreeLink& link = tree.links[found->second];
@@ -122,11 +122,11 @@ std::optional<double> value_held_at(const TreeLink& link, std::size_t index,
 }  // namespace
 
 void hold_joints(const std::map<std::string, double>& fixed, const std::string& pointer,
-                 const std::string& robot, RobotTree& tree, Findings& findings) {
+                 const std::string& robot, RobotTree& tree, Diagnostics& diagnostics) {
   std::map<std::size_t, double> held;
   for (auto [name, value] : fixed) {
     const std::string at = pointer + "/fixed/" + pointer_token(name);
-    if (const auto joint = holdable(name, value, at, {robot, tree}, findings))
+    if (const auto joint = holdable(name, value, at, {robot, tree}, diagnostics))
       held.emplace(*joint, value);
   }
   bool any = false;

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/model/urdf/robot_tree.h"
 
 namespace armloom {
@@ -15,6 +15,6 @@ namespace armloom {
 // alike, so that whoever draws the robot from it sees it so. `pointer` is of the robot in the cell
 // file.
 void hold_joints(const std::map<std::string, double>& fixed, const std::string& pointer,
-                 const std::string& robot, RobotTree& tree, Findings& findings);
+                 const std::string& robot, RobotTree& tree, Diagnostics& diagnostics);
 
 }  // namespace armloom

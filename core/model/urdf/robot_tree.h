@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/geometry/shape.h"
 #include "core/model/cell.h"
 
@@ -18,8 +18,8 @@ struct UrdfLimits {
   std::optional<double> lower;  // rad or m; none: absent, or no number
   std::optional<double> upper;
   std::optional<double>
-      velocity;     // > 0; none: absent, no number, or 0, which says nothing (MoveIt)
-  Findings faults;  // numbers that are none, limits that cross
+      velocity;        // > 0; none: absent, no number, or 0, which says nothing (MoveIt)
+  Diagnostics faults;  // numbers that are none, limits that cross
 };
 
 // One robot as its URDF describes it: plain data between the reader and the cell. Names are without

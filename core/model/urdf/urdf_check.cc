@@ -155,14 +155,15 @@ void check_joint(const XMLElement& joint, const XmlPlace& place, UrdfNotes::Join
   copy_if_there(*mimic, "offset", 1, place, copy);
 }
 
-XmlPlace place_of(const XMLElement& element, const std::string& file, Findings& findings) {
+XmlPlace place_of(const XMLElement& element, const std::string& file, Diagnostics& diagnostics) {
   const char* name = element.Attribute("name");
   const std::string named = name == nullptr || *name == '\0' ? "" : std::string(" ") + name;
-  return {file, element.GetLineNum(), element.Name() + named, findings};
+  return {file, element.GetLineNum(), element.Name() + named, diagnostics};
 }
 
 // Links and joints count directly below <robot> only: in another element they would vanish.
-void refuse_what_holds_links(const XMLElement& robot, const std::string& file, Findings& findings) {
+void refuse_what_holds_links(const XMLElement& robot, const std::string& file,
+                             Diagnostics& diagnostics) {
   const auto has_part = [](const XMLElement& element) {
     const auto* link = element.FirstChildElement("link");
     const auto* joint = element.FirstChildElement("joint");
@@ -176,7 +177,7 @@ void refuse_what_holds_links(const XMLElement& robot, const std::string& file, F
     const std::string tag = child->Name();
     if (tag == "link" || tag == "joint" || tag == "gazebo") continue;
     if (tag.find(':') != std::string::npos || !has_part(*child)) continue;
-    XmlPlace(file, child->GetLineNum(), "robot", findings)
+    XmlPlace(file, child->GetLineNum(), "robot", diagnostics)
         .report("misplaced",
                 "<" + tag +
                     "> holds a part of the robot, which would be left out: <link> and <joint> "
@@ -188,19 +189,20 @@ void refuse_what_holds_links(const XMLElement& robot, const std::string& file, F
 }  // namespace
 
 UrdfNotes check_urdf_elements(const XMLElement& robot, const std::string& file,
-                              const MeshFolders& folders, XMLElement& mended, Findings& findings) {
-  XmlPlace(file, robot.GetLineNum(), "robot", findings)
+                              const MeshFolders& folders, XMLElement& mended,
+                              Diagnostics& diagnostics) {
+  XmlPlace(file, robot.GetLineNum(), "robot", diagnostics)
       .only_children(robot, {"link", "joint"},
                      {"material", "transmission", "gazebo", "ros2_control", "sensor", "mujoco",
                       "plugin", "loop_joint", "verbose"});
-  refuse_what_holds_links(robot, file, findings);
+  refuse_what_holds_links(robot, file, diagnostics);
   UrdfNotes notes;
   std::set<std::pair<std::string, std::string>> known;
   for (const auto* child = robot.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
     const std::string tag = child->Name();
     if (tag != "link" && tag != "joint") continue;
-    const XmlPlace place = place_of(*child, file, findings);
+    const XmlPlace place = place_of(*child, file, diagnostics);
     const std::string name = place.name(*child, "name");
     notes.lines[tag].emplace(name, child->GetLineNum());
     XMLElement& copy = *mended.InsertNewChildElement(child->Name());

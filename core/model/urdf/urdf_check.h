@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/model/xml/xml_element.h"
 
 namespace armloom {
@@ -26,7 +26,7 @@ struct UrdfNotes {
     bool lower = false;
     bool upper = false;
     bool velocity = false;
-    Findings faults;  // of the limits: who needs them decides what follows
+    Diagnostics faults;  // of the limits: who needs them decides what follows
   };
   std::map<std::string, Joint> joints;        // each of the mended robot
   std::map<std::string, std::string> meshes;  // name in the file -> path
@@ -46,7 +46,7 @@ struct UrdfNotes {
 // begins each place.
 [[nodiscard]] UrdfNotes check_urdf_elements(const tinyxml2::XMLElement& robot,
                                             const std::string& file, const MeshFolders& folders,
-                                            tinyxml2::XMLElement& mended, Findings& findings);
+                                            tinyxml2::XMLElement& mended, Diagnostics& diagnostics);
 
 // One <link> of these (urdf_link_check.cc).
 void check_link(const tinyxml2::XMLElement& link, const XmlPlace& place, const MeshFolders& folders,
@@ -57,6 +57,6 @@ void check_link(const tinyxml2::XMLElement& link, const XmlPlace& place, const M
 // `mended` is patched: every name of the file that occurs is in it, so that other files' names can
 // still be looked up.
 void check_urdf_tree(tinyxml2::XMLElement& mended, const std::string& file, UrdfNotes& notes,
-                     Findings& findings);
+                     Diagnostics& diagnostics);
 
 }  // namespace armloom

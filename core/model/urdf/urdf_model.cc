@@ -143,14 +143,14 @@ RobotTree tree_of(const urdf::ModelInterface& model, UrdfNotes notes) {
 }  // namespace
 
 std::optional<RobotTree> read_with_urdfdom(const XMLElement& mended, const std::string& file,
-                                           UrdfNotes notes, Findings& findings) {
+                                           UrdfNotes notes, Diagnostics& diagnostics) {
   const auto model = parse(mended);
   if (model != nullptr && is_complete(*model, mended)) {
     RobotTree tree = tree_of(*model, std::move(notes));
     tree.file = file;
     return tree;
   }
-  XmlPlace(file, 0, "robot", findings)
+  XmlPlace(file, 0, "robot", diagnostics)
       .report("urdf-refused", "urdfdom cannot read it: " + UrdfdomWords::said());
   return std::nullopt;
 }

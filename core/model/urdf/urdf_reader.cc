@@ -21,18 +21,18 @@ RobotTree unread_robot(const std::filesystem::path& path) {
 
 std::optional<RobotTree> read_urdf(std::string text, const std::filesystem::path& path,
                                    const std::map<std::string, std::string>& packages,
-                                   Findings& findings) {
+                                   Diagnostics& diagnostics) {
   const std::string file = told_file_name(path);
   tinyxml2::XMLDocument document;
-  const auto* robot = parse_robot_xml(text, file, document, findings);
+  const auto* robot = parse_robot_xml(text, file, document, diagnostics);
   if (robot == nullptr) return std::nullopt;
-  const XmlPlace place(file, robot->GetLineNum(), "robot", findings);
+  const XmlPlace place(file, robot->GetLineNum(), "robot", diagnostics);
   tinyxml2::XMLDocument document_of_mended;
   auto* mended = document_of_mended.NewElement("robot");
   document_of_mended.InsertEndChild(mended);
   mended->SetAttribute("name", place.name(*robot, "name").c_str());
   UrdfNotes notes =
-      check_urdf_elements(*robot, file, {path.parent_path(), &packages}, *mended, findings);
+      check_urdf_elements(*robot, file, {path.parent_path(), &packages}, *mended, diagnostics);
   const std::size_t links = count_children(*robot, "link");
   if (links > kMaxLinksOfRobot) {
     place.report("too-many-links",
@@ -41,8 +41,8 @@ std::optional<RobotTree> read_urdf(std::string text, const std::filesystem::path
                  static_cast<double>(links), ProblemKind::too_large);
     return std::nullopt;
   }
-  check_urdf_tree(*mended, file, notes, findings);
-  auto tree = read_with_urdfdom(*mended, file, std::move(notes), findings);
+  check_urdf_tree(*mended, file, notes, diagnostics);
+  auto tree = read_with_urdfdom(*mended, file, std::move(notes), diagnostics);
   if (tree) tree->text = std::move(text);
   return tree;
 }

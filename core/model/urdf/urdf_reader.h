@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/model/urdf/robot_tree.h"
 
 namespace armloom {
@@ -15,14 +15,14 @@ namespace armloom {
 inline constexpr std::size_t kMaxLinksOfRobot = 1000;
 
 // Reads a URDF that was loaded from `path`; places are "panda.urdf: joint panda_joint3". All that
-// is wrong goes to `findings`, and the robot is read as far as it can be, so that what else is
+// is wrong goes to `diagnostics`, and the robot is read as far as it can be, so that what else is
 // wrong with the cell can be told at once: the tree only holds what was meant when nothing was
 // added. Nothing when the text is no XML, or of too many links. Meshes are resolved (see
 // mesh_path.h) and not loaded (build_cell does).
 [[nodiscard]] std::optional<RobotTree> read_urdf(std::string text,
                                                  const std::filesystem::path& path,
                                                  const std::map<std::string, std::string>& packages,
-                                                 Findings& findings);
+                                                 Diagnostics& diagnostics);
 
 // What is known of a robot whose URDF cannot be read: nothing but the file's name.
 [[nodiscard]] RobotTree unread_robot(const std::filesystem::path& path);

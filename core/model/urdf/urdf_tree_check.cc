@@ -25,15 +25,15 @@ std::string listed(const std::set<std::string>& names) {
 // unknown or moved by another one gets a made link; what then is no tree hangs on a made root.
 class TreeMender {
  public:
-  TreeMender(XMLElement& robot, const std::string& file, UrdfNotes& notes, Findings& findings)
-      : robot_(robot), file_(file), notes_(notes), findings_(findings) {}
+  TreeMender(XMLElement& robot, const std::string& file, UrdfNotes& notes, Diagnostics& diagnostics)
+      : robot_(robot), file_(file), notes_(notes), diagnostics_(diagnostics) {}
 
   void mend() {
-    const std::size_t before = findings_.count();
+    const std::size_t before = diagnostics_.count();
     index_names();
     connect();
     if (all_children_known_) check_one_root();  // else a root may only be misspelt elsewhere
-    notes_.patched = notes_.patched || findings_.count() != before || !all_children_known_ ||
+    notes_.patched = notes_.patched || diagnostics_.count() != before || !all_children_known_ ||
                      !notes_.loose.empty();
     fix_faulty_mimics();
     make_one_tree();
@@ -48,11 +48,11 @@ class TreeMender {
 
   void report(const std::string& slug, const std::string& sentence,
               const std::string& value) const {
-    XmlPlace(file_, 0, "robot", findings_).report(slug, sentence, value);
+    XmlPlace(file_, 0, "robot", diagnostics_).report(slug, sentence, value);
   }
   void report_joint(const std::string& name, const std::string& slug, const std::string& sentence,
                     const std::string& value) const {
-    XmlPlace(file_, line_of("joint", name), "joint " + name, findings_)
+    XmlPlace(file_, line_of("joint", name), "joint " + name, diagnostics_)
         .report(slug, sentence, value);
   }
 
@@ -246,7 +246,7 @@ class TreeMender {
   XMLElement& robot_;
   const std::string& file_;
   UrdfNotes& notes_;
-  Findings& findings_;
+  Diagnostics& diagnostics_;
   std::map<std::string, Node> links_;
   std::map<std::string, XMLElement*> joints_;
   std::map<std::string, Node> childless_;  // by the joint that has no link of its own
@@ -256,8 +256,8 @@ class TreeMender {
 }  // namespace
 
 void check_urdf_tree(XMLElement& mended, const std::string& file, UrdfNotes& notes,
-                     Findings& findings) {
-  TreeMender(mended, file, notes, findings).mend();
+                     Diagnostics& diagnostics) {
+  TreeMender(mended, file, notes, diagnostics).mend();
 }
 
 }  // namespace armloom

@@ -57,14 +57,14 @@ std::string told_file_name(const std::filesystem::path& path) {
 
 std::optional<std::string> load_robot_file(const std::filesystem::path& path,
                                            const std::string& pointer, const std::string& whose,
-                                           Findings& findings) {
+                                           Diagnostics& diagnostics) {
   auto text = read_text_file(path, pointer, whose);
   if (text && path.extension() == ".xacro") {
     auto expanded = expand_xacro(path);
     if (expanded && !expanded->said.empty())
-      findings.warn(Problem{ProblemKind::invalid, "xacro-warns", pointer,
-                            whose + ": " + path.string() + ": xacro says: " + expanded->said,
-                            path.string()});
+      diagnostics.warn(Problem{ProblemKind::invalid, "xacro-warns", pointer,
+                               whose + ": " + path.string() + ": xacro says: " + expanded->said,
+                               path.string()});
     if (expanded)
       text = std::move(expanded->text);
     else
@@ -75,10 +75,10 @@ std::optional<std::string> load_robot_file(const std::filesystem::path& path,
   if (text) {
     auto fault = utf8_fault(*text, path.string());
     if (!fault) return *std::move(text);
-    findings.add(*std::move(fault));
+    diagnostics.add(*std::move(fault));
     return std::nullopt;
   }
-  for (Problem& problem : text.error()) findings.add(std::move(problem));
+  for (Problem& problem : text.error()) diagnostics.add(std::move(problem));
   return std::nullopt;
 }
 

@@ -4,17 +4,17 @@
 #include <optional>
 #include <string>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 
 namespace armloom {
 
 // The text of a robot's file: URDF, SRDF or joint limits, UTF-8. A name that ends in .xacro is
-// expanded first (xacro.h). Nothing, with the reasons in `findings`, when it cannot be had; pointer
-// and the sentence's beginning ("robot left") as given.
+// expanded first (xacro.h). Nothing, with the reasons in `diagnostics`, when it cannot be had;
+// pointer and the sentence's beginning ("robot left") as given.
 [[nodiscard]] std::optional<std::string> load_robot_file(const std::filesystem::path& path,
                                                          const std::string& pointer,
                                                          const std::string& whose,
-                                                         Findings& findings);
+                                                         Diagnostics& diagnostics);
 
 // As places in such a file begin: its name without folder. Of xacro the lines are those of what it
 // expands to, which is said: "arm.urdf.xacro (expanded)".

@@ -61,9 +61,9 @@ std::string why_malformed(const tinyxml2::XMLDocument& document, const std::stri
 }  // namespace
 
 tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string& file,
-                                      tinyxml2::XMLDocument& document, Findings& findings) {
+                                      tinyxml2::XMLDocument& document, Diagnostics& diagnostics) {
   const auto refuse = [&](int line, const std::string& sentence) {
-    XmlPlace(file, line, "", findings)
+    XmlPlace(file, line, "", diagnostics)
         .report("xml-malformed", sentence, {}, ProblemKind::malformed);
     return nullptr;
   };
@@ -112,9 +112,9 @@ XmlPlace XmlPlace::of(const std::string& part) const {
   return other;
 }
 
-XmlPlace XmlPlace::telling(Findings& findings) const {
+XmlPlace XmlPlace::telling(Diagnostics& diagnostics) const {
   XmlPlace other = *this;
-  other.findings_ = &findings;
+  other.diagnostics_ = &diagnostics;
   return other;
 }
 
@@ -133,13 +133,13 @@ void XmlPlace::report(std::string slug, const std::string& sentence, decltype(Pr
                       ProblemKind kind) const {
   if (consequence_) return warn(std::move(slug), sentence + "; " + *consequence_, std::move(value));
   const std::string place = text();
-  findings_->add({kind, std::move(slug), place, place + ": " + sentence, std::move(value)});
+  diagnostics_->add({kind, std::move(slug), place, place + ": " + sentence, std::move(value)});
 }
 
 void XmlPlace::warn(std::string slug, const std::string& sentence,
                     decltype(Problem::value) value) const {
   const std::string place = text();
-  findings_->warn(
+  diagnostics_->warn(
       {ProblemKind::invalid, std::move(slug), place, place + ": " + sentence, std::move(value)});
 }
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 
 namespace tinyxml2 {
 class XMLDocument;
@@ -20,11 +20,11 @@ enum class Presence { required, optional };
 
 // Reads XML into `document`. DOCTYPE and entity declarations are refused, and so is nesting deeper
 // than tinyxml2's bound (100), a second root element and unexpanded xacro. Returns the <robot>
-// element, or null after adding what is wrong to `findings` (place: "panda.urdf:12", the line).
+// element, or null after adding what is wrong to `diagnostics` (place: "panda.urdf:12", the line).
 [[nodiscard]] tinyxml2::XMLElement* parse_robot_xml(const std::string& text,
                                                     const std::string& file,
                                                     tinyxml2::XMLDocument& document,
-                                                    Findings& findings);
+                                                    Diagnostics& diagnostics);
 
 [[nodiscard]] std::size_t count_children(const tinyxml2::XMLElement& element, const char* child);
 
@@ -34,13 +34,13 @@ enum class Presence { required, optional };
 class XmlPlace {
  public:
   // `line` 0: what is wrong stands in no line. `whose` may be empty.
-  XmlPlace(std::string file, int line, std::string whose, Findings& findings)
-      : file_(std::move(file)), line_(line), whose_(std::move(whose)), findings_(&findings) {}
+  XmlPlace(std::string file, int line, std::string whose, Diagnostics& diagnostics)
+      : file_(std::move(file)), line_(line), whose_(std::move(whose)), diagnostics_(&diagnostics) {}
 
   // The same at the line of another element; of a part of it ("joint j1"); told to another list.
   [[nodiscard]] XmlPlace at(const tinyxml2::XMLElement& element) const;
   [[nodiscard]] XmlPlace of(const std::string& part) const;
-  [[nodiscard]] XmlPlace telling(Findings& findings) const;
+  [[nodiscard]] XmlPlace telling(Diagnostics& diagnostics) const;
 
   // The same place for what the cell does not use: all that is wrong there is only a warning, which
   // ends with this consequence.
@@ -86,7 +86,7 @@ class XmlPlace {
   std::string file_;
   int line_;
   std::string whose_;
-  Findings* findings_;
+  Diagnostics* diagnostics_;
   std::optional<std::string> consequence_;  // given: of a place that only warns
 };
 

@@ -1,4 +1,4 @@
-#include "core/model/cell/cell_doubts.h"
+#include "core/model/cell/cell_warnings.h"
 
 #include <cmath>
 #include <set>
@@ -12,7 +12,8 @@ constexpr double kHuge_m = 10.0;  // of a link's mesh
 constexpr double kHugeObject_m = 100.0;
 constexpr double kTiny_m = 0.002;
 
-void warn_of_brakes(const CellDescription& description, const Cell& cell, Findings& findings) {
+void warn_of_brakes(const CellDescription& description, const Cell& cell,
+                    Diagnostics& diagnostics) {
   for (std::size_t r = 0; r < description.robots.size(); ++r) {
     const RobotDescription& robot = description.robots[r];
     for (std::size_t a = 0; a < robot.arms.size(); ++a) {
@@ -25,24 +26,24 @@ void warn_of_brakes(const CellDescription& description, const Cell& cell, Findin
         const std::string unit = linear ? "m_s2" : "rad_s2";
         const std::string pointer = "/robots/" + std::to_string(r) + "/arms/" + std::to_string(a) +
                                     "/limits/" + pointer_token(name) + "/brake_" + unit;
-        findings.warn({ProblemKind::invalid, "weak-brake", pointer,
-                       "joint " + robot.prefix + name + ": brake_" + unit + " is " +
-                           text_of(*given.brake) + ", less than its acceleration_" + unit + " of " +
-                           text_of(acceleration) +
-                           ": a stop takes longer than the motion took to begin",
-                       *given.brake});
+        diagnostics.warn({ProblemKind::invalid, "weak-brake", pointer,
+                          "joint " + robot.prefix + name + ": brake_" + unit + " is " +
+                              text_of(*given.brake) + ", less than its acceleration_" + unit +
+                              " of " + text_of(acceleration) +
+                              ": a stop takes longer than the motion took to begin",
+                          *given.brake});
       }
     }
   }
 }
 
-void warn_of_lags(const CellDescription& description, Findings& findings) {
+void warn_of_lags(const CellDescription& description, Diagnostics& diagnostics) {
   const double delay_s = to_seconds(description.checking.delay);
   for (std::size_t r = 0; r < description.robots.size(); ++r) {
     const RobotDescription& robot = description.robots[r];
     const double lag_s = to_seconds(robot.controller.lag);
     if (lag_s <= delay_s) continue;
-    findings.warn(
+    diagnostics.warn(
         {ProblemKind::invalid, "lag-above-delay",
          "/robots/" + std::to_string(r) + "/controller/lag_s",
          "robot " + robot.name + ": lag_s is " + text_of(lag_s) +
@@ -54,25 +55,25 @@ void warn_of_lags(const CellDescription& description, Findings& findings) {
   }
 }
 
-void warn_of_noise(const CellDescription& description, Findings& findings) {
+void warn_of_noise(const CellDescription& description, Diagnostics& diagnostics) {
   const double error_rad = description.checking.tracking_error_rad;
   for (std::size_t r = 0; r < description.robots.size(); ++r) {
     const RobotDescription& robot = description.robots[r];
     const double noise_rad = robot.controller.noise_rad;
     if (noise_rad <= error_rad) continue;
-    findings.warn({ProblemKind::invalid, "noise-above-error",
-                   "/robots/" + std::to_string(r) + "/controller/noise_rad",
-                   "robot " + robot.name + ": noise_rad is " + text_of(noise_rad) +
-                       ", more than checking tracking_error_rad of " + text_of(error_rad) +
-                       ": its arms are measured farther from their paths than motions are "
-                       "certified for; tracking_error_rad has to cover the noise",
-                   noise_rad});
+    diagnostics.warn({ProblemKind::invalid, "noise-above-error",
+                      "/robots/" + std::to_string(r) + "/controller/noise_rad",
+                      "robot " + robot.name + ": noise_rad is " + text_of(noise_rad) +
+                          ", more than checking tracking_error_rad of " + text_of(error_rad) +
+                          ": its arms are measured farther from their paths than motions are "
+                          "certified for; tracking_error_rad has to cover the noise",
+                      noise_rad});
   }
 }
 
-class MeshDoubts {
+class MeshWarnings {
  public:
-  explicit MeshDoubts(Findings& findings) : findings_(findings) {}
+  explicit MeshWarnings(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   // Each file once: robots of one kind share their meshes.
   void look_at(const Shape& shape, const std::string& place, const std::string& whose,
@@ -119,20 +120,20 @@ class MeshDoubts {
  private:
   void warn(const char* slug, const std::string& place, const std::string& sentence,
             const std::string& value) {
-    findings_.warn({ProblemKind::invalid, slug, place, sentence, value});
+    diagnostics_.warn({ProblemKind::invalid, slug, place, sentence, value});
   }
 
-  Findings& findings_;
+  Diagnostics& diagnostics_;
   std::set<std::string> told_;
 };
 
 }  // namespace
 
-void warn_of_doubts(const CellDescription& description, const Cell& cell, Findings& findings) {
-  warn_of_brakes(description, cell, findings);
-  warn_of_lags(description, findings);
-  warn_of_noise(description, findings);
-  MeshDoubts meshes(findings);
+void warn_of_cell(const CellDescription& description, const Cell& cell, Diagnostics& diagnostics) {
+  warn_of_brakes(description, cell, diagnostics);
+  warn_of_lags(description, diagnostics);
+  warn_of_noise(description, diagnostics);
+  MeshWarnings meshes(diagnostics);
   for (const Link& link : cell.links) {
     for (const PlacedShape& placed : link.shapes)
       meshes.look_at(placed.shape, "", "link " + link.name, true);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 #include "core/model/cell.h"
 
 namespace armloom {
@@ -9,6 +9,6 @@ namespace armloom {
 // they have to brake, arms that lag more, or are measured less exactly, than motions are certified
 // for, meshes without an inside or as large as if millimetres were read as metres. The cell was
 // built from the description, as far as it could be.
-void warn_of_doubts(const CellDescription& description, const Cell& cell, Findings& findings);
+void warn_of_cell(const CellDescription& description, const Cell& cell, Diagnostics& diagnostics);
 
 }  // namespace armloom

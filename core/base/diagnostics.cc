@@ -1,13 +1,13 @@
-#include "core/base/findings.h"
+#include "core/base/diagnostics.h"
 
 #include <array>
 #include <charconv>
 
 namespace armloom {
 
-void Findings::Kept::add(Problem problem) {
+void Diagnostics::Kept::add(Problem problem) {
   if (seen.contains({problem.pointer, problem.detail})) return;
-  if (problems.size() == kMaxFindings) {
+  if (problems.size() == kMaxDiagnostics) {
     ++dropped;
     return;
   }
@@ -15,7 +15,7 @@ void Findings::Kept::add(Problem problem) {
   problems.push_back(std::move(problem));
 }
 
-Problems Findings::Kept::take(const std::string& kind) {
+Problems Diagnostics::Kept::take(const std::string& kind) {
   if (dropped > 0) {
     problems.push_back({ProblemKind::invalid,
                         "too-many-problems",
@@ -26,31 +26,31 @@ Problems Findings::Kept::take(const std::string& kind) {
   return std::move(problems);
 }
 
-void Findings::add(Problem problem) {
+void Diagnostics::add(Problem problem) {
   ++added_;
   problems_.add(std::move(problem));
 }
 
-void Findings::warn(Problem problem) { warnings_.add(std::move(problem)); }
+void Diagnostics::warn(Problem problem) { warnings_.add(std::move(problem)); }
 
-void Findings::merge(Findings other) {
+void Diagnostics::merge(Diagnostics other) {
   for (Problem& problem : other.take()) add(std::move(problem));
   for (Problem& warning : other.take_warnings()) warn(std::move(warning));
 }
 
-void Findings::merge_as_warnings(Findings other) {
+void Diagnostics::merge_as_warnings(Diagnostics other) {
   for (Problem& problem : other.take()) warn(std::move(problem));
   for (Problem& warning : other.take_warnings()) warn(std::move(warning));
 }
 
-void Findings::in_cell(std::string slug, std::string pointer, std::string detail,
-                       decltype(Problem::value) value) {
+void Diagnostics::in_cell(std::string slug, std::string pointer, std::string detail,
+                          decltype(Problem::value) value) {
   add({ProblemKind::invalid, std::move(slug), std::move(pointer), std::move(detail),
        std::move(value)});
 }
 
-Problems Findings::take() { return problems_.take("problems"); }
-Problems Findings::take_warnings() { return warnings_.take("warnings"); }
+Problems Diagnostics::take() { return problems_.take("problems"); }
+Problems Diagnostics::take_warnings() { return warnings_.take("warnings"); }
 
 std::string text_of(double number) {
   std::array<char, 32> buffer{};

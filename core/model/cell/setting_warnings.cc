@@ -1,4 +1,4 @@
-#include "core/model/cell/setting_doubts.h"
+#include "core/model/cell/setting_warnings.h"
 
 #include <string>
 
@@ -15,28 +15,28 @@ constexpr double kLongReaction_s = 0.5;
 constexpr double kStrongBrake = 10.0;  // times the acceleration
 constexpr double kFar_m = 100.0;
 
-class SettingDoubts {
+class SettingWarnings {
  public:
-  SettingDoubts(const CellDescription& description, const Cell& cell, Findings& findings)
-      : given_(description), cell_(cell), findings_(findings) {}
+  SettingWarnings(const CellDescription& description, const Cell& cell, Diagnostics& diagnostics)
+      : given_(description), cell_(cell), diagnostics_(diagnostics) {}
 
   void tell() const {
-    doubt_clearances();
-    doubt_checking();
-    doubt_monitor();
-    doubt_places();
-    for (std::size_t r = 0; r < given_.robots.size(); ++r) doubt_brakes(r);
+    warn_of_clearances();
+    warn_of_checking();
+    warn_of_monitor();
+    warn_of_places();
+    for (std::size_t r = 0; r < given_.robots.size(); ++r) warn_of_brakes(r);
   }
 
  private:
   // The key is the pointer's last part; `consequence` goes on after its value.
   void warn(const std::string& pointer, double value, const std::string& consequence) const {
     const std::string key = pointer.substr(pointer.rfind('/') + 1);
-    findings_.warn({ProblemKind::invalid, "doubtful-setting", pointer,
-                    key + " is " + text_of(value) + consequence, value});
+    diagnostics_.warn({ProblemKind::invalid, "doubtful-setting", pointer,
+                       key + " is " + text_of(value) + consequence, value});
   }
 
-  void doubt_clearances() const {
+  void warn_of_clearances() const {
     const double clearance_m = given_.clearance_m;
     const std::string counts =
         ", more than clearance_m, which counts here, too: " + text_of(clearance_m) + " m";
@@ -51,7 +51,7 @@ class SettingDoubts {
            "measurement are off is not covered");
   }
 
-  void doubt_checking() const {
+  void warn_of_checking() const {
     const CheckingSettings& checking = given_.checking;
     const double error_rad = checking.tracking_error_rad;
     if (error_rad == 0.0)
@@ -75,7 +75,7 @@ class SettingDoubts {
            "checked");
   }
 
-  void doubt_monitor() const {
+  void warn_of_monitor() const {
     if (given_.monitor.stop_clearance_m == 0.0 && given_.clearance_m > 0.0)
       warn("/monitor/stop_clearance_m", 0.0,
            ": the monitor stops arms only when they touch; a share of clearance_m leaves them way "
@@ -97,15 +97,15 @@ class SettingDoubts {
                " s): arms have gone on longer before they brake than stops are certified for");
   }
 
-  void doubt_places() const {
+  void warn_of_places() const {
     const auto far = [&](const std::string& pointer, const Eigen::Isometry3d& X,
                          const std::string& whose) {
       const double away_m = X.translation().norm();
       if (away_m <= kFar_m) return;
-      findings_.warn({ProblemKind::invalid, "far-away", pointer,
-                      whose + " stands " + text_of(away_m) +
-                          " m away from the cell's origin, hardly meant (millimetres?)",
-                      away_m});
+      diagnostics_.warn({ProblemKind::invalid, "far-away", pointer,
+                         whose + " stands " + text_of(away_m) +
+                             " m away from the cell's origin, hardly meant (millimetres?)",
+                         away_m});
     };
     for (std::size_t r = 0; r < given_.robots.size(); ++r)
       far("/robots/" + std::to_string(r) + "/base", given_.robots[r].X_WB,
@@ -115,7 +115,7 @@ class SettingDoubts {
           "object " + given_.objects[o].name);
   }
 
-  void doubt_brakes(std::size_t r) const {
+  void warn_of_brakes(std::size_t r) const {
     const RobotDescription& robot = given_.robots[r];
     for (std::size_t a = 0; a < robot.arms.size(); ++a) {
       for (const auto& [name, limits] : robot.arms[a].limits) {
@@ -135,13 +135,14 @@ class SettingDoubts {
 
   const CellDescription& given_;
   const Cell& cell_;
-  Findings& findings_;
+  Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-void warn_of_settings(const CellDescription& description, const Cell& cell, Findings& findings) {
-  SettingDoubts(description, cell, findings).tell();
+void warn_of_settings(const CellDescription& description, const Cell& cell,
+                      Diagnostics& diagnostics) {
+  SettingWarnings(description, cell, diagnostics).tell();
 }
 
 }  // namespace armloom

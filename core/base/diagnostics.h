@@ -12,18 +12,18 @@ namespace armloom {
 
 // Collects what is wrong with a cell, and what is only odd, while reading goes on, so that a user
 // sees every mistake at once. Two robots may share one URDF file: a problem that was already found
-// is not repeated. Bounded: after kMaxFindings the rest is only counted, and the last problem says
-// how many.
-class Findings {
+// is not repeated. Bounded: after kMaxDiagnostics the rest is only counted, and the last problem
+// says how many.
+class Diagnostics {
  public:
-  static constexpr std::size_t kMaxFindings = 100;
+  static constexpr std::size_t kMaxDiagnostics = 100;
 
   void add(Problem problem);
   // What can be taken but is hardly meant, or is left out: it refuses nothing. Bounded alike.
   void warn(Problem problem);
   // Takes over what another one has found: its problems, or all of it as warnings.
-  void merge(Findings other);
-  void merge_as_warnings(Findings other);
+  void merge(Diagnostics other);
+  void merge_as_warnings(Diagnostics other);
 
   // A mistake in the cell file: `pointer` is a JSON pointer, `detail` a sentence that stands alone.
   void in_cell(std::string slug, std::string pointer, std::string detail,
