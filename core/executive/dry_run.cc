@@ -8,7 +8,10 @@
 
 #include "core/collision/check/motion_checker.h"
 #include "core/collision/state/check_home.h"
-#include "core/executive/executive_impl.h"
+#include "core/executive/start_elsewhere.h"
+#include "core/executive/views.h"
+#include "core/scheduler/scheduler.h"
+#include "core/scheduler/trial.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {

@@ -7,40 +7,32 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/executive/arms_of.h"
 #include "core/executive/executive_impl.h"
+#include "core/executive/scene_objects.h"
 #include "core/executive/timeline.h"
 
 namespace armloom {
 namespace {
-
-// What is farther apart than this is not told in state frames nor counted as near.
-constexpr double kClearanceHorizon_m = 2.0;
-
-std::string sentence(const MonitorFinding& finding) {
-  char text[256];
-  std::snprintf(text, sizeof text, "monitor: %s and %s at %.4f m, limit %.4f m",
-                finding.proximity.body_a.c_str(), finding.proximity.body_b.c_str(),
-                finding.proximity.clearance_m, finding.limit_m);
-  return text;
-}
-
-std::vector<FaultyArm*> pointers(const std::vector<std::unique_ptr<FaultyArm>>& arms) {
-  std::vector<FaultyArm*> result;
-  for (const auto& arm : arms) result.push_back(arm.get());
-  return result;
-}
 
 std::vector<std::unique_ptr<ArmController>> controllers(
     std::vector<std::unique_ptr<FaultyArm>> arms) {
   return {std::make_move_iterator(arms.begin()), std::make_move_iterator(arms.end())};
 }
 
-}  // namespace
-
-ClearanceQuery Executive::Impl::monitored(const PlanningScenePtr& scene) {
-  const Cell& cell = scene->cell();
-  return ClearanceQuery(scene, PairLimits::scaled(cell, cell.monitor.stop_clearance_m));
+// Those of the pair, and those that stop.
+MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
+  MonitorEvent event{.finding = finding};
+  for (const auto& arm : {finding.proximity.arm_a, finding.proximity.arm_b}) {
+    if (arm && (event.arms.empty() || event.arms.front() != cell.arm(*arm).name)) {
+      event.arms.push_back(cell.arm(*arm).name);
+    }
+  }
+  for (ArmId arm : finding.stops) event.stopped.push_back(cell.arm(arm).name);
+  return event;
 }
+
+}  // namespace
 
 Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
                       std::shared_ptr<const Policy> policy,
@@ -49,16 +41,16 @@ Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr s
     : cell_(cell),
       options_(std::move(options)),
       scheduler_(cell, std::move(policy), cell->home()),
-      scene_(std::move(scene)),
+      scene_{std::move(scene)},
+      faults_(cell, arms),
+      drawings_(scheduler_, jobs_, judges),
+      publisher_({*cell_, scheduler_, motions_, jobs_, starts_}, observer),
       judges_(judges),
-      observer_(observer),
-      faulty_(pointers(arms)),
+      intake_(cell, scheduler_, jobs_, options_.waiting_max),
+      plans_(judges),
       motions_(cell, controllers(std::move(arms)), cell->home()),
-      clearance_query_(monitored(scene_)),
-      monitor_period_(from_seconds(1.0 / cell->monitor.rate_hz)),
-      told_arms_(cell->arms.size(), ArmState::idle),
-      told_arm_jobs_(cell->arms.size()),
-      told_queue_(queue()) {
+      starts_(options_.starts),
+      watch_(scene_.scene) {
   figures_.busy.assign(cell_->arms.size(), Duration{});
   figures_.min_clearance_m = figures_.between_arms_m = std::numeric_limits<double>::infinity();
 }
@@ -69,8 +61,8 @@ void Executive::Impl::step(const Input& input) {
   const std::vector<Effect> effects = decided(input);
   for (const Effect& effect : effects) carry_out(effect);
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
-  tell_stops();
-  tell_queue();
+  publisher_.tell_stops();
+  publisher_.tell_queue(now_);
 }
 
 // What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
@@ -86,13 +78,9 @@ std::vector<Effect> Executive::Impl::decided(const Input& input) {
 
 void Executive::Impl::carry_out(const Effect& effect) {
   if (const auto* judge = std::get_if<Judge>(&effect)) {
-    asked_ = judge->question;
-    judges_.ask(judge->question, scene_, [this](Verdict verdict) {
-      asked_.reset();
-      step(Judged{std::move(verdict)});
-    });
+    this->judge(judge->question);
   } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
-    ask_plan(*plan);
+    plans_.ask(*plan, scene_.scene, [this](PlanMade made) { step(made); });
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
     this->dispatch(*dispatch);
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {
@@ -104,17 +92,64 @@ void Executive::Impl::carry_out(const Effect& effect) {
   } else if (const auto* release = std::get_if<Release>(&effect)) {
     motions_.release(release->job);
   } else if (const auto* changed = std::get_if<JobChanged>(&effect)) {
-    tell_job(changed->job);
+    job_changed(changed->job);
   } else if (const auto* wake = std::get_if<WakeAt>(&effect)) {
     wake_at_ = wake->when;
   }
 }
 
+void Executive::Impl::judge(const Question& question) {
+  asked_ = question;
+  judges_.ask(question, scene_.scene, [this](Verdict verdict) {
+    asked_.reset();
+    step(Judged{std::move(verdict)});
+  });
+}
+
+void Executive::Impl::dispatch(const Dispatch& dispatch) {
+  const Job& job = *scheduler_.find(dispatch.job);
+  if (job.system_job) return motions_.dispatch(dispatch, job.trajectory);
+  const auto written = [this, id = job.id] { start_is_written(id); };
+  motions_.dispatch(starts_.pass(dispatch, written), job.trajectory);
+}
+
+void Executive::Impl::grant(const Grant& grant) {
+  if (!starts_.keeps(grant)) motions_.grant(grant);
+}
+
+void Executive::Impl::start_is_written(JobId job) {
+  const auto withheld = starts_.open(job);
+  if (withheld && scheduler_.find(job)->in<Moving>() != nullptr) motions_.grant({job, *withheld});
+}
+
+void Executive::Impl::note_aside(const YieldMove& aside) {
+  const std::string arm = cell_->arm(aside.arm).name;
+  jobs_.add(aside.job, {jobs_.own_key(),
+                        aside.returns ? arm + " returns to where it stood"
+                                      : arm + " moves aside for " + jobs_.key(aside.blocked_job)});
+  if (!aside.in_ring) {
+    intake_.remember_way_back(aside.arm, *scheduler_.find(aside.job)->trajectory);
+  }
+}
+
+void Executive::Impl::job_changed(JobId id) {
+  JobView view = publisher_.view(id);
+  if (is_terminal(view.state)) {
+    figures_.last_end = std::max(figures_.last_end, *view.ended_at);
+    plans_.give_up(id);
+    starts_.forget(id);
+    for (JobId oldest : jobs_.end(id, options_.ended_kept)) scheduler_.forget(oldest);
+  }
+  publisher_.tell_job(std::move(view), now_);
+}
+
+// ---- Time ----
+
 void Executive::Impl::tick(TimePoint now) {
   now_ = now;
   if (options_.dies_at && now_ >= *options_.dies_at) {
     motions_.tick_arms(now_);
-    tell_tick();
+    publisher_.tell_tick(now_);
     return;
   }
   quiet_ = motions_.all_settled();
@@ -125,67 +160,117 @@ void Executive::Impl::tick(TimePoint now) {
   }
   for (const MotionReport& report : motions_.tick(now_)) {
     quiet_ = false;
-    const bool may_move = report.kind != MotionReport::Kind::progressed || !is_withheld(report.job);
+    const bool may_move =
+        report.kind != MotionReport::Kind::progressed || !starts_.withholds(report.job);
     if (may_move) step(report);
   }
+  count_motion();
+  if (watch_.is_due(now_)) watch();
+  publisher_.tell_arms(now_);
+  publisher_.tell_tick(now_);
+  const auto is_moving = [this](ArmId arm) { return motions_.moving(arm); };
+  if (wind_down_ && wind_down_->done && std::ranges::none_of(all_arms(*cell_), is_moving)) {
+    step(Interrupt{wind_down_->keeps_waiting});
+    std::exchange(wind_down_->done, nullptr)();
+  }
+}
+
+TimePoint Executive::Impl::settled_until() const {
+  return quiet_ && motions_.all_settled() ? wake_at_.value_or(TimePoint::max()) : now_;
+}
+
+void Executive::Impl::count_motion() {
   std::size_t in_motion = 0;
-  for (ArmId arm : all_arms()) {
+  for (ArmId arm : all_arms(*cell_)) {
     if (!motions_.advances(arm)) continue;
     figures_.busy[arm.index()] += kControlPeriod;
     ++in_motion;
   }
   if (in_motion >= 2) figures_.together += kControlPeriod;
-  if (now_ >= monitor_due_) {
-    monitor_due_ = now_ + monitor_period_;
-    watch();
-  }
-  tell_arms();
-  tell_tick();
-  if (wound_down_ && !any_moving()) {
-    step(Interrupt{keeps_waiting_});
-    std::exchange(wound_down_, nullptr)();
-  }
 }
-
-void Executive::Impl::tell_tick() {
-  if (const bool at_rest = motions_.all_at_rest(); at_rest != told_rest_) {
-    told_rest_ = at_rest;
-    observer_.on_rest(at_rest);
-  }
-  observer_.on_tick(now_, motions_.measured());
-}
-
-// ---- The monitor ----
 
 void Executive::Impl::watch() {
   const Configuration& q = motions_.measured();
-  if (watched_.size() != q.size() || watched_ != q) {
-    watched_ = q;
-    clearance_ = clearance_query_.closest_apart(q, kClearanceHorizon_m);
-    for (const Proximity& pair : clearance_) {
+  std::vector<bool> moving;
+  for (ArmId arm : all_arms(*cell_)) moving.push_back(motions_.moving(arm));
+  if (watch_.look(q, moving, now_)) {
+    for (const Proximity& pair : watch_.near()) {
       figures_.min_clearance_m = std::min(figures_.min_clearance_m, pair.clearance_m);
       if (!pair.arm_b) continue;
       figures_.between_arms_m = std::min(figures_.between_arms_m, pair.clearance_m);
     }
-    std::vector<bool> moving;
-    for (ArmId arm : all_arms()) moving.push_back(motions_.moving(arm));
-    const Configuration* state[] = {&q};
-    std::vector<Proximity> too_close;
-    if (clearance_query_.too_close(state) != 0) too_close = clearance_query_.closest_too_close(q);
-    for (MonitorFinding& finding : monitor_.observe(too_close, moving, now_)) {
-      MonitorEvent event{.finding = finding};
-      for (const auto& arm : {finding.proximity.arm_a, finding.proximity.arm_b}) {
-        if (arm && (event.arms.empty() || event.arms.front() != cell_->arm(*arm).name)) {
-          event.arms.push_back(cell_->arm(*arm).name);
-        }
-      }
-      for (ArmId arm : finding.stops) event.stopped.push_back(cell_->arm(arm).name);
+    for (const MonitorFinding& finding : watch_.found()) {
       if (!finding.stops.empty()) ++figures_.monitor_stops;
-      tell(event);
+      publisher_.tell(event_of(finding, *cell_), now_);
       if (!finding.stops.empty()) step(Stop{finding.stops, sentence(finding)});
     }
   }
-  observer_.on_state(StateFrame{now_, q, clearance_});
+  publisher_.tell_state(StateFrame{now_, q, watch_.near()});
+}
+
+// ---- What is asked of all arms ----
+
+void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause) {
+  publisher_.tell(
+      Alert{Alert::Level::warning, "stopped: " + names_of(*cell_, arms) + " (" + cause + ")"},
+      now_);
+  step(Stop{arms, cause});
+}
+
+void Executive::Impl::resume(const std::vector<ArmId>& arms) {
+  publisher_.tell(Alert{Alert::Level::info, "resumed: " + names_of(*cell_, arms)}, now_);
+  step(Resume{arms});
+}
+
+void Executive::Impl::end(const std::string& cause, bool keeps_waiting,
+                          std::function<void()> done) {
+  wind_down_ = {std::move(done), keeps_waiting};
+  intake_.close();
+  stop(all_arms(*cell_), cause);
+}
+
+// An object may not be set where an arm stands: that is a mistake, or an accident that the monitor
+// would answer with a stop.
+Result<void> Executive::Impl::change_objects(Result<std::vector<CollisionObject>> objects) {
+  if (!objects) return failure(std::move(objects.error()));
+  auto scene = scene_.scene->with_objects(*std::move(objects));
+  if (!scene) return failure(std::move(scene.error()));
+  ClearanceQuery query = StateWatch::query_of(*scene);
+  for (const NearPair& closer : query.near_pairs(motions_.measured())) {
+    const Proximity pair = query.describe(closer);
+    if (!pair.object_b) continue;
+    char text[256];
+    std::snprintf(text, sizeof text, "%s would be %.4f m from %s as it stands now, limit %.4f m",
+                  pair.body_b.c_str(), pair.clearance_m, pair.body_a.c_str(), pair.limit_m);
+    return failure(Problem{ProblemKind::conflict, "object-in-arm", "", text, pair.clearance_m});
+  }
+  scene_ = {std::move(*scene), scene_.version + 1};
+  watch_.follow(std::move(query));
+  publisher_.tell(SceneView{scene_.version, scene_.scene->objects()}, now_);
+  step(SceneChanged{});
+  return {};
+}
+
+// ---- What is to be seen ----
+
+std::optional<JobView> Executive::Impl::job(const std::string& key) const {
+  const auto id = jobs_.find(key);
+  return id ? std::optional(publisher_.view(*id)) : std::nullopt;
+}
+
+Snapshot Executive::Impl::snapshot(std::size_t ended_max) const {
+  Snapshot snapshot{.seq = publisher_.seq(),
+                    .time = now_,
+                    .queue = publisher_.queue(),
+                    .arms = publisher_.arms()};
+  snapshot.scene = SceneView{scene_.version, scene_.scene->objects()};
+  const auto& ended = jobs_.ended();
+  for (std::size_t i = ended.size() - std::min(ended_max, ended.size()); i < ended.size(); ++i) {
+    snapshot.jobs.push_back(publisher_.view(ended[i]));
+  }
+  for (JobId id : scheduler_.active()) snapshot.jobs.push_back(publisher_.view(id));
+  std::ranges::sort(snapshot.jobs, {}, &JobView::id);
+  return snapshot;
 }
 
 // ---- The public face ----
@@ -207,49 +292,46 @@ void Executive::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> can
 }
 void Executive::diagram(const std::string& key_a, const std::string& key_b,
                         std::function<void(Result<DiagramView>)> done) {
-  impl_->diagram(key_a, key_b, std::move(done));
+  impl_->drawings_.draw({key_a, key_b, impl_->scene_, impl_->now_}, std::move(done));
 }
 Result<JobView> Executive::cancel(const std::string& key) { return impl_->cancel(key); }
 void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause) {
-  impl_->tell(
-      Alert{Alert::Level::warning, "stopped: " + impl_->names_of(arms) + " (" + cause + ")"});
-  impl_->step(Stop{arms, cause});
+  impl_->stop(arms, cause);
 }
-void Executive::resume(const std::vector<ArmId>& arms) {
-  impl_->tell(Alert{Alert::Level::info, "resumed: " + impl_->names_of(arms)});
-  impl_->step(Resume{arms});
-}
+void Executive::resume(const std::vector<ArmId>& arms) { impl_->resume(arms); }
 void Executive::wind_down(const std::string& cause, Waiting waiting, std::function<void()> done) {
-  impl_->wound_down_ = std::move(done);
-  impl_->keeps_waiting_ = waiting == Waiting::is_kept;
-  stop_all(cause);
+  impl_->end(cause, waiting == Waiting::is_kept, std::move(done));
 }
 std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
   return impl_->restore(std::move(jobs));
 }
-void Executive::stop_all(const std::string& cause) { stop(impl_->all_arms(), cause); }
-void Executive::resume_all() { resume(impl_->all_arms()); }
+void Executive::stop_all(const std::string& cause) { stop(all_arms(*impl_->cell_), cause); }
+void Executive::resume_all() { resume(all_arms(*impl_->cell_)); }
 Result<void> Executive::add_object(CollisionObject object) {
-  return impl_->add_object(std::move(object));
+  return impl_->change_objects(with_object(*impl_->scene_.scene, std::move(object)));
 }
 Result<void> Executive::replace_object(CollisionObject object) {
-  return impl_->replace_object(std::move(object));
+  return impl_->change_objects(with_other_object(*impl_->scene_.scene, std::move(object)));
 }
 Result<void> Executive::remove_object(const std::string& name) {
-  return impl_->remove_object(name);
+  return impl_->change_objects(without_object(*impl_->scene_.scene, name));
 }
-const std::vector<CollisionObject>& Executive::objects() const { return impl_->scene_->objects(); }
-std::uint64_t Executive::scene_version() const { return impl_->scene_version_; }
-Result<std::uint64_t> Executive::inject(const FaultRequest& fault) { return impl_->inject(fault); }
-Result<void> Executive::remove_fault(std::uint64_t id) { return impl_->remove_fault(id); }
+const std::vector<CollisionObject>& Executive::objects() const {
+  return impl_->scene_.scene->objects();
+}
+std::uint64_t Executive::scene_version() const { return impl_->scene_.version; }
+Result<std::uint64_t> Executive::inject(const FaultRequest& fault) {
+  return impl_->faults_.inject(fault, impl_->now_);
+}
+Result<void> Executive::remove_fault(std::uint64_t id) { return impl_->faults_.remove(id); }
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
 Snapshot Executive::snapshot(std::size_t ended_max) const { return impl_->snapshot(ended_max); }
-std::vector<ArmView> Executive::arms() const { return impl_->arms(); }
+std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms(); }
 TimelineView Executive::timeline() const {
-  return timeline_of(impl_->scheduler_, impl_->now_, *impl_->cell_, *impl_);
+  return timeline_of(impl_->scheduler_, impl_->now_, *impl_->cell_, impl_->jobs_);
 }
 TimePoint Executive::now() const { return impl_->now_; }
-bool Executive::all_ended() const { return impl_->active_ == 0; }
+bool Executive::all_ended() const { return impl_->jobs_.active() == 0; }
 TimePoint Executive::settled_until() const { return impl_->settled_until(); }
 const RunFigures& Executive::figures() const { return impl_->figures_; }
 void Executive::tick(TimePoint now) { impl_->tick(now); }

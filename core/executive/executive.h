@@ -23,12 +23,12 @@ namespace armloom {
 
 struct TimelineView;
 
-// A job as a client asks for it, its JSON already read.
 // Whether jobs of one arm that begin and end at one place have to run in the order in which they
 // came. They may change places with each other where each of them says `any`.
 enum class JobOrder { as_given, any };
 [[nodiscard]] const char* to_string(JobOrder order);
 
+// A job as a client asks for it, its JSON already read.
 struct JobRequest {
   std::string key;  // the client's id; empty: one is given ("job-17")
   std::string name;

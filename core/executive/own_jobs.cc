@@ -1,7 +1,8 @@
 // Jobs of the server's own: arms that go aside, and back to where their clients left them.
 #include <utility>
 
-#include "core/executive/executive_impl.h"
+#include "core/executive/job_intake.h"
+#include "core/executive/start_elsewhere.h"
 #include "core/trajectory/joint_line.h"
 #include "core/trajectory/set_joints.h"
 
@@ -9,8 +10,7 @@ namespace armloom {
 
 // Clients know arms where they left them: one that was sent aside returns there for a job that
 // begins there.
-std::vector<TrajectoryPtr> Executive::Impl::returns_for(const Trajectory& motion,
-                                                        Ahead& ahead) const {
+std::vector<TrajectoryPtr> JobIntake::returns_for(const Trajectory& motion, Ahead& ahead) const {
   std::vector<TrajectoryPtr> returns;
   for (ArmId arm : motion.arms()) {
     const auto back = ahead.ways_back.find(arm);
@@ -29,8 +29,7 @@ std::vector<TrajectoryPtr> Executive::Impl::returns_for(const Trajectory& motion
   return returns;
 }
 
-// Of an arm that was sent aside, before a job of this priority.
-Submit Executive::Impl::return_of(TrajectoryPtr back, int priority) const {
+Submit JobIntake::return_of(TrajectoryPtr back, int priority) const {
   return {.job = JobId{0},
           .trajectory = std::move(back),
           .priority = priority,
@@ -38,15 +37,7 @@ Submit Executive::Impl::return_of(TrajectoryPtr back, int priority) const {
           .system_job = true};
 }
 
-void Executive::Impl::note_aside(const YieldMove& aside) {
-  const std::string arm = cell_->arm(aside.arm).name;
-  label(aside.job, {own_key(), aside.returns ? arm + " returns to where it stood"
-                                             : arm + " moves aside for " + key(aside.blocked_job)});
-  if (!aside.in_ring) remember_way_back(aside.arm, *scheduler_.find(aside.job)->trajectory);
-}
-
-// Where the clients of an arm left it, however often it goes aside.
-void Executive::Impl::remember_way_back(ArmId arm, const Trajectory& way) {
+void JobIntake::remember_way_back(ArmId arm, const Trajectory& way) {
   TrajectoryPtr back = retraced(way);
   if (const auto before = ways_back_.find(arm); before != ways_back_.end()) {
     const Trajectory& old = *before->second;
@@ -55,15 +46,6 @@ void Executive::Impl::remember_way_back(ArmId arm, const Trajectory& way) {
     }
   }
   ways_back_[arm] = std::move(back);
-}
-
-// Of a job of the server's own.
-std::string Executive::Impl::own_key() {
-  std::string own;
-  do {
-    own = "aside-" + std::to_string(next_aside_++);
-  } while (ids_.contains(own));
-  return own;
 }
 
 }  // namespace armloom

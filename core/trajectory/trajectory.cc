@@ -46,13 +46,22 @@ double swing(const std::array<double, 6>& p, double h) {
   return sum;
 }
 
-SegmentBounds bounds_of(const Segment& segment) {
+// A stretch of a segment this long is bounded by its speed; longer ones by their own polynomial.
+constexpr double kShort_s = 0.25;
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
+}  // namespace
+
+SegmentBounds bounds_of(const Segment& segment, double from_s, double to_s) {
   const Eigen::Index size = segment.coefficients.rows();
   SegmentBounds bounds{Eigen::VectorXd(size), Eigen::VectorXd(size), Eigen::VectorXd(size),
                        Eigen::VectorXd(size)};
-  const double h = 0.5 * to_seconds(segment.duration);
+  const double h = 0.5 * (to_s - from_s);
   for (Eigen::Index j = 0; j < size; ++j) {
-    const auto p = shifted(segment.coefficients, j, h);
+    const auto p = shifted(segment.coefficients, j, from_s + h);
     const double far = swing(p, h);
     bounds.lower[j] = p[0] - far;
     bounds.upper[j] = p[0] + far;
@@ -62,15 +71,6 @@ SegmentBounds bounds_of(const Segment& segment) {
   }
   return bounds;
 }
-
-// A stretch of a segment this long is bounded by its speed; longer ones by their own polynomial.
-constexpr double kShort_s = 0.25;
-
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
-
-}  // namespace
 
 Trajectory::Trajectory(std::vector<JointId> joints, std::vector<ArmId> arms,
                        std::vector<Segment> segments)
@@ -91,7 +91,7 @@ Trajectory::Trajectory(std::vector<JointId> joints, std::vector<ArmId> arms,
             "Trajectory: a segment needs one row for each joint");
     require(segment.coefficients.allFinite(), "Trajectory: a coefficient is not finite");
     starts_.push_back(segment.start);
-    bounds_.push_back(bounds_of(segment));
+    bounds_.push_back(bounds_of(segment, 0.0, to_seconds(segment.duration)));
     duration_ += segment.duration;
   }
   start_ = segments_.front().coefficients.col(0);

@@ -97,7 +97,8 @@ Verdict CertifiedCheck::swept() {
   for (std::size_t own = 0; own < candidates; ++own) {
     check_alone(all[own]);
     for (std::size_t other = own + 1; other < all.size(); ++other) {
-      check_swept(all[own], all[other]);
+      const bool is_one_motion = all[own].motion == all[other].motion;
+      is_one_motion ? check_in_step(all[own], all[other]) : check_swept(all[own], all[other]);
     }
   }
   if (verdict_.kind != Verdict::Kind::free) verdict_.clearance_bound.reset();

@@ -13,7 +13,8 @@ namespace armloom {
 // question asked again as time goes on costs next to nothing.
 //
 // Swept: candidates against themselves, what stands still, each other and every other motion or
-// resting arm, all of what remains of one against all of the other. With each arm's motion bounds
+// resting arm, all of what remains of one against all of the other; but the arms of one synchronous
+// motion as Coordinated has it. With each arm's motion bounds
 // (motion_tube.h) and the tracking error the cell's clearance_m (self_clearance_m of an arm from
 // itself, mount_clearance_m from its mount) is kept in every such state. Conflicts name one state
 // with each counterpart, of an arm alone the first in time, to within

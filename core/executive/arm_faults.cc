@@ -1,0 +1,34 @@
+#include "core/executive/arm_faults.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/executive/executive.h"
+
+namespace armloom {
+
+ArmFaults::ArmFaults(CellPtr cell, const std::vector<std::unique_ptr<FaultyArm>>& arms)
+    : cell_(std::move(cell)) {
+  for (const auto& arm : arms) arms_.push_back(arm.get());
+}
+
+Result<std::uint64_t> ArmFaults::inject(const FaultRequest& request, TimePoint now) {
+  const auto arm = cell_->find_arm(request.arm);
+  if (!arm) {
+    return failure(Problem{ProblemKind::invalid, "unknown-arm", "/arm",
+                           "no arm is named \"" + request.arm + "\"", request.arm});
+  }
+  ArmFault fault{
+      .kind = request.kind, .from = request.at.value_or(now), .until = {}, .value = request.value};
+  if (request.lasting) fault.until = fault.from + *request.lasting;
+  arms_[arm->index()]->inject(next_, fault);
+  return next_++;
+}
+
+Result<void> ArmFaults::remove(std::uint64_t id) {
+  if (std::ranges::any_of(arms_, [id](FaultyArm* arm) { return arm->remove(id); })) return {};
+  return failure(Problem{ProblemKind::not_found, "unknown-fault", "",
+                         "there is no fault " + std::to_string(id), static_cast<double>(id)});
+}
+
+}  // namespace armloom

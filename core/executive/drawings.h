@@ -1,0 +1,50 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <string>
+
+#include "core/executive/executive.h"
+#include "core/executive/job_register.h"
+
+namespace armloom {
+
+// The planning scene, and which of its versions it is.
+struct VersionedScene {
+  PlanningScenePtr scene;
+  std::uint64_t version = 1;
+};
+
+// Coordination diagrams of two jobs, for people who want to see why one waits. Keeps the last ones:
+// whoever looks at one asks again and again where its two are by now.
+class Drawings {
+ public:
+  // All outlive it.
+  Drawings(const Scheduler& scheduler, const JobRegister& jobs, JudgementService& judges)
+      : scheduler_(scheduler), jobs_(jobs), judges_(judges) {}
+
+  // As Executive::diagram().
+  struct Asked {
+    std::string key_a, key_b;
+    VersionedScene in;
+    TimePoint now;
+  };
+  void draw(const Asked& asked, std::function<void(Result<DiagramView>)> done);
+
+ private:
+  struct Drawn {
+    TrajectoryPtr a, b;
+    Configuration rest;
+    std::uint64_t scene_version;
+    Diagram diagram;
+  };
+  [[nodiscard]] Result<const Job*> known(const std::string& key, const std::string& pointer) const;
+  [[nodiscard]] DiagramView::Side side_of(const Job& job) const;
+
+  const Scheduler& scheduler_;
+  const JobRegister& jobs_;
+  JudgementService& judges_;
+  std::deque<Drawn> drawn_;  // newest first
+};
+
+}  // namespace armloom

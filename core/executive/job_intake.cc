@@ -1,0 +1,175 @@
+#include "core/executive/job_intake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "core/base/add_below.h"
+#include "core/executive/start_elsewhere.h"
+#include "core/sequence/places.h"
+#include "core/trajectory/set_joints.h"
+
+namespace armloom {
+namespace {
+
+// Each moves one arm, not another one's, and leaves it where it was: so the next job of an arm that
+// does not get this one can begin there.
+void find_bad_alternatives(const Cell& cell, const std::vector<TrajectoryPtr>& motions,
+                           Problems& problems) {
+  std::vector<ArmId> arms;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const Trajectory& motion = *motions[i];
+    const std::string place = "/alternatives/" + std::to_string(i);
+    const ArmId arm = motion.arms().front();
+    const std::string& name = cell.arm(arm).name;
+    if (motion.arms().size() > 1 || std::ranges::find(arms, arm) != arms.end()) {
+      problems.push_back({ProblemKind::invalid, "bad-alternative", place + "/joint_names",
+                          "each alternative moves one arm, that no other alternative moves", name});
+    }
+    arms.push_back(arm);
+    for (std::size_t j = 0; j < motion.joints().size(); ++j) {
+      const auto index = static_cast<Eigen::Index>(j);
+      const double off = motion.goal()[index] - motion.start()[index];
+      if (std::abs(off) <= Places::kRounding) continue;
+      problems.push_back({ProblemKind::invalid, "alternative-ends-elsewhere",
+                          place + "/points/" + std::to_string(motion.segments().size()) +
+                              "/positions/" + std::to_string(j),
+                          cell.joint(motion.joints()[j]).name +
+                              ": an alternative has to end where it begins, as the next job of " +
+                              name + " cannot know whether it is taken",
+                          motion.goal()[index]});
+    }
+  }
+}
+
+Problem key_in_use(const std::string& key) {
+  return Problem{ProblemKind::conflict, "id-in-use", "/id",
+                 "id \"" + key + "\" is in use by another job", key};
+}
+
+}  // namespace
+
+JobIntake::Ahead JobIntake::ahead() const {
+  return {scheduler_.predicted_rest(), {}, ways_back_, scheduler_.open_ends()};
+}
+
+Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
+  if (is_closed_) {
+    return failure(Problem{ProblemKind::unavailable, "server-ends", "",
+                           "the server is ending and accepts no job"});
+  }
+  if (scheduler_.active().size() + ahead.keys.size() >= waiting_max_) {
+    return failure(
+        Problem{ProblemKind::unavailable, "queue-full", "",
+                "the queue is full: " + std::to_string(waiting_max_) + " jobs have not ended"});
+  }
+  Problems problems;
+  std::vector<TrajectoryPtr> returns;
+  const bool taken =
+      jobs_.is_taken(request.key) || std::ranges::find(ahead.keys, request.key) != ahead.keys.end();
+  if (!request.key.empty() && taken) problems.push_back(key_in_use(request.key));
+  find_bad_after(request, ahead, problems);
+  std::optional<MotionGoal> goal;
+  std::vector<TrajectoryPtr> motions;
+  if (!request.move_to && !request.arm.empty()) {
+    problems.push_back({ProblemKind::invalid, "unknown-field", "/arm",
+                        "an arm is named with move_to; a trajectory's joints say which arms move",
+                        request.arm});
+  }
+  if (request.move_to) {
+    goal = read_goal(request, problems);
+    if (goal && problems.empty()) motions.push_back(estimate_for(*goal, ahead));
+  } else {
+    motions = read_motions(request, ahead, returns, problems);
+  }
+  if (!problems.empty()) return failure(std::move(problems));
+
+  set_joints(ahead.rest, *motions.front(), motions.front()->goal());
+  ahead.keys.push_back(request.key);
+  return PreparedJob{std::move(request.key),
+                     std::move(request.name),
+                     std::move(motions),
+                     std::move(goal),
+                     request.order,
+                     request.priority,
+                     request.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
+                     std::move(request.after),
+                     std::move(returns)};
+}
+
+// Its trajectory, or its alternatives; and what has to move first so that they can begin.
+std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ahead& ahead,
+                                                   std::vector<TrajectoryPtr>& returns,
+                                                   Problems& problems) const {
+  std::vector<TrajectoryPtr> motions;
+  for (const auto& [place, asked] : request.motions()) {
+    auto motion = validate(asked, *cell_);
+    Problems found = motion ? Problems{} : std::move(motion.error());
+    if (motion) {
+      begin_where_open(**motion, ahead);
+      for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
+      if (!ahead.begins_anywhere) find_start_elsewhere(*cell_, **motion, ahead.rest, found);
+      motions.push_back(std::move(*motion));
+    }
+    add_below(place, std::move(found), problems);
+  }
+  if (problems.empty() && motions.size() > 1) find_bad_alternatives(*cell_, motions, problems);
+  return motions;
+}
+
+// Where it is not known yet where an arm will be, it is taken to be where the motion begins; at its
+// turn that is seen.
+void JobIntake::begin_where_open(const Trajectory& motion, Ahead& ahead) const {
+  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
+    const JointId joint = motion.joints()[j];
+    const auto arm = cell_->joint(joint).arm;
+    if (!arm || std::ranges::find(ahead.open, *arm) == ahead.open.end()) continue;
+    ahead.rest[static_cast<Eigen::Index>(joint.index())] =
+        motion.start()[static_cast<Eigen::Index>(j)];
+  }
+  for (ArmId arm : motion.arms()) std::erase(ahead.open, arm);
+}
+
+// A job can only come after one that is known before it: so there are no rings.
+void JobIntake::find_bad_after(const JobRequest& request, const Ahead& ahead,
+                               Problems& problems) const {
+  for (std::size_t i = 0; i < request.after.size(); ++i) {
+    const std::string& key = request.after[i];
+    const std::string pointer = "/after/" + std::to_string(i);
+    if (!key.empty() && std::ranges::find(ahead.keys, key) != ahead.keys.end()) continue;
+    if (std::ranges::find(request.succeeded, key) != request.succeeded.end()) continue;
+    if (key == request.key) {
+      problems.push_back({ProblemKind::invalid, "after-itself", pointer,
+                          "job \"" + key + "\" cannot come after itself", key});
+    } else if (const auto known = jobs_.find(key); !known) {
+      problems.push_back({ProblemKind::invalid, "unknown-job", pointer,
+                          "no job before this one has the id \"" + key + "\"", key});
+    } else if (const Job& job = *scheduler_.find(*known);
+               job.has_ended() && job.state() != JobState::succeeded) {
+      problems.push_back(
+          {ProblemKind::invalid, "predecessor-failed", pointer,
+           "job \"" + key + "\" has ended without success: " + to_string(job.state()), key});
+    }
+  }
+}
+
+Submit JobIntake::submission(PreparedJob prepared) const {
+  std::vector<JobId> after;
+  for (const std::string& before : prepared.after) {
+    const auto job = jobs_.find(before);
+    if (!job) continue;  // it is known to have succeeded
+    if (!is_terminal(scheduler_.find(*job)->state())) after.push_back(*job);
+  }
+  Submit job{.job = JobId{0},
+             .trajectory = prepared.alternatives.front(),
+             .priority = prepared.priority,
+             .backlog_timeout = prepared.backlog_timeout,
+             .after = std::move(after),
+             .any_order = prepared.order == JobOrder::any,
+             .goal = std::move(prepared.goal)};
+  if (prepared.alternatives.size() > 1) job.alternatives = std::move(prepared.alternatives);
+  return job;
+}
+
+}  // namespace armloom

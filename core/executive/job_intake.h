@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/executive/executive.h"
+#include "core/executive/job_register.h"
+#include "core/scheduler/scheduler.h"
+
+namespace armloom {
+
+// What a request has become once everything about it has been checked.
+struct PreparedJob {
+  std::string key;  // empty: one is to be given
+  std::string name;
+  std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; the only one, mostly
+  std::optional<MotionGoal> goal;           // the trajectory is an estimate
+  JobOrder order;
+  int priority;
+  Duration backlog_timeout;
+  std::vector<std::string> after;
+  std::vector<TrajectoryPtr> returns;  // of its arms, to where their clients left them
+};
+
+// Reads what clients ask for, against the cell and what has been accepted before. Changes nothing
+// but what it knows of ways back.
+class JobIntake {
+ public:
+  // Both outlive it. At most `waiting_max` jobs are to be active at once.
+  JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs,
+            std::size_t waiting_max)
+      : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), waiting_max_(waiting_max) {}
+
+  // Where joints will stand, and which keys are taken, when the jobs before it are accepted.
+  struct Ahead {
+    Configuration rest;
+    std::vector<std::string> keys;
+    std::map<ArmId, TrajectoryPtr> ways_back;  // of arms that were sent aside
+    std::vector<ArmId> open = {};              // whose end of `rest` is not known yet
+    bool begins_anywhere = false;              // jobs need not begin at `rest`
+  };
+  [[nodiscard]] Ahead ahead() const;
+  // Everything that can be said against a request, before anything is stored. `ahead` then holds
+  // what the next request of a batch finds.
+  [[nodiscard]] Result<PreparedJob> prepare(JobRequest request, Ahead& ahead) const;
+  // The scheduler's job, but for its id.
+  [[nodiscard]] Submit submission(PreparedJob prepared) const;
+  // Of an arm that was sent aside, before a job of this priority.
+  [[nodiscard]] Submit return_of(TrajectoryPtr back, int priority) const;
+
+  // What was prepared is accepted.
+  void accepted(Ahead ahead) { ways_back_ = std::move(ahead.ways_back); }
+  // The arm goes aside: where its clients left it, however often it does.
+  void remember_way_back(ArmId arm, const Trajectory& way);
+  // The server is ending: no job is taken from now on.
+  void close() { is_closed_ = true; }
+
+ private:
+  [[nodiscard]] std::vector<TrajectoryPtr> read_motions(const JobRequest& request, Ahead& ahead,
+                                                        std::vector<TrajectoryPtr>& returns,
+                                                        Problems& problems) const;
+  [[nodiscard]] std::optional<MotionGoal> read_goal(const JobRequest& request,
+                                                    Problems& problems) const;
+  [[nodiscard]] TrajectoryPtr estimate_for(const MotionGoal& goal, Ahead& ahead) const;
+  void begin_where_open(const Trajectory& motion, Ahead& ahead) const;
+  void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
+  [[nodiscard]] std::vector<TrajectoryPtr> returns_for(const Trajectory& motion,
+                                                       Ahead& ahead) const;
+
+  CellPtr cell_;
+  const Scheduler& scheduler_;
+  const JobRegister& jobs_;
+  std::size_t waiting_max_;
+  std::map<ArmId, TrajectoryPtr> ways_back_;
+  bool is_closed_ = false;
+};
+
+}  // namespace armloom

@@ -1,0 +1,68 @@
+#include "core/executive/job_register.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace armloom {
+
+void JobRegister::add(JobId id, JobLabel label) {
+  ids_.emplace(label.key, id);
+  labels_.emplace(id, std::move(label));
+}
+
+std::vector<JobId> JobRegister::end(JobId id, std::size_t kept) {
+  ended_.push_back(id);
+  std::vector<JobId> forgotten;
+  while (ended_.size() > kept) {
+    const JobId oldest = ended_.front();
+    ended_.pop_front();
+    ids_.erase(labels_.at(oldest).key);
+    labels_.erase(oldest);
+    forgotten.push_back(oldest);
+  }
+  return forgotten;
+}
+
+std::optional<JobId> JobRegister::find(const std::string& key) const {
+  const auto found = ids_.find(key);
+  return found == ids_.end() ? std::nullopt : std::optional(found->second);
+}
+
+const JobLabel* JobRegister::label(JobId id) const {
+  const auto found = labels_.find(id);
+  return found == labels_.end() ? nullptr : &found->second;
+}
+
+std::string JobRegister::free_key(JobId id) const {
+  const std::string base = "job-" + std::to_string(id.value());
+  std::string key = base;
+  for (int n = 2; is_taken(key); ++n) key = base + "." + std::to_string(n);
+  return key;
+}
+
+std::string JobRegister::own_key() {
+  std::string own;
+  do {
+    own = "aside-" + std::to_string(next_own_++);
+  } while (is_taken(own));
+  return own;
+}
+
+std::string JobRegister::key(JobId job) const {
+  const JobLabel* known = label(job);
+  return known == nullptr ? std::string() : known->key;
+}
+
+std::string JobRegister::name(JobId job) const {
+  const JobLabel* known = label(job);
+  return known == nullptr ? std::string() : known->name;
+}
+
+bool JobRegister::has_job(ArmId arm) const {
+  return std::ranges::any_of(scheduler_.active(), [&](JobId job) {
+    const auto& arms = scheduler_.find(job)->trajectory->arms();
+    return std::ranges::find(arms, arm) != arms.end();
+  });
+}
+
+}  // namespace armloom

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/time.h"
+#include "core/executive/views.h"
+#include "core/scheduler/scheduler.h"
+
+namespace armloom {
+
+// What clients know a job by.
+struct JobLabel {
+  std::string key;
+  std::string name;
+  std::optional<TimePoint> submitted_at = {};  // in a former run
+};
+
+// The jobs under the names that clients have for them, and which of them have ended.
+class JobRegister final : public JobNames {
+ public:
+  // `scheduler` outlives it.
+  explicit JobRegister(const Scheduler& scheduler) : scheduler_(scheduler) {}
+
+  // Precondition: the key is not taken.
+  void add(JobId id, JobLabel label);
+  // The job has ended. Those that ended longest ago, so that `kept` remain, are taken out:
+  // returned, for whoever else knows them.
+  std::vector<JobId> end(JobId id, std::size_t kept);
+
+  [[nodiscard]] std::optional<JobId> find(const std::string& key) const;
+  [[nodiscard]] bool is_taken(const std::string& key) const { return ids_.contains(key); }
+  // Null for what was forgotten.
+  [[nodiscard]] const JobLabel* label(JobId id) const;
+  [[nodiscard]] std::size_t active() const { return labels_.size() - ended_.size(); }
+  [[nodiscard]] const std::deque<JobId>& ended() const { return ended_; }  // oldest first
+
+  // A key for a job whose client gave none: "job-17", or "job-17.2" where that is taken.
+  [[nodiscard]] std::string free_key(JobId id) const;
+  // The next one for a job of the server's own.
+  [[nodiscard]] std::string own_key();
+
+  // Empty for a job that has been forgotten since.
+  [[nodiscard]] std::string key(JobId job) const override;
+  [[nodiscard]] std::string name(JobId job) const override;
+  [[nodiscard]] bool has_job(ArmId arm) const override;
+  [[nodiscard]] bool is_stopped(ArmId arm) const override { return scheduler_.stopped(arm); }
+
+ private:
+  const Scheduler& scheduler_;
+  std::unordered_map<std::string, JobId> ids_;
+  std::unordered_map<JobId, JobLabel> labels_;
+  std::deque<JobId> ended_;
+  std::uint64_t next_own_ = 1;
+};
+
+}  // namespace armloom

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/executive/executive.h"
+#include "core/executive/job_register.h"
+#include "core/executive/motions.h"
+#include "core/executive/start_gate.h"
+#include "core/scheduler/scheduler.h"
+
+namespace armloom {
+
+// What clients are told as it changes, and what they see when they ask.
+class Publisher {
+ public:
+  // Whatever is shown; it outlives the publisher.
+  struct Shown {
+    const Cell& cell;
+    const Scheduler& scheduler;
+    const Motions& motions;
+    const JobRegister& jobs;
+    const StartGate& starts;
+  };
+  Publisher(const Shown& shown, Observer& observer);
+
+  using Body = std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, Alert>;
+  void tell(Body body, TimePoint now);
+  // With an alert where it failed.
+  void tell_job(JobView view, TimePoint now);
+  // What is otherwise than it was when told last:
+  void tell_arms(TimePoint now);
+  void tell_stops();
+  void tell_queue(TimePoint now);
+  // Each control cycle.
+  void tell_tick(TimePoint now);
+  // Each period of the monitor.
+  void tell_state(const StateFrame& frame) { observer_.on_state(frame); }
+
+  // Times of a former run are shown as they were.
+  [[nodiscard]] JobView view(JobId job) const;
+  [[nodiscard]] std::vector<ArmView> arms() const;
+  [[nodiscard]] QueueView queue() const;
+  // Of the last event.
+  [[nodiscard]] std::uint64_t seq() const { return seq_; }
+
+ private:
+  [[nodiscard]] bool is_told_of_a_start(ArmId arm) const;
+  [[nodiscard]] ArmState state_of(ArmId arm) const;
+  [[nodiscard]] ArmView view_of_arm(ArmId arm) const;
+
+  Shown shown_;
+  Observer& observer_;
+  std::uint64_t seq_ = 0;
+  bool told_rest_ = false;
+  std::vector<ArmState> told_arms_;         // ArmId
+  std::vector<std::string> told_arm_jobs_;  // ArmId
+  std::vector<ArmId> told_stops_;
+  QueueView told_queue_;
+};
+
+}  // namespace armloom
