@@ -210,6 +210,7 @@ void Executive::diagram(const std::string& key_a, const std::string& key_b,
   impl_->diagram(key_a, key_b, std::move(done));
 }
 Result<JobView> Executive::cancel(const std::string& key) { return impl_->cancel(key); }
+Result<JobView> Executive::replan(const std::string& key) { return impl_->replan(key); }
 void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause) {
   impl_->tell(
       Alert{Alert::Level::warning, "stopped: " + impl_->names_of(arms) + " (" + cause + ")"});

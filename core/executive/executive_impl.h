@@ -33,6 +33,7 @@ class Executive::Impl final : public JobNames {
   Result<JobView> submit(JobRequest request);
   Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests, bool atomic);
   Result<JobView> cancel(const std::string& key);
+  Result<JobView> replan(const std::string& key);
   std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
 
   // checking.cc
@@ -109,6 +110,8 @@ class Executive::Impl final : public JobNames {
     std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; the only one, mostly
     std::optional<MotionGoal> goal;           // the trajectory is an estimate
     JobOrder order;
+    OnTimeout on_timeout;
+    Approach approach;
     int priority;
     Duration backlog_timeout;
     std::vector<std::string> after;
@@ -135,13 +138,14 @@ class Executive::Impl final : public JobNames {
   void walk(std::shared_ptr<Trial> trial, std::function<void(Result<CheckView>)> done);
   void enter(Submit submitted, Label label);
   [[nodiscard]] JobId next_job() const;
+  [[nodiscard]] Result<JobId> not_ended(const std::string& key) const;
   [[nodiscard]] Submit submission(Prepared prepared) const;
   [[nodiscard]] Submit return_of(TrajectoryPtr back, int priority) const;
   void remember_way_back(ArmId arm, const Trajectory& way);
   void label(JobId id, Label label);
   [[nodiscard]] Ahead ahead_now() const;
   std::vector<TrajectoryPtr> returns_for(const Trajectory& motion, Ahead& ahead) const;
-  std::string own_key();
+  std::string own_key(const std::string& begins, std::uint64_t& next) const;
   Result<const Job*> known(const std::string& key, const std::string& pointer) const;
   DiagramView::Side side_of(const Job& job) const;
   DiagramView shown(DiagramView view, const Diagram& diagram) const;
@@ -189,6 +193,7 @@ class Executive::Impl final : public JobNames {
   std::unordered_map<JobId, Start> starts_;
   std::uint64_t next_fault_ = 1;
   std::uint64_t next_aside_ = 1;
+  std::uint64_t next_approach_ = 1;
   std::map<ArmId, TrajectoryPtr> ways_back_;
   std::uint64_t seq_ = 0;
   bool told_rest_ = false;

@@ -40,8 +40,15 @@ Submit Executive::Impl::return_of(TrajectoryPtr back, int priority) const {
 
 void Executive::Impl::note_aside(const YieldMove& aside) {
   const std::string arm = cell_->arm(aside.arm).name;
-  label(aside.job, {own_key(), aside.returns ? arm + " returns to where it stood"
-                                             : arm + " moves aside for " + key(aside.blocked_job)});
+  if (aside.to_start) {
+    label(aside.job, {own_key("approach-", next_approach_),
+                      arm + " goes to the start of " + key(aside.blocked_job)});
+    ways_back_.erase(aside.arm);
+    return;
+  }
+  label(aside.job, {own_key("aside-", next_aside_),
+                    aside.returns ? arm + " returns to where it stood"
+                                  : arm + " moves aside for " + key(aside.blocked_job)});
   if (!aside.in_ring) remember_way_back(aside.arm, *scheduler_.find(aside.job)->trajectory);
 }
 
@@ -58,10 +65,10 @@ void Executive::Impl::remember_way_back(ArmId arm, const Trajectory& way) {
 }
 
 // Of a job of the server's own.
-std::string Executive::Impl::own_key() {
+std::string Executive::Impl::own_key(const std::string& begins, std::uint64_t& next) const {
   std::string own;
   do {
-    own = "aside-" + std::to_string(next_aside_++);
+    own = begins + std::to_string(next++);
   } while (ids_.contains(own));
   return own;
 }

@@ -7,6 +7,7 @@
 #include "core/base/told.h"
 #include "core/base/whole_turns.h"
 #include "core/executive/executive_impl.h"
+#include "core/scheduler/replanning.h"
 #include "core/scheduler/sequence/places.h"
 #include "core/trajectory/set_joints.h"
 
@@ -118,6 +119,12 @@ Result<Executive::Impl::Prepared> Executive::Impl::prepare(JobRequest request, A
                         "an arm is named with move_to; a trajectory's joints say which arms move",
                         request.arm});
   }
+  if (request.approach == Approach::plan && (request.move_to || request.motions().size() > 1)) {
+    problems.push_back({ProblemKind::invalid, "not-served", "/approach",
+                        "a goal's way begins where the arm stands, and alternatives end where they "
+                        "begin: neither has an approach",
+                        to_string(request.approach)});
+  }
   if (request.move_to) {
     goal = read_goal(request, problems);
     if (goal && problems.empty()) motions.push_back(estimate_for(*goal, ahead));
@@ -133,6 +140,8 @@ Result<Executive::Impl::Prepared> Executive::Impl::prepare(JobRequest request, A
                   std::move(motions),
                   std::move(goal),
                   request.order,
+                  request.on_timeout,
+                  request.approach,
                   request.priority,
                   request.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
                   std::move(request.after),
@@ -150,7 +159,8 @@ std::vector<TrajectoryPtr> Executive::Impl::read_motions(const JobRequest& reque
     if (motion) {
       begin_where_open(**motion, ahead);
       for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
-      if (!ahead.begins_anywhere) find_start_elsewhere(*cell_, **motion, ahead.rest, found);
+      const bool begins_anywhere = ahead.begins_anywhere || request.approach == Approach::plan;
+      if (!begins_anywhere) find_start_elsewhere(*cell_, **motion, ahead.rest, found);
       motions.push_back(std::move(*motion));
     }
     for (Problem& p : prefixed(place, std::move(found))) problems.push_back(std::move(p));
@@ -220,7 +230,7 @@ JobView Executive::Impl::accept(Prepared prepared) {
     std::string name = cell_->arm(back->arms().front()).name + " returns to where it was left";
     Submit way = return_of(std::move(back), prepared.priority);
     way.job = next_job();
-    enter(std::move(way), {own_key(), std::move(name)});
+    enter(std::move(way), {own_key("aside-", next_aside_), std::move(name)});
   }
   const JobId id = next_job();
   Label label{std::move(prepared.key), std::move(prepared.name)};
@@ -259,7 +269,9 @@ Submit Executive::Impl::submission(Prepared prepared) const {
              .backlog_timeout = prepared.backlog_timeout,
              .after = std::move(after),
              .any_order = prepared.order == JobOrder::any,
-             .goal = std::move(prepared.goal)};
+             .goal = std::move(prepared.goal),
+             .replans_on_timeout = prepared.on_timeout == OnTimeout::replan,
+             .approaches = prepared.approach == Approach::plan};
   if (prepared.alternatives.size() > 1) job.alternatives = std::move(prepared.alternatives);
   return job;
 }
@@ -272,7 +284,7 @@ std::string Executive::Impl::free_key(JobId id) const {
   return key;
 }
 
-Result<JobView> Executive::Impl::cancel(const std::string& key) {
+Result<JobId> Executive::Impl::not_ended(const std::string& key) const {
   const auto it = ids_.find(key);
   if (it == ids_.end()) {
     return failure(Problem{ProblemKind::not_found, "no-such-job", "request target",
@@ -284,8 +296,25 @@ Result<JobView> Executive::Impl::cancel(const std::string& key) {
     return failure(Problem{ProblemKind::conflict, "job-has-ended", "",
                            "job \"" + key + "\" has ended: " + to_string(state), key});
   }
-  step(Cancel{id});
-  return view(*scheduler_.find(id));
+  return id;
+}
+
+Result<JobView> Executive::Impl::cancel(const std::string& key) {
+  const auto id = not_ended(key);
+  if (!id) return failure(id.error());
+  step(Cancel{*id});
+  return view(*scheduler_.find(*id));
+}
+
+Result<JobView> Executive::Impl::replan(const std::string& key) {
+  const auto id = not_ended(key);
+  if (!id) return failure(id.error());
+  if (const auto why = why_not_replanned(*scheduler_.find(*id))) {
+    return failure(Problem{ProblemKind::conflict, "no-other-way", "",
+                           "job \"" + key + "\" can be given no other way: " + *why, key});
+  }
+  step(Replan{*id});
+  return view(*scheduler_.find(*id));
 }
 
 }  // namespace armloom

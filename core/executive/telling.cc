@@ -110,7 +110,7 @@ QueueView Executive::Impl::queue() const {
 // Of a job that has not begun: it may not leave where it stands before that is on disk.
 bool Executive::Impl::is_told_of_a_start(ArmId arm) const {
   const auto job = scheduler_.occupant(arm);
-  return job && starts_.contains(*job) && !scheduler_.find(*job)->has_started();
+  return job && starts_.contains(*job) && !scheduler_.find(*job)->times.started_at;
 }
 
 ArmState Executive::Impl::state_of(ArmId arm) const {
