@@ -3,10 +3,10 @@
 
     server/demo.py URL JOBS_FILE [--parent PID]
 
-Reads the moves out and back from a jobs file (config/two_pandas_jobs.json) and keeps two jobs of
-each arm accepted for as long as the server runs, so that queue and backlog are at work. An arm
-that somebody has moved or canceled elsewhere is brought home first. Ends with the server, or when
-the process PID has gone.
+Reads the moves out and back from a jobs file (config/two_pandas_jobs.json) and asks for their goals,
+two jobs of each arm at any time for as long as the server runs, so that queue and backlog are at
+work: the server plans the ways, from wherever an arm has been moved or canceled. Ends with the
+server, or when the process PID has gone.
 """
 import json
 import os
@@ -15,11 +15,7 @@ import time
 import urllib.error
 import urllib.request
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "config"))
-from joint_moves import quintic  # noqa: E402
-
 AHEAD = 2  # jobs of each arm that are accepted and have not ended
-NEAR_RAD = 0.005  # closer than this, an arm stands at a trajectory's start
 
 
 class Server:
@@ -44,38 +40,27 @@ class Server:
 
 
 class Shuttle:
-    """One arm, going through its jobs again and again."""
+    """One arm, going to the ends of its moves again and again, from wherever it is."""
 
     def __init__(self, server, arm, moves):
         self.server, self.arm, self.moves = server, arm, moves
         self.next = 0
-        self.last_goal = None  # where the accepted jobs end; None: wait until they have, and look
 
     def keep_busy(self, queue):
         waiting = [job for state in ("queued", "backlog", "scheduled", "running")
                    for job in queue[state] if self.arm in job["arms"]]
-        if not waiting:
-            self.last_goal = self.server.call("GET", f"/arms/{self.arm}")["q"]
-        if len(waiting) < AHEAD and self.last_goal is not None:
+        if len(waiting) < AHEAD:
             self.post_one()
 
     def post_one(self):
         move = self.moves[self.next]
-        start = move["trajectory"]["points"][0]["positions"]
-        if max(abs(a - b) for a, b in zip(start, self.last_goal)) > NEAR_RAD:
-            self.next = 0  # the first move begins at home
-            home = self.moves[0]["trajectory"]["points"][0]["positions"]
-            names = move["trajectory"]["joint_names"]
-            job = {"name": f"{self.arm}: back home", "trajectory": quintic(names, self.last_goal, home)}
-        else:
-            job = {"name": move["name"], "trajectory": move["trajectory"]}
-            self.next = (self.next + 1) % len(self.moves)
+        goal = {"joints": move["trajectory"]["points"][-1]["positions"]}
+        job = {"name": move["name"], "arm": self.arm, "move_to": goal}
         try:
             self.server.call("POST", "/jobs", job)
-            self.last_goal = job["trajectory"]["points"][-1]["positions"]
+            self.next = (self.next + 1) % len(self.moves)
         except urllib.error.HTTPError as error:
             print(f"demo: {error.code} {error.read().decode()}", file=sys.stderr)
-            self.last_goal = None
             time.sleep(1)
 
 

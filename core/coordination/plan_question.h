@@ -19,7 +19,8 @@ struct MotionGoal {
   ArmId arm;
   // Of the arm's joints, in its order (rad, m); or of one of its links.
   std::variant<Eigen::VectorXd, LinkTarget> to;
-  double speed = 1.0;  // share of the joints' velocities, in (0, 1]
+  double speed = 1.0;     // in (0, 1]: as if all were stretched in time
+  bool straight = false;  // of a link: along a straight line in the world (tool_line.h)
 };
 
 // "How does the arm get there?" Plain data: complete, self-contained, safe to hand to another

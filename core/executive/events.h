@@ -45,6 +45,13 @@ struct ChoiceView {
   std::optional<double> saves_s;
   std::string detail;  // one sentence
 };
+// Other ways that were looked for, for a job (scheduler/replanning.h).
+struct AnotherWayView {
+  std::uint64_t done = 0;                               // so many times it was given one
+  bool is_open = false;                                 // one is being looked for
+  AnotherWay::Cause cause = AnotherWay::Cause::client;  // of the last time
+  std::optional<std::string> refusal;                   // why it kept its own, the last time
+};
 struct JobView {
   JobId id{0};
   std::string key;   // the "id" that clients use
@@ -64,6 +71,7 @@ struct JobView {
   std::vector<WaitView> waits_on;
   std::vector<std::string> alternatives;  // names of arms of which one does it
   bool any_order = false;
+  std::optional<AnotherWayView> another_way;
   std::optional<ChoiceView> choice;
   std::vector<std::string> ring;  // keys: the deadlock that it is part of, itself first
   std::optional<Reason> reason;   // when ended

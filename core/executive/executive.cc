@@ -124,10 +124,15 @@ void Executive::Impl::start_is_written(JobId job) {
 
 void Executive::Impl::note_aside(const YieldMove& aside) {
   const std::string arm = cell_->arm(aside.arm).name;
-  jobs_.add(aside.job, {jobs_.own_key(),
-                        aside.returns ? arm + " returns to where it stood"
-                                      : arm + " moves aside for " + jobs_.key(aside.blocked_job)});
-  if (!aside.in_ring) {
+  const std::string blocked = jobs_.key(aside.blocked_job);
+  const OwnJob kind = aside.to_start ? OwnJob::approach : OwnJob::aside;
+  const std::string name = aside.to_start  ? arm + " goes to the start of " + blocked
+                           : aside.returns ? arm + " returns to where it stood"
+                                           : arm + " moves aside for " + blocked;
+  jobs_.add(aside.job, {jobs_.own_key(kind), name});
+  if (aside.to_start) {
+    intake_.forget_way_back(aside.arm);
+  } else if (!aside.in_ring) {
     intake_.remember_way_back(aside.arm, *scheduler_.find(aside.job)->trajectory);
   }
 }
@@ -295,6 +300,7 @@ void Executive::diagram(const std::string& key_a, const std::string& key_b,
   impl_->drawings_.draw({key_a, key_b, impl_->scene_, impl_->now_}, std::move(done));
 }
 Result<JobView> Executive::cancel(const std::string& key) { return impl_->cancel(key); }
+Result<JobView> Executive::replan(const std::string& key) { return impl_->replan(key); }
 void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause) {
   impl_->stop(arms, cause);
 }

@@ -28,6 +28,13 @@ struct TimelineView;
 enum class JobOrder { as_given, any };
 [[nodiscard]] const char* to_string(JobOrder order);
 
+// What becomes of a job when its time in the backlog is over.
+enum class OnTimeout { abort, replan };
+[[nodiscard]] const char* to_string(OnTimeout what);
+// How an arm comes to where a job begins: that is where it stands by then, or it is brought there.
+enum class Approach { none, plan };
+[[nodiscard]] const char* to_string(Approach how);
+
 // A job as a client asks for it, its JSON already read.
 struct JobRequest {
   std::string key;  // the client's id; empty: one is given ("job-17")
@@ -41,6 +48,8 @@ struct JobRequest {
   std::string arm = {};
   double speed = 1.0;
   JobOrder order = JobOrder::as_given;
+  OnTimeout on_timeout = OnTimeout::abort;
+  Approach approach = Approach::none;
   int priority = 0;
   std::optional<Duration> backlog_timeout;  // absent: the cell's
   std::vector<std::string> after;           // keys of jobs that have to succeed first
@@ -206,6 +215,10 @@ class Executive {
                std::function<void(Result<DiagramView>)> done);
   // Problems: not_found; conflict when it has ended.
   [[nodiscard]] Result<JobView> cancel(const std::string& key);
+  // Another way for the job, from where its arm stands to where its own way ends, given what else
+  // is there (scheduler/replanning.h). One in motion is brought to rest first. Problems: not_found;
+  // conflict when it has ended, or is such that it can be given no other way.
+  [[nodiscard]] Result<JobView> replan(const std::string& key);
 
   void stop(const std::vector<ArmId>& arms, const std::string& cause);
   void resume(const std::vector<ArmId>& arms);

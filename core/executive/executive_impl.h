@@ -33,6 +33,7 @@ class Executive::Impl {
   Result<JobView> submit(JobRequest request);
   Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests, bool atomic);
   Result<JobView> cancel(const std::string& key);
+  Result<JobView> replan(const std::string& key);
   std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
 
   // asking.cc
@@ -65,6 +66,7 @@ class Executive::Impl {
  private:
   JobView accept(PreparedJob prepared);
   [[nodiscard]] JobId next_job() const;
+  [[nodiscard]] Result<JobId> not_ended(const std::string& key) const;
   void enter(Submit submitted, JobLabel label);
   void walk(std::shared_ptr<Trial> trial, std::function<void(Result<CheckView>)> done);
 

@@ -77,6 +77,12 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                         "an arm is named with move_to; a trajectory's joints say which arms move",
                         request.arm});
   }
+  if (request.approach == Approach::plan && (request.move_to || request.motions().size() > 1)) {
+    problems.push_back({ProblemKind::invalid, "not-served", "/approach",
+                        "a goal's way begins where the arm stands, and alternatives end where they "
+                        "begin: neither has an approach",
+                        to_string(request.approach)});
+  }
   if (request.move_to) {
     goal = read_goal(request, problems);
     if (goal && problems.empty()) motions.push_back(estimate_for(*goal, ahead));
@@ -92,6 +98,8 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                      std::move(motions),
                      std::move(goal),
                      request.order,
+                     request.on_timeout,
+                     request.approach,
                      request.priority,
                      request.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
                      std::move(request.after),
@@ -109,7 +117,8 @@ std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ah
     if (motion) {
       begin_where_open(**motion, ahead);
       for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
-      if (!ahead.begins_anywhere) find_start_elsewhere(*cell_, **motion, ahead.rest, found);
+      const bool begins_anywhere = ahead.begins_anywhere || request.approach == Approach::plan;
+      if (!begins_anywhere) find_start_elsewhere(*cell_, **motion, ahead.rest, found);
       motions.push_back(std::move(*motion));
     }
     add_below(place, std::move(found), problems);
@@ -167,7 +176,9 @@ Submit JobIntake::submission(PreparedJob prepared) const {
              .backlog_timeout = prepared.backlog_timeout,
              .after = std::move(after),
              .any_order = prepared.order == JobOrder::any,
-             .goal = std::move(prepared.goal)};
+             .goal = std::move(prepared.goal),
+             .replans_on_timeout = prepared.on_timeout == OnTimeout::replan,
+             .approaches = prepared.approach == Approach::plan};
   if (prepared.alternatives.size() > 1) job.alternatives = std::move(prepared.alternatives);
   return job;
 }

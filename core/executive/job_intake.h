@@ -19,6 +19,8 @@ struct PreparedJob {
   std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; the only one, mostly
   std::optional<MotionGoal> goal;           // the trajectory is an estimate
   JobOrder order;
+  OnTimeout on_timeout;
+  Approach approach;
   int priority;
   Duration backlog_timeout;
   std::vector<std::string> after;
@@ -55,6 +57,8 @@ class JobIntake {
   void accepted(Ahead ahead) { ways_back_ = std::move(ahead.ways_back); }
   // The arm goes aside: where its clients left it, however often it does.
   void remember_way_back(ArmId arm, const Trajectory& way);
+  // The arm goes elsewhere than where its clients left it.
+  void forget_way_back(ArmId arm) { ways_back_.erase(arm); }
   // The server is ending: no job is taken from now on.
   void close() { is_closed_ = true; }
 

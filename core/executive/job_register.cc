@@ -40,10 +40,12 @@ std::string JobRegister::free_key(JobId id) const {
   return key;
 }
 
-std::string JobRegister::own_key() {
+std::string JobRegister::own_key(OwnJob kind) {
+  const std::string begins = kind == OwnJob::approach ? "approach-" : "aside-";
+  std::uint64_t& next = next_own_[static_cast<std::size_t>(kind)];
   std::string own;
   do {
-    own = "aside-" + std::to_string(next_own_++);
+    own = begins + std::to_string(next++);
   } while (is_taken(own));
   return own;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
@@ -13,6 +15,9 @@
 #include "core/scheduler/scheduler.h"
 
 namespace armloom {
+
+// Jobs of the server's own, as their keys begin.
+enum class OwnJob { aside, approach };
 
 // What clients know a job by.
 struct JobLabel {
@@ -43,7 +48,7 @@ class JobRegister final : public JobNames {
   // A key for a job whose client gave none: "job-17", or "job-17.2" where that is taken.
   [[nodiscard]] std::string free_key(JobId id) const;
   // The next one for a job of the server's own.
-  [[nodiscard]] std::string own_key();
+  [[nodiscard]] std::string own_key(OwnJob kind);
 
   // Empty for a job that has been forgotten since.
   [[nodiscard]] std::string key(JobId job) const override;
@@ -56,7 +61,7 @@ class JobRegister final : public JobNames {
   std::unordered_map<std::string, JobId> ids_;
   std::unordered_map<JobId, JobLabel> labels_;
   std::deque<JobId> ended_;
-  std::uint64_t next_own_ = 1;
+  std::array<std::uint64_t, 2> next_own_ = {1, 1};  // by OwnJob
 };
 
 }  // namespace armloom

@@ -97,7 +97,7 @@ QueueView Publisher::queue() const {
 // Of a job that has not begun: it may not leave where it stands before that is on disk.
 bool Publisher::is_told_of_a_start(ArmId arm) const {
   const auto job = shown_.scheduler.occupant(arm);
-  return job && shown_.starts.knows(*job) && !shown_.scheduler.find(*job)->has_started();
+  return job && shown_.starts.knows(*job) && !shown_.scheduler.find(*job)->times.started_at;
 }
 
 ArmState Publisher::state_of(ArmId arm) const {

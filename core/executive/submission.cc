@@ -4,6 +4,7 @@
 
 #include "core/base/add_below.h"
 #include "core/executive/executive_impl.h"
+#include "core/scheduler/replanning.h"
 
 namespace armloom {
 
@@ -44,7 +45,7 @@ JobView Executive::Impl::accept(PreparedJob prepared) {
     std::string name = cell_->arm(back->arms().front()).name + " returns to where it was left";
     Submit way = intake_.return_of(std::move(back), prepared.priority);
     way.job = next_job();
-    enter(std::move(way), {jobs_.own_key(), std::move(name)});
+    enter(std::move(way), {jobs_.own_key(OwnJob::aside), std::move(name)});
   }
   const JobId id = next_job();
   JobLabel label{std::move(prepared.key), std::move(prepared.name)};
@@ -84,7 +85,7 @@ std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> j
   return answers;
 }
 
-Result<JobView> Executive::Impl::cancel(const std::string& key) {
+Result<JobId> Executive::Impl::not_ended(const std::string& key) const {
   const auto id = jobs_.find(key);
   if (!id) {
     return failure(Problem{ProblemKind::not_found, "no-such-job", "request target",
@@ -95,7 +96,24 @@ Result<JobView> Executive::Impl::cancel(const std::string& key) {
     return failure(Problem{ProblemKind::conflict, "job-has-ended", "",
                            "job \"" + key + "\" has ended: " + to_string(state), key});
   }
+  return *id;
+}
+
+Result<JobView> Executive::Impl::cancel(const std::string& key) {
+  const auto id = not_ended(key);
+  if (!id) return failure(id.error());
   step(Cancel{*id});
+  return publisher_.view(*id);
+}
+
+Result<JobView> Executive::Impl::replan(const std::string& key) {
+  const auto id = not_ended(key);
+  if (!id) return failure(id.error());
+  if (const auto why = why_not_replanned(*scheduler_.find(*id))) {
+    return failure(Problem{ProblemKind::conflict, "no-other-way", "",
+                           "job \"" + key + "\" can be given no other way: " + *why, key});
+  }
+  step(Replan{*id});
   return publisher_.view(*id);
 }
 

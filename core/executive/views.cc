@@ -20,7 +20,7 @@ std::optional<std::string> opens(ArmId id, bool in_vain, const Cell& cell, const
     return arm + " is stopped: resuming it would let its own job move it on";
   }
   const std::string begins = arm + (stopped ? " is stopped and has no job: " : " has no job: ");
-  if (cell.scheduling.on_idle_blocker != OnIdleBlocker::park) {
+  if (cell.scheduling.on_idle_blocker == OnIdleBlocker::report) {
     return begins + (stopped ? "resuming it, and a job" : "one") +
            " that moves it away would open the way, or " + kToPark + ", which sends it aside" +
            (stopped ? " when resumed" : "");
@@ -47,7 +47,7 @@ std::string deadlock_text(const std::vector<std::string>& ring, const Cell& cell
   for (const std::string& key : ring) text += key + " -> ";
   text += ring.front() + ": none of them can move before the next one does; a job before them " +
           "that moves an arm out of the others' way would open the ring, or ";
-  if (cell.scheduling.on_idle_blocker != OnIdleBlocker::park) {
+  if (cell.scheduling.on_idle_blocker == OnIdleBlocker::report) {
     return text + kToPark + ", which sends one aside";
   }
   return text + "a free way aside for one (" + kWaysAside + "), of which none was found";
@@ -121,6 +121,9 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   }
   for (const TrajectoryPtr& other : job.alternatives) {
     view.alternatives.push_back(cell.arm(other->arms().front()).name);
+  }
+  if (const auto& other = job.another_way) {
+    view.another_way = AnotherWayView{other->done, other->is_open, other->cause, other->refusal};
   }
   if (job.choice) view.choice = view_of(job, *job.choice, cell, names);
   for (JobId on_it : job.ring) view.ring.push_back(names.key(on_it));

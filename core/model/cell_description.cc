@@ -8,6 +8,8 @@ const char* to_string(OnIdleBlocker value) {
       return "report";
     case OnIdleBlocker::park:
       return "park";
+    case OnIdleBlocker::replan:
+      return "replan";
   }
   return "?";
 }

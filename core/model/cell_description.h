@@ -81,6 +81,7 @@ struct CheckingSettings {
 enum class OnIdleBlocker {
   report,  // it is only told
   park,    // an arm is sent aside
+  replan,  // the job is planned around it; where there is no such way, as park
 };
 [[nodiscard]] const char* to_string(OnIdleBlocker value);
 

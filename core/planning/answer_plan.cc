@@ -1,6 +1,7 @@
 #include "core/planning/answer_plan.h"
 
 #include "core/planning/pose_goal.h"
+#include "core/planning/tool_line.h"
 
 namespace armloom {
 namespace {
@@ -14,25 +15,47 @@ Goals joint_goals(const Cell& cell, const PlanQuestion& question) {
   return reach_pose(cell, {goal.arm, target.link, target.X_WL}, question.at);
 }
 
+// One try of each kind of goal.
+class Answer {
+ public:
+  Answer(const PlanningScenePtr& scene, const PlanQuestion& question)
+      : scene_(scene),
+        question_(question),
+        timing_{.shares = {.velocity = question.goal.speed,
+                           .acceleration = question.goal.speed * question.goal.speed}} {}
+
+  [[nodiscard]] PlanAnswer to(const PlanRequest& request) const {
+    const auto* target = std::get_if<LinkTarget>(&question_.goal.to);
+    if (target == nullptr || !question_.goal.straight) {
+      return plan_motion(Planner(scene_), request, timing_);
+    }
+    return plan_line(scene_, {question_.goal.arm, target->link, target->X_WL}, request, timing_);
+  }
+
+ private:
+  const PlanningScenePtr& scene_;
+  const PlanQuestion& question_;
+  TimingOptions timing_;
+};
+
 }  // namespace
 
 PlanAnswer answer_plan(const PlanningScenePtr& scene, const PlanQuestion& question,
                        const std::atomic<bool>* cancelled) {
-  auto goals = joint_goals(scene->cell(), question);
+  auto goals = question.goal.straight ? Goals{} : joint_goals(scene->cell(), question);
   if (!goals) return tl::unexpected(std::move(goals.error()));
   PlanRequest request{.arm = question.goal.arm,
                       .at = question.at,
                       .goals = *std::move(goals),
                       .seed = question.seed,
                       .cancelled = cancelled};
-  const TimingOptions timing{.shares = {.velocity = question.goal.speed}};
-  const Planner planner(scene);
-  auto beside = plan_motion(planner, request, timing);
+  const Answer answer(scene, question);
+  auto beside = answer.to(request);
   if (beside || question.may_move.empty()) return beside;
   if (beside.error().reason == PlanRefusal::Reason::cancelled) return beside;
   const std::uint64_t spent = beside.error().evaluations;
   request.left_out = question.may_move;
-  auto alone = plan_motion(planner, request, timing);
+  auto alone = answer.to(request);
   (alone ? alone->way.evaluations : alone.error().evaluations) += spent;
   return alone;
 }

@@ -68,7 +68,7 @@ Result<MotionGoal> goal_of(const Cell& cell, ArmId arm, const PlanGoal& said) {
   if (said.pose) {
     auto target = target_of(cell, cell.arm(arm), *said.pose);
     if (!target) return failure(std::move(target.error()));
-    return MotionGoal{.arm = arm, .to = *std::move(target)};
+    return MotionGoal{.arm = arm, .to = *std::move(target), .straight = said.cartesian};
   }
   auto q = joints_of(cell, arm, said);
   if (!q) return failure(std::move(q.error()));

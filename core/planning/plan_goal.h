@@ -19,6 +19,7 @@ struct PlanGoal {
   std::optional<std::vector<double>> joints;  // rad or m, in the order of the arm's group
   std::optional<std::string> named;           // a named state of the SRDF, or "home"
   std::optional<PlanPose> pose;
+  bool cartesian = false;  // with a pose: the link goes there in a straight line
 };
 
 // Problems: pointer "".

@@ -14,7 +14,10 @@ constexpr double kRoundings[] = {0.2, 0.05, 0.01, 0.002};
 // cut otherwise: then another one is looked for.
 constexpr int kTries = 3;
 
-bool is_free(MotionChecker& checker, const PlanRequest& request, const TrajectoryPtr& trajectory) {
+}  // namespace
+
+std::optional<Conflict> found_in_the_way(MotionChecker& checker, const PlanRequest& request,
+                                         const TrajectoryPtr& trajectory) {
   const double tracking_error = checker.scene()->cell().checking.tracking_error_rad;
   const Verdict verdict = checker.judge({.version = 0,
                                          .start_at = TimePoint{},
@@ -22,14 +25,22 @@ bool is_free(MotionChecker& checker, const PlanRequest& request, const Trajector
                                          .others = {},
                                          .rest = request.at,
                                          .method = Swept{tracking_error}});
-  if (verdict.kind == Verdict::Kind::free) return true;
+  if (verdict.kind == Verdict::Kind::free) return std::nullopt;
+  if (verdict.conflicts.empty()) return Conflict{Conflict::With::self, JobId{0}, {}, {}, {}, {}};
   // Arms that are left out are found by the judgement all the same; nothing else may be.
-  return !verdict.conflicts.empty() &&
-         std::ranges::all_of(verdict.conflicts, [&](const Conflict& conflict) {
-           const auto& arm = conflict.proximity.arm_b;
-           return conflict.with == Conflict::With::rest && arm &&
-                  std::ranges::find(request.left_out, *arm) != request.left_out.end();
-         });
+  const auto counts = [&](const Conflict& conflict) {
+    const auto& arm = conflict.proximity.arm_b;
+    return conflict.with != Conflict::With::rest || !arm ||
+           std::ranges::find(request.left_out, *arm) == request.left_out.end();
+  };
+  const auto found = std::ranges::find_if(verdict.conflicts, counts);
+  return found == verdict.conflicts.end() ? std::nullopt : std::optional(*found);
+}
+
+namespace {
+
+bool is_free(MotionChecker& checker, const PlanRequest& request, const TrajectoryPtr& trajectory) {
+  return !found_in_the_way(checker, request, trajectory);
 }
 
 // The way with times, where a judgement finds it free.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/collision/check/motion_checker.h"
 #include "core/planning/planner.h"
 #include "core/trajectory/timing/time_parameterisation.h"
 
@@ -12,6 +13,12 @@ struct PlannedMotion {
   // How far corners of the way were cut (joint space, rad or m); 0: the arm rests at each.
   double rounded_within = 0.0;
 };
+
+// What stands against the motion as a job would be judged (Swept), everything else standing as in
+// request.at, arms that are left out gone; nothing: it is free.
+[[nodiscard]] std::optional<Conflict> found_in_the_way(MotionChecker& checker,
+                                                       const PlanRequest& request,
+                                                       const TrajectoryPtr& trajectory);
 
 // Plans (Planner), gives times (time_parameterisation.h) and has the outcome judged as a job would
 // be (Swept, everything else standing still), for its whole length: corners are cut as widely as

@@ -165,6 +165,10 @@ std::string reason_name(Reason reason) {
       return "goal-not-reached";
     case Reason::not_found:
       return "not-found";
+    case Reason::line_broken:
+      return "line-broken";
+    case Reason::line_blocked:
+      return "line-blocked";
     case Reason::cancelled:
       return "cancelled";
   }

@@ -21,6 +21,8 @@ struct PlanRefusal {
     goal_in_collision,   // ... at every goal; `proximity` is of the first
     goal_not_reached,    // inverse kinematics found no such pose (pose_goal.h)
     not_found,           // no way within the budget: there may be one
+    line_broken,         // a straight line of the link that the arm cannot follow (tool_line.h)
+    line_blocked,        // ... on which it comes too close to something
     cancelled,
   };
   Reason reason;

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <kdl/chainfksolverpos_recursive.hpp>
-#include <kdl/chainjnttojacsolver.hpp>
 #include <numbers>
 #include <optional>
 
 #include "core/planning/kdl_chain.h"
+#include "core/planning/pose_descent.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -18,10 +17,6 @@ using Reason = PlanRefusal::Reason;
 
 // Further seeds: the Halton sequence over the joints' ranges, a prime for each joint.
 constexpr int kFurtherSeeds = 40;
-constexpr int kStepsMax = 100;
-constexpr double kStepLongest = 0.5;  // rad or m
-constexpr double kDamping = 0.1;
-constexpr double kConverged = 1e-7;  // m and rad
 constexpr int kPrimes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
 
 double halton(int index, int base) {
@@ -48,7 +43,7 @@ class PoseSearch {
                                             " is not moved by the joints of arm " + arm_.name});
     }
     for (const Eigen::VectorXd& from : seeds()) {
-      take(descend(*chain, from));
+      take(descend(cell_, arm_, *chain, goal_.X_WL, from));
       if (solutions_.size() >= kPoseSolutionsMax) break;
     }
     if (solutions_.empty()) return tl::unexpected(refusal());
@@ -73,43 +68,6 @@ class PoseSearch {
       seeds.push_back(std::move(q));
     }
     return seeds;
-  }
-
-  // Levenberg and Marquardt's damped steps, each kept within the joints' limits (Sugihara,
-  // "Solvability-Unconcerned Inverse Kinematics by the Levenberg-Marquardt Method", IEEE T-RO 2011:
-  // the damping goes with the error). KDL's own such solver stops on an assertion of Eigen's in
-  // Debian's build.
-  [[nodiscard]] Eigen::VectorXd descend(const KdlChain& chain, Eigen::VectorXd q) const {
-    KDL::ChainFkSolverPos_recursive fk(chain.chain);
-    KDL::ChainJntToJacSolver jacobian(chain.chain);
-    const auto size = static_cast<unsigned>(chain.rows.size());
-    KDL::JntArray at(size);
-    KDL::Jacobian J(size);
-    KDL::Frame here;
-    const KDL::Frame there = kdl_frame(goal_.X_WL);
-    for (int i = 0; i < kStepsMax; ++i) {
-      for (unsigned j = 0; j < size; ++j) at(j) = q[chain.rows[j]];
-      fk.JntToCart(at, here);
-      const KDL::Twist off = KDL::diff(here, there);
-      Eigen::Matrix<double, 6, 1> e;
-      for (int k = 0; k < 6; ++k) e[k] = off(k);
-      if (e.norm() < kConverged) break;
-      jacobian.JntToJac(at, J);
-      Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6, q.size());
-      for (unsigned j = 0; j < size; ++j) A.col(chain.rows[j]) += J.data.col(j);
-      const Eigen::Matrix<double, 6, 6> damped =
-          A * A.transpose() +
-          (0.5 * e.squaredNorm() * kDamping + 1e-9) * Eigen::Matrix<double, 6, 6>::Identity();
-      Eigen::VectorXd step = A.transpose() * damped.ldlt().solve(e);
-      const double longest = step.lpNorm<Eigen::Infinity>();
-      if (longest > kStepLongest) step *= kStepLongest / longest;
-      q += step;
-      for (Eigen::Index j = 0; j < q.size(); ++j) {
-        const Joint& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(j)]);
-        q[j] = std::clamp(q[j], joint.lower, joint.upper);
-      }
-    }
-    return q;
   }
 
   // Whole turns off, toward where the joint stands, within its limits.

@@ -10,6 +10,7 @@
 #include "core/scheduler/phases.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/putting_off.h"
+#include "core/scheduler/replanning.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/waiting/waits.h"
 #include "core/scheduler/yielding/making_way.h"
@@ -101,6 +102,7 @@ bool Admission::ask_next(State& state, const WaitCycles& cycles) {
     }
     put_off = true;
   }
+  if (goes_around_idle_arm(state)) return true;
   if (auto idle = next_yield(state)) ask_yield(state, std::move(*idle));
   return put_off;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/scheduler/phases.h"
+#include "core/scheduler/replanning.h"
 #include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
@@ -61,6 +62,7 @@ void fail_overdue(State& state, Record& record) {
 }
 
 std::optional<TimePoint> deadline_of(const Job& job) {
+  if (job.is_replanned_now()) return std::nullopt;  // until that is answered
   if (job.state() == JobState::backlogged) return *job.times.backlogged_at + job.backlog_timeout;
   std::optional<TimePoint> next;
   if (const auto* moving = job.in<Moving>()) next = moving->overrun_at;
@@ -79,6 +81,7 @@ void expire_and_overrun(State& state) {
     Job& job = record.job;
     if (job.state() == JobState::backlogged) {
       if (state.now < *job.times.backlogged_at + job.backlog_timeout) continue;
+      if (goes_on_after_timeout(state, record)) continue;
       end(state, record, JobState::expired, Reason::backlog_timeout,
           "waited " + seconds_text(job.backlog_timeout) + " in the backlog");
       continue;
@@ -87,6 +90,7 @@ void expire_and_overrun(State& state) {
     const Pause* pause = pause_of(job);
     const bool in_vain = pause != nullptr && pause->in_vain_since &&
                          state.now >= *pause->in_vain_since + job.backlog_timeout;
+    if (in_vain && goes_on_after_timeout(state, record)) continue;
     if (in_vain) {
       give_up(state, record,
               {AfterStop::Then::fail, Reason::backlog_timeout,

@@ -10,15 +10,6 @@
 namespace armloom {
 namespace {
 
-// Where the arm's joints are at the end of the motion; those that it does not move, as before.
-void follow_to_end(Configuration& q, const Cell& cell, ArmId arm, const Trajectory& motion) {
-  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
-    const JointId joint = motion.joints()[j];
-    if (cell.joint(joint).arm != arm) continue;
-    q[static_cast<Eigen::Index>(joint.index())] = motion.goal()[static_cast<Eigen::Index>(j)];
-  }
-}
-
 // It was asked for, or made, for where the arm will be and for the scene as it is.
 bool fits(const State& state, const JobGoal& goal, const Eigen::VectorXd& stands) {
   if (goal.from.size() != stands.size() || goal.asked_at < state.recheck_epoch) return false;
@@ -30,13 +21,14 @@ bool fits(const State& state, const JobGoal& goal, const Eigen::VectorXd& stands
 PlanQuestion question_about(const State& state, const Record& record, Configuration at) {
   const ArmId own = record.job.goal->goal.arm;
   PlanQuestion question{.goal = record.job.goal->goal, .seed = record.job.id.value()};
+  const JobId turn = record.before ? state.jobs.at(*record.before).turn : record.turn;
   for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
     const ArmId arm{a};
     if (arm == own) continue;
     question.may_move.push_back(arm);
     for (JobId id : state.jobs.queue(arm)) {
       const Record& other = state.jobs.at(id);
-      if (other.turn < record.turn && !other.job.is_unplanned()) {
+      if (other.turn < turn && !other.job.is_unplanned()) {
         follow_to_end(at, *state.cell, arm, *other.job.trajectory);
       }
     }
@@ -54,7 +46,7 @@ void ask(State& state, Record& record, const Configuration& at) {
   }
   goal.refusal.reset();
   ++goal.tries;
-  goal.question = ++goal.questions;
+  goal.question = ++record.job.questions;
   goal.asked_at = state.version;
   goal.from = joints_of(at, state.cell->arm(goal.goal.arm).joints);
   state.effects.push_back(
@@ -70,7 +62,8 @@ Record* plan_lane(State& state, ArmId arm) {
     Job& job = record.job;
     if (job.goal && job.in<Queued>() != nullptr) {
       JobGoal& goal = *job.goal;
-      if (goal.question) return nullptr;  // what comes of it is seen when it is answered
+      // What comes of it is seen when it is answered.
+      if (goal.question || job.is_replanned_now()) return nullptr;
       const bool is_fit = fits(state, goal, joints_of(at, state.cell->arm(arm).joints));
       if (is_fit && goal.refusal) return &record;
       if (is_fit && goal.is_planned) {
@@ -96,6 +89,8 @@ bool plan_goals(State& state) {
   if (!state.jobs.has_goals()) return any_failed;
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
     while (Record* record = plan_lane(state, ArmId{arm})) {
+      Record* helped = record->before ? state.jobs.find(*record->before) : nullptr;
+      if (helped != nullptr) helped->no_approach = record->job.goal->refusal;
       end(state, *record, JobState::failed, Reason::no_plan, *record->job.goal->refusal);
       any_failed = true;
     }

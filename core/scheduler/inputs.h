@@ -35,8 +35,18 @@ struct Submit {
   std::vector<TrajectoryPtr> alternatives = {};
   // Where its arm is to go: the way is planned first (PlanMotion); `trajectory` is an estimate.
   std::optional<MotionGoal> goal = {};
+  // When its time in the backlog is over it is planned anew, before it expires (replanning.h).
+  bool replans_on_timeout = false;
+  // Arms that at its turn stand elsewhere than where it begins are brought there first
+  // (approach.h).
+  bool approaches = false;
 };
 struct Cancel {
+  JobId job;
+};
+// Another way for this job, from where its arm stands (replanning.h). One that can be given none
+// (why_not_replanned()) goes on as it is.
+struct Replan {
   JobId job;
 };
 // The answer to the Judge effect with the same version.
@@ -87,7 +97,7 @@ struct Interrupt {
 // A time asked for by WakeAt has come. Every other input does the same work besides.
 struct Wake {};
 
-using Input = std::variant<Submit, Cancel, Judged, PlanMade, MotionReport, Stop, Resume,
+using Input = std::variant<Submit, Cancel, Replan, Judged, PlanMade, MotionReport, Stop, Resume,
                            SceneChanged, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
@@ -125,12 +135,14 @@ struct Brake {
 // aside. If the arm has a job, the two wait for each other in a ring: the motion takes its place
 // before that job, and behind it comes a second one, `returns`, back to where the arm stands now,
 // which lets the other pass first. Said before these jobs' first JobChanged.
+// to_start: none of this; it goes, by a way that is planned first, to where `blocked_job` begins.
 struct YieldMove {
   JobId job;
   ArmId arm;
   JobId blocked_job;
   bool in_ring = false;
   bool returns = false;
+  bool to_start = false;
 };
 // The job has ended and its arms are at rest: the controllers drop its motion.
 struct Release {

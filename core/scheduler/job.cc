@@ -76,6 +76,23 @@ const char* to_string(Reason reason) {
   return "unknown";
 }
 
+const char* to_string(AnotherWay::Cause cause) {
+  switch (cause) {
+    case AnotherWay::Cause::client:
+      return "client";
+    case AnotherWay::Cause::timeout:
+      return "timeout";
+    case AnotherWay::Cause::blocked:
+      return "blocked";
+  }
+  return "unknown";
+}
+
+void Job::note_start(TimePoint now) {
+  if (!times.motion_started_at) times.motion_started_at = now;
+  if (!times.started_at) times.started_at = now;
+}
+
 JobState Job::state() const {
   if (const auto* queued = in<Queued>()) {
     return queued->in_backlog ? JobState::backlogged : JobState::queued;

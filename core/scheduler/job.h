@@ -86,7 +86,7 @@ struct AfterStop {
 //   Admitted  -> Moving     its arms are told; or back to Queued, Held: it is admitted no more
 //   Moving    -> Braking    canceled, stopped, overdue
 //   Braking   -> Held       stopped on its way; Admitted, Queued: stopped before it moved
-//   Held      -> Admitted   resumed; its orders stand
+//   Held      -> Admitted   resumed; its orders stand; or back to Queued, with another way
 //   any       -> Ended
 struct Queued {
   bool in_backlog = false;  // was in conflict when it was judged
@@ -125,7 +125,8 @@ struct JobTimes {
   TimePoint submitted_at{};
   std::optional<TimePoint> backlogged_at;  // the first time
   std::optional<TimePoint> scheduled_at;
-  std::optional<TimePoint> started_at;  // it has moved
+  std::optional<TimePoint> started_at;         // it has moved, ...
+  std::optional<TimePoint> motion_started_at;  // ... by the way that it has now
 };
 
 // That a job was taken among several, or on one of several arms, and what for.
@@ -142,12 +143,29 @@ struct JobGoal {
   MotionGoal goal;
   bool is_planned = false;                     // the job's trajectory is the plan; else an estimate
   std::optional<std::uint64_t> question = {};  // that is open: its number
-  std::uint64_t questions = 0;                 // so many have been asked
   int tries = 0;                               // since a plan last fitted
   Eigen::VectorXd from = {};                   // the last question: where the arm will be, ...
   Version asked_at = 0;                        // ... and when it was asked
   std::optional<std::string> refusal = {};     // the answer to it, where there is no plan
 };
+
+// Another way for a job, in place of the one that it had (replanning.h).
+struct AnotherWay {
+  enum class Cause {
+    client,   // asked for it
+    timeout,  // it had waited too long
+    blocked,  // for an arm that no job moves, or in a ring
+  };
+  Cause cause = Cause::client;
+  bool is_open = false;                        // asked for, and not answered
+  std::optional<std::uint64_t> question = {};  // that was asked: its number
+  Configuration beside = {};                   // the last question: where all would stand, ...
+  Version asked_at = 0;                        // ... and when it was asked
+  int tries = 0;                               // that were asked about, since a client did
+  std::uint64_t done = 0;                      // so many times it was given another way
+  std::optional<std::string> refusal = {};     // why not, the last time
+};
+[[nodiscard]] const char* to_string(AnotherWay::Cause cause);
 
 // A job as the scheduler knows it. Read-only for everyone else.
 struct Job {
@@ -163,6 +181,10 @@ struct Job {
       {};  // `trajectory` is one of them: until it is admitted
            // it is as good as chosen, but may be another
   std::optional<JobGoal> goal = {};
+  bool replans_on_timeout = false;  // Submit::replans_on_timeout
+  bool approaches = false;          // Submit::approaches
+  std::optional<AnotherWay> another_way = {};
+  std::uint64_t questions = 0;  // of plans for it: so many have been asked
   std::optional<Choice> choice = {};
   JobPhase phase = Queued{};
   JobTimes times = {};
@@ -180,8 +202,12 @@ struct Job {
   [[nodiscard]] JobState state() const;
   // Its way has to be planned (again) before it can be judged.
   [[nodiscard]] bool is_unplanned() const { return goal && !goal->is_planned; }
+  // It stays where it is until it is known whether there is another way.
+  [[nodiscard]] bool is_replanned_now() const { return another_way && another_way->is_open; }
   [[nodiscard]] bool has_ended() const { return in<Ended>() != nullptr; }
-  [[nodiscard]] bool has_started() const { return times.started_at.has_value(); }
+  // By the way that it has now.
+  [[nodiscard]] bool has_started() const { return times.motion_started_at.has_value(); }
+  void note_start(TimePoint now);
   // Braking: on the way to canceled, holding or failed.
   [[nodiscard]] bool stopping() const { return in<Braking>() != nullptr; }
   // At rest on its way until others have passed.

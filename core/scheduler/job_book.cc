@@ -19,7 +19,7 @@ bool leads_to(const JobPhase& from, const JobPhase& to) {
       {true, true, true, false, true, true},       // Admitted
       {false, true, true, true, true, true},       // Moving
       {true, true, false, true, true, true},       // Braking
-      {false, true, false, false, true, true},     // Held
+      {true, true, false, false, true, true},      // Held
       {false, false, false, false, false, false},  // Ended
   };
   const Allowed& row = kTable[from.index()];

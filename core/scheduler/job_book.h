@@ -37,6 +37,8 @@ struct Record {
   std::uint64_t effort = 1;             // Question::effort of the next time that it is judged
   int raised = 0;                       // how often that was raised
   std::map<ArmId, YieldsTried> yields;  // of arms that could make way for it
+  int approaches = 0;                   // so often arms were sent to its start
+  std::optional<std::string> no_approach = {};  // why there is no way there
 };
 
 // All jobs, and their places in the queues of their arms. Changes of what clients see are noted.
@@ -96,6 +98,7 @@ class JobBook {
 
   // For clients, or for whoever explains waits: it, or what is before it, is not as it was told.
   void changed(const Record& record) { changed_.insert(record.job.id); }
+  void explain(const Record& record) { unexplained_.insert(record.job.id); }
   [[nodiscard]] bool has_changes() const { return !changed_.empty(); }
   [[nodiscard]] std::set<JobId> take_changed() { return std::exchange(changed_, {}); }
   [[nodiscard]] std::set<JobId> take_unexplained() { return std::exchange(unexplained_, {}); }

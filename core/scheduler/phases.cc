@@ -58,6 +58,9 @@ void rest_at_start(State& state, Record& record) {
   record.checked_at = 0;
 }
 
+// By any way that it has had.
+bool has_begun(const Job& job) { return job.times.started_at.has_value(); }
+
 // For the time being with the arm that has least to do.
 const TrajectoryPtr& likeliest(const State& state, const Submit& job) {
   if (job.alternatives.empty()) return job.trajectory;
@@ -82,7 +85,9 @@ Record record_of(State& state, const Submit& job) {
                         .system_job = job.system_job,
                         .any_order = job.any_order,
                         .is_held_over = job.is_held_over,
-                        .alternatives = job.alternatives},
+                        .alternatives = job.alternatives,
+                        .replans_on_timeout = job.replans_on_timeout,
+                        .approaches = job.approaches},
                 .leg = state.arms.leg_of(*state.cell, job.job, *motion),
                 .turn = job.job,
                 .on_behalf_of = job.job};
@@ -128,7 +133,7 @@ void interrupt(State& state, bool keeps_waiting) {
   std::vector<JobId> ids(state.jobs.active().begin(), state.jobs.active().end());
   if (keeps_waiting) {
     const auto kept =
-        std::ranges::partition(ids, [&](JobId id) { return state.jobs.at(id).job.has_started(); });
+        std::ranges::partition(ids, [&](JobId id) { return has_begun(state.jobs.at(id).job); });
     for (JobId id : kept) state.jobs.at(id).job.is_held_over = true;
     ids.erase(kept.begin(), kept.end());
     std::ranges::sort(ids);
@@ -137,8 +142,8 @@ void interrupt(State& state, bool keeps_waiting) {
   for (JobId id : ids) {
     Record& record = state.jobs.at(id);
     end(state, record, JobState::interrupted, Reason::server_restart,
-        record.job.has_started() ? "the server ended while it was under way"
-                                 : "the server ended before it began");
+        has_begun(record.job) ? "the server ended while it was under way"
+                              : "the server ended before it began");
   }
 }
 
@@ -178,7 +183,7 @@ void come_to_rest(State& state, Record& record, const MotionReport& report) {
   state.arms.come_to_rest(*state.cell, job.trajectory, report.rest_position);
   ++state.version;
   const bool moved = std::max(job.progress, report.farthest) > Duration{};
-  if (moved && !job.has_started()) job.times.started_at = state.now;  // unseen
+  if (moved) job.note_start(state.now);  // unseen
   record.farthest = report.farthest;
   const auto* braking = job.in<Braking>();
   const AfterStop after = braking != nullptr ? braking->after : AfterStop{};
@@ -199,6 +204,24 @@ void come_to_rest(State& state, Record& record, const MotionReport& report) {
     return;
   }
   release(state, job.id);
+}
+
+void set_out_anew(State& state, Record& record, TrajectoryPtr way) {
+  Job& job = record.job;
+  leave_graph(state, record);
+  if (job.has_started()) release(state, job.id);
+  enter(state, record, Queued{});
+  job.times.backlogged_at.reset();
+  job.times.scheduled_at.reset();
+  job.times.motion_started_at.reset();
+  job.progress = Duration{};
+  record.farthest = Duration{};
+  record.checked_at = 0;
+  WaitingLeg leg = state.arms.leg_of(*state.cell, job.id, *way);
+  state.jobs.set_motion(record, std::move(way), std::move(leg));
+  state.lanes.forget_passages();
+  state.lanes.renew_later();
+  ++state.version;
 }
 
 void give_up(State& state, Record& record, const AfterStop& after) {

@@ -32,6 +32,10 @@ void withdraw(State& state, Record& record, const AfterStop& after);
 // At its end, or where it was to stop, or did by itself. Report: not `progressed`.
 void come_to_rest(State& state, Record& record, const MotionReport& report);
 
+// It stands, and forgets the way that it had: it waits in the queue again, to go this way from
+// there. Precondition: it waits.
+void set_out_anew(State& state, Record& record, TrajectoryPtr way);
+
 // Arms shall not move until they are resumed; what was not told to them keeps its place.
 void stop_arms(State& state, const Stop& stop);
 

@@ -4,14 +4,17 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/scheduler/approach.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
 #include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/invariants.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/replanning.h"
 #include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
@@ -31,8 +34,7 @@ void note_progress(State& state, Record& record) {
     if (moving != nullptr) moving->is_under_way = true;
     auto* braking = std::get_if<Braking>(&record.job.phase);
     if (braking != nullptr) braking->state = JobState::running;
-    auto& started_at = record.job.times.started_at;
-    if (!started_at) started_at = state.now;
+    record.job.note_start(state.now);
     state.jobs.changed(record);
   }
   if (moving != nullptr) extend_authority(state, record.job.id);
@@ -79,6 +81,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 void Scheduler::settle() {
   expire_and_overrun(state_);
   cycles_.settle(state_);
+  plan_other_ways(state_);
   weigh_again(state_);
   dispatch_ready(state_);
   do {
@@ -110,7 +113,8 @@ void Scheduler::fail_impossible_starts() {
     if (job.is_held_over && state_.arms.stop_of(job)) continue;
     if (auto mismatch = state_.arms.start_mismatch(*state_.cell, *job.trajectory)) {
       unchanged = 0;
-      if (begins_on_other_arm(state_, head)) continue;
+      if (begins_on_other_arm(state_, head) || goes_to_start(state_, head)) continue;
+      if (head.no_approach) *mismatch += "; no way to where it begins: " + *head.no_approach;
       end(state_, head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));
     }
   }
@@ -129,9 +133,23 @@ void Scheduler::ask_for_wake() {
 
 // ---- Inputs ----
 
+void Scheduler::on(const Replan& input) {
+  Record* record = state_.jobs.find(input.job);
+  if (record == nullptr || record->job.has_ended() || why_not_replanned(record->job)) return;
+  ask_for_another_way(state_, *record, AnotherWay::Cause::client);
+}
+
+void Scheduler::on(const PlanMade& input) {
+  take_plan(state_, input);
+  if (take_other_way(state_, input)) cycles_.has_opened(state_, input.job);
+}
+
 void Scheduler::on(const Cancel& input) {
   Record* record = state_.jobs.find(input.job);
   if (record == nullptr || record->job.has_ended()) return;
+  for (JobId approach : approaches_of(state_, *record)) {
+    give_up(state_, state_.jobs.at(approach), {.then = AfterStop::Then::cancel});
+  }
   give_up(state_, *record, {.then = AfterStop::Then::cancel});
 }
 
@@ -197,12 +215,7 @@ Configuration Scheduler::predicted_rest() const {
   for (std::uint32_t arm = 0; arm < state_.cell->arms.size(); ++arm) {
     const auto& queue = state_.jobs.queue(ArmId{arm});
     if (queue.empty()) continue;
-    const Trajectory& last = *state_.jobs.at(queue.back()).job.trajectory;
-    for (std::size_t j = 0; j < last.joints().size(); ++j) {
-      const JointId joint = last.joints()[j];
-      if (state_.cell->joint(joint).arm != ArmId{arm}) continue;
-      q[static_cast<Eigen::Index>(joint.index())] = last.goal()[static_cast<Eigen::Index>(j)];
-    }
+    follow_to_end(q, *state_.cell, ArmId{arm}, *state_.jobs.at(queue.back()).job.trajectory);
   }
   return q;
 }

@@ -79,7 +79,8 @@ class Scheduler {
   void on(const Submit& input) { add(state_, record_of(state_, input)); }
   void on(const Cancel& input);
   void on(const Judged& input) { admission_.on(input, state_, cycles_); }
-  void on(const PlanMade& input) { take_plan(state_, input); }
+  void on(const PlanMade& input);
+  void on(const Replan& input);
   void on(const MotionReport& input);
   void on(const Stop& input);
   void on(const Resume& input);

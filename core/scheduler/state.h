@@ -33,9 +33,10 @@ struct State {
   PrecedenceGraph graph;      // all that is admitted
   Expectation expected = {};  // of what is admitted
   Round round = {};
-  Version version = 1;        // of what is admitted, and of where arms rest
-  Version recheck_epoch = 0;  // the last version that began with another scene
-  TimePoint now{};            // of the present step
+  std::set<JobId> being_replanned = {};  // AnotherWay::is_open; some may have ended
+  Version version = 1;                   // of what is admitted, and of where arms rest
+  Version recheck_epoch = 0;             // the last version that began with another scene
+  TimePoint now{};                       // of the present step
   std::vector<YieldMove> sent_aside = {};
   std::vector<Effect> effects = {};
 

@@ -17,7 +17,7 @@ void put_under_way(State& state, const std::vector<Motion>& motions) {
     Record& record = state.jobs.at(motion.job);
     record.job.progress = motion.progress;
     const bool has_moved = motion.progress > Duration{};
-    if (has_moved) record.job.times.started_at = state.now;
+    if (has_moved) record.job.note_start(state.now);
     enter(state, record, Admitted{});
     enter(state, record,
           Moving{.overrun_at = TimePoint::max(), .moved_at = state.now, .is_under_way = has_moved});

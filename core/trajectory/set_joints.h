@@ -19,6 +19,15 @@ inline void set_joints(Configuration& q, const Trajectory& trajectory,
   set_joints(q, trajectory.joints(), position);
 }
 
+// The arm's joints are where the motion ends; those that it does not move, as before.
+inline void follow_to_end(Configuration& q, const Cell& cell, ArmId arm, const Trajectory& motion) {
+  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
+    const JointId joint = motion.joints()[j];
+    if (cell.joint(joint).arm != arm) continue;
+    q[static_cast<Eigen::Index>(joint.index())] = motion.goal()[static_cast<Eigen::Index>(j)];
+  }
+}
+
 // Where these joints stand, in their order.
 [[nodiscard]] inline Eigen::VectorXd joints_of(const Configuration& q,
                                                const std::vector<JointId>& joints) {

@@ -70,13 +70,14 @@ void get_job(Call call) {
       });
 }
 
-void cancel_job(Call call) {
+// What becomes of a command to one job that has not ended.
+void command_job(Call call, Result<JobView> (Executive::*command)(const std::string&)) {
   const ApiParts& parts = call.parts;
   const std::string& key = call.arguments.front();
   ask(
-      parts, [key](Executive& executive) { return executive.cancel(key); },
+      parts, [key, command](Executive& executive) { return (executive.*command)(key); },
       [&parts, respond = call.respond, key](const Result<JobView>& job) {
-        if (job) {  // who cancels a job may rely on it, whatever happens to the server
+        if (job) {  // who commands may rely on it, whatever happens to the server
           const auto tell = [&parts, respond, job = *job] {
             respond(answer(202, job_format(), job, &parts.clock));
           };
@@ -91,6 +92,9 @@ void cancel_job(Call call) {
                                       "job \"" + key + "\" has ended: " + (*stored)->state, key}}));
       });
 }
+
+void cancel_job(Call call) { command_job(std::move(call), &Executive::cancel); }
+void replan_job(Call call) { command_job(std::move(call), &Executive::replan); }
 
 struct DiagramQuery {
   std::string with;  // the other job's id
@@ -193,6 +197,20 @@ std::vector<Route> job_routes() {
   cancel.who = Who::commander;
   cancel.run = cancel_job;
 
+  Route replan = of_one("POST", "/jobs/{id}/replan", "replanJob", "Another way for a job");
+  replan.text =
+      "From where its arm stands to where the job ends (of a trajectory: its last waypoint; what "
+      "it "
+      "was to do on the way is lost), past what rests there, as fast as its own way was at its "
+      "fastest. A job in motion brakes on its path first; until the answer is there it stays where "
+      "it is (`waits_on` has the kind `plan`). Then it waits under its id like one that has just "
+      "come, or keeps its own way where there is no other: its member `replan` says which. 409 "
+      "when it has ended, moves several arms, ends where it begins, or is the server's own.";
+  replan.outcomes = {outcome(202, "Another way is being looked for", job_format())};
+  replan.refuses = {404, 409};
+  replan.who = Who::commander;
+  replan.run = replan_job;
+
   Route diagram =
       of_one("GET", "/jobs/{id}/diagram", "getDiagram", "The coordination diagram of two jobs");
   diagram.text =
@@ -223,7 +241,7 @@ std::vector<Route> job_routes() {
       "something else comes: a prediction, no promise.";
   timeline.outcomes = {outcome(200, "Lane by lane, as things are", timeline_format())};
   timeline.run = get_timeline;
-  return {list, get, cancel, diagram, queue, timeline};
+  return {list, get, cancel, replan, diagram, queue, timeline};
 }
 
 }  // namespace armloom

@@ -44,10 +44,11 @@ FormatPtr<SchedulingSettings> scheduling_format() {
       field("aging_s", &Scheduling::aging, seconds(kTime),
             "A job that has waited so long is overtaken no more."),
       field("on_idle_blocker", &Scheduling::on_idle_blocker,
-            choice<OnIdleBlocker>({OnIdleBlocker::report, OnIdleBlocker::park}, to_string),
+            choice<OnIdleBlocker>(
+                {OnIdleBlocker::report, OnIdleBlocker::park, OnIdleBlocker::replan}, to_string),
             "An arm without a job in the way of one, and jobs that wait for each other: park sends "
-            "an arm "
-            "aside, report only tells of it."),
+            "an arm aside, replan plans another way to where the job ends (what its trajectory was "
+            "to do on the way is lost) and parks where there is none, report only tells of it."),
       field(
           "horizon_legs", &Scheduling::horizon_legs, integer(1, 32),
           "Of each arm so many jobs are admitted together, the one under way included; who passes "

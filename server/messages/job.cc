@@ -54,6 +54,19 @@ FormatPtr<ChoiceView> choice_format() {
       told("detail", &ChoiceView::detail, text()),
   });
 }
+FormatPtr<AnotherWayView> another_way_format() {
+  using View = AnotherWayView;
+  using Cause = AnotherWay::Cause;
+  return object<View>({
+      told("done", &View::done, count(), "So many times it was given another way"),
+      told("planning", &View::is_open, flag(), "One is being looked for: it stays where it is"),
+      told("cause", &View::cause,
+           choice<Cause>({Cause::client, Cause::timeout, Cause::blocked}, to_string),
+           "Of the last time: POST /jobs/{id}/replan, on_timeout, or on_idle_blocker"),
+      told("refused", &View::refusal, nullable(text()),
+           "Why it kept the way that it had, the last time; else null"),
+  });
+}
 std::optional<JobOrder> order_of(const JobView& job) {
   return job.any_order ? std::optional(JobOrder::any) : std::nullopt;
 }
@@ -195,6 +208,8 @@ FormatPtr<JobView> job_format() {
                   "It may change places with others of its arm that say so"),
           told_if("alternatives", alternatives_of, list(text()),
                   "Arms of which one does it; `arms` is that one, or the likeliest while it waits"),
+          told_if("replan", &View::another_way, another_way_format(),
+                  "Other ways that were looked for, to where its own ends"),
           told_if("choice", &View::choice, choice_format(),
                   "Why it was taken before others, or by this arm"),
           told("ring", &View::ring, list(text()),

@@ -128,10 +128,16 @@ FormatPtr<JobRequest> job_request_format() {
           field("after", &Request::after,
                 list(job_id_format(), {.most = kAfterMax, .noun = "ids", .what = "predecessors"}),
                 "Jobs that have to succeed first"),
-          // Fields of the contract whose other values are still to come.
-          not_served<Request>({"on_timeout", "not-served",
-                               "\"on_timeout\" can only be \"abort\" in this version", "abort",
-                               "What becomes of it then"}),
+          field(
+              "on_timeout", &Request::on_timeout,
+              choice<OnTimeout>({OnTimeout::abort, OnTimeout::replan}, to_string),
+              "What becomes of it then. \"replan\": another way is planned to where it ends, from "
+              "where its arm stands and past what rests there; it expires when there is none, "
+              "and after the third"),
+          field("approach", &Request::approach,
+                choice<Approach>({Approach::none, Approach::plan}, to_string),
+                "\"plan\": its arms need not stand where it begins; each that stands elsewhere at "
+                "its turn is brought there first, slowly, by a planned motion of the server's own"),
           not_served<Request>(
               {"steps", "not-served",
                "\"steps\" are not served by this version; give one \"trajectory\""}),

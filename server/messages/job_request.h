@@ -26,8 +26,7 @@ inline constexpr std::size_t kAlternativesMax = 8;
 
 // The body of POST /jobs: its shape only; limits, names and times are validate()'s. All
 // faults are returned, at most JsonNode::kFaultsMax.
-// ROS's `header` and `effort` are read over; `on_timeout` may say what is done anyway ("abort"),
-// anything else in it is refused. The trajectory may stand one level deeper, as
+// ROS's `header` and `effort` are read over. The trajectory may stand one level deeper, as
 // MoveIt has it ("trajectory": {"joint_trajectory": {...}}).
 [[nodiscard]] Result<JobRequest> read_job(const nlohmann::json& body);
 

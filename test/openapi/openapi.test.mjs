@@ -173,8 +173,11 @@ test('Jobs, good and bad', async () => {
   await diagram(400, '?with=reach&cells=no');
   await diagram(404, '?with=nothing');
   await diagram(422, '?with=meet');
+  await call(202, 'POST', `${v1}/jobs/{id}/replan`, {args: {id: 'meet'}});
   await call(202, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'meet'}});
   await call(409, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'meet'}});
+  await call(409, 'POST', `${v1}/jobs/{id}/replan`, {args: {id: 'meet'}});
+  await call(404, 'POST', `${v1}/jobs/{id}/replan`, {args: {id: 'nothing'}});
   await call(404, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'nothing'}});
   await call(202, 'POST', `${v1}/jobs`, {body: example(`${v1}/jobs`, 'POST', 'moveit')});
   assert.equal((await ended('reach')).result.reason, 'completed');

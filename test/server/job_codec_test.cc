@@ -17,6 +17,20 @@ double job_time_s(const json& trajectory) {
                           : last["sec"].get<double>() + 1e-9 * last["nanosec"].get<double>();
 }
 
+TEST(JobCodec, ReadsWhatBecomesOfOneThatWaitsTooLongOrBeginsElsewhere) {
+  const auto job = read_job_text(
+      R"({"on_timeout": "replan", "approach": "plan",
+          "trajectory": {"joint_names": ["a"], "points": [
+            {"positions": [1], "velocities": [0], "time_from_start": 0}]}})");
+  ASSERT_TRUE(job) << job.error().front().detail;
+  EXPECT_EQ(job->on_timeout, OnTimeout::replan);
+  EXPECT_EQ(job->approach, Approach::plan);
+  const auto bad =
+      read_job_text(R"({"on_timeout": "retry", "arm": "a", "move_to": {"named": "b"}})");
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().front().pointer, "/on_timeout");
+}
+
 TEST(JobCodec, ReadsWhatTheContractShows) {
   const auto job = read_job_text(R"({
     "id": "pick-7", "name": "pick 7", "priority": -3, "backlog_timeout_s": 1.5,

@@ -142,6 +142,51 @@ TEST_F(GoalsOverHttp, OneOfAGoalAndATrajectoryIsGiven) {
   EXPECT_EQ(post("/api/v1/jobs", no_arm.dump()).json()["pointer"], "/arm");
 }
 
+TEST_F(PlanOverHttp, AStraightLineIsKeptOrRefusedWithThePlace) {
+  start(1.0);
+  const auto to_y = [&](double y_m) {
+    const json pose = {
+        {"link", "left_panda_link8"}, {"xyz", {0.1, y_m, 0.6}}, {"rpy", {3.14, 0, 0}}};
+    return plan({{"arm", "left"}, {"to", {{"pose", pose}, {"cartesian", true}}}});
+  };
+  const json broken = to_y(3.0).json();
+  EXPECT_EQ(broken["type"], "urn:armloom:problem:line-broken") << broken;
+  EXPECT_NE(broken["detail"].get<std::string>().find("of the straight line"), std::string::npos);
+  const auto joints = plan({{"arm", "left"}, {"to", {{"named", "ready"}, {"cartesian", true}}}});
+  EXPECT_EQ(joints.status, 422) << joints.body;
+}
+
+TEST_F(GoalsOverHttp, AJobIsGivenAnotherWayUnderItsId) {
+  start(20.0);
+  test::Listener listener(port());
+  const json body = {{"id", "go"},
+                     {"arm", "left"},
+                     {"move_to", {{"named", "extended"}}},
+                     {"velocity_scaling_factor", 0.1}};
+  ASSERT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
+  until(listener, "go", "running");
+  const auto asked = post("/api/v1/jobs/go/replan", "");
+  ASSERT_EQ(asked.status, 202) << asked.body;
+  EXPECT_EQ(asked.json()["replan"]["planning"], true);
+  EXPECT_EQ(asked.json()["replan"]["cause"], "client");
+  const json done = until(listener, "go", "succeeded");
+  EXPECT_EQ(done["replan"]["done"], 1) << done;
+  EXPECT_EQ(post("/api/v1/jobs/go/replan", "").status, 409);
+  EXPECT_EQ(post("/api/v1/jobs/nobody/replan", "").status, 404);
+}
+
+TEST_F(GoalsOverHttp, AJobThatBeginsElsewhereIsApproachedWhenItAsksForIt) {
+  start(20.0);
+  test::Listener listener(port());
+  json elsewhere = test::move("left", test::kMiddle, test::kHome);
+  elsewhere["id"] = "back";
+  EXPECT_EQ(post("/api/v1/jobs", elsewhere.dump()).status, 422);
+  elsewhere["approach"] = "plan";
+  ASSERT_EQ(post("/api/v1/jobs", elsewhere.dump()).status, 202);
+  EXPECT_EQ(until(listener, "back", "succeeded")["result"]["reason"], "completed");
+  EXPECT_EQ(get("/api/v1/jobs/approach-1").json()["name"], "left goes to the start of back");
+}
+
 // A verb that never answers is told that nobody waits for it any more.
 TEST(Http, ARequestKnowsWhenItsClientHasGone) {
   auto http = HttpServer::listen("127.0.0.1", 0, 4);

@@ -67,7 +67,7 @@ class Timetable {
   }
 
   [[nodiscard]] std::optional<TimePoint> starts(std::size_t m) const {
-    if (job(m).has_started()) return job(m).times.started_at;
+    if (job(m).has_started()) return job(m).times.motion_started_at;
     const auto leaves = prediction_.goes_beyond(m, motions_[m].progress);
     return leaves ? std::optional(now_ + *leaves) : std::nullopt;
   }

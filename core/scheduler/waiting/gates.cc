@@ -64,7 +64,7 @@ void add_after(const State& state, const Record& record, Edges& edges) {
 }
 
 Closed plan(const Turns&, const Record& record) {
-  if (!record.job.is_unplanned()) return std::nullopt;
+  if (!record.job.is_unplanned() && !record.job.is_replanned_now()) return std::nullopt;
   return only(Wait{.kind = Wait::Kind::plan});
 }
 

@@ -14,7 +14,7 @@ namespace armloom {
 enum class GateKind {
   behind,     // another job of its arm comes before it
   after,      // a job that it comes after has not ended
-  plan,       // the way to its goal is not planned yet
+  plan,       // its way is not planned yet, or another one is looked for
   lets_pass,  // an arm that is aside lets another one pass
   stop,       // an arm of it is stopped
   place,      // the policy has no place for it

@@ -1,11 +1,13 @@
 #include "core/scheduler/waiting/wait_cycles.h"
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 #include <utility>
 
 #include "core/scheduler/authority.h"
 #include "core/scheduler/phases.h"
+#include "core/scheduler/replanning.h"
 #include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
@@ -68,6 +70,26 @@ void resolve(State& state, const WaitCycle& ring) {
   give_up(state, last, {AfterStop::Then::fail, Reason::deadlock});
 }
 
+bool is_asked(const State& state, const WaitCycle& ring) {
+  return std::ranges::any_of(ring, [&](JobId id) {
+    const Record* record = state.jobs.find(id);
+    return record != nullptr && record->job.is_replanned_now();
+  });
+}
+
+// Whether one of the ring may have another way: they are asked one by one, the last one first.
+bool goes_around(State& state, const WaitCycle& ring) {
+  if (is_asked(state, ring)) return true;
+  WaitCycle from_last = ring;
+  std::ranges::sort(from_last, std::greater<>());
+  for (JobId id : from_last) {
+    if (!may_go_around(state, state.jobs.at(id))) continue;
+    ask_for_another_way(state, state.jobs.at(id), AnotherWay::Cause::blocked);
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void WaitCycles::name(State& state) {
@@ -89,7 +111,8 @@ void WaitCycles::name(State& state) {
 void WaitCycles::settle(State& state) {
   for (Named& named : std::exchange(named_, {})) {
     const bool stood = ring_stands(state, named.ring, named.epoch);
-    named.way_out = stood && yield_in(state, named.ring).has_value();
+    named.way_out =
+        stood && (goes_around(state, named.ring) || yield_in(state, named.ring).has_value());
     if (named.way_out) {
       named_.push_back(std::move(named));
       continue;
@@ -105,6 +128,7 @@ bool WaitCycles::is_one_to_settle() const {
 
 std::optional<YieldTrial> WaitCycles::next_yield(const State& state) const {
   for (const Named& named : named_) {
+    if (is_asked(state, named.ring)) continue;
     if (auto move = yield_in(state, named.ring)) return move;
   }
   return std::nullopt;

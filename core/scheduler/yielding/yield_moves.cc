@@ -45,7 +45,8 @@ bool has_been_there(const YieldsTried& tried, const Trajectory& way) {
 // A way aside of this arm that has not been tried for the job. Nobody makes way any more for what
 // was to help a job that has ended.
 std::optional<YieldTrial> untried(const State& state, const Record& record, ArmId arm) {
-  if (state.cell->scheduling.on_idle_blocker != OnIdleBlocker::park || state.arms.is_stopped(arm)) {
+  if (state.cell->scheduling.on_idle_blocker == OnIdleBlocker::report ||
+      state.arms.is_stopped(arm)) {
     return std::nullopt;
   }
   if (!state.jobs.is_active(record.on_behalf_of)) return std::nullopt;
@@ -78,6 +79,7 @@ std::optional<YieldTrial> next_yield(const State& state) {
     const Job& job = record.job;
     const bool put_off = job.is_waiting() && job.judgement().at == state.version;
     if (!put_off && !job.pausing()) continue;
+    if (job.is_replanned_now()) continue;  // perhaps it passes
     for (const Wait& wait : waits_of(job)) {
       const bool idle =
           wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queue(*wait.arm).empty();

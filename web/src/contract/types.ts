@@ -43,10 +43,10 @@ export interface components {
                 /** @description A job that has waited so long is overtaken no more. */
                 aging_s: number;
                 /**
-                 * @description An arm without a job in the way of one, and jobs that wait for each other: park sends an arm aside, report only tells of it.
+                 * @description An arm without a job in the way of one, and jobs that wait for each other: park sends an arm aside, replan plans another way to where the job ends (what its trajectory was to do on the way is lost) and parks where there is none, report only tells of it.
                  * @enum {string}
                  */
-                on_idle_blocker: "report" | "park";
+                on_idle_blocker: "report" | "park" | "replan";
                 /** @description Of each arm so many jobs are admitted together, the one under way included; who passes first is chosen for all of them (coordinated only). */
                 horizon_legs: number;
                 /**
@@ -129,6 +129,20 @@ export interface components {
             order?: "any";
             /** @description Arms of which one does it; `arms` is that one, or the likeliest while it waits */
             alternatives?: string[];
+            /** @description Other ways that were looked for, to where its own ends */
+            replan?: {
+                /** @description So many times it was given another way */
+                done: number;
+                /** @description One is being looked for: it stays where it is */
+                planning: boolean;
+                /**
+                 * @description Of the last time: POST /jobs/{id}/replan, on_timeout, or on_idle_blocker
+                 * @enum {string}
+                 */
+                cause: "client" | "timeout" | "blocked";
+                /** @description Why it kept the way that it had, the last time; else null */
+                refused: string | null;
+            };
             /** @description Why it was taken before others, or by this arm */
             choice?: {
                 /** @description Jobs that could have taken the turn, or arms that could have done it: as it was first */

@@ -1,0 +1,193 @@
+#include "core/planning/tool_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "core/collision/check/motion_checker.h"
+#include "core/planning/pose_descent.h"
+#include "core/trajectory/set_joints.h"
+
+namespace armloom {
+namespace {
+
+using Reason = PlanRefusal::Reason;
+
+// The motion is looked at so closely that the link goes about this far in between.
+constexpr double kLook_m = 1e-4;
+constexpr double kLook_rad = 1e-3;
+// Softened corners of the joints' path (TimingOptions::off_path), rad or m: less than a tenth of
+// the tolerance even at the end of a long arm.
+constexpr double kOffPath = 1e-4;
+
+class ToolLine {
+ public:
+  ToolLine(const Cell& cell, const PoseGoal& goal, const Configuration& at)
+      : cell_(cell), goal_(goal), arm_(cell.arm(goal.arm)), at_(at) {
+    from_ = pose_at(joints_of(at, arm_.joints));
+    const Eigen::AngleAxisd turn(from_.linear().transpose() * goal.X_WL.linear());
+    axis_ = turn.axis();
+    angle_ = turn.angle();
+    length_ = (goal.X_WL.translation() - from_.translation()).norm();
+  }
+
+  // Joint positions along it.
+  [[nodiscard]] tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal> follow() {
+    const auto chain = chain_to(cell_, goal_.arm, goal_.link, X_WL_);
+    if (!chain) {
+      return tl::unexpected(PlanRefusal{Reason::goal_not_reached,
+                                        "link " + cell_.link(goal_.link).name +
+                                            " is not moved by the joints of arm " + arm_.name});
+    }
+    const double steps = std::max(length_ / kLineStep_m, std::abs(angle_) / kLineStep_rad);
+    const int count = std::max(4, static_cast<int>(std::ceil(steps)));
+    std::vector<Eigen::VectorXd> points{joints_of(at_, arm_.joints)};
+    for (int i = 1; i <= count; ++i) {
+      const double share = static_cast<double>(i) / count;
+      Eigen::VectorXd q = descend(cell_, arm_, *chain, along(share), points.back());
+      if (auto broken = break_at(share, points.back(), q)) return tl::unexpected(*broken);
+      points.push_back(std::move(q));
+    }
+    return points;
+  }
+
+  // How the motion leaves the line. Between two looks the link is no farther off than at the nearer
+  // one and half of what it goes in between.
+  [[nodiscard]] std::optional<PlanRefusal> leaves(const Trajectory& motion) {
+    const double looks = std::max({length_ / kLook_m, std::abs(angle_) / kLook_rad, 100.0});
+    const auto count = static_cast<std::int64_t>(std::ceil(looks));
+    Eigen::VectorXd q;
+    Eigen::Isometry3d before = from_;
+    for (std::int64_t i = 1; i <= count; ++i) {
+      motion.sample_positions(motion.duration() * i / count, q);
+      const Eigen::Isometry3d here = pose_at(q);
+      const double goes_m = (here.translation() - before.translation()).norm();
+      const double goes_rad =
+          Eigen::AngleAxisd(before.linear().transpose() * here.linear()).angle();
+      const double share = share_of(here);
+      const Eigen::Isometry3d off = along(share).inverse() * here;
+      const double off_m = off.translation().norm() + goes_m / 2;
+      const double off_rad = Eigen::AngleAxisd(off.linear()).angle() + goes_rad / 2;
+      if (off_m > kLineWithin_m || off_rad > kLineWithin_rad) {
+        return refusal(share, "the joints would leave the line by " + std::to_string(1e3 * off_m) +
+                                  " mm and " + std::to_string(off_rad) + " rad");
+      }
+      before = here;
+    }
+    return std::nullopt;
+  }
+
+  // That ends the line there.
+  [[nodiscard]] PlanRefusal refusal(double share, const std::string& why) const {
+    return {Reason::line_broken, cell_.link(goal_.link).name + ", " + place(share) + ": " + why};
+  }
+  // Where the link is at that instant, for people.
+  [[nodiscard]] std::string place_of(const Trajectory& motion, Duration when) {
+    Eigen::VectorXd q;
+    motion.sample_positions(when, q);
+    return place(share_of(pose_at(q)));
+  }
+
+ private:
+  [[nodiscard]] Eigen::Isometry3d along(double share) const {
+    Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+    X.translation() =
+        from_.translation() + share * (goal_.X_WL.translation() - from_.translation());
+    X.linear() = from_.linear() * Eigen::AngleAxisd(share * angle_, axis_).toRotationMatrix();
+    return X;
+  }
+
+  // Of a pose near it; where it only turns, by the angle.
+  [[nodiscard]] double share_of(const Eigen::Isometry3d& X) const {
+    double share = 0.0;
+    if (length_ > kLineWithin_m) {
+      const Eigen::Vector3d way = goal_.X_WL.translation() - from_.translation();
+      share = way.dot(X.translation() - from_.translation()) / way.squaredNorm();
+    } else if (angle_ > kLineWithin_rad) {
+      const Eigen::AngleAxisd turned(from_.linear().transpose() * X.linear());
+      share = turned.angle() * turned.axis().dot(axis_) / angle_;
+    }
+    return std::clamp(share, 0.0, 1.0);
+  }
+
+  Eigen::Isometry3d pose_at(const Eigen::VectorXd& q) {
+    Configuration whole = at_;
+    set_joints(whole, arm_.joints, q);
+    forward_kinematics(cell_, whole, X_WL_);
+    return X_WL_[goal_.link.index()];
+  }
+
+  [[nodiscard]] std::optional<PlanRefusal> break_at(double share, const Eigen::VectorXd& before,
+                                                    const Eigen::VectorXd& q) {
+    Eigen::Index farthest = 0;
+    const double jump = (q - before).cwiseAbs().maxCoeff(&farthest);
+    const std::string& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(farthest)]).name;
+    if (jump > kLineJump || !q.allFinite()) {
+      return refusal(share, joint + " would have to jump by " + std::to_string(jump) +
+                                " within one step: the line leads past a singular place");
+    }
+    const Eigen::Isometry3d off = along(share).inverse() * pose_at(q);
+    const double off_rad = Eigen::AngleAxisd(off.linear()).angle();
+    if (off.translation().norm() <= kPoseWithin_m && off_rad <= kPoseWithin_rad) return {};
+    for (Eigen::Index j = 0; j < q.size(); ++j) {
+      const Joint& at = cell_.joint(arm_.joints[static_cast<std::size_t>(j)]);
+      if (q[j] > at.lower && q[j] < at.upper) continue;
+      return refusal(share, at.name + " is at its limit there");
+    }
+    return refusal(share, "the arm does not reach on");
+  }
+
+  [[nodiscard]] std::string place(double share) const {
+    char text[96];
+    std::snprintf(text, sizeof text, "after %.3f of %.3f m of the straight line (%.0f %%)",
+                  share * length_, length_, 100 * share);
+    return text;
+  }
+  const Cell& cell_;
+  const PoseGoal& goal_;
+  const Arm& arm_;
+  const Configuration& at_;
+  LinkPoses X_WL_;
+  Eigen::Isometry3d from_;
+  Eigen::Vector3d axis_;
+  double angle_ = 0.0;
+  double length_ = 0.0;
+};
+
+double length_of(const std::vector<Eigen::VectorXd>& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
+
+}  // namespace
+
+tl::expected<PlannedMotion, PlanRefusal> plan_line(const PlanningScenePtr& scene,
+                                                   const PoseGoal& goal, const PlanRequest& request,
+                                                   const TimingOptions& options) {
+  const Cell& cell = scene->cell();
+  ToolLine line(cell, goal, request.at);
+  auto points = line.follow();
+  if (!points) return tl::unexpected(std::move(points.error()));
+  const auto& joints = cell.arm(goal.arm).joints;
+  const TimingOptions close{.shares = options.shares, .off_path = kOffPath};
+  auto timed = length_of(*points) < 1e-9
+                   ? time_line(cell, joints, points->front(), points->back(), close)
+                   : time_path(cell, joints, JointPath::spline_through(*points), close);
+  if (!timed) {
+    return tl::unexpected(line.refusal(1.0, timed.error().front().detail));
+  }
+  if (auto left = line.leaves(*timed->trajectory)) return tl::unexpected(std::move(*left));
+  MotionChecker checker(scene);
+  if (const auto found = found_in_the_way(checker, request, timed->trajectory)) {
+    return tl::unexpected(PlanRefusal{
+        Reason::line_blocked,
+        told(found->proximity) + ", " + line.place_of(*timed->trajectory, found->own_time),
+        found->proximity});
+  }
+  JointWay way{.points = *std::move(points), .goal = 0, .evaluations = 1};
+  return PlannedMotion{std::move(way), *std::move(timed), 0.0};
+}
+
+}  // namespace armloom

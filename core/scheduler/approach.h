@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "core/scheduler/state.h"
+
+namespace armloom {
+
+// Arms that stand elsewhere than where the next job of theirs begins, and that this job wants to be
+// brought there (Submit::approaches): by jobs of the scheduler's own that say where to go
+// (goals.h), slowly, each in front of that job. Where one comes to an end elsewhere (it was
+// stopped, has failed), another one follows, so many in all.
+inline constexpr int kApproachesMax = 3;
+inline constexpr double kApproachSpeed = 0.25;  // share of the joints' speeds
+
+// Whether they are sent. Precondition: it is the first of its arms, waits, and does not begin where
+// they stand.
+[[nodiscard]] bool goes_to_start(State& state, Record& head);
+// Those that have not ended.
+[[nodiscard]] std::vector<JobId> approaches_of(const State& state, const Record& record);
+
+}  // namespace armloom

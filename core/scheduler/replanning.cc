@@ -1,0 +1,221 @@
+#include "core/scheduler/replanning.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "core/scheduler/phases.h"
+#include "core/trajectory/set_joints.h"
+
+namespace armloom {
+namespace {
+
+// Slower than this share of its speed no other way is planned.
+constexpr double kSlowest = 0.01;
+// Seeds of further tries differ from those of other jobs.
+constexpr std::uint64_t kSeedsOfOneTry = std::uint64_t{1} << 32;
+
+ArmId arm_of(const Job& job) { return job.trajectory->arms().front(); }
+
+// As fast as its own way was at its fastest.
+double speed_of(const Cell& cell, const Trajectory& motion) {
+  double share = kSlowest;
+  for (const SegmentBounds& bounds : motion.bounds()) {
+    for (std::size_t j = 0; j < motion.joints().size(); ++j) {
+      const double speed = bounds.speed[static_cast<Eigen::Index>(j)];
+      share = std::max(share, speed / cell.joint(motion.joints()[j]).velocity_max);
+    }
+  }
+  return std::min(share, 1.0);
+}
+
+// Where all stand when what is admitted has run, and what comes before the job on its arm.
+Configuration beside(const State& state, const Job& job) {
+  Configuration at = state.arms.rest();
+  for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
+    for (JobId id : state.jobs.queue(ArmId{arm})) {
+      if (id == job.id) break;
+      const Job& other = state.jobs.at(id).job;
+      if (other.is_admitted() || ArmId{arm} == arm_of(job)) {
+        follow_to_end(at, *state.cell, ArmId{arm}, *other.trajectory);
+      } else {
+        break;
+      }
+    }
+  }
+  return at;
+}
+
+// A pose that others begin at is reached as it was planned; a straight line stays one.
+MotionGoal goal_of(const State& state, const Job& job, Configuration end) {
+  const ArmId arm = arm_of(job);
+  const bool is_last = state.jobs.queue(arm).back() == job.id;
+  if (job.goal && (is_last || job.goal->goal.straight)) return job.goal->goal;
+  follow_to_end(end, *state.cell, arm, *job.trajectory);
+  return {.arm = arm,
+          .to = joints_of(end, state.cell->arm(arm).joints),
+          .speed = job.goal ? job.goal->goal.speed : speed_of(*state.cell, *job.trajectory)};
+}
+
+PlanQuestion question_about(const State& state, const Job& job) {
+  const Configuration at = beside(state, job);
+  PlanQuestion question{.goal = goal_of(state, job, at),
+                        .at = at,
+                        .seed = job.id.value() + kSeedsOfOneTry * job.questions};
+  if (job.another_way->cause != AnotherWay::Cause::client)
+    return question;  // they are what it shall pass
+  for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
+    const bool moves = ArmId{arm} != question.goal.arm && !state.jobs.queue(ArmId{arm}).empty();
+    if (moves) question.may_move.push_back(ArmId{arm});
+  }
+  return question;
+}
+
+bool is_same_place(const State& state, const Configuration& a, const Configuration& b) {
+  return a.size() == b.size() &&
+         (a - b).cwiseAbs().maxCoeff() <= state.cell->execution.start_tolerance_rad;
+}
+
+// For what it was asked: the arm begins there, in that scene.
+bool fits(const State& state, const Record& record) {
+  const AnotherWay& other = *record.job.another_way;
+  const auto& joints = state.cell->arm(arm_of(record.job)).joints;
+  const Eigen::VectorXd from = joints_of(other.beside, joints);
+  const Eigen::VectorXd stands = joints_of(beside(state, record.job), joints);
+  return other.asked_at >= state.recheck_epoch && is_same_place(state, from, stands);
+}
+
+void ask_at_rest(State& state, Record& record) {
+  Job& job = record.job;
+  AnotherWay& other = *job.another_way;
+  if (!job.is_waiting() || other.question) return;
+  PlanQuestion question = question_about(state, job);
+  other.question = ++job.questions;
+  other.beside = question.at;
+  other.asked_at = state.version;
+  ++other.tries;
+  state.effects.push_back(PlanMotion{job.id, *other.question, std::move(question)});
+}
+
+void expire(State& state, Record& record, const std::string& why) {
+  char waited[32];
+  std::snprintf(waited, sizeof waited, "%.6g s", to_seconds(record.job.backlog_timeout));
+  const char* where = record.job.has_started() ? " on its path" : " in the backlog";
+  give_up(state, record,
+          {AfterStop::Then::fail, Reason::backlog_timeout,
+           std::string("waited ") + waited + where + "; no other way: " + why});
+}
+
+bool is_idle_arm(const State& state, const Wait& wait) {
+  return wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queue(*wait.arm).empty();
+}
+
+// As it was found when it was judged last, or where it stands.
+const std::vector<Wait>* waits_of(const State& state, const Job& job) {
+  if (job.pausing()) return &job.waits_on;
+  const bool is_put_off = job.is_waiting() && job.judgement().at == state.version;
+  return is_put_off ? &job.judgement().found : nullptr;
+}
+
+}  // namespace
+
+std::optional<std::string> why_not_replanned(const Job& job) {
+  if (job.system_job) return "it is a move of the server's own";
+  if (job.trajectory->arms().size() > 1) return "it moves several arms as one";
+  if (!job.alternatives.empty()) return "it is one of several ways to do the same work";
+  if (job.goal) return std::nullopt;
+  const bool is_loop = job.trajectory->start().isApprox(job.trajectory->goal());
+  if (!is_loop) return std::nullopt;
+  return "it ends where it begins: what it is to do lies on its way, which would be lost";
+}
+
+void ask_for_another_way(State& state, Record& record, AnotherWay::Cause cause) {
+  Job& job = record.job;
+  if (job.is_unplanned() || job.is_replanned_now()) return;
+  if (!job.another_way) job.another_way.emplace();
+  job.another_way->cause = cause;
+  if (cause == AnotherWay::Cause::client) job.another_way->tries = 0;
+  job.another_way->is_open = true;
+  job.another_way->refusal.reset();
+  state.being_replanned.insert(job.id);
+  if (job.has_authority()) brake(state, record, {});
+  ask_at_rest(state, record);
+  state.jobs.explain(record);
+  state.jobs.changed(record);
+}
+
+void plan_other_ways(State& state) {
+  for (JobId id : std::set<JobId>(state.being_replanned)) {
+    Record* record = state.jobs.find(id);
+    if (record == nullptr || record->job.has_ended()) {
+      state.being_replanned.erase(id);
+      continue;
+    }
+    if (record->job.in<Admitted>() != nullptr) brake(state, *record, {});  // it had not moved
+    ask_at_rest(state, *record);
+  }
+}
+
+bool take_other_way(State& state, const PlanMade& answer) {
+  Record* record = state.jobs.find(answer.job);
+  if (record == nullptr || !record->job.is_replanned_now() || record->job.has_ended()) return false;
+  AnotherWay& other = *record->job.another_way;
+  if (other.question != answer.question) return false;
+  other.question.reset();
+  if (!record->job.is_waiting()) return false;  // it is braking, and asks again
+  const bool is_fit = fits(state, *record);
+  if (!is_fit && other.tries < kReplansMax) {
+    ask_at_rest(state, *record);
+    return false;
+  }
+  other.is_open = false;
+  state.being_replanned.erase(answer.job);
+  state.jobs.explain(*record);
+  state.jobs.changed(*record);
+  if (answer.trajectory && is_fit) {
+    ++other.done;
+    set_out_anew(state, *record, answer.trajectory);
+    return true;
+  }
+  other.refusal =
+      is_fit ? answer.why : "by the time there was one, the arm or the scene was another";
+  if (other.cause == AnotherWay::Cause::timeout) expire(state, *record, *other.refusal);
+  return false;
+}
+
+bool may_go_around(const State& state, const Record& record) {
+  const Job& job = record.job;
+  if (state.cell->scheduling.on_idle_blocker != OnIdleBlocker::replan) return false;
+  if (job.is_unplanned() || why_not_replanned(job)) return false;
+  if (job.is_replanned_now()) return true;
+  if (!job.is_waiting() && !job.pausing()) return false;
+  if (!job.another_way) return true;
+  const bool is_as_tried = job.another_way->asked_at >= state.recheck_epoch &&
+                           is_same_place(state, job.another_way->beside, beside(state, job));
+  return job.another_way->tries < kReplansMax && !is_as_tried;
+}
+
+bool goes_around_idle_arm(State& state) {
+  for (JobId id : state.jobs.past_queue()) {
+    Record& record = state.jobs.at(id);
+    const std::vector<Wait>* waits = waits_of(state, record.job);
+    if (waits == nullptr || record.job.is_replanned_now()) continue;
+    const bool for_idle_arm =
+        std::ranges::any_of(*waits, [&](const Wait& wait) { return is_idle_arm(state, wait); });
+    if (!for_idle_arm || !may_go_around(state, record)) continue;
+    ask_for_another_way(state, record, AnotherWay::Cause::blocked);
+    return true;
+  }
+  return false;
+}
+
+bool goes_on_after_timeout(State& state, Record& record) {
+  const Job& job = record.job;
+  if (job.is_replanned_now()) return true;
+  if (!job.replans_on_timeout || job.is_unplanned() || why_not_replanned(job)) return false;
+  if (job.another_way && job.another_way->tries >= kReplansMax) return false;
+  ask_for_another_way(state, record, AnotherWay::Cause::timeout);
+  return true;
+}
+
+}  // namespace armloom

@@ -1,0 +1,125 @@
+// Jobs whose arms are brought to where they begin ("approach": "plan").
+#include "core/scheduler/approach.h"
+#include "test/scenarios/two_gantries.h"
+
+namespace armloom {
+namespace {
+
+JobRequest approached(JobRequest request) {
+  request.approach = Approach::plan;
+  return request;
+}
+
+class Approaches : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { cell.emplace(gantries(OnIdleBlocker::report), GetParam()); }
+  void expect_succeeded(const std::string& key) {
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << key << ": " << cell->job(key).detail;
+  }
+  std::optional<TwoGantries> cell;
+};
+INSTANTIATE_TEST_SUITE_P(Policies, Approaches, ::testing::ValuesIn(known_policies()));
+
+TEST_P(Approaches, TheArmGoesToTheStartFirstAndSlowly) {
+  const JobRequest far = go("a", {-2, 1}, {-2, 2}, 20, "far");
+  ASSERT_FALSE(cell->executive().submit(far)) << "without it that is refused";
+  cell->submit(approached(far));
+  cell->run_until(at(10ms));
+  EXPECT_EQ(cell->job("approach-1").name, "a goes to the start of far");
+  EXPECT_EQ(cell->job("far").state, JobState::queued);
+  cell->run_to_the_end();
+  expect_succeeded("approach-1");
+  expect_succeeded("far");
+  EXPECT_LE(cell->job("approach-1").ended_at, cell->job("far").started_at);
+  cell->expect_at("a", {-2, 2});
+  EXPECT_GT(cell->fastest_m_s(), 0.1);
+  EXPECT_LT(cell->fastest_m_s(), 2.0 * kApproachSpeed + 0.05);
+}
+
+TEST_P(Approaches, AnArmThatStandsThereNeedsNone) {
+  cell->submit(approached(go("a", {-1, 0}, {-1, 1}, 3, "here")));
+  cell->run_to_the_end();
+  expect_succeeded("here");
+  EXPECT_FALSE(cell->executive().job("approach-1"));
+}
+
+TEST_P(Approaches, WhatFollowsACanceledJobComesToItsStart) {
+  cell->submit(go("a", {-1, 0}, {0, 2}, 6, "canceled"));
+  cell->submit(approached(go("a", {0, 2}, {-1, 2}, 3, "then")));
+  cell->run_until(at(3s));
+  ASSERT_TRUE(cell->executive().cancel("canceled"));
+  cell->run_to_the_end();
+  expect_succeeded("then");
+  expect_succeeded("approach-1");
+  cell->expect_at("a", {-1, 2});
+}
+
+TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
+  cell->submit(approached(go("a", {1, 0}, {1, 2}, 6, "where b stands")));
+  CollisionObject post{.name = "post", .shape = Box{{0.3, 0.3, 0.3}}};
+  post.X_WO.translation() = Eigen::Vector3d(-2.0, 1.0, 0.0);
+  ASSERT_TRUE(cell->executive().add_object(std::move(post)));
+  cell->submit(approached(go("a", {-2, 1}, {-2, 2}, 6, "in the post")));
+  ASSERT_TRUE(cell->executive().cancel("where b stands"));
+  cell->run_to_the_end();
+  const JobView failed = cell->job("in the post");
+  EXPECT_EQ(failed.reason, Reason::start_mismatch);
+  EXPECT_NE(failed.detail.find("no way to where it begins: "), std::string::npos) << failed.detail;
+  EXPECT_NE(failed.detail.find("post"), std::string::npos) << failed.detail;
+  cell->expect_at("a", {-1, 0});
+}
+
+TEST_P(Approaches, CancelingTheJobStopsTheArmOnItsWayThere) {
+  cell->submit(approached(go("a", {-2, 2}, {-2, 3}, 6, "gone")));
+  cell->run_until(at(2s));
+  ASSERT_EQ(cell->job("approach-1").state, JobState::running);
+  ASSERT_TRUE(cell->executive().cancel("gone"));
+  cell->run_to_the_end(at(5s));
+  EXPECT_EQ(cell->job("gone").state, JobState::canceled);
+  EXPECT_EQ(cell->job("approach-1").state, JobState::canceled);
+}
+
+TEST_P(Approaches, AStoppedOneGoesOnWhenResumed) {
+  cell->submit(approached(go("a", {-2, 2}, {-2, 3}, 6, "job")));
+  cell->run_until(at(2s));
+  cell->executive().stop_all("operator");
+  cell->run_until(at(5s));
+  EXPECT_EQ(cell->job("approach-1").state, JobState::holding);
+  cell->executive().resume_all();
+  cell->run_to_the_end();
+  expect_succeeded("job");
+}
+
+TEST_P(Approaches, AfterAFaultAnotherOneFollows) {
+  cell->submit(approached(go("a", {-2, 2}, {-2, 3}, 6, "job")));
+  ASSERT_TRUE(cell->executive().inject(
+      {.arm = "a", .kind = ArmFault::Kind::fault, .at = at(2s), .lasting = {}}));
+  cell->run_until(at(5s));
+  EXPECT_EQ(cell->job("approach-1").reason, Reason::arm_fault);
+  EXPECT_EQ(cell->job("job").state, JobState::queued);
+  cell->executive().resume_all();
+  cell->run_to_the_end();
+  expect_succeeded("approach-2");
+  expect_succeeded("job");
+}
+
+// What has to come past another arm waits for it like any motion.
+TEST_P(Approaches, NothingTouchesOnTheWayThere) {
+  cell->submit(go("b", {1, 0}, {-3, 0}, 8, "b"));
+  cell->submit(approached(go("a", {1, 1}, {1, 2}, 6, "a")));
+  cell->run_to_the_end();
+  expect_succeeded("a");
+  EXPECT_GT(cell->closest_m(), 0.0);
+}
+
+TEST_P(Approaches, AGoalHasNone) {
+  JobRequest goal{.key = "goal", .name = "", .trajectory = {}};
+  goal.arm = "a";
+  goal.move_to = PlanGoal{.joints = std::vector{0.0, 1.0}, .named = {}, .pose = {}};
+  const auto refused = cell->executive().submit(approached(goal));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().pointer, "/approach");
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/executive/known_policies.h"
+#include "core/executive/simulation.h"
+#include "core/model/cell/build_cell.h"
+
+namespace armloom {
+
+using namespace std::chrono_literals;
+
+// Balls of 10 cm radius, "a" and "b", that go anywhere in one plane: from (-1, 0) and (1, 0) m.
+inline CellDescription gantries(OnIdleBlocker on_idle_blocker) {
+  CellDescription cell{.name = "two gantries"};
+  for (const std::string name : {"a", "b"}) {
+    RobotDescription robot{.name = name,
+                           .urdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/gantry.urdf",
+                           .srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/gantry.srdf",
+                           .prefix = name + "_"};
+    const double x_m = name == "a" ? -1.0 : 1.0;
+    ArmDescription arm{.name = name, .group = "axes", .home = {x_m, 0.0}, .limits = {}};
+    for (const char* joint : {"x", "y"}) arm.limits[joint].acceleration = 20.0;
+    robot.arms.push_back(std::move(arm));
+    cell.robots.push_back(std::move(robot));
+  }
+  cell.checking.time_step = 10ms;
+  cell.scheduling.on_idle_blocker = on_idle_blocker;
+  return cell;
+}
+
+using Place_m = std::pair<double, double>;
+
+// Straight, from rest to rest, as a client would post it.
+inline JobRequest go(const std::string& arm, Place_m from, Place_m to, double duration_s,
+                     std::string key) {
+  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
+  request.trajectory.joint_names = {arm + "_x", arm + "_y"};
+  const std::vector<double> zero{0.0, 0.0};
+  request.trajectory.points = {{{from.first, from.second}, zero, zero, 0.0},
+                               {{to.first, to.second}, zero, zero, duration_s}};
+  return request;
+}
+
+// The cell on hand-driven time.
+class TwoGantries {
+ public:
+  explicit TwoGantries(const CellDescription& description, const std::string& policy) {
+    auto built = build_cell(description);
+    if (!built) throw std::runtime_error(built.error().front().detail);
+    auto created = Simulation::create(*built, ExecutiveOptions{.policy = policy}, log_);
+    if (!created) throw std::runtime_error(created.error().front().detail);
+    simulation_ = std::move(*created);
+    simulation_->tick();
+  }
+
+  Executive& executive() { return simulation_->executive(); }
+  JobView submit(JobRequest request) {
+    auto view = executive().submit(std::move(request));
+    if (!view) throw std::runtime_error(view.error().front().detail);
+    return *view;
+  }
+  [[nodiscard]] JobView job(const std::string& key) const {
+    return *simulation_->executive().job(key);
+  }
+  void run_until(TimePoint time) { simulation_->run_until(time); }
+  void run_to_the_end(TimePoint limit = at(100s)) {
+    while (!executive().all_ended() && simulation_->now() < limit) simulation_->tick();
+    EXPECT_TRUE(executive().all_ended()) << "jobs hang";
+  }
+  void expect_at(const std::string& arm, Place_m place) const {
+    const Eigen::Index first = arm == "a" ? 0 : 2;
+    EXPECT_NEAR(log_.last[first], place.first, 1e-3) << arm;
+    EXPECT_NEAR(log_.last[first + 1], place.second, 1e-3) << arm;
+  }
+  [[nodiscard]] double closest_m() const { return log_.closest_m; }
+  // Of one joint of the cell, from tick to tick.
+  [[nodiscard]] double fastest_m_s() const { return log_.fastest_m_s; }
+  [[nodiscard]] const std::vector<Event>& events() const { return log_.events; }
+
+ private:
+  struct Log final : Observer {
+    void on_event(const Event& event) override { events.push_back(event); }
+    void on_tick(TimePoint now, const Configuration& q) override {
+      if (last.size() != 0 && now > before) {
+        fastest_m_s =
+            std::max(fastest_m_s, (q - last).cwiseAbs().maxCoeff() / to_seconds(now - before));
+      }
+      before = now;
+      last = q;
+      closest_m = std::min(closest_m, (q.head<2>() - q.tail<2>()).norm() - 0.2);
+    }
+    void on_state(const StateFrame&) override {}
+    std::vector<Event> events;
+    Configuration last;
+    TimePoint before{};
+    double closest_m = 1e9;
+    double fastest_m_s = 0.0;
+  };
+  Log log_;
+  std::unique_ptr<Simulation> simulation_;
+};
+
+}  // namespace armloom
