@@ -185,7 +185,7 @@ void Executive::Impl::watch() {
       if (!finding.stops.empty()) step(Stop{finding.stops, sentence(finding)});
     }
   }
-  observer_.on_state(StateFrame{now_, q, clearance_});
+  observer_.on_state(StateFrame{now_, q, clearance_, authorities()});
 }
 
 // ---- The public face ----
@@ -245,6 +245,7 @@ Result<void> Executive::remove_fault(std::uint64_t id) { return impl_->remove_fa
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
 Snapshot Executive::snapshot(std::size_t ended_max) const { return impl_->snapshot(ended_max); }
 std::vector<ArmView> Executive::arms() const { return impl_->arms(); }
+TrajectoryPtr Executive::trajectory(const std::string& key) const { return impl_->trajectory(key); }
 TimelineView Executive::timeline() const {
   return timeline_of(impl_->scheduler_, impl_->now_, *impl_->cell_, *impl_);
 }

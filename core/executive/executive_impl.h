@@ -63,6 +63,7 @@ class Executive::Impl final : public JobNames {
   std::optional<JobView> job(const std::string& key) const;
   Snapshot snapshot(std::size_t ended_max) const;
   std::vector<ArmView> arms() const;
+  TrajectoryPtr trajectory(const std::string& key) const;
 
   // Empty for a job that has been forgotten since.
   std::string key(JobId job) const override;
@@ -167,6 +168,7 @@ class Executive::Impl final : public JobNames {
   ArmState state_of(ArmId arm) const;
   ArmView view_of_arm(ArmId arm) const;
   QueueView queue() const;
+  std::vector<ArmAuthority> authorities() const;
 
   JudgePool& judges_;
   Observer& observer_;

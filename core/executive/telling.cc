@@ -168,6 +168,20 @@ std::optional<JobView> Executive::Impl::job(const std::string& key) const {
   return view(*scheduler_.find(it->second));
 }
 
+TrajectoryPtr Executive::Impl::trajectory(const std::string& key) const {
+  const auto it = ids_.find(key);
+  return it == ids_.end() ? nullptr : scheduler_.find(it->second)->trajectory;
+}
+
+std::vector<ArmAuthority> Executive::Impl::authorities() const {
+  std::vector<ArmAuthority> all;
+  for (const Motions::UnderWay& motion : motions_.under_way()) {
+    all.push_back(
+        {cell_->arm(motion.arm).name, key(motion.job), motion.progress, motion.authority});
+  }
+  return all;
+}
+
 std::vector<ArmView> Executive::Impl::arms() const {
   std::vector<ArmView> arms;
   for (ArmId arm : all_arms()) arms.push_back(view_of_arm(arm));
