@@ -39,7 +39,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
       <States job={job} app={app} />
       {job.waits_on.length > 0 && <Evidence job={job} app={app} />}
       <Beside job={job} app={app} />
-      {job.started_s !== null && <Measured job={job} app={app} />}
+      <Moves job={job} app={app} />
       <h3>For programs</h3>
       <div class="line">
         <Copy what="JSON" text={() => pretty(job)} />
@@ -103,18 +103,23 @@ function Beside({ job, app }: Props) {
   return <p><Link app={app} to={{ page: 'pair', a: partner.id, b: job.id }} test="show-diagram">Diagram beside {short_id(partner.id)}</Link></p>;
 }
 
-function Measured({ job, app }: Props) {
-  const { store } = app;
-  const first_s = store.trace.first_s;
-  const from_s = job.started_s ?? 0;
+/** How its joints move: what is planned as a pale band, what was measured as a line. */
+function Moves({ job, app }: Props) {
+  const { store, motions } = app;
+  motions.changes.value;  // looked at again when its trajectory has come
+  const planned = motions.of(job);
   const joints = job.arms.flatMap((arm) => store.arms.get(arm)?.joints ?? []);
-  if (first_s === null || (job.ended_s !== null && job.ended_s < first_s)) {
-    return <><h3>Measured</h3><p class="hint">It moved before this page listened.</p></>;
-  }
+  const { first_s } = store.trace;
+  const unseen = job.started_s !== null && (first_s === null || (job.ended_s !== null && job.ended_s < first_s));
+  const from_s = job.started_s ?? Math.max(store.t_s, job.scheduled_s ?? 0);
+  if (joints.length === 0 || (!planned && (unseen || job.started_s === null))) return null;
+  const measured = job.started_s !== null && !unseen;
+  const title = planned ? (measured ? 'Planned and measured' : 'Planned') : 'Measured';
   return (
     <>
-      <h3>Measured</h3>
-      <Plot app={app} joints={joints} stretch={[from_s, job.ended_s]} label={`Measured joints while ${job.id} moved`} />
+      <h3>{title}{planned && <span class="key"><i class="band" /> planned</span>}{measured && <span class="key"><i class="stroke" /> measured</span>}</h3>
+      {unseen && <p class="hint">It moved before this page listened.</p>}
+      <Plot app={app} joints={joints} planned={planned} stretch={measured ? [from_s, job.ended_s] : [0, 0]} label={`${title} joints of ${job.id}`} />
     </>
   );
 }

@@ -12,11 +12,22 @@ export class Trace {
   private count_ = 0;
   private next_ = 0;
 
-  constructor(private readonly capacity_ = kFrames) {}
+  constructor(private capacity_ = kFrames) {}
 
   clear(): void {
     this.count_ = 0;
     this.next_ = 0;
+  }
+
+  /** All anew, however many there are. */
+  load(names: readonly string[], t_s: readonly number[], q: readonly (readonly number[])[]): void {
+    this.capacity_ = Math.max(kFrames, t_s.length);
+    this.begin([...names]);
+    t_s.forEach((at_s, i) => this.push(at_s, Object.fromEntries(names.map((name, k) => [name, q[i]?.[k] ?? NaN]))));
+  }
+
+  get names(): readonly string[] {
+    return this.names_;
   }
 
   push(t_s: number, q: Readonly<Record<string, number>>): void {

@@ -27,6 +27,8 @@ export class Stage {
   readonly camera = new THREE.PerspectiveCamera(26, 1, 0.05, 60);
   /** Called after each drawn frame, for labels that follow points of the scene. */
   after_draw: () => void = () => {};
+  /** Told what the next drawing leaves out, when that changes. */
+  on_level: (level: Level) => void = () => {};
 
   private readonly renderer_: THREE.WebGLRenderer;
   private readonly controls_: OrbitControls;
@@ -153,6 +155,11 @@ export class Stage {
     this.frame_ = requestAnimationFrame(draw);
   }
 
+  /** Whether a drag turns the view. */
+  let_turn(yes: boolean): void {
+    this.controls_.enabled = yes;
+  }
+
   /** Kept after the next drawing, which it asks for; that one leaves nothing out. */
   drawn(): Promise<void> {
     return new Promise((done) => {
@@ -212,6 +219,7 @@ export class Stage {
     this.renderer_.setPixelRatio(this.full_ratio_ * level.resolution);
     // Left as they are, and not shown: to take them out would compile every material again.
     this.key_light_.shadow.intensity = level.shadows ? kShadows : 0;
+    this.on_level(level);
   }
 
   private resize(): void {
