@@ -186,7 +186,8 @@ export class CellView {
   /** The monitor's closest pairs, as things are now. */
   private measure(): void {
     const shown = this.app_.settings.shows.peek().distances && this.instant_s_ === null;
-    this.distances_.show(shown ? this.store_.clearance : [], this.store_.cell?.clearance_m ?? 0);
+    const changed = this.distances_.show(shown ? this.store_.clearance : [], this.store_.cell?.clearance_m ?? 0);
+    if (changed) this.stage_.invalidate();
   }
 
   private drawn_of(body: string): THREE.Mesh | null {

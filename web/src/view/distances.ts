@@ -21,11 +21,13 @@ export class Distances {
   /** `find`: what is drawn of a link or an object of this name. */
   constructor(private readonly host_: HTMLElement, private readonly find_: (body: string) => THREE.Mesh | null) {}
 
-  /** Bodies stand where they are drawn. Nothing is shown of what is farther apart. */
-  show(pairs: readonly Clearance[], limit_m: number): void {
+  /** Bodies stand where they are drawn; nothing is shown of what is farther apart. Answers whether other lines are seen. */
+  show(pairs: readonly Clearance[], limit_m: number): boolean {
+    const before = this.seen();
     const near = pairs.filter(({ m, arms }) => m < (arms.length > 1 ? kShown_m : kNear * limit_m));
     near.forEach((pair, i) => this.draw(this.line(i), pair, limit_m));
     for (const line of this.lines_.slice(near.length)) hide(line);
+    return this.seen() !== before;
   }
 
   /** Labels follow their lines; the function says where a point stands, px from the view's top left. */
@@ -58,6 +60,10 @@ export class Distances {
     shown.element.className = `distance-label ${level}`;
   }
 
+  private seen(): string {
+    return this.lines_.map(({ line }) => (line.visible ? 1 : 0)).join('');
+  }
+
   private line(i: number): Line {
     const known = this.lines_[i];
     if (known) return known;
@@ -66,6 +72,7 @@ export class Distances {
     line.renderOrder = 2;
     line.frustumCulled = false;
     const made = { line, element: document.createElement('div'), middle: new THREE.Vector3() };
+    hide(made);  // until it is placed
     this.group.add(line);
     this.host_.append(made.element);
     this.lines_.push(made);
