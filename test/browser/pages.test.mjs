@@ -289,5 +289,7 @@ test('a server that is started anew is found again without a reload', { timeout:
   await page.getByText('The server was restarted').first().waitFor();
   await send('left', 'afterwards', [kMiddle, null], 2);
   await page.locator('[data-test=list-finished] [data-test="job-afterwards"]').waitFor();
+  const { missed, doubled } = await page.evaluate(() => window.armloom.numbers());
+  assert.deepEqual([missed, doubled], [0, 0]);
   assert.equal(await page.evaluate(() => window.never_reloaded), true);
 });

@@ -38,22 +38,22 @@ describe('states.csv', () => {
 });
 
 describe('events.jsonl', () => {
-  it('is read with wall times and without, and counts what cannot be read', () => {
+  it('is read with wall times and without, and counts what cannot be read', async () => {
     const bare = JSON.parse(envelope('job', 2, job_json('a'))) as { at?: string; data: Record<string, unknown> };
     delete bare.at;
     for (const key of ['submitted_at', 'scheduled_at', 'started_at', 'ended_at']) delete bare.data[key];
-    const events = read_events([envelope('arm', 1, arm_json('left')), JSON.stringify(bare), '{"type": "new", "at": ""}', 'no JSON', ''].join('\n'));
+    const events = await read_events([envelope('arm', 1, arm_json('left')), JSON.stringify(bare), '{"type": "new", "at": ""}', 'no JSON', ''].join('\n'));
     expect(events.messages.map(({ type }) => type)).toEqual(['arm', 'job']);
     expect(events.unread).toBe(2);
   });
 });
 
 describe('a store that shows a recording', () => {
-  it('has its jobs, its positions and its end, and forgets them for the present', () => {
+  it('has its jobs, its positions and its end, and forgets them for the present', async () => {
     const store = new Store(() => 0);
-    const first = read_events(snapshot(1)).messages;
+    const first = (await read_events(snapshot(1))).messages;
     for (const message of first) store.take(message);
-    const { messages } = read_events(envelope('job', 5, job_json('old', { state: 'succeeded', started_s: 2, ended_s: 4 }), { stream: 'another', t_s: 4 }));
+    const { messages } = await read_events(envelope('job', 5, job_json('old', { state: 'succeeded', started_s: 2, ended_s: 4 }), { stream: 'another', t_s: 4 }));
     store.show_recording('run', messages, { names: ['left_panda_joint1'], t_s: [1, 2, 3], q: [[0], [0.1], [0.2]] });
     expect(store.link).toEqual({ status: 'recording', name: 'run' });
     expect(store.jobs('finished').map(({ id }) => id)).toEqual(['old']);

@@ -28,7 +28,7 @@ export class Player {
     const joints = new Set(this.store_.cell?.joints.map(({ name }) => name));
     const strange = frames.names.find((name) => !joints.has(name));
     if (strange !== undefined) return { ok: false, fault: `It was recorded with another cell: this server's has no joint ${strange}.` };
-    const events = read_events(await find('events.jsonl')?.text() ?? '');
+    const events = await read_events(await find('events.jsonl')?.text() ?? '');
     this.connection_.stop();
     const name = states.webkitRelativePath.split('/').at(-2) ?? states.name;
     this.store_.show_recording(name, events.messages, frames);

@@ -54,6 +54,7 @@ export class Store {
   private readonly frames_ = signal(0);
   private readonly beats_ = signal(0);
   private beaten_at_ms_ = -Infinity;
+  private quiet_ = false;
   private heard_at_ms_: number | null = null;
 
   constructor(private readonly now_ms_: () => number = () => performance.now()) {}
@@ -136,7 +137,9 @@ export class Store {
     this.forget_all();
     this.link = { status: 'recording', name };
     this.arms = new Map(arms.map((arm) => [arm.name, arm]));
+    this.quiet_ = true;  // nobody looks at each of them
     for (const message of messages) this.take(message);
+    this.quiet_ = false;
     this.trace.load(names, t_s, q);
     this.t_s = Math.max(this.t_s, t_s.at(-1) ?? 0);
     names.forEach((joint, i) => { this.q[joint] = q.at(-1)?.[i] ?? 0; });
@@ -278,7 +281,7 @@ export class Store {
   }
 
   private changed(): void {
-    this.changes_.value += 1;
+    if (!this.quiet_) this.changes_.value += 1;
   }
 }
 

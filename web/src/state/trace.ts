@@ -23,7 +23,10 @@ export class Trace {
   load(names: readonly string[], t_s: readonly number[], q: readonly (readonly number[])[]): void {
     this.capacity_ = Math.max(kFrames, t_s.length);
     this.begin([...names]);
-    t_s.forEach((at_s, i) => this.push(at_s, Object.fromEntries(names.map((name, k) => [name, q[i]?.[k] ?? NaN]))));
+    this.t_s_.set(t_s);
+    q.forEach((row, i) => this.q_.set(row, i * names.length));
+    this.count_ = t_s.length;
+    this.next_ = t_s.length % this.capacity_;
   }
 
   get names(): readonly string[] {
