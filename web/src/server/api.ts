@@ -66,6 +66,11 @@ export class Api {
     return this.ask('DELETE', `/jobs/${encodeURIComponent(id)}`);
   }
 
+  /** Another way to where the job ends. */
+  replan_job(id: string): Promise<Answer<unknown>> {
+    return this.ask('POST', `/jobs/${encodeURIComponent(id)}/replan`);
+  }
+
   stop(): Promise<Answer<unknown>> {
     return this.ask('POST', '/stop');
   }

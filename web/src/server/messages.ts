@@ -83,6 +83,9 @@ export type ParsedMessage =
   | { kind: 'unknown'; type: string; stream: string | null; seq: number | null }
   | { kind: 'malformed'; fault: string };
 
+/** Whether this server can look for another way for a job: its jobs then tell of it. */
+export const kCanReplan = 'replan' in shapes.Job.properties;
+
 // Which schema each type of message has.
 const kSchemaOfType = new Map<string, string>(Object.entries(shapes.Message.discriminator.mapping));
 

@@ -52,6 +52,10 @@ export class Actions {
     return this.ask(`Move ${object.name}`, this.api_.put_object({ ...object, xyz }));
   }
 
+  async replan(id: string): Promise<void> {
+    await this.ask(`Another way for ${id}`, this.api_.replan_job(id));
+  }
+
   async cancel(id: string): Promise<void> {
     await this.ask(`Cancel ${id}`, this.api_.cancel_job(id));
   }
