@@ -88,9 +88,8 @@ test('who is blocked says by whom, which links, how close, since when and until 
   await send('right', 'blocked', [kMiddle, null], 4, { backlog_timeout_s: 300 });
   const row = page.locator('[data-test=list-backlog] [data-test="job-blocked"]');
   await row.waitFor({ timeout: 60_000 });
-  await row.getByText(/expires in/).waitFor();
-  assert.match(await row.locator('[data-test=when]').innerText(), /blocked for [\d.]+ s.*expires in \d+ min/);
-  assert.match(await row.locator('[data-test=reason]').innerText(), /right_panda_\w+ would (touch|come within).*left_panda_\w+, [\d.]+ s into its motion/);
+  await row.locator('[data-test=when]', { hasText: /blocked for [\d.]+ s.*expires in \d+ min/ }).waitFor();
+  assert.match(await row.locator('[data-test=reason]').textContent(), /right_panda_\w+ would (touch|come within).*left_panda_\w+, [\d.]+ s into its motion/);
 });
 
 test('a diagram shows authority, and both arms where it is pointed at', { timeout: 90_000 }, async () => {

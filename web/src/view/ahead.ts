@@ -23,6 +23,7 @@ export class Ahead {
   private readonly ways_ = new Map<string, Shown>();
   private cell_: Cell | null = null;
   private ghosts_at_ = '';
+  private seen_ = '';
 
   constructor(private readonly app_: Pick<App, 'store' | 'motions' | 'settings'>) {
     this.group.add(this.ghosts_.group);
@@ -49,9 +50,12 @@ export class Ahead {
     return this.ways_.size;
   }
 
-  /** By what is known now; `at_now`: else an instant of the past is looked at, which has no future here. */
-  follow(surfaces: Surfaces, at_now: boolean): void {
-    const { settings } = this.app_;
+  /**
+   * By what is known now; `at_now`: else an instant of the past is looked at, which has no future here.
+   * Answers whether something else is to be seen than before.
+   */
+  follow(surfaces: Surfaces, at_now: boolean): boolean {
+    const { settings, store } = this.app_;
     const legs = at_now ? this.legs() : [];
     const wanted = new Set(settings.shows.value.ways ? legs.map(({ arm, job }) => `${arm}\n${job.id}`) : []);
     for (const [key, { motion, job }] of [...this.ways_]) {
@@ -61,6 +65,11 @@ export class Ahead {
     for (const leg of legs) if (settings.shows.value.ways) this.add(leg.arm, leg.job);
     this.show_ghosts(settings.shows.value.ghosts ? legs : [], surfaces);
     this.move();
+    const granted = store.motions.map(({ job, authority_s }) => `${job} ${authority_s}`);
+    const seen = [...this.ways_.keys(), ...granted, this.ghosts_at_].join('\n');
+    const changed = seen !== this.seen_;
+    this.seen_ = seen;
+    return changed;
   }
 
   /** How far each is, and how far it may go, by the last frame. */

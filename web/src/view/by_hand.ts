@@ -23,12 +23,13 @@ export class ByHand {
     stage.scene.add(this.controls_.getHelper());
   }
 
-  /** This one may be moved; null: none. */
-  show(object: THREE.Object3D | null): void {
-    if (object === this.object_) return;
+  /** This one may be moved; null: none. Answers whether it was another one before. */
+  show(object: THREE.Object3D | null): boolean {
+    if (object === this.object_) return false;
     this.object_ = object;
     if (object) this.controls_.attach(object);
     else this.controls_.detach();
+    return true;
   }
 
   /** A handle is under the pointer: a click is no click on what is behind it. */

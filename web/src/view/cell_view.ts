@@ -37,6 +37,8 @@ export class CellView {
   private cell_: Cell | null = null;
   private readonly off_: (() => void)[];
 
+  /** As they are drawn: a drawing costs much, so it is asked for when something has changed. */
+  private states_ = '';
   private instant_s_: number | null = null;
 
   constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'motions' | 'settings' | 'actions' | 'by_hand'>) {
@@ -156,15 +158,18 @@ export class CellView {
     if (cell && cell !== this.cell_) this.build(cell);
     this.objects_.show(objects);
     this.take_in_hand();
-    for (const arm of arms.values()) this.show_arm(arm);
+    const states = [...arms.values()].map(({ name, state }) => `${name} ${state}`).join('\n');
+    if (states !== this.states_) {
+      for (const arm of arms.values()) this.show_arm(arm);
+      this.stage_.invalidate();
+    }
+    this.states_ = states;
     this.move();
     this.look_ahead();
-    this.stage_.invalidate();
   }
 
   private take_in_hand(): void {
-    this.by_hand_.show(this.objects_.find(this.app_.by_hand.peek()));
-    this.stage_.invalidate();
+    if (this.by_hand_.show(this.objects_.find(this.app_.by_hand.peek()))) this.stage_.invalidate();
   }
 
   private let_go({ name, position }: THREE.Object3D): void {
@@ -180,7 +185,7 @@ export class CellView {
   }
 
   private look_ahead(): void {
-    this.ahead_.follow(this.surfaces_, this.instant_s_ === null);
+    if (this.ahead_.follow(this.surfaces_, this.instant_s_ === null)) this.stage_.invalidate();
   }
 
   /** The monitor's closest pairs, as things are now. */
@@ -227,6 +232,7 @@ export class CellView {
 
   private add_robots(cell: Cell, surfaces: Surfaces): void {
     this.surfaces_ = surfaces;
+    this.states_ = '';
     for (const robot of cell.robots) {
       try {
         const model = new RobotModel(robot, surfaces);
