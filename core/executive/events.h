@@ -61,6 +61,8 @@ struct JobView {
   int priority = 0;
   bool system_job = false;  // the server's: a move aside
   TimePoint submitted_at{};
+  std::optional<TimePoint> backlogged_at;  // the first time
+  std::optional<TimePoint> expires_at;     // while it waits in the backlog, or in vain on its path
   std::optional<TimePoint> scheduled_at;
   std::optional<TimePoint> started_at;
   std::optional<TimePoint> ended_at;
@@ -124,11 +126,20 @@ struct Event {
   std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, Alert> body;
 };
 
+// A motion that an arm has been told of. Trajectory time.
+struct ArmAuthority {
+  std::string arm;       // name
+  std::string job;       // key
+  Duration progress{};   // measured
+  Duration authority{};  // it may go so far, unless more is granted
+};
+
 // Poses: may be dropped.
 struct StateFrame {
   TimePoint time;
-  Configuration q;                   // measured, all joints of the cell
-  std::vector<Proximity> clearance;  // closest pair of two arms, and of an arm with the scene
+  Configuration q;                         // measured, all joints of the cell
+  std::vector<Proximity> clearance;        // closest pair of two arms, and of an arm with the scene
+  std::vector<ArmAuthority> motions = {};  // in the order of jobs
 };
 
 // Everything at one instant: what a new client gets first.

@@ -210,7 +210,7 @@ void Executive::Impl::watch() {
       if (!finding.stops.empty()) step(Stop{finding.stops, sentence(finding)});
     }
   }
-  publisher_.tell_state(StateFrame{now_, q, watch_.near()});
+  publisher_.tell_state(watch_.near(), now_);
 }
 
 // ---- What is asked of all arms ----
@@ -332,6 +332,10 @@ Result<std::uint64_t> Executive::inject(const FaultRequest& fault) {
 Result<void> Executive::remove_fault(std::uint64_t id) { return impl_->faults_.remove(id); }
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
 Snapshot Executive::snapshot(std::size_t ended_max) const { return impl_->snapshot(ended_max); }
+TrajectoryPtr Executive::trajectory(const std::string& key) const {
+  const auto id = impl_->jobs_.find(key);
+  return id ? impl_->scheduler_.find(*id)->trajectory : nullptr;
+}
 std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms(); }
 TimelineView Executive::timeline() const {
   return timeline_of(impl_->scheduler_, impl_->now_, *impl_->cell_, impl_->jobs_);

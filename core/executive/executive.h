@@ -244,6 +244,9 @@ class Executive {
   [[nodiscard]] Result<void> remove_fault(std::uint64_t id);
 
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
+  // The motion of a job while it is known; of a goal that is not planned yet, and of alternatives,
+  // the likeliest. Null: no such job.
+  [[nodiscard]] TrajectoryPtr trajectory(const std::string& key) const;
   // With the `ended_max` jobs that ended last, at most.
   [[nodiscard]] Snapshot snapshot(std::size_t ended_max = ~std::size_t{0}) const;
   [[nodiscard]] std::vector<ArmView> arms() const;

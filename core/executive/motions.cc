@@ -159,4 +159,14 @@ double Motions::deviation(ArmId arm) const {
   return 0.0;
 }
 
+std::vector<Motions::UnderWay> Motions::under_way() const {
+  std::vector<UnderWay> all;
+  for (const auto& [job, motion] : motions_) {
+    for (ArmId arm : motion.trajectory->arms()) {
+      all.push_back({arm, job, feedback_[arm.index()].measured_progress, motion.authority});
+    }
+  }
+  return all;
+}
+
 }  // namespace armloom

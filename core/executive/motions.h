@@ -44,6 +44,14 @@ class Motions {
   // Largest distance of a measured joint from where its path is at the measured progress, rad or
   // m; zero without a motion.
   [[nodiscard]] double deviation(ArmId arm) const;
+  // What each arm that has a motion may do of it, in the order of jobs. Trajectory time.
+  struct UnderWay {
+    ArmId arm;
+    JobId job;
+    Duration progress;  // measured
+    Duration authority;
+  };
+  [[nodiscard]] std::vector<UnderWay> under_way() const;
 
  private:
   struct Motion {

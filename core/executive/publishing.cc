@@ -64,6 +64,19 @@ void Publisher::tell_queue(TimePoint now) {
   tell(std::move(present), now);
 }
 
+void Publisher::tell_state(const std::vector<Proximity>& near, TimePoint now) {
+  observer_.on_state(StateFrame{now, shown_.motions.measured(), near, authorities()});
+}
+
+std::vector<ArmAuthority> Publisher::authorities() const {
+  std::vector<ArmAuthority> all;
+  for (const Motions::UnderWay& motion : shown_.motions.under_way()) {
+    all.push_back({shown_.cell.arm(motion.arm).name, shown_.jobs.key(motion.job), motion.progress,
+                   motion.authority});
+  }
+  return all;
+}
+
 JobView Publisher::view(JobId id) const {
   JobView view = view_of(*shown_.scheduler.find(id), shown_.cell, shown_.jobs);
   const JobLabel* label = shown_.jobs.label(id);

@@ -37,7 +37,7 @@ class Publisher {
   // Each control cycle.
   void tell_tick(TimePoint now);
   // Each period of the monitor.
-  void tell_state(const StateFrame& frame) { observer_.on_state(frame); }
+  void tell_state(const std::vector<Proximity>& near, TimePoint now);
 
   // Times of a former run are shown as they were.
   [[nodiscard]] JobView view(JobId job) const;
@@ -50,6 +50,7 @@ class Publisher {
   [[nodiscard]] bool is_told_of_a_start(ArmId arm) const;
   [[nodiscard]] ArmState state_of(ArmId arm) const;
   [[nodiscard]] ArmView view_of_arm(ArmId arm) const;
+  [[nodiscard]] std::vector<ArmAuthority> authorities() const;
 
   Shown shown_;
   Observer& observer_;

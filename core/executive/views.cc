@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "core/scheduler/deadlines.h"
+
 namespace armloom {
 namespace {
 
@@ -104,6 +106,8 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .priority = job.priority,
                .system_job = job.system_job,
                .submitted_at = job.times.submitted_at,
+               .backlogged_at = job.times.backlogged_at,
+               .expires_at = expiry_of(job),
                .scheduled_at = job.times.scheduled_at,
                .started_at = job.times.started_at,
                .ended_at = job.ended_at(),

@@ -63,16 +63,20 @@ void fail_overdue(State& state, Record& record) {
 
 std::optional<TimePoint> deadline_of(const Job& job) {
   if (job.is_replanned_now()) return std::nullopt;  // until that is answered
-  if (job.state() == JobState::backlogged) return *job.times.backlogged_at + job.backlog_timeout;
-  std::optional<TimePoint> next;
-  if (const auto* moving = job.in<Moving>()) next = moving->overrun_at;
-  const Pause* pause = pause_of(job);
-  if (pause == nullptr || !pause->in_vain_since) return next;
-  const TimePoint given_up = *pause->in_vain_since + job.backlog_timeout;
-  return next ? std::min(*next, given_up) : given_up;
+  const auto expiry = expiry_of(job);
+  const auto* moving = job.in<Moving>();
+  if (moving == nullptr) return expiry;
+  return expiry ? std::min(moving->overrun_at, *expiry) : moving->overrun_at;
 }
 
 }  // namespace
+
+std::optional<TimePoint> expiry_of(const Job& job) {
+  if (job.state() == JobState::backlogged) return *job.times.backlogged_at + job.backlog_timeout;
+  const Pause* pause = pause_of(job);
+  if (pause == nullptr || !pause->in_vain_since) return std::nullopt;
+  return *pause->in_vain_since + job.backlog_timeout;
+}
 
 void expire_and_overrun(State& state) {
   const std::vector<JobId> ids(state.jobs.past_queue().begin(), state.jobs.past_queue().end());
@@ -80,16 +84,15 @@ void expire_and_overrun(State& state) {
     Record& record = state.jobs.at(id);
     Job& job = record.job;
     if (job.state() == JobState::backlogged) {
-      if (state.now < *job.times.backlogged_at + job.backlog_timeout) continue;
+      if (state.now < *expiry_of(job)) continue;
       if (goes_on_after_timeout(state, record)) continue;
       end(state, record, JobState::expired, Reason::backlog_timeout,
           "waited " + seconds_text(job.backlog_timeout) + " in the backlog");
       continue;
     }
     see_whether_in_vain(state, record);
-    const Pause* pause = pause_of(job);
-    const bool in_vain = pause != nullptr && pause->in_vain_since &&
-                         state.now >= *pause->in_vain_since + job.backlog_timeout;
+    const auto expiry = expiry_of(job);
+    const bool in_vain = expiry && state.now >= *expiry;
     if (in_vain && goes_on_after_timeout(state, record)) continue;
     if (in_vain) {
       give_up(state, record,

@@ -11,6 +11,9 @@ namespace armloom {
 // would free nobody's way.
 inline constexpr Duration kStandstill = std::chrono::seconds(10);
 
+// When a job that waits in the backlog, or on its path in vain, is given up, if nothing changes.
+[[nodiscard]] std::optional<TimePoint> expiry_of(const Job& job);
+
 // Ends what has waited in the backlog, or on its path in vain, for longer than its timeout, and
 // motions that overrun.
 void expire_and_overrun(State& state);

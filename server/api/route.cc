@@ -10,8 +10,8 @@ const std::vector<Route>& all_routes() {
   static const std::vector<Route> routes = [] {
     std::vector<Route> all;
     for (const auto& part :
-         {submission_routes(), plan_routes(), job_routes(), arm_routes(), scene_routes(),
-          cell_routes(), simulation_routes(), event_routes(), service_routes()}) {
+         {submission_routes(), plan_routes(), job_routes(), motion_routes(), arm_routes(),
+          scene_routes(), cell_routes(), simulation_routes(), event_routes(), service_routes()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

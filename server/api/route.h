@@ -65,6 +65,7 @@ struct Route {
 
 // The routes by resource. All of them, in the order in which they are tried.
 [[nodiscard]] std::vector<Route> job_routes();         // /jobs, /queue, /timeline
+[[nodiscard]] std::vector<Route> motion_routes();      // /jobs/{id}/trajectory
 [[nodiscard]] std::vector<Route> submission_routes();  // POST /jobs, /batches, /check
 [[nodiscard]] std::vector<Route> plan_routes();        // /plan
 [[nodiscard]] std::vector<Route> arm_routes();         // /arms, /stop, /resume

@@ -1,5 +1,6 @@
 #include "server/messages/cell.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -74,6 +75,11 @@ FormatPtr<CellRobotView> robot_view_format() {
                "Address of each mesh that the URDF names"),
           told("arms", &View::arms, list(arm_view_format())),
       }));
+}
+
+bool is_simulated(const CellView& view) {
+  return std::ranges::all_of(view.cell->robots,
+                             [](const Robot& robot) { return robot.controller.type == "sim"; });
 }
 
 // A limit that the joint does not have is null.
@@ -151,6 +157,7 @@ FormatPtr<CellView> cell_view_format() {
                     "name", [](const View& view) { return view.cell->name; }, text()),
                 told("policy", &View::policy, text(), "In force"),
                 told("speed", &View::speed, number(kPositive), "Cell seconds per wall second"),
+                told("simulated", is_simulated, flag(), "No drive moves: every arm is simulated"),
                 told("robots", &View::robots, list(robot_view_format())),
                 told(
                     "objects", [](const View& view) { return &view.cell->objects; },

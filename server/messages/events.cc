@@ -200,6 +200,18 @@ FormatPtr<NearView> near_format() {
   });
 }
 
+FormatPtr<ArmAuthority> authority_format() {
+  using Told = ArmAuthority;
+  return named("ArmAuthority", "What an arm may do of a motion. Trajectory time.",
+               object<Told>({
+                   told("arm", &Told::arm, text()),
+                   told("job", &Told::job, text()),
+                   told("progress_s", &Told::progress, seconds(kAnyNumber), "Measured"),
+                   told("authority_s", &Told::authority, seconds({0.0}),
+                        "It may go so far, and stops there unless more is granted"),
+               }));
+}
+
 struct FrameView {
   const StateFrame* frame;
   const Cell* cell;
@@ -241,6 +253,9 @@ FormatPtr<FrameView> frame_format() {
                     "q", [](const View& view) { return &view; }, std::make_shared<PosesFormat>(),
                     "Every joint of the cell, rad or m"),
                 told("clearance", near, list(near_format())),
+                told(
+                    "motions", [](const View& view) { return &view.frame->motions; },
+                    list(authority_format()), "Of every arm that has been told to move"),
             }));
   return format;
 }

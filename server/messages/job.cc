@@ -195,6 +195,11 @@ FormatPtr<JobView> job_format() {
           told("priority", &View::priority, integer(-kAnyPriority, kAnyPriority),
                "Larger goes first"),
           told_times("submitted", &View::submitted_at, "When it was accepted"),
+          told_if("backlogged_s", &View::backlogged_at, cell_time(),
+                  "When it first was found in conflict, in cell time; absent: never"),
+          told_if("expires_s", &View::expires_at, cell_time(),
+                  "When it is given up if nothing changes, in cell time: while it waits in the "
+                  "backlog, or on its path for what no job moves"),
           told_times("scheduled", &View::scheduled_at, "When it starts; null: not planned"),
           told_times("started", &View::started_at, "When it began to move; null: not yet"),
           told_times("ended", &View::ended_at, "When it ended; null: not yet"),

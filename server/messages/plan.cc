@@ -13,23 +13,6 @@ namespace armloom {
 
 using namespace formats;
 
-namespace {
-
-// What is said is what may be posted: one schema for both.
-class PostedTrajectory final : public Format<TrajectoryRequest> {
- public:
-  void read(const JsonNode&, TrajectoryRequest&) const override {}
-  void write(JsonWriter& out, const TrajectoryRequest& trajectory) const override {
-    format_->write(out, trajectory);
-  }
-  Schema schema(Way) const override { return format_->schema(Way::in); }
-
- private:
-  FormatPtr<TrajectoryRequest> format_ = trajectory_request_format();
-};
-
-}  // namespace
-
 FormatPtr<PlanInquiry> plan_inquiry_format() {
   using Inquiry = PlanInquiry;
   static const auto format = formats::named(
@@ -58,8 +41,7 @@ FormatPtr<PlanView> plan_format() {
       object<View>({
           told(
               "trajectory", [](const View& plan) { return &plan.motion.timed.request; },
-              FormatPtr<TrajectoryRequest>(std::make_shared<PostedTrajectory>()),
-              "As POST /jobs takes it"),
+              told_trajectory_format(), "As POST /jobs takes it"),
           told(
               "duration_s",
               [](const View& plan) { return plan.motion.timed.trajectory->duration(); },

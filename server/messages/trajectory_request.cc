@@ -156,10 +156,27 @@ class PlainOrNested final : public Format<TrajectoryRequest> {
   FormatPtr<TrajectoryRequest> nested_ = nested_format();
 };
 
+class ToldTrajectory final : public Format<TrajectoryRequest> {
+ public:
+  void read(const JsonNode&, TrajectoryRequest&) const override {}
+  void write(JsonWriter& out, const TrajectoryRequest& trajectory) const override {
+    format_->write(out, trajectory);
+  }
+  Schema schema(Way) const override { return format_->schema(Way::in); }
+
+ private:
+  FormatPtr<TrajectoryRequest> format_ = trajectory_request_format();
+};
+
 }  // namespace
 
 FormatPtr<TrajectoryRequest> trajectory_request_format() {
   static const FormatPtr<TrajectoryRequest> format = std::make_shared<PlainOrNested>();
+  return format;
+}
+
+FormatPtr<TrajectoryRequest> told_trajectory_format() {
+  static const FormatPtr<TrajectoryRequest> format = std::make_shared<ToldTrajectory>();
   return format;
 }
 

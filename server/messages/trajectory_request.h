@@ -9,5 +9,7 @@ namespace armloom {
 // MoveIt has it ({"joint_trajectory": {...}}). Its shape only; names, sizes, limits and times are
 // validate()'s.
 [[nodiscard]] FormatPtr<TrajectoryRequest> trajectory_request_format();
+// As the server tells one: what is said is what may be posted, so there is one schema for both.
+[[nodiscard]] FormatPtr<TrajectoryRequest> told_trajectory_format();
 
 }  // namespace armloom

@@ -16,7 +16,7 @@ export const kRoot = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 export const web_require = createRequire(join(kRoot, 'web/package.json'));
 const { chromium } = web_require('playwright-core');
 
-const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kRoot, 'build/armloom'));
+export const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kRoot, 'build/armloom'));
 const kChromium = process.env.ARMLOOM_CHROMIUM ?? '/usr/bin/chromium';
 const kPictures = process.env.ARMLOOM_SCREENSHOT_DIR;
 const kFlags = [

@@ -235,7 +235,7 @@ test('names never become HTML', { timeout: 60_000 }, async () => {
   await ask(page, 'DELETE', `/scene/objects/${encodeURIComponent('<b>crate')}`);
 });
 
-const kPages = ['#/', '#/new', '#/scene', '#/scene/table', '#/history', '#/settings', '#/job/first', '#/arm/left', '#/pair/first/second', '#/nowhere'];
+const kPages = ['#/', '#/new', '#/scene', '#/scene/table', '#/history', '#/settings', '#/alerts', '#/recovery', '#/recordings', '#/job/first', '#/arm/left', '#/pair/first/second', '#/nowhere'];
 
 for (const theme of ['Dark', 'Light']) {
   test(`axe-core finds nothing on any page, ${theme.toLowerCase()}`, { timeout: 120_000 }, async () => {
@@ -289,5 +289,7 @@ test('a server that is started anew is found again without a reload', { timeout:
   await page.getByText('The server was restarted').first().waitFor();
   await send('left', 'afterwards', [kMiddle, null], 2);
   await page.locator('[data-test=list-finished] [data-test="job-afterwards"]').waitFor();
+  const { missed, doubled } = await page.evaluate(() => window.armloom.numbers());
+  assert.deepEqual([missed, doubled], [0, 0]);
   assert.equal(await page.evaluate(() => window.never_reloaded), true);
 });

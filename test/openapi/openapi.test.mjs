@@ -142,6 +142,7 @@ test('What only reads', async () => {
     await call(422, 'GET', `${v1}/jobs`, {query});
   }
   await call(404, 'GET', `${v1}/jobs/{id}`, {args: {id: 'nothing'}});
+  await call(404, 'GET', `${v1}/jobs/{id}/trajectory`, {args: {id: 'nothing'}});
 });
 
 test('Jobs, good and bad', async () => {
@@ -167,6 +168,8 @@ test('Jobs, good and bad', async () => {
   const diagram = (status, query) => call(status, 'GET', `${v1}/jobs/{id}/diagram`, {args: {id: 'meet'}, query});
   const drawn = await diagram(200, '?with=reach');
   assert.deepEqual([drawn.a.id, drawn.b.id, drawn.layers[0].arms], ['meet', 'reach', ['right', 'left']]);
+  const moves = await call(200, 'GET', `${v1}/jobs/{id}/trajectory`, {args: {id: 'reach'}});
+  assert.deepEqual(moves.trajectory.joint_names, reach.trajectory.joint_names);
   const ahead = await diagram(200, '?with=reach&cells=0');
   assert.deepEqual([ahead.layers[0].cells, ahead.layers[0].met.state], [undefined, 'conflict']);
   await diagram(400, '');

@@ -9,13 +9,16 @@ import { Header } from './frame/header';
 import { Pane } from './frame/pane';
 import { listen_to_keys } from './frame/shortcuts';
 import { use_staleness } from './frame/staleness';
-import { Notices } from './history/notices';
+import { Notices } from './alerts/notices';
 import { Jobs } from './jobs/jobs';
+import { MotionBook } from './motion/motion_book';
+import { Player } from './recordings/player';
 import { place_in_words } from './route/address';
 import { address_bar_of, Router } from './route/router';
 import { Api } from './server/api';
 import { backoff_ms, Connection, type SocketLike, type Timers } from './server/connection';
 import { follow_timeline } from './server/follow_timeline';
+import { Acknowledged } from './state/acknowledged';
 import { Actions } from './state/actions';
 import type { App } from './state/app';
 import { Settings } from './state/settings';
@@ -33,6 +36,7 @@ const kBase = '/api/v1';
 
 const store = new Store();
 const api = new Api(kBase, (url, init) => fetch(url, init));
+const motions = new MotionBook((id) => api.job_motion(id));
 const timers: Timers = {
   set: (callback, delay_ms) => window.setTimeout(callback, delay_ms),
   clear: (id) => window.clearTimeout(id),
@@ -44,17 +48,22 @@ const connection = new Connection({
   on_message: (message) => {
     const other_run = message.type !== 'state' && store.stream !== null && message.stream !== store.stream;
     store.take(message);
-    if (other_run) void load_cell();
+    if (other_run) {
+      motions.clear();
+      void load_cell();
+    }
   },
   on_link: (link) => store.set_link(link),
   on_reject: ({ kind, what }) => {
     if (store.reject(kind)) console.warn(`${kind} message (further ones are only counted): ${what}`);
   },
 });
+const router = new Router(address_bar_of(window));
 const app: App = {
-  store, api, covered_px: signal(0), ghost: signal(null),
+  store, api, motions, covered_px: signal(0), ghost: signal(null), by_hand: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
-  router: new Router(address_bar_of(window)),
+  acknowledged: new Acknowledged(shelf()),
+  router, player: new Player(store, connection, router),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),
 };
 
@@ -104,8 +113,9 @@ function Page() {
 
 const root = document.getElementById('app');
 if (root) render(<Page />, root);
-install_debug_hook(app);
+install_debug_hook(app, () => connection.break());
 listen_to_keys(app, window);
+window.addEventListener('storage', () => app.acknowledged.read());
 void load_cell();
 connection.start();
 follow_timeline(api, store, timers, () => document.visibilityState === 'visible');

@@ -111,6 +111,7 @@ export function why_mute(link: Link): string | null {
   switch (link.status) {
     case 'open': return null;
     case 'connecting': return 'Not connected to the server yet';
+    case 'recording': return 'A recording is shown, not the present';
     case 'lost': return 'The connection to the server is lost';
   }
 }

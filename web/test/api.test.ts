@@ -25,6 +25,17 @@ describe('the HTTP calls', () => {
     expect(asked[0]?.url).toBe('/api/v1/jobs/a%2Fb%3Fc');
   });
 
+  it('ask for another way, for how a job moves, and for a way to a goal', async () => {
+    const { api, asked } = api_that_answers(200, JSON.stringify({ id: 'a', duration_s: 2, trajectory: { joint_names: ['x'], points: [{ positions: [0] }] } }));
+    expect((await api.replan_job('a/b')).ok).toBe(true);
+    expect(asked[0]).toMatchObject({ url: '/api/v1/jobs/a%2Fb/replan', init: { method: 'POST' } });
+    expect(await api.job_motion('a/b')).toMatchObject({ ok: true, value: { duration_s: 2 } });
+    expect(asked[1]?.url).toBe('/api/v1/jobs/a%2Fb/trajectory');
+    const unread = await api.plan('{"arm": "left"}');
+    expect(asked[2]).toMatchObject({ url: '/api/v1/plan', init: { method: 'POST', body: '{"arm": "left"}' } });
+    expect(unread.ok ? '' : unread.problem.title).toBe('The plan cannot be read');
+  });
+
   it('fetch one job, checked', async () => {
     const { api, asked } = api_that_answers(200, JSON.stringify(job_json('a/1', { state: 'running', progress: 0.4 })));
     const answer = await api.job('a/1');

@@ -37,7 +37,7 @@ describe('a message of the server', () => {
     const job = good(envelope('job', 1, job_json('a', { name: '', waits_on: [wait_json({ kind: 'capacity', links: [] })] })));
     expect(job.type === 'job' && [job.data.name, pair_of(job.data.waits_on[0]?.links ?? ['x', 'y'])]).toEqual(['', null]);
     const near = { arms: ['left'], m: 0.05, links: ['left_panda_hand', 'table'] };
-    const state = good(JSON.stringify({ type: 'state', t_s: 1, q: {}, clearance: [near] }));
+    const state = good(JSON.stringify({ type: 'state', t_s: 1, q: {}, clearance: [near], motions: [] }));
     expect(state.type === 'state' && state.clearance).toEqual([near]);
   });
 
@@ -73,7 +73,7 @@ describe('a message of the server', () => {
 
 describe('the cell', () => {
   const cell = {
-    name: 'two_pandas', policy: 'sequential', speed: 1, self_clearance_m: 0.005,
+    name: 'two_pandas', policy: 'sequential', speed: 1, simulated: true, self_clearance_m: 0.005,
     checking: { time_step_s: 0.05, tracking_error_rad: 0.001, delay_s: 0.1, limit_tolerance: 0.05 },
     scheduling: { policy: 'sequential', backlog_timeout_s: 60, aging_s: 30, horizon_legs: 6, on_restart: 'ask', on_idle_blocker: 'park' },
     monitor: { rate_hz: 100, reaction_s: 0.02, stop_clearance_m: 0.01 },

@@ -1,6 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import { bodies_of, read_bag } from '../src/compose/bag';
-import { motion_of } from '../src/compose/motion';
+import { motion_of } from '../src/motion/pasted';
+import { motion_of_piece, read_trajectory } from '../src/motion/motion';
+import { MotionBook } from '../src/motion/motion_book';
+import type { JobMotion } from '../src/server/messages';
 
 const body = (id: string, joints: string[], stations: number[][], velocities = true) => ({
   id, trajectory: {
@@ -46,5 +49,47 @@ describe('what was pasted', () => {
     for (const wrong of [null, 7, {}, { trajectory: { joint_names: ['x'], points: [] } }, { trajectory: { joint_names: ['x', 'y'], points } }]) {
       expect(motion(wrong)).toBeNull();
     }
+  });
+});
+
+describe('a trajectory', () => {
+  const piece = (accelerations: boolean) => read_trajectory({
+    joint_names: ['a'],
+    points: [0, 2].map((t_s, i) => ({ time_from_start: t_s, positions: [i], velocities: [0], ...(accelerations ? { accelerations: [0] } : {}) })),
+  });
+
+  it('is quintic with accelerations, cubic without', () => {
+    const at = (accelerations: boolean, t_s: number) => {
+      const read = piece(accelerations);
+      return read ? motion_of_piece(read).q_at(t_s)['a'] : NaN;
+    };
+    const u = 0.25;
+    expect(at(true, 2 * u)).toBeCloseTo(10 * u ** 3 - 15 * u ** 4 + 6 * u ** 5, 12);
+    expect(at(false, 2 * u)).toBeCloseTo(3 * u ** 2 - 2 * u ** 3, 12);
+    expect(at(true, -1)).toBe(0);
+    expect(at(true, 9)).toBe(1);
+  });
+
+  it('is fetched once, again when the job is planned anew, and a few at a time', async () => {
+    const asked: string[] = [];
+    const answers: (() => void)[] = [];
+    const book = new MotionBook((id) => new Promise((done) => {
+      asked.push(id);
+      answers.push(() => done({ ok: true, value: { id, duration_s: 2, trajectory: { joint_names: ['a'], points: [{ positions: [0], time_from_start: 0 }, { positions: [1], time_from_start: 2 }] } } as JobMotion }));
+    }));
+    const job = (id: string, duration_s = 2) => ({ id, duration_s, arms: ['left'] });
+    for (let i = 0; i < 6; i++) expect(book.of(job(`j${i}`))).toBeNull();
+    expect(book.of(job('j0'))).toBeNull();
+    expect(asked).toEqual(['j0', 'j1', 'j2', 'j3']);
+    const before = book.changes.value;
+    for (const answer of answers.splice(0)) answer();
+    await new Promise((done) => setTimeout(done));
+    expect(asked).toHaveLength(6);
+    expect(book.changes.value).toBe(before + 4);
+    expect(book.of(job('j0'))?.q_at(1)).toEqual({ a: 0.5 });
+    expect(book.of(job('j0', 3))?.duration_s).toBe(2);  // the old one, until the new one is there
+    for (const answer of answers.splice(0)) answer();
+    await new Promise((done) => setTimeout(done));
+    expect(asked.at(-1)).toBe('j0');
   });
 });

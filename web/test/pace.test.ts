@@ -11,7 +11,7 @@ const times = (count: number, ms: number) => Array<number>(count).fill(ms);
 describe('the pace of the 3D view', () => {
   it('is thirty whole pictures a second while they are quick', () => {
     const pace = after(...times(100, 5));
-    expect(pace.level).toEqual({ resolution: 1, shadows: true });
+    expect(pace.level).toEqual({ resolution: 1, shadows: true, ghosts: true });
     expect(pace.took(5)).toBeCloseTo(1000 / 31 - 1);
   });
   it('leaves half of the time to the page', () => {
@@ -22,7 +22,7 @@ describe('the pace of the 3D view', () => {
   });
   it('leaves out shadows, then points, and rests longer, while they take long', () => {
     const pace = after(300, 300);
-    expect(pace.level).toEqual({ resolution: 1, shadows: false });
+    expect(pace.level).toEqual({ resolution: 1, shadows: false, ghosts: true });
     pace.took(300);
     pace.took(300);
     expect(pace.level.resolution).toBeLessThan(1);

@@ -41,7 +41,7 @@ export function snapshot(seq: number, over: object = {}, envelope_over: object =
 }
 
 export function frame(t_s: number, q: Record<string, number>): string {
-  return JSON.stringify({ type: 'state', t_s, q, clearance: [{ arms: ['left', 'right'], m: 0.2, links: ['a', 'b'] }] });
+  return JSON.stringify({ type: 'state', t_s, q, clearance: [{ arms: ['left', 'right'], m: 0.2, links: ['a', 'b'] }], motions: [] });
 }
 
 type Ranges = [state: string, a0: number, a1: number, b0: number, b1: number];

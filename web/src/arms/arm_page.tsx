@@ -1,6 +1,8 @@
 // One arm: what it does and what comes, its joints against their limits, how far it is off its path,
 // and how its joints moved lately.
 
+import { useState } from 'preact/hooks';
+import { arm_of, states_of } from '../compose/goal';
 import { Link } from '../route/link';
 import { Plot } from '../plot/plot';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
@@ -13,6 +15,7 @@ import { short_id, why_mute } from '../wording';
 import { StatePill } from './arms';
 
 const kPlotted_s = 20;
+const kSlowly = 0.3;
 
 export function ArmPage({ name, app }: { name: string; app: App }) {
   use_store(app.store);
@@ -32,6 +35,7 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
       <p class="hint">
         {job ? <>Executes <Link app={app} to={{ page: 'job', id: job.id }}>{job.name || short_id(job.id)}</Link></> : 'No job is under way.'}
       </p>
+      <SendTo arm={arm} app={app} />
       <h3>Joints</h3>
       <Joints arm={arm} app={app} />
       <h3>Measured, the last {kPlotted_s} s</h3>
@@ -48,6 +52,24 @@ function StopOfArm({ arm, app }: { arm: Arm; app: App }) {
   return stopped
     ? <button class="small" disabled={mute !== null} data-test="resume-arm" onClick={() => void app.actions.resume_arm(arm.name)}>Resume this arm</button>
     : <button class="small" disabled={mute !== null} data-test="stop-arm" title="Brakes on its path; drives stay powered" onClick={() => void app.actions.stop_arm(arm.name)}>Stop this arm</button>;
+}
+
+/** Along a way that the server plans; the job waits its turn as any other. */
+function SendTo({ arm, app }: { arm: Arm; app: App }) {
+  const { cell, link } = app.store;
+  const states = cell ? states_of(arm_of(cell, arm.name)) : [];
+  const [state, set_state] = useState('home');
+  const mute = why_mute(link);
+  return (
+    <div class="line wrap">
+      <label class="line">Send to <select value={state} data-test="send-state" onChange={(event) => set_state(event.currentTarget.value)}>
+        {states.map((name) => <option key={name} value={name}>{name}</option>)}
+      </select></label>
+      <button class="small" data-test="send-there" disabled={mute !== null} title={mute ?? 'The server plans the way; it goes at 30 % of its speed'}
+        onClick={() => void app.actions.send_to(arm.name, state, kSlowly)}>Send, slowly</button>
+      <Link app={app} to={{ page: 'new' }}>Other goals</Link>
+    </div>
+  );
 }
 
 function Coming({ name, app }: { name: string; app: App }) {

@@ -10,7 +10,8 @@ import { why_mute } from '../wording';
 import { read_bag, type Bag } from './bag';
 import { example_job, pretty } from './example';
 import { Judged, judge_all, type Judgement } from './judged';
-import { motion_of } from './motion';
+import { motion_of } from '../motion/pasted';
+import { PlanForm } from './plan_form';
 import { Preview, type Chosen } from './preview';
 import { Refused } from './refused';
 
@@ -33,6 +34,7 @@ export function NewJob({ app }: { app: App }) {
     set_outcome({ kind: 'none' });
   };
   const [chosen, set_chosen] = useState<Chosen | null>(null);
+  const show_end = (next: string) => set_chosen({ t_s: motion_of(read_bag(next))?.duration_s ?? 0 });
   const bag = useMemo(() => read_bag(text), [text]);
   const motion = useMemo(() => motion_of(bag), [bag]);
   const mute = why_mute(app.store.link);
@@ -53,6 +55,10 @@ export function NewJob({ app }: { app: App }) {
         A body as for <code>POST /api/v1/jobs</code>, with a trajectory shaped like
         a <code>trajectory_msgs/JointTrajectory</code>; or a bag of them, as a jobs file has. Paste it, or drop a file.
       </p>
+      <details class="plan-goal" data-test="plan-goal">
+        <summary>Plan the way to a goal</summary>
+        <PlanForm app={app} change={(next) => { change(next); show_end(next); }} />
+      </details>
       <Examples app={app} change={change} />
       <textarea class={`mono${over ? ' over' : ''}`} spellcheck={false} aria-label="Job as JSON" data-test="job-text" value={text}
         placeholder={'{\n  "trajectory": {\n    "joint_names": […],\n    "points": […]\n  }\n}'}

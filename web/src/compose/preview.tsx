@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
-import type { Motion } from './motion';
+import type { Motion } from '../motion/motion';
 
 const kStep_ms = 66;
 

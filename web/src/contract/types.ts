@@ -11,6 +11,8 @@ export interface components {
             policy: string;
             /** @description Cell seconds per wall second */
             speed: number;
+            /** @description No drive moves: every arm is simulated */
+            simulated: boolean;
             robots: components["schemas"]["CellRobot"][];
             objects: components["schemas"]["Object"][];
             joints: components["schemas"]["CellJoint"][];
@@ -91,6 +93,10 @@ export interface components {
              * @description The same in wall time
              */
             submitted_at: string;
+            /** @description When it first was found in conflict, in cell time; absent: never */
+            backlogged_s?: number;
+            /** @description When it is given up if nothing changes, in cell time: while it waits in the backlog, or on its path for what no job moves */
+            expires_s?: number;
             /** @description When it starts; null: not planned, in cell time */
             scheduled_s: number | null;
             /**
@@ -233,6 +239,30 @@ export interface components {
             conflicts: components["schemas"]["Wait"][];
             evaluations: number;
             scene_version: number;
+        };
+        /** @description How a job moves its arms. */
+        JobMotion: {
+            /** @description Of the job */
+            id: components["schemas"]["JobId"];
+            duration_s: number;
+            /** @description As POST /jobs takes it: it makes the same motion */
+            trajectory: components["schemas"]["JointTrajectory"] | components["schemas"]["RobotTrajectory"];
+        };
+        /** @description A motion, not executed. */
+        Plan: {
+            /** @description As POST /jobs takes it */
+            trajectory: components["schemas"]["JointTrajectory"] | components["schemas"]["RobotTrajectory"];
+            duration_s: number;
+            /** @description Of the way in joint space, rad or m */
+            length: number;
+            /** @description The same of the straight line */
+            straight: number;
+            /** @description Stretches of lines that were looked at */
+            evaluations: number;
+            /** @description What POST /check says of it now */
+            verdict?: components["schemas"]["Verdict"];
+            /** @description Instead: why POST /jobs would refuse it now */
+            not_judged?: components["schemas"]["Problem"];
         };
         SnapshotEvent: {
             /**
@@ -409,6 +439,8 @@ export interface components {
                     string
                 ];
             }[];
+            /** @description Of every arm that has been told to move */
+            motions: components["schemas"]["ArmAuthority"][];
         };
         CellRobot: {
             name: string;
@@ -562,6 +594,23 @@ export interface components {
             /** @description Jobs of the arm that are not admitted, behind the horizon or for other reasons: these have no times yet */
             waiting: number;
         };
+        /** @description The shape of trajectory_msgs/JointTrajectory. */
+        JointTrajectory: {
+            /** @description Prefix + URDF name; joints of several arms make one synchronous motion */
+            joint_names: string[];
+            points: components["schemas"]["Waypoint"][];
+            /** @description Read over */
+            header?: Record<string, never>;
+        };
+        /** @description MoveIt's nesting. */
+        RobotTrajectory: {
+            joint_trajectory: components["schemas"]["JointTrajectory"];
+            /** @description Must be empty */
+            multi_dof_joint_trajectory?: {
+                joint_names?: unknown[];
+                points?: unknown[];
+            };
+        };
         Snapshot: {
             cell: string;
             policy: string;
@@ -622,6 +671,15 @@ export interface components {
             level: "info" | "warning" | "error";
             text: string;
         };
+        /** @description What an arm may do of a motion. Trajectory time. */
+        ArmAuthority: {
+            arm: string;
+            job: string;
+            /** @description Measured */
+            progress_s: number;
+            /** @description It may go so far, and stops there unless more is granted */
+            authority_s: number;
+        };
         CellArm: {
             name: string;
             /** @description Of the SRDF */
@@ -650,6 +708,21 @@ export interface components {
             /** @description From now on */
             pauses: components["schemas"]["TimelinePause"][];
         };
+        Waypoint: {
+            /** @description rad or m, in the order of joint_names */
+            positions: number[];
+            /** @description Absent: refused, since the motion could not begin and end at rest */
+            velocities?: number[];
+            /** @description In all waypoints (quintic) or in none (cubic) */
+            accelerations?: number[];
+            /** @description Read over */
+            effort?: unknown[];
+            /**
+             * @description Absent: refused, unless the job says "retime"
+             * @default null
+             */
+            time_from_start: components["schemas"]["Time"];
+        };
         /** @enum {string} */
         ArmState: "idle" | "moving" | "holding" | "stopped" | "fault";
         /** @description A leg stands, at its start or on its way. */
@@ -661,6 +734,14 @@ export interface components {
             at_s: number;
             /** @description For whom; null: for a reason of its arms' own, expected to last for as long again */
             waits_on: components["schemas"]["Wait"] | null;
+        };
+        /** @description ROS 2's, ROS 1's, or a number of seconds. */
+        Time: number | {
+            sec: number;
+            nanosec: number;
+        } | {
+            secs: number;
+            nsecs: number;
         };
     };
     responses: never;

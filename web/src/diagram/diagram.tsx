@@ -115,6 +115,14 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
   const host = useRef<HTMLDivElement>(null);
   const scene = useRef<() => Scene | null>(() => null);
   const trail = useRef<Point[]>([]);
+  const pointed = useRef<Point | null>(null);
+  const picture_shown = useRef<DiagramPicture | null>(null);
+  const point_at = (place: Point | null) => {
+    pointed.current = place;
+    show_both(place, jobs, app);
+    picture_shown.current?.draw();
+  };
+  useEffect(() => () => { app.ghost.value = null; }, [app]);
   // Where they are by the last answer and event, carried on with the clock.
   const progress_s = (side: Diagram['a']) => {
     const job = store.job(side.id);
@@ -133,6 +141,7 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
     const last = trail.current.at(-1);
     if (!last || last.a_s !== at.a_s || last.b_s !== at.b_s) trail.current = [...trail.current.slice(1 - kTrail), at];
     return {
+      authority: authority_of(store, diagram), pointed: pointed.current,
       diagram, layer, now: at, way: is_open ? plan_from(at, diagram) : [], trail: trail.current, met, evidence,
       colours: { a: ink(arm_colour(names, layer.arms[0])), b: ink(arm_colour(names, layer.arms[1])) },
     };
@@ -140,6 +149,7 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
   useEffect(() => {
     if (!host.current) return;
     const picture = new DiagramPicture(host.current, () => scene.current());
+    picture_shown.current = picture;
     const off = [store.on_beat(() => picture.draw()), store.on_change(() => picture.draw())];
     return () => {
       for (const f of off) f();
@@ -153,14 +163,21 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
   return (
     <>
       <div ref={host} class="diagram" data-test="diagram" role="img"
+        onPointerMove={(event) => {
+          const { left, top } = event.currentTarget.getBoundingClientRect();
+          point_at(picture_shown.current?.at(event.clientX - left, event.clientY - top) ?? null);
+        }}
+        onPointerLeave={() => point_at(null)}
         aria-label={`Where ${diagram.a.id} (across) and ${diagram.b.id} (up) are in conflict`} />
       <div class="line keys">
         {(['free', 'conflict', 'undecided'] as const).map((state) => (
           <span key={state} class="key"><i style={{ background: kCellColours[state] }} /> {state} <b class="mono">{percent(share[state])}</b></span>
         ))}
         <span class="grow" />
+        <span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>
         <span class="key"><i class="plan" /> plan from now</span>
       </div>
+      <Instant diagram={diagram} jobs={jobs} app={app} show={point_at} />
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
       {is_open && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null, resting?.id ?? null)}</p>}
       <p class="hint">
@@ -169,6 +186,44 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
       </p>
     </>
   );
+}
+
+/** Both arms as they would stand there, as ghosts in the cell. */
+function show_both(place: Point | null, { a, b }: DrawnProps['jobs'], { motions, ghost }: App): void {
+  if (!place || !a || !b) {
+    ghost.value = null;
+    return;
+  }
+  ghost.value = { ...motions.of(a)?.q_at(place.a_s), ...motions.of(b)?.q_at(place.b_s) };
+}
+
+/** The same for who points with no mouse: an instant of each. */
+function Instant({ diagram, jobs, app, show }: { diagram: Diagram; jobs: DrawnProps['jobs']; app: App; show(place: Point): void }) {
+  const [place, set_place] = useState<Point>({ a_s: 0, b_s: 0 });
+  app.motions.changes.value;
+  const known = [jobs.a, jobs.b].every((job) => job !== null && app.motions.of(job) !== null);
+  if (!known) return <p class="hint">Their motions are not known any more: they cannot be shown in the cell.</p>;
+  const bar = (key: 'a_s' | 'b_s', { id, duration_s }: Diagram['a']) => (
+    <label class="line small"><span class="ellipsis">{short_id(id)}</span>
+      <input class="grow" type="range" min={0} max={duration_s} step={0.01} value={place[key]} data-test={`instant-${key}`} aria-valuetext={`${place[key].toFixed(2)} s`}
+        onInput={(event) => {
+          const next = { ...place, [key]: Number(event.currentTarget.value) };
+          set_place(next);
+          show(next);
+        }} />
+      <span class="mono">{place[key].toFixed(2)} s</span>
+    </label>
+  );
+  return (
+    <fieldset class="pair" aria-label="Show both arms in the cell at an instant of each">{bar('a_s', diagram.a)}{bar('b_s', diagram.b)}</fieldset>
+  );
+}
+
+function authority_of(store: Store, { a, b }: Diagram): Point | null {
+  const told = [a, b].map(({ id }) => store.motions.find((one) => one.job === id) ?? null);
+  const [of_a, of_b] = told;
+  if (!of_a && !of_b) return null;
+  return { a_s: of_a?.authority_s ?? a.progress_s, b_s: of_b?.authority_s ?? b.progress_s };
 }
 
 function percent(share: number): string {

@@ -15,6 +15,10 @@ export interface Scene {
   trail: Point[];
   met: DiagramMeeting | null;
   evidence: Evidence | null;
+  /** How far each may go, whatever the other does; null: neither has been told to move. */
+  authority: Point | null;
+  /** What is pointed at. */
+  pointed: Point | null;
   colours: { a: string; b: string };
 }
 
@@ -45,6 +49,17 @@ export class DiagramPicture {
   close(): void {
     this.observer_.disconnect();
     this.host_.replaceChildren();
+  }
+
+  /** What lies at a place of the picture, px from its top left; null beside the rectangle. */
+  at(x_px: number, y_px: number): Point | null {
+    const scene = this.scene_();
+    if (!scene) return null;
+    const { a, b } = scene.diagram;
+    const sheet = sheet_of(scene.diagram, this.host_.clientWidth, this.host_.clientHeight);
+    const [left, right, bottom, top] = [sheet.x(0), sheet.x(a.duration_s), sheet.y(0), sheet.y(b.duration_s)];
+    if (x_px < left || x_px > right || y_px < top || y_px > bottom) return null;
+    return { a_s: (a.duration_s * (x_px - left)) / (right - left), b_s: (b.duration_s * (bottom - y_px)) / (bottom - top) };
   }
 
   draw(): void {
@@ -158,6 +173,7 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   // Down and across to both axes: each one's time.
   guide(g, [x, y], [x, sheet.y(0)], colours.a);
   guide(g, [x, y], [sheet.x(0), y], colours.b);
+  draw_authority(g, sheet, scene);
   polyline(g, sheet, trail, kInk, 2.5);
   if (way.length > 0) {
     g.setLineDash([2, 5]);
@@ -166,6 +182,7 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
     polyline(g, sheet, met ? up_to(way, met) : way, kPlan, 1.8);
   }
   if (evidence) mark(g, sheet, evidence);
+  if (scene.pointed) ring(g, sheet.x(scene.pointed.a_s), sheet.y(scene.pointed.b_s));
   if (met) cross(g, sheet.x(met.a_s), sheet.y(met.b_s));
   g.beginPath();
   g.arc(x, y, 5.5, 0, 2 * Math.PI);
@@ -173,6 +190,26 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   g.fill();
   g.lineWidth = 2.5;
   g.strokeStyle = kInk;
+  g.stroke();
+}
+
+/** From where both are to where both may go: nothing in it is in conflict. */
+function draw_authority(g: CanvasRenderingContext2D, sheet: Sheet, { now, authority }: Scene): void {
+  if (!authority) return;
+  const [left, bottom] = [sheet.x(now.a_s), sheet.y(now.b_s)];
+  const [right, top] = [sheet.x(Math.max(now.a_s, authority.a_s)), sheet.y(Math.max(now.b_s, authority.b_s))];
+  g.fillStyle = '#1a7f5a3d';
+  g.strokeStyle = '#0d5a3e';
+  g.lineWidth = 1.6;
+  g.fillRect(left, top, right - left, bottom - top);
+  g.strokeRect(left, top, right - left, bottom - top);
+}
+
+function ring(g: CanvasRenderingContext2D, x: number, y: number): void {
+  g.beginPath();
+  g.arc(x, y, 7, 0, 2 * Math.PI);
+  g.strokeStyle = kInk;
+  g.lineWidth = 2;
   g.stroke();
 }
 

@@ -18,6 +18,12 @@ export function Banner({ app }: { app: App }) {
           <span><b>Old data.</b> Nothing was heard from the server for {stale_s} s; arms may still be moving.</span>
         </div>
       )}
+      {store.link.status === 'recording' && (
+        <div class="banner lost" role="status" data-test="recording">
+          <span><b>Recording {store.link.name}.</b> What you see is past; the arms may be moving. Stop still stops them.</span>
+          <button onClick={() => app.player.close()}>Back to the present</button>
+        </div>
+      )}
       {refusal !== null && (
         <div class="banner error" role="alert" data-test="refusal">
           <span>{refusal}</span>

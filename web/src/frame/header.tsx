@@ -1,5 +1,6 @@
 // The top line: which cell, where we are, whether we hear it, and Stop, always at the right end.
 
+import { to_see_to } from '../alerts/alerts';
 import type { Place } from '../route/address';
 import { Link } from '../route/link';
 import type { App } from '../state/app';
@@ -13,6 +14,7 @@ const kPages: readonly { place: Place; title: string; key: string; test: string 
   { place: { page: 'new' }, title: 'New job', key: 'n', test: 'new-job' },
   { place: { page: 'scene', name: null }, title: 'Scene', key: 'o', test: 'go-scene' },
   { place: { page: 'history' }, title: 'History', key: 'h', test: 'go-history' },
+  { place: { page: 'recordings' }, title: 'Recordings', key: 'r', test: 'go-recordings' },
   { place: { page: 'settings' }, title: 'Settings', key: ',', test: 'go-settings' },
 ];
 
@@ -27,7 +29,7 @@ export function Header({ app }: { app: App }) {
       <Logo />
       <h1>Armloom</h1>
       <span class="fact"><b data-test="cell">{store.cell?.name ?? '–'}</b></span>
-      <span class="badge" title="The arms of this server are simulated; no drive moves" data-test="simulated">SIMULATED</span>
+      {store.cell?.simulated && <span class="badge" title="The arms of this server are simulated; no drive moves" data-test="simulated">SIMULATED</span>}
       <nav aria-label="Pages">
         {kPages.map(({ place, title, key, test }) => (
           <Link key={title} app={app} to={place} class="tab" test={test} current={place.page === here}
@@ -35,6 +37,7 @@ export function Header({ app }: { app: App }) {
         ))}
       </nav>
       <span class="spacer" />
+      <OpenAlerts app={app} />
       <span class="fact wide-only"><i>policy</i> {store.policy || '–'}</span>
       {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
       <CellTime app={app} />
@@ -46,11 +49,22 @@ export function Header({ app }: { app: App }) {
   );
 }
 
+function OpenAlerts({ app }: { app: App }) {
+  use_store(app.store);
+  const open = to_see_to(app);
+  if (open.length === 0) return null;
+  return (
+    <Link app={app} to={{ page: 'alerts' }} class={`alert-count ${open.some(({ level }) => level === 'error') ? 'error' : ''}`} test="open-alerts" title="Alerts that nobody has acknowledged">
+      {open.length} {open.length === 1 ? 'alert' : 'alerts'}
+    </Link>
+  );
+}
+
 function CellTime({ app }: { app: App }) {
   use_store(app.store, 'live');
   const stale_s = use_staleness(app.store);
   return (
-    <span class={`fact${stale_s === null ? '' : ' stale-time'}`} title="Cell time of the last thing heard">
+    <span class={`fact cell-time${stale_s === null ? '' : ' stale-time'}`} title="Cell time of the last thing heard">
       <i>cell time</i> <span class="mono" data-test="clock">{clock(app.store.t_s)}</span>
     </span>
   );
@@ -61,12 +75,12 @@ function ConnectionState({ app }: { app: App }) {
   const { store } = app;
   const stale_s = use_staleness(store);
   const silent = store.link.status === 'open' && stale_s !== null;
-  const words = silent ? `silent for ${stale_s} s` : { connecting: 'connecting', open: 'connected', lost: 'disconnected' }[store.link.status];
+  const words = silent ? `silent for ${stale_s} s` : { connecting: 'connecting', open: 'connected', lost: 'disconnected', recording: 'recording' }[store.link.status];
   const { unknown, malformed } = store.rejected;
   const rejected = unknown + malformed;
   return (
     <span class={`fact link-state ${silent ? 'connecting' : store.link.status}`} data-test="link">
-      <span class="dot" aria-hidden="true" /> {words}
+      <span class="dot" aria-hidden="true" /> <span class="link-words">{words}</span>
       {rejected > 0 && (
         <span class="rejected" title={`${unknown} of unknown type, ${malformed} malformed`}> · {rejected} unread</span>
       )}

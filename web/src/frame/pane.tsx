@@ -3,11 +3,14 @@
 import type { ComponentChildren } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { ArmPage } from '../arms/arm_page';
+import { AlertsPage } from '../alerts/alerts_page';
 import { NewJob } from '../compose/new_job';
 import { DiagramPanel } from '../diagram/diagram';
 import { HistoryPage } from '../history/history_page';
 import { place_in_words, type Place } from '../route/address';
 import type { App } from '../state/app';
+import { RecordingsPage } from '../recordings/recordings_page';
+import { RecoveryPage } from '../recovery/recovery_page';
 import { SettingsPage } from './settings_page';
 import { ScenePage } from '../scene/scene_page';
 import { JobPage } from '../jobs/job_page';
@@ -43,6 +46,9 @@ function content_of(place: Place, app: App): ComponentChildren {
     case 'pair': return <DiagramPanel a={place.a} b={place.b} app={app} />;
     case 'scene': return <ScenePage name={place.name} app={app} />;
     case 'history': return <HistoryPage app={app} />;
+    case 'alerts': return <AlertsPage app={app} />;
+    case 'recovery': return <RecoveryPage app={app} />;
+    case 'recordings': return <RecordingsPage app={app} />;
     case 'settings': return <SettingsPage app={app} />;
     case 'unknown': return <><h2>No such page</h2><p class="hint">There is nothing at {place.path}.</p></>;
   }

@@ -8,7 +8,7 @@ import { seconds } from '../wording';
 const kThemes: readonly [Theme, string][] = [['system', 'As the system'], ['dark', 'Dark'], ['light', 'Light']];
 const kKeys: readonly [string, string][] = [
   ['F8', 'Stop all, wherever the focus is'], ['Escape', 'Back to the cell'], ['c', 'Cell'], ['n', 'New job'],
-  ['o', 'Scene'], ['h', 'History'], [',', 'Settings'],
+  ['o', 'Scene'], ['h', 'History'], ['r', 'Recordings'], [',', 'Settings'],
   ['← →  + −  0', 'In the timeline: move, zoom, follow now'],
 ];
 

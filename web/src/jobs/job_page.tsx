@@ -1,17 +1,17 @@
 // One job: its states with their times, why it waits with the evidence, how its arm moved, and the job
 // as programs have it.
 
-import { useEffect } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import { pretty } from '../compose/example';
 import { partner_of } from '../diagram/partner';
 import { Plot } from '../plot/plot';
 import { Link } from '../route/link';
-import type { Job, WaitsOn } from '../server/messages';
+import { kCanReplan, type Job, type WaitsOn } from '../server/messages';
 import type { App } from '../state/app';
 import { is_terminal } from '../state/job_book';
 import { arm_colour } from '../state/palette';
 import { use_store } from '../state/use_store';
-import { clock, millimetres, reason_in_words, result_in_words, short_id, wait_in_words } from '../wording';
+import { clock, millimetres, reason_in_words, result_in_words, short_id, wait_in_words, why_mute } from '../wording';
 import { Copy } from './copy';
 import { curl_of, python_of } from './snippets';
 import { states_of } from './states';
@@ -39,7 +39,8 @@ export function JobPage({ id, app }: { id: string; app: App }) {
       <States job={job} app={app} />
       {job.waits_on.length > 0 && <Evidence job={job} app={app} />}
       <Beside job={job} app={app} />
-      {job.started_s !== null && <Measured job={job} app={app} />}
+      {kCanReplan && goes_on && job.arms.length === 1 && <AnotherWay job={job} app={app} />}
+      <Moves job={job} app={app} />
       <h3>For programs</h3>
       <div class="line">
         <Copy what="JSON" text={() => pretty(job)} />
@@ -97,24 +98,49 @@ function figures_of(wait: WaitsOn): string {
   return parts.filter((part) => part !== '').join(' · ');
 }
 
+/** Of one that moves this is asked first: what its trajectory was to do on the way is lost. */
+function AnotherWay({ job, app }: Props) {
+  const [asked, set_asked] = useState(false);
+  const mute = why_mute(app.store.link);
+  const moves = job.state === 'running' || job.state === 'holding';
+  const ask = () => {
+    if (moves && !asked) return set_asked(true);
+    set_asked(false);
+    void app.actions.replan(job.id);
+  };
+  return (
+    <div class="line">
+      <button class="small" data-test="replan" disabled={mute !== null || job.stopping} title={mute ?? 'From where its arm stands to where the job ends, past what rests there'} onClick={ask}>
+        {asked ? 'Brake, and plan another way' : 'Plan another way'}
+      </button>
+      {asked && <><span class="small">What its trajectory was to do on the way is lost.</span><button class="small" onClick={() => set_asked(false)}>Keep its way</button></>}
+    </div>
+  );
+}
+
 function Beside({ job, app }: Props) {
   const partner = partner_of(job, app.store);
   if (!partner) return null;
   return <p><Link app={app} to={{ page: 'pair', a: partner.id, b: job.id }} test="show-diagram">Diagram beside {short_id(partner.id)}</Link></p>;
 }
 
-function Measured({ job, app }: Props) {
-  const { store } = app;
-  const first_s = store.trace.first_s;
-  const from_s = job.started_s ?? 0;
+/** How its joints move: what is planned as a pale band, what was measured as a line. */
+function Moves({ job, app }: Props) {
+  const { store, motions } = app;
+  motions.changes.value;  // looked at again when its trajectory has come
+  const planned = motions.of(job);
   const joints = job.arms.flatMap((arm) => store.arms.get(arm)?.joints ?? []);
-  if (first_s === null || (job.ended_s !== null && job.ended_s < first_s)) {
-    return <><h3>Measured</h3><p class="hint">It moved before this page listened.</p></>;
-  }
+  const { first_s } = store.trace;
+  const unseen = job.started_s !== null && (first_s === null || (job.ended_s !== null && job.ended_s < first_s));
+  const from_s = job.started_s ?? Math.max(store.t_s, job.scheduled_s ?? 0);
+  if (joints.length === 0 || (!planned && (unseen || job.started_s === null))) return null;
+  const measured = job.started_s !== null && !unseen;
+  const title = planned ? (measured ? 'Planned and measured' : 'Planned') : 'Measured';
   return (
     <>
-      <h3>Measured</h3>
-      <Plot app={app} joints={joints} stretch={[from_s, job.ended_s]} label={`Measured joints while ${job.id} moved`} />
+      <h3>{title}{planned && <span class="key"><i class="band" /> planned</span>}{measured && <span class="key"><i class="stroke" /> measured</span>}</h3>
+      {unseen && <p class="hint">It moved before this page listened.</p>}
+      <Plot app={app} joints={joints} planned={planned} stretch={measured ? [from_s, job.ended_s] : [0, 0]} label={`${title} joints of ${job.id}`} />
     </>
   );
 }

@@ -10,7 +10,7 @@ export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'for
   const leg = store.forecast?.arms.flatMap((lane) => lane.legs).find((known) => known.id === job.id);
   const parts: string[] = [];
   const since_s = store.book.since(job.id);
-  if (job.state === 'backlogged' && since_s !== null) parts.push(`blocked for ${seconds(Math.max(0, now_s - since_s))}`);
+  if (job.state === 'backlogged') parts.push(`blocked for ${seconds(Math.max(0, now_s - (job.backlogged_s ?? since_s ?? now_s)))}`);
   if (job.state === 'holding' && since_s !== null) parts.push(`stands for ${seconds(Math.max(0, now_s - since_s))}`);
   const starts_s = leg ? leg.starts_s : job.scheduled_s;
   if (job.started_s === null && starts_s !== null) {
@@ -18,5 +18,6 @@ export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'for
   }
   if (leg && leg.starts_s === null) parts.push('no start as things are');
   if (leg && job.state === 'holding') parts.push(leg.ends_s === null ? 'no end as things are' : `ends in about ${seconds(Math.max(0, leg.ends_s - now_s))}`);
+  if (job.expires_s !== undefined) parts.push(`expires in ${seconds(Math.max(0, job.expires_s - now_s))}`);
   return parts.join(' · ');
 }

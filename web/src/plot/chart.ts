@@ -12,22 +12,28 @@ const kColours = 8;
 const kDashes: readonly number[][] = [[], [8, 3], [2, 3], [10, 3, 2, 3]];
 const kBorders = ['solid', 'dashed', 'dotted', 'double'];
 
+/** What was meant to be; null where a joint has no part in it. */
+export interface Planned { t_s: number[]; q: (number | null)[][] }
+
 export class Chart {
   private readonly plot_: uPlot;
   private readonly observer_: ResizeObserver;
 
-  constructor(host: HTMLElement, joints: readonly string[]) {
-    this.plot_ = new uPlot(options_of(joints, host.clientWidth), [[], ...joints.map(() => [])], host);
+  /** `with_plan`: under what is measured lies, broad and pale, what was planned. */
+  constructor(host: HTMLElement, joints: readonly string[], with_plan: boolean) {
+    const series = with_plan ? 2 * joints.length : joints.length;
+    this.plot_ = new uPlot(options_of(joints, host.clientWidth, with_plan), [[], ...Array.from({ length: series }, () => [])], host);
     this.observer_ = new ResizeObserver(() => {
       if (host.clientWidth > 0) this.plot_.setSize({ width: host.clientWidth, height: kHeight_px });
     });
     this.observer_.observe(host);
   }
 
-  show({ t_s, q }: Curves, [min, max]: readonly [number, number]): void {
+  show({ t_s, q }: Curves, [min, max]: readonly [number, number], planned: Planned | null): void {
+    const data = planned ? uPlot.join([[planned.t_s, ...planned.q], [t_s, ...q]]) : [t_s, ...q] as uPlot.AlignedData;
     this.plot_.batch(() => {
-      this.plot_.setData([t_s, ...q], false);
-      const values = q.flat().filter(Number.isFinite);
+      this.plot_.setData(data, false);
+      const values = [...q.flat(), ...(planned?.q.flat() ?? [])].filter((value): value is number => value !== null && Number.isFinite(value));
       const [low, high] = [Math.min(...values, Infinity), Math.max(...values, -Infinity)];
       const edge = Math.max(0.05, 0.06 * (high - low));
       this.plot_.setScale('x', { min, max });
@@ -41,7 +47,7 @@ export class Chart {
   }
 }
 
-function options_of(joints: readonly string[], width: number): uPlot.Options {
+function options_of(joints: readonly string[], width: number, with_plan: boolean): uPlot.Options {
   const axis = { stroke: ink('--dim'), grid: { stroke: ink('--line'), width: 1 }, ticks: { stroke: ink('--line'), width: 1 }, font: '10.5px "Inter Variable", system-ui' };
   return {
     width, height: kHeight_px,
@@ -52,14 +58,17 @@ function options_of(joints: readonly string[], width: number): uPlot.Options {
     ],
     series: [
       { label: 'at', value: (_, t_s) => (t_s === null ? '' : clock(t_s)) },
+      ...(with_plan ? joints.map((joint, i) => ({
+        label: `${joint} planned`, class: 'planned', width: 6, points: { show: false }, spanGaps: true, stroke: `${ink(`--arm-${i % kColours}`)}44`,
+      })) : []),
       ...joints.map((joint, i) => ({
-        label: joint.replace(/^.*_(?=joint)/, ''), width: 1.5, points: { show: false },
+        spanGaps: with_plan, label: joint.replace(/^.*_(?=joint)/, ''), width: 1.5, points: { show: false },
         stroke: ink(`--arm-${i % kColours}`), dash: kDashes[i % kDashes.length] ?? [],
         value: (_: uPlot, q: number | null) => (q === null ? '' : q.toFixed(3)),
       })),
     ],
     // Series are counted from one: the first is time.
-    legend: { show: true, live: true, markers: { width: 2, dash: (_, i) => kBorders[(i - 1) % kBorders.length] ?? 'solid' } },
+    legend: { show: true, live: true, markers: { width: 2, dash: (_, i) => kBorders[(i - 1 - (with_plan ? joints.length : 0)) % kBorders.length] ?? 'solid' } },
     cursor: { drag: { setScale: false, x: false, y: false } },
   };
 }

@@ -3,7 +3,8 @@
 
 import { useEffect, useRef } from 'preact/hooks';
 import type { App } from '../state/app';
-import type { Chart } from './chart';
+import type { Motion } from '../motion/motion';
+import type { Chart, Planned } from './chart';
 
 const kRenew_ms = 400;
 
@@ -15,9 +16,19 @@ interface Props {
   last_s?: number;
   /** From, to; to is null while it goes on. Cell time. */
   stretch?: readonly [from_s: number, to_s: number | null];
+  /** What was meant to be, from the stretch's beginning on. */
+  planned?: Motion | null;
 }
 
-export function Plot({ app, joints, label, last_s, stretch }: Props) {
+const kPlannedPoints = 160;
+
+function planned_of(motion: Motion, joints: readonly string[], from_s: number): Planned {
+  const t_s = Array.from({ length: kPlannedPoints }, (_, i) => (motion.duration_s * i) / (kPlannedPoints - 1));
+  const states = t_s.map((at_s) => motion.q_at(at_s));
+  return { t_s: t_s.map((at_s) => from_s + at_s), q: joints.map((joint) => states.map((q) => q[joint] ?? null)) };
+}
+
+export function Plot({ app, joints, label, last_s, stretch, planned }: Props) {
   const host = useRef<HTMLDivElement>(null);
   const { store, settings } = app;
   const theme = settings.shown_theme.value;
@@ -25,15 +36,17 @@ export function Plot({ app, joints, label, last_s, stretch }: Props) {
   const names = joints.join('\n');
   useEffect(() => {
     let chart: Chart | null = null;
+    const meant = planned ? planned_of(planned, joints, from_s ?? 0) : null;
     let closed = false;
     const show = () => {
       const end_s = to_s ?? store.t_s;
       const begin_s = from_s ?? Math.max(0, end_s - (last_s ?? 20));
-      chart?.show(store.trace.between(joints, begin_s, end_s), [begin_s, Math.max(end_s, begin_s + 1)]);
+      const last_s_shown = Math.max(end_s, begin_s + (planned ? planned.duration_s : 1));
+      chart?.show(store.trace.between(joints, begin_s, end_s), [begin_s, last_s_shown], meant);
     };
     void import('./chart').then((module) => {
       if (closed || !host.current) return;
-      chart = new module.Chart(host.current, joints);
+      chart = new module.Chart(host.current, joints, meant !== null);
       show();
     });
     const timer = setInterval(() => { if (to_s === null) show(); }, kRenew_ms);
@@ -42,6 +55,6 @@ export function Plot({ app, joints, label, last_s, stretch }: Props) {
       clearInterval(timer);
       chart?.close();
     };
-  }, [store, names, theme, from_s, to_s, last_s]);
+  }, [store, names, theme, from_s, to_s, last_s, planned]);
   return <div ref={host} class="plot" role="img" aria-label={label} data-test="plot" />;
 }

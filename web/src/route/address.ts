@@ -6,16 +6,19 @@
 //   #/pair/A/B              the coordination diagram of two jobs, A across and B up
 //   #/scene  #/scene/NAME   the objects, one of them chosen
 //   #/new                   compose a job
-//   #/history  #/settings
+//   #/history  #/settings  #/alerts  #/recovery  #/recordings
 //   ?t=12.5                 the timeline held at this cell time, in seconds
 //   ?camera=x,y,z,x,y,z     where the camera stands and what it looks at, in metres
 
 export type Place =
   | { page: 'cell' } | { page: 'new' } | { page: 'history' } | { page: 'settings' }
+  | { page: 'alerts' } | { page: 'recovery' } | { page: 'recordings' }
   | { page: 'job'; id: string } | { page: 'arm'; name: string }
   | { page: 'pair'; a: string; b: string }
   | { page: 'scene'; name: string | null }
   | { page: 'unknown'; path: string };
+
+const kPlain = ['new', 'history', 'settings', 'alerts', 'recovery', 'recordings'] as const;
 
 /** Position, then target. */
 export type Camera = readonly [number, number, number, number, number, number];
@@ -38,7 +41,8 @@ function parse_place(path: string): Place {
   if (page === 'arm' && first !== undefined && parts.length === 2) return { page, name: first };
   if (page === 'pair' && first !== undefined && second !== undefined && parts.length === 3) return { page, a: first, b: second };
   if (page === 'scene' && parts.length <= 2) return { page, name: first ?? null };
-  if ((page === 'new' || page === 'history' || page === 'settings') && parts.length === 1) return { page };
+  const plain = kPlain.find((known) => known === page);
+  if (plain && parts.length === 1) return { page: plain };
   return { page: 'unknown', path };
 }
 
@@ -94,6 +98,9 @@ export function place_in_words(place: Place): string {
     case 'new': return 'New job';
     case 'history': return 'History';
     case 'settings': return 'Settings';
+    case 'alerts': return 'Alerts';
+    case 'recovery': return 'Recovery';
+    case 'recordings': return 'Recordings';
     case 'unknown': return 'No such page';
   }
 }

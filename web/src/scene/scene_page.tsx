@@ -1,6 +1,6 @@
 // The scene: what stands in it, and a form to add, move and take away boxes, cylinders and spheres.
 
-import { useState } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import { Refused } from '../compose/refused';
 import { Link } from '../route/link';
 import { shape_of, type Problem, type SceneObject } from '../server/messages';
@@ -27,9 +27,22 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
         ))}
       </ul>
       {name !== null && !chosen && <p class="hint">There is no object of the name {name}.</p>}
+      {chosen && <HandButton name={chosen.name} app={app} />}
       {chosen?.mesh !== undefined
         ? <p class="hint">A mesh: change it through the API.</p>
         : <ObjectForm key={chosen ? JSON.stringify(chosen) : 'new'} chosen={chosen} app={app} />}
+    </div>
+  );
+}
+
+/** In the cell, too; not without being asked for, as what is moved holds motions. */
+function HandButton({ name, app }: { name: string; app: App }) {
+  const in_hand = app.by_hand.value === name;
+  useEffect(() => () => { app.by_hand.value = null; }, [app, name]);
+  return (
+    <div class="line">
+      <button class="small" aria-pressed={in_hand} data-test="by-hand" onClick={() => { app.by_hand.value = in_hand ? null : name; }}>Move by hand</button>
+      <span class="dim small">{in_hand ? 'Drag it in the cell by its arrows or its middle; Escape ends it.' : 'Or by the form below.'}</span>
     </div>
   );
 }

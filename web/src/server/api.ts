@@ -1,8 +1,8 @@
 // The HTTP calls that the page makes. Every answer is a value: what was asked for, or a Problem.
 
 import {
-  parse_cell, parse_diagram, parse_forecast, parse_job, parse_problem, parse_verdict,
-  type Cell, type Diagram, type Forecast, type Job, type Parsed, type Problem, type SceneObject, type Verdict,
+  parse_cell, parse_diagram, parse_forecast, parse_job, parse_job_motion, parse_plan, parse_problem, parse_verdict,
+  type Cell, type Diagram, type Forecast, type Job, type JobMotion, type Parsed, type Plan, type Problem, type SceneObject, type Verdict,
 } from './messages';
 
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
@@ -17,6 +17,10 @@ export class Api {
 
   async job(id: string): Promise<Answer<Job>> {
     return checked('job', await this.ask('GET', `/jobs/${encodeURIComponent(id)}`), parse_job);
+  }
+
+  async job_motion(id: string): Promise<Answer<JobMotion>> {
+    return checked('trajectory', await this.ask('GET', `/jobs/${encodeURIComponent(id)}/trajectory`), parse_job_motion);
   }
 
   async timeline(): Promise<Answer<Forecast>> {
@@ -44,6 +48,11 @@ export class Api {
     return checked('verdict', await this.ask('POST', '/check', text), parse_verdict);
   }
 
+  /** A way to a goal; nothing is stored and nothing moves. */
+  async plan(text: string): Promise<Answer<Plan>> {
+    return checked('plan', await this.ask('POST', '/plan', text), parse_plan);
+  }
+
   put_object(object: SceneObject): Promise<Answer<unknown>> {
     const { name, ...rest } = object;
     return this.ask('PUT', `/scene/objects/${encodeURIComponent(name)}`, JSON.stringify(rest));
@@ -55,6 +64,11 @@ export class Api {
 
   cancel_job(id: string): Promise<Answer<unknown>> {
     return this.ask('DELETE', `/jobs/${encodeURIComponent(id)}`);
+  }
+
+  /** Another way to where the job ends. */
+  replan_job(id: string): Promise<Answer<unknown>> {
+    return this.ask('POST', `/jobs/${encodeURIComponent(id)}/replan`);
   }
 
   stop(): Promise<Answer<unknown>> {

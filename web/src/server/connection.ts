@@ -22,6 +22,7 @@ export interface Timers {
 export type Link =
   | { status: 'connecting' }
   | { status: 'open' }
+  | { status: 'recording'; name: string }  // nothing is listened to: a recording is looked at
   | { status: 'lost'; attempt: number; retry_in_ms: number };
 
 export interface ConnectionOptions {
@@ -61,12 +62,26 @@ export class Connection {
     this.release();
   }
 
+  /** With a snapshot, as if nothing had been heard. */
+  begin_anew(): void {
+    this.stop();
+    this.stream_ = null;
+    this.since_ = 0;
+    this.attempt_ = 0;
+    this.start();
+  }
+
   /** Try at once instead of waiting for the timer (the banner's button, or the machine came back). */
   retry_now(): void {
     if (this.timer_ === null) return;
     this.options_.timers.clear(this.timer_);
     this.timer_ = null;
     this.open();
+  }
+
+  /** As if the network had broken it: it is opened again in a while. */
+  break(): void {
+    if (this.socket_) this.lost();
   }
 
   private open(): void {

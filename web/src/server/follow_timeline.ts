@@ -15,7 +15,7 @@ export function follow_timeline(
   const ask = async () => {
     timer = null;
     if (is_visible()) {
-      const answer = store.link.status === 'lost' ? null : await api.timeline();
+      const answer = store.link.status === 'open' ? await api.timeline() : null;
       if (closed) return;
       store.set_forecast(answer?.ok ? answer.value : null);
     }

@@ -33,6 +33,10 @@ export type Forecast = Schemas['Timeline'];
 export type ForecastLeg = Schemas['TimelineLeg'];
 /** What the admission code says of a job that was only asked about. */
 export type Verdict = Schemas['Verdict'];
+/** How a job moves. */
+export type JobMotion = Schemas['JobMotion'];
+/** A motion to a goal, which is not executed. */
+export type Plan = Schemas['Plan'];
 export type QueueData = Schemas['QueueIds'];
 export type MonitorData = Schemas['MonitorFinding'];
 /** RFC 9457, with the place of the fault and the value found. */
@@ -43,6 +47,8 @@ export type StateMessage = Schemas['StateFrame'];
 export type SequencedMessage = Exclude<Message, StateMessage>;
 /** The smallest distance of a pair: two arms, or one arm and an object of the scene. */
 export type Clearance = StateMessage['clearance'][number];
+/** What an arm may do of a motion: how far it is, how far it may go; trajectory time. */
+export type ArmAuthority = Schemas['ArmAuthority'];
 
 export type Shape =
   | { kind: 'box'; size: [number, number, number] }
@@ -77,6 +83,9 @@ export type ParsedMessage =
   | { kind: 'unknown'; type: string; stream: string | null; seq: number | null }
   | { kind: 'malformed'; fault: string };
 
+/** Whether this server can look for another way for a job: its jobs then tell of it. */
+export const kCanReplan = 'replan' in shapes.Job.properties;
+
 // Which schema each type of message has.
 const kSchemaOfType = new Map<string, string>(Object.entries(shapes.Message.discriminator.mapping));
 
@@ -104,5 +113,7 @@ export const parse_cell = (value: unknown): Parsed<Cell> => check('Cell', value)
 export const parse_job = (value: unknown): Parsed<Job> => check('Job', value);
 export const parse_diagram = (value: unknown): Parsed<Diagram> => check('Diagram', value);
 export const parse_forecast = (value: unknown): Parsed<Forecast> => check('Timeline', value);
+export const parse_job_motion = (value: unknown): Parsed<JobMotion> => check('JobMotion', value);
+export const parse_plan = (value: unknown): Parsed<Plan> => check('Plan', value);
 export const parse_verdict = (value: unknown): Parsed<Verdict> => check('Verdict', value);
 export const parse_problem = (value: unknown): Parsed<Problem> => check('Problem', value);

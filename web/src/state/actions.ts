@@ -4,6 +4,7 @@ import { signal } from '@preact/signals';
 import type { Answer, Api } from '../server/api';
 import type { Timers } from '../server/connection';
 import { follow_job } from '../server/follow_job';
+import type { SceneObject } from '../server/messages';
 import type { Store } from './store';
 
 export class Actions {
@@ -39,6 +40,20 @@ export class Actions {
 
   async resume_arm(name: string): Promise<void> {
     await this.ask(`Resume ${name}`, this.api_.resume_arm(name));
+  }
+
+  /** Along a way that the server plans, at this share of its speed. */
+  async send_to(name: string, state: string, speed: number): Promise<void> {
+    const job = { name: `${name} to ${state}`, arm: name, move_to: { named: state }, velocity_scaling_factor: speed };
+    await this.ask(`Send ${name} to ${state}`, this.api_.post_job(JSON.stringify(job)));
+  }
+
+  async move_object(object: SceneObject, xyz: [number, number, number]): Promise<boolean> {
+    return this.ask(`Move ${object.name}`, this.api_.put_object({ ...object, xyz }));
+  }
+
+  async replan(id: string): Promise<void> {
+    await this.ask(`Another way for ${id}`, this.api_.replan_job(id));
   }
 
   async cancel(id: string): Promise<void> {

@@ -2,7 +2,10 @@
 
 import type { Signal } from '@preact/signals';
 import type { Api } from '../server/api';
+import type { MotionBook } from '../motion/motion_book';
+import type { Player } from '../recordings/player';
 import type { Router } from '../route/router';
+import type { Acknowledged } from './acknowledged';
 import type { Actions } from './actions';
 import type { Settings } from './settings';
 import type { Store } from './store';
@@ -10,11 +13,16 @@ import type { Store } from './store';
 export interface App {
   store: Store;
   api: Api;
+  motions: MotionBook;
   actions: Actions;
   router: Router;
+  player: Player;
   settings: Settings;
+  acknowledged: Acknowledged;
   /** Joints as they would stand, shown in the cell; null: nothing is previewed. */
   ghost: Signal<Readonly<Record<string, number>> | null>;
+  /** The object that may be moved by hand in the cell. */
+  by_hand: Signal<string | null>;
   /** So much of the cell's left is covered by a pane. */
   covered_px: Signal<number>;
 }

@@ -6,6 +6,12 @@ import { forget_inks } from './palette';
 export type Theme = 'system' | 'dark' | 'light';
 export type ShownTheme = 'dark' | 'light';
 
+/** Ways ahead with their authority; ghosts of where arms come to rest; the closest pairs. */
+export interface Shows { ways: boolean; ghosts: boolean; distances: boolean }
+
+const kShowsAll: Shows = { ways: true, ghosts: true, distances: true };
+const kPersonKey = 'armloom.person';
+const kShowsKey = 'armloom.shows';
 const kThemes: readonly Theme[] = ['system', 'dark', 'light'];
 const kThemeKey = 'armloom.theme';
 const kKeysKey = 'armloom.letter-keys';
@@ -18,6 +24,10 @@ export class Settings {
   readonly shown_theme = signal<ShownTheme>('dark');
   /** Whether single letters lead to pages; F8 stops in any case. */
   readonly letter_keys = signal(true);
+  /** Who uses this browser, for what is acknowledged. */
+  readonly person = signal('');
+  /** What the cell shows beside the arms. */
+  readonly shows = signal<Shows>(kShowsAll);
 
   constructor(
     private readonly shelf_: Shelf | null, private readonly prefers_light_: MediaQueryList | null,
@@ -26,6 +36,9 @@ export class Settings {
     const theme = this.read(kThemeKey);
     this.theme.value = kThemes.find((known) => known === theme) ?? 'system';
     this.letter_keys.value = this.read(kKeysKey) !== 'off';
+    this.person.value = this.read(kPersonKey) ?? '';
+    const hidden = (this.read(kShowsKey) ?? '').split(' ');
+    this.shows.value = { ways: !hidden.includes('ways'), ghosts: !hidden.includes('ghosts'), distances: !hidden.includes('distances') };
     prefers_light_?.addEventListener('change', () => this.apply());
     this.apply();
   }
@@ -39,6 +52,16 @@ export class Settings {
   set_letter_keys(on: boolean): void {
     this.letter_keys.value = on;
     this.write(kKeysKey, on ? 'on' : 'off');
+  }
+
+  set_person(name: string): void {
+    this.person.value = name;
+    this.write(kPersonKey, name);
+  }
+
+  set_shows(shows: Shows): void {
+    this.shows.value = shows;
+    this.write(kShowsKey, Object.entries(shows).flatMap(([what, shown]) => (shown ? [] : [what])).join(' '));
   }
 
   private apply(): void {

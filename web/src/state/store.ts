@@ -4,13 +4,16 @@
 
 import { signal, untracked, type ReadonlySignal } from '@preact/signals';
 import type { Link } from '../server/connection';
-import type { Arm, Cell, Clearance, Forecast, Job, Message, SceneObject, StateMessage } from '../server/messages';
+import type { Arm, ArmAuthority, Cell, Clearance, Forecast, Job, Message, SceneObject, StateMessage } from '../server/messages';
 import { monitor_in_words } from '../wording';
 import { is_terminal, JobBook, type JobList } from './job_book';
 import { Trace } from './trace';
 
 export interface Notice {
   key: number;
+  /** Of the run of the server; null: said by this page. */
+  stream: string | null;
+  seq: number | null;
   t_s: number;
   level: 'info' | 'warning' | 'error';
   source: 'monitor' | 'alert';
@@ -34,8 +37,12 @@ export class Store {
   arms = new Map<string, Arm>();
   q: Record<string, number> = {};
   clearance: Clearance[] = [];
+  /** Of every arm that has been told to move. */
+  motions: ArmAuthority[] = [];
   notices: Notice[] = [];
   rejected = { unknown: 0, malformed: 0 };
+  /** The numbers of the events of this run: the last one, and how many were left out or came twice. */
+  numbers = { last: 0, missed: 0, doubled: 0 };
 
   /** What the server expects the arms to do; null: not known. */
   forecast: Forecast | null = null;
@@ -47,6 +54,7 @@ export class Store {
   private readonly frames_ = signal(0);
   private readonly beats_ = signal(0);
   private beaten_at_ms_ = -Infinity;
+  private quiet_ = false;
   private heard_at_ms_: number | null = null;
 
   constructor(private readonly now_ms_: () => number = () => performance.now()) {}
@@ -78,6 +86,7 @@ export class Store {
     const restarted = this.stream !== null && !same_run;
     this.t_s = Math.max(same_run ? this.t_s : 0, message.t_s);
     this.stream = message.stream;
+    this.count(message.type === 'snapshot', message.seq);
     switch (message.type) {
       case 'snapshot': {
         const { data } = message;
@@ -109,16 +118,51 @@ export class Store {
       }
       case 'monitor': {
         const level = message.data.stopped.length ? 'error' : 'warning';
-        this.note(message.t_s, level, 'monitor', monitor_in_words(message.data));
+        this.note(message.t_s, level, 'monitor', monitor_in_words(message.data), message.seq);
         break;
       }
       case 'alert':
-        this.note(message.t_s, message.data.level, 'alert', message.data.text);
+        this.note(message.t_s, message.data.level, 'alert', message.data.text, message.seq);
         break;
       case 'scene':
         this.objects = message.data.objects;
         break;
     }
+    this.changed();
+  }
+
+  /** Instead of the server's present; `forget_all` ends it. */
+  show_recording(name: string, messages: readonly Message[], { names, t_s, q }: { names: readonly string[]; t_s: readonly number[]; q: readonly (readonly number[])[] }): void {
+    const arms = [...this.arms.values()].map((arm) => ({ ...arm, state: 'idle' as const, job: null, progress: 0 }));
+    this.forget_all();
+    this.link = { status: 'recording', name };
+    this.arms = new Map(arms.map((arm) => [arm.name, arm]));
+    this.quiet_ = true;  // nobody looks at each of them
+    for (const message of messages) this.take(message);
+    this.quiet_ = false;
+    this.trace.load(names, t_s, q);
+    this.t_s = Math.max(this.t_s, t_s.at(-1) ?? 0);
+    names.forEach((joint, i) => { this.q[joint] = q.at(-1)?.[i] ?? 0; });
+    this.heard_at_ms_ = null;  // it is not old
+    this.changed();
+    this.frames_.value += 1;
+    this.beats_.value += 1;
+  }
+
+  /** As before anything was heard; the cell stays. */
+  forget_all(): void {
+    this.link = { status: 'connecting' };
+    this.stream = null;
+    this.t_s = 0;
+    this.stopped = false;
+    this.notices = [];
+    this.clearance = [];
+    this.motions = [];
+    this.forecast = null;
+    this.book.reset([], 0, false);
+    this.book.set_order(null);
+    this.trace.clear();
+    this.heard_at_ms_ = null;
     this.changed();
   }
 
@@ -207,12 +251,21 @@ export class Store {
     this.t_s = frame.t_s;
     Object.assign(this.q, frame.q);
     this.clearance = frame.clearance;
+    this.motions = frame.motions;
     this.trace.push(frame.t_s, frame.q);
     this.frames_.value += 1;
     const now_ms = this.now_ms_();
     if (now_ms - this.beaten_at_ms_ < kBeat_ms) return;
     this.beaten_at_ms_ = now_ms;
     this.beats_.value += 1;
+  }
+
+  /** A snapshot holds all until its number. */
+  private count(is_snapshot: boolean, seq: number): void {
+    const { last, missed, doubled } = this.numbers;
+    if (is_snapshot) this.numbers = { last: seq, missed: 0, doubled: 0 };
+    else if (seq > last) this.numbers = { last: seq, missed: missed + seq - last - 1, doubled };
+    else this.numbers = { last, missed, doubled: doubled + 1 };
   }
 
   private place(arm: Arm): void {
@@ -222,12 +275,13 @@ export class Store {
     });
   }
 
-  private note(t_s: number, level: Notice['level'], source: Notice['source'], text: string): void {
-    this.notices = [{ key: this.next_key_++, t_s, level, source, text }, ...this.notices].slice(0, kMaxNotices);
+  private note(t_s: number, level: Notice['level'], source: Notice['source'], text: string, seq: number | null = null): void {
+    const notice = { key: this.next_key_++, stream: this.stream, seq, t_s, level, source, text };
+    this.notices = [notice, ...this.notices].slice(0, kMaxNotices);
   }
 
   private changed(): void {
-    this.changes_.value += 1;
+    if (!this.quiet_) this.changes_.value += 1;
   }
 }
 

@@ -12,11 +12,25 @@ export class Trace {
   private count_ = 0;
   private next_ = 0;
 
-  constructor(private readonly capacity_ = kFrames) {}
+  constructor(private capacity_ = kFrames) {}
 
   clear(): void {
     this.count_ = 0;
     this.next_ = 0;
+  }
+
+  /** All anew, however many there are. */
+  load(names: readonly string[], t_s: readonly number[], q: readonly (readonly number[])[]): void {
+    this.capacity_ = Math.max(kFrames, t_s.length);
+    this.begin([...names]);
+    this.t_s_.set(t_s);
+    q.forEach((row, i) => this.q_.set(row, i * names.length));
+    this.count_ = t_s.length;
+    this.next_ = t_s.length % this.capacity_;
+  }
+
+  get names(): readonly string[] {
+    return this.names_;
   }
 
   push(t_s: number, q: Readonly<Record<string, number>>): void {

@@ -1,30 +1,55 @@
 // One bar for all views: where it stands is the instant that the cell, the timeline and the address
 // show; at its right end they follow now.
 
+import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
 import { clock } from '../wording';
 
 const kStep_s = 0.1;
+const kPlayed_ms = 66;
 
 export function ScrubBar({ app }: { app: App }) {
   use_store(app.store, 'live');
   const { trace } = app.store;
   const held_s = app.router.address.value.t_s;
+  const is_recording = app.store.link.status === 'recording';
   const first_s = trace.first_s ?? 0;
   const last_s = trace.last_s ?? 0;
   if (last_s - first_s < 1) return null;
   const value_s = Math.min(last_s, Math.max(first_s, held_s ?? last_s));
   const words = held_s === null ? 'now' : `${clock(held_s)}, ${(last_s - held_s).toFixed(1)} s ago`;
   return (
-    <label class="scrub" title="Look back: drag, or use the arrow keys">
-      <span class="sr-only">Look back</span>
-      <span class="small mono">{held_s === null ? '' : `−${(last_s - value_s).toFixed(1)} s`}</span>
-      <input type="range" min={first_s} max={last_s} step={kStep_s} value={value_s} aria-valuetext={words} data-test="scrub"
-        onInput={(event) => {
-          const t_s = Number(event.currentTarget.value);
-          app.router.hold_at(t_s >= last_s - kStep_s ? null : t_s);
-        }} />
-    </label>
+    <>
+      {held_s !== null && <Play app={app} />}
+      <label class="scrub" title="Look back: drag, or use the arrow keys">
+        <span class="sr-only">Look back</span>
+        <span class="small mono">{held_s === null ? '' : `−${(last_s - value_s).toFixed(1)} s`}</span>
+        <input type="range" min={first_s} max={last_s} step={kStep_s} value={value_s} aria-valuetext={words} data-test="scrub"
+          onInput={(event) => {
+            const t_s = Number(event.currentTarget.value);
+            app.router.hold_at(t_s >= last_s - kStep_s && !is_recording ? null : t_s);
+          }} />
+      </label>
+    </>
   );
+}
+
+/** From the instant that is held on, as fast as it was, to the end. */
+function Play({ app }: { app: App }) {
+  const [plays, set_plays] = useState(false);
+  useEffect(() => {
+    if (!plays) return;
+    let before_ms = performance.now();
+    const timer = setInterval(() => {
+      const now_ms = performance.now();
+      const t_s = (app.router.address.peek().t_s ?? 0) + (now_ms - before_ms) / 1000;
+      const last_s = app.store.trace.last_s ?? 0;
+      before_ms = now_ms;
+      app.router.hold_at(Math.min(t_s, last_s));
+      if (t_s >= last_s) set_plays(false);
+    }, kPlayed_ms);
+    return () => clearInterval(timer);
+  }, [plays, app]);
+  return <button class="small" data-test="play" aria-pressed={plays} title="Play from here" onClick={() => set_plays(!plays)}>{plays ? 'Pause' : 'Play'}</button>;
 }

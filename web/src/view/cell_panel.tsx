@@ -2,8 +2,11 @@
 // is held. The view itself is loaded after the rest of the page stands.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
+import { waiting_arms } from '../recovery/needs';
+import { Link } from '../route/link';
 import { selection_of } from '../route/selection';
 import type { App } from '../state/app';
+import type { Shows } from '../state/settings';
 import { use_store } from '../state/use_store';
 import { clearance_in_words, clock, millimetres } from '../wording';
 import type { CellView } from './cell_view';
@@ -45,7 +48,38 @@ export function CellPanel({ app, on_view }: Props) {
       {!view && <p class="loading">{fault === null ? 'Loading the 3D view…' : `The 3D view cannot be shown here: ${fault}`}</p>}
       <ClearanceFigure app={app} />
       {address.t_s !== null && <div class="instant-mark" data-test="instant">Looking back at {clock(address.t_s)}, not at now</div>}
-      {store.stopped && <div class="stopped-mark" role="status" data-test="stopped">■ Stopped. Resume lets the arms go on.</div>}
+      <div class="cell-top"><StoppedMark app={app} /><ShownBar app={app} /></div>
+    </div>
+  );
+}
+
+/** That arms are stopped, and the way to what they need. */
+function StoppedMark({ app }: { app: App }) {
+  const { store } = app;
+  const waiting = waiting_arms(store);
+  if (!store.stopped && waiting.length === 0) return null;
+  const words = store.stopped ? 'Stopped. Resume lets the arms go on.' : `${waiting.map(({ name, state }) => `${name} is ${state === 'fault' ? 'at fault' : 'stopped'}`).join(', ')}.`;
+  return (
+    <div class="stopped-mark" role="status" data-test={store.stopped ? 'stopped' : 'some-stopped'}>■ {words}{' '}
+      <Link app={app} to={{ page: 'recovery' }} test="to-recovery">What to do</Link></div>
+  );
+}
+
+const kShows: readonly [what: keyof Shows, title: string, meaning: string][] = [
+  ['ways', 'Ways', 'The way that each tool has before it, a bead every 0.05 s; bright as far as the arm may go'],
+  ['ghosts', 'Ghosts', 'Where each arm comes to rest next'],
+  ['distances', 'Distances', 'The closest pairs as the monitor measures them'],
+];
+
+/** What is drawn beside the arms. */
+function ShownBar({ app }: { app: App }) {
+  const shows = app.settings.shows.value;
+  return (
+    <div class="shown-bar" role="group" aria-label="What the cell shows">
+      {kShows.map(([what, title, meaning]) => (
+        <button key={what} class="small" aria-pressed={shows[what]} title={meaning} data-test={`show-${what}`}
+          onClick={() => app.settings.set_shows({ ...shows, [what]: !shows[what] })}>{title}</button>
+      ))}
     </div>
   );
 }

@@ -8,50 +8,65 @@ import type { App } from '../state/app';
 import { arm_colour, ink } from '../state/palette';
 import type { Store } from '../state/store';
 import type { Level } from './pace';
-import { RobotModel } from './robot';
+import { Ahead } from './ahead';
 import { on_click } from './click';
+import { Distances } from './distances';
+import { box_around_bases } from './framing';
 import { Ghosts } from './ghosts';
+import { ByHand } from './by_hand';
 import { ArmLabels } from './labels';
+import { RobotModel } from './robot';
 import { SceneObjects } from './scene_objects';
 import { dispose } from './shapes';
 import { Stage } from './stage';
 import { SurfaceShelf, type Surfaces } from './surfaces';
-import { ToolPath } from './tool_path';
-
-// Around the bases: a little less than an arm's reach, and as high as arms at work are.
-const kReach_m = 0.46;
-const kHeight_m = 0.85;
+import { ToolPaths } from './tool_path';
 
 export class CellView {
   private readonly stage_: Stage;
   private readonly robots_ = new Map<string, RobotModel>();
   private readonly ghosts_ = new Ghosts();
+  private readonly ahead_: Ahead;
+  private readonly distances_: Distances;
   private surfaces_: Surfaces = new Map();
-  private readonly paths_ = new Map<string, ToolPath>();
+  private readonly paths_ = new ToolPaths();
   private readonly labels_: ArmLabels;
   private readonly shelf_ = new SurfaceShelf();
   private readonly objects_: SceneObjects;
+  private readonly by_hand_: ByHand;
   private cell_: Cell | null = null;
   private readonly off_: (() => void)[];
 
+  /** As they are drawn: a drawing costs much, so it is asked for when something has changed. */
+  private states_ = '';
   private instant_s_: number | null = null;
 
-  constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router'>) {
+  constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'motions' | 'settings' | 'actions' | 'by_hand'>) {
     const store_ = this.store_;
     this.stage_ = new Stage(host_);
     this.labels_ = new ArmLabels(host_);
     this.objects_ = new SceneObjects(this.shelf_, () => this.stage_.invalidate(true));
-    this.stage_.scene.add(this.objects_.group, this.ghosts_.group);
-    this.stage_.after_draw = () => this.labels_.place((arm) => this.where_stands(arm));
+    this.ahead_ = new Ahead(app_);
+    this.distances_ = new Distances(host_, (body) => this.drawn_of(body));
+    this.stage_.scene.add(this.objects_.group, this.ghosts_.group, this.ahead_.group, this.distances_.group, this.paths_.group);
+    this.stage_.after_draw = () => this.place_labels();
+    this.stage_.on_level = ({ ghosts }) => this.ahead_.show_level(ghosts);
+    this.by_hand_ = new ByHand(this.stage_, (object) => this.let_go(object));
     on_click(this.stage_.canvas, (x_px, y_px) => this.pick(x_px, y_px));
     this.stage_.on_camera = (camera) => app_.router.look_from(camera);
-    this.off_ = [store_.on_change(() => this.follow()), store_.on_frame(() => this.move())];
+    this.off_ = [
+      store_.on_change(() => this.follow()), store_.on_frame(() => this.move()), store_.on_beat(() => this.measure()),
+      app_.motions.changes.subscribe(() => this.look_ahead()), app_.settings.shows.subscribe(() => this.show_shows()),
+      app_.by_hand.subscribe(() => this.take_in_hand()),
+    ];
     this.follow();
   }
 
   close(): void {
     for (const off of this.off_) off();
     this.labels_.clear();
+    this.distances_.clear();
+    this.by_hand_.close();
     this.stage_.close();
   }
 
@@ -66,8 +81,9 @@ export class CellView {
   /** Where the arms were then; null: where they are. */
   show_instant(t_s: number | null): void {
     this.instant_s_ = t_s;
-    for (const path of this.paths_.values()) path.clear();
+    this.paths_.clear();
     this.move();
+    this.show_shows();
   }
 
   /** Arms as they would stand with these joints; null: no ghost. */
@@ -87,6 +103,8 @@ export class CellView {
     this.stage_.show_theme();
     for (const arm of this.store_.arms.values()) this.show_arm(arm);
     this.objects_.repaint();
+    this.ahead_.begin(this.cell_);
+    this.show_shows();
   }
 
   private get store_(): Store {
@@ -106,6 +124,17 @@ export class CellView {
   /** Kept once all that changed until now has been drawn. */
   drawn(): Promise<void> {
     return this.stage_.drawn();
+  }
+
+  /** Where the middle of an object stands, px from the view's top left. */
+  where_is(object: string): { x: number; y: number } | null {
+    const found = this.objects_.find(object);
+    return found ? this.stage_.to_page(found.position) : null;
+  }
+
+  /** How many ways ahead are drawn. */
+  ahead(): number {
+    return this.ahead_.count;
   }
 
   /** How many pictures have been drawn, and how finely the next one will be. */
@@ -128,9 +157,56 @@ export class CellView {
     const { cell, objects, arms } = this.store_;
     if (cell && cell !== this.cell_) this.build(cell);
     this.objects_.show(objects);
-    for (const arm of arms.values()) this.show_arm(arm);
+    this.take_in_hand();
+    const states = [...arms.values()].map(({ name, state }) => `${name} ${state}`).join('\n');
+    if (states !== this.states_) {
+      for (const arm of arms.values()) this.show_arm(arm);
+      this.stage_.invalidate();
+    }
+    this.states_ = states;
     this.move();
+    this.look_ahead();
+  }
+
+  private take_in_hand(): void {
+    if (this.by_hand_.show(this.objects_.find(this.app_.by_hand.peek()))) this.stage_.invalidate();
+  }
+
+  private let_go({ name, position }: THREE.Object3D): void {
+    const object = this.store_.objects.find((one) => one.name === name);
+    const xyz = position.toArray().map((m) => Number(m.toFixed(3))) as [number, number, number];
+    if (object) void this.app_.actions.move_object(object, xyz).then((moved) => { if (!moved) this.objects_.renew(); });
+  }
+
+  private show_shows(): void {
+    this.look_ahead();
+    this.measure();
     this.stage_.invalidate();
+  }
+
+  private look_ahead(): void {
+    if (this.ahead_.follow(this.surfaces_, this.instant_s_ === null)) this.stage_.invalidate();
+  }
+
+  /** The monitor's closest pairs, as things are now. */
+  private measure(): void {
+    const shown = this.app_.settings.shows.peek().distances && this.instant_s_ === null;
+    const changed = this.distances_.show(shown ? this.store_.clearance : [], this.store_.cell?.clearance_m ?? 0);
+    if (changed) this.stage_.invalidate();
+  }
+
+  private drawn_of(body: string): THREE.Mesh | null {
+    for (const robot of this.robots_.values()) {
+      const skin = robot.root.visible ? robot.skin_of(body) : null;
+      if (skin) return skin;
+    }
+    const object = this.objects_.find(body);
+    return object instanceof THREE.Mesh ? object : null;
+  }
+
+  private place_labels(): void {
+    this.labels_.place((arm) => this.where_stands(arm));
+    this.distances_.place((p_W) => this.stage_.to_page(p_W));
   }
 
   private build(cell: Cell): void {
@@ -141,7 +217,9 @@ export class CellView {
     }
     this.robots_.clear();
     this.ghosts_.clear();
-    this.frame_cell(cell);
+    this.ahead_.begin(cell);
+    const box = box_around_bases(cell);
+    if (box) this.stage_.frame(box);
     const addresses = cell.robots.flatMap((robot) => Object.values(robot.meshes));
     if (addresses.length === 0) return this.add_robots(cell, new Map());
     void this.shelf_.load(addresses).then((surfaces) => {
@@ -154,6 +232,7 @@ export class CellView {
 
   private add_robots(cell: Cell, surfaces: Surfaces): void {
     this.surfaces_ = surfaces;
+    this.states_ = '';
     for (const robot of cell.robots) {
       try {
         const model = new RobotModel(robot, surfaces);
@@ -174,16 +253,6 @@ export class CellView {
     if (!box.isEmpty()) this.stage_.frame(box);
   }
 
-  /** Looks at the robots' bases with a little more than an arm's reach around them. */
-  private frame_cell(cell: Cell): void {
-    const box = new THREE.Box3();
-    for (const robot of cell.robots) box.expandByPoint(new THREE.Vector3(...robot.base.xyz));
-    if (box.isEmpty()) return;
-    box.expandByVector(new THREE.Vector3(kReach_m, kReach_m, 0));
-    box.max.z += kHeight_m;
-    this.stage_.frame(box);
-  }
-
   private show_arm(arm: Arm): void {
     this.robots_.get(arm.robot)?.show_state(arm.name, arm.state);
     this.labels_.show(arm, [...this.store_.arms.keys()]);
@@ -195,6 +264,7 @@ export class CellView {
     for (const robot of this.robots_.values()) moved = robot.set_q(q) || moved;
     if (!moved) return;
     this.draw_paths(this.instant_s_ ?? this.store_.t_s);
+    this.ahead_.move();
     this.stage_.invalidate(true);
   }
 
@@ -203,14 +273,7 @@ export class CellView {
     const names = [...this.store_.arms.keys()];
     for (const arm of this.store_.arms.values()) {
       const p_W = this.robots_.get(arm.robot)?.tool(arm.name);
-      if (!p_W) continue;
-      let path = this.paths_.get(arm.name);
-      if (!path) {
-        path = new ToolPath();
-        this.paths_.set(arm.name, path);
-        this.stage_.scene.add(path.line);
-      }
-      path.pass(t_s, p_W, new THREE.Color(ink(arm_colour(names, arm.name))));
+      if (p_W) this.paths_.pass(arm.name, t_s, p_W, ink(arm_colour(names, arm.name)));
     }
   }
 
@@ -222,6 +285,7 @@ export class CellView {
 
   /** What was clicked, an arm or an object, is looked at. */
   private pick(x_px: number, y_px: number): void {
+    if (this.by_hand_.is_touched) return;
     const sight = this.stage_.sight(x_px, y_px);
     const robots = [...this.robots_.values()];
     const hit = sight.intersectObjects([...robots.map((robot) => robot.root), ...this.objects_.group.children], true)[0]?.object;

@@ -1,6 +1,7 @@
 // How far a camera stands off so that a box is seen whole.
 
 import * as THREE from 'three';
+import type { Cell } from '../server/messages';
 
 /** Half angles under which the free part of the picture is seen, as tangents. */
 export interface Opening { across: number; up: number }
@@ -19,4 +20,18 @@ export function distance_for(box: THREE.Box3, direction: THREE.Vector3, opening:
     distance = Math.max(distance, Math.abs(corner.dot(right)) / opening.across + nearer, Math.abs(corner.dot(up)) / opening.up + nearer);
   }
   return distance;
+}
+
+// Around the bases: a little less than an arm's reach, and as high as arms at work are.
+const kReach_m = 0.46;
+const kHeight_m = 0.85;
+
+/** Where arms work; null: there is none. */
+export function box_around_bases(cell: Cell): THREE.Box3 | null {
+  const box = new THREE.Box3();
+  for (const robot of cell.robots) box.expandByPoint(new THREE.Vector3(...robot.base.xyz));
+  if (box.isEmpty()) return null;
+  box.expandByVector(new THREE.Vector3(kReach_m, kReach_m, 0));
+  box.max.z += kHeight_m;
+  return box;
 }

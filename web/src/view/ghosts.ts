@@ -6,11 +6,13 @@ import { dispose } from './shapes';
 import { RobotModel } from './robot';
 import type { Surfaces } from './surfaces';
 
-const kOpacity = 0.42;
+const kPreview = 0.42;
 
 export class Ghosts {
   readonly group = new THREE.Group();
   private readonly models_ = new Map<string, RobotModel>();
+
+  constructor(private readonly opacity_ = kPreview) {}
 
   /** The robots that these joints belong to stand as told; null: no ghost. A robot is built when it is first asked for. */
   show(q: Readonly<Record<string, number>> | null, now: Readonly<Record<string, number>>, cell: Cell, surfaces: Surfaces, colour: (arm: string) => string): void {
@@ -23,7 +25,7 @@ export class Ghosts {
       if (!model) {
         model = new RobotModel(robot, surfaces);
         this.models_.set(robot.name, model);
-        paint(model.root, colour(arm.name));
+        paint(model.root, colour(arm.name), this.opacity_);
         this.group.add(model.root);
       }
       model.root.visible = true;
@@ -39,8 +41,8 @@ export class Ghosts {
   }
 }
 
-function paint(root: THREE.Object3D, colour: string): void {
-  const skin = new THREE.MeshStandardMaterial({ color: colour, transparent: true, opacity: kOpacity, depthWrite: false, roughness: 0.6 });
+function paint(root: THREE.Object3D, colour: string, opacity: number): void {
+  const skin = new THREE.MeshStandardMaterial({ color: colour, transparent: true, opacity, depthWrite: false, roughness: 0.6, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 4 });
   root.traverse((node) => {
     if (!(node instanceof THREE.Mesh)) return;
     if (node.geometry instanceof THREE.RingGeometry) node.visible = false;

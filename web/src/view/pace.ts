@@ -2,13 +2,13 @@
 // page answers clicks on a machine that has other things to do. Pure: told how long each took.
 
 /** What a drawing at this level leaves out; each level takes about half as long as the one before. */
-export interface Level { resolution: number; shadows: boolean }
+export interface Level { resolution: number; shadows: boolean; ghosts: boolean }
 
 export const kLevels: readonly Level[] = [
-  { resolution: 1, shadows: true },
-  { resolution: 1, shadows: false },
-  { resolution: 0.6, shadows: false },
-  { resolution: 0.35, shadows: false },
+  { resolution: 1, shadows: true, ghosts: true },
+  { resolution: 1, shadows: false, ghosts: true },
+  { resolution: 0.6, shadows: false, ghosts: false },
+  { resolution: 0.35, shadows: false, ghosts: false },
 ];
 
 const kLeastFrame_ms = 1000 / 31;
@@ -28,7 +28,7 @@ export class Pace {
   private quick_ = 0;
 
   get level(): Level {
-    return kLevels[this.level_] ?? { resolution: 1, shadows: true };
+    return kLevels[this.level_] ?? { resolution: 1, shadows: true, ghosts: true };
   }
 
   /** A drawing took so long; answers how long after its beginning the next one may begin. */

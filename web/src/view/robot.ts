@@ -9,6 +9,7 @@ import URDFLoader, { type URDFRobot } from 'urdf-loader';
 import type { ArmState, CellArm, CellRobot } from '../server/messages';
 import { ink, kStateColours } from '../state/palette';
 import type { Surfaces } from './surfaces';
+import { tool_of } from './kinematics';
 import { mark_geometry, place } from './shapes';
 import { merge_links } from './skin';
 
@@ -74,13 +75,13 @@ export class RobotModel {
 
   /** Where the arm's tool is in the world: between its fingers, else at its last joint. */
   tool(arm: string): THREE.Vector3 | null {
-    const known = this.arms_.find((one) => one.name === arm);
-    if (!known) return null;
-    const named = known.gripper_joints.length > 0 ? known.gripper_joints : known.joints.slice(-1);
-    const joints = named.flatMap((name) => this.root.joints[name.slice(this.prefix_.length)] ?? []);
-    if (joints.length === 0) return null;
-    const sum = joints.reduce((all, joint) => all.add(joint.getWorldPosition(new THREE.Vector3())), new THREE.Vector3());
-    return sum.divideScalar(joints.length);
+    return tool_of(this.root, this.prefix_, this.arms_.find((one) => one.name === arm));
+  }
+
+  /** What is drawn of a link, by its name in the cell. */
+  skin_of(link: string): THREE.Mesh | null {
+    const known = link.startsWith(this.prefix_) ? this.root.links[link.slice(this.prefix_.length)] : undefined;
+    return known?.children.find((child): child is THREE.Mesh => child instanceof THREE.Mesh && child.material === this.skin_) ?? null;
   }
 
   /** The arm that a drawn thing belongs to; the robot's only one for what no joint moves. */

@@ -6,7 +6,7 @@ import { ink } from '../state/palette';
 import { dispose, object_mesh } from './shapes';
 import type { SurfaceShelf, Surfaces } from './surfaces';
 
-const kLit = 0.45;
+const kLit = 0.16;
 
 export class SceneObjects {
   readonly group = new THREE.Group();
@@ -24,6 +24,17 @@ export class SceneObjects {
     void this.shelf_.load(addresses).then((surfaces) => {
       if (this.shown_ === objects) this.put(objects, surfaces);
     });
+  }
+
+  /** As it is known, again: what was moved by hand goes back. */
+  renew(): void {
+    const shown = this.shown_;
+    this.shown_ = null;
+    if (shown) this.show(shown);
+  }
+
+  find(name: string | null): THREE.Object3D | null {
+    return this.group.children.find((child) => child.name === name) ?? null;
   }
 
   /** Of this name, or none. */

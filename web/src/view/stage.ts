@@ -10,6 +10,7 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Camera } from '../route/address';
 import { ink } from '../state/palette';
+import { renders_in_software, wants_fine_picture } from './drawing_power';
 import { distance_for, type Opening } from './framing';
 import { kLevels, Pace, type Level } from './pace';
 import { add_lights, floor, kShadows, light_up } from './scenery';
@@ -19,6 +20,7 @@ THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 // A drawing is waited for so long before the next one is asked for: on a busy machine drawings that are
 // asked for before the last one is done pile up, and the page answers no click until all are drawn.
 const kLongestFrame_ms = 10_000;
+const kRest_ms = 900;
 const kMargin = 1.06;
 const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
 
@@ -27,6 +29,8 @@ export class Stage {
   readonly camera = new THREE.PerspectiveCamera(26, 1, 0.05, 60);
   /** Called after each drawn frame, for labels that follow points of the scene. */
   after_draw: () => void = () => {};
+  /** Told what the next drawing leaves out, when that changes. */
+  on_level: (level: Level) => void = () => {};
 
   private readonly renderer_: THREE.WebGLRenderer;
   private readonly controls_: OrbitControls;
@@ -49,6 +53,8 @@ export class Stage {
   private shapes_moved_ = true;  // since shadows were drawn
   private shown_: Level | undefined = kLevels[0];
   private readonly waiting_: (() => void)[] = [];
+  private rest_timer_: number | null = null;
+  private at_rest_ = false;
 
   constructor(private readonly host_: HTMLElement) {
     const fine = wants_fine_picture() || !renders_in_software();
@@ -126,6 +132,7 @@ export class Stage {
   /** Lets the graphics card have its memory back. */
   close(): void {
     if (this.frame_ !== null) cancelAnimationFrame(this.frame_);
+    if (this.rest_timer_ !== null) clearTimeout(this.rest_timer_);
     this.controls_.dispose();
     this.renderer_.dispose();
     this.renderer_.domElement.remove();
@@ -151,6 +158,11 @@ export class Stage {
       this.draw(now_ms);
     };
     this.frame_ = requestAnimationFrame(draw);
+  }
+
+  /** Whether a drag turns the view. */
+  let_turn(yes: boolean): void {
+    this.controls_.enabled = yes;
   }
 
   /** Kept after the next drawing, which it asks for; that one leaves nothing out. */
@@ -193,7 +205,9 @@ export class Stage {
   private draw(now_ms: number): void {
     this.drawn_at_ms_ = now_ms;
     this.pictures_ += 1;
-    this.show_level(this.waiting_.length > 0 ? kLevels[0] : this.pace_.level);
+    this.show_level(this.waiting_.length > 0 || this.at_rest_ ? kLevels[0] : this.pace_.level);
+    this.at_rest_ = false;
+    this.refine_later();
     if (this.shapes_moved_ && this.shown_?.shadows) {
       this.renderer_.shadowMap.needsUpdate = true;
       this.shapes_moved_ = false;
@@ -206,12 +220,24 @@ export class Stage {
     for (const tell of this.waiting_.splice(0)) tell();
   }
 
+  /** What stands still is drawn once more, with nothing left out. */
+  private refine_later(): void {
+    if (this.rest_timer_ !== null) clearTimeout(this.rest_timer_);
+    this.rest_timer_ = this.shown_ === kLevels[0] ? null : window.setTimeout(() => {
+      this.rest_timer_ = null;
+      if (this.frame_ !== null) return;  // something moves
+      this.at_rest_ = true;
+      this.invalidate(true);
+    }, kRest_ms);
+  }
+
   private show_level(level: Level | undefined): void {
     if (!level || level === this.shown_) return;
     this.shown_ = level;
     this.renderer_.setPixelRatio(this.full_ratio_ * level.resolution);
     // Left as they are, and not shown: to take them out would compile every material again.
     this.key_light_.shadow.intensity = level.shadows ? kShadows : 0;
+    this.on_level(level);
   }
 
   private resize(): void {
@@ -266,16 +292,4 @@ export class Stage {
 /** As an address tells it: to the millimetre. */
 function is_same(a: Camera, b: Camera): boolean {
   return a.every((value, i) => Math.abs(value - (b[i] ?? 0)) < 2e-3);
-}
-
-function wants_fine_picture(): boolean {
-  return new URLSearchParams(window.location.search).has('fine');
-}
-
-function renders_in_software(): boolean {
-  const gl = document.createElement('canvas').getContext('webgl2');
-  const names = gl?.getExtension('WEBGL_debug_renderer_info');
-  const renderer = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
-  gl?.getExtension('WEBGL_lose_context')?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|basic render/i.test(renderer);
 }

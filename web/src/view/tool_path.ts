@@ -46,3 +46,23 @@ export class ToolPath {
     geometry.setDrawRange(0, this.passed_.length);
   }
 }
+
+/** One for each arm. */
+export class ToolPaths {
+  readonly group = new THREE.Group();
+  private readonly paths_ = new Map<string, ToolPath>();
+
+  clear(): void {
+    for (const path of this.paths_.values()) path.clear();
+  }
+
+  pass(arm: string, t_s: number, p_W: THREE.Vector3, colour: string): void {
+    let path = this.paths_.get(arm);
+    if (!path) {
+      path = new ToolPath();
+      this.paths_.set(arm, path);
+      this.group.add(path.line);
+    }
+    path.pass(t_s, p_W, new THREE.Color(colour));
+  }
+}

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "core/model/cell.h"
+#include "core/trajectory/trajectory.h"
+#include "core/trajectory/validate.h"
+#include "server/codec/format.h"
+
+namespace armloom {
+
+// A trajectory as one that would be posted to make it: at its waypoints, with accelerations where
+// it needs them.
+[[nodiscard]] TrajectoryRequest request_of(const Trajectory& trajectory, const Cell& cell);
+
+// The answer to GET /jobs/{id}/trajectory.
+struct JobMotion {
+  std::string job;  // key
+  Duration duration;
+  TrajectoryRequest trajectory;
+};
+[[nodiscard]] FormatPtr<JobMotion> job_motion_format();
+
+}  // namespace armloom

@@ -1,0 +1,315 @@
+// What the dashboard shows and lets people do beside its pages: ways ahead with their authority, ghosts and
+// distances, planned and measured joints, goals by form, recovery after a stop, alerts, recordings, MCAP.
+//
+//   node --test test/browser/features.test.mjs      (after the server and web/dist were built; see harness.mjs)
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { gzipSync } from 'node:zlib';
+import { arm_now, ask, Browser, job_through, kBinary, kRoot, path_for, Server, web_require } from './harness.mjs';
+import { difference } from './pictures.mjs';
+
+const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
+const kLeastWay_px = 60;
+const kLeastGhost_px = 800;
+const kFirstView_kB = 250;
+
+// certified: who is in conflict is blocked, and says until when.
+const server = new Server('config/two_pandas.json', 'certified');
+const chromium = new Browser();
+const folder = mkdtempSync(join(tmpdir(), 'armloom-features-'));
+let page;
+
+before(async () => {
+  const url = await server.start();
+  page = await chromium.open({ colorScheme: 'dark', acceptDownloads: true });
+  await chromium.visit(url);
+}, { timeout: 120_000 });
+
+after(async () => {
+  await chromium.close();
+  await server.end();
+  rmSync(folder, { recursive: true, force: true });
+}, { timeout: 30_000 });
+
+const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
+const speed = (value) => ask(page, 'PUT', '/sim/speed', { speed: value });
+const finished = (id) => page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
+
+async function send(arm, id, way, seconds, over = {}) {
+  const { names, q } = await arm_now(page, arm);
+  const { status, value } = await ask(page, 'POST', '/jobs', job_through(id, names, [q, ...way.map((to) => to ?? q)], seconds, over));
+  assert.equal(status, 202, JSON.stringify(value));
+}
+
+async function view_picture() {
+  await page.evaluate(() => window.armloom.drawn());
+  await page.evaluate(() => window.armloom.drawn());
+  return page.locator('.view canvas').screenshot();
+}
+
+/** How many pixels a button of the cell puts away. */
+async function put_away(test) {
+  const shown = await view_picture();
+  await page.locator(`[data-test=${test}]`).click();
+  const { count } = await difference(chromium.context, shown, await view_picture());
+  await page.locator(`[data-test=${test}]`).click();
+  return count;
+}
+
+test('the cell shows the way ahead, where arms come to rest, and what is closest', { timeout: 120_000 }, async () => {
+  await speed(0.02);  // what is compared hardly moves meanwhile
+  await send('left', 'ahead', [kMiddle, null], 6, { name: 'there and back' });
+  await page.locator('[data-test=list-running] [data-test="job-ahead"]').waitFor({ timeout: 60_000 });
+  await page.waitForFunction(() => window.armloom.ahead() > 0, undefined, { timeout: 60_000 });
+  await page.locator('.distance-label:not([hidden])').first().waitFor();
+  assert.match(await page.locator('.distance-label:not([hidden])').first().innerText(), /^[\d.]+ (mm|m)$/);
+  await page.screenshot(path_for('ahead-dark'));
+  const way_px = await put_away('show-ways');
+  assert.ok(way_px > kLeastWay_px, `the way ahead covers ${way_px} pixels`);
+  await page.locator('[data-test=show-distances]').click();
+  assert.equal(await page.locator('.distance-label:not([hidden])').count(), 0);
+  await page.locator('[data-test=show-distances]').click();
+  await speed(20);
+  await finished('ahead');
+  await speed(0.02);
+  await send('left', 'away', [kMiddle], 6);
+  await page.locator('[data-test=list-running] [data-test="job-away"]').waitFor({ timeout: 60_000 });
+  await page.waitForFunction(() => window.armloom.ahead() > 0, undefined, { timeout: 60_000 });
+  const gone_px = await put_away('show-ghosts');
+  assert.ok(gone_px > kLeastGhost_px, `the ghost at its goal covers ${gone_px} pixels`);
+});
+
+test('who is blocked says by whom, which links, how close, since when and until when', { timeout: 90_000 }, async () => {
+  await send('right', 'blocked', [kMiddle, null], 4, { backlog_timeout_s: 300 });
+  const row = page.locator('[data-test=list-backlog] [data-test="job-blocked"]');
+  await row.waitFor({ timeout: 60_000 });
+  await row.locator('[data-test=when]', { hasText: /blocked for [\d.]+ s.*expires in \d+ min/ }).waitFor();
+  assert.match(await row.locator('[data-test=reason]').textContent(), /right_panda_\w+ would (touch|come within).*left_panda_\w+, [\d.]+ s into its motion/);
+});
+
+test('a diagram shows authority, and both arms where it is pointed at', { timeout: 90_000 }, async () => {
+  await page.locator('[data-test="job-blocked"] [data-test=why]').click();
+  const diagram = page.locator('[data-test=diagram]');
+  await diagram.locator('canvas').first().waitFor();
+  await page.locator('[data-test=instant-a_s]').waitFor({ timeout: 40_000 });
+  const before = await view_picture();
+  const box = await diagram.boundingBox();
+  await page.mouse.move(box.x + box.width * 0.55, box.y + box.height * 0.4);
+  const pointed = await difference(chromium.context, before, await view_picture());
+  assert.ok(pointed.count > kLeastGhost_px, `${pointed.count} pixels of ghosts`);
+  await page.screenshot(path_for('diagram-pointed-dark'));
+  await page.mouse.move(box.x + box.width + 400, box.y);
+  await page.locator('[data-test=instant-b_s]').focus();
+  for (let i = 0; i < 5; i++) await page.keyboard.press('PageUp');
+  const by_key = await difference(chromium.context, before, await view_picture());
+  assert.ok(by_key.count > kLeastGhost_px, `${by_key.count} pixels of ghosts`);
+  await page.getByRole('button', { name: 'Close', exact: true }).click();
+  await speed(10);
+  await finished('away');
+});
+
+test('a job page has its joints as planned and as measured', { timeout: 90_000 }, async () => {
+  await ask(page, 'DELETE', '/jobs/blocked');
+  await speed(2);
+  await send('right', 'measured', [kMiddle.map((angle, i) => (i === 0 ? 1 : angle)), null], 3);
+  await go('#/job/measured');
+  await page.locator('[data-test=page-job] h3', { hasText: /Planned/ }).waitFor({ timeout: 40_000 });
+  await finished('measured');
+  await page.locator('[data-test=page-job] h3', { hasText: 'Planned and measured' }).waitFor();
+  // Time, and every joint twice.
+  await page.waitForFunction(() => document.querySelectorAll('[data-test=page-job] .u-series').length === 15);
+  await page.screenshot(path_for('planned-dark'));
+});
+
+test('a way to a goal is planned by form, looked at, and sent', { timeout: 120_000 }, async () => {
+  await speed(1);
+  await page.locator('[data-test=new-job]').click();
+  await page.locator('[data-test=plan-goal] summary').click();
+  await page.locator('[data-test=plan-arm]').selectOption('left');
+  await page.locator('[data-test=plan-kind]').selectOption('pose');
+  await page.locator('[data-test=plan-xyz]').fill('0, 9, 0.5');
+  await page.locator('[data-test=plan]').click();
+  await page.locator('[data-test=plan-form] [data-test=problem]').waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=plan-xyz]').fill('zero');
+  await page.locator('[data-test=plan]').click();
+  assert.match(await page.locator('[data-test=plan-fault]').innerText(), /Position.*zero/);
+  const before = await view_picture();
+  await page.locator('[data-test=plan-kind]').selectOption('named');
+  await page.locator('[data-test=plan-named]').selectOption('ready');
+  await page.locator('[data-test=plan]').click();
+  await page.locator('[data-test=planned]').waitFor({ timeout: 60_000 });
+  assert.match(await page.locator('[data-test=planned]').innerText(), /proven.*could start now/);
+  assert.match(await page.locator('[data-test=job-text]').inputValue(), /left to ready[^]*left_panda_joint1/);
+  const ghost = await difference(chromium.context, before, await view_picture());
+  assert.ok(ghost.count > kLeastGhost_px, `${ghost.count} pixels of ghosts`);
+  await page.screenshot(path_for('plan-dark'));
+  await page.locator('[data-test=send]').click();
+  const id = await page.locator('[data-test=accepted] a').innerText();
+  await finished(id);
+});
+
+test('after a stop the recovery page says why, and leads back', { timeout: 120_000 }, async () => {
+  await send('left', 'interrupted', [kMiddle], 20);
+  await page.locator('[data-test=list-running] [data-test="job-interrupted"]').waitFor({ timeout: 40_000 });
+  await page.keyboard.press('F8');
+  await page.locator('[data-test=to-recovery]').click();
+  await page.locator('[data-test=cause]', { hasText: /stopped: left, right \(operator\)/ }).waitFor();
+  await page.locator('[data-test=need-left]', { hasText: /goes on from \d+ %/ }).waitFor();
+  const resume = page.locator('[data-test=resume-checked]');
+  assert.ok(await resume.isDisabled());
+  for (let i = 0; i < 4; i++) await page.locator(`[data-test=check-${i}]`).check();
+  await page.screenshot(path_for('recovery-dark'));
+  await resume.click();
+  await page.locator('[data-test=stopped]').waitFor({ state: 'detached' });
+  await speed(10);
+  await finished('interrupted');
+  await page.locator('[data-test=home-left]').click();
+  await page.locator('[data-test=need-left]', { hasText: 'at home' }).waitFor({ timeout: 60_000 });
+  await speed(1);
+});
+
+test('alerts are counted until somebody acknowledges them, with a name', { timeout: 60_000 }, async () => {
+  await page.locator('[data-test=open-alerts]').click();
+  await page.locator('[data-test=person]').fill('Ada <b>L</b>');
+  await page.locator('[data-test=acknowledge]').first().click();
+  await page.locator('[data-test=alerts]', { hasText: 'Acknowledged by Ada <b>L</b>' }).waitFor();
+  await page.screenshot(path_for('alerts-dark'));
+  await ask(page, 'POST', '/arms/right/stop');
+  await ask(page, 'POST', '/arms/right/resume');
+  await page.locator('[data-test=alerts]', { hasText: 'stopped: right (operator)' }).waitFor();
+  await page.locator('[data-test=acknowledge-all]').click();
+  await page.locator('[data-test=open-alerts]').waitFor({ state: 'detached' });
+});
+
+test('an object is moved by hand', { timeout: 90_000 }, async () => {
+  await ask(page, 'PUT', '/scene/objects/crate', { box: [0.2, 0.2, 0.2], xyz: [0, 0.8, 0.3], rpy: [0, 0, 0] });
+  await go('#/scene/crate');
+  await page.locator('[data-test=by-hand]').click();
+  const drag = async (dx, dy) => {
+    await page.evaluate(() => window.armloom.drawn());
+    const view = await page.locator('.view canvas').boundingBox();
+    const { x, y } = await page.evaluate(() => window.armloom.where_is('crate'));
+    await page.mouse.move(view.x + x, view.y + y);
+    await page.mouse.down();
+    await page.mouse.move(view.x + x + dx, view.y + y + dy, { steps: 6 });
+    await page.mouse.up();
+  };
+  await drag(60, 0);
+  await page.waitForFunction(() => window.armloom.objects().find(({ name }) => name === 'crate').xyz[0] > 0.05);
+  const there = (await page.evaluate(() => window.armloom.objects())).find(({ name }) => name === 'crate');
+  assert.match(page.url(), /#\/scene\/crate/);
+  assert.equal(await page.locator('[data-test=object-x]').inputValue(), String(there.xyz[0]));
+  await page.screenshot(path_for('by-hand-dark'));
+  await ask(page, 'DELETE', '/scene/objects/crate');
+  await go('#/');
+});
+
+/** The same jobs, recorded. */
+function record() {
+  const q = [0, -1.2, 0, -2.6, 0, 1.6, 0.785];
+  const names = ['left', 'right'].map((arm) => Array.from({ length: 7 }, (_, i) => `${arm}_panda_joint${i + 1}`));
+  const jobs = names.map((joints, i) => ({ at: i, job: job_through(`recorded-${i}`, joints, [q, q.map((angle, k) => angle + (k === 0 ? 0.7 : 0)), q], 2) }));
+  writeFileSync(join(folder, 'jobs.json'), JSON.stringify(jobs));
+  execFileSync(kBinary, ['simulate', '--cell', 'config/two_pandas.json', '--jobs', join(folder, 'jobs.json'), '--out', join(folder, 'run')], { cwd: kRoot });
+}
+
+test('a recording is opened from its files and scrubbed through, and the present comes back', { timeout: 120_000 }, async () => {
+  record();
+  await page.locator('[data-test=go-recordings]').click();
+  const files = page.locator('[data-test=recording-files]');
+  await files.setInputFiles([join(folder, 'run/events.jsonl')]);
+  assert.match(await page.locator('[data-test=recording-fault]').innerText(), /no states\.csv/);
+  await files.setInputFiles(['states.csv', 'events.jsonl'].map((name) => join(folder, 'run', name)));
+  await page.locator('[data-test=opened]').waitFor({ timeout: 40_000 });
+  await page.locator('[data-test=recording]').waitFor();
+  await page.locator('[data-test=list-finished] [data-test="job-recorded-1"]').waitFor();
+  assert.match(await page.locator('[data-test=told-left]').textContent(), /nothing is planned/);
+  const before = await view_picture();
+  const scrub = page.locator('[data-test=scrub]');
+  await scrub.fill('2');
+  await page.locator('[data-test=instant]', { hasText: '0:00:02' }).waitFor();
+  const moved = await difference(chromium.context, before, await view_picture());
+  assert.ok(moved.count > kLeastGhost_px, `${moved.count} pixels changed`);
+  await page.screenshot(path_for('recording-dark'));
+  await page.locator('[data-test=play]').click();
+  await page.locator('[data-test=instant]', { hasText: '0:00:03' }).waitFor({ timeout: 30_000 });
+  await page.locator('[data-test=recording-close]').click();
+  await page.locator('[data-test=link].open').waitFor();
+  await page.locator('[data-test="job-recorded-1"]').waitFor({ state: 'detached' });
+  await page.locator('[data-test=recording]').waitFor({ state: 'detached' });
+});
+
+test('what was heard is taken away as MCAP, which its own reader reads', { timeout: 120_000 }, async () => {
+  await send('left', 'exported', [kMiddle.map((angle, i) => (i === 0 ? 0.6 : angle)), null], 4);
+  await finished('exported');
+  const [download] = await Promise.all([page.waitForEvent('download', { timeout: 90_000 }), page.locator('[data-test=export-mcap]').click()]);
+  assert.match(download.suggestedFilename(), /two_pandas\.mcap/);
+  const { McapStreamReader } = web_require('@mcap/core');
+  const reader = new McapStreamReader();
+  reader.append(readFileSync(await download.path()));
+  const schemas = new Map();
+  const topics = new Map();
+  const messages = new Map();
+  for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
+    if (record.type === 'Schema') schemas.set(record.id, record);
+    if (record.type === 'Channel') topics.set(record.id, record);
+    if (record.type !== 'Message') continue;
+    const { topic } = topics.get(record.channelId);
+    messages.set(topic, [...messages.get(topic) ?? [], JSON.parse(Buffer.from(record.data).toString())]);
+  }
+  assert.ok(reader.done(), 'the file has its end');
+  assert.deepEqual([...topics.values()].map(({ topic, schemaId }) => [topic, schemas.get(schemaId).name, schemas.get(schemaId).encoding]).sort(), [
+    ['/events', 'foxglove.Log', 'jsonschema'], ['/jobs', 'armloom.Job', 'jsonschema'], ['/joint_states', 'foxglove.JointStates', 'jsonschema'],
+    ['/scene', 'foxglove.SceneUpdate', 'jsonschema'], ['/tf', 'foxglove.FrameTransforms', 'jsonschema'],
+  ]);
+  const Ajv = web_require('ajv').default;
+  for (const { topic, schemaId } of topics.values()) {
+    const fits = new Ajv({ strict: false }).compile(JSON.parse(Buffer.from(schemas.get(schemaId).data).toString()));
+    for (const message of messages.get(topic) ?? []) assert.ok(fits(message), `${topic}: ${JSON.stringify(fits.errors)}`);
+  }
+  const joints = messages.get('/joint_states');
+  const swing = joints.map(({ joints }) => joints.find(({ name }) => name === 'left_panda_joint1').position);
+  assert.ok(Math.max(...swing) - Math.min(...swing) > 0.35, 'the arm moves in it');
+  assert.equal(messages.get('/tf').length, joints.length);
+  const hand = messages.get('/tf').map(({ transforms }) => transforms.find(({ child_frame_id }) => child_frame_id === 'left_panda_hand').translation);
+  assert.ok(Math.max(...hand.map(({ y }) => y)) - Math.min(...hand.map(({ y }) => y)) > 0.1, 'and its hand with it');
+  assert.equal(messages.get('/scene')[0].entities[0].id, 'table');
+  assert.ok(messages.get('/jobs').some(({ id, state }) => id === 'exported' && state === 'succeeded'));
+});
+
+test('no event is missed or comes twice when the connection breaks', { timeout: 60_000 }, async () => {
+  const before = await page.evaluate(() => window.armloom.numbers());
+  assert.deepEqual([before.missed, before.doubled], [0, 0]);
+  await chromium.context.setOffline(true);
+  await page.evaluate(() => window.armloom.break_connection());
+  await page.locator('[data-test=lost]').waitFor();
+  await chromium.context.setOffline(false);
+  await page.getByRole('button', { name: 'Try now' }).click().catch(() => {});  // it may be back already
+  await page.locator('[data-test=link].open').waitFor({ timeout: 40_000 });
+  await speed(4);
+  await send('right', 'after-the-break', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);
+  await finished('after-the-break');
+  const now = await page.evaluate(() => window.armloom.numbers());
+  assert.deepEqual([now.missed, now.doubled], [0, 0]);
+  assert.ok(now.last > before.last);
+});
+
+test('the first view is light: all but the 3D part and what is loaded when it is asked for', () => {
+  const dist = process.env.ARMLOOM_WEB ?? join(kRoot, 'web/dist');
+  const html = readFileSync(join(dist, 'index.html'), 'utf8');
+  const named = [...html.matchAll(/(?:src|href)="\.\/(assets\/[^"]+)"/g)].map(([, file]) => file);
+  const fonts = readdirSync(join(dist, 'assets')).filter((file) => file.endsWith('.woff2')).map((file) => `assets/${file}`);
+  assert.ok(named.length >= 2 && fonts.length >= 2);
+  const weight = [...named, ...fonts].reduce((sum, file) => sum + gzipSync(readFileSync(join(dist, file))).length, gzipSync(html).length);
+  console.log(`The first view weighs ${(weight / 1000).toFixed(0)} kB compressed`);
+  assert.ok(weight < kFirstView_kB * 1000, `${weight} bytes`);
+});
+
+test('nothing so far was an error in the console', () => {
+  assert.deepEqual(chromium.errors.filter((text) => !/422 \(|ERR_INTERNET_DISCONNECTED|ERR_NETWORK/.test(text)), []);
+});

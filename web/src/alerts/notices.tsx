@@ -1,0 +1,47 @@
+// What the monitor saw and what the server wants known, newest first.
+
+import { Link } from '../route/link';
+import type { App } from '../state/app';
+import type { Notice } from '../state/store';
+import { use_store } from '../state/use_store';
+import { clock } from '../wording';
+import { key_of, to_see_to } from './alerts';
+
+export function Notices({ app }: { app: App }) {
+  use_store(app.store);
+  const open = to_see_to(app).length;
+  return (
+    <section class="notices" aria-label="Events">
+      <div class="line head">
+        <h2>Events<span class="count">{app.store.notices.length}</span></h2>
+        <span class="grow" />
+        {open > 0 && <Link app={app} to={{ page: 'alerts' }} test="see-alerts">{open} to acknowledge</Link>}
+      </div>
+      <NoticeList app={app} />
+    </section>
+  );
+}
+
+const kGlyphs = { info: 'i', warning: '!', error: '✕' } as const;
+
+export function NoticeList({ app }: { app: App }) {
+  use_store(app.store);
+  const { notices } = app.store;
+  return (
+    <div class="scroll" role="log" tabIndex={0} aria-label="Events, newest first">
+      {notices.length === 0 && <p class="none">Nothing to report yet.</p>}
+      {notices.map((notice) => <Line key={notice.key} notice={notice} app={app} />)}
+    </div>
+  );
+}
+
+function Line({ notice, app }: { notice: Notice; app: App }) {
+  const seen = app.acknowledged.of(key_of(notice));
+  return (
+    <div class={`notice ${notice.level}${seen ? ' seen' : ''}`}>
+      <span class="mono">{clock(notice.t_s)}</span>
+      <span class="glyph" aria-label={notice.level} role="img">{kGlyphs[notice.level]}</span>
+      <span>{notice.text}</span>
+    </div>
+  );
+}

@@ -1,0 +1,45 @@
+// A goal as a form has it: numbers are texts until they are asked for. Pure.
+
+import type { Cell, CellArm } from '../server/messages';
+
+export type GoalKind = 'named' | 'joints' | 'pose';
+export interface GoalForm { arm: string; kind: GoalKind; named: string; joints: string; xyz: string; rpy: string; link: string; speed: string }
+
+export function arm_of(cell: Cell, name: string): CellArm | undefined {
+  return cell.robots.flatMap((robot) => robot.arms).find((arm) => arm.name === name);
+}
+
+/** States that the arm knows by name; home is always one. */
+export function states_of(arm: CellArm | undefined): string[] {
+  return ['home', ...Object.keys(arm?.named_states ?? {}).filter((name) => name !== 'home')];
+}
+
+/** The body of POST /plan, or what cannot be read. */
+export function plan_request(form: GoalForm): { ok: true; text: string } | { ok: false; fault: string } {
+  const speed = Number(form.speed);
+  if (!(speed > 0 && speed <= 100)) return { ok: false, fault: `Speed: more than 0, at most 100 %; found ${form.speed}` };
+  const to = goal_of(form);
+  if (typeof to === 'string') return { ok: false, fault: to };
+  return { ok: true, text: JSON.stringify({ arm: form.arm, to, velocity_scaling_factor: speed / 100 }) };
+}
+
+function goal_of(form: GoalForm): object | string {
+  if (form.kind === 'named') return { named: form.named };
+  if (form.kind === 'joints') {
+    const joints = numbers_in(form.joints);
+    return joints ? { joints } : `Joints: numbers in rad or m, one for each joint; found ${form.joints}`;
+  }
+  const xyz = numbers_in(form.xyz);
+  const rpy = numbers_in(form.rpy);
+  if (xyz?.length !== 3) return `Position: three numbers in m; found ${form.xyz}`;
+  if (rpy?.length !== 3) return `Turn: three numbers in degrees; found ${form.rpy}`;
+  const radians = rpy.map((angle) => (angle * Math.PI) / 180);
+  return { pose: { ...(form.link.trim() === '' ? {} : { link: form.link.trim() }), xyz, rpy: radians } };
+}
+
+/** Between commas or blanks; null where one is none. */
+export function numbers_in(text: string): number[] | null {
+  const parts = text.replaceAll(/[[\]]/g, ' ').split(/[\s,;]+/).filter((part) => part !== '');
+  const numbers = parts.map(Number);
+  return parts.length > 0 && numbers.every(Number.isFinite) ? numbers : null;
+}

@@ -1,0 +1,135 @@
+// Say where to go instead of how: the server plans the way, which is then looked at, judged and sent as
+// any job is.
+
+import { useState } from 'preact/hooks';
+import type { Plan, Problem } from '../server/messages';
+import type { App } from '../state/app';
+import { use_store } from '../state/use_store';
+import { millimetres, seconds, why_mute } from '../wording';
+import { pretty } from './example';
+import { arm_of, plan_request, states_of, type GoalForm, type GoalKind } from './goal';
+import { Refused } from './refused';
+
+type Outcome = { kind: 'none' } | { kind: 'busy' } | { kind: 'planned'; plan: Plan } | { kind: 'refused'; problem: Problem } | { kind: 'fault'; text: string };
+
+const kAlready_s = 0.05;
+const kKinds: readonly [GoalKind, string][] = [['named', 'A named state'], ['joints', 'Joints'], ['pose', 'A pose of the tool']];
+
+// What was asked last outlives the page's pane.
+let last: GoalForm | null = null;
+
+/** `change`: the way as a job's text, and the time to show first. */
+export function PlanForm({ app, change }: { app: App; change(text: string): void }) {
+  use_store(app.store);
+  const { cell } = app.store;
+  const [form, set_form] = useState<GoalForm | null>(last);
+  const [outcome, set_outcome] = useState<Outcome>({ kind: 'none' });
+  if (!cell) return null;
+  const first = cell.robots.flatMap((robot) => robot.arms)[0]?.name ?? '';
+  const shown = form ?? { arm: first, kind: 'named', named: 'home', joints: '', xyz: '', rpy: '180, 0, 0', link: '', speed: '50' };
+  const set = (part: Partial<GoalForm>) => {
+    last = { ...shown, ...part };
+    set_form(last);
+    set_outcome({ kind: 'none' });
+  };
+  const plan = async () => {
+    const asked = plan_request(shown);
+    if (!asked.ok) return set_outcome({ kind: 'fault', text: asked.fault });
+    set_outcome({ kind: 'busy' });
+    app.ghost.value = null;
+    const answer = await app.api.plan(asked.text);
+    if (!answer.ok) {
+      show_nearest(answer.problem, shown.arm, app);
+      return set_outcome({ kind: 'refused', problem: answer.problem });
+    }
+    set_outcome({ kind: 'planned', plan: answer.value });
+    change(pretty({ name: name_of(shown), trajectory: answer.value.trajectory }));
+  };
+  const mute = why_mute(app.store.link);
+  const { arm } = shown;
+  return (
+    <form class="plan-form" data-test="plan-form" onSubmit={(event) => { event.preventDefault(); void plan(); }}>
+      <div class="line wrap">
+        <label>Arm <select value={arm} data-test="plan-arm" onChange={(event) => set({ arm: event.currentTarget.value, named: 'home' })}>
+          {[...app.store.arms.keys()].map((name) => <option key={name} value={name}>{name}</option>)}
+        </select></label>
+        <label>Goal <select value={shown.kind} data-test="plan-kind" onChange={(event) => set({ kind: event.currentTarget.value as GoalKind })}>
+          {kKinds.map(([kind, title]) => <option key={kind} value={kind}>{title}</option>)}
+        </select></label>
+        <label>Speed <input class="narrow" type="number" min="1" max="100" value={shown.speed} data-test="plan-speed" onInput={(event) => set({ speed: event.currentTarget.value })} /> %</label>
+      </div>
+      <Goal form={shown} app={app} set={set} />
+      <div class="line">
+        <button type="submit" data-test="plan" disabled={outcome.kind === 'busy' || mute !== null} title={mute ?? 'Nothing moves: the way is shown first'}>
+          {outcome.kind === 'busy' ? 'Planning…' : 'Plan the way'}
+        </button>
+        <span class="dim small grow">From where the arm will be when its jobs have run.</span>
+      </div>
+      {outcome.kind === 'planned' && <Planned plan={outcome.plan} />}
+      {outcome.kind === 'fault' && <p class="refused" role="alert" data-test="plan-fault">{outcome.text}</p>}
+      {outcome.kind === 'refused' && <Unplanned problem={outcome.problem} />}
+    </form>
+  );
+}
+
+function Goal({ form, app, set }: { form: GoalForm; app: App; set(part: Partial<GoalForm>): void }) {
+  const { cell } = app.store;
+  const arm = app.store.arms.get(form.arm);
+  const text = (key: 'joints' | 'xyz' | 'rpy' | 'link', label: string, hint: string) => (
+    <label class="grow">{label}<input type="text" value={form[key]} placeholder={hint} data-test={`plan-${key}`} onInput={(event) => set({ [key]: event.currentTarget.value })} /></label>
+  );
+  if (form.kind === 'named') {
+    const states = cell ? states_of(arm_of(cell, form.arm)) : [];
+    return (
+      <label>State <select value={form.named} data-test="plan-named" onChange={(event) => set({ named: event.currentTarget.value })}>
+        {states.map((name) => <option key={name} value={name}>{name}</option>)}
+      </select></label>
+    );
+  }
+  if (form.kind === 'joints') {
+    const here = arm ? app.store.q_of(arm).map((angle) => angle.toFixed(3)).join(', ') : '';
+    return (
+      <div class="line goal">
+        {text('joints', 'Joints, rad or m', here)}
+        <button type="button" class="small" data-test="plan-here" onClick={() => set({ joints: here })}>As it stands</button>
+      </div>
+    );
+  }
+  return <div class="line wrap goal">{text('xyz', 'Position in the world, m', '0, 0.2, 0.5')}{text('rpy', 'Turn, degrees', '180, 0, 0')}{text('link', 'Of the link', 'that of the last joint')}</div>;
+}
+
+function Planned({ plan }: { plan: Plan }) {
+  const { verdict, not_judged } = plan;
+  const words = verdict === undefined ? `As a job it would be refused now: ${not_judged?.detail ?? ''}`
+    : verdict.verdict === 'free' ? '✓ As a job it could start now.'
+    : verdict.earliest_start_s === null ? 'As a job it would wait, as things are.' : `As a job it could start in ${seconds(verdict.earliest_start_s)}.`;
+  if (plan.duration_s < kAlready_s) return <p class="planned-words" role="status" data-test="planned">The arm will be there already.</p>;
+  return (
+    <p class="planned-words" role="status" data-test="planned">
+      <b>{seconds(plan.duration_s)}</b>, proven beside all that stands still{plan.straight > 0 && `, ${Math.max(0, Math.round(100 * (plan.length / plan.straight - 1)))} % longer than the straight way`}. {words}
+    </p>
+  );
+}
+
+function Unplanned({ problem }: { problem: Problem }) {
+  const { links, clearance_m, nearest } = problem;
+  return (
+    <>
+      <Refused problem={problem} />
+      {links && clearance_m !== undefined && <p class="small">{links[0]} and {links[1]}: {clearance_m <= 0 ? 'in contact' : `${millimetres(clearance_m)} apart`}.</p>}
+      {nearest && <p class="small">The ghost stands where the arm comes nearest.</p>}
+    </>
+  );
+}
+
+/** Where the arm comes nearest is shown as a ghost. */
+function show_nearest(problem: Problem, arm: string, app: App): void {
+  const joints = app.store.arms.get(arm)?.joints ?? [];
+  if (problem.nearest?.length !== joints.length) return;
+  app.ghost.value = Object.fromEntries(joints.map((joint, i) => [joint, problem.nearest?.[i] ?? 0]));
+}
+
+function name_of(form: GoalForm): string {
+  if (form.kind === 'named') return `${form.arm} to ${form.named}`;
+  return form.kind === 'pose' ? `${form.arm} to ${form.xyz}` : `${form.arm} to joints`;
+}

@@ -1,0 +1,72 @@
+// How jobs move: their trajectories, fetched when a view first asks for one, and kept while they are
+// looked at. A job that is planned anew moves otherwise, and is fetched again.
+
+import { signal, untracked, type ReadonlySignal } from '@preact/signals';
+import type { Answer } from '../server/api';
+import type { Job, JobMotion } from '../server/messages';
+import { motion_of_piece, read_trajectory, type Motion } from './motion';
+
+const kMost = 64;
+const kAtOnce = 4;
+
+interface Known { key: string; motion: Motion | null }
+
+export class MotionBook {
+  private readonly known_ = new Map<string, Known>();
+  private readonly waiting_: { id: string; key: string }[] = [];
+  private asked_ = 0;
+  private readonly changes_ = signal(0);
+
+  constructor(private readonly fetch_: (id: string) => Promise<Answer<JobMotion>>) {}
+
+  /** Changes whenever a trajectory has come. */
+  get changes(): ReadonlySignal<number> { return this.changes_; }
+
+  /** null: not known yet, or the server has forgotten it. */
+  of(job: Pick<Job, 'id' | 'duration_s' | 'planned' | 'arms'>): Motion | null {
+    const key = `${job.duration_s} ${job.planned ?? ''} ${job.arms.join(' ')}`;
+    const known = this.known_.get(job.id);
+    if (known?.key !== key) this.ask(job.id, key, known?.motion ?? null);
+    else {  // it was looked at last
+      this.known_.delete(job.id);
+      this.known_.set(job.id, known);
+    }
+    return this.known_.get(job.id)?.motion ?? null;
+  }
+
+  /** Another run of the server: the same ids are other jobs. */
+  clear(): void {
+    this.known_.clear();
+    this.waiting_.length = 0;
+  }
+
+  private ask(id: string, key: string, before: Motion | null): void {
+    this.known_.set(id, { key, motion: before });
+    for (const oldest of this.known_.keys()) {
+      if (this.known_.size <= kMost) break;
+      this.known_.delete(oldest);
+    }
+    this.waiting_.push({ id, key });
+    this.go_on();
+  }
+
+  private go_on(): void {
+    while (this.asked_ < kAtOnce) {
+      const next = this.waiting_.shift();
+      if (!next) return;
+      this.asked_ += 1;
+      void this.fetch_(next.id).then((answer) => this.take(next.id, next.key, answer));
+    }
+  }
+
+  private take(id: string, key: string, answer: Answer<JobMotion>): void {
+    this.asked_ -= 1;
+    const known = this.known_.get(id);
+    const piece = answer.ok ? read_trajectory(answer.value.trajectory) : null;
+    if (known?.key === key) {
+      known.motion = piece ? motion_of_piece(piece) : null;
+      untracked(() => { this.changes_.value += 1; });
+    }
+    this.go_on();
+  }
+}

@@ -1,0 +1,59 @@
+// A recording that is looked at instead of the server's present: its files are read into the store, and
+// the page is led back to the present when it is closed.
+
+import { signal } from '@preact/signals';
+import type { Connection } from '../server/connection';
+import type { Router } from '../route/router';
+import type { Store } from '../state/store';
+import { read_events } from './read_events';
+import { StatesReader } from './read_states';
+
+export interface Opened { name: string; frames: number; events: number; unread: number; first_s: number; last_s: number }
+export type Opening = { ok: true; opened: Opened } | { ok: false; fault: string };
+
+export class Player {
+  /** What is looked at; null: the present. */
+  readonly opened = signal<Opened | null>(null);
+
+  constructor(private readonly store_: Store, private readonly connection_: Pick<Connection, 'stop' | 'begin_anew'>, private readonly router_: Router) {}
+
+  /** The files of a recording's folder; others of it are not needed. */
+  async open(files: readonly File[]): Promise<Opening> {
+    const find = (name: string) => files.find((file) => file.name === name);
+    const states = find('states.csv');
+    if (!states) return { ok: false, fault: 'There is no states.csv among the files: it has the arms\' positions. A server writes it with --data DIR --record, simulate always.' };
+    const read = await read_states(states);
+    if (!read.ok) return read;
+    const { frames } = read;
+    const joints = new Set(this.store_.cell?.joints.map(({ name }) => name));
+    const strange = frames.names.find((name) => !joints.has(name));
+    if (strange !== undefined) return { ok: false, fault: `It was recorded with another cell: this server's has no joint ${strange}.` };
+    const events = await read_events(await find('events.jsonl')?.text() ?? '');
+    this.connection_.stop();
+    const name = states.webkitRelativePath.split('/').at(-2) ?? states.name;
+    this.store_.show_recording(name, events.messages, frames);
+    const [first_s = 0, last_s = 0] = [frames.t_s[0], frames.t_s.at(-1)];
+    const opened = { name, frames: frames.t_s.length, events: events.messages.length, unread: events.unread, first_s, last_s };
+    this.opened.value = opened;
+    this.router_.hold_at(first_s);
+    return { ok: true, opened };
+  }
+
+  /** Back to the present. */
+  close(): void {
+    if (this.opened.value === null) return;
+    this.opened.value = null;
+    this.router_.hold_at(null);
+    this.store_.forget_all();
+    this.connection_.begin_anew();
+  }
+}
+
+async function read_states(file: File) {
+  const reader = new StatesReader();
+  const decoder = new TextDecoder();
+  const stream = file.stream().getReader();
+  for (let part = await stream.read(); !part.done; part = await stream.read()) reader.take(decoder.decode(part.value, { stream: true }));
+  reader.take(decoder.decode());
+  return reader.end();
+}

@@ -1,0 +1,62 @@
+// Joint positions from a recording's states.csv, thinned while they are read: the file has a row for each
+// control tick, a picture needs thirty a second. Pure.
+
+export interface Frames { names: string[]; t_s: number[]; q: number[][] }
+
+const kStep_s = 1 / 30;
+// Of longer recordings fewer a second are kept.
+const kMost = 60_000;
+
+export class StatesReader {
+  private names_: string[] | null = null;
+  private rest_ = '';
+  private row_ = 1;
+  private step_s_ = kStep_s;
+  private t_s_: number[] = [];
+  private q_: number[][] = [];
+  private fault_: string | null = null;
+
+  /** The next part of the file, cut anywhere. */
+  take(text: string): void {
+    const lines = (this.rest_ + text).split('\n');
+    this.rest_ = lines.pop() ?? '';
+    for (const line of lines) this.line(line);
+  }
+
+  end(): { ok: true; frames: Frames } | { ok: false; fault: string } {
+    if (this.rest_.trim() !== '') this.line(this.rest_);
+    if (this.fault_ !== null) return { ok: false, fault: this.fault_ };
+    if (!this.names_ || this.t_s_.length === 0) return { ok: false, fault: 'states.csv: no row of positions' };
+    return { ok: true, frames: { names: this.names_, t_s: this.t_s_, q: this.q_ } };
+  }
+
+  private line(line: string): void {
+    const row = this.row_++;
+    if (this.fault_ !== null || line.trim() === '') return;
+    if (!this.names_) {
+      const [time, ...names] = line.trim().split(',');
+      if (time === 'time_s' && names.length > 0) this.names_ = names;
+      else this.fault_ = `states.csv: line 1 begins with "${line.slice(0, 30)}", not with time_s and names of joints`;
+      return;
+    }
+    const comma = line.indexOf(',');
+    const t_s = Number(line.slice(0, comma));
+    const last_s = this.t_s_.at(-1);
+    if (last_s !== undefined && t_s - last_s < this.step_s_ - 1e-9) return;
+    const q = line.slice(comma + 1).split(',').map(Number);
+    if (comma < 0 || !Number.isFinite(t_s) || q.length !== this.names_.length || !q.every(Number.isFinite)) {
+      this.fault_ = `states.csv: line ${row} is no time and ${this.names_.length} positions: "${line.slice(0, 40)}"`;
+      return;
+    }
+    this.t_s_.push(t_s);
+    this.q_.push(q);
+    if (this.t_s_.length >= kMost) this.thin();
+  }
+
+  private thin(): void {
+    this.step_s_ *= 2;
+    const every_second = (_: unknown, i: number) => i % 2 === 0;
+    this.t_s_ = this.t_s_.filter(every_second);
+    this.q_ = this.q_.filter(every_second);
+  }
+}

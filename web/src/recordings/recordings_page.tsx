@@ -1,0 +1,81 @@
+// Recordings: one that was written to disk is opened and looked at with the scrub bar; what the page has
+// heard lately is written to a file that Foxglove reads.
+
+import { useState } from 'preact/hooks';
+import type { App } from '../state/app';
+import { use_store } from '../state/use_store';
+import { clock, seconds } from '../wording';
+import type { Opening } from './player';
+
+export function RecordingsPage({ app }: { app: App }) {
+  use_store(app.store);
+  const [opening, set_opening] = useState<Opening | 'busy' | null>(null);
+  const { opened } = app.player;
+  const open = async (files: readonly File[]) => {
+    if (files.length === 0) return;
+    set_opening('busy');
+    set_opening(await app.player.open(files));
+  };
+  return (
+    <div class="page">
+      <h2>Recordings</h2>
+      <h3>Look at one</h3>
+      <p class="hint">
+        A folder that <code>armloom serve --data DIR --record</code> or <code>armloom simulate --out DIR</code> has written: choose
+        its <code>states.csv</code> and <code>events.jsonl</code> together, or drop them here. Nothing leaves this browser.
+      </p>
+      <label class="drop" onDragOver={(event) => event.preventDefault()}
+        onDrop={(event) => { event.preventDefault(); void open([...event.dataTransfer?.files ?? []]); }}>
+        <input type="file" multiple accept=".csv,.jsonl,.json" class="sr-only" data-test="recording-files"
+          onChange={(event) => { void open([...event.currentTarget.files ?? []]); }} />
+        {opening === 'busy' ? 'Reading…' : 'Choose the files, or drop them here'}
+      </label>
+      {opening !== null && opening !== 'busy' && !opening.ok && <p class="refused" role="alert" data-test="recording-fault">{opening.fault}</p>}
+      {opened.value && (
+        <div class="opened" role="status" data-test="opened">
+          <p><b>{opened.value.name}</b>: {seconds(opened.value.last_s - opened.value.first_s)} from {clock(opened.value.first_s)}, {opened.value.frames} pictures, {opened.value.events} events{opened.value.unread > 0 && `, ${opened.value.unread} of another version not read`}.</p>
+          <p class="hint">The scrub bar below leads through it; all views show that instant.</p>
+          <button data-test="recording-close" onClick={() => { app.player.close(); set_opening(null); }}>Back to the present</button>
+        </div>
+      )}
+      <Export app={app} />
+    </div>
+  );
+}
+
+function Export({ app }: { app: App }) {
+  use_store(app.store, 'live');
+  const [words, set_words] = useState('');
+  const { trace } = app.store;
+  const length_s = (trace.last_s ?? 0) - (trace.first_s ?? 0);
+  const write = async () => {
+    set_words('Writing…');
+    try {
+      const { write_mcap } = await import('./mcap');
+      const bytes = await write_mcap(app.store, (share) => set_words(`Writing… ${Math.round(100 * share)} %`));
+      save(bytes, `${app.store.cell?.name ?? 'armloom'}.mcap`);
+      set_words(`Written: ${(bytes.byteLength / 1e6).toFixed(1)} MB.`);
+    } catch (error) {
+      set_words(`It cannot be written: ${String(error)}`);
+    }
+  };
+  return (
+    <>
+      <h3>Take away</h3>
+      <p class="hint">{app.player.opened.value ? 'The recording' : 'What this page has heard, the last five minutes at most,'} as an MCAP file for Foxglove: joint states, transforms of all links, the scene, jobs and events.</p>
+      <div class="line">
+        <button data-test="export-mcap" disabled={length_s <= 0 || words.startsWith('Writing')} onClick={() => void write()}>Export {seconds(length_s)} as MCAP</button>
+        <span class="dim small" role="status" data-test="export-words">{words}</span>
+      </div>
+    </>
+  );
+}
+
+function save(bytes: Uint8Array<ArrayBuffer>, name: string): void {
+  const address = URL.createObjectURL(new Blob([bytes], { type: 'application/octet-stream' }));
+  const link = document.createElement('a');
+  link.href = address;
+  link.download = name;
+  link.click();
+  URL.revokeObjectURL(address);
+}

@@ -1,0 +1,44 @@
+// What stopped the arms, and what each of them needs to go on. Pure.
+
+import type { Arm, Job } from '../server/messages';
+import type { Notice, Store } from '../state/store';
+import { short_id } from '../wording';
+
+/** The last thing that stopped arms; null: nothing that this page has heard. */
+export function cause_of(notices: readonly Notice[]): Notice | null {
+  return notices.find(({ text, source, level }) => /^stopped: /.test(text) || (source === 'monitor' && level === 'error') || /fault/.test(text)) ?? null;
+}
+
+/** An arm that stands on its path tells by its job that it was stopped. */
+export function is_stopped(arm: Arm, job: Job | null): boolean {
+  return arm.state === 'stopped' || (job?.waits_on.some(({ kind, arm: of }) => kind === 'stop' && (of === null || of === arm.name)) ?? false);
+}
+
+/** Those that stand until they are resumed. */
+export function waiting_arms(store: Pick<Store, 'arms' | 'job'>): Arm[] {
+  return [...store.arms.values()].filter((arm) => arm.state === 'fault' || is_stopped(arm, arm.job === null ? null : store.job(arm.job)));
+}
+
+export interface Need { words: string; resume: boolean; home: boolean }
+
+const kAtHome_rad = 0.02;
+
+export function need_of(arm: Arm, job: Job | null, q: readonly number[]): Need {
+  const off_rad = Math.max(0, ...arm.home.map((home, i) => Math.abs((q[i] ?? home) - home)));
+  const away = off_rad > kAtHome_rad;
+  const name = job ? job.name || short_id(job.id) : '';
+  switch (arm.state !== 'fault' && is_stopped(arm, job) ? 'stopped' : arm.state) {
+    case 'fault':
+      return { words: 'Its controller is at fault: what it did has failed. Clear the fault there, then resume it.', resume: true, home: false };
+    case 'stopped':
+      return job
+        ? { words: `Resume: ${name} goes on from ${Math.round(100 * job.progress)} % of its path as soon as that is free. Cancel it first if it should not.`, resume: true, home: false }
+        : { words: 'Resume: then it takes jobs again.', resume: true, home: false };
+    case 'holding':
+      return { words: `Stands on its path until the way of ${name || 'its job'} is free. Nothing to do.`, resume: false, home: false };
+    case 'moving':
+      return { words: `Moves: ${name || 'its job'}.`, resume: false, home: false };
+    case 'idle':
+      return away ? { words: 'Ready, away from home. Send it home, or leave it to its jobs.', resume: false, home: true } : { words: 'Ready, at home.', resume: false, home: false };
+  }
+}

@@ -1,0 +1,78 @@
+// After a stop: why the arms stopped, what each of them needs, what to look at before they move again,
+// and the way back.
+
+import { useState } from 'preact/hooks';
+import { StatePill } from '../arms/arms';
+import { Link } from '../route/link';
+import type { Arm } from '../server/messages';
+import type { App } from '../state/app';
+import { arm_colour } from '../state/palette';
+import { use_store } from '../state/use_store';
+import { clock, why_mute } from '../wording';
+import { cause_of, need_of, waiting_arms } from './needs';
+
+const kChecks: readonly string[] = [
+  'I know why the arms stopped.', 'Nobody is within their reach.', 'What stands in the cell stands where the scene has it.', 'Nothing is damaged, and grippers hold what they should.',
+];
+const kHomeSpeed = 0.3;
+
+export function RecoveryPage({ app }: { app: App }) {
+  use_store(app.store);
+  const { store } = app;
+  const arms = [...store.arms.values()];
+  const waiting = waiting_arms(store);
+  const cause = cause_of(store.notices);
+  return (
+    <div class="page" data-test="recovery">
+      <h2>Recovery</h2>
+      <p class="words" data-test="cause">{cause ? <><span class="mono">{clock(cause.t_s)}</span> {cause.text}</> : waiting.length > 0 ? 'The arms were stopped before this page listened.' : 'No arm was stopped since this page listens.'}</p>
+      <p class="hint">{waiting.length === 0 ? 'No arm waits to be resumed.' : `${waiting.length} of ${arms.length} arms stand until they are resumed.`}{' '}
+        <Link app={app} to={{ page: 'alerts' }}>Alerts</Link></p>
+      <h3>1. Look</h3>
+      <Checks key={cause?.key ?? 0} app={app} needed={waiting.length > 0} />
+      <h3>2. What each arm needs</h3>
+      <ul class="needs">{arms.map((arm) => <Needs key={arm.name} arm={arm} app={app} />)}</ul>
+    </div>
+  );
+}
+
+/** Ticked anew after each stop. */
+function Checks({ app, needed }: { app: App; needed: boolean }) {
+  const [ticked, set_ticked] = useState<readonly number[]>([]);
+  const left = kChecks.length - ticked.length;
+  const mute = why_mute(app.store.link);
+  return (
+    <fieldset class="checks">
+      <legend class="sr-only">Before the arms move again</legend>
+      {kChecks.map((text, i) => (
+        <label key={i} class="check">
+          <input type="checkbox" data-test={`check-${i}`} checked={ticked.includes(i)}
+            onChange={(event) => set_ticked(event.currentTarget.checked ? [...ticked, i] : ticked.filter((one) => one !== i))} /> {text}
+        </label>
+      ))}
+      <div class="line">
+        <button class="primary" data-test="resume-checked" disabled={!needed || left > 0 || mute !== null} title={mute ?? ''} onClick={() => void app.actions.resume()}>Resume all arms</button>
+        <span class="dim small" role="status">{!needed ? 'Nothing is stopped.' : left > 0 ? `${left} still to look at.` : 'They go on with their jobs as their ways are free.'}</span>
+      </div>
+    </fieldset>
+  );
+}
+
+function Needs({ arm, app }: { arm: Arm; app: App }) {
+  use_store(app.store, 'live');
+  const { store } = app;
+  const job = arm.job === null ? null : store.job(arm.job);
+  const need = need_of(arm, job, store.q_of(arm));
+  const mute = why_mute(store.link);
+  return (
+    <li data-test={`need-${arm.name}`} style={{ '--arm': arm_colour([...store.arms.keys()], arm.name) }}>
+      <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{arm.name}</Link><StatePill arm={arm} /></div>
+      <p>{need.words}</p>
+      <div class="line">
+        {need.resume && <button class="small" disabled={mute !== null} onClick={() => void app.actions.resume_arm(arm.name)}>Resume {arm.name} alone</button>}
+        {need.resume && job && <Link app={app} to={{ page: 'job', id: job.id }}>Its job</Link>}
+        {need.home && <button class="small" data-test={`home-${arm.name}`} disabled={mute !== null} onClick={() => void app.actions.send_to(arm.name, 'home', kHomeSpeed)}>Send {arm.name} home, slowly</button>}
+      </div>
+    </li>
+  );
+}

@@ -1,0 +1,148 @@
+// What the arms have before them: the way of each tool through the motions that are admitted, how far
+// along it the arm may go, and a ghost of where each arm comes to rest next.
+
+import * as THREE from 'three';
+import type { Motion } from '../motion/motion';
+import type { Cell, Job } from '../server/messages';
+import type { App } from '../state/app';
+import { arm_colour, ink } from '../state/palette';
+import { Ghosts } from './ghosts';
+import { Kinematics } from './kinematics';
+import type { Surfaces } from './surfaces';
+import { beads_of, Way } from './way';
+
+const kLegs = 2;
+const kGhostOpacity = 0.17;
+
+interface Shown { way: Way; arm: string; job: string; motion: Motion }
+
+export class Ahead {
+  readonly group = new THREE.Group();
+  private readonly ghosts_ = new Ghosts(kGhostOpacity);
+  private kinematics_: Kinematics[] = [];
+  private readonly ways_ = new Map<string, Shown>();
+  private cell_: Cell | null = null;
+  private ghosts_at_ = '';
+  private seen_ = '';
+
+  constructor(private readonly app_: Pick<App, 'store' | 'motions' | 'settings'>) {
+    this.group.add(this.ghosts_.group);
+  }
+
+  /** Another cell, or another theme: all is made anew. */
+  begin(cell: Cell | null): void {
+    for (const key of [...this.ways_.keys()]) this.forget(key);
+    this.ghosts_.clear();
+    this.ghosts_at_ = '';
+    if (cell === this.cell_) return;
+    this.cell_ = cell;
+    this.kinematics_ = [];
+    for (const robot of cell?.robots ?? []) {
+      try {
+        this.kinematics_.push(new Kinematics(robot));
+      } catch {
+        // It cannot be drawn, either, and that was said.
+      }
+    }
+  }
+
+  get count(): number {
+    return this.ways_.size;
+  }
+
+  /**
+   * By what is known now; `at_now`: else an instant of the past is looked at, which has no future here.
+   * Answers whether something else is to be seen than before.
+   */
+  follow(surfaces: Surfaces, at_now: boolean): boolean {
+    const { settings, store } = this.app_;
+    const legs = at_now ? this.legs() : [];
+    const wanted = new Set(settings.shows.value.ways ? legs.map(({ arm, job }) => `${arm}\n${job.id}`) : []);
+    for (const [key, { motion, job }] of [...this.ways_]) {
+      const known = this.app_.store.job(job);
+      if (!wanted.has(key) || !known || this.app_.motions.of(known) !== motion) this.forget(key);
+    }
+    for (const leg of legs) if (settings.shows.value.ways) this.add(leg.arm, leg.job);
+    this.show_ghosts(settings.shows.value.ghosts ? legs : [], surfaces);
+    this.move();
+    const granted = store.motions.map(({ job, authority_s }) => `${job} ${authority_s}`);
+    const seen = [...this.ways_.keys(), ...granted, this.ghosts_at_].join('\n');
+    const changed = seen !== this.seen_;
+    this.seen_ = seen;
+    return changed;
+  }
+
+  /** How far each is, and how far it may go, by the last frame. */
+  move(): void {
+    for (const { way, arm, job, motion } of this.ways_.values()) {
+      const told = this.app_.store.motions.find((one) => one.arm === arm && one.job === job);
+      way.show(told ? { from_s: told.progress_s, granted_s: told.authority_s } : { from_s: 0, granted_s: 0 });
+      way.group.visible = told === undefined || told.progress_s < motion.duration_s;
+    }
+  }
+
+  /** Drawings take long: ghosts are left out first. */
+  show_level(ghosts: boolean): void {
+    this.ghosts_.group.visible = ghosts;
+  }
+
+  /** Of each arm the motions that are admitted, the one under way first. */
+  private legs(): { arm: string; job: Job }[] {
+    const { store } = this.app_;
+    return (store.forecast?.arms ?? []).flatMap(({ name, legs }) => legs
+      .flatMap((leg) => {
+        const job = store.job(leg.id);
+        return job && job.result === null ? [{ arm: name, job }] : [];
+      })
+      .slice(0, kLegs));
+  }
+
+  private add(arm: string, job: Job): void {
+    const key = `${arm}\n${job.id}`;
+    if (this.ways_.has(key)) return;
+    const motion = this.app_.motions.of(job);
+    const robot = this.cell_?.robots.find((one) => one.arms.some(({ name }) => name === arm));
+    const kinematics = this.kinematics_.find(({ name }) => name === robot?.name);
+    if (!motion || !kinematics) return;
+    const count = beads_of(motion.duration_s);
+    const points: THREE.Vector3[] = [];
+    for (let i = 0; i < count; i++) {
+      kinematics.set_q({ ...this.app_.store.q, ...motion.q_at((motion.duration_s * i) / (count - 1)) });
+      const p_W = kinematics.tool(arm);
+      if (p_W) points.push(p_W);
+    }
+    if (points.length === 0) return;
+    const way = new Way(points, motion.duration_s);
+    way.paint(ink(arm_colour([...this.app_.store.arms.keys()], arm)));
+    this.ways_.set(key, { way, arm, job: job.id, motion });
+    this.group.add(way.group);
+  }
+
+  /** Where each arm is at the end of the motion that is under way, or comes next. */
+  private show_ghosts(legs: readonly { arm: string; job: Job }[], surfaces: Surfaces): void {
+    if (!this.cell_) return;
+    const q: Record<string, number> = {};
+    const ends: string[] = [];
+    const seen = new Set<string>();
+    for (const { arm, job } of legs) {
+      const motion = seen.has(arm) ? null : this.app_.motions.of(job);
+      seen.add(arm);
+      if (!motion) continue;
+      Object.assign(q, motion.q_at(motion.duration_s));
+      ends.push(job.id, String(motion.duration_s));
+    }
+    const at = ends.join('\n');
+    if (at === this.ghosts_at_) return;
+    this.ghosts_at_ = at;
+    const names = [...this.app_.store.arms.keys()];
+    this.ghosts_.show(ends.length === 0 ? null : q, this.app_.store.q, this.cell_, surfaces, (arm) => ink(arm_colour(names, arm)));
+  }
+
+  private forget(key: string): void {
+    const shown = this.ways_.get(key);
+    if (!shown) return;
+    this.group.remove(shown.way.group);
+    shown.way.close();
+    this.ways_.delete(key);
+  }
+}

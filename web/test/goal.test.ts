@@ -1,0 +1,35 @@
+import { describe, expect, it } from 'vitest';
+import { numbers_in, plan_request, states_of, type GoalForm } from '../src/compose/goal';
+import type { CellArm } from '../src/server/messages';
+
+const form = (over: Partial<GoalForm>): GoalForm => ({ arm: 'left', kind: 'named', named: 'ready', joints: '', xyz: '0, 0.2, 0.5', rpy: '180 0 0', link: '', speed: '50', ...over });
+const body = (over: Partial<GoalForm>): unknown => {
+  const asked = plan_request(form(over));
+  return asked.ok ? JSON.parse(asked.text) : asked.fault;
+};
+
+describe('a goal', () => {
+  it('is a named state, joints, or a pose with its turn in degrees', () => {
+    expect(body({})).toEqual({ arm: 'left', to: { named: 'ready' }, velocity_scaling_factor: 0.5 });
+    expect(body({ kind: 'joints', joints: '[0, -1.2,0.5]' })).toMatchObject({ to: { joints: [0, -1.2, 0.5] } });
+    expect(body({ kind: 'pose', link: ' left_hand ' })).toMatchObject({ to: { pose: { link: 'left_hand', xyz: [0, 0.2, 0.5], rpy: [Math.PI, 0, 0] } } });
+    expect(body({ kind: 'pose' })).not.toHaveProperty('to.pose.link');
+  });
+
+  it('that cannot be read says which part and what stands there', () => {
+    expect(body({ kind: 'joints', joints: '1, two' })).toMatch(/Joints.*1, two/);
+    expect(body({ kind: 'pose', xyz: '1 2' })).toMatch(/Position.*1 2/);
+    expect(body({ kind: 'pose', rpy: '' })).toMatch(/Turn/);
+    expect(body({ speed: '0' })).toMatch(/Speed/);
+  });
+
+  it('has home among the named states, once', () => {
+    expect(states_of(undefined)).toEqual(['home']);
+    expect(states_of({ named_states: { ready: [], home: [] } } as unknown as CellArm)).toEqual(['home', 'ready']);
+  });
+
+  it('has numbers between commas or blanks', () => {
+    expect(numbers_in(' 1,  2\n-3e-1 ')).toEqual([1, 2, -0.3]);
+    expect(numbers_in('')).toBeNull();
+  });
+});

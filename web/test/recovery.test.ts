@@ -1,0 +1,48 @@
+import { describe, expect, it } from 'vitest';
+import { cause_of, need_of, waiting_arms } from '../src/recovery/needs';
+import type { Arm, Job } from '../src/server/messages';
+import { Acknowledged } from '../src/state/acknowledged';
+import type { Notice } from '../src/state/store';
+import { arm_json, job_json, wait_json } from './samples';
+
+const arm = (over: object) => arm_json('left', over) as Arm;
+const notice = (over: Partial<Notice>): Notice => ({ key: 1, stream: 's', seq: 1, t_s: 1, level: 'warning', source: 'alert', text: '', ...over });
+
+describe('after a stop', () => {
+  it('the cause is what stopped arms last', () => {
+    const job = notice({ text: 'job a failed: overrun' });
+    const stop = notice({ text: 'stopped: left, right (operator)' });
+    const near = notice({ source: 'monitor', level: 'error', text: 'a and b 4 mm apart; stopped left' });
+    expect(cause_of([job, stop, near])).toBe(stop);
+    expect(cause_of([near, stop])).toBe(near);
+    expect(cause_of([job])).toBeNull();
+  });
+
+  it('each arm needs what its state says', () => {
+    const job = job_json('pick', { name: 'pick 7', progress: 0.4 }) as Job;
+    expect(need_of(arm({ state: 'stopped' }), job, [0, -1.2])).toMatchObject({ resume: true, home: false, words: expect.stringMatching(/pick 7.*40 %/) });
+    const stopped = job_json('pick', { waits_on: [wait_json({ kind: 'stop', id: null, arm: 'left', links: [] })] }) as Job;
+    expect(need_of(arm({ state: 'holding' }), stopped, [0, -1.2])).toMatchObject({ resume: true });
+    const store = { arms: new Map([['left', arm({ state: 'holding', job: 'pick' })]]), job: () => stopped };
+    expect(waiting_arms(store).map(({ name }) => name)).toEqual(['left']);
+    expect(need_of(arm({ state: 'fault' }), null, [0, -1.2])).toMatchObject({ resume: true });
+    expect(need_of(arm({ state: 'idle' }), null, [0.5, -1.2])).toMatchObject({ resume: false, home: true });
+    expect(need_of(arm({ state: 'idle' }), null, [0, -1.2])).toMatchObject({ resume: false, home: false });
+    expect(need_of(arm({ state: 'holding' }), job, [0, 0]).words).toMatch(/pick 7/);
+  });
+});
+
+describe('acknowledgements', () => {
+  it('say who and when, and outlive the page', () => {
+    const kept = new Map<string, string>();
+    const shelf = { getItem: (key: string) => kept.get(key) ?? null, setItem: (key: string, value: string) => { kept.set(key, value); } };
+    const at = new Date('2026-11-23T04:00:00Z');
+    new Acknowledged(shelf, () => at).acknowledge(['s:1', 's:2'], 'Ada');
+    const later = new Acknowledged(shelf);
+    expect(later.of('s:2')).toEqual({ who: 'Ada', at: at.toISOString() });
+    expect(later.of('s:3')).toBeNull();
+    kept.set('armloom.acknowledged', '[["x", 7], 3]');
+    later.read();
+    expect(later.of('x')).toBeNull();
+  });
+});
