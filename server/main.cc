@@ -46,6 +46,11 @@ int run(int argc, char** argv) {
       ->add_option("--keep-days", serving.keep_days,
                    "with --data: those that have ended for so long at most (for ever)")
       ->check(CLI::Range(1, 36'500));
+  serve_command->add_option("--tokens", serving.tokens,
+                            "file of `armloom token`: only who shows one of them is served");
+  serve_command->add_option("--tls-certificate", serving.tls_certificate,
+                            "PEM, with those between it and its root; with --tls-key");
+  serve_command->add_option("--tls-key", serving.tls_key, "PEM");
   serve_command->add_flag("--record", serving.record, "with --data: write states.csv, too");
   serve_command->add_option("--speed", serving.speed, "cell seconds per second")
       ->check(CLI::Range(0.001, 1000.0));
@@ -55,6 +60,11 @@ int run(int argc, char** argv) {
       ->add_option("--allow-host", serving.allowed_hosts,
                    "a name by which the server may be commanded, as behind a proxy")
       ->type_name("NAME");
+  serve_command
+      ->add_option("--allow-origin", serving.allowed_origins,
+                   "a site whose pages may command the server, as https://station.example; may be "
+                   "repeated")
+      ->type_name("ORIGIN");
 
   std::string validated_file;
   CLI::App* validate_command =
@@ -150,6 +160,25 @@ int run(int argc, char** argv) {
   history_command->add_option("--arm", reading.arm, "only those that move this arm");
   history_command->add_flag("--csv", reading.csv, "as CSV instead of JSON lines");
 
+  TokenOptions tokens;
+  CLI::App* token_command =
+      app.add_subcommand("token", "who may use a server that asks for tokens");
+  token_command->require_subcommand(1);
+  const auto add_token_command = [&](TokenOptions::What what, const char* name, const char* text) {
+    CLI::App* command = token_command->add_subcommand(name, text);
+    command->add_option("--tokens", tokens.file, "file of `serve --tokens`")->required();
+    if (what != TokenOptions::What::list) {
+      command->add_option("--name", tokens.name, "of whom or what has it")->required();
+    }
+    if (what == TokenOptions::What::add) {
+      command->add_option("--role", tokens.role, "viewer, operator or admin")->required();
+    }
+    command->callback([&tokens, what] { tokens.what = what; });
+  };
+  add_token_command(TokenOptions::What::add, "add", "make one, which is printed this once");
+  add_token_command(TokenOptions::What::list, "list", "names and roles");
+  add_token_command(TokenOptions::What::withdraw, "withdraw", "it is worth nothing from now on");
+
   AuditOptions auditing;
   CLI::App* audit_command = app.add_subcommand("audit", "re-check a recording for contacts");
   add_cell(*audit_command, auditing.cell_file);
@@ -172,6 +201,7 @@ int run(int argc, char** argv) {
   if (plan_command->parsed()) return plan_way(planning);
   if (simulate_command->parsed()) return simulate_jobs(simulating);
   if (compare_command->parsed()) return compare_policies(comparing);
+  if (token_command->parsed()) return change_tokens(tokens);
   if (history_command->parsed()) return print_history(reading);
   return audit_recording(auditing);
 }

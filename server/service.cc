@@ -15,15 +15,24 @@
 
 namespace armloom {
 
+namespace {
+constexpr std::size_t kAuditedPathMax = 512;
+}  // namespace
+
 class Service::Impl {
  public:
   explicit Impl(ServiceOptions options)
-      : options_(std::move(options)), files_(options_.web, refusal_response) {}
+      : options_(std::move(options)),
+        files_(options_.web, refusal_response),
+        guard_(options_.tokens, options_.tls.has_value()) {}
 
   std::optional<Problems> start(const CellPtr& cell, const Recording::Source& source) {
     auto http = HttpServer::listen(options_.address, options_.port, options_.connections_max);
     if (!http) return std::move(http.error());
     http_ = std::move(*http);
+    if (options_.tls) {
+      if (auto used = http_->use_tls(*options_.tls); !used) return std::move(used.error());
+    }
     if (options_.data) {
       if (auto problems = open_store(*options_.data)) return problems;
       auto recording = Recording::create(Recording::unused_folder(*options_.data), source, *cell,
@@ -36,6 +45,8 @@ class Service::Impl {
                          std::chrono::nanoseconds after) {
       metrics_->answered(method, route, status, after);
     });
+    router_.guard(
+        [this](const Request& request, Role role) { return guard_.refusal(request, role); });
     clock_.emplace(std::chrono::system_clock::now(), options_.speed);
     const auto post = [http_server = http_.get()](std::function<void()> task) {
       http_server->post(std::move(task));
@@ -61,7 +72,7 @@ class Service::Impl {
     if (restart) go_on(std::move(*restart), cell);
     const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
     api_ = std::make_unique<Api>(ApiParts{
-        cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), post,
+        cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), post, guard_,
         [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
@@ -71,12 +82,12 @@ class Service::Impl {
   void run(bool until_signal) {
     Site site;
     site.handle = [this](const Request& request, Respond respond) {
-      router_.dispatch(request, std::move(respond));
+      router_.dispatch(request, noting(request, std::move(respond)));
     };
     site.refuse_unread = [this](const Request& request) { return router_.refuse_unread(request); };
     site.refuse = refusal_response;
     const bool everywhere = options_.address == "0.0.0.0" || options_.address == "::";
-    site.hosts = HostRule{options_.allowed_hosts, everywhere};
+    site.hosts = HostRule{options_.allowed_hosts, options_.allowed_origins, everywhere};
     site.keep_alive = options_.keep_alive;
     site.send_time = options_.send_time;
     site.send_buffer = options_.send_buffer;
@@ -135,7 +146,33 @@ class Service::Impl {
                     Executive& executive) { restart->go_on(executive, *cell, *keeper_); });
   }
 
+  // Who did something, or was not let do it, is put down.
+  Respond noting(const Request& request, Respond respond) {
+    if (!keeper_) return respond;
+    const auto caller = guard_.caller(request.token);
+    AuditEntry entry{.who = caller ? caller->name : std::string(),
+                     .peer = request.peer,
+                     .method = request.method,
+                     .path = request.target.path.substr(0, kAuditedPathMax)};
+    return
+        [this, entry = std::move(entry), respond = std::move(respond)](Response response) mutable {
+          const int status = response.status;
+          const bool only_looks = entry.method == "GET" || entry.method == "OPTIONS";
+          if (!only_looks || status == 401 || status == 403) {
+            using std::chrono::milliseconds;
+            const auto now = std::chrono::system_clock::now().time_since_epoch();
+            entry.at_ms = std::chrono::floor<milliseconds>(now).count();
+            entry.status = status;
+            keeper_->store().note(std::move(entry));
+          }
+          respond(std::move(response));
+        };
+  }
+
   Response answer_file(const Request& request) {
+    if (request.target.path == "/" && !guard_.caller(request.token)) {
+      return Response{303, "", "", {{"Location", "/login"}, {"Cache-Control", "no-store"}}};
+    }
     if (!request.target.path.starts_with("/api/")) return files_.answer(request);
     return refusal_response({404, "not-found", "nothing is served at " + request.target.path,
                              "request target", request.target.path});
@@ -144,6 +181,7 @@ class Service::Impl {
   // Destroyed from below: first the loop's threads end, last the sockets.
   ServiceOptions options_;
   StaticFiles files_;
+  Guard guard_;
   const std::string stream_ = random_stream();
   std::optional<WallClock> clock_;
   Hub hub_;

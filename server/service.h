@@ -12,6 +12,7 @@
 
 #include "core/base/problem.h"
 #include "core/model/cell.h"
+#include "server/http/http_server.h"
 #include "server/recording/recording.h"
 #include "server/store/job_store.h"
 
@@ -22,7 +23,10 @@ struct ServiceOptions {
   std::uint16_t port = 8080;                     // zero: any free one
   double speed = 1.0;                            // cell seconds per wall second
   std::string policy;                            // empty: the cell's
+  std::vector<std::string> allowed_origins;      // of other sites (HostRule)
   std::vector<std::string> allowed_hosts;        // names that commands may come to (HostRule)
+  std::optional<std::filesystem::path> tokens;   // file of those that are asked for; none: all may
+  std::optional<TlsFiles> tls;                   // none: without
   std::filesystem::path web;                     // the dashboard's files
   std::optional<std::filesystem::path> data;     // where a recording is written; one in
                                                  // it is kept (Recording::unused_folder)

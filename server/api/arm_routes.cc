@@ -84,7 +84,8 @@ Route command(const char* path, const char* id, const char* summary) {
           .id = id,
           .tag = "arms",
           .summary = summary,
-          .who = Who::commander};
+          .who = Who::commander,
+          .role = Role::operate};
 }
 
 }  // namespace

@@ -82,9 +82,15 @@ void stream(Call& call, int status, bool frames) {
     return call.respond(refusal_response(*fault));
   }
   subscribe(call.parts, place_of(call.request),
-            [status, frames, id = call.parts.stream, respond = call.respond](FeedPtr feed) {
+            [&parts = call.parts, status, frames, token = call.request.token,
+             respond = call.respond](FeedPtr feed) {
               Response response{status, "text/event-stream", "", {{"Cache-Control", "no-store"}}};
-              response.events = EventStream{std::move(feed), id, frames};
+              response.events = EventStream{std::move(feed), parts.stream, frames};
+              if (parts.guard.asks()) {
+                response.events->permitted = [&parts, token] {
+                  return parts.guard.caller(token).has_value();
+                };
+              }
               respond(std::move(response));
             });
 }

@@ -195,6 +195,7 @@ std::vector<Route> job_routes() {
       outcome(202, "Canceled, or \"stopping\" until its arm is at rest", job_format())};
   cancel.refuses = {404, 409};
   cancel.who = Who::commander;
+  cancel.role = Role::operate;
   cancel.run = cancel_job;
 
   Route replan = of_one("POST", "/jobs/{id}/replan", "replanJob", "Another way for a job");

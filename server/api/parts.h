@@ -10,7 +10,9 @@
 #include "core/executive/real_time_loop.h"
 #include "core/model/cell.h"
 #include "server/api/answers.h"
+#include "server/api/guard.h"
 #include "server/codec/wall_clock.h"
+#include "server/durable/accepted_requests.h"
 #include "server/durable/job_keeper.h"
 #include "server/hub/hub.h"
 #include "server/metrics/metrics.h"
@@ -31,6 +33,7 @@ struct ApiParts {
   Recording* recording;                             // null: none
   JobKeeper* keeper;                                // null: jobs end with the server
   std::function<void(std::function<void()>)> post;  // to the server's thread, in order
+  Guard& guard;
   // To a thread for what takes long and needs nothing of this.
   std::function<void(std::function<void()>)> aside;
   Metrics& metrics;
@@ -39,6 +42,7 @@ struct ApiParts {
     bool gap;
     std::function<void(FeedPtr)> then;
   };
+  std::shared_ptr<AcceptedRequests> accepted = std::make_shared<AcceptedRequests>();
   std::shared_ptr<std::vector<Newcomer>> newcomers = std::make_shared<std::vector<Newcomer>>();
 };
 

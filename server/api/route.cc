@@ -11,7 +11,8 @@ const std::vector<Route>& all_routes() {
     std::vector<Route> all;
     for (const auto& part :
          {submission_routes(), plan_routes(), job_routes(), motion_routes(), arm_routes(),
-          scene_routes(), cell_routes(), simulation_routes(), event_routes(), service_routes()}) {
+          scene_routes(), cell_routes(), simulation_routes(), event_routes(), session_routes(),
+          audit_routes(), service_routes()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;
@@ -22,6 +23,7 @@ const std::vector<Route>& all_routes() {
 std::vector<int> common_refusals(const Route& route) {
   std::vector<int> statuses{400, 413, 417, 431, 503};
   if (route.who != Who::anyone) statuses.push_back(403);
+  if (route.role) statuses.push_back(401);
   if (route.reads) statuses.push_back(415);
   return statuses;
 }

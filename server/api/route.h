@@ -60,6 +60,7 @@ struct Route {
   std::vector<Outcome> outcomes;
   std::vector<int> refuses = {};  // beside what common_refusals() has
   Who who = Who::reader;
+  std::optional<Role> role = Role::viewer;  // none: no token is needed
   void (*run)(Call call);  // null: the dashboard's files, which the router leaves to others
 };
 
@@ -67,12 +68,15 @@ struct Route {
 [[nodiscard]] std::vector<Route> job_routes();         // /jobs, /queue, /timeline
 [[nodiscard]] std::vector<Route> motion_routes();      // /jobs/{id}/trajectory
 [[nodiscard]] std::vector<Route> submission_routes();  // POST /jobs, /batches, /check
+[[nodiscard]] Route batch_route();
 [[nodiscard]] std::vector<Route> plan_routes();        // /plan
 [[nodiscard]] std::vector<Route> arm_routes();         // /arms, /stop, /resume
 [[nodiscard]] std::vector<Route> scene_routes();       // /scene
 [[nodiscard]] std::vector<Route> cell_routes();        // /cell and its meshes
 [[nodiscard]] std::vector<Route> simulation_routes();  // /sim
 [[nodiscard]] std::vector<Route> event_routes();       // /events, /ws
+[[nodiscard]] std::vector<Route> audit_routes();       // /audit
+[[nodiscard]] std::vector<Route> session_routes();     // /session, /login
 [[nodiscard]] std::vector<Route> service_routes();     // /healthz, /docs, ...
 [[nodiscard]] const std::vector<Route>& all_routes();
 

@@ -110,6 +110,7 @@ std::vector<Route> scene_routes() {
        .outcomes = {created(201, "Added; every motion is judged again", scene_change_format())},
        .refuses = {409, 422},
        .who = Who::commander,
+       .role = Role::operate,
        .run = post_object},
       {.method = "PUT",
        .path = objects + "/{name}",
@@ -122,6 +123,7 @@ std::vector<Route> scene_routes() {
                     created(201, "Created", scene_change_format())},
        .refuses = {409, 422},
        .who = Who::commander,
+       .role = Role::operate,
        .run = put_object},
       {.method = "DELETE",
        .path = objects + "/{name}",
@@ -131,6 +133,7 @@ std::vector<Route> scene_routes() {
        .outcomes = {outcome(200, "Removed", scene_version_format())},
        .refuses = {404},
        .who = Who::commander,
+       .role = Role::operate,
        .run = delete_object},
   };
 }

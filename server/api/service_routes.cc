@@ -94,13 +94,14 @@ std::vector<Route> service_routes() {
   const Content style{"text/css", {{"type", "string"}}};
   const Content script{"text/javascript", {{"type", "string"}}};
   Route dashboard = of_server("/", "dashboard", "The dashboard", {200, "A page", {html}}, nullptr);
+  dashboard.outcomes.push_back({303, "To /login: a token is needed"});
   dashboard.refuses = {404};
   Route health = of_server("/healthz", "health", "Is the process there?",
                            outcome(200, "It is", health_format()), get_health);
   Route ready = of_server("/readyz", "ready", "Does the executive answer?",
                           outcome(200, "It does", ready_format()), get_ready);
   health.who = ready.who = Who::anyone;  // probes come by any name
-  return {
+  std::vector<Route> routes{
       health,
       ready,
       of_server("/metrics", "metrics", "Figures for Prometheus",
@@ -118,6 +119,10 @@ std::vector<Route> service_routes() {
                 get_docs_script),
       dashboard,
   };
+  for (Route& route : routes) {  // what the program is can be known; what it does cannot
+    if (route.path != "/metrics") route.role = std::nullopt;
+  }
+  return routes;
 }
 
 }  // namespace armloom

@@ -72,6 +72,7 @@ std::vector<Route> simulation_routes() {
        .outcomes = {outcome(200, "In force from the next control cycle on", speed_format())},
        .refuses = {422},
        .who = Who::commander,
+       .role = Role::operate,
        .run = put_speed},
       {.method = "POST",
        .path = api_path("/sim/faults"),
@@ -83,6 +84,7 @@ std::vector<Route> simulation_routes() {
        .outcomes = {created(201, "Injected", fault_format())},
        .refuses = {422},
        .who = Who::commander,
+       .role = Role::operate,
        .run = post_fault},
       {.method = "DELETE",
        .path = api_path("/sim/faults/{id}"),
@@ -92,6 +94,7 @@ std::vector<Route> simulation_routes() {
        .outcomes = {{204, "Removed"}},
        .refuses = {404},
        .who = Who::commander,
+       .role = Role::operate,
        .run = delete_fault},
   };
 }

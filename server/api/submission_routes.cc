@@ -1,6 +1,8 @@
 #include <utility>
 
+#include "server/access/digest.h"
 #include "server/api/examples.h"
+#include "server/api/resubmission.h"
 #include "server/api/route.h"
 #include "server/messages/job.h"
 #include "server/messages/job_request.h"
@@ -16,108 +18,51 @@ std::optional<Response> refused_by_store(const ApiParts& parts, JobRequest& job)
   return std::nullopt;
 }
 
-// Jobs that the executive has accepted, each with its body, are only said to be when they are on
-// disk, where there is a store.
-void acknowledge(const ApiParts& parts, std::vector<std::pair<JobView, std::string>> jobs,
-                 const Respond& respond, std::function<Response()> answer) {
-  if (parts.recording != nullptr) {
-    for (const auto& [job, body] : jobs) parts.recording->job(job.submitted_at, body);
-  }
-  if (parts.keeper == nullptr || jobs.empty()) return respond(answer());
-  parts.keeper->accept(std::move(jobs), [respond, answer = std::move(answer)](
-                                            const std::optional<Refusal>& refusal) {
-    respond(refusal ? refusal_response(*refusal) : answer());
+// It was accepted before: as it is now.
+void answer_again(const ApiParts& parts, const KnownJobs& known, const Respond& respond) {
+  look_at(parts, known, [&parts, known, respond](const std::vector<Result<ListedJob>>& jobs) {
+    if (!jobs.front()) return respond(problem_response(jobs.front().error()));
+    respond(located(answer(200, listed_job_format(), *jobs.front(), &parts.clock),
+                    "/jobs/" + known.front()));
   });
+}
+
+void submit_job(const ApiParts& parts, const SentRequestPtr& sent, JobRequest job,
+                const std::shared_ptr<const std::string>& body, const Respond& respond) {
+  if (auto refused = refused_by_store(parts, job)) return respond(std::move(*refused));
+  ask(
+      parts,
+      [job = std::make_shared<JobRequest>(std::move(job))](Executive& executive) {
+        return executive.submit(std::move(*job));
+      },
+      [&parts, respond, body, sent](const Result<JobView>& accepted) {
+        if (!accepted) return respond(problem_response(accepted.error()));
+        acknowledge(parts, {{*accepted, *body, origin_of(*sent, 0)}}, respond,
+                    [&parts, sent, job = *accepted] {
+                      note_accepted(parts, *sent, {job.key});
+                      return located(answer(202, job_format(), job, &parts.clock),
+                                     "/jobs/" + job.key);
+                    });
+      });
 }
 
 void post_job(Call call) {
   const ApiParts& parts = call.parts;
-  const auto submit = [&parts, respond = call.respond, body = call.request.body](JobRequest job) {
-    if (auto refused = refused_by_store(parts, job)) return respond(std::move(*refused));
-    ask(
-        parts,
-        [job = std::make_shared<JobRequest>(std::move(job))](Executive& executive) {
-          return executive.submit(std::move(*job));
-        },
-        [&parts, respond, body](const Result<JobView>& accepted) {
-          if (!accepted) return respond(problem_response(accepted.error()));
-          acknowledge(parts, {{*accepted, *body}}, respond, [&parts, job = *accepted] {
-            return located(answer(202, job_format(), job, &parts.clock), "/jobs/" + job.key);
-          });
-        });
+  const auto key = idempotency_key(call.request);
+  if (!key) return call.respond(problem_response(key.error()));
+  const auto submit = [&parts, key = *key, respond = call.respond,
+                       body = call.request.body](Submission<JobRequest> read) {
+    const std::string digest = sha256_hex(read.canonical);
+    const auto sent =
+        std::make_shared<const SentRequest>(SentRequest{key, digest, {{read.request.key, digest}}});
+    const auto job = std::make_shared<JobRequest>(std::move(read.request));
+    recall(parts, sent, respond,
+           [&parts, sent, job, body](const KnownJobs& known, const Respond& ending) {
+             if (!known.front().empty()) return answer_again(parts, known, ending);
+             submit_job(parts, sent, std::move(*job), body, ending);
+           });
   };
-  read_body(parts, call.request, call.respond, read_job_text, submit);
-}
-
-Response batch_response(const BatchRequest& batch, const std::vector<Result<JobView>>& results,
-                        const WallClock& clock) {
-  if (!batch.atomic) return answer(207, batch_results_format(), results, &clock);
-  std::vector<JobView> jobs;
-  for (const Result<JobView>& result : results) jobs.push_back(result.value());
-  return answer(202, batch_accepted_format(), jobs, &clock);
-}
-
-// What could be read goes to the executive at once; then every job has its answer, in its place.
-Result<std::vector<Result<JobView>>> submit(Executive& executive, const BatchRequest& batch) {
-  std::vector<JobRequest> readable;
-  for (const BatchRequest::Entry& entry : batch.jobs) {
-    if (entry.job) readable.push_back(*entry.job);
-  }
-  auto submitted = executive.submit_batch(std::move(readable), batch.atomic);
-  if (!submitted) return submitted;
-  std::vector<Result<JobView>> results;
-  auto next = submitted->begin();
-  for (const BatchRequest::Entry& entry : batch.jobs) {
-    if (entry.job) {
-      results.push_back(std::move(*next++));
-    } else {
-      results.push_back(failure(entry.job.error()));
-    }
-  }
-  return results;
-}
-
-std::optional<Response> refused_by_store(const ApiParts& parts, BatchRequest& batch) {
-  Problems problems;
-  if (parts.keeper == nullptr) return std::nullopt;
-  if (const auto refusal = parts.keeper->refusal()) return refusal_response(*refusal);
-  for (std::size_t i = 0; i < batch.jobs.size(); ++i) {
-    Result<JobRequest>& job = batch.jobs[i].job;
-    if (!job) continue;
-    const auto known = parts.keeper->look_up(*job);
-    if (known) continue;
-    if (!batch.atomic) {
-      job = failure(known.error());
-      continue;
-    }
-    for (Problem problem : known.error()) {
-      problem.pointer.insert(0, "/jobs/" + std::to_string(i));
-      problems.push_back(std::move(problem));
-    }
-  }
-  if (problems.empty()) return std::nullopt;
-  return problem_response(problems);
-}
-
-void post_batch(Call call) {
-  const ApiParts& parts = call.parts;
-  const auto submit_all = [&parts, respond = call.respond](BatchRequest read) {
-    if (auto refused = refused_by_store(parts, read)) return respond(std::move(*refused));
-    const auto batch = std::make_shared<const BatchRequest>(std::move(read));
-    ask(
-        parts, [batch](Executive& executive) { return submit(executive, *batch); },
-        [&parts, respond, batch](const Result<std::vector<Result<JobView>>>& results) {
-          if (!results) return respond(problem_response(results.error()));
-          std::vector<std::pair<JobView, std::string>> accepted;
-          for (std::size_t i = 0; i < results->size(); ++i) {
-            if (const auto& job = (*results)[i]) accepted.emplace_back(*job, batch->jobs[i].text);
-          }
-          acknowledge(parts, std::move(accepted), respond, [&parts, batch, results = *results] {
-            return batch_response(*batch, results, parts.clock);
-          });
-        });
-  };
-  read_body(parts, call.request, call.respond, read_batch_text, submit_all);
+  read_body(parts, call.request, call.respond, read_job_submission, submit);
 }
 
 void post_check(Call call) {
@@ -150,27 +95,18 @@ std::vector<Route> submission_routes() {
        .text =
            "Refused (422) when it can never run: limits, names, shape, or it does not begin "
            "where its arm will stand. An id in use: 409. With `--data` it is on disk when it is "
-           "said to be accepted, and there again when the server is; a full disk: 507.",
+           "said to be accepted, and there again when the server is; a full disk: 507. Sent again "
+           "with the same body, by `id` or `Idempotency-Key`: the same job.",
+       .parameters = {idempotency_parameter()},
        .reads = body(job_request_format(),
                      {{"reach", example_job(head, "left")}, {"moveit", example_moveit_job()}}),
-       .outcomes = {created(202, "Accepted; it may still wait in the backlog", job_format())},
+       .outcomes = {created(200, "It was accepted before: as it is now", job_format()),
+                    created(202, "Accepted; it may still wait in the backlog", job_format())},
        .refuses = {409, 422, 507},
        .who = Who::commander,
+       .role = Role::operate,
        .run = post_job},
-      {.method = "POST",
-       .path = api_path("/batches"),
-       .id = "submitBatch",
-       .tag = "jobs",
-       .summary = "Submit several jobs at once",
-       .text = "Atomic (the default): all are accepted or none, and the problem's pointers begin "
-               "with /jobs/<index>. A job may come `after` an earlier one of the batch.",
-       .reads = body(batch_request_format(), {{"both", example_batch()}}),
-       .outcomes = {outcome(202, "All were accepted", batch_accepted_format()),
-                    outcome(207, "With \"atomic\": false, an answer for each",
-                            batch_results_format())},
-       .refuses = {409, 422, 507},
-       .who = Who::commander,
-       .run = post_batch},
+      batch_route(),
       {.method = "POST",
        .path = api_path("/check"),
        .id = "checkJob",

@@ -23,14 +23,28 @@ struct ServeOptions {
   std::string listen = "127.0.0.1:8080";
   std::string data;  // empty: nothing is recorded or stored
   std::size_t keep_jobs = 100'000;
-  std::size_t keep_days = 0;  // zero: for ever
+  std::size_t keep_days = 0;    // zero: for ever
+  std::string tokens;           // file; empty: everybody may everything
+  std::string tls_certificate;  // both or neither
+  std::string tls_key;
   bool record = false;
   double speed = 1.0;
-  std::string web;                         // empty: looked for beside the binary
-  std::vector<std::string> allowed_hosts;  // besides IP addresses and localhost
-  std::string policy;                      // empty: the cell's
+  std::string web;                           // empty: looked for beside the binary
+  std::vector<std::string> allowed_origins;  // pages of other sites that may command
+  std::vector<std::string> allowed_hosts;    // besides IP addresses and localhost
+  std::string policy;                        // empty: the cell's
 };
 int serve(const ServeOptions& options);
+
+// The tokens of a server: a new one, which is printed this once, all of them, or one less.
+struct TokenOptions {
+  enum class What { add, list, withdraw };
+  What what = What::list;
+  std::string file;
+  std::string name;
+  std::string role;
+};
+int change_tokens(const TokenOptions& options);
 
 int validate_cell(const std::string& cell_file);
 

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <iostream>
 
+#include "server/access/token_file.h"
 #include "server/command/command.h"
 #include "server/http/framing.h"
 #include "server/service.h"
@@ -54,9 +55,37 @@ std::size_t connections_within_descriptors(std::size_t wanted) {
   return static_cast<std::size_t>(limit.rlim_cur - std::min<rlim_t>(kOther, limit.rlim_cur / 2));
 }
 
-std::string dashboard_address(const std::string& address, std::uint16_t port) {
+bool is_loopback(const std::string& address) {
+  return address.starts_with("127.") || address == "::1";
+}
+
+// Of who may use it: whoever can reach an address that is not the machine's own has to show a
+// token, and nobody between may read it.
+void find_faults_of_access(const ServeOptions& options, const std::string& address,
+                           Problems& problems) {
+  if (options.tls_certificate.empty() != options.tls_key.empty()) {
+    problems.push_back(Problem{ProblemKind::invalid, "half-of-tls", "--tls-key",
+                               "--tls-certificate and --tls-key go together"});
+  }
+  const bool is_closed = !options.tokens.empty() && !options.tls_certificate.empty();
+  if (!is_loopback(address) && !is_closed) {
+    problems.push_back(
+        Problem{ProblemKind::invalid, "open-to-others", "--listen",
+                "whoever reaches " + address +
+                    " could move the arms: give --tokens FILE (`armloom token add --tokens FILE "
+                    "--name NAME --role operator` makes it), --tls-certificate and --tls-key; or "
+                    "listen on 127.0.0.1, behind a proxy or a tunnel",
+                address});
+  }
+  if (options.tokens.empty()) return;
+  const auto tokens = TokenFile(options.tokens).read();
+  if (!tokens) problems.insert(problems.end(), tokens.error().begin(), tokens.error().end());
+}
+
+std::string dashboard_address(const std::string& scheme, const std::string& address,
+                              std::uint16_t port) {
   const bool v6 = address.find(':') != address.npos;
-  return "http://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port) + "/";
+  return scheme + "://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port) + "/";
 }
 
 // What cannot be followed, so that it is said before anything listens.
@@ -71,6 +100,13 @@ Problems faults_of(const ServeOptions& options) {
     if (valid_authority(name) && name.find(':') == name.npos) continue;
     problems.push_back(Problem{ProblemKind::invalid, "bad-name", "--allow-host",
                                "expected a host's name without a port", name});
+  }
+  for (const std::string& origin : options.allowed_origins) {
+    const std::size_t scheme = origin.find("://");
+    const bool is_web = origin.starts_with("http://") || origin.starts_with("https://");
+    if (is_web && valid_authority(origin.substr(scheme + 3))) continue;
+    problems.push_back(Problem{ProblemKind::invalid, "bad-origin", "--allow-origin",
+                               "expected an origin, as in https://station.example:8443", origin});
   }
   return problems;
 }
@@ -87,10 +123,17 @@ int serve(const ServeOptions& options) {
                           "expected ADDRESS:PORT, as in 127.0.0.1:8080", options.listen}});
     return kExitBadInput;
   }
-  if (const Problems problems = faults_of(options); !problems.empty()) {
+  Problems faults = faults_of(options);
+  find_faults_of_access(options, service_options.address, faults);
+  if (const Problems& problems = faults; !problems.empty()) {
     complain("", problems);
     return kExitBadInput;
   }
+  if (!options.tokens.empty()) service_options.tokens = options.tokens;
+  if (!options.tls_key.empty()) {
+    service_options.tls = TlsFiles{options.tls_certificate, options.tls_key};
+  }
+  service_options.allowed_origins = options.allowed_origins;
   service_options.allowed_hosts = options.allowed_hosts;
   service_options.speed = options.speed;
   service_options.policy = options.policy;
@@ -120,7 +163,9 @@ int serve(const ServeOptions& options) {
       options.policy.empty() ? loaded->cell->scheduling.policy : options.policy, options.speed);
   if (const auto folder = (*service)->recorded_to())
     spdlog::info("recorded to {}", folder->string());
-  std::cout << "dashboard: " << dashboard_address(service_options.address, (*service)->port())
+  std::cout << "dashboard: "
+            << dashboard_address(service_options.tls ? "https" : "http", service_options.address,
+                                 (*service)->port())
             << std::endl;
   (*service)->run(true);
   const auto lost = (*service)->close();

@@ -61,12 +61,14 @@ StoredJob JobKeeper::stored(const JobView& job) const {
 
 void JobKeeper::see(const JobView& job) { store_->see(stored(job)); }
 
-void JobKeeper::accept(std::vector<std::pair<JobView, std::string>> jobs,
+void JobKeeper::accept(std::vector<AcceptedJob> jobs,
                        std::function<void(std::optional<Refusal>)> then) {
   std::vector<JobStore::Accepted> accepted;
   std::vector<std::string> keys;
-  for (auto& [job, body] : jobs) {
-    accepted.push_back({stored(job), std::move(body)});
+  for (auto& [job, body, origin] : jobs) {
+    StoredJob row = stored(job);
+    row.origin = std::move(origin);
+    accepted.push_back({std::move(row), std::move(body)});
     keys.push_back(job.key);
   }
   store_->accept(std::move(accepted),

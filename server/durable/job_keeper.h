@@ -37,10 +37,14 @@ class JobKeeper final : public StartLog {
   [[nodiscard]] Result<void> look_up(JobRequest& job) const;
   // As told by the executive now.
   void see(const JobView& job);
-  // Jobs that it has accepted, and their bodies: `then` is called when they are on disk, or with
-  // the reason why not; they are canceled then.
-  void accept(std::vector<std::pair<JobView, std::string>> jobs,
-              std::function<void(std::optional<Refusal>)> then);
+  struct AcceptedJob {
+    JobView job;
+    std::string body;
+    RequestOrigin origin;
+  };
+  // Jobs that it has accepted: `then` is called when they are on disk, or with the reason why not;
+  // they are canceled then.
+  void accept(std::vector<AcceptedJob> jobs, std::function<void(std::optional<Refusal>)> then);
   // When all that was told before is on disk, or cannot be written at present.
   void when_written(std::function<void()> then);
   // Why nothing can be accepted, nor any arm be let go, at present.

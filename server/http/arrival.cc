@@ -44,6 +44,7 @@ asio::awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& conn
   }
   auto request = head_of(parser, site);
   if (!request) co_return tl::unexpected<NotArrived>(std::move(request.error()));
+  request->peer = connection.stream.peer();
   // Before the body, whose trailers are none of the header's fields.
   RequestHeader header = parser.get().base();
   const bool waits = waits_to_be_asked(parser);

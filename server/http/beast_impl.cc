@@ -1,6 +1,7 @@
 // The one place where the bodies of asio and Beast are compiled (…_SEPARATE_COMPILATION).
 // clang-format off: <utility> first, awaitable.hpp of Boost 1.74 forgets it
 #include <boost/asio/impl/src.hpp>
+#include <boost/asio/ssl/impl/src.hpp>
 #include <boost/beast/src.hpp>
 #include <utility>
 // clang-format on

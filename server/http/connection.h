@@ -1,11 +1,11 @@
 #pragma once
 
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 
 #include "server/http/asio.h"
 #include "server/http/memory_budget.h"
 #include "server/http/message.h"
+#include "server/http/transport.h"
 
 namespace armloom {
 
@@ -15,9 +15,9 @@ inline constexpr std::size_t kBufferMax = 32 * 1024;
 
 // One connection, with what its requests share.
 struct Connection {
-  Connection(tcp::socket socket, MemoryBudget& budget)
-      : stream(std::move(socket)), memory(budget) {}
-  boost::beast::tcp_stream stream;
+  Connection(Transport transport, MemoryBudget& budget)
+      : stream(std::move(transport)), memory(budget) {}
+  Transport stream;
   boost::beast::flat_buffer buffer{kBufferMax};
   MemoryBudget& memory;
 };

@@ -18,19 +18,22 @@ constexpr std::string_view kHead =
     "HTTP/1.1 200 OK\r\nServer: armloom\r\nContent-Type: text/event-stream\r\n"
     "Cache-Control: no-store\r\nConnection: close\r\n";
 
-std::string head() {
+std::string head(const Request& request) {
   std::string text(kHead);
   const auto add = [&](std::string_view name, std::string_view value) {
     text.append(name).append(": ").append(value).append("\r\n");
   };
   for (const auto& [name, value] : kSecurityHeaders) add(name, value);
   add("Content-Security-Policy", kNoPagePolicy);
+  Response across;
+  answer_across_origins(request, across);
+  for (const auto& [name, value] : across.headers) add(name, value);
   return text + "\r\n";
 }
 
 class SentEvents final : public StreamCarrier {
  public:
-  SentEvents(beast::tcp_stream stream, std::string id, int send_buffer)
+  SentEvents(Transport stream, std::string id, int send_buffer)
       : stream_(std::move(stream)), id_(std::move(id)) {
     ErrorCode ignored;
     stream_.socket().set_option(asio::socket_base::send_buffer_size(send_buffer), ignored);
@@ -42,7 +45,7 @@ class SentEvents final : public StreamCarrier {
   asio::awaitable<void> read_until_closed() override {
     std::array<char, 1024> sink;
     ErrorCode ec;
-    while (!ec) co_await stream_.socket().async_read_some(asio::buffer(sink), into(ec));
+    while (!ec) co_await stream_.async_read_some(asio::buffer(sink), into(ec));
   }
   asio::awaitable<void> write(std::string_view text, ErrorCode& ec) {
     co_await asio::async_write(stream_, asio::buffer(text), into(ec));
@@ -67,17 +70,17 @@ class SentEvents final : public StreamCarrier {
   void cut() override { stream_.close(); }
 
  private:
-  beast::tcp_stream stream_;
+  Transport stream_;
   std::string id_;
 };
 
 }  // namespace
 
-asio::awaitable<void> serve_event_stream(beast::tcp_stream stream, EventStream events,
-                                         const Site& site) {
+asio::awaitable<void> serve_event_stream(Transport stream, const Request& request,
+                                         EventStream events, const Site& site) {
   const auto carrier = std::make_shared<SentEvents>(std::move(stream), events.id, site.send_buffer);
   ErrorCode ec;
-  const std::string first = head();
+  const std::string first = head(request);
   co_await carrier->write(first, ec);
   if (!ec) co_await carry(std::move(events), carrier, {site.send_time, site.keep_alive});
 }

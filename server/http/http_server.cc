@@ -5,6 +5,7 @@
 
 #include "server/http/asio.h"
 #include "server/http/session.h"
+#include "server/http/transport.h"
 
 namespace armloom {
 namespace {
@@ -39,6 +40,13 @@ class HttpServer::Impl {
     if (!ec) spare_.open(tcp::v4(), ec);
     if (ec) return cannot_listen(address, port, ec.message());
     return std::nullopt;
+  }
+
+  Result<void> use_tls(const TlsFiles& files) {
+    auto tls = tls_context(files);
+    if (!tls) return failure(std::move(tls.error()));
+    tls_ = std::move(*tls);
+    return {};
   }
 
   void run(Site site, bool until_signal) {
@@ -90,7 +98,7 @@ class HttpServer::Impl {
 
   asio::awaitable<void> serve(tcp::socket socket) {
     ++connections_;
-    co_await serve_connection(std::move(socket), site_, *memory_);
+    co_await serve_connection(Transport(std::move(socket), tls_), site_, *memory_);
     if (--connections_ == 0 && said_farewell_) io_.stop();
   }
 
@@ -102,7 +110,7 @@ class HttpServer::Impl {
     Response full = site_.refuse(
         {503, "too-many-connections", why, std::nullopt, std::nullopt, {{"Retry-After", "1"}}});
     ++refusing_;
-    co_await refuse_connection(std::move(socket), std::move(full), *memory_);
+    co_await refuse_connection(Transport(std::move(socket), tls_), std::move(full), *memory_);
     --refusing_;
   }
 
@@ -146,6 +154,7 @@ class HttpServer::Impl {
 
   Site site_;  // outlives the connections, which end with io_
   std::optional<MemoryBudget> memory_;
+  TlsContextPtr tls_;  // null: without
   asio::io_context io_{1};
   tcp::acceptor acceptor_{io_};
   tcp::socket spare_{io_};  // a descriptor for refusing whoever comes when there is no other
@@ -169,6 +178,7 @@ Result<std::unique_ptr<HttpServer>> HttpServer::listen(const std::string& addres
 HttpServer::HttpServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 HttpServer::~HttpServer() = default;
 
+Result<void> HttpServer::use_tls(const TlsFiles& files) { return impl_->use_tls(files); }
 std::uint16_t HttpServer::port() const { return impl_->port(); }
 void HttpServer::run(Site site, bool until_signal) { impl_->run(std::move(site), until_signal); }
 void HttpServer::post(std::function<void()> task) { asio::post(impl_->io(), std::move(task)); }

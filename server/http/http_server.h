@@ -11,6 +11,12 @@
 
 namespace armloom {
 
+// Files in PEM: a certificate with those between it and its root, and its key.
+struct TlsFiles {
+  std::string certificate;
+  std::string key;
+};
+
 // The listening socket and the one thread on which every connection is served.
 class HttpServer {
  public:
@@ -22,6 +28,10 @@ class HttpServer {
                                                                   std::uint16_t port,
                                                                   std::size_t connections_max);
   ~HttpServer();
+
+  // From now on, before run(), every connection goes through TLS (1.2 or later). Problem (invalid):
+  // a file cannot be read, or the key is not the certificate's.
+  [[nodiscard]] Result<void> use_tls(const TlsFiles& files);
 
   [[nodiscard]] std::uint16_t port() const;
 

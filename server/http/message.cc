@@ -113,6 +113,19 @@ Refusal refusal_of(int status, const Problem& problem) {
                  value != nullptr ? std::optional(*value) : std::nullopt};
 }
 
+void answer_across_origins(const Request& request, Response& response) {
+  if (!request.cross_origin) return;
+  response.headers.emplace_back("Access-Control-Allow-Origin", *request.cross_origin);
+  response.headers.emplace_back("Access-Control-Expose-Headers", "ETag, Location, Retry-After");
+  const auto vary =
+      std::ranges::find(response.headers, "Vary", &std::pair<std::string, std::string>::first);
+  if (vary != response.headers.end()) {
+    vary->second += ", Origin";
+  } else {
+    response.headers.emplace_back("Vary", "Origin");
+  }
+}
+
 void answer_conditionally(const Request& request, Response& response) {
   if (!request.if_none_match || response.status != 200 || request.method != "GET") return;
   const auto tag =

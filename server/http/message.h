@@ -56,10 +56,14 @@ struct Request {
   std::optional<std::string> content_encoding = {};
   std::optional<std::string> last_event_id = {};  // of a reader of events who comes back
   std::optional<std::string> if_none_match = {};
-  std::string accept_encoding = {};      // all of it, commas between
-  std::optional<Refusal> stranger = {};  // why whoever asks may not even read; absent: may
-  std::optional<Refusal> foreign = {};   // why whoever asks may not command; absent: may
-  bool upgrade = false;                  // wants a WebSocket
+  std::optional<std::string> token = {};  // shown as Bearer, or in the cookie that a log-in sets
+  std::string peer = {};                  // the address that it came from
+  std::optional<std::string> idempotency_key = {};  // names the request, should it come again
+  std::string accept_encoding = {};                 // all of it, commas between
+  std::optional<Refusal> stranger = {};          // why whoever asks may not even read; absent: may
+  std::optional<std::string> cross_origin = {};  // the page of another site that asks and may
+  std::optional<Refusal> foreign = {};           // why whoever asks may not command; absent: may
+  bool upgrade = false;                          // wants a WebSocket
   // Set when nobody waits for the answer any more: the connection has gone, or it took too long.
   std::shared_ptr<std::atomic<bool>> gone = std::make_shared<std::atomic<bool>>(false);
   std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
@@ -67,7 +71,7 @@ struct Request {
 
 // Why a reader of the event stream is sent away.
 struct Farewell {
-  enum class Why { too_slow, server_ends };
+  enum class Why { too_slow, server_ends, not_permitted };
   Why why;
   std::string text;
 };
@@ -92,8 +96,9 @@ using FeedPtr = std::shared_ptr<Feed>;
 // A feed as the answer to a request: on a WebSocket (status 101), or as Server-Sent Events.
 struct EventStream {
   FeedPtr feed;
-  std::string id;      // stands before the number of each event: "<id>:<seq>"
-  bool frames = true;  // messages without a number, too
+  std::string id;                        // stands before the number of each event: "<id>:<seq>"
+  bool frames = true;                    // messages without a number, too
+  std::function<bool()> permitted = {};  // whether its reader still may; null: always
 };
 
 struct Response {
@@ -109,15 +114,22 @@ struct Response {
 using Respond = std::function<void(Response)>;
 using WriteRefusal = std::function<Response(const Refusal&)>;
 
+// Lets the page that asked read the answer (CORS), where it may.
+void answer_across_origins(const Request& request, Response& response);
+
 // Makes a 304 of an answer whose ETag the request names in If-None-Match (RFC 9110, 13.1.2).
 void answer_conditionally(const Request& request, Response& response);
 
 // By which names the server may be asked: a page whose name an attacker lets point here is of
 // the same origin to a browser, and only its Host tells. IP addresses and localhost always may.
 struct HostRule {
-  std::vector<std::string> names;  // further ones
-  bool any_plain = false;          // and every name without a dot: no site on the internet has one
+  std::vector<std::string> names;    // further ones
+  std::vector<std::string> origins;  // of other sites whose pages may command: "https://a.example"
+  bool any_plain = false;  // and every name without a dot: no site on the internet has one
 };
+
+// The cookie in which a browser keeps its token.
+inline constexpr std::string_view kTokenCookie = "armloom_token";
 
 // What the listener serves. All functions are called on the server's thread; `handle` answers
 // through its callback, at once or later. The request is only valid during the call.

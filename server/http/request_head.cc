@@ -49,6 +49,36 @@ std::optional<Refusal> foreign_origin(const RequestHeader& header, const std::st
                  std::nullopt, std::string(origin->value())};
 }
 
+// "Bearer <token>", or the cookie. Of several cookies of that name the first.
+std::optional<std::string> token_of(const RequestHeader& header) {
+  static constexpr std::string_view kScheme = "bearer ";
+  const std::string authorization = one_of(header, "Authorization").value_or("");
+  if (authorization.size() > kScheme.size() &&
+      beast::iequals({authorization.data(), kScheme.size()}, {kScheme.data(), kScheme.size()})) {
+    return authorization.substr(kScheme.size());
+  }
+  const std::string name = std::string(kTokenCookie) + "=";
+  for (std::string_view cookies : all_of(header, "Cookie")) {
+    while (!cookies.empty()) {
+      std::string_view one = cookies.substr(0, cookies.find(';'));
+      cookies.remove_prefix(std::min(cookies.size(), one.size() + 1));
+      while (one.starts_with(' ')) one.remove_prefix(1);
+      if (one.starts_with(name)) return std::string(one.substr(name.size()));
+    }
+  }
+  return std::nullopt;
+}
+
+// The page's own, where pages of that site may command.
+std::optional<std::string> allowed_origin(const RequestHeader& header, const HostRule& hosts) {
+  auto origin = one_of(header, "Origin");
+  const bool may =
+      origin && std::ranges::any_of(hosts.origins, [&](const std::string& one) {
+        return beast::iequals({one.data(), one.size()}, {origin->data(), origin->size()});
+      });
+  return may ? std::move(origin) : std::nullopt;
+}
+
 tl::expected<Target, Refusal> target_of(const RequestHeader& header, std::string& authority) {
   std::string_view text = view(header.target());
   if (text == "*" && header.method() == http::verb::options) return Target{"*", {}};
@@ -133,12 +163,16 @@ tl::expected<Request, Refusal> request_of(const RequestHeader& header, const Hos
   request.content_type = one_of(header, "Content-Type");
   request.content_encoding = one_of(header, "Content-Encoding");
   request.last_event_id = one_of(header, "Last-Event-ID");
+  request.token = token_of(header);
+  request.idempotency_key = one_of(header, "Idempotency-Key");
   request.if_none_match = one_of(header, "If-None-Match");
   for (const std::string_view value : all_of(header, "Accept-Encoding")) {
     request.accept_encoding.append(request.accept_encoding.empty() ? "" : ", ").append(value);
   }
   request.stranger = foreign_host(authority, hosts);
+  request.cross_origin = allowed_origin(header, hosts);
   request.foreign = request.stranger ? request.stranger : foreign_origin(header, authority);
+  if (request.cross_origin) request.foreign = request.stranger;
   return request;
 }
 

@@ -32,11 +32,23 @@ std::optional<Router::Arguments> match(const std::vector<std::string>& pattern,
   return arguments;
 }
 
+// A page of another site asks before it sends what a form could not (CORS).
+Response options_of(const Request& request, const std::string& allow) {
+  Response response{204, "", "", {{"Allow", allow}}};
+  if (!request.cross_origin) return response;
+  response.headers.emplace_back("Access-Control-Allow-Methods", allow);
+  response.headers.emplace_back(
+      "Access-Control-Allow-Headers",
+      "Authorization, Content-Type, Idempotency-Key, If-None-Match, Last-Event-ID");
+  response.headers.emplace_back("Access-Control-Max-Age", "600");
+  return response;
+}
+
 }  // namespace
 
-void Router::add(std::string method, std::string_view pattern, Who who, Answer answer,
+void Router::add(std::string method, std::string_view pattern, Rights rights, Answer answer,
                  std::vector<std::string> parameters) {
-  routes_.push_back(Route{std::move(method), std::string(pattern), segments_of(pattern), who,
+  routes_.push_back(Route{std::move(method), std::string(pattern), segments_of(pattern), rights,
                           std::move(answer), std::move(parameters)});
 }
 
@@ -68,18 +80,20 @@ Router::Found Router::find(const Request& request) const {
 }
 
 std::optional<Response> Router::refusal(const Request& request, const Found& found) const {
-  const Who who = found.route != nullptr    ? found.route->who
-                  : request.method == "GET" ? Who::reader
-                                            : Who::commander;
+  const Rights unrouted{request.method == "GET" ? Who::reader : Who::commander, std::nullopt};
+  const auto [who, role] = found.route != nullptr ? found.route->rights : unrouted;
   if (who != Who::anyone && request.stranger) return refuse_(*request.stranger);
   if (who == Who::commander && request.foreign) return refuse_(*request.foreign);
+  if (role && guard_) {
+    if (const auto why = guard_(request, *role)) return refuse_(*why);
+  }
   if (found.route != nullptr) {
     const auto unknown = unknown_parameter(request.target, found.route->parameters);
     return unknown ? std::optional(refuse_(refusal_of(400, *unknown))) : std::nullopt;
   }
   const std::string allow = allowed_at(request.target.path);
   if (allow.empty()) return std::nullopt;
-  if (request.method == "OPTIONS") return Response{204, "", "", {{"Allow", allow}}};
+  if (request.method == "OPTIONS") return options_of(request, allow);
   return refuse_({405,
                   "method-not-allowed",
                   request.method + " is not served here; allowed: " + allow,

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/access/role.h"
 #include "server/http/message.h"
 
 namespace armloom {
@@ -16,6 +17,13 @@ namespace armloom {
 // come by a name that is the server's, pages of other sites among them (a browser does not show
 // them the answer). Commanders': of those, the site's own pages, and programs.
 enum class Who { anyone, reader, commander };
+
+// Whose requests a route serves, and what the token that they show has to allow. No role: none is
+// needed.
+struct Rights {
+  Who who = Who::reader;
+  std::optional<Role> role = Role::viewer;
+};
 
 // Which function answers which method and path. A pattern is a path in which {id} stands for any
 // one non-empty segment: "/jobs/{id}".
@@ -28,19 +36,23 @@ class Router {
   explicit Router(WriteRefusal refuse) : refuse_(std::move(refuse)) {}
 
   // `parameters`: those that the query may have.
-  void add(std::string method, std::string_view pattern, Who who, Answer answer,
+  void add(std::string method, std::string_view pattern, Rights rights, Answer answer,
            std::vector<std::string> parameters = {});
   // Is told of every answer that dispatch() gives: method, the pattern that fits ("": none),
   // status, and how long it took.
   using Watch =
       std::function<void(const std::string&, const std::string&, int, std::chrono::nanoseconds)>;
   void watch(Watch watch) { watch_ = std::move(watch); }
+  // Says why whoever asks lacks a role; absent: they have it. Without a guard everyone has each.
+  using Guard = std::function<std::optional<Refusal>(const Request&, Role)>;
+  void guard(Guard guard) { guard_ = std::move(guard); }
   // Answers requests for paths that no pattern fits (the dashboard's files), without their bodies.
   void otherwise(std::function<Response(const Request&)> answer) { otherwise_ = std::move(answer); }
 
-  // 403 when a stranger, or a foreign page, asks for what is not for such, 400 when the query has
-  // an unknown parameter (not for what otherwise() answers), 404 when nothing fits the path, 405
-  // with Allow when only the method does not fit. OPTIONS is answered here: 204 with Allow.
+  // 403 when a stranger, or a foreign page, asks for what is not for such, what the guard says, 400
+  // when the query has an unknown parameter (not for what otherwise() answers), 404 when nothing
+  // fits the path, 405 with Allow when only the method does not fit. OPTIONS is answered here: 204
+  // with Allow.
   void dispatch(const Request& request, Respond respond) const;
   // What dispatch() will answer whatever the body says; absent: a route's function answers.
   [[nodiscard]] std::optional<Response> refuse_unread(const Request& request) const;
@@ -50,7 +62,7 @@ class Router {
     std::string method;
     std::string pattern;
     std::vector<std::string> segments;
-    Who who;
+    Rights rights;
     Answer answer;
     std::vector<std::string> parameters;
   };
@@ -66,6 +78,7 @@ class Router {
   WriteRefusal refuse_;
   std::vector<Route> routes_;
   Watch watch_;
+  Guard guard_;
   std::function<Response(const Request&)> otherwise_;
 };
 

@@ -81,20 +81,24 @@ asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
     co_return false;
   }
   if (response.events && !arrived->delivery.without_body) {
-    co_await serve_event_stream(std::move(connection.stream), std::move(*response.events), site);
+    co_await serve_event_stream(std::move(connection.stream), arrived->request,
+                                std::move(*response.events), site);
     co_return false;
   }
   answer_conditionally(request, response);
+  answer_across_origins(request, response);
   co_return co_await deliver(connection, std::move(response), arrived->delivery, site);
 }
 
 }  // namespace
 
-asio::awaitable<void> serve_connection(tcp::socket socket, const Site& site, MemoryBudget& memory) {
+asio::awaitable<void> serve_connection(Transport transport, const Site& site,
+                                       MemoryBudget& memory) {
   ErrorCode ignored;
-  socket.set_option(tcp::no_delay(true), ignored);
-  Connection connection(std::move(socket), memory);
+  transport.socket().set_option(tcp::no_delay(true), ignored);
+  Connection connection(std::move(transport), memory);
   try {
+    if (!co_await connection.stream.shake_hands(site.read_time)) co_return;
     while (co_await serve_request(connection, site)) {
     }
   } catch (const std::bad_alloc&) {
@@ -102,8 +106,9 @@ asio::awaitable<void> serve_connection(tcp::socket socket, const Site& site, Mem
   }
 }
 
-asio::awaitable<void> refuse_connection(tcp::socket socket, Response why, MemoryBudget& memory) {
-  Connection connection(std::move(socket), memory);
+asio::awaitable<void> refuse_connection(Transport transport, Response why, MemoryBudget& memory) {
+  Connection connection(std::move(transport), memory);
+  if (!co_await connection.stream.shake_hands(std::chrono::seconds(2))) co_return;
   co_await refuse(connection, std::move(why));
 }
 

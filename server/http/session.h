@@ -3,6 +3,7 @@
 #include "server/http/asio.h"
 #include "server/http/memory_budget.h"
 #include "server/http/message.h"
+#include "server/http/transport.h"
 
 namespace armloom {
 
@@ -14,9 +15,9 @@ inline constexpr std::chrono::seconds kWriteTime{30};     // for a whole respons
 // Serves one connection until it ends: requests one after the other, or one upgrade to a WebSocket.
 // Runs on the server's thread; `site` and
 // `memory` outlive it.
-asio::awaitable<void> serve_connection(tcp::socket socket, const Site& site, MemoryBudget& memory);
+asio::awaitable<void> serve_connection(Transport transport, const Site& site, MemoryBudget& memory);
 
 // Says `why` at once, whatever is asked, and closes.
-asio::awaitable<void> refuse_connection(tcp::socket socket, Response why, MemoryBudget& memory);
+asio::awaitable<void> refuse_connection(Transport transport, Response why, MemoryBudget& memory);
 
 }  // namespace armloom

@@ -11,6 +11,8 @@ using Clock = std::chrono::steady_clock;
 
 // What a reader that is too far behind has left for the message that it is at, to be told why.
 constexpr std::chrono::seconds kLastMessage{2};
+// Whether a reader that nothing is told still may be here.
+constexpr std::chrono::seconds kLooksAgain{1};
 
 // What reader and writer of one stream share.
 class Session : public std::enable_shared_from_this<Session> {
@@ -81,10 +83,15 @@ asio::awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> c
   });
   asio::co_spawn(carrier->executor(), watch(session), asio::detached);
   ErrorCode ec;
+  const auto is_permitted = [&events] { return !events.permitted || events.permitted(); };
   // Counted from the last byte sent: news that this reader does not get wakes it, too.
   auto keep_alive_at = after(times.keep_alive);
   while (!ec && !session->closed) {
-    if (const auto farewell = session->feed->farewell()) {
+    auto farewell = session->feed->farewell();
+    if (!farewell && !is_permitted()) {
+      farewell = {Farewell::Why::not_permitted, "the token was withdrawn"};
+    }
+    if (farewell) {
       session->begin_sending(times.send);
       co_await carrier->say_farewell(*farewell, ec);
       session->end_sending();
@@ -98,10 +105,12 @@ asio::awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> c
       keep_alive_at = after(times.keep_alive);
       continue;
     }
-    session->news.expires_at(keep_alive_at);
+    const auto looks_again =
+        events.permitted ? Clock::now() + kLooksAgain : Clock::time_point::max();
+    session->news.expires_at(std::min(keep_alive_at, looks_again));
     ErrorCode woken;
     co_await session->news.async_wait(into(woken));
-    if (woken) continue;
+    if (woken || looks_again < keep_alive_at) continue;
     session->begin_sending(times.send);
     co_await carrier->keep_alive(ec);
     session->end_sending();

@@ -19,9 +19,21 @@ constexpr std::chrono::seconds kIdle{
     30};  // then the peer is pinged, and dropped if it stays silent
 constexpr std::size_t kMessageMax = 4096;  // that a client may send
 
+websocket::close_code code_of(Farewell::Why why) {
+  switch (why) {
+    case Farewell::Why::too_slow:
+      return websocket::close_code::try_again_later;
+    case Farewell::Why::not_permitted:
+      return websocket::close_code::policy_error;
+    case Farewell::Why::server_ends:
+      break;
+  }
+  return websocket::close_code::going_away;
+}
+
 class WebSocket final : public StreamCarrier {
  public:
-  WebSocket(beast::tcp_stream stream, int send_buffer) : socket_(std::move(stream)) {
+  WebSocket(Transport stream, int send_buffer) : socket_(std::move(stream)) {
     ErrorCode ignored;
     beast::get_lowest_layer(socket_).expires_never();
     beast::get_lowest_layer(socket_).socket().set_option(
@@ -51,9 +63,7 @@ class WebSocket final : public StreamCarrier {
   }
   asio::awaitable<void> keep_alive(ErrorCode&) override { co_return; }  // pings do it
   asio::awaitable<void> say_farewell(const Farewell& farewell, ErrorCode& ec) override {
-    const auto code = farewell.why == Farewell::Why::too_slow
-                          ? websocket::close_code::try_again_later
-                          : websocket::close_code::going_away;
+    const auto code = code_of(farewell.why);
     const websocket::close_reason reason(code, farewell.text.substr(0, 120));
     co_await socket_.async_close(reason, into(ec));
   }
@@ -61,13 +71,13 @@ class WebSocket final : public StreamCarrier {
   void cut() override { beast::get_lowest_layer(socket_).close(); }
 
  private:
-  websocket::stream<beast::tcp_stream> socket_;
+  websocket::stream<Transport> socket_;
 };
 
 }  // namespace
 
-asio::awaitable<void> serve_websocket(beast::tcp_stream stream, RequestHeader upgrade,
-                                      EventStream events, const Site& site) {
+asio::awaitable<void> serve_websocket(Transport stream, RequestHeader upgrade, EventStream events,
+                                      const Site& site) {
   const auto carrier = std::make_shared<WebSocket>(std::move(stream), site.send_buffer);
   const beast::http::request<beast::http::empty_body> request(std::move(upgrade));
   ErrorCode ec;

@@ -1,16 +1,15 @@
 #pragma once
 
-#include <boost/beast/core/tcp_stream.hpp>
-
 #include "server/http/asio.h"
 #include "server/http/message.h"
 #include "server/http/request_head.h"
+#include "server/http/transport.h"
 
 namespace armloom {
 
 // Accepts the upgrade and sends what the feed has until either side ends it. What the client sends
 // is read and ignored. A feed that says farewell is closed with that reason.
-asio::awaitable<void> serve_websocket(boost::beast::tcp_stream stream, RequestHeader upgrade,
-                                      EventStream events, const Site& site);
+asio::awaitable<void> serve_websocket(Transport stream, RequestHeader upgrade, EventStream events,
+                                      const Site& site);
 
 }  // namespace armloom

@@ -78,11 +78,24 @@ std::optional<std::string> detail_of(const WaitView& wait) {
   return wait.detail.empty() ? std::nullopt : std::optional(wait.detail);
 }
 
-// {"status": 202, "job": {...}} or {"status": 422, "problem": {...}}
-class BatchResultFormat final : public Format<Result<JobView>> {
+class ListedJobFormat final : public Format<ListedJob> {
  public:
-  void read(const JsonNode&, Result<JobView>&) const override {}
-  void write(JsonWriter& out, const Result<JobView>& result) const override {
+  void read(const JsonNode&, ListedJob&) const override {}
+  void write(JsonWriter& out, const ListedJob& job) const override {
+    if (const auto* text = std::get_if<std::string>(&job)) {
+      out.raw(*text);
+    } else {
+      job_format()->write(out, std::get<JobView>(job));
+    }
+  }
+  Schema schema(Way way) const override { return job_format()->schema(way); }
+};
+
+// {"status": 202, "job": {...}} or {"status": 422, "problem": {...}}
+class BatchResultFormat final : public Format<Result<ListedJob>> {
+ public:
+  void read(const JsonNode&, Result<ListedJob>&) const override {}
+  void write(JsonWriter& out, const Result<ListedJob>& result) const override {
     if (result) return accepted_->write(out, *result);
     refused_->write(out, result.error());
   }
@@ -94,11 +107,11 @@ class BatchResultFormat final : public Format<Result<JobView>> {
 
  private:
   inline static constexpr int kAccepted = 202;
-  FormatPtr<JobView> accepted_ = object<JobView>({
+  FormatPtr<ListedJob> accepted_ = object<ListedJob>({
       told(
-          "status", [](const JobView&) { return kAccepted; }, integer(kAccepted, kAccepted)),
+          "status", [](const ListedJob&) { return kAccepted; }, integer(kAccepted, kAccepted)),
       told(
-          "job", [](const JobView& job) { return &job; }, job_format()),
+          "job", [](const ListedJob& job) { return &job; }, listed_job_format()),
   });
   FormatPtr<Problems> refused_ = object<Problems>({
       told(
@@ -225,28 +238,16 @@ FormatPtr<JobView> job_format() {
   return format;
 }
 
-namespace {
-
-class ListedJobFormat final : public Format<ListedJob> {
- public:
-  void read(const JsonNode&, ListedJob&) const override {}
-  void write(JsonWriter& out, const ListedJob& job) const override {
-    if (const auto* text = std::get_if<std::string>(&job)) {
-      out.raw(*text);
-    } else {
-      job_format()->write(out, std::get<JobView>(job));
-    }
-  }
-  Schema schema(Way way) const override { return job_format()->schema(way); }
-};
-
-}  // namespace
+FormatPtr<ListedJob> listed_job_format() {
+  static const FormatPtr<ListedJob> format = std::make_shared<ListedJobFormat>();
+  return format;
+}
 
 FormatPtr<JobPage> job_page_format() {
   static const auto format =
       named("JobPage", "",
             object<JobPage>({
-                told("jobs", &JobPage::jobs, list<ListedJob>(std::make_shared<ListedJobFormat>())),
+                told("jobs", &JobPage::jobs, list<ListedJob>(listed_job_format())),
                 told("next_cursor", &JobPage::next_cursor, nullable(text()),
                      "For ?cursor=; null on the last page"),
             }));
@@ -280,14 +281,14 @@ FormatPtr<QueueJobs> queue_format() {
   return format;
 }
 
-FormatPtr<std::vector<JobView>> batch_accepted_format() {
-  static const auto format = listed("BatchAccepted", "jobs", job_format());
+FormatPtr<std::vector<ListedJob>> batch_accepted_format() {
+  static const auto format = listed<ListedJob>("BatchAccepted", "jobs", listed_job_format());
   return format;
 }
 
-FormatPtr<std::vector<Result<JobView>>> batch_results_format() {
+FormatPtr<std::vector<Result<ListedJob>>> batch_results_format() {
   static const auto format =
-      listed<Result<JobView>>("BatchResults", "results", std::make_shared<BatchResultFormat>());
+      listed<Result<ListedJob>>("BatchResults", "results", std::make_shared<BatchResultFormat>());
   return format;
 }
 

@@ -22,6 +22,7 @@ namespace armloom {
 
 // As the executive has it; or as it was told last, JSON already, where only the store has it.
 using ListedJob = std::variant<JobView, std::string>;
+[[nodiscard]] FormatPtr<ListedJob> listed_job_format();
 // The answer to GET /jobs.
 struct JobPage {
   std::vector<ListedJob> jobs;  // newest first
@@ -38,8 +39,8 @@ struct QueueJobs {
 [[nodiscard]] FormatPtr<QueueJobs> queue_format();
 
 // The answers to POST /batches, atomic and not.
-[[nodiscard]] FormatPtr<std::vector<JobView>> batch_accepted_format();
-[[nodiscard]] FormatPtr<std::vector<Result<JobView>>> batch_results_format();
+[[nodiscard]] FormatPtr<std::vector<ListedJob>> batch_accepted_format();
+[[nodiscard]] FormatPtr<std::vector<Result<ListedJob>>> batch_results_format();
 
 // The answer to "what if"; its members alone, so that others can stand beside them.
 [[nodiscard]] FormatPtr<CheckView> verdict_format();

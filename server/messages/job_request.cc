@@ -94,6 +94,17 @@ class BatchJobs final : public Part<BatchRequest> {
   const ListSize size_{.fewest = 1, .most = kBatchMax, .noun = "jobs"};
 };
 
+template <class T>
+Result<Submission<T>> read_submission(const Format<T>& format, std::string_view text) {
+  const auto body = parse_json(text, JsonComments::refused);
+  if (!body) return failure(body.error());
+  Problems faults;
+  Submission<T> submission{{}, body->dump()};
+  format.read(JsonNode(*body, "", faults), submission.request);
+  if (!faults.empty()) return failure(std::move(faults));
+  return submission;
+}
+
 FormatPtr<std::vector<TimedJob>> jobs_file_format() {
   static const auto format = list(object<TimedJob>({
       required("at", &TimedJob::at, cell_time(kTimeMax_s), "When it is submitted, in cell time"),
@@ -211,6 +222,14 @@ Result<JobRequest> read_job(const nlohmann::json& body) {
 
 Result<JobRequest> read_job_text(std::string_view text) {
   return read_text(*job_request_format(), text);
+}
+
+Result<Submission<JobRequest>> read_job_submission(std::string_view text) {
+  return read_submission(*job_request_format(), text);
+}
+
+Result<Submission<BatchRequest>> read_batch_submission(std::string_view text) {
+  return read_submission(*batch_request_format(), text);
 }
 
 Result<BatchRequest> read_batch_text(std::string_view text) {

@@ -33,6 +33,15 @@ inline constexpr std::size_t kAlternativesMax = 8;
 // The same from text.
 [[nodiscard]] Result<JobRequest> read_job_text(std::string_view text);
 
+// What was asked for, and its body in one way of writing, by which it is known again: members in
+// order of their names, no space between.
+template <class T>
+struct Submission {
+  T request;
+  std::string canonical;
+};
+[[nodiscard]] Result<Submission<JobRequest>> read_job_submission(std::string_view text);
+
 // The body of POST /batches: {"jobs": [...], "atomic": true}. Of an atomic batch every job could be
 // read; else each entry says for itself whether it could.
 struct BatchRequest {
@@ -46,6 +55,7 @@ struct BatchRequest {
 };
 [[nodiscard]] FormatPtr<BatchRequest> batch_request_format();
 [[nodiscard]] Result<BatchRequest> read_batch_text(std::string_view text);
+[[nodiscard]] Result<Submission<BatchRequest>> read_batch_submission(std::string_view text);
 
 // A jobs file: an array of {"at": seconds, "job": {...}}, in any order of time.
 [[nodiscard]] Result<std::vector<TimedJob>> read_jobs_text(std::string_view text);

@@ -24,10 +24,14 @@ struct RefusalText {
 const std::map<int, RefusalText>& refusal_texts() {
   static const std::map<int, RefusalText> texts{
       {400, {"BadRequest", "The request, its target or its JSON cannot be read"}},
+      {401,
+       {"NotAuthenticated",
+        "No token was shown, or none of this server's, or one that was withdrawn"}},
       {403,
        {"ForeignOrigin",
         "A page of another site may not command this server, nor may a Host that is neither an IP "
-        "address nor localhost nor given with --allow-host"}},
+        "address nor localhost nor given with --allow-host; nor may a token whose role does not "
+        "allow it"}},
       {404, {"NotFound", "There is no such thing"}},
       {409, {"Conflict", "It contradicts the present state"}},
       {413, {"TooLarge", "Over a stated bound: 8 MiB, 10,000 waypoints"}},
@@ -134,6 +138,11 @@ Schema operation_of(const Route& route) {
   if (Schema parameters = parameters_of(route); !parameters.empty()) {
     operation["parameters"] = std::move(parameters);
   }
+  if (route.role) {
+    operation["x-role"] = to_string(*route.role);
+  } else {
+    operation["security"] = Schema::array();
+  }
   if (route.reads) operation["requestBody"] = body_of(*route.reads);
   operation["responses"] = responses_of(route);
   return operation;
@@ -161,6 +170,20 @@ Schema refusals() {
   return responses;
 }
 
+// Asked for where the server was started with tokens. What a token may is its role's: `x-role` of
+// an operation is the least that it takes.
+Schema security_schemes() {
+  return {{"token",
+           {{"type", "http"},
+            {"scheme", "bearer"},
+            {"description", "Of `armloom token add`; asked for where `serve` has --tokens"}}},
+          {"cookie",
+           {{"type", "apiKey"},
+            {"in", "cookie"},
+            {"name", std::string(kTokenCookie)},
+            {"description", "The same token, as POST /session sets it for browsers"}}}};
+}
+
 // How readers tell messages apart.
 void add_discriminator(Schema& message) {
   Schema mapping = Schema::object();
@@ -176,12 +199,15 @@ const Schema& openapi_document() {
     Schema whole{{"openapi", "3.1.0"},
                  {"info", header()},
                  {"servers", Schema::array({{{"url", "/"}}})},
-                 {"security", Schema::array()},  // whoever reaches it may use it
+                 {"security", Schema::array({{{"token", Schema::array()}},
+                                             {{"cookie", Schema::array()}},
+                                             Schema::object()})},
                  {"tags", tags()}};
     whole["paths"] = refer_to_names(paths(), kSchemas, schemas);
     const Schema responses = refer_to_names(refusals(), kSchemas, schemas);
     add_discriminator(schemas["Message"]);
     whole["components"] = {{"schemas", std::move(schemas)}, {"responses", responses}};
+    whole["components"]["securitySchemes"] = security_schemes();
     return whole;
   }();
   return document;

@@ -16,5 +16,8 @@ namespace armloom {
 [[nodiscard]] std::string_view docs_html();
 [[nodiscard]] std::string_view docs_css();
 [[nodiscard]] std::string_view docs_js();
+// Where people log in: likewise.
+[[nodiscard]] std::string_view login_html();
+[[nodiscard]] std::string_view login_js();
 
 }  // namespace armloom

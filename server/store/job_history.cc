@@ -9,18 +9,28 @@
 namespace armloom {
 namespace {
 
-const std::string kColumns =
-    "SELECT number, id, state, has_ended, submitted_ms, ended_ms, arms, view FROM job ";
+constexpr auto kAny = std::uint64_t{1} << 62U;
+
+// Of a file that no server has brought up to date yet, too.
+std::string columns_of(const Database& database) {
+  const bool has_origins = database.number("PRAGMA user_version") >= 2;
+  return std::string("SELECT number, id, state, has_ended, submitted_ms, ended_ms, arms, view, ") +
+         (has_origins ? "digest, request_key, request_digest, request_place"
+                      : "NULL, NULL AS request_key, NULL, NULL AS request_place") +
+         " FROM job ";
+}
 
 StoredJob row_of(const Statement& row) {
-  return {.number = static_cast<std::uint64_t>(row.number(0)),
-          .id = row.text(1),
-          .state = row.text(2),
-          .has_ended = row.number(3) != 0,
-          .submitted_ms = row.maybe_number(4),
-          .ended_ms = row.maybe_number(5),
-          .arms = row.text(6),
-          .view = row.text(7)};
+  return {
+      .number = static_cast<std::uint64_t>(row.number(0)),
+      .id = row.text(1),
+      .state = row.text(2),
+      .has_ended = row.number(3) != 0,
+      .submitted_ms = row.maybe_number(4),
+      .ended_ms = row.maybe_number(5),
+      .arms = row.text(6),
+      .view = row.text(7),
+      .origin = {row.text(8), row.text(9), row.text(10), static_cast<std::size_t>(row.number(11))}};
 }
 
 }  // namespace
@@ -28,7 +38,7 @@ StoredJob row_of(const Statement& row) {
 class JobHistory::Impl {
  public:
   explicit Impl(const std::filesystem::path& file)
-      : file_(file), database_(file, Database::Access::read) {
+      : file_(file), database_(file, Database::Access::read), columns_(columns_of(database_)) {
     (void)database_.number("SELECT count(*) FROM job WHERE number = 0");  // it is one of ours
   }
 
@@ -43,20 +53,42 @@ class JobHistory::Impl {
 
   std::optional<StoredJob> find(const std::string& id) const {
     Statement row =
-        database_.prepare(kColumns + "WHERE id = ?1 AND view != '' ORDER BY number DESC LIMIT 1");
+        database_.prepare(columns_ + "WHERE id = ?1 AND view != '' ORDER BY number DESC LIMIT 1");
     row.bind_all(std::string_view(id));
     return row.step() ? std::optional(row_of(row)) : std::nullopt;
+  }
+
+  std::vector<StoredJob> of_request(const std::string& key) const {
+    Statement row = database_.prepare(
+        columns_ + "WHERE request_key = ?1 AND view != '' ORDER BY request_place, number");
+    row.bind_all(std::string_view(key));
+    std::vector<StoredJob> jobs;
+    while (row.step()) jobs.push_back(row_of(row));
+    return jobs;
+  }
+
+  std::vector<AuditEntry> audit(std::optional<std::uint64_t> before, std::size_t most) const {
+    Statement row = database_.prepare(
+        "SELECT number, at_ms, who, peer, method, path, status FROM audit WHERE number < ?1 ORDER "
+        "BY number DESC LIMIT ?2");
+    const auto below = static_cast<std::int64_t>(std::min(before.value_or(kAny), kAny));
+    row.bind_all(below, static_cast<std::int64_t>(most));
+    std::vector<AuditEntry> entries;
+    while (row.step()) {
+      entries.push_back({static_cast<std::uint64_t>(row.number(0)), row.number(1), row.text(2),
+                         row.text(3), row.text(4), row.text(5), static_cast<int>(row.number(6))});
+    }
+    return entries;
   }
 
   bool each(const HistoryFilter& filter, const char* order,
             const std::function<bool(StoredJob)>& take) const {
     Statement rows = database_.prepare(
-        kColumns +
+        columns_ +
         "WHERE view != '' AND (?1 = '' OR state = ?1) AND (?2 = '' OR EXISTS (SELECT 1 FROM "
         "json_each(arms) WHERE value = ?2)) AND number < ?3 AND coalesce(submitted_ms, 0) >= ?4 "
         "ORDER BY number " +
         order);
-    constexpr auto kAny = std::uint64_t{1} << 62U;
     const auto before = static_cast<std::int64_t>(std::min(filter.before.value_or(kAny), kAny));
     rows.bind_all(std::string_view(filter.state), std::string_view(filter.arm), before,
                   filter.since_ms.value_or(-static_cast<std::int64_t>(kAny)));
@@ -75,6 +107,7 @@ class JobHistory::Impl {
  private:
   std::filesystem::path file_;
   Database database_;
+  std::string columns_;
 };
 
 Result<std::unique_ptr<JobHistory>> JobHistory::open(const std::filesystem::path& folder) {
@@ -91,6 +124,15 @@ JobHistory::~JobHistory() = default;
 
 Result<std::optional<StoredJob>> JobHistory::find(const std::string& id) const {
   return impl_->reading([&] { return impl_->find(id); });
+}
+
+Result<std::vector<StoredJob>> JobHistory::of_request(const std::string& key) const {
+  return impl_->reading([&] { return impl_->of_request(key); });
+}
+
+Result<std::vector<AuditEntry>> JobHistory::audit(std::optional<std::uint64_t> before,
+                                                  std::size_t most) const {
+  return impl_->reading([&] { return impl_->audit(before, most); });
 }
 
 Result<void> JobHistory::newest_first(const HistoryFilter& filter,

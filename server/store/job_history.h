@@ -33,6 +33,11 @@ class JobHistory {
 
   // The last one that was accepted under this id.
   [[nodiscard]] Result<std::optional<StoredJob>> find(const std::string& id) const;
+  // Those that came by a request with this Idempotency-Key, in order of their places.
+  [[nodiscard]] Result<std::vector<StoredJob>> of_request(const std::string& key) const;
+  // Who did what, newest first: of those before this number, at most so many.
+  [[nodiscard]] Result<std::vector<AuditEntry>> audit(std::optional<std::uint64_t> before,
+                                                      std::size_t most) const;
   // Newest first, until `take` says enough (false).
   [[nodiscard]] Result<void> newest_first(const HistoryFilter& filter,
                                           const std::function<bool(StoredJob)>& take) const;

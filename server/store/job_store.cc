@@ -170,7 +170,7 @@ void JobStore::accept(std::vector<Accepted> jobs, Done done) {
   for (Accepted& accepted : jobs) {
     const std::uint64_t number = accepted.job.number;
     acceptance.jobs.push_back(number);
-    JobChange change{.body = std::move(accepted.body)};
+    JobChange change{.body = std::move(accepted.body), .origin = accepted.job.origin};
     change.seen = std::move(accepted.job);
     changes.jobs.emplace(number, std::move(change));
   }
@@ -195,6 +195,12 @@ void JobStore::about_to_move(std::uint64_t number, Done done) {
 void JobStore::stopped(std::vector<std::string> arms) {
   Pending changes;
   changes.stopped_arms = std::move(arms);
+  impl_->add(std::move(changes));
+}
+
+void JobStore::note(AuditEntry entry) {
+  Pending changes;
+  changes.audit.push_back(std::move(entry));
   impl_->add(std::move(changes));
 }
 

@@ -74,6 +74,9 @@ class JobStore {
   void about_to_move(std::uint64_t number, Done done);
   void stopped(std::vector<std::string> arms);
 
+  // Soon on disk.
+  void note(AuditEntry entry);
+
   // Waits until what has come before is on disk; false: it could not be written.
   [[nodiscard]] bool flush();
 

@@ -8,6 +8,7 @@ namespace armloom {
 namespace {
 
 constexpr std::int64_t kCleanedAtOnce = 1000;
+constexpr std::int64_t kAuditKept = 100'000;
 
 Database opened(const std::filesystem::path& file, const std::string& vfs) {
   Database database(file, Database::Access::write, vfs);
@@ -37,10 +38,15 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
           "INSERT INTO job(number, id, state, has_ended, may_have_moved, arms, view) "
           "VALUES(?1, '', '', 0, 0, '[]', '') ON CONFLICT(number) DO NOTHING")),
       move_(database_.prepare("UPDATE job SET may_have_moved = 1 WHERE number = ?1")),
+      come_(database_.prepare(
+          "UPDATE job SET digest = ?2, request_key = nullif(?3, ''), request_digest = ?4, "
+          "request_place = ?5 WHERE number = ?1")),
       put_body_(database_.prepare("INSERT OR REPLACE INTO body(number, text) VALUES(?1, ?2)")),
       drop_body_(database_.prepare("DELETE FROM body WHERE number = ?1")),
       stop_(database_.prepare("INSERT OR IGNORE INTO stopped_arm(name) VALUES(?1)")),
-      forget_stops_(database_.prepare("DELETE FROM stopped_arm")) {
+      forget_stops_(database_.prepare("DELETE FROM stopped_arm")),
+      note_(database_.prepare("INSERT INTO audit(at_ms, who, peer, method, path, status) "
+                              "VALUES(?1, ?2, ?3, ?4, ?5, ?6)")) {
   database_.run(
       "DELETE FROM job WHERE view = ''");  // never acknowledged, and nothing is known of it
 }
@@ -75,6 +81,12 @@ void JobTables::write(const Pending& changes) {
     for (const std::string& name : *changes.stopped_arms)
       stop_.bind_all(std::string_view(name)).run();
   }
+  for (const AuditEntry& entry : changes.audit) {
+    note_.bind_all(entry.at_ms, std::string_view(entry.who), std::string_view(entry.peer),
+                   std::string_view(entry.method), std::string_view(entry.path),
+                   std::int64_t{entry.status});
+    note_.run();
+  }
   transaction.commit();
 }
 
@@ -87,6 +99,11 @@ void JobTables::write(std::uint64_t number, const JobChange& change) {
     see_.run();
   } else {
     expect_.bind_all(key).run();
+  }
+  if (const auto& origin = change.origin) {
+    come_.bind_all(key, std::string_view(origin->digest), std::string_view(origin->key),
+                   std::string_view(origin->key_digest), static_cast<std::int64_t>(origin->place));
+    come_.run();
   }
   if (change.may_have_moved) move_.bind_all(key).run();
   const bool has_ended = change.seen && change.seen->has_ended;
@@ -120,6 +137,11 @@ bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::
         "SELECT number FROM job WHERE has_ended = 1 AND ended_ms < ?1 ORDER BY ended_ms LIMIT ?2",
         oldest.count());
   }
+  Statement audit = database_.prepare(
+      "DELETE FROM audit WHERE number IN (SELECT number FROM audit WHERE number <= (SELECT "
+      "max(number) FROM audit) - ?1 ORDER BY number LIMIT ?2)");
+  audit.bind_all(kAuditKept, kCleanedAtOnce).run();
+  deleted = std::max(deleted, database_.number("SELECT changes()"));
   transaction.commit();
   return deleted == kCleanedAtOnce;
 }

@@ -10,9 +10,13 @@ void Pending::join(Pending later) {
     JobChange& mine = jobs[number];
     if (change.seen) mine.seen = std::move(change.seen);
     if (change.body) mine.body = std::move(change.body);
+    if (change.origin) mine.origin = std::move(change.origin);
     mine.may_have_moved = mine.may_have_moved || change.may_have_moved;
   }
   if (later.stopped_arms) stopped_arms = std::move(later.stopped_arms);
+  for (AuditEntry& entry : later.audit) {
+    if (audit.size() < kAuditMax) audit.push_back(std::move(entry));
+  }
   std::ranges::move(later.acceptances, std::back_inserter(acceptances));
   std::ranges::move(later.starts, std::back_inserter(starts));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
@@ -14,6 +15,7 @@ namespace armloom {
 struct JobChange {
   std::optional<StoredJob> seen = {};
   std::optional<std::string> body = {};
+  std::optional<RequestOrigin> origin = {};
   bool may_have_moved = false;
 };
 
@@ -22,6 +24,7 @@ struct Pending {
   using Done = std::function<void(bool)>;
   std::map<std::uint64_t, JobChange> jobs = {};  // by number
   std::optional<std::vector<std::string>> stopped_arms = {};
+  std::vector<AuditEntry> audit = {};  // kAuditMax at most, the first ones
   struct Acceptance {
     std::vector<std::uint64_t> jobs;
     Done done;
@@ -29,8 +32,11 @@ struct Pending {
   std::vector<Acceptance> acceptances = {};
   std::vector<Done> starts = {};
 
+  // While nothing can be written; what comes beyond is not told.
+  inline static constexpr std::size_t kAuditMax = 10'000;
+
   [[nodiscard]] bool is_empty() const {
-    return jobs.empty() && !stopped_arms && acceptances.empty();
+    return jobs.empty() && !stopped_arms && acceptances.empty() && audit.empty();
   }
   // What came after this.
   void join(Pending later);

@@ -31,6 +31,24 @@ constexpr const char* kVersions[] = {
     CREATE TABLE body(number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT;
     CREATE TABLE stopped_arm(name TEXT PRIMARY KEY) STRICT;
     )",
+    // By which request a job came (RequestOrigin): one that is sent again is answered with it. And
+    // who did what.
+    R"(
+    ALTER TABLE job ADD COLUMN digest TEXT;
+    ALTER TABLE job ADD COLUMN request_key TEXT;
+    ALTER TABLE job ADD COLUMN request_digest TEXT;
+    ALTER TABLE job ADD COLUMN request_place INTEGER;
+    CREATE INDEX job_by_request ON job(request_key) WHERE request_key IS NOT NULL;
+    CREATE TABLE audit(
+      number INTEGER PRIMARY KEY,
+      at_ms INTEGER NOT NULL,
+      who TEXT NOT NULL,
+      peer TEXT NOT NULL,
+      method TEXT NOT NULL,
+      path TEXT NOT NULL,
+      status INTEGER NOT NULL
+    ) STRICT;
+    )",
 };
 constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
 

@@ -121,7 +121,9 @@ test('The readers of events are told everything from a snapshot on', async () =>
 
 test('What only reads', async () => {
   await call(200, 'GET', '/');
-  for (const part of ['/docs', '/docs.css', '/docs.js']) await call(200, 'GET', part);
+  await call(404, 'GET', `${v1}/audit`);
+  await call(422, 'GET', `${v1}/audit`, {query: '?limit=0'});
+  for (const part of ['/docs', '/docs.css', '/docs.js', '/login', '/login.js']) await call(200, 'GET', part);
   const schema = JSON.parse(fs.readFileSync(path.join(top, 'config/cell.schema.json'), 'utf8'));
   assert.deepEqual(await call(200, 'GET', '/cell.schema.json'), schema);
   await call(200, 'GET', '/healthz');
@@ -156,7 +158,8 @@ test('Jobs, good and bad', async () => {
   assert.match(refusal.type, /goal-not-reached/);
   const reach = example(`${v1}/jobs`, 'POST', 'reach');
   await call(202, 'POST', `${v1}/jobs`, {body: reach});
-  await call(409, 'POST', `${v1}/jobs`, {body: reach});
+  await call(200, 'POST', `${v1}/jobs`, {body: reach});
+  await call(409, 'POST', `${v1}/jobs`, {body: {...reach, priority: 7}});
   await call(409, 'POST', `${v1}/check`, {body: reach});
   const right = (text) => JSON.parse(JSON.stringify(text).replaceAll('left_', 'right_'));
   const meet = {...right(reach), id: 'meet'};
@@ -222,7 +225,8 @@ test('Batches, good and bad', async () => {
   const taken = structuredClone(batch);
   taken.jobs[0].id = 'reach';
   await call(409, 'POST', at, {body: taken});
-  assert.equal((await call(202, 'POST', at, {body: batch})).jobs.length, 2);
+  assert.equal((await call(202, 'POST', at, {body: batch, headers: {'Idempotency-Key': 'both'}})).jobs.length, 2);
+  assert.equal((await call(200, 'POST', at, {body: batch, headers: {'Idempotency-Key': 'both'}})).jobs.length, 2);
   wrong.jobs[0].id = 'batch-left-2';
   delete wrong.jobs[1].id;
   wrong.jobs[0].trajectory.points.forEach((point) => { point.positions = batch.jobs[0].trajectory.points[1].positions; });
@@ -301,6 +305,49 @@ test('Requests that no operation takes', async () => {
   }
 });
 
+// Who shows no token is told so by every operation that takes one.
+test('A server with tokens asks for them', async () => {
+  const tokens = path.join(folder, 'tokens');
+  const made = (name, role) => execFileSync(binary, ['token', 'add', '--tokens', tokens, '--name', name, '--role', role],
+                                            {encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore']}).trim();
+  const token = made('a', 'viewer');
+  const admin = {Authorization: `Bearer ${made('b', 'admin')}`};
+  const closed = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--tokens', tokens,
+                                            '--data', path.join(folder, 'data')]);
+  const asked = async (method, template, headers = {}, body = undefined) => {
+    const answer = await ask(closed.port, method, template.replace(/\{\w+\}/g, 'x'), {headers, body});
+    contract.answer(template, method, answer);
+    return answer;
+  };
+  try {
+    for (const {path: template, method, operation} of contract.operations()) {
+      const upgrade = template === `${v1}/ws` ? handshake() : {};
+      assert.equal('x-role' in operation, operation.security === undefined, template);
+      if (operation.security) continue;
+      assert.equal((await asked(method, template, upgrade)).status, 401, template);
+      if (operation['x-role'] === 'viewer') continue;
+      assert.equal((await asked(method, template, {...upgrade, Authorization: `Bearer ${token}`})).status, 403, template);
+    }
+    assert.equal((await asked('GET', '/')).status, 303);
+    const wrong = JSON.stringify({token: `${token}x`});
+    assert.equal((await asked('POST', `${v1}/session`, json, wrong)).status, 401);
+    const entered = await asked('POST', `${v1}/session`, json, JSON.stringify({token}));
+    assert.equal(entered.status, 200);
+    const cookie = entered.headers['set-cookie'][0].split(';')[0];
+    const session = JSON.parse((await asked('GET', `${v1}/session`, {Cookie: cookie})).text);
+    assert.deepEqual(session, {asks_for_token: true, name: 'a', role: 'viewer'});
+    assert.equal((await asked('DELETE', `${v1}/session`, {Cookie: cookie})).status, 204);
+    await until('the audit trail', async () => {
+      const audit = await asked('GET', `${v1}/audit`, admin);
+      assert.equal(audit.status, 200, audit.text);
+      const {entries} = JSON.parse(audit.text);
+      return entries.some(({who, method, path: done, status}) => who === 'a' && method === 'POST' && done === `${v1}/stop` && status === 403);
+    });
+  } finally {
+    closed.end();
+  }
+});
+
 test('Each path answers the methods that are listed, HEAD with GET, and no other', async () => {
   for (const [template, methods] of Object.entries(contract.document.paths)) {
     const target = template.replace(/\{\w+\}/g, 'x');
@@ -368,10 +415,10 @@ test('What the monitor stops is told', async () => {
 test('A server that ends accepts no job', async () => {
   const ending = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', '0.02']);
   const agent = new http.Agent({keepAlive: true, maxSockets: 1});
-  const submit = () => ask(ending.port, 'POST', `${v1}/jobs`,
-                           {body: JSON.stringify(example(`${v1}/jobs`, 'POST', 'reach')), headers: json, agent});
+  const submit = (id) => ask(ending.port, 'POST', `${v1}/jobs`,
+                             {body: JSON.stringify({...example(`${v1}/jobs`, 'POST', 'reach'), id}), headers: json, agent});
   try {
-    assert.equal((await submit()).status, 202);
+    assert.equal((await submit('first')).status, 202);
     await until('the motion', async () => {
       const {text} = await ask(ending.port, 'GET', `${v1}/arms/left`, {agent});
       const arm = JSON.parse(text);
@@ -379,7 +426,7 @@ test('A server that ends accepts no job', async () => {
     });
     ending.end();
     const refused = await until('the refusal', async () => {
-      const answer = await submit();
+      const answer = await submit('second');
       contract.answer(`${v1}/jobs`, 'POST', answer);
       return answer.status === 503 && answer;
     });

@@ -15,6 +15,7 @@
 #include "server/messages/plan.h"
 #include "server/messages/plan_goal.h"
 #include "server/messages/scene.h"
+#include "server/messages/session.h"
 
 namespace armloom {
 namespace {
@@ -60,7 +61,8 @@ std::vector<Incoming> all_incoming() {
           incoming("Speed", *speed_format()),
           incoming("Goal", *plan_goal_format()),
           incoming("cell file", cell_format()),
-          incoming("PlanRequest", *plan_inquiry_format())};
+          incoming("PlanRequest", *plan_inquiry_format()),
+          incoming("LogIn", *log_in_format())};
 }
 
 // Every body of a route is among them.

@@ -129,6 +129,7 @@ TEST_F(BadJobs, UnknownIdsAndReusedIdsAreSaid) {
   json body = good();
   body["id"] = "once";
   EXPECT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
+  body["priority"] = 1;
   const auto again = post("/api/v1/jobs", body.dump());
   EXPECT_EQ(again.status, 409);
   EXPECT_EQ(again.json()["value"], "once");

@@ -112,7 +112,8 @@ TEST_F(Durable, WhatRanIsInterruptedAndWhatCameAfterItFails) {
   EXPECT_EQ(job("ran")["state"], "interrupted") << "it is final";
   const auto again = remove("/api/v1/jobs/ran");
   EXPECT_EQ(again.status, 409);
-  EXPECT_EQ(submit("ran").status, 409) << "an id of a former run";
+  EXPECT_EQ(submit("ran", "right").status, 409) << "an id of a former run";
+  EXPECT_EQ(submit("ran").json()["state"], "interrupted") << "sent again, and not done again";
 }
 
 TEST_F(Durable, WhatHasSucceededCountsInLaterRuns) {

@@ -151,6 +151,47 @@ TEST_F(Store, OldJobsThatHaveEndedAreDeleted) {
   EXPECT_EQ(numbers(), last) << "one that waits is never deleted";
 }
 
+// As the first version of the program wrote them.
+constexpr const char* kFirstTables = R"(
+    CREATE TABLE job(number INTEGER PRIMARY KEY, id TEXT NOT NULL, state TEXT NOT NULL,
+      has_ended INTEGER NOT NULL, may_have_moved INTEGER NOT NULL, submitted_ms INTEGER,
+      ended_ms INTEGER, arms TEXT NOT NULL, view TEXT NOT NULL) STRICT;
+    CREATE TABLE body(number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT;
+    CREATE TABLE stopped_arm(name TEXT PRIMARY KEY) STRICT;
+    INSERT INTO job VALUES(4, 'j4', 'queued', 0, 0, 4, NULL, '["left"]', '{"id":"j4"}');
+    INSERT INTO body VALUES(4, 'body of 4');
+    PRAGMA application_id = 0x41726d6c;
+    PRAGMA user_version = 1;
+  )";
+
+TEST_F(Store, TablesOfTheFirstVersionAreReadAndBroughtUpToDate) {
+  std::filesystem::create_directories(folder_);
+  sql(kFirstTables);
+  {
+    const auto history = JobHistory::open(folder_);
+    ASSERT_TRUE(history) << history.error().front().detail;
+    EXPECT_EQ((*history)->find("j4").value()->state, "queued");
+    EXPECT_TRUE((*history)->of_request("k").value().empty());
+  }
+  const auto store = open();
+  ASSERT_EQ(store->leftover().jobs.size(), 1U);
+  EXPECT_EQ(store->leftover().jobs[0].body, "body of 4");
+  StoredJob next = job(5);
+  next.origin = {"digest", "k", "whole", 0};
+  auto promise = std::make_shared<std::promise<bool>>();
+  store->accept({{next, "body"}}, [promise](bool is_written) { promise->set_value(is_written); });
+  store->see(job(5, "backlogged"));
+  ASSERT_TRUE(promise->get_future().get());
+  ASSERT_TRUE(store->flush());
+  const auto history = JobHistory::open(folder_);
+  const auto found = (*history)->of_request("k").value();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].id, "j5");
+  EXPECT_EQ(found[0].origin.key_digest, "whole");
+  EXPECT_EQ((*history)->find("j5").value()->origin.digest, "digest");
+  EXPECT_EQ((*history)->find("j4").value()->origin.digest, "");
+}
+
 TEST_F(Store, HistoryIsReadByStateArmAndPage) {
   const auto store = open();
   for (std::uint64_t number = 1; number <= 30; ++number) {

@@ -1,0 +1,198 @@
+// POST /batches: several jobs at once.
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "server/access/digest.h"
+#include "server/api/examples.h"
+#include "server/api/resubmission.h"
+#include "server/api/route.h"
+#include "server/messages/job.h"
+#include "server/messages/job_request.h"
+
+namespace armloom {
+namespace {
+
+using Results = std::vector<Result<ListedJob>>;  // one for each job of the batch
+
+// A batch that is being answered.
+struct Batch {
+  BatchRequest request;
+  SentRequestPtr sent;
+  KnownJobs known;  // what of it was accepted before
+
+  [[nodiscard]] bool is_new(std::size_t place) const {
+    return request.jobs[place].job.has_value() && known[place].empty();
+  }
+};
+using BatchPtr = std::shared_ptr<const Batch>;
+
+SentRequestPtr sent_of(std::string key, const Submission<BatchRequest>& read) {
+  SentRequest sent{std::move(key), sha256_hex(read.canonical), {}};
+  for (const BatchRequest::Entry& entry : read.request.jobs) {
+    sent.jobs.push_back({entry.job ? entry.job->key : std::string(), sha256_hex(entry.text)});
+  }
+  return std::make_shared<const SentRequest>(std::move(sent));
+}
+
+Response batch_response(bool atomic, const Results& results, const WallClock& clock) {
+  if (!atomic) return answer(207, batch_results_format(), results, &clock);
+  std::vector<ListedJob> jobs;
+  for (const Result<ListedJob>& result : results) jobs.push_back(result.value());
+  return answer(202, batch_accepted_format(), jobs, &clock);
+}
+
+// What the store has to say of it first. The answer, where it cannot be submitted.
+std::optional<Response> refused_by_store(const ApiParts& parts, Batch& batch) {
+  Problems problems;
+  if (parts.keeper == nullptr) return std::nullopt;
+  if (const auto refusal = parts.keeper->refusal()) return refusal_response(*refusal);
+  for (std::size_t i = 0; i < batch.request.jobs.size(); ++i) {
+    if (!batch.is_new(i)) continue;
+    Result<JobRequest>& job = batch.request.jobs[i].job;
+    const auto known = parts.keeper->look_up(*job);
+    if (known) continue;
+    if (!batch.request.atomic) {
+      job = failure(known.error());
+      continue;
+    }
+    for (Problem problem : known.error()) {
+      problem.pointer.insert(0, "/jobs/" + std::to_string(i));
+      problems.push_back(std::move(problem));
+    }
+  }
+  if (problems.empty()) return std::nullopt;
+  return problem_response(problems);
+}
+
+// All were accepted before.
+void answer_again(const ApiParts& parts, const KnownJobs& known, const Respond& respond) {
+  look_at(parts, known, [&parts, respond](const Results& results) {
+    std::vector<ListedJob> jobs;
+    for (const Result<ListedJob>& result : results) {
+      if (!result) return respond(problem_response(result.error()));
+      jobs.push_back(*result);
+    }
+    respond(answer(200, batch_accepted_format(), jobs, &parts.clock));
+  });
+}
+
+// Every job with its answer, in its place: of those that are new, of those that were accepted
+// before, and of those that could not be read.
+Results merged(const Batch& batch, const std::vector<Result<JobView>>& submitted, Results before) {
+  Results results;
+  auto next_new = submitted.begin();
+  auto next_known = before.begin();
+  for (std::size_t i = 0; i < batch.known.size(); ++i) {
+    if (batch.is_new(i)) {
+      const Result<JobView>& job = *next_new++;
+      results.push_back(job ? Result<ListedJob>(ListedJob(*job)) : failure(job.error()));
+    } else if (!batch.known[i].empty()) {
+      results.push_back(std::move(*next_known++));
+    } else {
+      results.push_back(failure(batch.request.jobs[i].job.error()));
+    }
+  }
+  return results;
+}
+
+void tell(const ApiParts& parts, const BatchPtr& batch,
+          const std::vector<Result<JobView>>& submitted, const Respond& respond) {
+  std::vector<JobKeeper::AcceptedJob> accepted;
+  KnownJobs ids(batch->known.size());
+  auto next = submitted.begin();
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (!batch->is_new(i)) continue;
+    if (const Result<JobView>& job = *next++) {
+      accepted.push_back({*job, batch->request.jobs[i].text, origin_of(*batch->sent, i)});
+      ids[i] = job->key;
+    }
+  }
+  look_at(parts, batch->known,
+          [&parts, batch, submitted, ids, respond, accepted = std::move(accepted)](Results before) {
+            Results results = merged(*batch, submitted, std::move(before));
+            acknowledge(parts, accepted, respond,
+                        [&parts, batch, ids, results = std::move(results)] {
+                          note_accepted(parts, *batch->sent, ids);
+                          return batch_response(batch->request.atomic, results, parts.clock);
+                        });
+          });
+}
+
+Problem partly_known(std::ptrdiff_t place, const std::string& id) {
+  return {ProblemKind::conflict, "partly-accepted", "/jobs/" + std::to_string(place),
+          "this job was accepted before, as \"" + id +
+              "\", and others of the batch were not, or are "
+              "forgotten",
+          id};
+}
+
+void submit_batch(const ApiParts& parts, const std::shared_ptr<Batch>& batch,
+                  const Respond& respond) {
+  const KnownJobs& known = batch->known;
+  const auto first = std::ranges::find_if(known, [](const auto& id) { return !id.empty(); });
+  if (batch->request.atomic && first != known.end()) {
+    if (std::ranges::find(known, "") == known.end()) return answer_again(parts, known, respond);
+    return respond(problem_response({partly_known(first - known.begin(), *first)}));
+  }
+  if (auto refused = refused_by_store(parts, *batch)) return respond(std::move(*refused));
+  ask(
+      parts,
+      [batch](Executive& executive) {
+        std::vector<JobRequest> jobs;
+        for (std::size_t i = 0; i < batch->known.size(); ++i) {
+          if (batch->is_new(i)) jobs.push_back(*batch->request.jobs[i].job);
+        }
+        return executive.submit_batch(std::move(jobs), batch->request.atomic);
+      },
+      [&parts, batch, respond](const Result<std::vector<Result<JobView>>>& results) {
+        if (!results) return respond(problem_response(results.error()));
+        tell(parts, batch, *results, respond);
+      });
+}
+
+void post_batch(Call call) {
+  const ApiParts& parts = call.parts;
+  const auto key = idempotency_key(call.request);
+  if (!key) return call.respond(problem_response(key.error()));
+  const auto submit = [&parts, key = *key, respond = call.respond](Submission<BatchRequest> read) {
+    const auto sent = sent_of(key, read);
+    const auto batch = std::make_shared<Batch>(Batch{std::move(read.request), sent, {}});
+    recall(parts, sent, respond, [&parts, batch](const KnownJobs& known, const Respond& ending) {
+      batch->known = known;
+      submit_batch(parts, batch, ending);
+    });
+  };
+  read_body(parts, call.request, call.respond, read_batch_submission, submit);
+}
+
+}  // namespace
+
+Route batch_route() {
+  return {
+      .method = "POST",
+      .path = api_path("/batches"),
+      .id = "submitBatch",
+      .tag = "jobs",
+      .summary = "Submit several jobs at once",
+      .text =
+          "Atomic (the default): all are accepted or none, and the problem's pointers begin "
+          "with /jobs/<index>. A job may come `after` an earlier one of the batch. Sent again with "
+          "the same body, by `Idempotency-Key` or the ids of all its jobs: the same jobs; of one "
+          "that is not atomic what was refused is tried again.",
+      .parameters = {idempotency_parameter()},
+      .reads = body(batch_request_format(), {{"both", example_batch()}}),
+      .outcomes = {outcome(200, "All were accepted before: as they are now",
+                           batch_accepted_format()),
+                   outcome(202, "All were accepted", batch_accepted_format()),
+                   outcome(207, "With \"atomic\": false, an answer for each",
+                           batch_results_format())},
+      .refuses = {409, 422, 507},
+      .who = Who::commander,
+      .role = Role::operate,
+      .run = post_batch};
+}
+
+}  // namespace armloom

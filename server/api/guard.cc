@@ -1,0 +1,35 @@
+#include "server/api/guard.h"
+
+#include <string>
+
+namespace armloom {
+
+Guard::Guard(const std::optional<std::filesystem::path>& tokens, bool tls) : tls_(tls) {
+  if (tokens) book_.emplace(TokenFile(*tokens));
+}
+
+std::optional<Caller> Guard::caller(const std::optional<std::string>& token) {
+  if (!book_) return Caller{"", Role::admin};
+  return token ? book_->caller(*token) : std::nullopt;
+}
+
+std::optional<Refusal> Guard::refusal(const Request& request, Role needed) {
+  const auto who = caller(request.token);
+  if (!who) {
+    return Refusal{401,
+                   "not-authenticated",
+                   request.token ? "the token is none of this server's, or was withdrawn"
+                                 : "a token is needed: Authorization: Bearer <token>, or log in at "
+                                   "/login; `armloom token add` makes one",
+                   "Authorization",
+                   std::nullopt,
+                   {{"WWW-Authenticate", "Bearer realm=\"armloom\""}}};
+  }
+  if (who->role >= needed) return std::nullopt;
+  return Refusal{403, "not-permitted",
+                 std::string("this needs the role ") + to_string(needed) + ", and the token of \"" +
+                     who->name + "\" has " + to_string(who->role),
+                 "Authorization", to_string(who->role)};
+}
+
+}  // namespace armloom

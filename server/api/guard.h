@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "server/access/token_book.h"
+#include "server/http/message.h"
+
+namespace armloom {
+
+// Who may what: with a file of tokens whoever shows one of them may what its role says; without one
+// everybody may everything. On the server's thread.
+class Guard {
+ public:
+  // `tokens`: the file; nothing: there is none. `tls`: cookies go through TLS only.
+  Guard(const std::optional<std::filesystem::path>& tokens, bool tls);
+
+  [[nodiscard]] bool asks() const { return book_.has_value(); }
+  [[nodiscard]] bool is_tls() const { return tls_; }
+  // Whose token this is; nothing: nobody's. Where no tokens are asked for: everybody's.
+  [[nodiscard]] std::optional<Caller> caller(const std::optional<std::string>& token);
+  // Why this may not be done.
+  [[nodiscard]] std::optional<Refusal> refusal(const Request& request, Role needed);
+
+ private:
+  std::optional<TokenBook> book_;
+  bool tls_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,178 @@
+#include "server/api/resubmission.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace armloom {
+namespace {
+
+constexpr std::size_t kKeyMax = 255;
+
+AcceptedRequests::Names names_of(const SentRequest& sent) {
+  AcceptedRequests::Names names;
+  if (!sent.key.empty()) names.push_back(AcceptedRequests::name_of_key(sent.key));
+  for (const SentRequest::Job& job : sent.jobs) {
+    if (!job.id.empty()) names.push_back(AcceptedRequests::name_of_id(job.id));
+  }
+  return names;
+}
+
+Problem other_body(const std::string& key) {
+  return {ProblemKind::conflict, "idempotency-key-in-use", "Idempotency-Key",
+          "a request with another body was accepted under this Idempotency-Key", key};
+}
+
+// By the key. Problem (conflict): it was another request's.
+Result<void> recall_key(const ApiParts& parts, const SentRequest& sent, KnownJobs& known) {
+  if (sent.key.empty()) return {};
+  const auto put = [&](std::size_t place, const std::string& id) {
+    if (place < known.size()) known[place] = id;
+  };
+  if (const auto* before = parts.accepted->find(AcceptedRequests::name_of_key(sent.key))) {
+    if (before->digest != sent.digest) return failure(other_body(sent.key));
+    for (const auto& [place, id] : before->jobs) put(place, id);
+  }
+  if (parts.keeper == nullptr) return {};
+  const auto stored = parts.keeper->history().of_request(sent.key);
+  if (!stored) return failure(stored.error());
+  for (const StoredJob& job : *stored) {
+    if (job.origin.key_digest != sent.digest) return failure(other_body(sent.key));
+    put(job.origin.place, job.id);
+  }
+  return {};
+}
+
+// By the client's own id. One of another body is no matter of this: it is refused as any is whose
+// id is in use.
+Result<void> recall_id(const ApiParts& parts, const SentRequest::Job& job, std::string& known) {
+  if (job.id.empty() || !known.empty()) return {};
+  if (const auto* before = parts.accepted->find(AcceptedRequests::name_of_id(job.id))) {
+    if (before->digest == job.digest) known = job.id;
+    return {};
+  }
+  if (parts.keeper == nullptr) return {};
+  const auto stored = parts.keeper->history().find(job.id);
+  if (!stored) return failure(stored.error());
+  if (*stored && (*stored)->origin.digest == job.digest) known = job.id;
+  return {};
+}
+
+Result<KnownJobs> known_of(const ApiParts& parts, const SentRequest& sent) {
+  KnownJobs known(sent.jobs.size());
+  if (auto found = recall_key(parts, sent, known); !found) return failure(found.error());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (auto found = recall_id(parts, sent.jobs[i], known[i]); !found) {
+      return failure(found.error());
+    }
+  }
+  return known;
+}
+
+Problem forgotten(const std::string& id) {
+  return {ProblemKind::conflict, "job-forgotten", "",
+          "this was accepted before, as job \"" + id +
+              "\", which has ended so long ago that nothing is known of it; it is not run again",
+          id};
+}
+
+Result<ListedJob> stored_or_forgotten(const ApiParts& parts, const std::string& id) {
+  if (parts.keeper == nullptr) return failure(forgotten(id));
+  auto stored = parts.keeper->history().find(id);
+  if (!stored) return failure(stored.error());
+  if (!*stored) return failure(forgotten(id));
+  return ListedJob(std::move((*stored)->view));
+}
+
+}  // namespace
+
+Parameter idempotency_parameter() {
+  return {
+      "Idempotency-Key",
+      "The request's own name: sent again with the same body it gives the same jobs, also after "
+      "the server was started again (with `--data`); with another body: 409",
+      {{"type", "string"}, {"minLength", 1}, {"maxLength", kKeyMax}},
+      false,
+      "header"};
+}
+
+Result<std::string> idempotency_key(const Request& request) {
+  if (!request.idempotency_key) return std::string();
+  const std::string& key = *request.idempotency_key;
+  const bool printable = std::ranges::all_of(key, [](char c) { return c >= ' ' && c <= '~'; });
+  if (!key.empty() && key.size() <= kKeyMax && printable) return key;
+  return failure(Problem{ProblemKind::malformed, "bad-idempotency-key", "Idempotency-Key",
+                         "an Idempotency-Key is 1 to 255 printable characters of ASCII",
+                         key.substr(0, kKeyMax)});
+}
+
+void recall(const ApiParts& parts, const SentRequestPtr& sent, Respond respond,
+            std::function<void(const KnownJobs&, const Respond&)> then) {
+  const auto names = names_of(*sent);
+  const bool is_first = parts.accepted->begin(
+      names, [&parts, sent, respond, then] { recall(parts, sent, respond, then); });
+  if (!is_first) return;
+  const Respond ending = [&parts, names, respond = std::move(respond)](Response response) {
+    respond(std::move(response));
+    parts.accepted->end(names);
+  };
+  const auto known = known_of(parts, *sent);
+  if (!known) return ending(problem_response(known.error()));
+  then(*known, ending);
+}
+
+void note_accepted(const ApiParts& parts, const SentRequest& sent, const KnownJobs& accepted) {
+  if (parts.keeper != nullptr) return;  // the store knows
+  AcceptedRequests::Accepted by_key{sent.digest, {}};
+  for (std::size_t i = 0; i < accepted.size(); ++i) {
+    if (accepted[i].empty()) continue;
+    by_key.jobs.emplace(i, accepted[i]);
+    if (!sent.jobs[i].id.empty()) {
+      parts.accepted->remember(AcceptedRequests::name_of_id(accepted[i]),
+                               {sent.jobs[i].digest, {{0, accepted[i]}}});
+    }
+  }
+  if (sent.key.empty() || by_key.jobs.empty()) return;
+  parts.accepted->remember(AcceptedRequests::name_of_key(sent.key), std::move(by_key));
+}
+
+RequestOrigin origin_of(const SentRequest& sent, std::size_t place) {
+  return {sent.jobs[place].digest, sent.key, sent.digest, place};
+}
+
+void acknowledge(const ApiParts& parts, std::vector<JobKeeper::AcceptedJob> jobs,
+                 const Respond& respond, std::function<Response()> answer) {
+  if (parts.recording != nullptr) {
+    for (const auto& accepted : jobs) {
+      parts.recording->job(accepted.job.submitted_at, accepted.body);
+    }
+  }
+  if (parts.keeper == nullptr || jobs.empty()) return respond(answer());
+  parts.keeper->accept(std::move(jobs), [respond, answer = std::move(answer)](
+                                            const std::optional<Refusal>& refusal) {
+    respond(refusal ? refusal_response(*refusal) : answer());
+  });
+}
+
+void look_at(const ApiParts& parts, const KnownJobs& ids,
+             std::function<void(std::vector<Result<ListedJob>>)> then) {
+  KnownJobs asked = ids;
+  std::erase(asked, "");
+  if (asked.empty()) return then({});
+  ask(
+      parts,
+      [asked](Executive& executive) {
+        std::vector<std::optional<JobView>> jobs;
+        for (const std::string& id : asked) jobs.push_back(executive.job(id));
+        return jobs;
+      },
+      [&parts, asked, then = std::move(then)](std::vector<std::optional<JobView>>& jobs) {
+        std::vector<Result<ListedJob>> found;
+        for (std::size_t i = 0; i < jobs.size(); ++i) {
+          found.push_back(jobs[i] ? Result<ListedJob>(ListedJob(std::move(*jobs[i])))
+                                  : stored_or_forgotten(parts, asked[i]));
+        }
+        then(std::move(found));
+      });
+}
+
+}  // namespace armloom

@@ -1,0 +1,48 @@
+// Who may use a server: `armloom token add`, `list` and `withdraw`.
+#include <iostream>
+
+#include "server/access/token_file.h"
+#include "server/command/command.h"
+
+namespace armloom {
+namespace {
+
+int list(const TokenFile& file) {
+  const auto tokens = file.read();
+  if (!tokens) return refuse("", tokens.error());
+  for (const KeptToken& token : *tokens) {
+    std::cout << token.name << ' ' << to_string(token.role) << ' ' << token.made_at << '\n';
+  }
+  return kExitDone;
+}
+
+int add(TokenFile& file, const TokenOptions& options) {
+  const auto role = role_named(options.role);
+  if (!role) {
+    return refuse("", {Problem{ProblemKind::invalid, "bad-role", "--role",
+                               "a role is viewer, operator or admin", options.role}});
+  }
+  const auto token = file.add(options.name, *role);
+  if (!token) return refuse("", token.error());
+  std::cout << *token << std::endl;
+  std::cerr << "armloom: this is the only time that it is shown\n";
+  return kExitDone;
+}
+
+}  // namespace
+
+int change_tokens(const TokenOptions& options) {
+  TokenFile file(options.file);
+  switch (options.what) {
+    case TokenOptions::What::add:
+      return add(file, options);
+    case TokenOptions::What::list:
+      return list(file);
+    case TokenOptions::What::withdraw:
+      break;
+  }
+  const auto withdrawn = file.withdraw(options.name);
+  return withdrawn ? kExitDone : refuse("", withdrawn.error());
+}
+
+}  // namespace armloom

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/codec/format.h"
+
+namespace armloom {
+
+// That someone did, or was not let do, something.
+struct AuditRecord {
+  std::string at;                  // RFC 3339
+  std::optional<std::string> who;  // the token's name
+  std::string from;                // an IP address
+  std::string method;
+  std::string path;
+  int status = 0;
+};
+
+// The answer to GET /audit.
+struct AuditPage {
+  std::vector<AuditRecord> entries;  // newest first
+  std::optional<std::string> next_cursor;
+};
+[[nodiscard]] FormatPtr<AuditPage> audit_page_format();
+
+}  // namespace armloom

@@ -1,0 +1,35 @@
+#include "server/messages/session.h"
+
+#include "server/codec/object_format.h"
+#include "server/codec/read_text.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/told_part.h"
+#include "server/codec/value_formats.h"
+
+namespace armloom {
+
+using namespace formats;
+
+FormatPtr<LogIn> log_in_format() {
+  static const auto format =
+      named("LogIn", "",
+            object<LogIn>({required("token", &LogIn::token, text(), "Of `armloom token add`")}));
+  return format;
+}
+
+Result<LogIn> read_log_in_text(std::string_view text) { return read_text(*log_in_format(), text); }
+
+FormatPtr<Session> session_format() {
+  static const auto format = named(
+      "Session", "Who asks, and what they may.",
+      object<Session>({
+          told("asks_for_token", &Session::asks_for_token, flag(), "Else everybody may everything"),
+          told("name", &Session::name, nullable(text()), "Of the token; null: there is none"),
+          told("role", &Session::role,
+               nullable(choice<Role>({Role::viewer, Role::operate, Role::admin}, to_string)),
+               "null: may nothing but log in"),
+      }));
+  return format;
+}
+
+}  // namespace armloom

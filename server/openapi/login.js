@@ -1,0 +1,19 @@
+// Sends the token once; from then on the browser has it in a cookie that scripts cannot read.
+'use strict';
+const form = document.querySelector('form');
+const said = document.querySelector('[role=alert]');
+form.addEventListener('submit', async (event) => {
+  event.preventDefault();
+  said.textContent = '';
+  try {
+    const answer = await fetch('/api/v1/session', {
+      method: 'POST',
+      headers: {'Content-Type': 'application/json'},
+      body: JSON.stringify({token: document.getElementById('token').value.trim()}),
+    });
+    if (answer.ok) return location.assign('/');
+    said.textContent = (await answer.json()).detail;
+  } catch {
+    said.textContent = 'the server does not answer';
+  }
+});

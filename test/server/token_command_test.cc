@@ -1,0 +1,75 @@
+// `armloom token`, and what `armloom serve` wants before others may reach it.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "test/server/command_fixture.h"
+#include "test/server/serve_process.h"
+#include "test/server/wire.h"
+
+namespace armloom {
+namespace {
+
+class Token : public test::CommandFixture {
+ protected:
+  std::string tokens() const { return (folder_ / "tokens").string(); }
+  std::string serve(const std::string& more) const { return "serve --cell " + test::kCell + more; }
+  std::string add(const std::string& name, const std::string& role) const {
+    const auto made = run("token add --tokens " + tokens() + " --name " + name + " --role " + role);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return made.out.substr(0, made.out.find('\n'));
+  }
+};
+
+TEST_F(Token, IsMadeListedAndWithdrawn) {
+  const std::string token = add("cell-7", "operator");
+  EXPECT_TRUE(token.starts_with("armloom_")) << token;
+  EXPECT_EQ(token.size(), 72U);
+  const auto listed = run("token list --tokens " + tokens());
+  EXPECT_TRUE(listed.out.starts_with("cell-7 operator 20")) << listed.out;
+  EXPECT_EQ(listed.out.find(token), listed.out.npos);
+  EXPECT_EQ(run("token withdraw --tokens " + tokens() + " --name cell-7").exit_code, 0);
+  EXPECT_EQ(run("token list --tokens " + tokens()).out, "");
+  EXPECT_EQ(run("token withdraw --tokens " + tokens() + " --name cell-7").exit_code, 2);
+  EXPECT_EQ(run("token add --tokens " + tokens() + " --name a --role root").exit_code, 2);
+}
+
+TEST_F(Token, AServerThatOthersReachDoesNotStartWithoutTokensAndTls) {
+  add("a", "viewer");
+  for (const std::string& options :
+       {std::string(" --listen 0.0.0.0:0"), " --listen [::]:0 --tokens " + tokens(),
+        " --listen 0.0.0.0:0 --tls-certificate x --tls-key y"}) {
+    const auto refused = run(serve(options));
+    EXPECT_EQ(refused.exit_code, 2) << options;
+    EXPECT_NE(refused.err.find("armloom token add"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("listen on 127.0.0.1"), std::string::npos) << refused.err;
+  }
+  const auto half = run(serve(" --listen 127.0.0.1:0 --tls-key y"));
+  EXPECT_EQ(half.exit_code, 2);
+  EXPECT_NE(half.err.find("go together"), std::string::npos) << half.err;
+  const auto none = run(serve(" --listen 127.0.0.1:0 --tokens " + tokens() + "x"));
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("cannot be read"), std::string::npos) << none.err;
+  const auto bad =
+      run(serve(" --listen 127.0.0.1:0 --tls-certificate " + tokens() + " --tls-key " + tokens()));
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_NE(bad.err.find("--tls-certificate"), std::string::npos) << bad.err;
+}
+
+TEST_F(Token, IsAskedForOnLoopbackWhereTheFileIsGiven) {
+  const std::string token = add("a", "viewer");
+  test::ServeProcess server(
+      {"--cell", test::kCell, "--listen", "127.0.0.1:0", "--tokens", tokens()},
+      (folder_ / "log").string());
+  EXPECT_EQ(test::request(server.port(), "GET", "/api/v1/arms").status, 401);
+  test::Wire wire(server.port());
+  wire.send("GET /api/v1/arms HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer " + token +
+            "\r\n\r\n");
+  EXPECT_EQ(test::read_answer(wire).status, 200);
+  server.signal(SIGTERM);
+  EXPECT_EQ(server.wait(), 0);
+}
+
+}  // namespace
+}  // namespace armloom
