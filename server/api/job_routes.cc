@@ -210,6 +210,7 @@ std::vector<Route> job_routes() {
   replan.outcomes = {outcome(202, "Another way is being looked for", job_format())};
   replan.refuses = {404, 409};
   replan.who = Who::commander;
+  replan.role = Role::operate;
   replan.run = replan_job;
 
   Route diagram =

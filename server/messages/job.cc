@@ -147,7 +147,7 @@ PartPtr<CheckView> make_verdict_part() {
                          {Kind::conflict, "conflict"},
                          {Kind::undecided, "undecided"}})),
       told("earliest_start_s", &View::earliest_start_s, nullable(number({0.0})),
-           "From now; 0 when free, null when not known"),
+           "From now; 0 where it would start at once, null when not known"),
       told("clearance_bound_m", &View::clearance_bound_m, nullable(number(kAnyNumber)),
            "What is proven to be kept between arms, and by arms from what stands still: the least "
            "that any such pair was held to"),

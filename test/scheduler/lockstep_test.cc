@@ -53,5 +53,23 @@ TEST(Lockstep, AJobThatAnArmStandsInTheWayOfLetsThatArmsNextJobJoin) {
   EXPECT_EQ(bench.question->candidates.front().job, right);
 }
 
+// It may take long, or never come to a way: the others' rounds go on without it.
+TEST(Lockstep, AJobWhoseWayIsNotPlannedYetIsInNoRound) {
+  Bench bench(2, "lockstep");
+  const JobId goal = bench.submit(Submit{.job = JobId{0},
+                                         .trajectory = move({0}, 0, 1, 2s),
+                                         .priority = 0,
+                                         .backlog_timeout = 60s,
+                                         .goal = MotionGoal{ArmId{0}, Eigen::VectorXd::Ones(1)}},
+                                  at(0ms));
+  const JobId right = bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.question->candidates.front().job, right);
+  bench.answer_free(at(1ms));
+  EXPECT_EQ(bench.state(right), JobState::scheduled);
+  ASSERT_EQ(bench.job(goal).waits_on.size(), 1u);
+  EXPECT_EQ(bench.job(goal).waits_on.front().kind, Wait::Kind::plan);
+}
+
 }  // namespace
 }  // namespace armloom

@@ -43,8 +43,8 @@ class LockstepPolicy final : public Policy {
     for (const auto& queue : book.queues()) {
       if (queue.empty()) continue;
       const Record& record = book.at(queue.front());
-      const bool goes =
-          record.job.is_waiting() && book.at_head(record) && !state.arms.stop_of(record.job);
+      const bool goes = record.job.is_waiting() && !record.job.is_unplanned() &&
+                        book.at_head(record) && !state.arms.stop_of(record.job);
       if (goes) round.jobs.insert(queue.front());
     }
     return round;
