@@ -32,9 +32,11 @@ class Executive::Impl final : public JobNames {
   // submission.cc
   Result<JobView> submit(JobRequest request);
   Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests, bool atomic);
+  std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
+
+  // job_commands.cc
   Result<JobView> cancel(const std::string& key);
   Result<JobView> replan(const std::string& key);
-  std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
 
   // checking.cc
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);

@@ -1,4 +1,4 @@
-// What clients ask for: jobs, batches, cancels.
+// What clients ask for: jobs and batches.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,7 +7,6 @@
 #include "core/base/told.h"
 #include "core/base/whole_turns.h"
 #include "core/executive/executive_impl.h"
-#include "core/scheduler/replanning.h"
 #include "core/scheduler/sequence/places.h"
 #include "core/trajectory/set_joints.h"
 
@@ -282,39 +281,6 @@ std::string Executive::Impl::free_key(JobId id) const {
   std::string key = base;
   for (int n = 2; ids_.contains(key); ++n) key = base + "." + std::to_string(n);
   return key;
-}
-
-Result<JobId> Executive::Impl::not_ended(const std::string& key) const {
-  const auto it = ids_.find(key);
-  if (it == ids_.end()) {
-    return failure(Problem{ProblemKind::not_found, "no-such-job", "request target",
-                           "there is no job \"" + key + "\"", key});
-  }
-  const JobId id = it->second;
-  const JobState state = scheduler_.find(id)->state();
-  if (is_terminal(state)) {
-    return failure(Problem{ProblemKind::conflict, "job-has-ended", "",
-                           "job \"" + key + "\" has ended: " + to_string(state), key});
-  }
-  return id;
-}
-
-Result<JobView> Executive::Impl::cancel(const std::string& key) {
-  const auto id = not_ended(key);
-  if (!id) return failure(id.error());
-  step(Cancel{*id});
-  return view(*scheduler_.find(*id));
-}
-
-Result<JobView> Executive::Impl::replan(const std::string& key) {
-  const auto id = not_ended(key);
-  if (!id) return failure(id.error());
-  if (const auto why = why_not_replanned(*scheduler_.find(*id))) {
-    return failure(Problem{ProblemKind::conflict, "no-other-way", "",
-                           "job \"" + key + "\" can be given no other way: " + *why, key});
-  }
-  step(Replan{*id});
-  return view(*scheduler_.find(*id));
 }
 
 }  // namespace armloom
