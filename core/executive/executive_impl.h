@@ -29,12 +29,14 @@ class Executive::Impl {
        std::shared_ptr<const Policy> policy, std::vector<std::unique_ptr<FaultyArm>> arms,
        JudgementService& judges, Observer& observer);
 
-  // submission.cc
+  // submission.cc, job_commands.cc
   Result<JobView> submit(JobRequest request);
   Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests, bool atomic);
+  std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
+
+  // job_commands.cc
   Result<JobView> cancel(const std::string& key);
   Result<JobView> replan(const std::string& key);
-  std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
 
   // asking.cc
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);

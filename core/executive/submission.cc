@@ -1,10 +1,9 @@
-// What clients ask to be done: jobs, batches, cancels; and what a former run left.
+// What clients ask to be done: jobs and batches; and what a former run left.
 #include <algorithm>
 #include <utility>
 
 #include "core/base/add_below.h"
 #include "core/executive/executive_impl.h"
-#include "core/scheduler/replanning.h"
 
 namespace armloom {
 
@@ -83,38 +82,6 @@ std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> j
     answers.push_back(publisher_.view(job.id));
   }
   return answers;
-}
-
-Result<JobId> Executive::Impl::not_ended(const std::string& key) const {
-  const auto id = jobs_.find(key);
-  if (!id) {
-    return failure(Problem{ProblemKind::not_found, "no-such-job", "request target",
-                           "there is no job \"" + key + "\"", key});
-  }
-  const JobState state = scheduler_.find(*id)->state();
-  if (is_terminal(state)) {
-    return failure(Problem{ProblemKind::conflict, "job-has-ended", "",
-                           "job \"" + key + "\" has ended: " + to_string(state), key});
-  }
-  return *id;
-}
-
-Result<JobView> Executive::Impl::cancel(const std::string& key) {
-  const auto id = not_ended(key);
-  if (!id) return failure(id.error());
-  step(Cancel{*id});
-  return publisher_.view(*id);
-}
-
-Result<JobView> Executive::Impl::replan(const std::string& key) {
-  const auto id = not_ended(key);
-  if (!id) return failure(id.error());
-  if (const auto why = why_not_replanned(*scheduler_.find(*id))) {
-    return failure(Problem{ProblemKind::conflict, "no-other-way", "",
-                           "job \"" + key + "\" can be given no other way: " + *why, key});
-  }
-  step(Replan{*id});
-  return publisher_.view(*id);
 }
 
 }  // namespace armloom

@@ -63,8 +63,7 @@ FormatPtr<AnotherWayView> another_way_format() {
       told("cause", &View::cause,
            choice<Cause>({Cause::client, Cause::timeout, Cause::blocked}, to_string),
            "Of the last time: POST /jobs/{id}/replan, on_timeout, or on_idle_blocker"),
-      told("refused", &View::refusal, nullable(text()),
-           "Why it kept the way that it had, the last time; else null"),
+      told("refused", &View::refusal, nullable(text()), "Why it kept its own, the last time"),
   });
 }
 std::optional<JobOrder> order_of(const JobView& job) {

@@ -1,0 +1,41 @@
+// Commands to one job that has not ended.
+#include <utility>
+
+#include "core/executive/executive_impl.h"
+#include "core/scheduler/replanning.h"
+
+namespace armloom {
+
+Result<JobId> Executive::Impl::not_ended(const std::string& key) const {
+  const auto id = jobs_.find(key);
+  if (!id) {
+    return failure(Problem{ProblemKind::not_found, "no-such-job", "request target",
+                           "there is no job \"" + key + "\"", key});
+  }
+  const JobState state = scheduler_.find(*id)->state();
+  if (is_terminal(state)) {
+    return failure(Problem{ProblemKind::conflict, "job-has-ended", "",
+                           "job \"" + key + "\" has ended: " + to_string(state), key});
+  }
+  return *id;
+}
+
+Result<JobView> Executive::Impl::cancel(const std::string& key) {
+  const auto id = not_ended(key);
+  if (!id) return failure(id.error());
+  step(Cancel{*id});
+  return publisher_.view(*id);
+}
+
+Result<JobView> Executive::Impl::replan(const std::string& key) {
+  const auto id = not_ended(key);
+  if (!id) return failure(id.error());
+  if (const auto why = why_not_replanned(*scheduler_.find(*id))) {
+    return failure(Problem{ProblemKind::conflict, "no-other-way", "",
+                           "job \"" + key + "\" can be given no other way: " + *why, key});
+  }
+  step(Replan{*id});
+  return publisher_.view(*id);
+}
+
+}  // namespace armloom
