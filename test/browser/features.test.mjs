@@ -1,16 +1,14 @@
 // What the dashboard shows and lets people do beside its pages: ways ahead with their authority, ghosts and
-// distances, planned and measured joints, goals by form, recovery after a stop, alerts, recordings, MCAP.
+// distances, planned and measured joints, goals by form, recovery after a stop, alerts, objects by hand.
 //
 //   node --test test/browser/features.test.mjs      (after the server and web/dist were built; see harness.mjs)
 
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { arm_now, ask, Browser, job_through, kBinary, kRoot, path_for, Server, web_require } from './harness.mjs';
+import { arm_now, ask, Browser, job_through, kRoot, path_for, Server } from './harness.mjs';
 import { difference } from './pictures.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -21,19 +19,17 @@ const kFirstView_kB = 250;
 // certified: who is in conflict is blocked, and says until when.
 const server = new Server('config/two_pandas.json', 'certified');
 const chromium = new Browser();
-const folder = mkdtempSync(join(tmpdir(), 'armloom-features-'));
 let page;
 
 before(async () => {
   const url = await server.start();
-  page = await chromium.open({ colorScheme: 'dark', acceptDownloads: true });
+  page = await chromium.open({ colorScheme: 'dark' });
   await chromium.visit(url);
 }, { timeout: 120_000 });
 
 after(async () => {
   await chromium.close();
   await server.end();
-  rmSync(folder, { recursive: true, force: true });
 }, { timeout: 30_000 });
 
 const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
@@ -207,79 +203,6 @@ test('an object is moved by hand', { timeout: 90_000 }, async () => {
   await page.screenshot(path_for('by-hand-dark'));
   await ask(page, 'DELETE', '/scene/objects/crate');
   await go('#/');
-});
-
-/** The same jobs, recorded. */
-function record() {
-  const q = [0, -1.2, 0, -2.6, 0, 1.6, 0.785];
-  const names = ['left', 'right'].map((arm) => Array.from({ length: 7 }, (_, i) => `${arm}_panda_joint${i + 1}`));
-  const jobs = names.map((joints, i) => ({ at: i, job: job_through(`recorded-${i}`, joints, [q, q.map((angle, k) => angle + (k === 0 ? 0.7 : 0)), q], 2) }));
-  writeFileSync(join(folder, 'jobs.json'), JSON.stringify(jobs));
-  execFileSync(kBinary, ['simulate', '--cell', 'config/two_pandas.json', '--jobs', join(folder, 'jobs.json'), '--out', join(folder, 'run')], { cwd: kRoot });
-}
-
-test('a recording is opened from its files and scrubbed through, and the present comes back', { timeout: 120_000 }, async () => {
-  record();
-  await page.locator('[data-test=go-recordings]').click();
-  const files = page.locator('[data-test=recording-files]');
-  await files.setInputFiles([join(folder, 'run/events.jsonl')]);
-  assert.match(await page.locator('[data-test=recording-fault]').innerText(), /no states\.csv/);
-  await files.setInputFiles(['states.csv', 'events.jsonl'].map((name) => join(folder, 'run', name)));
-  await page.locator('[data-test=opened]').waitFor({ timeout: 40_000 });
-  await page.locator('[data-test=recording]').waitFor();
-  await page.locator('[data-test=list-finished] [data-test="job-recorded-1"]').waitFor();
-  assert.match(await page.locator('[data-test=told-left]').textContent(), /nothing is planned/);
-  const before = await view_picture();
-  const scrub = page.locator('[data-test=scrub]');
-  await scrub.fill('2');
-  await page.locator('[data-test=instant]', { hasText: '0:00:02' }).waitFor();
-  const moved = await difference(chromium.context, before, await view_picture());
-  assert.ok(moved.count > kLeastGhost_px, `${moved.count} pixels changed`);
-  await page.screenshot(path_for('recording-dark'));
-  await page.locator('[data-test=play]').click();
-  await page.locator('[data-test=instant]', { hasText: '0:00:03' }).waitFor({ timeout: 30_000 });
-  await page.locator('[data-test=recording-close]').click();
-  await page.locator('[data-test=link].open').waitFor();
-  await page.locator('[data-test="job-recorded-1"]').waitFor({ state: 'detached' });
-  await page.locator('[data-test=recording]').waitFor({ state: 'detached' });
-});
-
-test('what was heard is taken away as MCAP, which its own reader reads', { timeout: 120_000 }, async () => {
-  await send('left', 'exported', [kMiddle.map((angle, i) => (i === 0 ? 0.6 : angle)), null], 4);
-  await finished('exported');
-  const [download] = await Promise.all([page.waitForEvent('download', { timeout: 90_000 }), page.locator('[data-test=export-mcap]').click()]);
-  assert.match(download.suggestedFilename(), /two_pandas\.mcap/);
-  const { McapStreamReader } = web_require('@mcap/core');
-  const reader = new McapStreamReader();
-  reader.append(readFileSync(await download.path()));
-  const schemas = new Map();
-  const topics = new Map();
-  const messages = new Map();
-  for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
-    if (record.type === 'Schema') schemas.set(record.id, record);
-    if (record.type === 'Channel') topics.set(record.id, record);
-    if (record.type !== 'Message') continue;
-    const { topic } = topics.get(record.channelId);
-    messages.set(topic, [...messages.get(topic) ?? [], JSON.parse(Buffer.from(record.data).toString())]);
-  }
-  assert.ok(reader.done(), 'the file has its end');
-  assert.deepEqual([...topics.values()].map(({ topic, schemaId }) => [topic, schemas.get(schemaId).name, schemas.get(schemaId).encoding]).sort(), [
-    ['/events', 'foxglove.Log', 'jsonschema'], ['/jobs', 'armloom.Job', 'jsonschema'], ['/joint_states', 'foxglove.JointStates', 'jsonschema'],
-    ['/scene', 'foxglove.SceneUpdate', 'jsonschema'], ['/tf', 'foxglove.FrameTransforms', 'jsonschema'],
-  ]);
-  const Ajv = web_require('ajv').default;
-  for (const { topic, schemaId } of topics.values()) {
-    const fits = new Ajv({ strict: false }).compile(JSON.parse(Buffer.from(schemas.get(schemaId).data).toString()));
-    for (const message of messages.get(topic) ?? []) assert.ok(fits(message), `${topic}: ${JSON.stringify(fits.errors)}`);
-  }
-  const joints = messages.get('/joint_states');
-  const swing = joints.map(({ joints }) => joints.find(({ name }) => name === 'left_panda_joint1').position);
-  assert.ok(Math.max(...swing) - Math.min(...swing) > 0.35, 'the arm moves in it');
-  assert.equal(messages.get('/tf').length, joints.length);
-  const hand = messages.get('/tf').map(({ transforms }) => transforms.find(({ child_frame_id }) => child_frame_id === 'left_panda_hand').translation);
-  assert.ok(Math.max(...hand.map(({ y }) => y)) - Math.min(...hand.map(({ y }) => y)) > 0.1, 'and its hand with it');
-  assert.equal(messages.get('/scene')[0].entities[0].id, 'table');
-  assert.ok(messages.get('/jobs').some(({ id, state }) => id === 'exported' && state === 'succeeded'));
 });
 
 test('no event is missed or comes twice when the connection breaks', { timeout: 60_000 }, async () => {
