@@ -29,7 +29,7 @@ class Executive::Impl {
        std::shared_ptr<const Policy> policy, std::vector<std::unique_ptr<FaultyArm>> arms,
        JudgementService& judges, Observer& observer);
 
-  // submission.cc, job_commands.cc
+  // submission.cc
   Result<JobView> submit(JobRequest request);
   Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests, bool atomic);
   std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
