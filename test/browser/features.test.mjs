@@ -45,7 +45,7 @@ async function send(arm, id, way, seconds, over = {}) {
 async function view_picture() {
   await page.evaluate(() => window.armloom.drawn());
   await page.evaluate(() => window.armloom.drawn());
-  return page.locator('.view canvas').screenshot();
+  return page.locator('.view canvas').screenshot({ timeout: 60_000 });  // a busy machine draws slowly
 }
 
 /** How many pixels a button of the cell puts away. */

@@ -34,7 +34,7 @@ after(async () => {
 async function view_picture() {
   await page.evaluate(() => window.armloom.drawn());
   await page.evaluate(() => window.armloom.drawn());
-  return page.locator('.view canvas').screenshot();
+  return page.locator('.view canvas').screenshot({ timeout: 60_000 });  // a busy machine draws slowly
 }
 
 /** The same jobs, recorded. */
