@@ -39,7 +39,7 @@ TEST_F(Token, AServerThatOthersReachDoesNotStartWithoutTokensAndTls) {
   add("a", "viewer");
   for (const std::string& options :
        {std::string(" --listen 0.0.0.0:0"), " --listen [::]:0 --tokens " + tokens(),
-        " --listen 0.0.0.0:0 --tls-certificate x --tls-key y"}) {
+        std::string(" --listen 0.0.0.0:0 --tls-certificate x --tls-key y")}) {
     const auto refused = run(serve(options));
     EXPECT_EQ(refused.exit_code, 2) << options;
     EXPECT_NE(refused.err.find("armloom token add"), std::string::npos) << refused.err;
@@ -59,9 +59,8 @@ TEST_F(Token, AServerThatOthersReachDoesNotStartWithoutTokensAndTls) {
 
 TEST_F(Token, IsAskedForOnLoopbackWhereTheFileIsGiven) {
   const std::string token = add("a", "viewer");
-  test::ServeProcess server(
-      {"--cell", test::kCell, "--listen", "127.0.0.1:0", "--tokens", tokens()},
-      (folder_ / "log").string());
+  test::ServeProcess server({"--cell", test::kCell, "--tokens", tokens()},
+                            (folder_ / "log").string());
   EXPECT_EQ(test::request(server.port(), "GET", "/api/v1/arms").status, 401);
   test::Wire wire(server.port());
   wire.send("GET /api/v1/arms HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer " + token +
