@@ -42,22 +42,20 @@ ClearanceQuery Executive::Impl::monitored(const PlanningScenePtr& scene) {
   return ClearanceQuery(scene, PairLimits::scaled(cell, cell.monitor.stop_clearance_m));
 }
 
-Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
-                      std::shared_ptr<const Policy> policy,
-                      std::vector<std::unique_ptr<FaultyArm>> arms, JudgementService& judges,
+Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementService& judges,
                       Observer& observer)
-    : cell_(cell),
+    : cell_(checked.cell),
       options_(std::move(options)),
-      scheduler_(cell, std::move(policy), cell->home()),
-      scene_(std::move(scene)),
+      scheduler_(cell_, std::move(checked.policy), cell_->home()),
+      scene_(std::move(checked.scene)),
       judges_(judges),
       observer_(observer),
-      faulty_(pointers(arms)),
-      motions_(cell, controllers(std::move(arms)), cell->home()),
+      faulty_(pointers(checked.arms)),
+      motions_(cell_, controllers(std::move(checked.arms)), cell_->home()),
       clearance_query_(monitored(scene_)),
-      monitor_period_(from_seconds(1.0 / cell->monitor.rate_hz)),
-      told_arms_(cell->arms.size(), ArmState::idle),
-      told_arm_jobs_(cell->arms.size()),
+      monitor_period_(from_seconds(1.0 / cell_->monitor.rate_hz)),
+      told_arms_(cell_->arms.size(), ArmState::idle),
+      told_arm_jobs_(cell_->arms.size()),
       told_queue_(queue()) {
   figures_.busy.assign(cell_->arms.size(), Duration{});
   figures_.min_clearance_m = figures_.between_arms_m = std::numeric_limits<double>::infinity();

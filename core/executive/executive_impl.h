@@ -25,9 +25,14 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
 
 class Executive::Impl final : public JobNames {
  public:
-  Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
-       std::shared_ptr<const Policy> policy, std::vector<std::unique_ptr<FaultyArm>> arms,
-       JudgementService& judges, Observer& observer);
+  // What create() has found good, or made: arms stand at home.
+  struct Checked {
+    CellPtr cell;
+    PlanningScenePtr scene;
+    std::shared_ptr<const Policy> policy;
+    std::vector<std::unique_ptr<FaultyArm>> arms;
+  };
+  Impl(Checked checked, ExecutiveOptions options, JudgementService& judges, Observer& observer);
 
   // submission.cc
   Result<JobView> submit(JobRequest request);

@@ -19,10 +19,13 @@ class Picture {
     body_ += "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" text-anchor=\"" + anchor +
              "\" font-size=\"" + std::to_string(size) + "\">" + text + "</text>\n";
   }
-  void box(double x, double y, double w, double h, const std::string& fill, double opacity = 1.0) {
-    body_ += "<rect x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" width=\"" + fixed(w, 1) +
-             "\" height=\"" + fixed(h, 1) + "\" fill=\"" + fill + "\" fill-opacity=\"" +
-             fixed(opacity, 2) + "\"/>\n";
+  struct Box {
+    double x, y, width, height;
+  };
+  void box(const Box& at, const std::string& fill, double opacity = 1.0) {
+    body_ += "<rect x=\"" + fixed(at.x, 1) + "\" y=\"" + fixed(at.y, 1) + "\" width=\"" +
+             fixed(at.width, 1) + "\" height=\"" + fixed(at.height, 1) + "\" fill=\"" + fill +
+             "\" fill-opacity=\"" + fixed(opacity, 2) + "\"/>\n";
   }
   void dot(double x, double y) {
     body_ += "<circle cx=\"" + fixed(x, 1) + "\" cy=\"" + fixed(y, 1) +
@@ -83,7 +86,7 @@ std::string makespan_svg(const WorkloadKind& kind, const std::vector<RunRow>& ro
     const auto of_policy = rows_of(rows, kind.name, policy);
     const double mean_s = spread_of(of_policy, &RunRow::makespan_s).mean;
     picture.word(kLeft - 8, y + 15, "end", policy);
-    picture.box(kLeft, y, scale.x(mean_s) - kLeft, 21, kColours[0], 0.75);
+    picture.box({kLeft, y, scale.x(mean_s) - kLeft, 21}, kColours[0], 0.75);
     for (std::size_t i = 0; i < of_policy.size(); ++i) {
       const double part = static_cast<double>(i + 1) / static_cast<double>(of_policy.size() + 1);
       picture.dot(scale.x(of_policy[i]->makespan_s), y + 21.0 * part);
@@ -114,7 +117,7 @@ std::string timeline_svg(const std::string& title, const Cell& cell,
   picture.word(16, 24, "start", title, 14);
   double x = kLeft;
   for (const auto& [kind, colour] : colours) {
-    picture.box(x, 36, 12, 12, kColours[colour % std::size(kColours)]);
+    picture.box({x, 36, 12, 12}, kColours[colour % std::size(kColours)]);
     picture.word(x + 18, 46, "start", kind, 12);
     x += 90.0;
   }
@@ -131,13 +134,13 @@ std::string timeline_svg(const std::string& title, const Cell& cell,
         end_s = std::max(end_s, job.to_s);
         const char* colour = kColours[colours.at(job.kind) % std::size(kColours)];
         const double gap = 0.5;  // between one job and the next
-        picture.box(scale.x(job.from_s) + gap, y, scale.x(job.to_s) - scale.x(job.from_s) - gap,
-                    kLane - 4, colour, 0.3);
+        const double width = scale.x(job.to_s) - scale.x(job.from_s) - gap;
+        picture.box({scale.x(job.from_s) + gap, y, width, kLane - 4}, colour, 0.3);
         for (const Timeline::Bar& span : timeline->moving) {
           const double from_s = std::max(span.from_s, job.from_s);
           const double to_s = std::min(span.to_s, job.to_s);
           if (span.arm != arm || to_s <= from_s) continue;
-          picture.box(scale.x(from_s), y, scale.x(to_s) - scale.x(from_s), kLane - 4, colour);
+          picture.box({scale.x(from_s), y, scale.x(to_s) - scale.x(from_s), kLane - 4}, colour);
         }
       }
       y += kLane;

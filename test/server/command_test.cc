@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "server/recording/recording.h"
 #include "test/server/command_fixture.h"
@@ -20,73 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using test::kCell;
-using test::kSource;
 using test::Outcome;
 
 class Command : public test::CommandFixture {};
-
-TEST_F(Command, ValidatePrintsWhatACellHolds) {
-  const Outcome outcome = run("validate --cell " + kCell);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("left_panda_joint4"), std::string::npos);
-  EXPECT_NE(outcome.out.find("home clearance"), std::string::npos);
-  EXPECT_NE(outcome.out.find("\ntable   "), std::string::npos) << "among the shapes";
-  EXPECT_EQ(outcome.err, "");
-}
-
-TEST_F(Command, ValidateMarksTheLimitsThatAreDefaults) {
-  const fs::path cell =
-      changed_cell("/robots/0/arms/0/limits",
-                   {{"panda_joint1", {{"acceleration_rad_s2", 5}, {"jerk_rad_s3", 900}}}});
-  const Outcome outcome = run("validate --cell " + cell.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto limits = [&](const std::string& joint) {  // without the spaces between
-    std::istringstream line(outcome.out.substr(outcome.out.find("    " + joint) + 4));
-    std::string text, word;
-    for (int i = 0; i < 8 && line >> word; ++i) text += (i > 0 ? " " : "") + word;
-    return text;
-  };
-  EXPECT_EQ(limits("left_panda_joint1"), "left_panda_joint1 -2.8973 2.8973 2.175 5 900 10* rad");
-  EXPECT_EQ(limits("left_panda_joint2"),
-            "left_panda_joint2 -1.7628 1.7628 2.175 3.75* 7500* 7.5* rad");
-  EXPECT_EQ(limits("left_panda_finger_joint1"),
-            "left_panda_finger_joint1 0 0.04 0.2 3.75* 7500* 7.5* m");
-  EXPECT_NE(outcome.out.find("* a default: velocity 1, acceleration 3.75, jerk 7500, brake twice"),
-            std::string::npos);
-  EXPECT_EQ(outcome.err, "");
-}
-
-TEST_F(Command, ValidateWarnsOfABrakeWeakerThanTheAcceleration) {
-  const fs::path cell =
-      changed_cell("/robots/1/arms/0/limits", {{"panda_joint1", {{"brake_rad_s2", 1.5}}},
-                                               {"panda_joint2", {{"brake_rad_s2", 3.75}}},
-                                               {"panda_finger_joint1", {{"brake_m_s2", 0.5}}}});
-  const Outcome outcome = run("validate --cell " + cell.string());
-  EXPECT_EQ(outcome.exit_code, 0) << "no fault";
-  const std::string limits = cell.string() + ":/robots/1/arms/0/limits/";
-  EXPECT_EQ(outcome.err,
-            "armloom: warning: " + limits +
-                "panda_finger_joint1/brake_m_s2: joint right_panda_finger_joint1: brake_m_s2 is "
-                "0.5, less than its acceleration_m_s2 of 3.75: a stop takes longer than the motion "
-                "took to begin\n"
-                "armloom: warning: " +
-                limits +
-                "panda_joint1/brake_rad_s2: joint right_panda_joint1: brake_rad_s2 is 1.5, less "
-                "than its acceleration_rad_s2 of 3.75: a stop takes longer than the motion took to "
-                "begin\n");
-}
-
-TEST_F(Command, NothingIsPrintedAsMinusZero) {
-  const fs::path cell =
-      changed_cell("/robots/0/arms/0/home", {-0.0, -1.2, -0.0, -2.6, 0.0, 1.6, 0.785});
-  const Outcome outcome = run("validate --cell " + cell.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  std::istringstream words(outcome.out);
-  for (std::string word; words >> word;) {
-    EXPECT_FALSE(word == "-0" || word == "-0," || word == "-0;") << outcome.out;
-  }
-  EXPECT_NE(outcome.out.find("home 0, -1.2, 0, -2.6, 0, 1.6, 0.785"), std::string::npos);
-}
 
 TEST_F(Command, AnOptionThatCannotBeFollowedIsNamed) {
   const std::string jobs = conflicting_jobs().string();
@@ -127,34 +62,6 @@ TEST_F(Command, AnOptionThatCannotBeFollowedIsNamed) {
     EXPECT_EQ(outcome.err.find("two_pandas.json"), std::string::npos) << outcome.err;
   }
   EXPECT_EQ(run(simulate + " --seed 18446744073709551615").exit_code, 0);
-}
-
-TEST_F(Command, BadCellsAreNamedWithFilePlaceAndValue) {
-  const struct {
-    const char* pointer;
-    json value;
-    const char* says;
-  } cases[] = {
-      {"/robots/0/urdf", "missing.urdf", "missing.urdf"},
-      {"/robots/0/urdf", file("broken.urdf", "<robot name='x'><link").string(), "broken.urdf"},
-      {"/robots/1/arms/0/group", "no_such_group", "no_such_group"},
-      {"/robots/1/prefix", "left_", "left_"},
-      {"/clearance_m", "wide", "/clearance_m"},
-      {"/unknown", 1, "/unknown"},
-      {"/robots/1/base/xyz", {-0.3, 0, 0.1}, "/home"},  // on top of the other
-      {"/scheduling/policy", "hopeful", "hopeful"},
-  };
-  for (const auto& bad : cases) {
-    const fs::path cell = changed_cell(bad.pointer, bad.value);
-    const Outcome outcome = run("validate --cell " + cell.string());
-    EXPECT_EQ(outcome.exit_code, 2) << bad.pointer << outcome.out;
-    EXPECT_NE(outcome.err.find(bad.says), std::string::npos) << outcome.err;
-    EXPECT_EQ(run("simulate --cell " + cell.string() + " --jobs " + conflicting_jobs().string())
-                  .exit_code,
-              2);
-  }
-  EXPECT_EQ(run("validate --cell " + (folder_ / "nothing.json").string()).exit_code, 2);
-  EXPECT_EQ(run("validate --cell " + file("cut.json", "{\"name\": ").string()).exit_code, 2);
 }
 
 TEST_F(Command, UsageErrorsEndWithTwo) {
@@ -217,51 +124,6 @@ TEST_F(Command, AJobRefusedAtItsTimeCountsAndEndsWithOne) {
   EXPECT_EQ(outcome.last_line()["jobs"]["refused"], 1);
   EXPECT_NE(outcome.err.find("jobs.json:/0/job/trajectory/points/0"), std::string::npos)
       << outcome.err;
-}
-
-TEST_F(Command, CheckJudgesJobsAgainstEachOtherWithoutRunningThem) {
-  const Outcome outcome = run("check --cell " + kCell + " --jobs " + conflicting_jobs().string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  std::vector<json> verdicts;
-  std::istringstream lines(outcome.out);
-  for (std::string line; std::getline(lines, line);) verdicts.push_back(json::parse(line));
-  ASSERT_EQ(verdicts.size(), 4U);
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(verdicts[i]["id"], "j" + std::to_string(i));
-  EXPECT_EQ(verdicts[0]["verdict"], "free");
-  EXPECT_EQ(verdicts[0]["earliest_start_s"], 0.0);
-  EXPECT_EQ(verdicts[2]["verdict"], "conflict");
-  EXPECT_EQ(verdicts[2]["conflicts"][0]["id"], "j0");
-  EXPECT_GT(verdicts[2]["evaluations"], 0);
-  EXPECT_TRUE(verdicts[2]["earliest_start_s"].is_null());
-
-  json one_arm = json::parse(read_text_file(conflicting_jobs()).value());
-  one_arm.erase(3);
-  one_arm.erase(2);
-  const Outcome in_order =
-      run("check --cell " + kCell + " --jobs " + file("one_arm.json", one_arm.dump()).string());
-  EXPECT_EQ(in_order.last_line()["verdict"], "free");
-  EXPECT_EQ(in_order.last_line()["earliest_start_s"], 3.0);  // when j0 has ended
-
-  const Outcome sequential =
-      run("check --policy sequential --cell " + kCell + " --jobs " + conflicting_jobs().string());
-  EXPECT_NE(sequential.out.find("\"kind\":\"capacity\",\"id\":\"j0\""), std::string::npos)
-      << sequential.out;
-}
-
-TEST_F(Command, CheckNamesBadJobsWithFilePlaceAndValue) {
-  json jobs = json::parse(read_text_file(conflicting_jobs()).value());
-  jobs[3]["job"] = test::move("right", test::kHome, test::kMiddle);  // it will stand in the middle
-  const Outcome astray =
-      run("check --cell " + kCell + " --jobs " + file("astray.json", jobs.dump()).string());
-  EXPECT_EQ(astray.exit_code, 2);
-  EXPECT_NE(astray.err.find("astray.json:/3/job/trajectory/points/0/positions/1"),
-            std::string::npos)
-      << astray.err;
-  EXPECT_EQ(astray.out, "");
-  const Outcome policy =
-      run("check --policy hopeful --cell " + kCell + " --jobs " + conflicting_jobs().string());
-  EXPECT_EQ(policy.exit_code, 2);
-  EXPECT_NE(policy.err.find("hopeful"), std::string::npos) << policy.err;
 }
 
 // The address that the server prints, read through a pipe.

@@ -1,0 +1,62 @@
+// `armloom check` as outside tools call it: jobs judged against each other.
+#include <sstream>
+#include <vector>
+
+#include "test/server/command_fixture.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+using test::kCell;
+using test::Outcome;
+
+class CheckCommand : public test::CommandFixture {};
+
+TEST_F(CheckCommand, JudgesJobsAgainstEachOtherWithoutRunningThem) {
+  const Outcome outcome = run("check --cell " + kCell + " --jobs " + conflicting_jobs().string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::vector<json> verdicts;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) verdicts.push_back(json::parse(line));
+  ASSERT_EQ(verdicts.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(verdicts[i]["id"], "j" + std::to_string(i));
+  EXPECT_EQ(verdicts[0]["verdict"], "free");
+  EXPECT_EQ(verdicts[0]["earliest_start_s"], 0.0);
+  EXPECT_EQ(verdicts[2]["verdict"], "conflict");
+  EXPECT_EQ(verdicts[2]["conflicts"][0]["id"], "j0");
+  EXPECT_GT(verdicts[2]["evaluations"], 0);
+  EXPECT_TRUE(verdicts[2]["earliest_start_s"].is_null());
+
+  json one_arm = json::parse(read_text_file(conflicting_jobs()).value());
+  one_arm.erase(3);
+  one_arm.erase(2);
+  const Outcome in_order =
+      run("check --cell " + kCell + " --jobs " + file("one_arm.json", one_arm.dump()).string());
+  EXPECT_EQ(in_order.last_line()["verdict"], "free");
+  EXPECT_EQ(in_order.last_line()["earliest_start_s"], 3.0);  // when j0 has ended
+
+  const Outcome sequential =
+      run("check --policy sequential --cell " + kCell + " --jobs " + conflicting_jobs().string());
+  EXPECT_NE(sequential.out.find("\"kind\":\"capacity\",\"id\":\"j0\""), std::string::npos)
+      << sequential.out;
+}
+
+TEST_F(CheckCommand, NamesBadJobsWithFilePlaceAndValue) {
+  json jobs = json::parse(read_text_file(conflicting_jobs()).value());
+  jobs[3]["job"] = test::move("right", test::kHome, test::kMiddle);  // it will stand in the middle
+  const Outcome astray =
+      run("check --cell " + kCell + " --jobs " + file("astray.json", jobs.dump()).string());
+  EXPECT_EQ(astray.exit_code, 2);
+  EXPECT_NE(astray.err.find("astray.json:/3/job/trajectory/points/0/positions/1"),
+            std::string::npos)
+      << astray.err;
+  EXPECT_EQ(astray.out, "");
+  const Outcome policy =
+      run("check --policy hopeful --cell " + kCell + " --jobs " + conflicting_jobs().string());
+  EXPECT_EQ(policy.exit_code, 2);
+  EXPECT_NE(policy.err.find("hopeful"), std::string::npos) << policy.err;
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,81 @@
+// Cell time as wall time, and the names of runs.
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "server/codec/stream_id.h"
+#include "server/codec/wall_clock.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+
+// 2026-11-21T09:33:00Z.
+const WallClock::Wall kStart{std::chrono::sys_days{std::chrono::year{2026} / 11 / 21} + 9h + 33min};
+
+TEST(WallClock, SaysCellTimesInUtcWithMilliseconds) {
+  const WallClock clock(kStart, 1.0);
+  EXPECT_EQ(clock.at(at(125ms)), "2026-11-21T09:33:00.125Z");
+  EXPECT_EQ(clock.at(at(14h + 27min + 1500us)), "2026-11-22T00:00:00.001Z");
+}
+
+TEST(WallClock, RunsAsManyTimesFasterAsTheCell) {
+  const WallClock clock(kStart, 10.0);
+  EXPECT_EQ(clock.wall_at(at(30s)), kStart + 3s);
+}
+
+TEST(WallClock, LeavesWhatWasToldWhereItWasWhenTheSpeedChanges) {
+  WallClock clock(kStart, 1.0);
+  clock.anchor(at(10s), kStart + 10s, 5.0);
+  EXPECT_EQ(clock.wall_at(at(4s)), kStart + 4s);
+  EXPECT_EQ(clock.wall_at(at(20s)), kStart + 12s);
+}
+
+TEST(WallClock, MakesUpForASlipAndNotForLess) {
+  WallClock clock(kStart, 2.0);
+  clock.observe(at(2s), kStart + 1s + WallClock::kSlip);
+  EXPECT_EQ(clock.wall_at(at(2s)), kStart + 1s) << "within what a machine may be late";
+  clock.observe(at(4s), kStart + 3s);
+  EXPECT_EQ(clock.wall_at(at(4s)), kStart + 3s);
+  EXPECT_EQ(clock.wall_at(at(6s)), kStart + 4s) << "at the same speed from there";
+  EXPECT_EQ(clock.wall_at(at(2s)), kStart + 1s);
+}
+
+// Instants older than all anchors are told by the oldest that is left.
+TEST(WallClock, ForgetsTheOldestAnchors) {
+  WallClock clock(kStart, 1.0);
+  for (std::size_t i = 1; i <= WallClock::kAnchorsMax; ++i) {
+    const auto second = std::chrono::seconds(i);
+    clock.anchor(at(second), kStart + 1h + second, 1.0);
+  }
+  EXPECT_EQ(clock.wall_at(at(0s)), kStart + 1h);
+}
+
+TEST(WallClock, TellsTimesOfAFormerRunAsBeforeTheBeginning) {
+  const WallClock clock(kStart, 2.0);
+  EXPECT_EQ(clock.time_before(kStart - 5s), at(-10s));
+  EXPECT_EQ(clock.wall_at(clock.time_before(kStart - 5s)), kStart - 5s);
+  EXPECT_EQ(clock.time_before(kStart + 5s), at(0s)) << "the wall's clock was set back";
+}
+
+TEST(Streams, OfASimulatedRunFollowFromItsSeed) {
+  EXPECT_EQ(stream_of_seed(7), stream_of_seed(7));
+  EXPECT_NE(stream_of_seed(7), stream_of_seed(8));
+  EXPECT_NE(random_stream(), random_stream());
+}
+
+// RFC 9562: the version and the variant.
+TEST(Streams, AreUuids) {
+  const auto uuid = [](char version) {
+    return std::regex(std::string("[0-9a-f]{8}-[0-9a-f]{4}-") + version +
+                      "[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}");
+  };
+  for (const std::uint64_t seed : {0ULL, 1ULL, ~0ULL}) {
+    EXPECT_TRUE(std::regex_match(stream_of_seed(seed), uuid('8'))) << stream_of_seed(seed);
+  }
+  EXPECT_TRUE(std::regex_match(random_stream(), uuid('4')));
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,87 @@
+// Objects that come, move and go; good and bad.
+#include "test/server/verbs_fixture.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+
+class SceneVerbs : public test::VerbsFixture {};
+
+TEST_F(SceneVerbs, ObjectsComeMoveAndGoAndEveryoneIsTold) {
+  start(1.0);
+  test::Listener listener(port());
+  const std::uint64_t version = get("/api/v1/scene").json()["version"];
+  const auto added = post("/api/v1/scene/objects",
+                          R"({"name": "rod 1", "cylinder": [0.01, 0.3], "xyz": [0, 0.9, 0.5]})");
+  ASSERT_EQ(added.status, 201) << added.body;
+  EXPECT_EQ(added.headers.at("location"), "/api/v1/scene/objects/rod%201");
+  EXPECT_EQ(added.json()["version"], version + 1);
+  EXPECT_EQ(added.json()["object"]["cylinder"], json({0.01, 0.3}));
+  EXPECT_EQ(listener.next_of("scene")["data"]["objects"].back()["name"], "rod 1");
+
+  const auto moved =
+      put("/api/v1/scene/objects/rod%201", R"({"sphere": [0.05], "xyz": [0, 1, 0.5]})");
+  EXPECT_EQ(moved.status, 200) << moved.body;
+  EXPECT_EQ(get("/api/v1/scene").json()["objects"].back()["sphere"], json({0.05}));
+  EXPECT_EQ(put("/api/v1/scene/objects/new", R"({"name": "new", "box": [0.1, 0.1, 0.1],
+                 "xyz": [0, 1.2, 0.5]})")
+                .status,
+            201);
+  const auto removed = remove("/api/v1/scene/objects/rod%201");
+  EXPECT_EQ(removed.status, 200);
+  EXPECT_EQ(removed.json()["version"], version + 4);
+  expect_refused(remove("/api/v1/scene/objects/rod%201"), 404, "", "rod 1");
+}
+
+TEST_F(SceneVerbs, ObjectsThatCannotBeAreRefusedWithPlaceAndValue) {
+  start(1.0);
+  const std::string objects = "/api/v1/scene/objects";
+  const std::uint64_t version = get("/api/v1/scene").json()["version"];
+  expect_refused(post(objects, R"({"name": "table", "sphere": [0.1], "xyz": [0, 1, 1]})"), 409,
+                 "/name", "table");
+  expect_refused(post(objects, R"({"name": "m", "mesh": "/etc/passwd"})"), 422, "/mesh",
+                 "/etc/passwd");
+  expect_refused(post(objects, R"({"name": "b", "box": [1, 0, 1]})"), 422, "/box", "array of 3");
+  expect_refused(post(objects, R"({"name": "b", "box": [1, 1]})"), 422, "/box", "array of 2");
+  expect_refused(post(objects, R"({"name": "b"})"), 422, "", "object");
+  expect_refused(post(objects, R"({"name": "b", "box": [1, 1, 1], "sphere": [1]})"), 422, "",
+                 "object");
+  expect_refused(post(objects, R"({"sphere": [1]})"), 422, "/name", nullptr);
+  expect_refused(post(objects, R"({"name": "a/b", "sphere": [1]})"), 422, "/name", "a/b");
+  expect_refused(post(objects, R"({"name": "..", "sphere": [1]})"), 422, "/name", "..");
+  expect_refused(post(objects, R"({"name": "a\u007f", "sphere": [1]})"), 422, "/name", "a\x7f");
+  expect_refused(
+      post(objects, R"({"name": "left_panda_link4", "sphere": [0.1], "xyz": [3, 0, 1]})"), 409,
+      "/name", "left_panda_link4");
+  expect_refused(put(objects + "/left", R"({"sphere": [0.1], "xyz": [3, 0, 1]})"), 409, "/name",
+                 "left");
+  expect_refused(post(objects, R"({"name": "f", "sphere": [1], "xyz": [0, 0, 1e300]})"), 422,
+                 "/xyz", "array of 3");
+  expect_refused(post(objects, R"({"name": "f", "sphere": [1], "colour": "red"})"), 422, "/colour",
+                 "red");
+  expect_refused(put(objects + "/a", R"({"name": "b", "sphere": [1]})"), 422, "/name", "b");
+  const auto into_arm = post(objects, R"({"name": "b", "sphere": [0.3], "xyz": [-0.4, 0, 0.5]})");
+  EXPECT_EQ(into_arm.status, 409) << into_arm.body;
+  EXPECT_EQ(into_arm.json()["type"], "urn:armloom:problem:object-in-arm");
+  EXPECT_NE(into_arm.json()["detail"].get<std::string>().find("left_panda"), std::string::npos);
+  EXPECT_EQ(get("/api/v1/scene").json()["version"], version);
+}
+
+TEST_F(SceneVerbs, AnObjectInTheWayMakesAJobWaitUntilItIsTakenAway) {
+  start(20.0);
+  test::Listener listener(port());
+  ASSERT_EQ(
+      post("/api/v1/scene/objects", R"({"name": "ball", "sphere": [0.1], "xyz": [0.05, 0, 1.0]})")
+          .status,
+      201);
+  ASSERT_EQ(post("/api/v1/jobs", job("l", test::kHome, test::kMiddle).dump()).status, 202);
+  const json waits = until(listener, "l", "backlogged")["waits_on"][0];
+  EXPECT_EQ(waits["kind"], "object") << waits;
+  EXPECT_EQ(waits["links"][1], "ball");
+  ASSERT_EQ(remove("/api/v1/scene/objects/ball").status, 200);
+  until(listener, "l", "succeeded");
+}
+
+}  // namespace
+}  // namespace armloom

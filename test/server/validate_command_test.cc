@@ -1,0 +1,108 @@
+// `armloom validate` as outside tools call it: what a cell holds, and what is wrong with it.
+#include <sstream>
+
+#include "test/server/command_fixture.h"
+
+namespace armloom {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::kCell;
+using test::Outcome;
+
+class ValidateCommand : public test::CommandFixture {};
+
+TEST_F(ValidateCommand, PrintsWhatACellHolds) {
+  const Outcome outcome = run("validate --cell " + kCell);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("left_panda_joint4"), std::string::npos);
+  EXPECT_NE(outcome.out.find("home clearance"), std::string::npos);
+  EXPECT_NE(outcome.out.find("\ntable   "), std::string::npos) << "among the shapes";
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(ValidateCommand, MarksTheLimitsThatAreDefaults) {
+  const fs::path cell =
+      changed_cell("/robots/0/arms/0/limits",
+                   {{"panda_joint1", {{"acceleration_rad_s2", 5}, {"jerk_rad_s3", 900}}}});
+  const Outcome outcome = run("validate --cell " + cell.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto limits = [&](const std::string& joint) {  // without the spaces between
+    std::istringstream line(outcome.out.substr(outcome.out.find("    " + joint) + 4));
+    std::string text, word;
+    for (int i = 0; i < 8 && line >> word; ++i) text += (i > 0 ? " " : "") + word;
+    return text;
+  };
+  EXPECT_EQ(limits("left_panda_joint1"), "left_panda_joint1 -2.8973 2.8973 2.175 5 900 10* rad");
+  EXPECT_EQ(limits("left_panda_joint2"),
+            "left_panda_joint2 -1.7628 1.7628 2.175 3.75* 7500* 7.5* rad");
+  EXPECT_EQ(limits("left_panda_finger_joint1"),
+            "left_panda_finger_joint1 0 0.04 0.2 3.75* 7500* 7.5* m");
+  EXPECT_NE(outcome.out.find("* a default: velocity 1, acceleration 3.75, jerk 7500, brake twice"),
+            std::string::npos);
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(ValidateCommand, WarnsOfABrakeWeakerThanTheAcceleration) {
+  const fs::path cell =
+      changed_cell("/robots/1/arms/0/limits", {{"panda_joint1", {{"brake_rad_s2", 1.5}}},
+                                               {"panda_joint2", {{"brake_rad_s2", 3.75}}},
+                                               {"panda_finger_joint1", {{"brake_m_s2", 0.5}}}});
+  const Outcome outcome = run("validate --cell " + cell.string());
+  EXPECT_EQ(outcome.exit_code, 0) << "no fault";
+  const std::string limits = cell.string() + ":/robots/1/arms/0/limits/";
+  EXPECT_EQ(outcome.err,
+            "armloom: warning: " + limits +
+                "panda_finger_joint1/brake_m_s2: joint right_panda_finger_joint1: brake_m_s2 is "
+                "0.5, less than its acceleration_m_s2 of 3.75: a stop takes longer than the motion "
+                "took to begin\n"
+                "armloom: warning: " +
+                limits +
+                "panda_joint1/brake_rad_s2: joint right_panda_joint1: brake_rad_s2 is 1.5, less "
+                "than its acceleration_rad_s2 of 3.75: a stop takes longer than the motion took to "
+                "begin\n");
+}
+
+TEST_F(ValidateCommand, NothingIsPrintedAsMinusZero) {
+  const fs::path cell =
+      changed_cell("/robots/0/arms/0/home", {-0.0, -1.2, -0.0, -2.6, 0.0, 1.6, 0.785});
+  const Outcome outcome = run("validate --cell " + cell.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::istringstream words(outcome.out);
+  for (std::string word; words >> word;) {
+    EXPECT_FALSE(word == "-0" || word == "-0," || word == "-0;") << outcome.out;
+  }
+  EXPECT_NE(outcome.out.find("home 0, -1.2, 0, -2.6, 0, 1.6, 0.785"), std::string::npos);
+}
+
+TEST_F(ValidateCommand, BadCellsAreNamedWithFilePlaceAndValue) {
+  const struct {
+    const char* pointer;
+    json value;
+    const char* says;
+  } cases[] = {
+      {"/robots/0/urdf", "missing.urdf", "missing.urdf"},
+      {"/robots/0/urdf", file("broken.urdf", "<robot name='x'><link").string(), "broken.urdf"},
+      {"/robots/1/arms/0/group", "no_such_group", "no_such_group"},
+      {"/robots/1/prefix", "left_", "left_"},
+      {"/clearance_m", "wide", "/clearance_m"},
+      {"/unknown", 1, "/unknown"},
+      {"/robots/1/base/xyz", {-0.3, 0, 0.1}, "/home"},  // on top of the other
+      {"/scheduling/policy", "hopeful", "hopeful"},
+  };
+  for (const auto& bad : cases) {
+    const fs::path cell = changed_cell(bad.pointer, bad.value);
+    const Outcome outcome = run("validate --cell " + cell.string());
+    EXPECT_EQ(outcome.exit_code, 2) << bad.pointer << outcome.out;
+    EXPECT_NE(outcome.err.find(bad.says), std::string::npos) << outcome.err;
+    EXPECT_EQ(run("simulate --cell " + cell.string() + " --jobs " + conflicting_jobs().string())
+                  .exit_code,
+              2);
+  }
+  EXPECT_EQ(run("validate --cell " + (folder_ / "nothing.json").string()).exit_code, 2);
+  EXPECT_EQ(run("validate --cell " + file("cut.json", "{\"name\": ").string()).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace armloom
