@@ -52,10 +52,10 @@ Result<std::unique_ptr<Executive>> Executive::create(CellPtr cell, ExecutiveOpti
                            "unknown controller type \"" + type + "\"; known is sim", type});
   }
 
-  auto arms = simulated_arms(cell, options.seed);
-  return std::unique_ptr<Executive>(
-      new Executive(std::make_unique<Impl>(cell, std::move(options), std::move(*scene),
-                                           std::move(*policy), std::move(arms), judges, observer)));
+  Impl::Checked checked{cell, std::move(*scene), std::move(*policy),
+                        simulated_arms(cell, options.seed)};
+  return std::unique_ptr<Executive>(new Executive(
+      std::make_unique<Impl>(std::move(checked), std::move(options), judges, observer)));
 }
 
 }  // namespace armloom

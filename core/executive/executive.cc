@@ -34,21 +34,19 @@ MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
 
 }  // namespace
 
-Executive::Impl::Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
-                      std::shared_ptr<const Policy> policy,
-                      std::vector<std::unique_ptr<FaultyArm>> arms, JudgementService& judges,
+Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementService& judges,
                       Observer& observer)
-    : cell_(cell),
+    : cell_(checked.cell),
       options_(std::move(options)),
-      scheduler_(cell, std::move(policy), cell->home()),
-      scene_{std::move(scene)},
-      faults_(cell, arms),
+      scheduler_(cell_, std::move(checked.policy), cell_->home()),
+      scene_{std::move(checked.scene)},
+      faults_(cell_, checked.arms),
       drawings_(scheduler_, jobs_, judges),
       publisher_({*cell_, scheduler_, motions_, jobs_, starts_}, observer),
       judges_(judges),
-      intake_(cell, scheduler_, jobs_, options_.waiting_max),
+      intake_(cell_, scheduler_, jobs_, options_.waiting_max),
       plans_(judges),
-      motions_(cell, controllers(std::move(arms)), cell->home()),
+      motions_(cell_, controllers(std::move(checked.arms)), cell_->home()),
       starts_(options_.starts),
       watch_(scene_.scene) {
   figures_.busy.assign(cell_->arms.size(), Duration{});

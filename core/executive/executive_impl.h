@@ -25,9 +25,14 @@ namespace armloom {
 // that decides to the arms, what changes to the publisher.
 class Executive::Impl {
  public:
-  Impl(CellPtr cell, ExecutiveOptions options, PlanningScenePtr scene,
-       std::shared_ptr<const Policy> policy, std::vector<std::unique_ptr<FaultyArm>> arms,
-       JudgementService& judges, Observer& observer);
+  // What create() has found good, or made: arms stand at home.
+  struct Checked {
+    CellPtr cell;
+    PlanningScenePtr scene;
+    std::shared_ptr<const Policy> policy;
+    std::vector<std::unique_ptr<FaultyArm>> arms;
+  };
+  Impl(Checked checked, ExecutiveOptions options, JudgementService& judges, Observer& observer);
 
   // submission.cc
   Result<JobView> submit(JobRequest request);

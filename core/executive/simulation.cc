@@ -110,15 +110,17 @@ void Simulation::run_until(TimePoint time) {
   while (next_ <= time) tick();
 }
 
-Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
-                                  std::vector<TimedJob> jobs, TimePoint time_limit,
-                                  Observer& observer, const std::vector<FaultRequest>& faults) {
+Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options, Scenario scenario,
+                                  Observer& observer) {
+  const auto begun = std::chrono::steady_clock::now();
+  std::vector<TimedJob>& jobs = scenario.jobs;
+  const TimePoint time_limit = scenario.time_limit;
   options.ended_kept = std::max(options.ended_kept, jobs.size());
   auto simulation = Simulation::create(std::move(cell), std::move(options), observer);
   if (!simulation) return failure(std::move(simulation.error()));
   Executive& executive = (*simulation)->executive();
 
-  for (const FaultRequest& fault : faults) {
+  for (const FaultRequest& fault : scenario.faults) {
     if (auto injected = executive.inject(fault); !injected) return failure(injected.error());
   }
 
@@ -143,6 +145,7 @@ Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
   result.figures = executive.figures();
   result.judging = (*simulation)->judging();
   result.jobs = executive.snapshot().jobs;
+  result.wall = std::chrono::steady_clock::now() - begun;
   return result;
 }
 

@@ -63,6 +63,13 @@ struct TimedJob {
   JobRequest job;
 };
 
+// What a cell is put through.
+struct Scenario {
+  std::vector<TimedJob> jobs;
+  TimePoint time_limit;
+  std::vector<FaultRequest> faults = {};
+};
+
 struct SimulationResult {
   RunFigures figures;
   Judging judging;
@@ -75,14 +82,13 @@ struct SimulationResult {
   bool all_ended = false;        // false: nothing could happen any more, or `time_limit` came first
   bool settled = false;          // false: `time_limit` came first, if not all have ended
   TimePoint ended_at{};
+  Duration wall{};  // what it took the machine: differs from run to run
 };
 
 // Submits the jobs at their times and runs until all have ended, until nothing can happen any more
-// (arms that are stopped, with nobody to resume them), or until `time_limit`. Problems: as
+// (arms that are stopped, with nobody to resume them), or until the time limit. Problems: as
 // create(); a fault of an unknown arm.
 [[nodiscard]] Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
-                                                std::vector<TimedJob> jobs, TimePoint time_limit,
-                                                Observer& observer,
-                                                const std::vector<FaultRequest>& faults = {});
+                                                Scenario scenario, Observer& observer);
 
 }  // namespace armloom

@@ -11,14 +11,16 @@
 namespace armloom {
 namespace {
 
-// Whether an arm that rests at `at` of its motion is in the interval; its closed edges are free,
-// but for the motion's own ends.
-// Arms of one motion may rest apart on it, from `at` to `farthest`.
-bool rests_in(Duration at, Duration farthest, Duration from, Duration to, Duration duration,
-              bool seam) {
-  const bool after = from < farthest || from <= Duration{} || seam;
-  const bool before = at < to || to >= duration;
-  return after && before && from <= farthest && at <= to;
+struct Interval {
+  Duration from, to;
+};
+
+// Whether arms that rest on a motion of this duration, from the first to the last of `at`, are in
+// the interval; its closed edges are free, but for the motion's own ends and a seam.
+bool rests_in(const Interval& at, const Interval& box, Duration duration, bool seam) {
+  const bool after = box.from < at.to || box.from <= Duration{} || seam;
+  const bool before = at.from < box.to || box.to >= duration;
+  return after && before && box.from <= at.to && at.from <= box.to;
 }
 
 // On which arms it comes right after it.
@@ -219,7 +221,8 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& 
                (first ? other_box.from_b : other_box.from_a) <= own_to &&
                own_from <= (first ? other_box.to_b : other_box.to_a);
       });
-      if (own_to <= passed || !rests_in(at, farthest, from, to, motion.duration, seam)) continue;
+      if (own_to <= passed || !rests_in({at, farthest}, {from, to}, motion.duration, seam))
+        continue;
       if (!blockade) {
         Blocker evidence{other,
                          std::nullopt,

@@ -50,7 +50,7 @@ void welcome(const ApiParts& parts, const Snapshot& snapshot) {
     Hub::Text& text = texts[newcomer.gap ? 1 : 0];
     if (!text) {
       text = std::make_shared<const std::string>(snapshot_json(
-          snapshot, *parts.cell, parts.stream, parts.loop.speed(), parts.clock, newcomer.gap));
+          {&snapshot, parts.cell.get(), parts.loop.speed(), newcomer.gap}, parts.stream, parts.clock));
     }
     if (FeedPtr feed = parts.hub.resume(snapshot.seq, text)) newcomer.then(std::move(feed));
   }

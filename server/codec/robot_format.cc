@@ -17,18 +17,23 @@ constexpr Range kHeld{-1000.0, 1000.0};  // rad or m
 constexpr Range kTime{0.0, 1e6};         // s
 constexpr Range kZeroToOne{0.0, 1.0};
 
+struct LimitText {
+  std::string name;   // without its unit
+  std::string power;  // of the unit: "_s2"
+  std::string text;
+  std::optional<Schema> stated = {};  // its default
+};
+
 // A limit by its two names: of joints that turn, and of those that slide.
 std::vector<PartPtr<JointLimitsDescription>> limit(
-    const std::string& name, std::optional<double> JointLimitsDescription::*where,
-    const std::string& power, Range range, const std::string& text,
-    std::optional<Schema> stated = std::nullopt) {
+    const LimitText& said, std::optional<double> JointLimitsDescription::*where, Range range) {
   using Limits = JointLimitsDescription;
-  const std::string angular = name + "_rad" + power;
-  const std::string linear = name + "_m" + power;
+  const std::string angular = said.name + "_rad" + said.power;
+  const std::string linear = said.name + "_m" + said.power;
   // What was given by neither name is written by the first.
   const auto part = [&](const std::string& key, bool is_linear, const std::string& words) {
     return std::make_shared<MemberPart<Limits, double>>(
-        MemberText{key, words, Need::optional, stated}, number(range),
+        MemberText{key, words, Need::optional, said.stated}, number(range),
         [where, linear, is_linear](const Limits& limits) {
           return limits.keys.contains(linear) == is_linear ? limits.*where : std::nullopt;
         },
@@ -37,7 +42,7 @@ std::vector<PartPtr<JointLimitsDescription>> limit(
           limits.keys.insert(key);
         });
   };
-  return {part(angular, false, text), part(linear, true, "The same of a joint that slides."),
+  return {part(angular, false, said.text), part(linear, true, "The same of a joint that slides."),
           at_most_one<Limits>({angular, linear})};
 }
 
@@ -47,18 +52,20 @@ FormatPtr<JointLimitsDescription> limits_format() {
     parts.insert(parts.end(), more.begin(), more.end());
   };
   using Limits = JointLimitsDescription;
-  add(limit("lower", &Limits::lower, "", kAnyNumber,
-            "Lowest position: narrows the URDF's limits, or gives what it lacks."));
-  add(limit("upper", &Limits::upper, "", kAnyNumber, "Highest position, in the same way."));
-  add(limit("velocity", &Limits::velocity, "_s", kPositive,
-            "Highest velocity: at most the URDF's, or what it lacks."));
-  add(limit("acceleration", &Limits::acceleration, "_s2", kPositive,
-            "Highest acceleration: before that of joint_limits; URDFs have none.",
-            as_json(kDefaultAcceleration)));
-  add(limit("jerk", &Limits::jerk, "_s3", kPositive, "Highest jerk, in the same way.",
-            as_json(kDefaultJerk)));
-  add(limit("brake", &Limits::brake, "_s2", kPositive,
-            "Deceleration that a stop may use; twice the acceleration unless given."));
+  add(limit({"lower", "", "Lowest position: narrows the URDF's limits, or gives what it lacks."},
+            &Limits::lower, kAnyNumber));
+  add(limit({"upper", "", "Highest position, in the same way."}, &Limits::upper, kAnyNumber));
+  add(limit({"velocity", "_s", "Highest velocity: at most the URDF's, or what it lacks."},
+            &Limits::velocity, kPositive));
+  add(limit(
+      {"acceleration", "_s2", "Highest acceleration: before that of joint_limits; URDFs have none.",
+       as_json(kDefaultAcceleration)},
+      &Limits::acceleration, kPositive));
+  add(limit({"jerk", "_s3", "Highest jerk, in the same way.", as_json(kDefaultJerk)}, &Limits::jerk,
+            kPositive));
+  add(limit(
+      {"brake", "_s2", "Deceleration that a stop may use; twice the acceleration unless given."},
+      &Limits::brake, kPositive));
   return object(std::move(parts));
 }
 

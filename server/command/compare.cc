@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <iostream>
 
@@ -63,10 +62,8 @@ Result<ComparedRun> run(const std::string& policy, const CellPtr& cell, const Jo
   executive_options.policy = policy;
   executive_options.seed = options.seed;
   Nobody nobody;
-  const auto begun = std::chrono::steady_clock::now();
   auto result =
-      simulate(cell, executive_options, file.jobs, time_limit(file.jobs, {}, *cell), nobody);
-  const Duration wall = std::chrono::steady_clock::now() - begun;
+      simulate(cell, executive_options, {file.jobs, time_limit(file.jobs, {}, *cell)}, nobody);
   if (!result) return failure(std::move(result.error()));
 
   complain_of_refusals(*result, options.jobs_file, policy);
@@ -77,7 +74,7 @@ Result<ComparedRun> run(const std::string& policy, const CellPtr& cell, const Jo
                      .judging = result->judging,
                      .all_ended = result->all_ended,
                      .least = std::ranges::max(work_done(*result, *cell)),
-                     .wall = wall};
+                     .wall = result->wall};
 }
 
 // The files of --out: opened before anything runs, written when everything has.

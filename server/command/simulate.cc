@@ -1,4 +1,3 @@
-#include <chrono>
 #include <iostream>
 #include <set>
 
@@ -44,7 +43,7 @@ class Watcher final : public Observer {
 
 std::string summary_json(const std::string& policy, std::size_t backlogged,
                          const RunSummary& summary, const SimulationResult& result,
-                         const Cell& cell, double wall_s) {
+                         const Cell& cell) {
   JsonWriter out;
   out.begin_object().field("policy", policy).field("makespan_s", summary.makespan);
   out.key("jobs").begin_object();
@@ -59,7 +58,7 @@ std::string summary_json(const std::string& policy, std::size_t backlogged,
   out.field("max", summary.wait_max).end_object();
   out.field("min_clearance_m", result.figures.min_clearance_m);
   out.field("monitor_stops", result.figures.monitor_stops);
-  out.field("wall_s", wall_s).end_object();
+  out.field("wall_s", result.wall).end_object();
   return out.take();
 }
 
@@ -96,9 +95,8 @@ int simulate_jobs(const SimulateOptions& options) {
   executive_options.policy = options.policy;
   executive_options.seed = options.seed;
   Watcher watcher(recording.get(), stream_of_seed(options.seed));
-  const auto wall_start = std::chrono::steady_clock::now();
-  auto result =
-      simulate(loaded->cell, executive_options, std::move(jobs->jobs), limit, watcher, faults);
+  auto result = simulate(loaded->cell, executive_options,
+                         {std::move(jobs->jobs), limit, std::move(faults)}, watcher);
   if (!result) {
     Problems problems = std::move(result.error());
     if (!options.policy.empty()) {
@@ -106,7 +104,6 @@ int simulate_jobs(const SimulateOptions& options) {
     }
     return refuse(options.cell_file, problems);
   }
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
 
   complain_of_refusals(*result, options.jobs_file);
   complain_of_ends(*result);
@@ -118,7 +115,7 @@ int simulate_jobs(const SimulateOptions& options) {
   }
   const std::string& policy = options.policy.empty() ? cell.scheduling.policy : options.policy;
   std::cout << summary_json(policy, watcher.backlogged(), summarise(*result, first_submit), *result,
-                            cell, wall.count())
+                            cell)
             << std::endl;
   return result->all_ended && result->refused.empty() ? kExitDone : kExitFound;
 }

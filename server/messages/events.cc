@@ -55,12 +55,6 @@ FormatPtr<Alert> alert_format() {
       }));
 }
 
-struct SnapshotView {
-  const Snapshot* snapshot;
-  const Cell* cell;
-  double speed;
-  bool gap;
-};
 FormatPtr<SnapshotView> snapshot_format() {
   using View = SnapshotView;
   const auto gap = [](const View& view) { return view.gap ? std::optional(true) : std::nullopt; };
@@ -270,9 +264,9 @@ std::string event_json(const Event& event, const std::string& stream, const Wall
       event.body);
 }
 
-std::string snapshot_json(const Snapshot& snapshot, const Cell& cell, const std::string& stream,
-                          double speed, const WallClock& clock, bool gap) {
-  const SnapshotView view{&snapshot, &cell, speed, gap};
+std::string snapshot_json(const SnapshotView& view, const std::string& stream,
+                          const WallClock& clock) {
+  const Snapshot& snapshot = *view.snapshot;
   return text_of(*kinds().snapshot.format, {&stream, snapshot.seq, snapshot.time, &view}, &clock);
 }
 

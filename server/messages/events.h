@@ -20,10 +20,15 @@ namespace armloom {
 [[nodiscard]] std::string event_json(const Event& event, const std::string& stream,
                                      const WallClock* clock);
 
-// The envelope that a new subscriber gets first. `gap`: events were lost since it was here last.
-[[nodiscard]] std::string snapshot_json(const Snapshot& snapshot, const Cell& cell,
-                                        const std::string& stream, double speed,
-                                        const WallClock& clock, bool gap);
+// The envelope that a new subscriber gets first.
+struct SnapshotView {
+  const Snapshot* snapshot;
+  const Cell* cell;
+  double speed;
+  bool gap;  // events were lost since the subscriber was here last
+};
+[[nodiscard]] std::string snapshot_json(const SnapshotView& view, const std::string& stream,
+                                        const WallClock& clock);
 
 // A pose frame, without stream and seq; positions rounded to 1e-6.
 [[nodiscard]] std::string state_json(const StateFrame& frame, const Cell& cell);

@@ -11,18 +11,18 @@ namespace {
 constexpr std::size_t kJoints = 7;
 constexpr std::array<double, kJoints> kVelocity{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61};
 
-void add_joint(Cell& cell, ArmId arm, const std::string& name, double velocity, JointKind kind,
-               double brake_per_acceleration) {
-  cell.joints.push_back({.name = name,
-                         .robot = RobotId(arm.value()),
-                         .arm = arm,
-                         .kind = kind,
-                         .lower = -2.9,
-                         .upper = 2.9,
-                         .velocity_max = velocity,
-                         .acceleration_max = kDefaultAcceleration,
-                         .jerk_max = kDefaultJerk,
-                         .brake = brake_per_acceleration * kDefaultAcceleration});
+Joint revolute_joint(ArmId arm, const std::string& name, double velocity,
+                     const CellOptions& options) {
+  return {.name = name,
+          .robot = RobotId(arm.value()),
+          .arm = arm,
+          .kind = JointKind::revolute,
+          .lower = -2.9,
+          .upper = 2.9,
+          .velocity_max = velocity,
+          .acceleration_max = kDefaultAcceleration,
+          .jerk_max = kDefaultJerk,
+          .brake = options.brake_per_acceleration * kDefaultAcceleration};
 }
 
 struct Waypoint {
@@ -112,13 +112,13 @@ CellPtr two_arm_cell(CellOptions options) {
                     .named_states = {}};
     for (std::size_t j = 0; j < kJoints; ++j) {
       description.joints.emplace_back(static_cast<std::uint32_t>(cell->joints.size()));
-      add_joint(*cell, arm, name + "_joint" + std::to_string(j + 1), kVelocity[j],
-                JointKind::revolute, options.brake_per_acceleration);
+      cell->joints.push_back(
+          revolute_joint(arm, name + "_joint" + std::to_string(j + 1), kVelocity[j], options));
     }
     if (arm == kLeft) {
       description.gripper_joints.emplace_back(static_cast<std::uint32_t>(cell->joints.size()));
-      add_joint(*cell, arm, "left_finger", 0.2, JointKind::prismatic,
-                options.brake_per_acceleration);
+      cell->joints.push_back(revolute_joint(arm, "left_finger", 0.2, options));
+      cell->joints.back().kind = JointKind::prismatic;
     }
     cell->arms.push_back(std::move(description));
   }

@@ -111,7 +111,7 @@ TEST(AuditDistances, AreThoseOfTheShapesToATenthOfAMillimetre) {
         const double distance_m = true_distance(a, X_WA, b, X_WB);
         if (distance_m < 0.0 || (distance_m > 0.0 && distance_m < kTolerance_m)) continue;
         Cell cell;
-        small::add_robot(cell, "a", X_WA, {Eigen::Vector3d::UnitZ()}, 0.4, 0.03);
+        small::add_robot(cell, "a", X_WA, {Eigen::Vector3d::UnitZ()}, {0.4, 0.03});
         cell.links[1].shapes.clear();
         small::add_shape(cell.links[1], a.shape, Eigen::Isometry3d::Identity());
         cell.objects.push_back({"part", b.shape, X_WB});

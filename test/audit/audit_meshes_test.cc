@@ -19,7 +19,7 @@ constexpr double kUp = small::kHalfTurn / 2;
 // capsule, and `object`.
 Cell cell_of(const Shape& shape, const Shape& object, const Eigen::Isometry3d& X_WO) {
   Cell cell;
-  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, 0.4, 0.03);
+  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
   cell.links[1].shapes.clear();
   small::add_shape(cell.links[1], shape, small::at_xyz(0.4, 0, 0));
   cell.objects.push_back({"part", object, X_WO});

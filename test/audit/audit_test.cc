@@ -18,8 +18,8 @@ constexpr double kUp = small::kHalfTurn / 2;
 // Two arms of one link of 0.4 m, bases 0.7 m apart on x: pointing at each other they overlap.
 Cell pair_of_arms() {
   Cell cell;
-  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, 0.4, 0.03);
-  small::add_robot(cell, "b", small::at_xyz(0.7, 0, 0), {kZ}, 0.4, 0.03);
+  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
+  small::add_robot(cell, "b", small::at_xyz(0.7, 0, 0), {kZ}, {0.4, 0.03});
   return cell;
 }
 
@@ -116,7 +116,7 @@ TEST(Audit, TakesABodyWhollyInsideAnotherForAContact) {
 
 TEST(Audit, CountsSelfPairsForContactOnly) {
   Cell cell;
-  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.03);
+  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.03});
   const auto folding = turn({0, 0, 0}, {0, 2.6, 2.6}, 1s, 1ms);
   const AuditReport report = report_of(cell, folding, 1ms);
   ASSERT_TRUE(report.first_contact.has_value());

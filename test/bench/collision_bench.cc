@@ -41,7 +41,7 @@ void compare_with_exact(const std::string& name, const States& states) {
 void tell_distance(const std::string& name, const Motions& motions) {
   ExactScene exact(motions.cell);
   const double closest_m =
-      closest_in_band(exact, motions, std::chrono::milliseconds(5), Duration{0}, 1.0, 0.0);
+      closest_in_band(exact, motions, {std::chrono::milliseconds(5)}, 1.0, 0.0);
   std::fprintf(stderr, "%-10s %4zu motions, %.1f mm apart at the closest\n", name.c_str(),
                motions.trajectories.size(), 1e3 * closest_m);
 }

@@ -36,11 +36,18 @@ void per_state(benchmark::State& run, const States& states, const Ask& ask) {
       100.0 * static_cast<double>(too_close) / static_cast<double>(asked);
 }
 
+// One of the motions, which is asked for beside the others.
+struct Candidate {
+  const Motions& motions;
+  std::size_t index;
+};
+
 // Motions of one question: the tubes and diagrams of earlier ones are not kept, so that each
 // iteration finds nothing known ("cold"); or those of the motions that run are, because they were
 // judged when they were admitted, and only the candidate is new ("running").
-void per_admission(benchmark::State& run, const Motions& motions, std::size_t candidate,
-                   const CheckMethod& method, bool running, bool must_be_free) {
+void per_admission(benchmark::State& run, const Candidate& asked, const CheckMethod& method,
+                   bool running, bool must_be_free) {
+  const auto& [motions, candidate] = asked;
   const PlanningScenePtr scene = scene_of(motions.cell);
   const Question question = admission(motions, candidate, method);
   Verdict verdict{Verdict::Kind::undecided, 0, {}, std::nullopt, 0};
@@ -50,7 +57,7 @@ void per_admission(benchmark::State& run, const Motions& motions, std::size_t ca
     if (running && motions.trajectories.size() > 1) {
       Question before = admission(motions, candidate == 0 ? 1 : 0, method);
       std::erase_if(before.others, [&](const Motion& other) {
-        return other.trajectory == motions.trajectories[candidate];
+        return other.trajectory == asked.motions.trajectories[asked.index];
       });
       benchmark::DoNotOptimize(checker.judge(before));
     }
@@ -172,7 +179,7 @@ void register_admissions(const Workloads& workloads) {
       benchmark::RegisterBenchmark(("engine/" + question + "/" + name).c_str(),
                                    [&motions, method, running](auto& run) {
                                      const bool swept = std::holds_alternative<Swept>(method);
-                                     per_admission(run, motions, 0, method, running, !swept);
+                                     per_admission(run, {motions, 0}, method, running, !swept);
                                    });
     };
     complete("admission_swept_cold", Swept{tracking}, false);
@@ -185,7 +192,7 @@ void register_admissions(const Workloads& workloads) {
     const Hall& hall = workload;
     benchmark::RegisterBenchmark(
         ("engine/regions_running/hall_" + std::to_string(others)).c_str(), [&hall](auto& run) {
-          per_admission(run, hall.motions, hall.candidate, Coordinated{0.001}, true, false);
+          per_admission(run, {hall.motions, hall.candidate}, Coordinated{0.001}, true, false);
         });
   }
 }

@@ -147,8 +147,9 @@ void Motions::state_at(Duration progress, std::size_t i, Duration lead, Configur
   }
 }
 
-double closest_in_band(ExactScene& exact, const Motions& motions, Duration step, Duration band,
+double closest_in_band(ExactScene& exact, const Motions& motions, const SampledBand& sampled,
                        double horizon_m, double enough_m) {
+  const auto [step, band] = sampled;
   double smallest = horizon_m;
   Configuration q;
   const Duration end = motions.trajectories.at(0)->duration();

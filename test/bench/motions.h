@@ -43,11 +43,16 @@ struct Motions {
   void state_at(Duration progress, std::size_t i, Duration lead, Configuration& q) const;
 };
 
-// The smallest exact distance between different arms, sampled every `step` over the common time,
-// for two motions with the first ahead of the second by any multiple of `step` up to `band` either
-// way. horizon_m when never below it. Stops early below `enough_m`.
-[[nodiscard]] double closest_in_band(ExactScene& exact, const Motions& motions, Duration step,
-                                     Duration band, double horizon_m, double enough_m);
+// Two motions over their common time, every `step`, with the first ahead of the second by any
+// multiple of `step` up to `band` either way.
+struct SampledBand {
+  Duration step;
+  Duration band{};
+};
+// The smallest exact distance between different arms there. horizon_m when never below it. Stops
+// early below `enough_m`.
+[[nodiscard]] double closest_in_band(ExactScene& exact, const Motions& motions,
+                                     const SampledBand& sampled, double horizon_m, double enough_m);
 
 // Whether all motions, sampled every `step`, keep margin_m from objects and static links and the
 // share self_clearance_m / clearance_m of it from themselves; different arms are not compared.

@@ -16,10 +16,10 @@ inline const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 inline Cell busy_cell() {
   Cell cell;
   cell.clearance_m = 0.02;
-  small::add_robot(cell, "left", small::at_xyz(-0.3, 0, 0.4), {kZ, kY, kY, kX}, 0.2, 0.05);
+  small::add_robot(cell, "left", small::at_xyz(-0.3, 0, 0.4), {kZ, kY, kY, kX}, {0.2, 0.05});
   Eigen::Isometry3d facing = small::at_xyz(0.3, 0, 0.4);
   facing.rotate(Eigen::AngleAxisd(small::kHalfTurn, kZ));
-  small::add_robot(cell, "right", facing, {kZ, kY, kY, kX}, 0.2, 0.05);
+  small::add_robot(cell, "right", facing, {kZ, kY, kY, kX}, {0.2, 0.05});
   cell.links.back().shapes.clear();
   small::add_shape(cell.links.back(), Cylinder{0.04, 0.1}, small::at_xyz(0.1, 0, 0));
   small::add_shape(cell.links.back(), Box{{0.05, 0.1, 0.02}}, small::at_xyz(0.15, 0, 0.03));

@@ -186,8 +186,8 @@ TEST(ClearanceQuery, ClosestBetweenArmsIsTheSmallestOverAllPairs) {
 TEST(ClearanceQuery, AllNamesTheClosestOfEachCounterpart) {
   Cell cell;
   const ArmId left =
-      small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.05);
-  const ArmId right = small::add_robot(cell, "right", small::at_xyz(0, 2, 0), {kZ}, 0.3, 0.05);
+      small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.05});
+  const ArmId right = small::add_robot(cell, "right", small::at_xyz(0, 2, 0), {kZ}, {0.3, 0.05});
   cell.objects.push_back({"near", Sphere{0.1}, small::at_xyz(0.15, 0, 0.155)});
   cell.objects.push_back({"nearer", Sphere{0.1}, small::at_xyz(0.15, 0, -0.152)});
   small::ScaledQuery checker(scene_of(small::shared(cell)));
@@ -211,7 +211,7 @@ TEST(ClearanceQuery, HoldsAnArmsOwnLinksToTheirOwnClearance) {
   Cell cell;
   cell.clearance_m = 0.02;
   cell.self_clearance_m = 0.005;
-  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.05);
+  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.05});
   Configuration q(3);
   q << 0.0, small::kHalfTurn - std::asin(0.11 / 0.3), 0.0;  // link3 begins 0.11 m beside link1
   small::ScaledQuery checker(scene_of(small::shared(cell)));

@@ -11,9 +11,8 @@ namespace {
 using namespace std::chrono_literals;
 using Evidence = BlockedCell::Evidence;
 
-BlockedCell cell(Duration from_a, Duration to_a, Duration from_b, Duration to_b,
-                 Evidence evidence = Evidence::none, double distance_m = 0.0) {
-  return {{from_a, to_a, from_b, to_b}, evidence, distance_m};
+BlockedCell cell(Duration from_a, Duration to_a, Duration from_b, Duration to_b) {
+  return {{from_a, to_a, from_b, to_b}, Evidence::none, 0.0};
 }
 // Both stand at the beginning of 10 s.
 constexpr ProgressBox kAll{0s, 10s, 0s, 10s};

@@ -43,8 +43,8 @@ Attachment rod_at(const Cell& cell, const std::string& name, const std::string& 
 Cell two_arms(double apart_m) {
   Cell cell;
   cell.clearance_m = 0.02;
-  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, 0.4, 0.03);
-  small::add_robot(cell, "b", small::at_xyz(apart_m, 0, 0), {kZ}, 0.4, 0.03);
+  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
+  small::add_robot(cell, "b", small::at_xyz(apart_m, 0, 0), {kZ}, {0.4, 0.03});
   return cell;
 }
 
@@ -142,7 +142,7 @@ struct Folding {
   CellPtr cell = [] {
     Cell made;
     made.clearance_m = 0.02;
-    small::add_robot(made, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.03);
+    small::add_robot(made, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.03});
     return small::shared(std::move(made));
   }();
   PlanningScenePtr bare = *PlanningScene::build(cell);

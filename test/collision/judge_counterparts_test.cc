@@ -66,7 +66,7 @@ TEST(Judge, NamesTheStaticLinkOfAnotherRobotAsScene) {
 TEST(Judge, KnowsTheSceneAndTheCandidatesOwnLinks) {
   Cell cell;
   cell.clearance_m = 0.02;
-  const ArmId arm = small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, 0.3, 0.03);
+  const ArmId arm = small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.03});
   Judged judged(cell);
   judged.question.candidates = {
       {JobId{1}, small::sweep(*judged.cell, {arm}, {0, 0, 0}, {0, 2.8, 2.8}, 2s), 0s}};

@@ -25,11 +25,11 @@ TEST(Judge, ComparesWithTheRemainingMotion) {
   Judged judged(row());
   // b leaves a's side within its first half; a turns there in the meantime.
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 4s)};
-  judged.question.others = {judged.motion(1, kB, kPi, 0, 4s, 2s)};
+  judged.question.others = {judged.begun(judged.motion(1, kB, kPi, 0, 4s), 2s)};
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
 
   // The same, but b does in its second half what a's clock would call its first.
-  judged.question.others = {judged.motion(1, kB, 0, kPi, 4s, 2s)};
+  judged.question.others = {judged.begun(judged.motion(1, kB, 0, kPi, 4s), 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.kind, Verdict::Kind::conflict);
   ASSERT_EQ(verdict.conflicts.size(), 1U);
@@ -69,12 +69,12 @@ TEST(Judge, FindsTheOwnRestThatALongerMotionPassesThrough) {
 TEST(Judge, FindsTheRestBeforeAMotionThatIsStillToStart) {
   Judged judged(row());
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 2s)};
-  judged.question.others = {judged.motion(1, kB, kPi, 0, 2s, -10s)};
+  judged.question.others = {judged.begun(judged.motion(1, kB, kPi, 0, 2s), -10s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_EQ(verdict.conflicts[0].other_time, 0s);
-  judged.question.others = {judged.motion(1, kB, kPi, 0, 2s, 0s)};
-  judged.question.candidates = {judged.motion(2, kA, kUp, 0, 2s, -2s)};
+  judged.question.others = {judged.begun(judged.motion(1, kB, kPi, 0, 2s), 0s)};
+  judged.question.candidates = {judged.begun(judged.motion(2, kA, kUp, 0, 2s), -2s)};
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
 }
 

@@ -209,7 +209,7 @@ TEST(MeshBody, ABodyInsideOfAnotherTouchesIt) {
 
 TEST(PlanningScene, SeesMeshesOfLinksAndObjectsAsTheirHulls) {
   Cell cell;
-  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {Eigen::Vector3d::UnitZ()}, 0.4, 0.03);
+  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {Eigen::Vector3d::UnitZ()}, {0.4, 0.03});
   // A slot that the arm stands in without touching: the hull has no slot.
   cell.objects.push_back(
       {"channel", small::mesh_of(small::channel(0.3)), small::at_xyz(0.0, -0.2, -0.5)});

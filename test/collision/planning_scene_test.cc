@@ -35,8 +35,8 @@ TEST(PlanningScene, RefusesANameUsedTwiceAndAnAllowedNameThatIsNone) {
 TEST(CheckHome, IsQuietWhenHomesAreFreeAndNamesEveryPairThatIsNot) {
   Cell cell;
   cell.clearance_m = 0.02;
-  small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ}, 0.3, 0.05);
-  small::add_robot(cell, "right", small::at_xyz(0, 0.13, 0), {kZ}, 0.3, 0.05);
+  small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ}, {0.3, 0.05});
+  small::add_robot(cell, "right", small::at_xyz(0, 0.13, 0), {kZ}, {0.3, 0.05});
   EXPECT_TRUE(check_home(scene_of(small::shared(cell))).empty());
   cell.clearance_m = 0.031;
   cell.objects.push_back({"shelf", Box{{1, 1, 0.1}}, small::at_xyz(0, 0, -0.12)});

@@ -20,7 +20,7 @@ inline constexpr double kSpeed_m_s = 0.5;
 
 inline void add_rail(Cell& cell, const std::string& name, const Eigen::Isometry3d& X_WB,
                      const Eigen::Vector3d& along) {
-  const ArmId arm = small::add_robot(cell, name, X_WB, {along}, 0.0, kRadius_m);
+  const ArmId arm = small::add_robot(cell, name, X_WB, {along}, {0.0, kRadius_m});
   Joint& joint = cell.joints.back();
   joint.kind = JointKind::prismatic;
   joint.lower = -2.0;

@@ -15,9 +15,9 @@ inline const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 inline Cell row() {
   Cell cell;
   cell.clearance_m = 0.02;
-  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, 0.4, 0.03);
-  small::add_robot(cell, "b", small::at_xyz(0.7, 0, 0), {kZ}, 0.4, 0.03);
-  small::add_robot(cell, "c", small::at_xyz(1.4, 0, 0), {kZ}, 0.4, 0.03);
+  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
+  small::add_robot(cell, "b", small::at_xyz(0.7, 0, 0), {kZ}, {0.4, 0.03});
+  small::add_robot(cell, "c", small::at_xyz(1.4, 0, 0), {kZ}, {0.4, 0.03});
   return cell;
 }
 inline const ArmId kA{0};
@@ -34,9 +34,12 @@ struct Judged {
     question.rest = Configuration::Constant(static_cast<Eigen::Index>(cell->joints.size()), kUp);
     question.method = TimedDiscrete{50ms};
   }
-  Motion motion(std::uint64_t job, ArmId arm, double from, double to, Duration duration,
-                Duration progress = 0s) const {
-    return {JobId{job}, small::sweep(*cell, {arm}, {from}, {to}, duration), progress};
+  Motion motion(std::uint64_t job, ArmId arm, double from, double to, Duration duration) const {
+    return {JobId{job}, small::sweep(*cell, {arm}, {from}, {to}, duration), 0s};
+  }
+  static Motion begun(Motion motion, Duration progress) {
+    motion.progress = progress;
+    return motion;
   }
   Verdict operator()() { return timed_discrete_check(question, checker); }
 

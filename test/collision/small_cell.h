@@ -44,10 +44,14 @@ inline LinkId add_link(Cell& cell, Link link) {
   return LinkId{static_cast<std::uint32_t>(cell.links.size() - 1)};
 }
 
-// A robot with one arm: a static base without shape, then one capsule of length_m for each axis,
-// end to end along x. Neighbours may touch.
+struct LinkSize {
+  double length_m;
+  double radius_m;
+};
+// A robot with one arm: a static base without shape, then one capsule for each axis, end to end
+// along x. Neighbours may touch.
 inline ArmId add_robot(Cell& cell, const std::string& name, const Eigen::Isometry3d& X_WB,
-                       const std::vector<Eigen::Vector3d>& axes, double length_m, double radius_m) {
+                       const std::vector<Eigen::Vector3d>& axes, const LinkSize& size) {
   const RobotId robot{static_cast<std::uint32_t>(cell.robots.size())};
   const ArmId arm_id{static_cast<std::uint32_t>(cell.arms.size())};
   Arm arm{name, robot, name, {}, {}, {}, {}, {}};
@@ -58,12 +62,12 @@ inline ArmId add_robot(Cell& cell, const std::string& name, const Eigen::Isometr
     cell.joints.push_back({name + "_joint" + std::to_string(i + 1), robot, arm_id,
                            JointKind::continuous, -inf, inf, 2.0, 5.0, 1000.0, 10.0});
     Link link = static_link(name + "_link" + std::to_string(i + 1), robot,
-                            at_xyz(i == 0 ? 0.0 : length_m, 0, 0));
+                            at_xyz(i == 0 ? 0.0 : size.length_m, 0, 0));
     link.arm = arm_id;
     link.parent = parent;
     link.driver = joint;
     link.axis = axes[i];
-    link.shapes = capsule_along_x(0.0, length_m, radius_m);
+    link.shapes = capsule_along_x(0.0, size.length_m, size.radius_m);
     const LinkId id = add_link(cell, link);
     if (i > 0) cell.allowed_link_pairs.insert({parent, id});
     arm.joints.push_back(joint);

@@ -66,7 +66,7 @@ small::Surface notch(double inner_m) {
 struct InNotch {
   explicit InNotch(double gap_m, bool open = false) {
     cell.clearance_m = 0.008;
-    small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {Eigen::Vector3d::UnitZ()}, 0.2, 0.03);
+    small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {Eigen::Vector3d::UnitZ()}, {0.2, 0.03});
     small::Surface surface = notch((kReach_m + gap_m) / std::cos(kPi / 2 / kFacets));
     if (open) surface.triangles.pop_back();
     cell.objects.push_back({"body", loaded(surface), Eigen::Isometry3d::Identity()});

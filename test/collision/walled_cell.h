@@ -22,14 +22,14 @@ inline CellPtr walled(As as) {
   } else if (as == As::object) {
     cell.objects.push_back({"wall", wall, X_WT});
   }
-  add_robot(cell, "a", at_xyz(0, 0, 0), {kZ, kZ}, 0.3, 0.03);
+  add_robot(cell, "a", at_xyz(0, 0, 0), {kZ, kZ}, {0.3, 0.03});
   const LinkId base = *cell.find_link("a_base");
   add_shape(cell.links[base.index()], Cylinder{0.02, 0.3}, at_xyz(0, 0, -0.25));
   if (as == As::mount) {
     add_shape(cell.links[base.index()], wall, X_WT);
     cell.links[base.index()].name = "wall";
   }
-  add_robot(cell, "b", at_xyz(1.1, 0, 0), {kZ, kZ}, 0.3, 0.03);
+  add_robot(cell, "b", at_xyz(1.1, 0, 0), {kZ, kZ}, {0.3, 0.03});
   for (Link& link : cell.links) link.robot = RobotId{0};  // one URDF for both
   for (Arm& arm : cell.arms) arm.robot = RobotId{0};
   return shared(cell);

@@ -125,9 +125,9 @@ Run run_policy(const Workload& workload, const std::string& name, const std::str
   Spectator spectator(*workload.cell);
   const bool delayed =
       std::ranges::any_of(planned, [](const PlannedJob& job) { return job.delay.has_value(); });
-  auto result = delayed
-                    ? simulate_delayed(workload.cell, options, planned, at(kTimeLimit), spectator)
-                    : simulate(workload.cell, options, std::move(jobs), at(kTimeLimit), spectator);
+  auto result =
+      delayed ? simulate_delayed(workload.cell, options, planned, at(kTimeLimit), spectator)
+              : simulate(workload.cell, options, {std::move(jobs), at(kTimeLimit)}, spectator);
   if (!result) throw std::runtime_error(result.error().front().detail);
   if (!result->refused.empty()) {
     throw std::runtime_error(result->refused.front().problems.front().detail);

@@ -44,7 +44,7 @@ bool long_task(JobMaker& maker, ArmId arm, double wanted_s, Spot& seam) {
   std::vector<Leg> legs = {
       {end->low},     {end->above},  {place->above},           {place->low, 1.0, kGrip_s},
       {place->above}, {next->above}, {next->low, 1.0, kGrip_s}};
-  if (!fill_time(maker.cell(), arm, seam.low, wanted_s, 0, legs)) return false;
+  if (!fill_time(maker.cell(), arm, seam.low, {wanted_s, 0}, legs)) return false;
   if (!maker.add(arm, TimePoint{}, {{"long", legs}})) return false;
   seam = *next;
   return true;

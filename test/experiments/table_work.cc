@@ -29,10 +29,11 @@ std::optional<Spot> spot_in_tray(JobMaker& maker, ArmId arm, const Box2& box_B) 
   return spot(maker, arm, p_WT.x(), p_WT.y());
 }
 
-bool fill_time(const Cell& cell, ArmId arm, const Eigen::VectorXd& start, double wanted_s,
-               std::size_t leg, std::vector<Leg>& legs) {
+bool fill_time(const Cell& cell, ArmId arm, const Eigen::VectorXd& start, const WantedTime& wanted,
+               std::vector<Leg>& legs) {
+  const std::size_t leg = wanted.slowed;
   const std::vector<WaypointRequest> points = way(cell, arm, start, legs).points;
-  const double spare_s = wanted_s - points.back().time_from_start_s;
+  const double spare_s = wanted.whole_s - points.back().time_from_start_s;
   if (spare_s < 0.0) return false;
   const double fastest_s = line_time_s(cell, arm, leg == 0 ? start : legs[leg - 1].q, legs[leg].q);
   legs[leg].speed = fastest_s / (whole_10_ms(fastest_s) + spare_s);

@@ -31,9 +31,14 @@ inline constexpr Box2 kMiddle_W{-0.06, 0.06, -0.15, 0.15};
 // The arm's own tray, in the frame of its base, which looks to the middle.
 [[nodiscard]] std::optional<Spot> spot_in_tray(JobMaker& maker, ArmId arm, const Box2& box_B);
 
-// Slows one leg down until the whole way from `start` takes `wanted_s`; false: it takes longer.
+// What a whole way is to take, by one leg of it that goes more slowly.
+struct WantedTime {
+  double whole_s;
+  std::size_t slowed;
+};
+// Slows the way from `start` down to that; false: it takes longer anyway.
 [[nodiscard]] bool fill_time(const Cell& cell, ArmId arm, const Eigen::VectorXd& start,
-                             double wanted_s, std::size_t leg, std::vector<Leg>& legs);
+                             const WantedTime& wanted, std::vector<Leg>& legs);
 
 // Draws again until the task is taken. Throws std::runtime_error when none is found.
 void until_taken(const std::function<bool()>& task);

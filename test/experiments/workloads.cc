@@ -170,7 +170,7 @@ Workload apart(std::uint64_t seed) {
         if (!from || !to) return false;
         std::vector<Leg> legs = {
             {from->above}, {from->low}, {from->above}, {to->above}, {maker.home(arm)}};
-        return fill_time(maker.cell(), arm, maker.home(arm), kTakt_s, 3, legs) &&
+        return fill_time(maker.cell(), arm, maker.home(arm), {kTakt_s, 3}, legs) &&
                maker.add(arm, TimePoint{}, {{"tend", legs}});
       });
     }

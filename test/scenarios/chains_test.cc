@@ -88,7 +88,7 @@ TEST_P(ChainsUnder, AllSucceedAndNeverTouch) {
     Closest closest;
     const auto result = simulate(cell_of(load, on_idle_blocker),
                                  ExecutiveOptions{.policy = policy, .waiting_max = 1000},
-                                 load.jobs(), at(from_seconds(3.0 * load_s + 100.0)), closest);
+                                 {load.jobs(), at(from_seconds(3.0 * load_s + 100.0))}, closest);
     ASSERT_TRUE(result);
     std::size_t ended_well = 0;
     std::string first_other;

@@ -176,7 +176,7 @@ void run(const Way& way, Crowd crowd, std::uint64_t seed, Tally& tally) {
   ASSERT_TRUE(cell) << name;
   Closest closest;
   const auto result =
-      simulate(*cell, ExecutiveOptions{.policy = way.policy}, world.jobs(), at(600s), closest);
+      simulate(*cell, ExecutiveOptions{.policy = way.policy}, {world.jobs(), at(600s)}, closest);
   ASSERT_TRUE(result) << name << ": " << result.error().front().detail;
   const std::size_t failed_before = tally.jobs - tally.succeeded;
   for (const auto& refused : result->refused) {  // told at once why: its arm was sent aside

@@ -107,7 +107,7 @@ TEST_P(PandaChains, AllSucceedAndTheAuditFindsNoContact) {
       for (JobRequest& job : chain(cell, seed)) timed.push_back({at(0s), std::move(job)});
       Recorder recorder;
       const auto result =
-          simulate(cell, ExecutiveOptions{.policy = GetParam()}, timed, at(600s), recorder);
+          simulate(cell, ExecutiveOptions{.policy = GetParam()}, {timed, at(600s)}, recorder);
       ASSERT_TRUE(result);
       for (const JobView& job : result->jobs) {
         EXPECT_EQ(job.state, JobState::succeeded) << name << " seed " << seed << ": " << told(job);

@@ -92,8 +92,9 @@ TEST_P(Settled, ASimulationEndsThenAndNotWhenItsLimitIsOver) {
   jobs.push_back({at(0s), slide("x", -1, 1, 2, "gives up")});
   jobs.push_back({at(5s), slide("x", 1, -1, 2, "comes back")});
   ExecutiveOptions options{.policy = GetParam()};
-  const auto result = simulate(built, options, std::move(jobs), at(100'000s), log,
-                               {fault("x", ArmFault::Kind::fault, 1s)});
+  const auto result =
+      simulate(built, options,
+               {std::move(jobs), at(100'000s), {fault("x", ArmFault::Kind::fault, 1s)}}, log);
   ASSERT_TRUE(result);
   EXPECT_TRUE(result->all_ended || result->settled);
   EXPECT_LT(result->ended_at, at(70s));
@@ -114,7 +115,7 @@ TEST_P(Settled, ALongWaitOfABlockedJobIsPassedOver) {
   jobs.push_back({at(0s), slide("x", -1, 0, 2, "in the middle")});
   jobs.push_back({at(3s), slide("y", -1, 1, 3, "passes")});
   const auto result = simulate(build_cell(description).value(), {.policy = GetParam()},
-                               std::move(jobs), at(2'000'000s), cycles);
+                               {std::move(jobs), at(2'000'000s)}, cycles);
   ASSERT_TRUE(result && result->all_ended);
   EXPECT_EQ(result->jobs.back().reason, Reason::backlog_timeout);
   EXPECT_GE(result->ended_at, at(1'000'000s));
@@ -142,7 +143,7 @@ TEST_P(Settled, RestsAreToldAsTheyBeginAndEnd) {
   jobs.push_back({at(1s), slide("x", -1, 1, 2)});
   jobs.push_back({at(20s), slide("y", -1, 1, 2)});
   const auto result = simulate(build_cell(crossing_description()).value(), {.policy = GetParam()},
-                               std::move(jobs), at(60s), rests);
+                               {std::move(jobs), at(60s)}, rests);
   ASSERT_TRUE(result && result->all_ended);
   EXPECT_EQ(rests.moved_m, 0.0);
   EXPECT_GE(rests.rows_at_rest, 5);

@@ -8,25 +8,28 @@ namespace armloom::test {
 // that lifts, and a head. Its SRDF has groups of every kind.
 inline std::string torso_urdf() {
   std::string text = R"(<robot name="torso_robot"><link name="base"/>)";
-  const auto joint = [&](const std::string& name, const std::string& parent,
-                         const std::string& type, const std::string& axis, const std::string& xyz,
-                         const std::string& limit) {
+  struct Moves {  // prismatic or revolute, along or about this axis, as far as this
+    std::string type, axis, limit;
+  };
+  const auto joint = [&](const std::string& name, const std::string& parent, const std::string& xyz,
+                         const Moves& moves) {
     text += "<link name=\"" + name + "_link\"><collision><origin xyz=\"0 0 0.1\"/><geometry>" +
             "<cylinder radius=\"0.03\" length=\"0.16\"/></geometry></collision></link>";
-    text += "<joint name=\"" + name + "\" type=\"" + type + "\"><parent link=\"" + parent +
+    text += "<joint name=\"" + name + "\" type=\"" + moves.type + "\"><parent link=\"" + parent +
             "\"/><child link=\"" + name + "_link\"/><origin xyz=\"" + xyz + "\"/><axis xyz=\"" +
-            axis + "\"/><limit " + limit + " effort=\"1\" velocity=\"1\"/></joint>";
+            moves.axis + "\"/><limit " + moves.limit + " effort=\"1\" velocity=\"1\"/></joint>";
   };
   const std::string turn = R"(lower="-2.5" upper="2.5")";
-  joint("torso_lift", "base", "prismatic", "0 0 1", "0 0 0", R"(lower="0" upper="0.4")");
-  joint("head_pan", "torso_lift_link", "revolute", "0 0 1", "0 0 0.9", turn);
+  joint("torso_lift", "base", "0 0 0", {"prismatic", "0 0 1", R"(lower="0" upper="0.4")"});
+  joint("head_pan", "torso_lift_link", "0 0 0.9", {"revolute", "0 0 1", turn});
+  const Moves about_x{"revolute", "1 0 0", turn};
   for (const std::string side : {"left", "right"}) {
     const std::string y = side == "left" ? "0.4" : "-0.4";
-    joint(side + "_1", "torso_lift_link", "revolute", "1 0 0", "0 " + y + " 0.5", turn);
-    joint(side + "_2", side + "_1_link", "revolute", "1 0 0", "0 0 0.25", turn);
-    joint(side + "_3", side + "_2_link", "revolute", "1 0 0", "0 0 0.25", turn);
-    joint(side + "_finger", side + "_3_link", "prismatic", "0 0 1", "0 0 0.25",
-          R"(lower="0" upper="0.02")");
+    joint(side + "_1", "torso_lift_link", "0 " + y + " 0.5", about_x);
+    joint(side + "_2", side + "_1_link", "0 0 0.25", about_x);
+    joint(side + "_3", side + "_2_link", "0 0 0.25", about_x);
+    joint(side + "_finger", side + "_3_link", "0 0 0.25",
+          {"prismatic", "0 0 1", R"(lower="0" upper="0.02")"});
   }
   return text + "</robot>";
 }

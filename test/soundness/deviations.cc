@@ -9,15 +9,16 @@ constexpr double kNear_s = 0.05;
 
 class Downhill {
  public:
-  Downhill(bench::ExactScene& exact, const MovingPair& pair, double tracking_error,
-           double horizon_m)
-      : exact_(exact), pair_(pair), error_(tracking_error), horizon_m_(horizon_m) {
+  Downhill(bench::ExactScene& exact, const MovingPair& pair, const DeviationAttack& attack)
+      : exact_(exact), pair_(pair), attack_(attack) {
     for (const Motion* motion : {&pair.candidate, &pair.other}) {
       for (const JointId joint : motion->trajectory->joints()) joints_.push_back(joint.index());
     }
   }
 
-  double from(double own_s, double other_s, std::vector<double> share) {
+  double from(const PlaceOfPair& place, std::vector<double> share) {
+    const double own_s = to_seconds(place.own_time);
+    const double other_s = to_seconds(place.other_time);
     at_ = {own_s, other_s, std::move(share)};
     best_m_ = look(at_);
     for (double step_s = 0.2 * kNear_s; step_s > 1e-5;) {
@@ -70,15 +71,14 @@ class Downhill {
     pair_.state_at(0.0, state.own_s - to_seconds(pair_.candidate.progress),
                    state.other_s - to_seconds(pair_.other.progress), q_);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      q_[static_cast<Eigen::Index>(joints_[j])] += error_ * state.share[j];
+      q_[static_cast<Eigen::Index>(joints_[j])] += attack_.tracking_error * state.share[j];
     }
-    return exact_.between_arms(q_, horizon_m_);
+    return exact_.between_arms(q_, attack_.horizon_m);
   }
 
   bench::ExactScene& exact_;
   const MovingPair& pair_;
-  double error_;
-  double horizon_m_;
+  DeviationAttack attack_;
   std::vector<std::size_t> joints_;
   Configuration q_;
   State at_;
@@ -87,18 +87,17 @@ class Downhill {
 
 }  // namespace
 
-double closest_with_deviations(bench::ExactScene& exact, const MovingPair& pair, Duration own_time,
-                               Duration other_time, double tracking_error, double horizon_m,
-                               int throws, std::mt19937_64& random) {
-  Downhill downhill(exact, pair, tracking_error, horizon_m);
-  double closest_m = horizon_m;
-  for (int i = 0; i <= throws; ++i) {
+double closest_with_deviations(bench::ExactScene& exact, const MovingPair& pair,
+                               const PlaceOfPair& place, const DeviationAttack& attack,
+                               std::mt19937_64& random) {
+  Downhill downhill(exact, pair, attack);
+  double closest_m = attack.horizon_m;
+  for (int i = 0; i <= attack.throws; ++i) {
     std::vector<double> share(downhill.joints(), 0.0);
     if (i > 0) {
       for (double& s : share) s = uniform(random, -1.0, 1.0);
     }
-    closest_m = std::min(
-        closest_m, downhill.from(to_seconds(own_time), to_seconds(other_time), std::move(share)));
+    closest_m = std::min(closest_m, downhill.from(place, std::move(share)));
   }
   return closest_m;
 }

@@ -5,13 +5,23 @@
 
 namespace armloom::soundness {
 
-// The smallest exact distance of the two arms of a pair that is found where one of them is at
-// `own_time` and the other at `other_time`, or within 50 ms of that, each joint up to
-// `tracking_error` off its path: steps downhill, joint by joint and time by time, from there and
-// from `throws` random deviations. At most horizon_m.
+// Where one arm of a pair is on its way, and the other on its own.
+struct PlaceOfPair {
+  Duration own_time;
+  Duration other_time;
+};
+// What is tried: each joint up to `tracking_error` off its path, from `throws` random deviations.
+struct DeviationAttack {
+  double tracking_error;
+  int throws;
+  double horizon_m;  // what is farther apart is not told
+};
+
+// The smallest exact distance of the two arms of a pair that is found at a place, or within 50 ms
+// of it: steps downhill, joint by joint and time by time, from there and from each throw.
 [[nodiscard]] double closest_with_deviations(bench::ExactScene& exact, const MovingPair& pair,
-                                             Duration own_time, Duration other_time,
-                                             double tracking_error, double horizon_m, int throws,
+                                             const PlaceOfPair& place,
+                                             const DeviationAttack& attack,
                                              std::mt19937_64& random);
 
 }  // namespace armloom::soundness

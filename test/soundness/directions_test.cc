@@ -62,17 +62,17 @@ class Arm {
       }
     }
     const filter::Kernel& kernel = filter::best_kernel();
-    kernel.place(view_, q.data(), {frames_.data(), axes_.data(), capsules_.data()});
-    kernel.inflate(view_, axes_.data(), capsules_.data(), spans_.data(), motion_bounds_.data(),
-                   bends_.data());
+    const filter::Placed placed{frames_.data(), axes_.data(), capsules_.data()};
+    kernel.place(view_, q.data(), placed);
+    kernel.inflate(view_, placed, spans_.data(), {motion_bounds_.data(), bends_.data()});
   }
 
   [[nodiscard]] const RandomLinkage& linkage() const { return linkage_; }
-  [[nodiscard]] filter::Side side() const {
-    return {capsules_.data(), motion_bounds_.data(), nullptr};
+  [[nodiscard]] NumberedCapsule capsule(int number) const {
+    return {number, linkage_.capsules[static_cast<std::size_t>(number)]};
   }
-  [[nodiscard]] filter::Joints joints() const {
-    return {&view_, axes_.data(), drifts_.data(), looses_.data(), bends_.data()};
+  [[nodiscard]] filter::MovedCapsules moved() const {
+    return {capsules_.data(), &view_, axes_.data(), drifts_.data(), looses_.data(), bends_.data()};
   }
   [[nodiscard]] CenteredSegment segment(int capsule, int lane) const {
     CenteredSegment segment;
@@ -103,10 +103,8 @@ struct Tally {
 double largest_kept(const Arm& a, const Arm& b, int capsule_a, int capsule_b) {
   const auto kept = [&](double limit_m) {
     const filter::Pair pair =
-        kernel_pair(capsule_a, a.linkage().capsules[static_cast<std::size_t>(capsule_a)], capsule_b,
-                    b.linkage().capsules[static_cast<std::size_t>(capsule_b)], limit_m, kMargin_m);
-    return filter::best_kernel().keep_apart(a.side(), a.joints(), b.side(), b.joints(), pair, 1U) !=
-           0;
+        kernel_pair(a.capsule(capsule_a), b.capsule(capsule_b), limit_m, kMargin_m);
+    return filter::best_kernel().keep_apart(a.moved(), b.moved(), pair, 1U) != 0;
   };
   double low = 0.0, high = 4.0;
   if (!kept(low)) return -1.0;
@@ -129,9 +127,8 @@ Tally attack(double span_max, std::size_t rounds) {
     const double limit_m = largest_kept(a, b, capsule_a, capsule_b);
     if (limit_m < 0.0) continue;
     ++tally.pairs;
-    const double radii_m =
-        static_cast<double>(a.linkage().capsules[static_cast<std::size_t>(capsule_a)].radius_up +
-                            b.linkage().capsules[static_cast<std::size_t>(capsule_b)].radius_up);
+    const double radii_m = static_cast<double>(a.capsule(capsule_a).capsule.radius_up +
+                                               b.capsule(capsule_b).capsule.radius_up);
     const auto distance_m = [&](int lane_a, int lane_b) {
       return segment_segment_distance(a.segment(capsule_a, lane_a), b.segment(capsule_b, lane_b)) -
              radii_m;

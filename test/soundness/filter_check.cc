@@ -14,7 +14,6 @@
 #include "core/model/cell/build_cell.h"
 #include "core/model/kinematics.h"
 #include "server/codec/cell_codec.h"
-#include "test/soundness/kernel_calls.h"
 #include "test/soundness/pairs.h"
 #include "test/soundness/plain_fcl.h"
 
@@ -115,7 +114,7 @@ class Checker {
     const filter::Side a = arms_[set.a].side();
     const filter::Side b = arms_[set.b].side();
     hits_.resize(std::max(set.pairs.pairs.size(), set.pairs.boxes.size()) + 1);
-    const int pairs = near_pairs(kernel, a, b, set.pairs.pairs, 0xFF, hits_.data());
+    const int pairs = kernel.near_pairs(a, b, set.pairs.ungrouped(), 0xFF, hits_.data());
     if (static_cast<std::size_t>(pairs) != set.pairs.pairs.size()) {
       throw std::logic_error("the filter leaves out pairs that it was to tell");
     }
@@ -151,8 +150,8 @@ class Checker {
       return link ? poses_[lane][link->index()] : bodies_.objects[part - bodies_.links_end].X_WO;
     };
     const double near_m = filter_m + kNear_m;
-    const double exact_m =
-        body_distance(bodies_, pair.a, pose(pair.a), pair.b, pose(pair.b), near_m);
+    const double exact_m = body_distance(bodies_.shapes, {bodies_.bodies[pair.a], pose(pair.a)},
+                                         {bodies_.bodies[pair.b], pose(pair.b)}, near_m);
     if (exact_m < filter_m) fail(pair, "filter", filter_m, "exact", exact_m);
     if (filter_m > kNear_m) return;
     ++report_.by_fcl;

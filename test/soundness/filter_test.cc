@@ -7,7 +7,6 @@
 #include "core/collision/filter/arm_kinematics.h"
 #include "core/collision/filter/kernels.h"
 #include "test/soundness/filter_check.h"
-#include "test/soundness/kernel_calls.h"
 #include "test/soundness/pairs.h"
 #include "test/soundness/random_linkage.h"
 
@@ -48,30 +47,43 @@ TEST(Filter, TakesARoundingMarginOfAtMostTenMicrometres) {
   EXPECT_LE(report.margin_m, 1e-5);
 }
 
+// Configurations of an arm, how far its joints may be from them, and what it is compared with.
+struct Comparison {
+  const RandomLinkage& arm;
+  std::vector<double> q;
+  std::vector<float> span;
+  std::vector<filter::Pair> pairs = {};
+  std::vector<filter::BoxPair> boxes = {};
+  unsigned lanes = 0xFF;
+};
+
 // All that one kernel makes of one arm held against itself.
 struct Results {
-  Results(const filter::Kernel& kernel, const RandomLinkage& arm, const std::vector<double>& q,
-          const std::vector<float>& span, const std::vector<filter::Pair>& pairs,
-          const std::vector<filter::BoxPair>& boxes, unsigned lanes)
+  Results(const filter::Kernel& kernel, const Comparison& of) : Results(kernel, of, of.arm) {}
+
+  std::vector<double> frames;
+  std::vector<float> axes, capsules, motion_bounds, bends;
+  std::vector<filter::Hit> hits, box_hits;
+
+ private:
+  Results(const filter::Kernel& kernel, const Comparison& of, const RandomLinkage& arm)
       : frames(arm.frames.size() * 12 * kLanes),
         axes(arm.frames.size() * 6 * kLanes),
         capsules(arm.capsules.size() * 6 * kLanes),
         motion_bounds(static_cast<std::size_t>(arm.rows) * kLanes),
         bends(arm.capsules.size() * kLanes),
-        hits(pairs.size() + 1),
-        box_hits(boxes.size() + 1) {
-    kernel.place(arm.view(), q.data(), {frames.data(), axes.data(), capsules.data()});
-    kernel.inflate(arm.view(), axes.data(), capsules.data(), span.data(), motion_bounds.data(),
-                   bends.data());
+        hits(of.pairs.size() + 1),
+        box_hits(of.boxes.size() + 1) {
+    const filter::Placed placed{frames.data(), axes.data(), capsules.data()};
+    kernel.place(arm.view(), of.q.data(), placed);
+    kernel.inflate(arm.view(), placed, of.span.data(), {motion_bounds.data(), bends.data()});
     const filter::Side side{capsules.data(), motion_bounds.data()};
+    const filter::Pairs pairs{of.pairs.data(), static_cast<int>(of.pairs.size()), {}};
     hits.resize(
-        static_cast<std::size_t>(near_pairs(kernel, side, side, pairs, lanes, hits.data())));
+        static_cast<std::size_t>(kernel.near_pairs(side, side, pairs, of.lanes, hits.data())));
     box_hits.resize(static_cast<std::size_t>(kernel.near_boxes(
-        side, boxes.data(), static_cast<int>(boxes.size()), lanes, box_hits.data())));
+        side, of.boxes.data(), static_cast<int>(of.boxes.size()), of.lanes, box_hits.data())));
   }
-  std::vector<double> frames;
-  std::vector<float> axes, capsules, motion_bounds, bends;
-  std::vector<filter::Hit> hits, box_hits;
 };
 
 template <class T>
@@ -97,7 +109,7 @@ std::vector<filter::Pair> all_pairs(const RandomLinkage& arm, std::mt19937_64& r
     for (int b = a + 1; b < static_cast<int>(arm.capsules.size()); ++b) {
       const filter::Capsule& at_a = arm.capsules[static_cast<std::size_t>(a)];
       const filter::Capsule& at_b = arm.capsules[static_cast<std::size_t>(b)];
-      filter::Pair pair = kernel_pair(a, at_a, b, at_b, uniform(random, 0.0, 0.4), 1e-6);
+      filter::Pair pair = kernel_pair({a, at_a}, {b, at_b}, uniform(random, 0.0, 0.4), 1e-6);
       pair.row_a = at_a.motion_bounds_begin;
       pair.row_b = at_b.motion_bounds_begin;
       pairs.push_back(pair);
@@ -130,18 +142,18 @@ TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
   std::size_t hits = 0, left_out = 0;
   for (int round = 0; round < 1'250; ++round) {  // of eight configurations
     const RandomLinkage arm(random);
-    std::vector<double> q(static_cast<std::size_t>(arm.joints * kLanes));
-    for (double& x : q) x = random() % 8 == 0 ? 0.0 : uniform(random, -7.0, 7.0);
-    std::vector<float> span(arm.frames.size() * kLanes);
-    for (float& x : span) x = static_cast<float>(uniform(random, 0.0, 0.05));
-    const auto pairs = all_pairs(arm, random);
-    const auto boxes = boxes_for(arm, random);
-    const auto lanes = static_cast<unsigned>(random() % 256);
-    const Results reference(filter::kScalarKernel, arm, q, span, pairs, boxes, lanes);
+    Comparison of{arm, std::vector<double>(static_cast<std::size_t>(arm.joints * kLanes)),
+                  std::vector<float>(arm.frames.size() * kLanes)};
+    for (double& x : of.q) x = random() % 8 == 0 ? 0.0 : uniform(random, -7.0, 7.0);
+    for (float& x : of.span) x = static_cast<float>(uniform(random, 0.0, 0.05));
+    of.pairs = all_pairs(arm, random);
+    of.boxes = boxes_for(arm, random);
+    of.lanes = static_cast<unsigned>(random() % 256);
+    const Results reference(filter::kScalarKernel, of);
     hits += reference.hits.size();
-    left_out += pairs.size() - reference.hits.size();
+    left_out += of.pairs.size() - reference.hits.size();
     for (const filter::Kernel* kernel : kernels) {
-      const Results results(*kernel, arm, q, span, pairs, boxes, lanes);
+      const Results results(*kernel, of);
       ASSERT_TRUE(same_bits(reference.frames, results.frames)) << kernel->name;
       ASSERT_TRUE(same_bits(reference.axes, results.axes)) << kernel->name;
       ASSERT_TRUE(same_bits(reference.capsules, results.capsules)) << kernel->name;
@@ -184,8 +196,8 @@ TEST(Kernels, BoundEveryMotionThatStaysWithinTheSpans) {
       const double m = most[static_cast<std::size_t>(frame.joint)] * std::abs(frame.multiplier);
       std::fill_n(span.begin() + static_cast<std::ptrdiff_t>(f * kLanes), kLanes, round_up(m));
     }
-    const Results at(kernel, arm, q, span, {}, {}, 0xFF);
-    const Results after(kernel, arm, moved, span, {}, {}, 0xFF);
+    const Results at(kernel, {arm, q, span});
+    const Results after(kernel, {arm, moved, span});
     for (std::size_t c = 0; c < arm.capsules.size(); ++c) {
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const auto end = [&](const Results& r, int i, float sign) {

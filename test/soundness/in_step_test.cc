@@ -19,7 +19,7 @@ constexpr double kTracking_m = 0.001;
 constexpr double kSpeed_m_s = 0.5;
 
 void add_rail(Cell& cell, const std::string& name, const Eigen::Vector3d& along) {
-  small::add_robot(cell, name, small::at_xyz(0, 0, 0), {along}, 0.0, kRadius_m);
+  small::add_robot(cell, name, small::at_xyz(0, 0, 0), {along}, {0.0, kRadius_m});
   cell.joints.back().kind = cell.links.back().motion = JointKind::prismatic;
   cell.links.back().shapes.clear();
   small::add_shape(cell.links.back(), Sphere{kRadius_m}, small::at_xyz(0, 0, 0));

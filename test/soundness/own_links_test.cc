@@ -20,8 +20,8 @@ CellPtr folding_arm() {
   cell.clearance_m = 0.02;
   cell.self_clearance_m = 0.02;
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  small::add_robot(cell, "arm", small::at_xyz(0, 0, 0), {up, up, Eigen::Vector3d::UnitY(), up}, 0.3,
-                   0.03);
+  small::add_robot(cell, "arm", small::at_xyz(0, 0, 0), {up, up, Eigen::Vector3d::UnitY(), up},
+                   {0.3, 0.03});
   return small::shared(std::move(cell));
 }
 

@@ -93,12 +93,13 @@ TEST(Surfaces, AreCloserThanALimitWhenTheirDistanceIs) {
     const Solid b{concave_mesh({0.2, 0.1, false}, random)->surface, Eigen::Isometry3d::Identity(),
                   i % 2 == 0 ? 0.0 : 0.01};
     for (int k = 0; k < 20; ++k) {
-      Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-      X.translation() =
+      const Eigen::Isometry3d X_WA = Eigen::Isometry3d::Identity();
+      Eigen::Isometry3d X_WB = X_WA;
+      X_WB.translation() =
           Eigen::Vector3d(between(random, -0.4, 0.4), between(random, -0.4, 0.4), 0.1);
-      const double distance = solid_distance(a, Eigen::Isometry3d::Identity(), b, X, 10.0);
+      const double distance = solid_distance({a, X_WA}, {b, X_WB}, 10.0);
       for (const double limit : {1e-9, 0.02, 0.1}) {
-        ASSERT_EQ(closer_than(a, Eigen::Isometry3d::Identity(), b, X, limit), distance < limit);
+        ASSERT_EQ(closer_than({a, X_WA}, {b, X_WB}, limit), distance < limit);
         if (distance < limit) ++closer;
       }
     }
@@ -129,8 +130,9 @@ TEST(InnerBalls, ProveOnlyWhatIsSoAndMostOfWhatOverlaps) {
       X_WB.translation() = Eigen::Vector3d(between(random, -0.4, 0.4), between(random, -0.2, 0.2),
                                            between(random, -0.2, 0.2));
       const double limit_m = k % 3 == 0 ? 1e-9 : 0.02;
-      const bool closer = solid_distance({a.tree}, X_WA, {b.tree}, X_WB, limit_m) < limit_m;
-      const bool by_balls = surely_closer_than(a, X_WA, b, X_WB, limit_m);
+      const bool closer =
+          solid_distance({Solid{a.tree}, X_WA}, {Solid{b.tree}, X_WB}, limit_m) < limit_m;
+      const bool by_balls = surely_closer_than({a, X_WA}, {b, X_WB}, limit_m);
       overlaps += closer ? 1 : 0;
       proven += by_balls ? 1 : 0;
       wrongly += by_balls && !closer ? 1 : 0;
@@ -166,10 +168,10 @@ TEST(Surfaces, DecideWholeStatesAsTheirDistancesDo) {
     made.clearance_m = 0.02;
     made.self_clearance_m = 0.005;
     const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
-    small::add_robot(made, "a", small::at_xyz(0, 0, 0), {z, Eigen::Vector3d::UnitY(), z}, 0.3,
-                     0.03);
-    small::add_robot(made, "b", small::at_xyz(0.45, 0, 0), {z, Eigen::Vector3d::UnitY(), z}, 0.3,
-                     0.03);
+    small::add_robot(made, "a", small::at_xyz(0, 0, 0), {z, Eigen::Vector3d::UnitY(), z},
+                     {0.3, 0.03});
+    small::add_robot(made, "b", small::at_xyz(0.45, 0, 0), {z, Eigen::Vector3d::UnitY(), z},
+                     {0.3, 0.03});
     for (Link& link : made.links) {
       if (!link.arm) continue;
       const MeshPtr mesh = concave_mesh({0.25, 0.1, false}, random);

@@ -116,7 +116,7 @@ struct Two {
     place(b, X_WB, at_b);
     const auto apart = separation(a, at_a, b, at_b);
     if (!apart) return std::nullopt;
-    return swept_gap(a, at_a, axes_a, b, at_b, axes_b, apart->n_W);
+    return swept_gap({a, at_a, axes_a}, {b, at_b, axes_b}, apart->n_W);
   }
 
   [[nodiscard]] double distance(const std::vector<double>& share_a,
@@ -209,15 +209,15 @@ TEST(Sweeps, OfSurfacesAreNeverUndercut) {
     const Solid& a = *two.a.solid;
     const Solid& b = *two.b.solid;
     const double limit_m = uniform(random, 0.001, 0.1);
-    const MovingSolid moving_a{a, two.X_WA * a.X_PT, two.axes_a};
-    const MovingSolid moving_b{b, two.X_WB * b.X_PT, two.axes_b};
-    if (solid_distance(a, moving_a.X_WT, b, moving_b.X_WT, limit_m) < limit_m) continue;
+    const MovingSolid moving_a{{a, two.X_WA * a.X_PT}, two.axes_a};
+    const MovingSolid moving_b{{b, two.X_WB * b.X_PT}, two.axes_b};
+    if (solid_distance(moving_a.at, moving_b.at, limit_m) < limit_m) continue;
     if (!surfaces_keep_apart(moving_a, moving_b, limit_m, 10.0)) continue;
     ++said;
     for (int k = 0; k < 10; ++k) {
       const Isometry3d X_WA = moved(two.axes_a, any_share(random, two.axes_a.size())) * two.X_WA;
       const Isometry3d X_WB = moved(two.axes_b, any_share(random, two.axes_b.size())) * two.X_WB;
-      ASSERT_GE(solid_distance(a, X_WA * a.X_PT, b, X_WB * b.X_PT, 1.0), limit_m - kRounding_m);
+      ASSERT_GE(solid_distance({a, X_WA * a.X_PT}, {b, X_WB * b.X_PT}, 1.0), limit_m - kRounding_m);
     }
   }
   EXPECT_GE(said, 20U);  // a sixth

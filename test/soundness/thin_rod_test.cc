@@ -15,8 +15,8 @@ CellPtr two_rods() {
   cell.clearance_m = 0.001;
   cell.self_clearance_m = 0.0;
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {up}, 0.5, 0.003);
-  small::add_robot(cell, "right", small::at_xyz(0.9, 0, 0), {up}, 0.5, 0.003);
+  small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {up}, {0.5, 0.003});
+  small::add_robot(cell, "right", small::at_xyz(0.9, 0, 0), {up}, {0.5, 0.003});
   return small::shared(std::move(cell));
 }
 

@@ -18,13 +18,8 @@ double tracking_error_of(const CheckMethod& method) {
   return std::get<Coordinated>(method).tracking_error;
 }
 
-// The states where a verdict leaves the two motions open.
-struct Place {
-  Duration own_time;
-  Duration other_time;
-};
-std::vector<Place> open_places(const Verdict& verdict) {
-  std::vector<Place> places;
+std::vector<PlaceOfPair> open_places(const Verdict& verdict) {
+  std::vector<PlaceOfPair> places;
   for (const PairRegions& pair : verdict.regions) {
     for (const ConflictRegion& region : pair.regions) {
       if (!std::holds_alternative<JobId>(pair.b)) continue;
@@ -68,16 +63,15 @@ OpenPairs find_open(std::size_t count, std::uint64_t seed, const CheckMethod& me
       ++found.conflict;
       continue;
     }
-    const std::vector<Place> places = open_places(verdict);
+    const std::vector<PlaceOfPair> places = open_places(verdict);
     if (verdict.kind == Verdict::Kind::free && places.empty()) {
       ++(verdict.regions.empty() ? found.free : found.conflict);
       continue;
     }
     double keeps_m = kFar_m;
-    for (const Place& place : places) {
-      keeps_m = std::min(
-          keeps_m, closest_with_deviations(exact, pair, place.own_time, place.other_time,
-                                           tracking_error_of(method), kFar_m, kThrows, random));
+    const DeviationAttack attack{tracking_error_of(method), kThrows, kFar_m};
+    for (const PlaceOfPair& place : places) {
+      keeps_m = std::min(keeps_m, closest_with_deviations(exact, pair, place, attack, random));
     }
     found.open.push_back({found.pairs - 1, keeps_m});
   }

@@ -17,19 +17,20 @@ namespace armloom::testing {
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+struct Limits {
+  double lower, upper, velocity_max;
+  double acceleration_max = 3.75;
+};
 inline JointId add_joint(Cell& cell, const std::string& name, std::optional<ArmId> arm,
-                         JointKind kind, double lower, double upper, double velocity_max,
-                         double acceleration_max) {
-  cell.joints.push_back({name, RobotId(0), arm, kind, lower, upper, velocity_max, acceleration_max,
-                         7500.0, 2.0 * acceleration_max});
+                         JointKind kind, const Limits& limits) {
+  cell.joints.push_back({name, RobotId(0), arm, kind, limits.lower, limits.upper,
+                         limits.velocity_max, limits.acceleration_max, 7500.0,
+                         2.0 * limits.acceleration_max});
   return JointId(static_cast<std::uint32_t>(cell.joints.size() - 1));
 }
 
 // Seven joints with a Panda's limits (acceleration as in the cell of the scenario) and one finger.
 inline void add_panda(Cell& cell, const std::string& name) {
-  struct Limits {
-    double lower, upper, velocity_max;
-  };
   const Limits panda[] = {{-2.8973, 2.8973, 2.175}, {-1.7628, 1.7628, 2.175},
                           {-2.8973, 2.8973, 2.175}, {-3.0718, -0.0698, 2.175},
                           {-2.8973, 2.8973, 2.61},  {-0.0175, 3.7525, 2.61},
@@ -38,11 +39,10 @@ inline void add_panda(Cell& cell, const std::string& name) {
   Arm arm{name, RobotId(0), "panda_arm", {}, {}, {}, Eigen::VectorXd::Zero(7), {}};
   for (int i = 0; i < 7; ++i) {
     arm.joints.push_back(add_joint(cell, name + "_panda_joint" + std::to_string(i + 1), id,
-                                   JointKind::revolute, panda[i].lower, panda[i].upper,
-                                   panda[i].velocity_max, 3.75));
+                                   JointKind::revolute, panda[i]));
   }
   arm.gripper_joints.push_back(add_joint(cell, name + "_panda_finger_joint1", id,
-                                         JointKind::prismatic, 0.0, 0.04, 0.2, 1.0));
+                                         JointKind::prismatic, {0.0, 0.04, 0.2, 1.0}));
   cell.arms.push_back(arm);
 }
 
@@ -51,7 +51,7 @@ inline void add_pair_arm(Cell& cell) {
   const ArmId id(static_cast<std::uint32_t>(cell.arms.size()));
   Arm arm{"pair", RobotId(0), "pair", {}, {}, {}, Eigen::VectorXd::Zero(2), {}};
   for (const char* name : {"pair_a", "pair_b"}) {
-    arm.joints.push_back(add_joint(cell, name, id, JointKind::revolute, -2.8, 2.8, 2.0, 4.0));
+    arm.joints.push_back(add_joint(cell, name, id, JointKind::revolute, {-2.8, 2.8, 2.0, 4.0}));
   }
   cell.arms.push_back(arm);
 }
@@ -69,11 +69,11 @@ inline Cell test_cell() {
     const ArmId id(static_cast<std::uint32_t>(cell.arms.size()));
     const std::string name = turns ? "wheel" : "lift";
     const JointId joint =
-        turns ? add_joint(cell, name, id, JointKind::continuous, -kInfinity, kInfinity, 2.0, 4.0)
-              : add_joint(cell, name, id, JointKind::prismatic, 0.0, 1.0, 0.5, 2.0);
+        turns ? add_joint(cell, name, id, JointKind::continuous, {-kInfinity, kInfinity, 2.0, 4.0})
+              : add_joint(cell, name, id, JointKind::prismatic, {0.0, 1.0, 0.5, 2.0});
     cell.arms.push_back({name, RobotId(0), name, {joint}, {}, {}, Eigen::VectorXd::Zero(1), {}});
   }
-  add_joint(cell, "loose_hinge", std::nullopt, JointKind::revolute, -1.0, 1.0, 1.0, 1.0);
+  add_joint(cell, "loose_hinge", std::nullopt, JointKind::revolute, {-1.0, 1.0, 1.0, 1.0});
   return cell;
 }
 

@@ -20,7 +20,10 @@ using testing::test_cell;
 struct Reference {
   double position, velocity, acceleration;
 };
-Reference hermite_cubic(double p0, double v0, double p1, double v1, double T, double t) {
+Reference hermite_cubic(const WaypointRequest& a, const WaypointRequest& b, std::size_t j, double T,
+                        double t) {
+  const double p0 = a.positions[j], v0 = a.velocities[j];
+  const double p1 = b.positions[j], v1 = b.velocities[j];
   const double u = t / T, u2 = u * u, u3 = u2 * u;
   return {(1 - 3 * u2 + 2 * u3) * p0 + (u - 2 * u2 + u3) * T * v0 + (3 * u2 - 2 * u3) * p1 +
               (u3 - u2) * T * v1,
@@ -90,9 +93,8 @@ Reference largest_difference(const TrajectoryRequest& request, bool quintic) {
       const double exact_t = to_seconds(progress) - a.time_from_start_s;
       trajectory->sample(progress, state);
       for (std::size_t j = 0; j < 2; ++j) {
-        const Reference r = quintic ? hermite_quintic(a, b, j, T, exact_t)
-                                    : hermite_cubic(a.positions[j], a.velocities[j], b.positions[j],
-                                                    b.velocities[j], T, exact_t);
+        const Reference r =
+            quintic ? hermite_quintic(a, b, j, T, exact_t) : hermite_cubic(a, b, j, T, exact_t);
         const auto row = static_cast<Eigen::Index>(j);
         worst.position = std::max(worst.position, std::abs(state.position[row] - r.position));
         worst.velocity = std::max(worst.velocity, std::abs(state.velocity[row] - r.velocity));

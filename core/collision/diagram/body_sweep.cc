@@ -10,12 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct MovingShape {
-  const ConvexShape& shape;
-  const PlacedConvexShape& at;
-  std::span<const MovingAxis> axes;
-};
-
 bool shapes_keep_apart(const MovingShape& a, const MovingShape& b, double limit_m,
                        double enough_m) {
   const double reach_m = enough_m + a.shape.bounding_radius_m() + b.shape.bounding_radius_m();
@@ -25,7 +19,7 @@ bool shapes_keep_apart(const MovingShape& a, const MovingShape& b, double limit_
   if (!apart) return false;
   if (apart->distance_m >= enough_m) return true;
   if (apart->distance_m < limit_m) return false;
-  return swept_gap(a.shape, a.at, a.axes, b.shape, b.at, b.axes, apart->n_W) >= limit_m;
+  return swept_gap(a, b, apart->n_W) >= limit_m;
 }
 
 struct MovingGroup {
@@ -60,8 +54,8 @@ class SweptSurfaces final : public KeptApart {
  public:
   SweptSurfaces(const MovingSolid& a, const MovingSolid& b, double limit_m)
       : limit_m_(limit_m),
-        a_(a, a.X_WT.inverse(Eigen::Isometry)),
-        b_(b, a.X_WT.inverse(Eigen::Isometry)) {}
+        a_(a, a.at.X_WT.inverse(Eigen::Isometry)),
+        b_(b, a.at.X_WT.inverse(Eigen::Isometry)) {}
 
   [[nodiscard]] bool keeps(const TrianglePoints& at_a, const TrianglePoints& at_b,
                            const Vector3d& n_T) override {
@@ -82,13 +76,13 @@ class SweptSurfaces final : public KeptApart {
     double radius_m;
 
     Side(const MovingSolid& moving, const Eigen::Isometry3d& X_TW)
-        : axes(moving.axes.begin(), moving.axes.end()), radius_m(moving.solid.radius_m) {
+        : axes(moving.axes.begin(), moving.axes.end()), radius_m(moving.at.solid.radius_m) {
       for (MovingAxis& axis : axes) {
         axis.z_W = X_TW.linear() * axis.z_W;
         axis.p_WO = X_TW * axis.p_WO;
       }
-      const SurfaceTree::Box& root = moving.solid.tree->root;
-      const Eigen::Isometry3d X_TS = X_TW * moving.X_WT;
+      const SurfaceTree::Box& root = moving.at.solid.tree->root;
+      const Eigen::Isometry3d X_TS = X_TW * moving.at.X_WT;
       for (unsigned corner = 0; corner < corners.size(); ++corner) {
         Vector3d p = root.half.cast<double>();
         for (unsigned k = 0; k < 3; ++k) {
@@ -106,11 +100,8 @@ class SweptSurfaces final : public KeptApart {
 
 }  // namespace
 
-double swept_gap(const ConvexShape& a, const PlacedConvexShape& at_a,
-                 std::span<const MovingAxis> axes_a, const ConvexShape& b,
-                 const PlacedConvexShape& at_b, std::span<const MovingAxis> axes_b,
-                 const Vector3d& n_W) {
-  return -Sweep(axes_a, n_W).reach(a, at_a) - Sweep(axes_b, -n_W).reach(b, at_b);
+double swept_gap(const MovingShape& a, const MovingShape& b, const Vector3d& n_W) {
+  return -Sweep(a.axes, n_W).reach(a.shape, a.at) - Sweep(b.axes, -n_W).reach(b.shape, b.at);
 }
 
 // Where no two triangles can meet, neither comes to be inside of the other that was not there
@@ -118,7 +109,7 @@ double swept_gap(const ConvexShape& a, const PlacedConvexShape& at_a,
 bool surfaces_keep_apart(const MovingSolid& a, const MovingSolid& b, double limit_m,
                          double enough_m) {
   SweptSurfaces swept(a, b, limit_m);
-  return surfaces_apart(a.solid, a.X_WT, b.solid, b.X_WT, enough_m, swept);
+  return surfaces_apart(a.at, b.at, enough_m, swept);
 }
 
 bool keep_apart(const std::vector<ConvexShape>& shapes, const MovingBody& a, const MovingBody& b,
@@ -127,9 +118,9 @@ bool keep_apart(const std::vector<ConvexShape>& shapes, const MovingBody& a, con
     for (ShapeGroups of_b(shapes, b.at); !of_b.ended(); of_b.next()) {
       if (groups_keep_apart(shapes, {of_a, a.axes}, {of_b, b.axes}, limit_m, enough_m)) continue;
       if (!of_a.are_pieces() && !of_b.are_pieces()) return false;
-      const MovingSolid solid_a{of_a.solid(), of_a.X_WT(), a.axes};
-      const MovingSolid solid_b{of_b.solid(), of_b.X_WT(), b.axes};
-      if (!surfaces_keep_apart(solid_a, solid_b, limit_m, enough_m)) return false;
+      if (!surfaces_keep_apart({of_a.solid(), a.axes}, {of_b.solid(), b.axes}, limit_m, enough_m)) {
+        return false;
+      }
     }
   }
   return true;

@@ -24,10 +24,9 @@ struct MovingBody {
 [[nodiscard]] bool keep_apart(const std::vector<ConvexShape>& shapes, const MovingBody& a,
                               const MovingBody& b, double limit_m, double enough_m);
 
-// The same of two surfaces; each stands at X_WT. Precondition: neither is inside of the other here.
+// The same of two surfaces. Precondition: neither is inside of the other here.
 struct MovingSolid {
-  const Solid& solid;
-  Eigen::Isometry3d X_WT;
+  PlacedSolid at;
   std::span<const MovingAxis> axes;
 };
 [[nodiscard]] bool surfaces_keep_apart(const MovingSolid& a, const MovingSolid& b, double limit_m,
@@ -35,9 +34,12 @@ struct MovingSolid {
 
 // The gap along n (of unit length, from a to b) that two shapes keep so; negative: they may
 // overlap.
-[[nodiscard]] double swept_gap(const ConvexShape& a, const PlacedConvexShape& at_a,
-                               std::span<const MovingAxis> axes_a, const ConvexShape& b,
-                               const PlacedConvexShape& at_b, std::span<const MovingAxis> axes_b,
+struct MovingShape {
+  const ConvexShape& shape;
+  const PlacedConvexShape& at;
+  std::span<const MovingAxis> axes;
+};
+[[nodiscard]] double swept_gap(const MovingShape& a, const MovingShape& b,
                                const Eigen::Vector3d& n_W);
 
 }  // namespace armloom

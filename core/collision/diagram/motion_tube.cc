@@ -161,10 +161,9 @@ void MotionTube::place_batch(std::span<const int> nodes) {
   block.drifts = s.drift;
   block.looses = s.loose;
   block.bends.resize(lane_size(capsules));
-  kernel.place(arm.view(), s.q.data(),
-               {block.frames.data(), block.axes.data(), block.capsules.data()});
-  kernel.inflate(arm.view(), block.axes.data(), block.capsules.data(), s.span.data(),
-                 s.motion_bounds.data(), block.bends.data());
+  const filter::Placed placed{block.frames.data(), block.axes.data(), block.capsules.data()};
+  kernel.place(arm.view(), s.q.data(), placed);
+  kernel.inflate(arm.view(), placed, s.span.data(), {s.motion_bounds.data(), block.bends.data()});
   for (std::size_t c = 0; c < capsules; ++c) {
     const auto row = static_cast<std::size_t>(arm.capsules()[c].motion_bounds_begin);
     std::copy_n(s.motion_bounds.data() + lane_size(row), kLanes,
@@ -175,8 +174,7 @@ void MotionTube::place_batch(std::span<const int> nodes) {
   const filter::Side side{block.capsules.data(), s.motion_bounds.data(), nullptr};
   const unsigned lanes = (1U << nodes.size()) - 1U;
   const int found =
-      kernel.near_pairs(side, side, geometry_->self.pairs.data(),
-                        static_cast<int>(geometry_->self.pairs.size()), {}, lanes, s.hits.data());
+      kernel.near_pairs(side, side, geometry_->self.ungrouped(), lanes, s.hits.data());
   for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
     Placement& node = placements_[static_cast<std::size_t>(nodes[lane])];
     node.block = blocks_.size() - 1;

@@ -49,9 +49,10 @@ class MotionTube : public TimeTree {
     std::vector<float> ball;          // [4][kLanes], filter::Side::ball
     std::vector<double> frames;       // [frame][12][kLanes]
     std::vector<float> axes;          // [frame][6][kLanes], filter::Placed::axes
-    std::vector<float> drifts;  // [frame][kLanes]: filter::Joints::drift, of its joint, rad or m
-    std::vector<float> looses;  // filter::Joints::loose
-    std::vector<float> bends;   // [capsule][kLanes], filter::Joints::bend
+    std::vector<float>
+        drifts;  // [frame][kLanes]: filter::MovedCapsules::drift, of its joint, rad or m
+    std::vector<float> looses;  // filter::MovedCapsules::loose
+    std::vector<float> bends;   // [capsule][kLanes], filter::MovedCapsules::bend
   };
   struct Place {
     const Block* block;

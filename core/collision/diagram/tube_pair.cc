@@ -70,10 +70,14 @@ struct TubePair::Batch {
     return gathered.data();
   }
   // Nothing moves what stands still.
-  [[nodiscard]] filter::Joints joints(const filter::ArmKinematics& linkage) const {
-    if (linkage.frame_count == 0) return {};
-    return {&linkage, rows(&Block::axes, to.axes), rows(&Block::drifts, to.drifts),
-            rows(&Block::looses, to.looses), rows(&Block::bends, to.bends)};
+  [[nodiscard]] filter::MovedCapsules moved(const filter::ArmKinematics& linkage) const {
+    if (linkage.frame_count == 0) return {.capsules = side.capsules};
+    return {.capsules = side.capsules,
+            .linkage = &linkage,
+            .axes = rows(&Block::axes, to.axes),
+            .drift = rows(&Block::drifts, to.drifts),
+            .loose = rows(&Block::looses, to.looses),
+            .bend = rows(&Block::bends, to.bends)};
   }
 };
 
@@ -97,14 +101,14 @@ int TubePair::left_open(const Batch& a, const Batch& b, int hits) {
   Scratch& s = *setting_.scratch;
   const filter::ArmKinematics linkage_a = a_->linkage().view();
   const filter::ArmKinematics linkage_b = b_->linkage().view();
-  const filter::Joints of_a = a.joints(linkage_a);
-  const filter::Joints of_b = b.joints(linkage_b);
+  const filter::MovedCapsules of_a = a.moved(linkage_a);
+  const filter::MovedCapsules of_b = b.moved(linkage_b);
   const filter::Kernel& kernel = filter::best_kernel();
   int left = 0;
   for (int h = 0; h < hits; ++h) {
     filter::Hit& hit = s.hits[static_cast<std::size_t>(h)];
     const filter::Pair& pair = setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)];
-    hit.lanes &= ~kernel.keep_apart(a.side, of_a, b.side, of_b, pair, hit.lanes);
+    hit.lanes &= ~kernel.keep_apart(of_a, of_b, pair, hit.lanes);
     if (hit.lanes == 0) continue;
     if (left != h) s.hits[static_cast<std::size_t>(left)] = hit;
     ++left;
@@ -129,9 +133,7 @@ void TubePair::filter(std::span<const Nodes> batch) {
   const PairSet& set = *setting_.pairs;
   const filter::Kernel& kernel = filter::best_kernel();
   const unsigned lanes = (1U << batch.size()) - 1U;
-  const int found =
-      kernel.near_pairs(a.side, b.side, set.pairs.data(), static_cast<int>(set.pairs.size()),
-                        set.grouped(), lanes, s.hits.data());
+  const int found = kernel.near_pairs(a.side, b.side, set.grouped(), lanes, s.hits.data());
   s.hit_count = left_open(a, b, found);
   s.box_hit_count = kernel.near_boxes(a.side, set.boxes.data(), static_cast<int>(set.boxes.size()),
                                       lanes, s.box_hits.data());
@@ -182,11 +184,17 @@ const KinematicBody& TubePair::body_b(const NarrowPair& pair) const {
   return b_->linkage().bodies()[static_cast<std::size_t>(pair.body_b)];
 }
 
-double TubePair::distance(const NarrowPair& pair, Nodes at, double limit_m) const {
+PlacedBody TubePair::placed_a(const NarrowPair& pair, Nodes at) const {
   const KinematicBody& a = body_a(pair);
+  return {setting_.bodies->bodies[a.body], body_pose(a, a_->place_of(at.a).frames(), kLanes)};
+}
+PlacedBody TubePair::placed_b(const NarrowPair& pair, Nodes at) const {
   const KinematicBody& b = body_b(pair);
-  return body_distance(*setting_.bodies, a.body, body_pose(a, a_->place_of(at.a).frames(), kLanes),
-                       b.body, body_pose(b, b_->place_of(at.b).frames(), kLanes), limit_m);
+  return {setting_.bodies->bodies[b.body], body_pose(b, b_->place_of(at.b).frames(), kLanes)};
+}
+
+double TubePair::distance(const NarrowPair& pair, Nodes at, double limit_m) const {
+  return body_distance(setting_.bodies->shapes, placed_a(pair, at), placed_b(pair, at), limit_m);
 }
 
 bool TubePair::keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, double enough_m) {
@@ -201,11 +209,8 @@ bool TubePair::keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, dou
   Scratch& s = *setting_.scratch;
   a_->axes_of(at.a, a.frame, common, s.axes_a);
   b_->axes_of(at.b, b.frame, common, s.axes_b);
-  const std::vector<CollisionBody>& bodies = setting_.bodies->bodies;
-  return keep_apart(setting_.bodies->shapes,
-                    {{bodies[a.body], body_pose(a, a_->place_of(at.a).frames(), kLanes)}, s.axes_a},
-                    {{bodies[b.body], body_pose(b, b_->place_of(at.b).frames(), kLanes)}, s.axes_b},
-                    limit_m, enough_m);
+  return keep_apart(setting_.bodies->shapes, {placed_a(pair, at), s.axes_a},
+                    {placed_b(pair, at), s.axes_b}, limit_m, enough_m);
 }
 
 void TubePair::place(Duration time_a, Duration time_b) {
@@ -220,8 +225,9 @@ double TubePair::placed_distance(const NarrowPair& pair, double limit_m) const {
   const KinematicBody& a = body_a(pair);
   const KinematicBody& b = body_b(pair);
   const Scratch& s = *setting_.scratch;
-  return body_distance(*setting_.bodies, a.body, body_pose(a, s.point_a.data()), b.body,
-                       body_pose(b, s.point_b.data()), limit_m);
+  const std::vector<CollisionBody>& bodies = setting_.bodies->bodies;
+  return body_distance(setting_.bodies->shapes, {bodies[a.body], body_pose(a, s.point_a.data())},
+                       {bodies[b.body], body_pose(b, s.point_b.data())}, limit_m);
 }
 
 std::vector<TubePair::PairDistance> TubePair::too_close_at(Duration time_a, Duration time_b) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/collision/diagram/motion_tube.h"
+#include "core/collision/state/body_distance.h"
 
 namespace armloom {
 
@@ -74,6 +75,8 @@ class TubePair {
   struct Gathered;
   struct Batch;
   [[nodiscard]] int left_open(const Batch& a, const Batch& b, int hits);
+  [[nodiscard]] PlacedBody placed_a(const NarrowPair& pair, Nodes at) const;
+  [[nodiscard]] PlacedBody placed_b(const NarrowPair& pair, Nodes at) const;
   [[nodiscard]] const KinematicBody& body_a(const NarrowPair& pair) const;
   [[nodiscard]] const KinematicBody& body_b(const NarrowPair& pair) const;
 

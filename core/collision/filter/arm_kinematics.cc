@@ -209,19 +209,20 @@ filter::Capsule kernel_capsule(const Eigen::Isometry3d& X_FP, const Eigen::Vecto
   return capsule;
 }
 
-filter::Pair kernel_pair(int a, const filter::Capsule& at_a, int b, const filter::Capsule& at_b,
-                         double limit_m, double margin_m) {
-  const double half_a = Eigen::Map<const Eigen::Vector3d>(at_a.half).norm();
-  const double half_b = Eigen::Map<const Eigen::Vector3d>(at_b.half).norm();
+filter::Pair kernel_pair(const NumberedCapsule& a, const NumberedCapsule& b, double limit_m,
+                         double margin_m) {
+  const double half_a = Eigen::Map<const Eigen::Vector3d>(a.capsule.half).norm();
+  const double half_b = Eigen::Map<const Eigen::Vector3d>(b.capsule.half).norm();
   const auto inverse = [](double half) {
     return half > 1e-9 ? static_cast<float>(1.0 / (half * half)) : 0.0F;
   };
-  return {.a = a,
-          .b = b,
-          .row_a = a,
-          .row_b = b,
+  return {.a = a.number,
+          .b = b.number,
+          .row_a = a.number,
+          .row_b = b.number,
           .limit_up = round_up(limit_m),
-          .radii_up = round_up(static_cast<double>(at_a.radius_up) + at_b.radius_up + margin_m),
+          .radii_up =
+              round_up(static_cast<double>(a.capsule.radius_up) + b.capsule.radius_up + margin_m),
           .ends_up = round_up(half_a + half_b + 1e-6),
           .end_b_up = round_up(half_b + 1e-5),
           .aa = static_cast<float>(half_a * half_a),

@@ -84,10 +84,14 @@ void place_frames(const ArmKinematics& linkage, const double* q, double* frames)
 [[nodiscard]] filter::Capsule kernel_capsule(const Eigen::Isometry3d& X_FP,
                                              const Eigen::Vector3d& p_PA,
                                              const Eigen::Vector3d& p_PB, double radius_m);
+// One of the capsules that the kernels know by their numbers.
+struct NumberedCapsule {
+  int number;
+  const filter::Capsule& capsule;
+};
 // What the kernel needs to know of a pair; `margin_m` is the rounding margin.
-[[nodiscard]] filter::Pair kernel_pair(int a, const filter::Capsule& at_a, int b,
-                                       const filter::Capsule& at_b, double limit_m,
-                                       double margin_m);
+[[nodiscard]] filter::Pair kernel_pair(const NumberedCapsule& a, const NumberedCapsule& b,
+                                       double limit_m, double margin_m);
 // The smallest float not below x.
 [[nodiscard]] float round_up(double x);
 

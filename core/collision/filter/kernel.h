@@ -54,6 +54,12 @@ struct Placed {
   float* capsules;
 };
 
+// How far each capsule may move.
+struct MotionBounds {
+  float* rows;  // [row][kLanes], see Capsule::motion_bounds_begin
+  float* bend;  // [capsule][kLanes]
+};
+
 // Capsules whose motion bounds are known, as one side of a comparison.
 struct Side {
   const float* capsules;      // as Placed::capsules
@@ -62,9 +68,10 @@ struct Side {
                       // they may move (Kernel::enclose); not read where pairs have no groups
 };
 
-// What moves the capsules of a side that is held apart along one direction.
-struct Joints {
-  const ArmKinematics* linkage;  // null: nothing does
+// The capsules of a side that is held apart along one direction, and what moves them.
+struct MovedCapsules {
+  const float* capsules;         // as Placed::capsules
+  const ArmKinematics* linkage;  // null: nothing moves them
   const float* axes;             // as Placed::axes
   // Of the frame's joint, [frame][kLanes]: it is off by s * drift + e, the same s for all of them
   // from -1 to 1, |e| <= loose; |drift| + loose is no more than the span by much.
@@ -106,6 +113,13 @@ struct Groups {
   float limit_up;  // the largest of all pairs
 };
 
+// What two sides are compared by.
+struct Pairs {
+  const Pair* all;
+  int count;
+  Groups groups;
+};
+
 // A capsule against a solid box that stands still.
 struct BoxPair {
   int a;
@@ -129,27 +143,25 @@ struct Hit {
 struct Kernel {
   const char* name;
   void (*place)(const ArmKinematics& linkage, const double* q, const Placed& out);
-  // span: [frame][kLanes], how far the joint of the frame may be from the configuration (rad, m),
-  // rounded up. motion_bounds: [row][kLanes], see Capsule::motion_bounds_begin: row m of a capsule
-  // bounds how far any point of it moves against anything that shares its first m ancestors: the
-  // sum over the other ancestors of span times the lever about that joint at this configuration.
-  // (Changing the joints one after another from base to tip, each turns what is behind it in the
-  // shape that it has here: hence the levers at hand bound motions of any size.) bend:
-  // [capsule][kLanes], what along any direction is to be added to the first order of that motion
-  // (sweep.h, the second sum, with what turning adds to a round end).
-  void (*inflate)(const ArmKinematics& linkage, const float* axes, const float* capsules,
-                  const float* span, float* motion_bounds, float* bend);
+  // `at`: as place() made it. span: [frame][kLanes], how far the joint of the frame may be from the
+  // configuration (rad, m), rounded up. Row m of a capsule bounds how far any point of it moves
+  // against anything that shares its first m ancestors: the sum over the other ancestors of span
+  // times the lever about that joint at this configuration. (Changing the joints one after another
+  // from base to tip, each turns what is behind it in the shape that it has here: hence the levers
+  // at hand bound motions of any size.) bend: what along any direction is to be added to the first
+  // order of that motion (sweep.h, the second sum, with what turning adds to a round end).
+  void (*inflate)(const ArmKinematics& linkage, const Placed& at, const float* span,
+                  const MotionBounds& out);
   // The ball of a side; rows[c] is the row of capsule c in `motion_bound`. Null: nothing moves.
   void (*enclose)(const ArmKinematics& linkage, const float* capsules, const float* motion_bound,
                   const int* rows, float* ball);
   // Writes the pairs that are undecided in one of `lanes`; returns their number. `hits` has room
   // for all pairs.
-  int (*near_pairs)(const Side& a, const Side& b, const Pair* pairs, int count,
-                    const Groups& groups, unsigned lanes, Hit* hits);
+  int (*near_pairs)(const Side& a, const Side& b, const Pairs& pairs, unsigned lanes, Hit* hits);
   // In which of `lanes` the two capsules keep their limit wherever the joints are within their
   // spans, because of how far each reaches along the direction that parts their axes (sweep.h).
-  unsigned (*keep_apart)(const Side& a, const Joints& of_a, const Side& b, const Joints& of_b,
-                         const Pair& pair, unsigned lanes);
+  unsigned (*keep_apart)(const MovedCapsules& a, const MovedCapsules& b, const Pair& pair,
+                         unsigned lanes);
   int (*near_boxes)(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits);
 };
 

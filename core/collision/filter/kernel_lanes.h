@@ -152,17 +152,17 @@ inline Vec<F> minus(const Vec<F>& a, const Vec<F>& b) {
 
 // Float roundings of a lever are below one part in 1e5 and a micrometre.
 template <class F>
-void inflate(const ArmKinematics& linkage, const float* axes, const float* capsules,
-             const float* span, float* motion_bounds, float* bend) {
+void inflate(const ArmKinematics& linkage, const Placed& at, const float* span,
+             const MotionBounds& out) {
   for (int c = 0; c < linkage.capsule_count; ++c) {
     const Capsule& capsule = linkage.capsules[c];
     const int* ancestors = linkage.ancestors + capsule.ancestors_begin;
-    float* rows = motion_bounds + capsule.motion_bounds_begin * kLanes;
+    float* rows = out.rows + capsule.motion_bounds_begin * kLanes;
     const F extra = F::all(capsule.radius_up + 2e-6F);
     const F half_one = F::all(0.5F);
     for (int l = 0; l < kLanes; l += F::kLanes) {
-      const Vec<F> center = Vec<F>::load(capsules + c * 6 * kLanes + l);
-      const Vec<F> half = Vec<F>::load(capsules + (c * 6 + 3) * kLanes + l);
+      const Vec<F> center = Vec<F>::load(at.capsules + c * 6 * kLanes + l);
+      const Vec<F> half = Vec<F>::load(at.capsules + (c * 6 + 3) * kLanes + l);
       F sum = F::all(0.0F);
       F bends = F::all(0.0F);
       F turned = F::all(0.0F);
@@ -172,8 +172,8 @@ void inflate(const ArmKinematics& linkage, const float* axes, const float* capsu
         const F by = F::load(span + f * kLanes + l);
         F lever = F::all(1.0F);
         if (!linkage.frames[f].prismatic) {
-          const Vec<F> origin = Vec<F>::load(axes + f * 6 * kLanes + l);
-          const Vec<F> axis = Vec<F>::load(axes + (f * 6 + 3) * kLanes + l);
+          const Vec<F> origin = Vec<F>::load(at.axes + f * 6 * kLanes + l);
+          const Vec<F> axis = Vec<F>::load(at.axes + (f * 6 + 3) * kLanes + l);
           const Vec<F> u = cross(minus(center, origin), axis);
           const Vec<F> v = cross(half, axis);
           const F uv = F::abs(dot(u, v));
@@ -188,7 +188,7 @@ void inflate(const ArmKinematics& linkage, const float* axes, const float* capsu
       bends = bends + half_one * F::all(capsule.radius_up) * turned * turned;
       const F size = F::abs(center.x) + F::abs(center.y) + F::abs(center.z);
       bends = bends * F::all(1.0001F) + turned * (F::all(4e-6F) + F::all(1e-6F) * size);
-      bends.store(bend + c * kLanes + l);
+      bends.store(out.bend + c * kLanes + l);
     }
   }
 }

@@ -34,15 +34,21 @@ inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pai
   return gap / F::max(length, F::all(1e-20F));
 }
 
+// Of a capsule: its centre, and from there to one end.
+template <class F>
+struct Axis {
+  Vec<F> center, half;
+  static Axis load(const float* p) { return {Vec<F>::load(p), Vec<F>::load(p + 3 * kLanes)}; }
+};
+
 // How much farther than its centre a capsule's axis reaches along d, to first order of what the
 // joints may do.
 template <class F>
-inline F reach_along(const Joints& joints, int c, const Vec<F>& d, const Vec<F>& center,
-                     const Vec<F>& half, int l) {
-  const F along = dot(d, half);
-  if (joints.linkage == nullptr) return F::abs(along);
-  const Capsule& capsule = joints.linkage->capsules[c];
-  const int* ancestors = joints.linkage->ancestors + capsule.ancestors_begin;
+inline F reach_along(const MovedCapsules& of, int c, const Vec<F>& d, const Axis<F>& at, int l) {
+  const F along = dot(d, at.half);
+  if (of.linkage == nullptr) return F::abs(along);
+  const Capsule& capsule = of.linkage->capsules[c];
+  const int* ancestors = of.linkage->ancestors + capsule.ancestors_begin;
   const F zero = F::all(0.0F);
   F ahead = zero;   // of the end at center + half
   F behind = zero;  // of the other one
@@ -50,10 +56,10 @@ inline F reach_along(const Joints& joints, int c, const Vec<F>& d, const Vec<F>&
   F drift_behind = zero;
   for (int k = 0; k < capsule.depth; ++k) {
     const int f = ancestors[k];
-    const Vec<F> axis = Vec<F>::load(joints.axes + (f * 6 + 3) * kLanes + l);
-    const F drift = F::load(joints.drift + f * kLanes + l);
-    const F loose = F::load(joints.loose + f * kLanes + l);
-    if (joints.linkage->frames[f].prismatic) {
+    const Vec<F> axis = Vec<F>::load(of.axes + (f * 6 + 3) * kLanes + l);
+    const F drift = F::load(of.drift + f * kLanes + l);
+    const F loose = F::load(of.loose + f * kLanes + l);
+    if (of.linkage->frames[f].prismatic) {
       const F shift = dot(d, axis);
       drift_ahead = drift_ahead + drift * shift;
       drift_behind = drift_behind + drift * shift;
@@ -62,8 +68,8 @@ inline F reach_along(const Joints& joints, int c, const Vec<F>& d, const Vec<F>&
       continue;
     }
     const Vec<F> moment = cross(d, axis);
-    const F middle = dot(moment, minus(center, Vec<F>::load(joints.axes + f * 6 * kLanes + l)));
-    const F end = dot(moment, half);
+    const F middle = dot(moment, minus(at.center, Vec<F>::load(of.axes + f * 6 * kLanes + l)));
+    const F end = dot(moment, at.half);
     drift_ahead = drift_ahead + drift * (middle + end);
     drift_behind = drift_behind + drift * (middle - end);
     ahead = ahead + loose * F::abs(middle + end);
@@ -71,29 +77,25 @@ inline F reach_along(const Joints& joints, int c, const Vec<F>& d, const Vec<F>&
   }
   ahead = ahead + along + F::abs(drift_ahead);
   behind = behind - along + F::abs(drift_behind);
-  return F::max(ahead, behind) * F::all(1.00001F) + F::load(joints.bend + c * kLanes + l);
+  return F::max(ahead, behind) * F::all(1.00001F) + F::load(of.bend + c * kLanes + l);
 }
 
 // Roundings: as axis_gap() but for the direction's, once more; those of moments are in `bend`.
 template <class F>
-unsigned keep_apart(const Side& a, const Joints& of_a, const Side& b, const Joints& of_b,
-                    const Pair& pair, unsigned lanes) {
-  const float* at_a = a.capsules + pair.a * 6 * kLanes;
-  const float* at_b = b.capsules + pair.b * 6 * kLanes;
+unsigned keep_apart(const MovedCapsules& a, const MovedCapsules& b, const Pair& pair,
+                    unsigned lanes) {
   unsigned open = 0;
   for (int l = 0; l < kLanes; l += F::kLanes) {
-    const Vec<F> center_a = Vec<F>::load(at_a + l);
-    const Vec<F> center_b = Vec<F>::load(at_b + l);
-    const Vec<F> half_a = Vec<F>::load(at_a + 3 * kLanes + l);
-    const Vec<F> half_b = Vec<F>::load(at_b + 3 * kLanes + l);
-    const Vec<F> w = minus(center_a, center_b);
-    const Vec<F> v = between_axes(w, half_a, half_b, pair);
+    const auto at_a = Axis<F>::load(a.capsules + pair.a * 6 * kLanes + l);
+    const auto at_b = Axis<F>::load(b.capsules + pair.b * 6 * kLanes + l);
+    const Vec<F> w = minus(at_a.center, at_b.center);
+    const Vec<F> v = between_axes(w, at_a.half, at_b.half, pair);
     const F length = F::max(F::sqrt(dot(v, v)), F::all(1e-20F));
     const Vec<F> d = {v.x / length, v.y / length, v.z / length};
     const F zero = F::all(0.0F);
     const Vec<F> back = {zero - d.x, zero - d.y, zero - d.z};
-    const F gap = dot(d, w) - reach_along(of_a, pair.a, back, center_a, half_a, l) -
-                  reach_along(of_b, pair.b, d, center_b, half_b, l);
+    const F gap =
+        dot(d, w) - reach_along(a, pair.a, back, at_a, l) - reach_along(b, pair.b, d, at_b, l);
     open |= F::not_at_least(gap, F::all(pair.limit_up + pair.radii_up + 1e-6F)) << l;
   }
   return lanes & ~open;
@@ -194,8 +196,9 @@ inline bool near_balls(const Side& a, const Side& b, float limit_up) {
 }
 
 template <class F, bool kMoving>
-int near_pairs_of(const Side& a, const Side& b, const Pair* pairs, int count, const Groups& groups,
-                  unsigned lanes, Hit* hits) {
+int near_pairs_of(const Side& a, const Side& b, const Pairs& of, unsigned lanes, Hit* hits) {
+  const Pair* pairs = of.all;
+  const Groups& groups = of.groups;
   int found = 0;
   unsigned long long of_b = ~0ULL;  // capsules of b that are looked at, where they are counted out
   const auto look = [&](int begin, int end) {
@@ -207,7 +210,7 @@ int near_pairs_of(const Side& a, const Side& b, const Pair* pairs, int count, co
       found += hit.lanes != 0 ? 1 : 0;
     }
   };
-  if (groups.count == 0) look(0, count);
+  if (groups.count == 0) look(0, of.count);
   if (groups.other_count > 0) {
     if (!near_balls<F>(a, b, groups.limit_up)) return 0;
     of_b = 0;
@@ -227,12 +230,11 @@ int near_pairs_of(const Side& a, const Side& b, const Pair* pairs, int count, co
 }
 
 template <class F>
-int near_pairs(const Side& a, const Side& b, const Pair* pairs, int count, const Groups& groups,
-               unsigned lanes, Hit* hits) {
+int near_pairs(const Side& a, const Side& b, const Pairs& pairs, unsigned lanes, Hit* hits) {
   if (a.motion_bound == nullptr && b.motion_bound == nullptr) {
-    return near_pairs_of<F, false>(a, b, pairs, count, groups, lanes, hits);
+    return near_pairs_of<F, false>(a, b, pairs, lanes, hits);
   }
-  return near_pairs_of<F, true>(a, b, pairs, count, groups, lanes, hits);
+  return near_pairs_of<F, true>(a, b, pairs, lanes, hits);
 }
 
 // The gap across the box's faces: a lower bound, the distance itself before a face.

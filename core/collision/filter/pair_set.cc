@@ -47,7 +47,7 @@ void add_capsules(PairSet& set, const NarrowPair& narrow, const BodyCapsules& a,
                   const BodyCapsules& b, double margin_m) {
   for (int i = a.begin(); i < a.end(); ++i) {
     for (int j = b.begin(); j < b.end(); ++j) {
-      set.pairs.push_back(kernel_pair(i, a[i], j, b[j], narrow.limit_m, margin_m));
+      set.pairs.push_back(kernel_pair({i, a[i]}, {j, b[j]}, narrow.limit_m, margin_m));
       set.narrow.push_back(narrow);
     }
   }
@@ -127,9 +127,15 @@ void PairSet::limits_changed() {
   for (filter::Group& other : others) other.limit_up = limit_up;
 }
 
-filter::Groups PairSet::grouped() const {
-  return {groups.data(), static_cast<int>(groups.size()), groups_of_second,
-          others.data(), static_cast<int>(others.size()), limit_up};
+filter::Pairs PairSet::grouped() const {
+  filter::Pairs all = ungrouped();
+  all.groups = {groups.data(), static_cast<int>(groups.size()), groups_of_second,
+                others.data(), static_cast<int>(others.size()), limit_up};
+  return all;
+}
+
+filter::Pairs PairSet::ungrouped() const {
+  return {pairs.data(), static_cast<int>(pairs.size()), {}};
 }
 
 PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& a,

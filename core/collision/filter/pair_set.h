@@ -29,7 +29,10 @@ struct PairSet {
   float limit_up = 0.0F;              // the largest of pairs
 
   [[nodiscard]] bool empty() const { return pairs.empty() && boxes.empty(); }
-  [[nodiscard]] filter::Groups grouped() const;
+  // For the filter: whole groups are passed over where balls prove them; or every pair is looked
+  // at.
+  [[nodiscard]] filter::Pairs grouped() const;
+  [[nodiscard]] filter::Pairs ungrouped() const;
   // limit_m(pair): what it is held to from now on.
   template <class Limit>
   void set_limits(const Limit& limit_m) {

@@ -28,7 +28,7 @@ double shapes_distance(const std::vector<ConvexShape>& shapes, const ShapeGroups
   return smallest;
 }
 
-// `of_solids`(a, X_WA, b, X_WB, limit): what is to be known of two solids.
+// `of_solids`(a, b, limit): what is to be known of two solids.
 template <class OfSolids>
 double smallest_distance(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                          const PlacedBody& b, double limit_m, const OfSolids& of_solids) {
@@ -43,7 +43,7 @@ double smallest_distance(const std::vector<ConvexShape>& shapes, const PlacedBod
         continue;
       }
       const double within_m = std::min(smallest, kSurfaceWithin_m);
-      smallest = of_solids(of_a.solid(), of_a.X_WT(), of_b.solid(), of_b.X_WT(), within_m);
+      smallest = of_solids(of_a.solid(), of_b.solid(), within_m);
     }
   }
   return smallest;
@@ -56,18 +56,11 @@ double body_distance(const std::vector<ConvexShape>& shapes, const PlacedBody& a
   return smallest_distance(shapes, a, b, limit_m, solid_distance);
 }
 
-double body_distance(const PlanningScene::Bodies& bodies, std::size_t body_a,
-                     const Eigen::Isometry3d& X_WA, std::size_t body_b,
-                     const Eigen::Isometry3d& X_WB, double limit_m) {
-  return body_distance(bodies.shapes, {bodies.bodies[body_a], X_WA}, {bodies.bodies[body_b], X_WB},
-                       limit_m);
-}
-
 bool bodies_surely_closer_than(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                                const PlacedBody& b, double limit_m) {
   for (ShapeGroups of_a(shapes, a); !of_a.ended(); of_a.next()) {
     for (ShapeGroups of_b(shapes, b); !of_b.ended(); of_b.next()) {
-      if (surely_closer_than(of_a.solid(), of_a.X_WT(), of_b.solid(), of_b.X_WT(), limit_m)) {
+      if (surely_closer_than(of_a.solid(), of_b.solid(), limit_m)) {
         return true;
       }
     }
@@ -77,9 +70,8 @@ bool bodies_surely_closer_than(const std::vector<ConvexShape>& shapes, const Pla
 
 bool bodies_closer_than(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                         const PlacedBody& b, double limit_m) {
-  const auto found = [](const Solid& of_a, const Eigen::Isometry3d& X_WA, const Solid& of_b,
-                        const Eigen::Isometry3d& X_WB, double within_m) {
-    return closer_than(of_a, X_WA, of_b, X_WB, within_m) ? kFound : within_m;
+  const auto found = [](const PlacedSolid& of_a, const PlacedSolid& of_b, double within_m) {
+    return closer_than(of_a, of_b, within_m) ? kFound : within_m;
   };
   return smallest_distance(shapes, a, b, limit_m, found) < limit_m;
 }

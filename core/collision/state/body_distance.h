@@ -23,9 +23,6 @@ inline constexpr double kSurfaceWithin_m = 0.05;
 // pieces of meshes that are farther apart than kSurfaceWithin_m.
 [[nodiscard]] double body_distance(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                                    const PlacedBody& b, double limit_m);
-[[nodiscard]] double body_distance(const PlanningScene::Bodies& bodies, std::size_t body_a,
-                                   const Eigen::Isometry3d& X_WA, std::size_t body_b,
-                                   const Eigen::Isometry3d& X_WB, double limit_m);
 
 // Whether balls prove it (surely_closer_than, solid.h): what is soon known.
 [[nodiscard]] bool bodies_surely_closer_than(const std::vector<ConvexShape>& shapes,

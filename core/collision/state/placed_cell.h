@@ -35,8 +35,7 @@ class PlacedCell {
     const auto found = [&](int count) {
       return std::span<const filter::Hit>(hits_).first(static_cast<std::size_t>(count));
     };
-    visit(found(kernel.near_pairs(arms_[c.a].side(), arms_[c.b].side(), set.pairs.data(),
-                                  static_cast<int>(set.pairs.size()), set.grouped(), lanes,
+    visit(found(kernel.near_pairs(arms_[c.a].side(), arms_[c.b].side(), set.grouped(), lanes,
                                   hits_.data())),
           set.narrow);
     if (set.boxes.empty()) return;

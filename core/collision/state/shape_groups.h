@@ -21,8 +21,10 @@ class ShapeGroups {
   }
   [[nodiscard]] std::size_t begin() const { return begin_; }
   [[nodiscard]] std::size_t end() const { return end_; }
-  [[nodiscard]] const Solid& solid() const { return *shapes_[begin_].solid; }
-  [[nodiscard]] Eigen::Isometry3d X_WT() const { return body_.X_WP * solid().X_PT; }
+  [[nodiscard]] PlacedSolid solid() const {
+    const Solid& solid = *shapes_[begin_].solid;
+    return {solid, body_.X_WP * solid.X_PT};
+  }
   [[nodiscard]] bool are_pieces() const { return shapes_[begin_].is_piece; }
 
   [[nodiscard]] const PlacedConvexShape& placed(std::size_t shape, PlacedConvexShape& own) const {

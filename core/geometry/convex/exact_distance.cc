@@ -95,10 +95,10 @@ std::optional<Separation> prove_by_surfaces(const ConvexShape& a, const Eigen::I
                                             const ConvexShape& b, const Eigen::Isometry3d& X_WB) {
   if (a.solid == nullptr || b.solid == nullptr || a.is_piece || b.is_piece) return std::nullopt;
   // A solid's tree stands in the part's frame, the poses are of the shapes'.
-  const auto X_WT = [](const ConvexShape& body, const Eigen::Isometry3d& X_WS) {
-    return X_WS * body.X_PS.inverse(Eigen::Isometry) * body.solid->X_PT;
+  const auto solid = [](const ConvexShape& body, const Eigen::Isometry3d& X_WS) {
+    return PlacedSolid{*body.solid, X_WS * body.X_PS.inverse(Eigen::Isometry) * body.solid->X_PT};
   };
-  const auto n = direction_apart(*a.solid, X_WT(a, X_WA), *b.solid, X_WT(b, X_WB));
+  const auto n = direction_apart(solid(a, X_WA), solid(b, X_WB));
   if (!n) return std::nullopt;
   const double gap = gap_along(a, X_WA, b, X_WB, *n);
   return gap > 0.0 ? std::optional(Separation{gap, *n}) : std::nullopt;

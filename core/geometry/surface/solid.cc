@@ -23,8 +23,15 @@ bool lies_inside(const SurfaceTree& inner, const SurfaceTree& outer,
   });
 }
 
-double distance(const Solid& a, const Solid& b, const Eigen::Isometry3d& X_AB, double limit_m,
-                double enough_m) {
+// Of the second solid's tree in that of the first.
+Eigen::Isometry3d X_AB_of(const PlacedSolid& a, const PlacedSolid& b) {
+  return a.X_WT.inverse(Eigen::Isometry) * b.X_WT;
+}
+
+double distance(const PlacedSolid& at_a, const PlacedSolid& at_b, double limit_m, double enough_m) {
+  const Solid& a = at_a.solid;
+  const Solid& b = at_b.solid;
+  const Eigen::Isometry3d X_AB = X_AB_of(at_a, at_b);
   const double radii_m = a.radius_m + b.radius_m;
   if (limit_m + radii_m <= 0.0) return limit_m;
   if (a.inner.surely_meet(b.inner, X_AB, enough_m)) {
@@ -43,35 +50,28 @@ double distance(const Solid& a, const Solid& b, const Eigen::Isometry3d& X_AB, d
 
 }  // namespace
 
-double solid_distance(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
-                      const Eigen::Isometry3d& X_WB, double limit_m) {
-  return distance(a, b, X_WA.inverse(Eigen::Isometry) * X_WB, limit_m, 0.0);
+double solid_distance(const PlacedSolid& a, const PlacedSolid& b, double limit_m) {
+  return distance(a, b, limit_m, 0.0);
 }
 
-bool closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
-                 const Eigen::Isometry3d& X_WB, double limit_m) {
-  return distance(a, b, X_WA.inverse(Eigen::Isometry) * X_WB, limit_m, limit_m) < limit_m;
+bool closer_than(const PlacedSolid& a, const PlacedSolid& b, double limit_m) {
+  return distance(a, b, limit_m, limit_m) < limit_m;
 }
 
-bool surely_closer_than(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
-                        const Eigen::Isometry3d& X_WB, double limit_m) {
-  return a.inner.surely_meet(b.inner, X_WA.inverse(Eigen::Isometry) * X_WB, limit_m);
+bool surely_closer_than(const PlacedSolid& a, const PlacedSolid& b, double limit_m) {
+  return a.solid.inner.surely_meet(b.solid.inner, X_AB_of(a, b), limit_m);
 }
 
-std::optional<Vector3d> direction_apart(const Solid& a, const Eigen::Isometry3d& X_WA,
-                                        const Solid& b, const Eigen::Isometry3d& X_WB) {
+std::optional<Vector3d> direction_apart(const PlacedSolid& a, const PlacedSolid& b) {
   constexpr double kAny_m = std::numeric_limits<double>::infinity();
-  const Eigen::Isometry3d X_AB = X_WA.inverse(Eigen::Isometry) * X_WB;
-  SurfaceDescent descent(*a.tree, *b.tree, X_AB, kAny_m, 0.0);
+  SurfaceDescent descent(*a.solid.tree, *b.solid.tree, X_AB_of(a, b), kAny_m, 0.0);
   if (descent.run() <= 0.0) return std::nullopt;
-  return X_WA.linear() * descent.direction();
+  return a.X_WT.linear() * descent.direction();
 }
 
-bool surfaces_apart(const Solid& a, const Eigen::Isometry3d& X_WA, const Solid& b,
-                    const Eigen::Isometry3d& X_WB, double within_m, KeptApart& kept) {
-  const double enough_m = within_m + a.radius_m + b.radius_m;
-  SurfaceDescent descent(*a.tree, *b.tree, X_WA.inverse(Eigen::Isometry) * X_WB, enough_m,
-                         enough_m);
+bool surfaces_apart(const PlacedSolid& a, const PlacedSolid& b, double within_m, KeptApart& kept) {
+  const double enough_m = within_m + a.solid.radius_m + b.solid.radius_m;
+  SurfaceDescent descent(*a.solid.tree, *b.solid.tree, X_AB_of(a, b), enough_m, enough_m);
   descent.pass_over(&kept);
   return descent.run() >= enough_m;
 }
