@@ -123,7 +123,7 @@ Outcome run(Workload load, Way way) {
   Closest seen;
   const std::size_t count = load.jobs.size();
   const auto result = simulate(*build_cell(load.cell), ExecutiveOptions{.policy = "earliest_start"},
-                               load.jobs, at(2000s), seen);
+                               {load.jobs, at(2000s)}, seen);
   Outcome outcome;
   EXPECT_TRUE(result) << result.error().front().detail;
   if (!result) return outcome;
