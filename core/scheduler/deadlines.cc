@@ -72,6 +72,7 @@ std::optional<TimePoint> deadline_of(const Job& job) {
 }  // namespace
 
 std::optional<TimePoint> expiry_of(const Job& job) {
+  if (job.is_replanned_now()) return std::nullopt;  // until that is answered
   if (job.state() == JobState::backlogged) return *job.times.backlogged_at + job.backlog_timeout;
   const Pause* pause = pause_of(job);
   if (pause == nullptr || !pause->in_vain_since) return std::nullopt;
@@ -84,8 +85,8 @@ void expire_and_overrun(State& state) {
     Record& record = state.jobs.at(id);
     Job& job = record.job;
     if (job.state() == JobState::backlogged) {
-      if (state.now < *expiry_of(job)) continue;
-      if (goes_on_after_timeout(state, record)) continue;
+      const auto expiry = expiry_of(job);
+      if (!expiry || state.now < *expiry || goes_on_after_timeout(state, record)) continue;
       end(state, record, JobState::expired, Reason::backlog_timeout,
           "waited " + seconds_text(job.backlog_timeout) + " in the backlog");
       continue;

@@ -75,6 +75,20 @@ TEST(CoordinatedTeams, ArmsOfOneMotionAreFreeOfEachOtherOutOfStepToo) {
   }
 }
 
+// Their ways cross, and in step they keep 15 cm: what one of them sweeps is none of the other's.
+TEST(CoordinatedTeams, ArmsOfOneMotionMayCrossEachOthersWaysUnderEveryPolicy) {
+  for (const char* policy : {"sequential", "lockstep", "reservation", "timed_discrete", "certified",
+                             "earliest_start", "coordinated"}) {
+    Crossing cell(crossing_description(), policy);
+    cell.submit(slide("x", -1, -0.5, 1, "sets out"));
+    cell.submit(together({{"x", -0.5, 1}, {"y", -1, 0.5}}, 4, "team"));
+    cell.run_to_the_end();
+    const auto team = cell.simulation->executive().job("team");
+    EXPECT_EQ(team->state, JobState::succeeded) << policy << ": " << team->detail;
+    EXPECT_GT(cell.log.closest_m, 0.1) << policy;
+  }
+}
+
 // y pauses before x, which was canceled in its way; what would take x away has y in it too, and
 // comes after it.
 TEST(CoordinatedTeams, AMotionThatPausesBeforeAnArmIsInARingWithTheJobsBehindIt) {
