@@ -48,7 +48,7 @@ class Executive::Impl {
   void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
             std::function<void(Result<PlanOutcome>)> done);
 
-  // executive.cc
+  // executive_impl.cc
   void step(const Input& input);
   void tick(TimePoint now);
   void end(const std::string& cause, bool keeps_waiting, std::function<void()> done);
