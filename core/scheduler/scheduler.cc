@@ -1,6 +1,7 @@
 #include "core/scheduler/scheduler.h"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -72,8 +73,13 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 
   // What clients see comes first, so that an event is told before its consequences.
   std::vector<Effect> result;
-  for (const YieldMove& move : std::exchange(state_.sent_aside, {})) result.push_back(move);
-  for (JobId job : state_.jobs.take_changed()) result.push_back(JobChanged{job});
+  const std::vector<YieldMove> sent_aside = std::exchange(state_.sent_aside, {});
+  for (const YieldMove& move : sent_aside) result.push_back(move);
+  std::set<JobId> changed = state_.jobs.take_changed();
+  for (const YieldMove& move : sent_aside) {  // they are known before others wait for them
+    if (changed.erase(move.job) != 0) result.push_back(JobChanged{move.job});
+  }
+  for (JobId job : changed) result.push_back(JobChanged{job});
   std::ranges::move(std::exchange(state_.effects, {}), std::back_inserter(result));
   return result;
 }

@@ -1,4 +1,6 @@
 // An arm that rests in the way: told, or sent aside and back (on_idle_blocker).
+#include <set>
+
 #include "test/scenarios/polygon.h"
 
 namespace armloom {
@@ -207,6 +209,24 @@ TEST_P(InARing, OneOfThreeMovesAsideAndComesBack) {
     EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key;
   }
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
+}
+
+// Whoever follows the events knows every job before another one is told to wait for it.
+TEST_P(InARing, EveryJobIsToldBeforeOthersWaitForIt) {
+  Crossing cell(parking_polygon(2), GetParam());
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.submit(slide("b", -1, 1, 4, "two"));
+  cell.run_to_the_end(at(60s));
+  std::set<std::string> told;
+  for (const Event& event : cell.log.events) {
+    const auto* job = std::get_if<JobView>(&event.body);
+    if (job == nullptr) continue;
+    for (const WaitView& wait : job->waits_on) {
+      EXPECT_TRUE(wait.job.empty() || told.contains(wait.job)) << job->key << ": " << wait.job;
+    }
+    told.insert(job->key);
+  }
+  EXPECT_TRUE(told.contains("aside-2"));
 }
 
 TEST_P(InARing, ClientsMaySendWhatComesNextWhileAnArmIsAside) {
