@@ -146,7 +146,7 @@ export interface components {
                  * @enum {string}
                  */
                 cause: "client" | "timeout" | "blocked";
-                /** @description Why it kept the way that it had, the last time; else null */
+                /** @description Why it kept its own, the last time */
                 refused: string | null;
             };
             /** @description Why it was taken before others, or by this arm */
@@ -230,7 +230,7 @@ export interface components {
         Verdict: {
             /** @enum {string} */
             verdict: "free" | "conflict" | "undecided";
-            /** @description From now; 0 when free, null when not known */
+            /** @description From now; 0 where it would start at once, null when not known */
             earliest_start_s: number | null;
             /** @description What is proven to be kept between arms, and by arms from what stands still: the least that any such pair was held to */
             clearance_bound_m: number | null;
