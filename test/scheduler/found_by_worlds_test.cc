@@ -46,6 +46,7 @@ TEST(Authority, GrowsInTheStepInWhichTheOneThatPassesFirstHasLeft) {
   const JobId first = two.first, second = two.second;
   bench.progressed(second, 500ms, at(1s));
   bench.progressed(second, 1s, at(1500ms));
+  bench.progressed(second, 1400ms, at(1599ms));
   ASSERT_LE(bench.authority(second), 1500ms);
   bench.progressed(first, 1399ms, at(1600ms));
   ASSERT_LE(bench.authority(second), 1500ms);

@@ -74,8 +74,8 @@ TEST(Cancel, HoldsOnlyWhatTheRestingArmStandsInTheWayOf) {
   bench.stopped(first, 1100ms, at(1107ms));
   EXPECT_THAT(bench.braked, ElementsAre(first)) << "nobody brakes for it";
   bench.progressed(behind, 900ms, at(2s));
-  bench.progressed(behind, 1500ms, at(3s));
-  bench.progressed(behind, 1500ms, at(4s));
+  bench.progressed(behind, 1400ms, at(3s));
+  bench.progressed(behind, 1500ms - kShortOf, at(4s));
   EXPECT_TRUE(bench.job(behind).pausing());
   EXPECT_EQ(bench.job(behind).waits_on.front().kind, Wait::Kind::arm);
   EXPECT_EQ(bench.job(behind).waits_on.front().arm, ArmId{0});
@@ -229,7 +229,7 @@ TEST(Resume, LetsHeldJobsGoOnOneByOneByTheirOrders) {
     EXPECT_EQ(bench.dispatched.back().job, job);
   }
   EXPECT_EQ(bench.dispatched.back().from_progress, 100ms);
-  bench.progressed(second, 1s, at(3s));
+  bench.progressed(second, 900ms, at(3s));
   EXPECT_EQ(bench.authority(second), 1s - kShortOf) << "the first one has not passed";
   bench.progressed(first, 1200ms, at(4s));
   EXPECT_GT(bench.authority(second), 1s);

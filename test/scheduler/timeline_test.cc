@@ -10,7 +10,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr Duration kAtMost = 200ms;  // the two may differ by
+constexpr Duration kAtMost = 250ms;  // the two may differ by
 constexpr Duration kMoves = 10s;
 
 // They cross in the middle of their ways.

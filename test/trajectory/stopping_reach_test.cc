@@ -57,9 +57,9 @@ double longest_brake(const Trajectory& trajectory, double brake) {
 TEST(StoppingReach, IsNoLessThanAnyBrakeTakesAndLittleMore) {
   const Cell cell = test_cell();
   const std::vector<std::vector<Knot>> ways = {
-      {{0.0, -1.2, 0.0}, {2.0, 1.2, 0.0}},                  // one long segment
+      {{0.0, -1.2, 0.0}, {2.4, 1.2, 0.0}},                  // one long segment
       {{0.0, -2.5, 0.0}, {4.8, 2.5, 0.0}},                  // a longer one
-      {{0.0, 0.0, 0.0}, {0.8, 0.7, 1.2}, {1.6, 1.4, 0.0}},  // fast in the middle
+      {{0.0, 0.0, 0.0}, {0.8, 0.5, 1.2}, {1.6, 1.0, 0.0}},  // fast in the middle
       {{0.0, 0.0, 0.0}, {0.5, 0.2, 0.8}, {2.5, 1.8, 0.8}, {3.0, 2.0, 0.0}}};
   for (const auto& way : ways) {
     for (const bool quintic : {false, true}) {
