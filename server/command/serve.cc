@@ -10,6 +10,7 @@
 #include "server/access/token_file.h"
 #include "server/command/command.h"
 #include "server/http/framing.h"
+#include "server/http/http_server.h"
 #include "server/service.h"
 
 namespace armloom {
@@ -55,10 +56,6 @@ std::size_t connections_within_descriptors(std::size_t wanted) {
   return static_cast<std::size_t>(limit.rlim_cur - std::min<rlim_t>(kOther, limit.rlim_cur / 2));
 }
 
-bool is_loopback(const std::string& address) {
-  return address.starts_with("127.") || address == "::1";
-}
-
 // Of who may use it: whoever can reach an address that is not the machine's own has to show a
 // token, and nobody between may read it.
 void find_faults_of_access(const ServeOptions& options, const std::string& address,
@@ -68,7 +65,7 @@ void find_faults_of_access(const ServeOptions& options, const std::string& addre
                                "--tls-certificate and --tls-key go together"});
   }
   const bool is_closed = !options.tokens.empty() && !options.tls_certificate.empty();
-  if (!is_loopback(address) && !is_closed) {
+  if (reach_of(address) == Reach::others && !is_closed) {
     problems.push_back(
         Problem{ProblemKind::invalid, "open-to-others", "--listen",
                 "whoever reaches " + address +

@@ -23,6 +23,13 @@ Problem cannot_listen(const std::string& address, std::uint16_t port, const std:
 
 }  // namespace
 
+Reach reach_of(const std::string& address) {
+  ErrorCode ec;
+  const auto ip = asio::ip::make_address(address, ec);
+  if (ec) return Reach::nobody;
+  return ip.is_loopback() ? Reach::this_machine : Reach::others;
+}
+
 class HttpServer::Impl {
  public:
   explicit Impl(std::size_t connections_max) : connections_max_(connections_max) {}

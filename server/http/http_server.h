@@ -17,6 +17,11 @@ struct TlsFiles {
   std::string key;
 };
 
+// Who can reach a server that listens there: nobody (it is no IP address), this machine alone, or
+// others too.
+enum class Reach { nobody, this_machine, others };
+[[nodiscard]] Reach reach_of(const std::string& address);
+
 // The listening socket and the one thread on which every connection is served.
 class HttpServer {
  public:

@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
                 R"({"brake_rad_s2": 1, "brake_m_s2": 1})", "at most one of"},
         BadCell{"Policy", "/scheduling/policy", "\"hopeful\"", "\"earliest_start\""},
         BadCell{"IdleBlocker", "/scheduling/on_idle_blocker", "\"shove\"",
-                "expected \"report\" or \"park\""},
+                "expected \"report\", \"park\" or \"replan\""},
         BadCell{"PairIsSingle", "/allowed_collisions/0", "[\"table\"]", "a pair"},
         BadCell{"StepIsZero", "/checking/time_step_s", "0", "not within"},
         BadCell{"RateIsHigh", "/monitor/rate_hz", "5000", "not within"},

@@ -98,18 +98,17 @@ TEST_F(Serve, EventsAreOnTheirWayToTheDiskWhenTheyAreTold) {
   EXPECT_FALSE(events().empty());
 }
 
-// No file may grow beyond 128 kB, as on a disk that is full. Of the store on such a disk: Durable.
+// No file may grow beyond 256 kB, as on a disk that is full: the measured states of one motion are
+// more. Of the store on such a disk: Durable.
 TEST_F(Serve, ADiskThatFillsUpIsSaidAtOnceAndAtTheEnd) {
   test::ServeProcess server({"--cell", test::kCell, "--data", data(), "--speed", "20"}, log(),
-                            [] { test::set_limit(RLIMIT_FSIZE, 131'072); });
-  const json box = {{"name", "box"}, {"box", {0.1, 0.1, 0.1}}, {"xyz", {0, 0, 3}}};
+                            [] { test::set_limit(RLIMIT_FSIZE, 262'144); });
   const auto deadline = Clock::now() + std::chrono::seconds(20);
   auto ready = test::request(server.port(), "GET", "/readyz");
   EXPECT_EQ(ready.status, 200);
+  begin_job(server.port(), "go", "left");
   while (ready.status == 200) {
     ASSERT_LT(Clock::now(), deadline);
-    test::request(server.port(), "POST", "/api/v1/scene/objects", box.dump());
-    test::request(server.port(), "DELETE", "/api/v1/scene/objects/box");
     ready = test::request(server.port(), "GET", "/readyz");
   }
   EXPECT_EQ(ready.status, 503);
