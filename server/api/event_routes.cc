@@ -49,8 +49,9 @@ void welcome(const ApiParts& parts, const Snapshot& snapshot) {
   for (const ApiParts::Newcomer& newcomer : std::exchange(*parts.newcomers, {})) {
     Hub::Text& text = texts[newcomer.gap ? 1 : 0];
     if (!text) {
-      text = std::make_shared<const std::string>(snapshot_json(
-          {&snapshot, parts.cell.get(), parts.loop.speed(), newcomer.gap}, parts.stream, parts.clock));
+      text = std::make_shared<const std::string>(
+          snapshot_json({&snapshot, parts.cell.get(), parts.loop.speed(), newcomer.gap},
+                        parts.stream, parts.clock));
     }
     if (FeedPtr feed = parts.hub.resume(snapshot.seq, text)) newcomer.then(std::move(feed));
   }
