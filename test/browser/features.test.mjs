@@ -110,7 +110,9 @@ test('a diagram shows authority, and both arms where it is pointed at', { timeou
 });
 
 test('a job page has its joints as planned and as measured', { timeout: 90_000 }, async () => {
-  await ask(page, 'DELETE', '/jobs/blocked');
+  await ask(page, 'DELETE', '/jobs/blocked');  // it may have begun: then it brakes first
+  await finished('blocked');
+  await page.waitForTimeout(500);  // until the page has where the arm stands
   await speed(2);
   await send('right', 'measured', [kMiddle.map((angle, i) => (i === 0 ? 1 : angle)), null], 3);
   await go('#/job/measured');
@@ -199,7 +201,7 @@ test('an object is moved by hand', { timeout: 90_000 }, async () => {
   await page.waitForFunction(() => window.armloom.objects().find(({ name }) => name === 'crate').xyz[0] > 0.05);
   const there = (await page.evaluate(() => window.armloom.objects())).find(({ name }) => name === 'crate');
   assert.match(page.url(), /#\/scene\/crate/);
-  assert.equal(await page.locator('[data-test=object-x]').inputValue(), String(there.xyz[0]));
+  await page.waitForFunction((x) => document.querySelector('[data-test=object-x]').value === x, String(there.xyz[0]));
   await page.screenshot(path_for('by-hand-dark'));
   await ask(page, 'DELETE', '/scene/objects/crate');
   await go('#/');
