@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "core/base/add_below.h"
 #include "core/collision/check/motion_checker.h"
 #include "core/collision/state/check_home.h"
 #include "core/executive/start_elsewhere.h"
@@ -71,8 +72,7 @@ class Plan {
     auto trajectory = validate(motion.motion, cell_);
     Problems found = trajectory ? Problems{} : std::move(trajectory.error());
     if (trajectory) find_start_elsewhere(cell_, **trajectory, rest_, found);
-    for (Problem& problem : found) problem.pointer.insert(0, motion.place);
-    for (Problem& problem : found) refuse(std::move(problem));
+    add_below(place + motion.place, std::move(found), problems);
     if (problems.size() > before) {
       ++refused_;
       return;

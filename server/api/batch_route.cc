@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/add_below.h"
 #include "server/access/digest.h"
 #include "server/api/examples.h"
 #include "server/api/resubmission.h"
@@ -58,10 +59,7 @@ std::optional<Response> refused_by_store(const ApiParts& parts, Batch& batch) {
       job = failure(known.error());
       continue;
     }
-    for (Problem problem : known.error()) {
-      problem.pointer.insert(0, "/jobs/" + std::to_string(i));
-      problems.push_back(std::move(problem));
-    }
+    add_below("/jobs/" + std::to_string(i), known.error(), problems);
   }
   if (problems.empty()) return std::nullopt;
   return problem_response(problems);

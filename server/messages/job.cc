@@ -7,7 +7,6 @@
 #include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job_request.h"
-#include "server/messages/problem.h"
 
 namespace armloom {
 
@@ -75,66 +74,6 @@ std::optional<std::vector<std::string>> alternatives_of(const JobView& job) {
 
 std::optional<std::string> detail_of(const WaitView& wait) {
   return wait.detail.empty() ? std::nullopt : std::optional(wait.detail);
-}
-
-class ListedJobFormat final : public Format<ListedJob> {
- public:
-  void read(const JsonNode&, ListedJob&) const override {}
-  void write(JsonWriter& out, const ListedJob& job) const override {
-    if (const auto* text = std::get_if<std::string>(&job)) {
-      out.raw(*text);
-    } else {
-      job_format()->write(out, std::get<JobView>(job));
-    }
-  }
-  Schema schema(Way way) const override { return job_format()->schema(way); }
-};
-
-// {"status": 202, "job": {...}} or {"status": 422, "problem": {...}}
-class BatchResultFormat final : public Format<Result<ListedJob>> {
- public:
-  void read(const JsonNode&, Result<ListedJob>&) const override {}
-  void write(JsonWriter& out, const Result<ListedJob>& result) const override {
-    if (result) return accepted_->write(out, *result);
-    refused_->write(out, result.error());
-  }
-  Schema schema(Way way) const override {
-    Schema accepted = accepted_->schema(way);
-    accepted["properties"]["status"] = {{"const", kAccepted}};
-    return {{"oneOf", Schema::array({std::move(accepted), refused_->schema(way)})}};
-  }
-
- private:
-  inline static constexpr int kAccepted = 202;
-  FormatPtr<ListedJob> accepted_ = object<ListedJob>({
-      told(
-          "status", [](const ListedJob&) { return kAccepted; }, integer(kAccepted, kAccepted)),
-      told(
-          "job", [](const ListedJob& job) { return &job; }, listed_job_format()),
-  });
-  FormatPtr<Problems> refused_ = object<Problems>({
-      told(
-          "status", [](const Problems& why) { return status_of(why.front().kind); },
-          integer(400, 599)),
-      told(
-          "problem", [](const Problems& why) { return document_of(why); }, problem_format()),
-  });
-};
-
-template <class T>
-FormatPtr<std::vector<T>> listed(const char* name, const char* key, FormatPtr<T> element) {
-  using List = std::vector<T>;
-  return named(name, "",
-               object<List>({told(
-                   key, [](const List& all) { return &all; }, list(std::move(element)))}));
-}
-
-PartPtr<QueueView> ids(const char* key, std::vector<std::string> QueueView::*where) {
-  return told(key, where, list(text()));
-}
-PartPtr<QueueJobs> jobs(const char* key, std::vector<JobView> QueueJobs::*where,
-                        const char* text = "") {
-  return told(key, where, list(job_format()), text);
 }
 
 PartPtr<CheckView> make_verdict_part() {
@@ -234,60 +173,6 @@ FormatPtr<JobView> job_format() {
                "last for the first. Else empty"),
           told("result", result_of, nullable(result_format()), "null until terminal"),
       }));
-  return format;
-}
-
-FormatPtr<ListedJob> listed_job_format() {
-  static const FormatPtr<ListedJob> format = std::make_shared<ListedJobFormat>();
-  return format;
-}
-
-FormatPtr<JobPage> job_page_format() {
-  static const auto format =
-      named("JobPage", "",
-            object<JobPage>({
-                told("jobs", &JobPage::jobs, list<ListedJob>(listed_job_format())),
-                told("next_cursor", &JobPage::next_cursor, nullable(text()),
-                     "For ?cursor=; null on the last page"),
-            }));
-  return format;
-}
-
-FormatPtr<QueueView> queue_ids_format() {
-  static const auto format =
-      named("QueueIds", "",
-            object<QueueView>({
-                told("stopped", &QueueView::stopped, flag(), "Every arm is stopped"),
-                ids("queued", &QueueView::queued),
-                ids("backlog", &QueueView::backlog),
-                ids("scheduled", &QueueView::scheduled),
-                ids("running", &QueueView::running),
-            }));
-  return format;
-}
-
-FormatPtr<QueueJobs> queue_format() {
-  static const auto format =
-      named("Queue", "",
-            object<QueueJobs>({
-                told("policy", &QueueJobs::policy, text(), "In force"),
-                told("stopped", &QueueJobs::stopped, flag(), "Every arm is stopped"),
-                jobs("queued", &QueueJobs::queued),
-                jobs("backlog", &QueueJobs::backlog),
-                jobs("scheduled", &QueueJobs::scheduled),
-                jobs("running", &QueueJobs::running, "With those that hold"),
-            }));
-  return format;
-}
-
-FormatPtr<std::vector<ListedJob>> batch_accepted_format() {
-  static const auto format = listed<ListedJob>("BatchAccepted", "jobs", listed_job_format());
-  return format;
-}
-
-FormatPtr<std::vector<Result<ListedJob>>> batch_results_format() {
-  static const auto format =
-      listed<Result<ListedJob>>("BatchResults", "results", std::make_shared<BatchResultFormat>());
   return format;
 }
 
