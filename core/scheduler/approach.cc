@@ -23,13 +23,12 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
   const Eigen::VectorXd to = joints_of(at, state.cell->arm(arm).joints);
   TrajectoryPtr way = estimate(state, arm, to);
   if (!way) return false;
-  Record record =
-      record_of(state, {.job = state.jobs.next_id(),
-                        .trajectory = std::move(way),
-                        .priority = head.job.priority,
-                        .backlog_timeout = head.job.backlog_timeout,
-                        .system_job = true,
-                        .goal = MotionGoal{.arm = arm, .to = to, .speed = kApproachSpeed}});
+  Record record = record_of(state, {.job = state.jobs.next_id(),
+                                    .trajectory = std::move(way),
+                                    .priority = head.job.priority,
+                                    .backlog_timeout = head.job.backlog_timeout,
+                                    .system_job = true,
+                                    .goals = {{.arm = arm, .to = to, .speed = kApproachSpeed}}});
   record.on_behalf_of = head.on_behalf_of;
   record.before = head.job.id;
   const JobId id = record.job.id;

@@ -31,10 +31,11 @@ struct Submit {
   // while one of them is stopped, but when they are resumed. (As of those that Interrupt keeps.)
   bool is_held_over = false;
   // The same work by one of several arms, `trajectory` first; none, or two or more. Each moves one
-  // arm, of which no other one is, and ends where it begins.
+  // arm, of which no other one is, and ends where it begins, unless goals are given too.
   std::vector<TrajectoryPtr> alternatives = {};
   // Where its arm is to go: the way is planned first (PlanMotion); `trajectory` is an estimate.
-  std::optional<MotionGoal> goal = {};
+  // Several: one for each of `alternatives`, which are estimates.
+  std::vector<MotionGoal> goals = {};
   // When its time in the backlog is over it is planned anew, before it expires (replanning.h).
   bool replans_on_timeout = false;
   // Arms that at its turn stand elsewhere than where it begins are brought there first
@@ -106,8 +107,8 @@ using Input = std::variant<Submit, Cancel, Replan, Judged, PlanMade, MotionRepor
 struct Judge {
   Question question;
 };
-// Plan this job's motion, on a worker, and come back with PlanMade. Of each job one is open at
-// most.
+// Plan this job's motion, on a worker, and come back with PlanMade. Of each job and arm one is open
+// at most.
 struct PlanMotion {
   JobId job;
   std::uint64_t number;

@@ -173,6 +173,24 @@ void JobBook::set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg le
   changed(record);
 }
 
+void JobBook::set_alternative(Record& record, std::size_t which, TrajectoryPtr trajectory,
+                              WaitingLeg leg) {
+  Job& job = record.job;
+  const bool is_taken = job.trajectory == job.alternatives[which];
+  count(job, work_, -1);
+  job.alternatives[which] = trajectory;
+  count(job, work_, 1);
+  if (is_taken) set_motion(record, std::move(trajectory), std::move(leg));
+}
+
+void JobBook::decide_arm(Record& record) {
+  count(record.job, work_, -1);
+  record.job.alternatives.clear();
+  count(record.job, work_, 1);
+  undecided_.erase(record.job.id);
+  changed(record);
+}
+
 // What comes next on its arms may have waited for it, or does now.
 void JobBook::explain_with_next(const Job& job) {
   unexplained_.insert(job.id);

@@ -79,6 +79,10 @@ class JobBook {
   void take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg, std::size_t place);
   // Its way is known now, or is another one. Precondition: it waits in the queue.
   void set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg leg);
+  // The same of one of its alternatives, the one that it is taken to go by or another.
+  void set_alternative(Record& record, std::size_t which, TrajectoryPtr trajectory, WaitingLeg leg);
+  // It goes by the arm that it has now, and no other one. Precondition: it waits.
+  void decide_arm(Record& record);
   // Any that say where to go.
   [[nodiscard]] bool has_goals() const { return goals_ > 0; }
   // That could still go on other arms.

@@ -116,6 +116,7 @@ void Scheduler::fail_impossible_starts() {
     const Job& job = head.job;
     if (!job.is_waiting() || job.has_started() || !state_.jobs.at_head(head)) continue;
     if (job.goal) continue;  // its way begins where the arm stands
+    if (may_go_first(state_, head)) continue;
     if (job.is_held_over && state_.arms.stop_of(job)) continue;
     if (auto mismatch = state_.arms.start_mismatch(*state_.cell, *job.trajectory)) {
       unchanged = 0;
@@ -232,8 +233,13 @@ std::vector<ArmId> Scheduler::open_ends() const {
     const auto& queue = state_.jobs.queue(ArmId{arm});
     if (queue.empty()) continue;
     const Job& last = state_.jobs.at(queue.back()).job;
-    const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->goal.to);
+    const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->way().goal.to);
     if (is_pose && last.is_unplanned()) open.push_back(ArmId{arm});
+  }
+  for (JobId id : state_.jobs.undecided()) {
+    const Job& job = state_.jobs.at(id).job;
+    if (!job.goal) continue;
+    for (const GoalWay& way : job.goal->ways) open.push_back(way.goal.arm);
   }
   return open;
 }
