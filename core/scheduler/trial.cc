@@ -97,8 +97,8 @@ Trial::Outcome Trial::outcome() const {
   }
   outcome.starts_in = by_clock_;
   outcome.waits = waits_;
+  if (job.has_ended()) outcome.waits.clear();
   if (job.has_ended() && last_) {
-    outcome.waits.clear();
     for (const Conflict& conflict : last_->conflicts) outcome.waits.push_back(wait_for(conflict));
   }
   if (last_ && last_->kind == Verdict::Kind::undecided) outcome.kind = Verdict::Kind::undecided;
