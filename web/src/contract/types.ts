@@ -155,7 +155,7 @@ export interface components {
                 among: string[];
                 /** @description One of these */
                 taken: string;
-                /** @description By so much the plan costs less than with the first; null: that is taken, or could not go */
+                /** @description By so much the plan costs less than with the first, or a goal's job arrives sooner; null: that is taken, or could not go */
                 saves_s: number | null;
                 detail: string;
             };
@@ -239,6 +239,23 @@ export interface components {
             conflicts: components["schemas"]["Wait"][];
             evaluations: number;
             scene_version: number;
+            /** @description Of a goal that several arms could go to: which one would */
+            choice?: {
+                /** @description Jobs that could have taken the turn, or arms that could have done it: as it was first */
+                among: string[];
+                /** @description One of these */
+                taken: string;
+                /** @description By so much the plan costs less than with the first, or a goal's job arrives sooner; null: that is taken, or could not go */
+                saves_s: number | null;
+                detail: string;
+            };
+            /** @description Of a job that asks for an approach: so long its arms would take to where it begins. The verdict is of that motion; where it would not be admitted together with it, the job is judged again when it is there */
+            approach_s?: number;
+            /** @description It would end at once, without moving */
+            result?: {
+                reason: components["schemas"]["Reason"];
+                detail: string;
+            };
         };
         /** @description How a job moves its arms. */
         JobMotion: {
@@ -250,6 +267,15 @@ export interface components {
         };
         /** @description A motion, not executed. */
         Plan: {
+            /** @description That goes */
+            arm: string;
+            /** @description Of `arms`, those that would not: when each would arrive, or why it cannot */
+            others: {
+                arm: string;
+                /** @description From now; null: it has no way, or when it could go is not known */
+                arrives_s: number | null;
+                detail: string;
+            }[];
             /** @description As POST /jobs takes it */
             trajectory: components["schemas"]["JointTrajectory"] | components["schemas"]["RobotTrajectory"];
             duration_s: number;
