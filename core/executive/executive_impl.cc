@@ -103,7 +103,7 @@ void Executive::Impl::judge(const Question& question) {
 
 void Executive::Impl::dispatch(const Dispatch& dispatch) {
   const Job& job = *scheduler_.find(dispatch.job);
-  if (job.system_job) return motions_.dispatch(dispatch, job.trajectory);
+  if (job.terms.system_job) return motions_.dispatch(dispatch, job.trajectory);
   const auto written = [this, id = job.id] { start_is_written(id); };
   motions_.dispatch(starts_.pass(dispatch, written), job.trajectory);
 }

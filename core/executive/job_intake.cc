@@ -172,13 +172,13 @@ Submit JobIntake::submission(PreparedJob prepared) const {
   }
   Submit job{.job = JobId{0},
              .trajectory = prepared.alternatives.front(),
-             .priority = prepared.priority,
-             .backlog_timeout = prepared.backlog_timeout,
-             .after = std::move(after),
-             .any_order = prepared.order == JobOrder::any,
-             .goal = std::move(prepared.goal),
-             .replans_on_timeout = prepared.on_timeout == OnTimeout::replan,
-             .approaches = prepared.approach == Approach::plan};
+             .terms = {.priority = prepared.priority,
+                       .backlog_timeout = prepared.backlog_timeout,
+                       .after = std::move(after),
+                       .any_order = prepared.order == JobOrder::any,
+                       .replans_on_timeout = prepared.on_timeout == OnTimeout::replan,
+                       .approaches = prepared.approach == Approach::plan},
+             .goal = std::move(prepared.goal)};
   if (prepared.alternatives.size() > 1) job.alternatives = std::move(prepared.alternatives);
   return job;
 }

@@ -54,6 +54,57 @@ class Inbox {
   std::deque<Item> items_;
 };
 
+// A thread with an inbox: does one item after the other until it is told to stop, or destroyed.
+template <class Item>
+class Worker {
+ public:
+  using Work = std::function<void(Item&, std::stop_token)>;
+
+  void run(Work work) {
+    thread_ = std::jthread([this, work = std::move(work)](std::stop_token stop) {
+      while (!stop.stop_requested()) {
+        for (Item& item : inbox_.take(stop)) {
+          if (stop.stop_requested()) return;
+          work(item, stop);
+        }
+      }
+    });
+  }
+  void post(Item item) { inbox_.post(std::move(item)); }
+  void end() {
+    if (!thread_.joinable()) return;
+    thread_.request_stop();
+    thread_.join();
+  }
+
+ private:
+  Inbox<Item> inbox_;
+  std::jthread thread_;
+};
+
+// What is asked of a scene, on a thread with a checker of its own.
+template <class Asked, class Answer>
+struct Inquiry {
+  Asked asked;
+  PlanningScenePtr scene;
+  std::function<void(Answer)> done;
+};
+using Inquired = Inquiry<Question, Verdict>;
+using ToDraw = Inquiry<Drawing, Diagram>;
+
+// The checker of one thread, made when it is first asked.
+class OwnChecker {
+ public:
+  MotionChecker& in(const PlanningScenePtr& scene) {
+    if (!checker_) checker_.emplace(scene);
+    checker_->look_at(scene);
+    return *checker_;
+  }
+
+ private:
+  std::optional<MotionChecker> checker_;
+};
+
 }  // namespace
 
 class RealTimeLoop::Impl final : public JudgementService {
@@ -62,35 +113,48 @@ class RealTimeLoop::Impl final : public JudgementService {
 
   ~Impl() override {
     // The workers first: they post into the loop's inbox.
-    for (std::jthread* thread : {&judge_, &artist_, &planner_, &drafter_, &loop_}) {
-      if (!thread->joinable()) continue;
-      thread->request_stop();
-      thread->join();
-    }
+    judge_.end();
+    artist_.end();
+    planner_.end();
+    drafter_.end();
+    if (!loop_.joinable()) return;
+    loop_.request_stop();
+    loop_.join();
   }
 
   void run(std::unique_ptr<Executive> executive) {
     executive_ = std::move(executive);
-    judge_ = std::jthread([this](std::stop_token stop) { judge_questions(stop); });
-    artist_ = std::jthread([this](std::stop_token stop) { draw_diagrams(stop); });
-    planner_ = std::jthread([this](std::stop_token stop) { make_plans(plans_, stop); });
-    drafter_ = std::jthread([this](std::stop_token stop) { make_plans(drafts_, stop); });
+    judge_.run([this, checker = std::make_shared<OwnChecker>()](Inquired& inquired, auto) {
+      post([verdict = checker->in(inquired.scene).judge(inquired.asked),
+            done = std::move(inquired.done)](Executive&) { done(verdict); });
+    });
+    // With its own checker: whoever looks keeps no job waiting.
+    artist_.run([this, checker = std::make_shared<OwnChecker>()](ToDraw& drawn, auto) {
+      post([this, diagram = checker->in(drawn.scene).draw(drawn.asked),
+            done = std::move(drawn.done)](Executive&) {
+        --open_drawings_;
+        done(diagram);
+      });
+    });
+    const auto make_plan = [this](PlanTask& task, std::stop_token stop) { answer(task, stop); };
+    planner_.run(make_plan);
+    drafter_.run(make_plan);  // what clients ask to be planned delays no job
     loop_ = std::jthread([this](std::stop_token stop) { cycle(stop); });
   }
 
   // The scheduler has at most one question open; what else comes in are clients' checks.
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
-    questions_.post({std::move(question), std::move(scene), std::move(done)});
+    judge_.post({std::move(question), std::move(scene), std::move(done)});
   }
 
   bool draw(Drawing drawing, PlanningScenePtr scene, std::function<void(Diagram)> done) override {
     if (open_drawings_ >= kDrawingsMax) return false;
     ++open_drawings_;
-    drawings_.post({std::move(drawing), std::move(scene), std::move(done)});
+    artist_.post({std::move(drawing), std::move(scene), std::move(done)});
     return true;
   }
 
-  void plan(PlanTask task) override { plans_.post(std::move(task)); }
+  void plan(PlanTask task) override { planner_.post(std::move(task)); }
 
   bool draft(PlanTask task) override {
     if (open_drafts_ >= kDraftsMax) return false;
@@ -99,7 +163,7 @@ class RealTimeLoop::Impl final : public JudgementService {
       --open_drafts_;
       done(answer);
     };
-    drafts_.post(std::move(task));
+    drafter_.post(std::move(task));
     return true;
   }
 
@@ -108,57 +172,10 @@ class RealTimeLoop::Impl final : public JudgementService {
   void set_speed(double speed) { speed_ = speed; }
 
  private:
-  struct Asked {
-    Question question;
-    PlanningScenePtr scene;
-    std::function<void(Verdict)> done;
-  };
-
-  struct ToDraw {
-    Drawing drawing;
-    PlanningScenePtr scene;
-    std::function<void(Diagram)> done;
-  };
-
-  void judge_questions(std::stop_token stop) {
-    std::optional<MotionChecker> checker;
-    while (!stop.stop_requested()) {
-      for (Asked& asked : questions_.take(stop)) {
-        if (!checker) checker.emplace(asked.scene);
-        checker->look_at(asked.scene);
-        post([verdict = checker->judge(asked.question), done = std::move(asked.done)](Executive&) {
-          done(verdict);
-        });
-      }
-    }
-  }
-
-  // On a thread of its own, with its own checker: whoever looks keeps no job waiting.
-  void draw_diagrams(std::stop_token stop) {
-    std::optional<MotionChecker> checker;
-    while (!stop.stop_requested()) {
-      for (ToDraw& asked : drawings_.take(stop)) {
-        if (stop.stop_requested()) return;
-        if (!checker) checker.emplace(asked.scene);
-        checker->look_at(asked.scene);
-        post([this, diagram = checker->draw(asked.drawing),
-              done = std::move(asked.done)](Executive&) {
-          --open_drawings_;
-          done(diagram);
-        });
-      }
-    }
-  }
-
-  // On threads of their own: what clients ask to be planned delays no job.
-  void make_plans(Inbox<PlanTask>& tasks, std::stop_token stop) {
-    while (!stop.stop_requested()) {
-      for (PlanTask& task : tasks.take(stop)) {
-        const std::stop_callback at_end(stop, [&task] { *task.cancelled = true; });
-        post([answer = answer_plan(task.scene, task.question, task.cancelled.get()),
-              done = std::move(task.done)](Executive&) { done(answer); });
-      }
-    }
+  void answer(PlanTask& task, std::stop_token stop) {
+    const std::stop_callback at_end(stop, [&task] { *task.cancelled = true; });
+    post([answer = answer_plan(task.scene, task.question, task.cancelled.get()),
+          done = std::move(task.done)](Executive&) { done(answer); });
   }
 
   void cycle(std::stop_token stop) {
@@ -178,18 +195,14 @@ class RealTimeLoop::Impl final : public JudgementService {
   }
 
   std::atomic<double> speed_;
-  Inbox<Asked> questions_;
-  Inbox<ToDraw> drawings_;
+  Worker<Inquired> judge_;
+  Worker<ToDraw> artist_;
+  Worker<PlanTask> planner_;
+  Worker<PlanTask> drafter_;
   int open_drawings_ = 0;  // the loop thread's
-  Inbox<PlanTask> plans_;
-  Inbox<PlanTask> drafts_;
-  int open_drafts_ = 0;  // the loop thread's
+  int open_drafts_ = 0;    // the loop thread's
   Inbox<std::function<void(Executive&)>> commands_;
   std::unique_ptr<Executive> executive_;  // the loop thread's
-  std::jthread judge_;
-  std::jthread artist_;
-  std::jthread planner_;
-  std::jthread drafter_;
   std::jthread loop_;
 };
 

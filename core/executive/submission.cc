@@ -77,7 +77,7 @@ std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> j
     JobLabel label{std::move(prepared->key), std::move(prepared->name), job.submitted_at};
     Submit submitted = intake_.submission(std::move(*prepared));
     submitted.job = job.id;
-    submitted.is_held_over = true;
+    submitted.terms.is_held_over = true;
     enter(submitted, std::move(label));
     answers.push_back(publisher_.view(job.id));
   }

@@ -103,8 +103,8 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .key = names.key(job.id),
                .name = names.name(job.id),
                .state = job.pausing() ? JobState::holding : job.state(),
-               .priority = job.priority,
-               .system_job = job.system_job,
+               .priority = job.terms.priority,
+               .system_job = job.terms.system_job,
                .submitted_at = job.times.submitted_at,
                .backlogged_at = job.times.backlogged_at,
                .expires_at = expiry_of(job),
@@ -114,7 +114,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .duration = job.trajectory->duration(),
                .planned = job.goal ? std::optional(!job.is_unplanned()) : std::nullopt,
                .stopping = job.stopping(),
-               .any_order = job.any_order,
+               .any_order = job.terms.any_order,
                .reason = job.reason(),
                .detail = job.detail()};
   view.progress = to_seconds(job.progress) / to_seconds(job.trajectory->duration());

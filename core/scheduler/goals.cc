@@ -21,12 +21,12 @@ bool fits(const State& state, const JobGoal& goal, const Eigen::VectorXd& stands
 PlanQuestion question_about(const State& state, const Record& record, Configuration at) {
   const ArmId own = record.job.goal->goal.arm;
   PlanQuestion question{.goal = record.job.goal->goal, .seed = record.job.id.value()};
-  const JobId turn = record.before ? state.jobs.at(*record.before).turn : record.turn;
+  const JobId turn = record.errand.before ? state.jobs.at(*record.errand.before).turn : record.turn;
   for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
     const ArmId arm{a};
     if (arm == own) continue;
     question.may_move.push_back(arm);
-    for (JobId id : state.jobs.queue(arm)) {
+    for (JobId id : state.jobs.queues()[arm]) {
       const Record& other = state.jobs.at(id);
       if (other.turn < turn && !other.job.is_unplanned()) {
         follow_to_end(at, *state.cell, arm, *other.job.trajectory);
@@ -46,16 +46,16 @@ void ask(State& state, Record& record, const Configuration& at) {
   }
   goal.refusal.reset();
   ++goal.tries;
-  goal.question = ++record.job.questions;
+  goal.question = ++record.asking.plans;
   goal.asked_at = state.version;
   goal.from = joints_of(at, state.cell->arm(goal.goal.arm).joints);
-  state.effects.push_back(
+  state.decided.effects.push_back(
       PlanMotion{record.job.id, *goal.question, question_about(state, record, at)});
 }
 
 // The first of the arm's jobs that is to fail, with its refusal; null: none.
 Record* plan_lane(State& state, ArmId arm) {
-  const auto& queue = state.jobs.queue(arm);
+  const auto& queue = state.jobs.queues()[arm];
   Configuration at = state.arms.rest();
   for (std::size_t i = 0; i < std::min(queue.size(), kPlannedAhead); ++i) {
     Record& record = state.jobs.at(queue[i]);
@@ -89,8 +89,8 @@ bool plan_goals(State& state) {
   if (!state.jobs.has_goals()) return any_failed;
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
     while (Record* record = plan_lane(state, ArmId{arm})) {
-      Record* helped = record->before ? state.jobs.find(*record->before) : nullptr;
-      if (helped != nullptr) helped->no_approach = record->job.goal->refusal;
+      Record* helped = record->errand.before ? state.jobs.find(*record->errand.before) : nullptr;
+      if (helped != nullptr) helped->approaches.refusal = record->job.goal->refusal;
       end(state, *record, JobState::failed, Reason::no_plan, *record->job.goal->refusal);
       any_failed = true;
     }

@@ -11,6 +11,7 @@
 #include "core/coordination/motion.h"
 #include "core/coordination/plan_question.h"
 #include "core/coordination/verdict.h"
+#include "core/scheduler/job_terms.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
@@ -21,25 +22,12 @@ namespace armloom {
 struct Submit {
   JobId job;
   TrajectoryPtr trajectory;
-  int priority = 0;  // larger goes first
-  Duration backlog_timeout;
-  std::vector<JobId> after = {};  // active jobs that have to succeed first; smaller ids than `job`
-  bool system_job = false;        // the caller's own: in a ring it gives way to jobs of clients
-  // Jobs of one arm that say so, and begin and end at one place, may be taken in another order.
-  bool any_order = false;
-  // It waited when a former run ended: whether it can begin where its arms stand is not looked at
-  // while one of them is stopped, but when they are resumed. (As of those that Interrupt keeps.)
-  bool is_held_over = false;
+  JobTerms terms = {};
   // The same work by one of several arms, `trajectory` first; none, or two or more. Each moves one
   // arm, of which no other one is, and ends where it begins.
   std::vector<TrajectoryPtr> alternatives = {};
   // Where its arm is to go: the way is planned first (PlanMotion); `trajectory` is an estimate.
   std::optional<MotionGoal> goal = {};
-  // When its time in the backlog is over it is planned anew, before it expires (replanning.h).
-  bool replans_on_timeout = false;
-  // Arms that at its turn stand elsewhere than where it begins are brought there first
-  // (approach.h).
-  bool approaches = false;
 };
 struct Cancel {
   JobId job;

@@ -15,7 +15,7 @@ Broken of_job(const State& state, const Job& job) {
   const bool occupies =
       job.in<Moving>() != nullptr || job.in<Braking>() != nullptr || job.in<Held>() != nullptr;
   if (job.has_ended()) return name(job.id) + " has ended and is in a queue";
-  if (occupies && !state.jobs.is_first(job)) {
+  if (occupies && !state.jobs.queues().is_first(job)) {
     return name(job.id) + " has an arm, and another job comes before it";
   }
   if (!job.has_authority() || state.graph.holds(job.id)) return std::nullopt;

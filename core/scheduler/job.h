@@ -9,6 +9,7 @@
 #include "core/base/time.h"
 #include "core/coordination/plan_question.h"
 #include "core/coordination/verdict.h"
+#include "core/scheduler/job_terms.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
@@ -127,6 +128,7 @@ struct JobTimes {
   std::optional<TimePoint> scheduled_at;
   std::optional<TimePoint> started_at;         // it has moved, ...
   std::optional<TimePoint> motion_started_at;  // ... by the way that it has now
+  TimePoint measured_at{};                     // when its progress was
 };
 
 // That a job was taken among several, or on one of several arms, and what for.
@@ -171,25 +173,15 @@ struct AnotherWay {
 struct Job {
   JobId id;
   TrajectoryPtr trajectory;
-  int priority = 0;
-  Duration backlog_timeout{};
-  std::vector<JobId> after = {};  // those that have not ended yet
-  bool system_job = false;        // the server's: a move aside
-  bool any_order = false;         // Submit::any_order
-  bool is_held_over = false;      // Submit::is_held_over
-  std::vector<TrajectoryPtr> alternatives =
-      {};  // `trajectory` is one of them: until it is admitted
-           // it is as good as chosen, but may be another
+  JobTerms terms = {};  // `after`: of these, those that have not ended yet
+  // `trajectory` is one of them: until it is admitted it is as good as chosen, but may be another.
+  std::vector<TrajectoryPtr> alternatives = {};
   std::optional<JobGoal> goal = {};
-  bool replans_on_timeout = false;  // Submit::replans_on_timeout
-  bool approaches = false;          // Submit::approaches
   std::optional<AnotherWay> another_way = {};
-  std::uint64_t questions = 0;  // of plans for it: so many have been asked
   std::optional<Choice> choice = {};
   JobPhase phase = Queued{};
   JobTimes times = {};
-  Duration progress{};           // trajectory time, last measured
-  TimePoint progress_seen_at{};  // when it was measured
+  Duration progress{};  // trajectory time, last measured
   std::vector<Wait> waits_on = {};
   // The deadlock that it is part of, this job first: each waits for the next one, the last for the
   // first. Empty: none. Kept by the job that ends for it.

@@ -27,36 +27,21 @@ bool leads_to(const JobPhase& from, const JobPhase& to) {
   return allowed[to.index()];
 }
 
-// To, or from, the work of the arms that it may be done by.
-void count(const Job& job, std::vector<Duration>& work, int sign) {
-  if (job.alternatives.empty() || job.in<Queued>() == nullptr) {
-    for (ArmId arm : job.trajectory->arms()) work[arm.index()] += sign * job.trajectory->duration();
-    return;
-  }
-  const auto share = static_cast<int>(job.alternatives.size());
-  for (const TrajectoryPtr& one : job.alternatives) {
-    for (ArmId arm : one->arms()) work[arm.index()] += sign * (one->duration() / share);
-  }
-}
-
 }  // namespace
 
 Record& JobBook::add(Record record) {
   const Job& job = record.job;
   if (job.id < next_id()) throw std::invalid_argument("Submit: ids must grow");
   last_id_ = job.id.value();
-  for (ArmId arm : job.trajectory->arms()) {
-    auto& queue = queues_[arm.index()];
-    queue.insert(record.before ? std::ranges::find(queue, *record.before) : queue.end(), job.id);
-  }
-  count(job, work_, 1);
+  queues_.insert(job, record.errand.before);
+  queues_.add_work(job);
   active_.insert(job.id);
   if (!job.alternatives.empty()) undecided_.insert(job.id);
   if (job.goal) ++goals_;
-  unexplained_.insert(job.id);
-  if (record.before) unexplained_.insert(*record.before);
-  ++priorities_[job.priority];
-  for (JobId before : job.after) followers_[before].push_back(job.id);
+  news_.unexplained.insert(job.id);
+  if (record.errand.before) news_.unexplained.insert(*record.errand.before);
+  ++priorities_[job.terms.priority];
+  for (JobId before : job.terms.after) followers_[before].push_back(job.id);
   Record& added = records_.emplace(job.id, std::move(record)).first->second;
   changed(added);
   return added;
@@ -83,29 +68,14 @@ std::vector<const Job*> JobBook::occupying() const {
   return jobs;
 }
 
-bool JobBook::is_first(const Job& job) const {
-  return std::ranges::all_of(job.trajectory->arms(),
-                             [&](ArmId arm) { return queue(arm).front() == job.id; });
-}
-
-std::vector<Duration> JobBook::work_behind(const std::vector<JobId>& in_front) const {
-  std::vector<Duration> work = work_;
-  for (JobId id : in_front) count(at(id).job, work, -1);
-  return work;
-}
-
-std::optional<JobId> JobBook::before(const Job& job, ArmId arm) const {
-  const auto& own = queue(arm);
-  const auto place = std::ranges::find(own, job.id);
-  return place == own.begin() ? std::nullopt : std::optional(*std::prev(place));
-}
-
 bool JobBook::at_head(const Record& record) const {
-  return record.job.after.empty() && !lets_another_pass(record) && is_first(record.job);
+  return record.job.terms.after.empty() && !lets_another_pass(record) &&
+         queues_.is_first(record.job);
 }
 
 bool JobBook::lets_another_pass(const Record& record) const {
-  return record.lets_pass && is_active(*record.lets_pass) && at(*record.lets_pass).job.is_waiting();
+  return record.errand.lets_pass && is_active(*record.errand.lets_pass) &&
+         at(*record.errand.lets_pass).job.is_waiting();
 }
 
 // By turn, but for those that took their places before others: these stand first of their arms, in
@@ -113,8 +83,8 @@ bool JobBook::lets_another_pass(const Record& record) const {
 std::vector<JobId> JobBook::in_turn(const std::set<JobId>& jobs) const {
   std::map<JobId, JobId> behind;  // the first job of the arm that did not
   for (const auto& queue : queues_) {
-    const auto first =
-        std::ranges::find_if_not(queue, [this](JobId id) { return at(id).before.has_value(); });
+    const auto first = std::ranges::find_if_not(
+        queue, [this](JobId id) { return at(id).errand.before.has_value(); });
     if (first == queue.end()) continue;
     for (auto id = queue.begin(); id != first; ++id) behind.emplace(*id, *first);
   }
@@ -130,11 +100,7 @@ std::vector<JobId> JobBook::in_turn(const std::set<JobId>& jobs) const {
 }
 
 void JobBook::put_in_order(const std::vector<JobId>& jobs) {
-  const auto is_one = [&](JobId id) { return std::ranges::find(jobs, id) != jobs.end(); };
-  for (ArmId arm : at(jobs.front()).job.trajectory->arms()) {
-    auto& queue = queues_[arm.index()];
-    std::ranges::copy(jobs, std::ranges::find_if(queue, is_one));
-  }
+  queues_.put_in_order(at(jobs.front()).job, jobs);
   std::vector<JobId> turns;
   for (JobId id : jobs) turns.push_back(at(id).turn);
   std::ranges::sort(turns);
@@ -147,39 +113,31 @@ void JobBook::put_in_order(const std::vector<JobId>& jobs) {
 void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg, std::size_t place) {
   Job& job = record.job;
   explain_with_next(job);
-  for (ArmId arm : job.trajectory->arms()) {
-    auto& queue = queues_[arm.index()];
-    queue.erase(std::ranges::find(queue, job.id));
-  }
+  queues_.erase(job);
   job.trajectory = std::move(trajectory);
   record.leg = std::move(leg);
-  for (ArmId arm : job.trajectory->arms()) {
-    auto& queue = queues_[arm.index()];
-    queue.insert(queue.begin() + static_cast<std::ptrdiff_t>(place), job.id);
-  }
+  queues_.insert_at(job, place);
   explain_with_next(job);
 }
 
 void JobBook::set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
   Job& job = record.job;
-  count(job, work_, -1);
+  queues_.remove_work(job);
   job.trajectory = std::move(trajectory);
   record.leg = std::move(leg);
-  record.effort = 1;
-  record.raised = 0;
+  record.asking.effort = 1;
+  record.asking.raised = 0;
   if (auto* queued = std::get_if<Queued>(&job.phase)) queued->judgement = {};
-  count(job, work_, 1);
+  queues_.add_work(job);
   explain_with_next(job);
   changed(record);
 }
 
 // What comes next on its arms may have waited for it, or does now.
 void JobBook::explain_with_next(const Job& job) {
-  unexplained_.insert(job.id);
+  news_.unexplained.insert(job.id);
   for (ArmId arm : job.trajectory->arms()) {
-    const auto& queue = queues_[arm.index()];
-    const auto next = std::ranges::find(queue, job.id) + 1;
-    if (next != queue.end()) unexplained_.insert(*next);
+    if (const auto next = queues_.behind(job, arm)) news_.unexplained.insert(*next);
   }
 }
 
@@ -190,9 +148,9 @@ void JobBook::enter(Record& record, JobPhase phase) {
                            std::to_string(job.phase.index()) + " to " +
                            std::to_string(phase.index()));
   }
-  if (!job.alternatives.empty()) count(job, work_, -1);
+  if (!job.alternatives.empty()) queues_.remove_work(job);
   job.phase = std::move(phase);
-  if (!job.alternatives.empty()) count(job, work_, 1);
+  if (!job.alternatives.empty()) queues_.add_work(job);
   const bool is_decided = job.alternatives.empty() || job.in<Queued>() == nullptr;
   is_decided ? (void)undecided_.erase(job.id) : (void)undecided_.insert(job.id);
   if (job.state() == JobState::queued || job.has_ended()) {
@@ -210,16 +168,12 @@ std::vector<JobId> JobBook::end(Record& record, Ended how) {
   if (ended.reason != Reason::deadlock) job.ring.clear();
   if (ended.state != JobState::expired) job.waits_on.clear();  // else: what it waited for in vain
   if (ended.state == JobState::succeeded) job.progress = job.trajectory->duration();
-  for (ArmId arm : job.trajectory->arms()) {
-    auto& queue = queues_[arm.index()];
-    const auto next = queue.erase(std::ranges::find(queue, job.id));
-    if (next != queue.end()) unexplained_.insert(*next);
-  }
-  count(job, work_, -1);
+  queues_.erase(job);
+  queues_.remove_work(job);
   active_.erase(job.id);
   if (job.goal) --goals_;
-  unexplained_.erase(job.id);
-  if (--priorities_.at(job.priority) == 0) priorities_.erase(job.priority);
+  news_.unexplained.erase(job.id);
+  if (--priorities_.at(job.terms.priority) == 0) priorities_.erase(job.terms.priority);
   changed(record);
   const auto node = followers_.extract(job.id);
   return node.empty() ? std::vector<JobId>{} : node.mapped();

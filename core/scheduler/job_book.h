@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "core/scheduler/arm_queues.h"
 #include "core/scheduler/job.h"
 #include "core/sequence/safe_sequence.h"
 
@@ -21,33 +21,48 @@ struct YieldsTried {
   std::vector<Eigen::VectorXd> went_to;  // for all that helps the job too
 };
 
+// Of a job that the scheduler has made: what it is to do for whom.
+struct Errand {
+  JobId on_behalf_of{0};                // the client's job that it is to help; else itself
+  std::optional<JobId> before = {};     // it took its place before this one of its arm
+  std::optional<JobId> lets_pass = {};  // and does not begin while this one waits
+};
+
+// The questions that are asked about a job.
+struct Asking {
+  Version found_free_at = 0;  // admitted: the version on which it was last found free
+  std::uint64_t effort = 1;   // Question::effort of the next time that it is judged
+  int raised = 0;             // how often that was raised
+  std::uint64_t plans = 0;    // so many have been asked for it
+};
+
+// How often arms were sent to where a job begins (approach.h), and why there is no way there.
+struct Approaches {
+  int tries = 0;
+  std::optional<std::string> refusal = {};
+};
+
 // A job, and what only the scheduler knows of it.
 struct Record {
   Job job;
   WaitingLeg leg;
   JobId turn;  // whose place in the order of submission it has: its own, unless jobs changed places
   std::optional<TimePoint> overtaken_at = {};  // first, by one that took its turn
-  // Of moves aside. The client's job that this one is to help; else itself.
-  JobId on_behalf_of{0};
-  std::optional<JobId> before = {};     // it took its place before this one of its arm
-  std::optional<JobId> lets_pass = {};  // and does not begin while this one waits
-  std::optional<TimePoint> ages_from;   // first in conflict, or first without a place
-  Version checked_at = 0;               // admitted: the version on which it was last found free
-  Duration farthest{};                  // MotionReport::farthest of the last rest
-  std::uint64_t effort = 1;             // Question::effort of the next time that it is judged
-  int raised = 0;                       // how often that was raised
-  std::map<ArmId, YieldsTried> yields;  // of arms that could make way for it
-  int approaches = 0;                   // so often arms were sent to its start
-  std::optional<std::string> no_approach = {};  // why there is no way there
+  Errand errand = {};
+  std::optional<TimePoint> ages_from = {};  // first in conflict, or first without a place
+  Duration farthest{};                      // MotionReport::farthest of the last rest
+  Asking asking = {};
+  std::map<ArmId, YieldsTried> yields = {};  // of arms that could make way for it
+  Approaches approaches = {};
 };
 
 // All jobs, and their places in the queues of their arms. Changes of what clients see are noted.
 class JobBook {
  public:
-  explicit JobBook(std::size_t arms) : queues_(arms), work_(arms) {}
+  explicit JobBook(std::size_t arms) : queues_(arms) {}
 
   // Ids grow (throws std::invalid_argument). It comes to the end of its arms' queues, or before
-  // record.before where that stands.
+  // record.errand.before where that stands.
   Record& add(Record record);
   [[nodiscard]] JobId next_id() const { return JobId{last_id_ + 1}; }
   // Precondition of both: it has ended. Jobs that named it in `after` are returned by end().
@@ -64,12 +79,7 @@ class JobBook {
   // Admitted or held on their paths.
   [[nodiscard]] std::vector<const Job*> occupying() const;
 
-  // Per arm: active jobs, first goes first.
-  [[nodiscard]] const std::vector<std::deque<JobId>>& queues() const { return queues_; }
-  [[nodiscard]] const std::deque<JobId>& queue(ArmId arm) const { return queues_[arm.index()]; }
-  [[nodiscard]] bool is_first(const Job& job) const;  // of all its arms
-  // The one before it on that arm of its own; nothing: it is the first.
-  [[nodiscard]] std::optional<JobId> before(const Job& job, ArmId arm) const;
+  [[nodiscard]] const ArmQueues& queues() const { return queues_; }
   // That would not keep it waiting: first of its arms, all in `after` ended, none let pass.
   [[nodiscard]] bool at_head(const Record& record) const;
   [[nodiscard]] bool lets_another_pass(const Record& record) const;
@@ -83,11 +93,10 @@ class JobBook {
   [[nodiscard]] bool has_goals() const { return goals_ > 0; }
   // That could still go on other arms.
   [[nodiscard]] const std::set<JobId>& undecided() const { return undecided_; }
+  // Job::is_replanned_now(), or were when they were put there; some may have ended.
+  [[nodiscard]] std::set<JobId>& being_replanned() { return being_replanned_; }
   // The same jobs, each after those before it.
   [[nodiscard]] std::vector<JobId> in_turn(const std::set<JobId>& jobs) const;
-  // Per arm: of its active jobs but these. A job that could still go on several arms counts as
-  // shared by them.
-  [[nodiscard]] std::vector<Duration> work_behind(const std::vector<JobId>& in_front) const;
   [[nodiscard]] bool all_as_urgent() const { return priorities_.size() <= 1; }
 
   // A transition of the table in job.h; any other one throws std::logic_error.
@@ -97,11 +106,14 @@ class JobBook {
   void set_waits(Record& record, std::vector<Wait> waits);
 
   // For clients, or for whoever explains waits: it, or what is before it, is not as it was told.
-  void changed(const Record& record) { changed_.insert(record.job.id); }
-  void explain(const Record& record) { unexplained_.insert(record.job.id); }
-  [[nodiscard]] bool has_changes() const { return !changed_.empty(); }
-  [[nodiscard]] std::set<JobId> take_changed() { return std::exchange(changed_, {}); }
-  [[nodiscard]] std::set<JobId> take_unexplained() { return std::exchange(unexplained_, {}); }
+  void changed(const Record& record) { news_.changed.insert(record.job.id); }
+  void explain(const Record& record) { news_.unexplained.insert(record.job.id); }
+  struct News {
+    std::set<JobId> changed = {};
+    std::set<JobId> unexplained = {};
+  };
+  // Whoever tells them takes them out.
+  [[nodiscard]] News& news() { return news_; }
 
  private:
   void explain_with_next(const Job& job);
@@ -111,13 +123,12 @@ class JobBook {
   std::set<JobId> active_;
   std::set<JobId> past_queue_;
   std::set<JobId> undecided_;
+  std::set<JobId> being_replanned_;
   std::size_t goals_ = 0;
   std::map<JobId, std::vector<JobId>> followers_;  // those that name it in Submit::after
   std::map<int, std::size_t> priorities_;          // how many active jobs have it
-  std::vector<std::deque<JobId>> queues_;
-  std::vector<Duration> work_;
-  std::set<JobId> unexplained_;
-  std::set<JobId> changed_;
+  ArmQueues queues_;
+  News news_;
 };
 
 }  // namespace armloom

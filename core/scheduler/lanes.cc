@@ -6,10 +6,10 @@
 namespace armloom {
 
 void Lanes::add(const Record& record) {
-  if (record.before) is_stale_ = true;
+  if (record.errand.before) is_stale_ = true;
   if (is_stale_ || record.job.is_unplanned()) return;
   WaitingLeg leg = record.leg;
-  leg.after = record.job.after;
+  leg.after = record.job.terms.after;
   sequence_.append(std::move(leg));
 }
 
@@ -28,8 +28,8 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
   if (!std::exchange(is_stale_, false)) return;
   std::vector<PlacePtr> stands = arms.places();
   std::set<JobId> waiting;
-  for (std::size_t arm = 0; arm < stands.size(); ++arm) {
-    for (JobId id : book.queues()[arm]) {
+  for (std::uint32_t arm = 0; arm < stands.size(); ++arm) {
+    for (JobId id : book.queues()[ArmId{arm}]) {
       const Record& record = book.at(id);
       if (record.job.in<Queued>() != nullptr) {
         if (!record.job.is_unplanned()) waiting.insert(id);
@@ -44,9 +44,9 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
   for (JobId id : book.in_turn(waiting)) {
     const Record& record = book.at(id);
     WaitingLeg& leg = legs.emplace_back(record.leg);
-    leg.after = record.job.after;
-    if (record.lets_pass && book.is_active(*record.lets_pass)) {
-      leg.after.push_back(*record.lets_pass);
+    leg.after = record.job.terms.after;
+    if (record.errand.lets_pass && book.is_active(*record.errand.lets_pass)) {
+      leg.after.push_back(*record.errand.lets_pass);
     }
     leg.stopped = arms.stop_of(record.job).has_value();
   }
@@ -74,7 +74,7 @@ void Lanes::learn(const std::vector<Passage>& asked, const Verdict& verdict, con
 }
 
 void Lanes::learn_in_the_way(JobId job, ArmId arm, const JobBook& book, const ArmRests& arms) {
-  const auto& queue = book.queue(arm);
+  const auto& queue = book.queues()[ArmId{arm}];
   const bool rests = queue.empty() || book.at(queue.front()).job.in<Queued>() != nullptr;
   if (rests && !is_stale_) sequence_.learn({job, arms.place(arm)}, false);
 }

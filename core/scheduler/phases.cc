@@ -18,7 +18,7 @@ void leave_graph(State& state, const Record& record) {
   if (!state.graph.holds(record.job.id)) return;
   std::set<JobId> behind;
   for (ArmId arm : record.job.trajectory->arms()) {
-    const auto& queue = state.jobs.queue(arm);
+    const auto& queue = state.jobs.queues()[arm];
     const auto own = std::ranges::find(queue, record.job.id);
     if (own == queue.end()) continue;
     for (auto next = own + 1; next != queue.end(); ++next) {
@@ -32,7 +32,7 @@ void leave_graph(State& state, const Record& record) {
   state.graph.abandon(record.job.id, record.job.progress, record.farthest);
 }
 
-void release(State& state, JobId job) { state.effects.push_back(Release{job}); }
+void release(State& state, JobId job) { state.decided.effects.push_back(Release{job}); }
 
 void end_as(State& state, Record& record, const AfterStop& after, const char* canceled) {
   if (after.then == Then::cancel) {
@@ -55,7 +55,7 @@ void rest_at_start(State& state, Record& record) {
   release(state, record.job.id);
   state.jobs.changed(record);
   enter(state, record, Admitted{});
-  record.checked_at = 0;
+  record.asking.found_free_at = 0;
 }
 
 // By any way that it has had.
@@ -65,7 +65,7 @@ bool has_begun(const Job& job) { return job.times.started_at.has_value(); }
 const TrajectoryPtr& likeliest(const State& state, const Submit& job) {
   if (job.alternatives.empty()) return job.trajectory;
   return *std::ranges::min_element(job.alternatives, {}, [&](const TrajectoryPtr& motion) {
-    const auto& queue = state.jobs.queue(motion->arms().front());
+    const auto& queue = state.jobs.queues()[motion->arms().front()];
     Duration work{};
     for (JobId id : queue) work += state.jobs.at(id).job.trajectory->duration();
     return work;
@@ -79,18 +79,11 @@ Record record_of(State& state, const Submit& job) {
   const TrajectoryPtr& motion = likeliest(state, job);
   Record record{.job = {.id = job.job,
                         .trajectory = motion,
-                        .priority = job.priority,
-                        .backlog_timeout = job.backlog_timeout,
-                        .after = job.after,
-                        .system_job = job.system_job,
-                        .any_order = job.any_order,
-                        .is_held_over = job.is_held_over,
-                        .alternatives = job.alternatives,
-                        .replans_on_timeout = job.replans_on_timeout,
-                        .approaches = job.approaches},
+                        .terms = job.terms,
+                        .alternatives = job.alternatives},
                 .leg = state.arms.leg_of(*state.cell, job.job, *motion),
                 .turn = job.job,
-                .on_behalf_of = job.job};
+                .errand = {.on_behalf_of = job.job}};
   record.job.times.submitted_at = state.now;
   if (job.goal) record.job.goal = JobGoal{.goal = *job.goal};
   return record;
@@ -123,7 +116,7 @@ void end(State& state, Record& record, JobState how, Reason reason, std::string 
   for (JobId id : followers) {
     if (!state.jobs.is_active(id)) continue;  // failed meanwhile, with another of its own
     Record& follower = state.jobs.at(id);
-    if (std::erase(follower.job.after, ended) == 0 || succeeded) continue;
+    if (std::erase(follower.job.terms.after, ended) == 0 || succeeded) continue;
     end(state, follower, JobState::failed, Reason::predecessor_failed,
         "a job that it comes after did not succeed");
   }
@@ -134,11 +127,11 @@ void interrupt(State& state, bool keeps_waiting) {
   if (keeps_waiting) {
     const auto kept =
         std::ranges::partition(ids, [&](JobId id) { return has_begun(state.jobs.at(id).job); });
-    for (JobId id : kept) state.jobs.at(id).job.is_held_over = true;
+    for (JobId id : kept) state.jobs.at(id).job.terms.is_held_over = true;
     ids.erase(kept.begin(), kept.end());
     std::ranges::sort(ids);
   }
-  for (JobId id : ids) state.jobs.at(id).job.after.clear();  // none fails for another's sake
+  for (JobId id : ids) state.jobs.at(id).job.terms.after.clear();  // none fails for another's sake
   for (JobId id : ids) {
     Record& record = state.jobs.at(id);
     end(state, record, JobState::interrupted, Reason::server_restart,
@@ -157,7 +150,7 @@ void brake(State& state, Record& record, AfterStop after) {
   if (braking != nullptr && braking->after.then != Then::hold) next.after = braking->after;
   if (braking == nullptr) {
     ++state.version;
-    state.effects.push_back(Brake{job.id});
+    state.decided.effects.push_back(Brake{job.id});
   }
   if (next.after.then == Then::hold && job.has_started()) next.state = JobState::holding;
   enter(state, record, std::move(next));
@@ -216,7 +209,7 @@ void set_out_anew(State& state, Record& record, TrajectoryPtr way) {
   job.times.motion_started_at.reset();
   job.progress = Duration{};
   record.farthest = Duration{};
-  record.checked_at = 0;
+  record.asking.found_free_at = 0;
   WaitingLeg leg = state.arms.leg_of(*state.cell, job.id, *way);
   state.jobs.set_motion(record, std::move(way), std::move(leg));
   state.lanes.forget_passages();
@@ -234,8 +227,8 @@ void stop_arms(State& state, const Stop& stop) {
   state.lanes.renew_later();
   for (ArmId arm : stop.arms) {
     if (!state.arms.is_stopped(arm)) state.arms.stop(arm, stop.cause, state.now);
-    if (state.jobs.queue(arm).empty()) continue;
-    Record& record = state.jobs.at(state.jobs.queue(arm).front());
+    if (state.jobs.queues()[arm].empty()) continue;
+    Record& record = state.jobs.at(state.jobs.queues()[arm].front());
     if (record.job.in<Moving>() == nullptr) continue;  // undispatched: keeps its place
     brake(state, record, {});
     state.jobs.set_waits(record,

@@ -88,7 +88,6 @@ class Scheduler {
   void on(const Interrupt& input);
   void on(const Wake& /*input*/) {}
   void settle();
-  void fail_impossible_starts();
   void ask_for_wake();
 
   State state_;

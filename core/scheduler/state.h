@@ -22,6 +22,11 @@ struct Round {
   bool has_begun = false;  // one of them has moved
 };
 
+struct Decided {
+  std::vector<YieldMove> sent_aside = {};
+  std::vector<Effect> effects = {};
+};
+
 // What the rooms of the scheduler share: who is there, where everything stands, what is admitted;
 // and what the present step has decided so far. A copy is independent of it (Trial).
 struct State {
@@ -33,12 +38,10 @@ struct State {
   PrecedenceGraph graph;      // all that is admitted
   Expectation expected = {};  // of what is admitted
   Round round = {};
-  std::set<JobId> being_replanned = {};  // AnotherWay::is_open; some may have ended
-  Version version = 1;                   // of what is admitted, and of where arms rest
-  Version recheck_epoch = 0;             // the last version that began with another scene
-  TimePoint now{};                       // of the present step
-  std::vector<YieldMove> sent_aside = {};
-  std::vector<Effect> effects = {};
+  Version version = 1;        // of what is admitted, and of where arms rest
+  Version recheck_epoch = 0;  // the last version that began with another scene
+  TimePoint now{};            // of the present step
+  Decided decided = {};       // in the present step
 
   State(CellPtr description, std::shared_ptr<const Policy> chosen, Configuration rest)
       : cell(std::move(description)),

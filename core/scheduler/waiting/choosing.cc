@@ -14,7 +14,7 @@ namespace {
 
 // Of the plan: what is admitted goes as predicted, `job` too, or waits on its arm; then what waits.
 double cost_of(const State& state, const Job& job, const Prediction& prediction) {
-  std::vector<JobId> in_front{job.id};
+  std::vector<const Job*> in_front{&job};
   std::vector<double> ends(state.cell->arms.size(), 0.0);
   const auto comes_to = [&](const Trajectory& trajectory, Duration end) {
     for (ArmId arm : trajectory.arms()) {
@@ -23,10 +23,11 @@ double cost_of(const State& state, const Job& job, const Prediction& prediction)
   };
   const auto& motions = state.graph.motions();
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    comes_to(*state.jobs.at(motions[m].job).job.trajectory, prediction.ends[m]);
-    in_front.push_back(motions[m].job);
+    const Job& admitted = state.jobs.at(motions[m].job).job;
+    comes_to(*admitted.trajectory, prediction.ends[m]);
+    in_front.push_back(&admitted);
   }
-  std::vector<Duration> behind = state.jobs.work_behind(in_front);
+  std::vector<Duration> behind = state.jobs.queues().work_but(in_front);
   if (prediction.ends.size() > motions.size()) {
     comes_to(*job.trajectory, prediction.ends.back());
   } else {
