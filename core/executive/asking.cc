@@ -46,18 +46,19 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
   }
   jobs.push_back(intake_.submission(std::move(*prepared)));
   for (Submit& job : jobs) job.job = JobId{next++};
-  walk(std::make_shared<Trial>(scheduler_, asked_, jobs, jobs.back().job, now_), std::move(done));
+  walk(std::make_shared<Trial>(scheduler_, questions_.asked(), jobs, jobs.back().job, clock_.now),
+       std::move(done));
 }
 
 // As admission would, in this instant.
 void Executive::Impl::walk(std::shared_ptr<Trial> trial,
                            std::function<void(Result<CheckView>)> done) {
   if (auto question = trial->next()) {
-    judges_.ask(std::move(*question), scene_.scene,
-                [this, trial, done = std::move(done)](Verdict verdict) mutable {
-                  trial->answer(std::move(verdict));
-                  walk(std::move(trial), std::move(done));
-                });
+    questions_.service().ask(std::move(*question), scene_.scene(),
+                             [this, trial, done = std::move(done)](Verdict verdict) mutable {
+                               trial->answer(std::move(verdict));
+                               walk(std::move(trial), std::move(done));
+                             });
     return;
   }
   Trial::Outcome outcome = trial->outcome();
@@ -66,7 +67,7 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
     if (wait.job && !is_known) wait.job.reset();  // its arm's own way back, or forgotten meanwhile
   }
   CheckView view = view_of(outcome, *cell_, jobs_);
-  view.scene_version = scene_.version;
+  view.scene_version = scene_.version();
   done(std::move(view));
 }
 
@@ -89,8 +90,8 @@ void Executive::Impl::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool
       done(PlanOutcome(std::move(view)));
     });
   };
-  PlanTask task{*std::move(question), scene_.scene, std::move(cancelled), judge};
-  if (judges_.draft(std::move(task))) return;
+  PlanTask task{*std::move(question), scene_.scene(), std::move(cancelled), judge};
+  if (questions_.service().draft(std::move(task))) return;
   done(failure(Problem{ProblemKind::unavailable, "too-many-plans", "",
                        "too many plans are being made; ask again in a moment"}));
 }

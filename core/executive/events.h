@@ -34,7 +34,8 @@ struct CheckView {
   std::optional<double> earliest_start_s;        // from now; absent: not known
   std::optional<double> clearance_bound_m;       // ClearanceBound; absent: nothing is proven
   std::optional<double> self_clearance_bound_m;  // likewise
-  std::vector<WaitView> conflicts;
+  std::vector<WaitView> waits_on;                // as the job's own; free: before it starts
+  std::vector<WaitView> conflicts;               // not free: the same
   std::uint64_t evaluations = 0;
   std::uint64_t scene_version = 0;
 };

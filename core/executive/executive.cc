@@ -5,7 +5,6 @@
 
 #include "core/executive/arms_of.h"
 #include "core/executive/executive_impl.h"
-#include "core/executive/scene_objects.h"
 #include "core/executive/timeline.h"
 
 namespace armloom {
@@ -27,7 +26,8 @@ void Executive::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> can
 }
 void Executive::diagram(const std::string& key_a, const std::string& key_b,
                         std::function<void(Result<DiagramView>)> done) {
-  impl_->drawings_.draw({key_a, key_b, impl_->scene_, impl_->now_}, std::move(done));
+  impl_->questions_.drawings().draw({key_a, key_b, impl_->scene_.now(), impl_->clock_.now},
+                                    std::move(done));
 }
 Result<JobView> Executive::cancel(const std::string& key) { return impl_->cancel(key); }
 Result<JobView> Executive::replan(const std::string& key) { return impl_->replan(key); }
@@ -43,23 +43,13 @@ std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
 }
 void Executive::stop_all(const std::string& cause) { stop(all_arms(*impl_->cell_), cause); }
 void Executive::resume_all() { resume(all_arms(*impl_->cell_)); }
-Result<void> Executive::add_object(CollisionObject object) {
-  return impl_->change_objects(with_object(*impl_->scene_.scene, std::move(object)));
-}
-Result<void> Executive::replace_object(CollisionObject object) {
-  return impl_->change_objects(with_other_object(*impl_->scene_.scene, std::move(object)));
-}
-Result<void> Executive::remove_object(const std::string& name) {
-  return impl_->change_objects(without_object(*impl_->scene_.scene, name));
-}
-const std::vector<CollisionObject>& Executive::objects() const {
-  return impl_->scene_.scene->objects();
-}
-std::uint64_t Executive::scene_version() const { return impl_->scene_.version; }
+LiveScene& Executive::scene() { return impl_->scene_; }
 Result<std::uint64_t> Executive::inject(const FaultRequest& fault) {
-  return impl_->faults_.inject(fault, impl_->now_);
+  return impl_->execution_.faults().inject(fault, impl_->clock_.now);
 }
-Result<void> Executive::remove_fault(std::uint64_t id) { return impl_->faults_.remove(id); }
+Result<void> Executive::remove_fault(std::uint64_t id) {
+  return impl_->execution_.faults().remove(id);
+}
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
 Snapshot Executive::snapshot(std::size_t ended_max) const { return impl_->snapshot(ended_max); }
 TrajectoryPtr Executive::trajectory(const std::string& key) const {
@@ -68,12 +58,12 @@ TrajectoryPtr Executive::trajectory(const std::string& key) const {
 }
 std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms(); }
 TimelineView Executive::timeline() const {
-  return timeline_of(impl_->scheduler_, impl_->now_, *impl_->cell_, impl_->jobs_);
+  return timeline_of(impl_->scheduler_, impl_->clock_.now, *impl_->cell_, impl_->jobs_);
 }
-TimePoint Executive::now() const { return impl_->now_; }
+TimePoint Executive::now() const { return impl_->clock_.now; }
 bool Executive::all_ended() const { return impl_->jobs_.active() == 0; }
 TimePoint Executive::settled_until() const { return impl_->settled_until(); }
-const RunFigures& Executive::figures() const { return impl_->figures_; }
+const RunFigures& Executive::figures() const { return impl_->count_.figures(); }
 void Executive::tick(TimePoint now) { impl_->tick(now); }
 
 }  // namespace armloom

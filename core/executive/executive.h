@@ -9,11 +9,11 @@
 
 #include "core/arm/faulty_arm.h"
 #include "core/base/problem.h"
-#include "core/collision/scene/planning_scene.h"
 #include "core/coordination/diagram.h"
 #include "core/coordination/motion.h"
 #include "core/coordination/verdict.h"
 #include "core/executive/events.h"
+#include "core/executive/live_scene.h"
 #include "core/executive/plan_ahead.h"
 #include "core/executive/plan_task.h"
 #include "core/model/cell.h"
@@ -230,14 +230,8 @@ class Executive {
   enum class Waiting { ends, is_kept };
   void wind_down(const std::string& cause, Waiting waiting, std::function<void()> done);
 
-  // Objects of the planning scene. Every motion under way and every waiting job is judged again.
-  // Problems: a name in use or unknown, a shape inside an arm as measured (nearer than the
-  // monitor's stop_clearance).
-  [[nodiscard]] Result<void> add_object(CollisionObject object);
-  [[nodiscard]] Result<void> replace_object(CollisionObject object);
-  [[nodiscard]] Result<void> remove_object(const std::string& name);
-  [[nodiscard]] const std::vector<CollisionObject>& objects() const;
-  [[nodiscard]] std::uint64_t scene_version() const;
+  // The planning scene, and its objects, which may be changed.
+  [[nodiscard]] LiveScene& scene();
 
   // Faults of the simulated arms. Problem: an unknown arm or fault.
   [[nodiscard]] Result<std::uint64_t> inject(const FaultRequest& fault);

@@ -165,7 +165,8 @@ CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobName
     view.self_clearance_bound_m = outcome.clearance_bound->self_m;
   }
   view.evaluations = outcome.evaluations;
-  for (const Wait& wait : outcome.waits) view.conflicts.push_back(view_of(wait, cell, names));
+  for (const Wait& wait : outcome.waits) view.waits_on.push_back(view_of(wait, cell, names));
+  if (view.kind != Verdict::Kind::free) view.conflicts = view.waits_on;
   return view;
 }
 

@@ -52,6 +52,7 @@ Trial::Outcome Trial::outcome() const {
   if (job.has_authority()) {
     outcome.kind = Verdict::Kind::free;
     outcome.starts_in = std::max(Duration{}, *job.times.scheduled_at - now_);
+    outcome.waits = job.waits_on;
     if (last_) outcome.clearance_bound = last_->clearance_bound;
     return outcome;
   }

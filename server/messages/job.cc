@@ -91,7 +91,9 @@ PartPtr<CheckView> make_verdict_part() {
            "that any such pair was held to"),
       told("self_clearance_bound_m", &View::self_clearance_bound_m, nullable(number(kAnyNumber)),
            "The same of the links of one arm from each other"),
-      told("conflicts", &View::conflicts, list(wait_format())),
+      told("waits_on", &View::waits_on, list(wait_format()),
+           "As the job's own would be: of a free one, what it would wait for before it starts"),
+      told("conflicts", &View::conflicts, list(wait_format()), "The same, where it is not free"),
       told("evaluations", &View::evaluations, count()),
       told("scene_version", &View::scene_version, count()),
   });

@@ -109,6 +109,7 @@ class Look {
     if (is_free) {
       ASSERT_EQ(says.starts_in, std::max(Duration{}, *job.times.scheduled_at - bench().now()))
           << what;
+      ASSERT_EQ(text(says.waits), text(job.waits_on)) << what;
       ++(*says.starts_in > Duration{} ? seen_.free_later : seen_.free_now);
     } else if (is_terminal(job.state())) {
       ++seen_.fail;
