@@ -9,9 +9,9 @@
 #include "core/base/ids.h"
 #include "core/base/time.h"
 #include "core/coordination/verdict.h"
+#include "core/jobs/job.h"
 #include "core/model/cell.h"
 #include "core/monitor/monitor.h"
-#include "core/scheduler/job.h"
 
 namespace armloom {
 

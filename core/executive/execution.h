@@ -8,7 +8,7 @@
 #include "core/executive/executive.h"
 #include "core/executive/motions.h"
 #include "core/executive/start_gate.h"
-#include "core/scheduler/job.h"
+#include "core/jobs/job.h"
 
 namespace armloom {
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/executive/executive.h"
-#include "core/scheduler/inputs.h"
+#include "core/jobs/inputs.h"
 
 namespace armloom {
 

@@ -4,10 +4,10 @@
 #include <iterator>
 #include <utility>
 
+#include "core/jobs/phases.h"
 #include "core/scheduler/groups.h"
 #include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/phases.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/putting_off.h"
 #include "core/scheduler/replanning.h"

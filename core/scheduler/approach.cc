@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/trajectory/joint_line.h"
 #include "core/trajectory/set_joints.h"

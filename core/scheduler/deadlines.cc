@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 #include "core/scheduler/replanning.h"
 #include "core/scheduler/waiting/gates.h"
 

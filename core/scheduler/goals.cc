@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {

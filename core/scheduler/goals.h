@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scheduler/state.h"
+#include "core/jobs/state.h"
 
 namespace armloom {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/coordination/effort.h"
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 #include "core/scheduler/waiting/waits.h"
 
 namespace armloom {

@@ -5,14 +5,15 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/jobs/invariants.h"
 #include "core/scheduler/approach.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
 #include "core/scheduler/horizon/weighing.h"
-#include "core/scheduler/invariants.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/replanning.h"
 #include "core/scheduler/under_way.h"
+#include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/trajectory/set_joints.h"
 
@@ -52,6 +53,11 @@ Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configu
     : Scheduler(std::move(cell), std::move(policy), std::move(rest)) {
   state_.now = now;
   put_under_way(state_, under_way);
+}
+
+void Scheduler::on(const Submit& input) {
+  add(state_, record_of(state_, input));
+  reopen_turn(state_, state_.jobs.at(input.job));
 }
 
 std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {

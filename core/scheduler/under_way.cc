@@ -1,7 +1,7 @@
 #include "core/scheduler/under_way.h"
 
+#include "core/jobs/phases.h"
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/phases.h"
 #include "core/scheduler/policy.h"
 
 namespace armloom {

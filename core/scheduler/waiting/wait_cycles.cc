@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/jobs/phases.h"
 #include "core/scheduler/authority.h"
-#include "core/scheduler/phases.h"
 #include "core/scheduler/replanning.h"
 #include "core/scheduler/waiting/gates.h"
 

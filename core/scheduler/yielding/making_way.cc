@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 #include "core/trajectory/joint_line.h"
 
 namespace armloom {

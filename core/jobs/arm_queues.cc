@@ -1,4 +1,4 @@
-#include "core/scheduler/arm_queues.h"
+#include "core/jobs/arm_queues.h"
 
 #include <algorithm>
 #include <cstddef>

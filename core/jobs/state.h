@@ -4,13 +4,13 @@
 #include <set>
 #include <vector>
 
+#include "core/jobs/arm_rests.h"
+#include "core/jobs/expectation.h"
+#include "core/jobs/inputs.h"
+#include "core/jobs/job_book.h"
+#include "core/jobs/lanes.h"
 #include "core/model/cell.h"
 #include "core/precedence/precedence_graph.h"
-#include "core/scheduler/arm_rests.h"
-#include "core/scheduler/horizon/expectation.h"
-#include "core/scheduler/inputs.h"
-#include "core/scheduler/job_book.h"
-#include "core/scheduler/lanes.h"
 
 namespace armloom {
 

@@ -1,4 +1,4 @@
-#include "core/scheduler/horizon/expectation.h"
+#include "core/jobs/expectation.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "core/scheduler/lanes.h"
+#include "core/jobs/lanes.h"
 
 #include <algorithm>
 #include <utility>

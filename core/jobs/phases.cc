@@ -1,11 +1,9 @@
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 
 #include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <utility>
-
-#include "core/scheduler/waiting/options.h"
 
 namespace armloom {
 namespace {
@@ -89,11 +87,7 @@ Record record_of(State& state, const Submit& job) {
   return record;
 }
 
-void add(State& state, Record record) {
-  const Record& added = state.jobs.add(std::move(record));
-  state.lanes.add(added);
-  reopen_turn(state, added);
-}
+void add(State& state, Record record) { state.lanes.add(state.jobs.add(std::move(record))); }
 
 void enter(State& state, Record& record, JobPhase phase) {
   const JobPhase before = record.job.phase;

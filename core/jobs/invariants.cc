@@ -1,4 +1,4 @@
-#include "core/scheduler/invariants.h"
+#include "core/jobs/invariants.h"
 
 #include <algorithm>
 

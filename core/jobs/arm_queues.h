@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scheduler/job.h"
+#include "core/jobs/job.h"
 
 namespace armloom {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/jobs/job.h"
 #include "core/model/cell.h"
-#include "core/scheduler/job.h"
 #include "core/sequence/safe_sequence.h"
 
 namespace armloom {

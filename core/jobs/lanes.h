@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/coordination/verdict.h"
-#include "core/scheduler/arm_rests.h"
-#include "core/scheduler/job_book.h"
+#include "core/jobs/arm_rests.h"
+#include "core/jobs/job_book.h"
 #include "core/sequence/safe_sequence.h"
 
 namespace armloom {

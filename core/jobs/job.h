@@ -9,7 +9,7 @@
 #include "core/base/time.h"
 #include "core/coordination/plan_question.h"
 #include "core/coordination/verdict.h"
-#include "core/scheduler/job_terms.h"
+#include "core/jobs/job_terms.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {

@@ -1,4 +1,4 @@
-#include "core/scheduler/arm_rests.h"
+#include "core/jobs/arm_rests.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/scheduler/arm_queues.h"
-#include "core/scheduler/job.h"
+#include "core/jobs/arm_queues.h"
+#include "core/jobs/job.h"
 #include "core/sequence/safe_sequence.h"
 
 namespace armloom {
@@ -65,7 +65,7 @@ class JobBook {
   // record.errand.before where that stands.
   Record& add(Record record);
   [[nodiscard]] JobId next_id() const { return JobId{last_id_ + 1}; }
-  // Precondition of both: it has ended. Jobs that named it in `after` are returned by end().
+  // Precondition: it has ended.
   void forget(JobId job);
 
   [[nodiscard]] bool is_active(JobId job) const { return active_.contains(job); }

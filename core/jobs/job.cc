@@ -1,4 +1,4 @@
-#include "core/scheduler/job.h"
+#include "core/jobs/job.h"
 
 namespace armloom {
 

@@ -1,4 +1,4 @@
-#include "core/scheduler/job_book.h"
+#include "core/jobs/job_book.h"
 
 #include <algorithm>
 #include <stdexcept>
