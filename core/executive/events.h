@@ -39,7 +39,7 @@ struct CheckView {
   std::uint64_t evaluations = 0;
   std::uint64_t scene_version = 0;
 };
-// That it was taken before others, or by one of several arms (scheduler/job.h, Choice).
+// That it was taken before others, or by one of several arms (jobs/job.h, Choice).
 struct ChoiceView {
   std::vector<std::string> among;  // keys of jobs, or names of arms
   std::string taken;               // of these

@@ -59,7 +59,7 @@ MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId a
   const std::shared_ptr<const ArmGeometry>& geometry = arms_[arm.index()];
   const auto stands_as = [&](const Entry& entry) {
     for (std::size_t row = 0; row < entry.rest.size(); ++row) {
-      const JointId joint = geometry->linkage.joints()[row];
+      const JointId joint = geometry->kinematics.joints()[row];
       const bool moved = trajectory && std::ranges::find(trajectory->joints(), joint) !=
                                            trajectory->joints().end();
       const double stands = rest[static_cast<Eigen::Index>(joint.index())];
@@ -84,7 +84,7 @@ MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId a
                                          scratch_.tubes[arm.index()]),
             trajectory ? stopping_reach_s(scene_->cell(), *trajectory) : 0.0,
             question_});
-  for (const JointId joint : geometry->linkage.joints()) {
+  for (const JointId joint : geometry->kinematics.joints()) {
     entry->rest.push_back(rest[static_cast<Eigen::Index>(joint.index())]);
   }
   entries.push_back(std::move(entry));
@@ -105,14 +105,14 @@ OrientedDiagram MotionStore::between(Entry& own, Entry& other) {
   const bool turned = other.arm < own.arm;
   Entry& a = turned ? other : own;
   Entry& b = turned ? own : other;
-  const auto linkage = [&](ArmId arm) -> const ArmKinematics& {
-    return arms_[arm.index()]->linkage;
+  const auto kinematics = [&](ArmId arm) -> const ArmKinematics& {
+    return arms_[arm.index()]->kinematics;
   };
   auto pairs = pairs_.cross.find({a.arm, b.arm});
   if (pairs == pairs_.cross.end()) {
     pairs = pairs_.cross
                 .emplace(std::pair(a.arm, b.arm),
-                         pairs_between(links_->bodies(), linkage(a.arm), linkage(b.arm)))
+                         pairs_between(links_->bodies(), kinematics(a.arm), kinematics(b.arm)))
                 .first;
   }
   if (!diagrams_.between.contains({&a, &b})) {
@@ -126,8 +126,8 @@ OrientedDiagram MotionStore::with_still(const Entry& own) {
   auto pairs = pairs_.still.find(own.arm);
   if (pairs == pairs_.still.end()) {
     pairs = pairs_.still
-                .emplace(own.arm,
-                         pairs_between(scene_->bodies(), own.tube->linkage(), still_->linkage()))
+                .emplace(own.arm, pairs_between(scene_->bodies(), own.tube->kinematics(),
+                                                still_->kinematics()))
                 .first;
   }
   return diagram(diagrams_.with_still, {&own, &own}, {*scene_, pairs->second, still_});
@@ -139,8 +139,8 @@ OrientedDiagram MotionStore::with_itself(const Entry& own) {
 }
 
 bool MotionStore::out_of_reach(ArmId a, ArmId b) const {
-  const ArmKinematics& one = arms_[a.index()]->linkage;
-  const ArmKinematics& other = arms_[b.index()]->linkage;
+  const ArmKinematics& one = arms_[a.index()]->kinematics;
+  const ArmKinematics& other = arms_[b.index()]->kinematics;
   // Tracking errors and rounding are far below this.
   constexpr double kSlack_m = 0.05;
   return (one.root() - other.root()).norm() >

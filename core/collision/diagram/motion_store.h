@@ -27,7 +27,7 @@ class MotionStore {
   struct Entry {
     ArmId arm;
     TrajectoryPtr trajectory;  // null: a rest
-    std::vector<double> rest;  // of the arm's joints, rows of its linkage
+    std::vector<double> rest;  // of the arm's joints, rows of its kinematics
     double tracking_error;
     std::shared_ptr<MotionTube> tube;
     double stopping_reach_s;

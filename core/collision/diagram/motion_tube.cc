@@ -32,7 +32,7 @@ struct MotionTube::Scratch {
 };
 
 std::shared_ptr<MotionTube::Scratch> MotionTube::make_scratch(const ArmGeometry& geometry) {
-  const ArmKinematics& arm = geometry.linkage;
+  const ArmKinematics& arm = geometry.kinematics;
   auto s = std::make_shared<Scratch>();
   s->q.resize(lane_size(arm.joints().size()));
   for (auto* rows : {&s->joints.span, &s->joints.drift, &s->joints.loose}) {
@@ -55,7 +55,7 @@ MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPt
       trajectory_(std::move(trajectory)),
       tracking_error_(tracking_error),
       scratch_(scratch ? std::move(scratch) : make_scratch(*geometry_)) {
-  const ArmKinematics& arm = geometry_->linkage;
+  const ArmKinematics& arm = geometry_->kinematics;
   rest_.reserve(arm.joints().size());
   column_.reserve(arm.joints().size());
   for (const JointId joint : arm.joints()) {
@@ -125,7 +125,7 @@ void MotionTube::fill_lane(int node, int lane) {
 }
 
 void MotionTube::place_batch(std::span<const int> nodes) {
-  const ArmKinematics& arm = geometry_->linkage;
+  const ArmKinematics& arm = geometry_->kinematics;
   const filter::Kernel& kernel = filter::best_kernel();
   Scratch& s = *scratch_;
   for (int lane = 0; lane < kLanes; ++lane) {
@@ -198,11 +198,11 @@ void MotionTube::axes_of(int node, int frame, std::size_t skipped,
                          std::vector<MovingAxis>& axes) const {
   const Place place = place_of(node);
   axes.clear();
-  for (const int f : linkage().ancestors(frame).subspan(skipped)) {
+  for (const int f : kinematics().ancestors(frame).subspan(skipped)) {
     const auto at = static_cast<std::size_t>(f);
     const double* X = place.frames() + lane_size(12 * at);
     MovingAxis axis{
-        .z_W = {}, .p_WO = {}, .loose = 0.0, .prismatic = linkage().frames()[at].prismatic};
+        .z_W = {}, .p_WO = {}, .loose = 0.0, .prismatic = kinematics().frames()[at].prismatic};
     for (int k = 0; k < 3; ++k) {
       axis.z_W[k] = X[lane_size(static_cast<std::size_t>(6 + k))];
       axis.p_WO[k] = X[lane_size(static_cast<std::size_t>(9 + k))];

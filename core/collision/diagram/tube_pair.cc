@@ -76,10 +76,10 @@ struct TubePair::Batch {
     return gathered.data();
   }
   // Nothing moves what stands still.
-  [[nodiscard]] filter::MovedCapsules moved(const filter::ArmKinematics& linkage) const {
-    if (linkage.frame_count == 0) return {.capsules = side.capsules};
+  [[nodiscard]] filter::MovedCapsules moved(const filter::ArmKinematics& kinematics) const {
+    if (kinematics.frame_count == 0) return {.capsules = side.capsules};
     return {.capsules = side.capsules,
-            .linkage = &linkage,
+            .kinematics = &kinematics,
             .axes = rows(&Block::axes, to.axes),
             .drift = rows(&Block::drifts, to.drifts),
             .loose = rows(&Block::looses, to.looses),
@@ -95,9 +95,10 @@ TubePair::TubePair(Setting setting, std::shared_ptr<MotionTube> a, std::shared_p
   const auto make_room = [](auto& of, std::size_t size) { of.resize(std::max(of.size(), size)); };
   make_room(s.pairs.of, setting_.pairs->pairs.size() + 1);
   make_room(s.boxes.of, setting_.pairs->boxes.size() + 1);
-  make_room(s.state.frames_a, a_->linkage().frames().size() * 12);
-  make_room(s.state.frames_b, b_->linkage().frames().size() * 12);
-  make_room(s.state.q, std::max(a_->linkage().joints().size(), b_->linkage().joints().size()));
+  make_room(s.state.frames_a, a_->kinematics().frames().size() * 12);
+  make_room(s.state.frames_b, b_->kinematics().frames().size() * 12);
+  make_room(s.state.q,
+            std::max(a_->kinematics().joints().size(), b_->kinematics().joints().size()));
 }
 
 // Of the pairs that bounds of their motion leave open, those that stay so along the direction that
@@ -105,10 +106,10 @@ TubePair::TubePair(Setting setting, std::shared_ptr<MotionTube> a, std::shared_p
 int TubePair::left_open(const Batch& a, const Batch& b, int hits) {
   if (hits == 0) return 0;
   Scratch& s = *setting_.scratch;
-  const filter::ArmKinematics linkage_a = a_->linkage().view();
-  const filter::ArmKinematics linkage_b = b_->linkage().view();
-  const filter::MovedCapsules of_a = a.moved(linkage_a);
-  const filter::MovedCapsules of_b = b.moved(linkage_b);
+  const filter::ArmKinematics kinematics_a = a_->kinematics().view();
+  const filter::ArmKinematics kinematics_b = b_->kinematics().view();
+  const filter::MovedCapsules of_a = a.moved(kinematics_a);
+  const filter::MovedCapsules of_b = b.moved(kinematics_b);
   const filter::Kernel& kernel = filter::best_kernel();
   int left = 0;
   for (int h = 0; h < hits; ++h) {
@@ -184,10 +185,10 @@ const NarrowPair& TubePair::narrow(int entry, bool box) const {
 }
 
 const KinematicBody& TubePair::body_a(const NarrowPair& pair) const {
-  return a_->linkage().bodies()[static_cast<std::size_t>(pair.body_a)];
+  return a_->kinematics().bodies()[static_cast<std::size_t>(pair.body_a)];
 }
 const KinematicBody& TubePair::body_b(const NarrowPair& pair) const {
-  return b_->linkage().bodies()[static_cast<std::size_t>(pair.body_b)];
+  return b_->kinematics().bodies()[static_cast<std::size_t>(pair.body_b)];
 }
 
 PlacedBody TubePair::placed_a(const NarrowPair& pair, Nodes at) const {
@@ -208,8 +209,8 @@ bool TubePair::keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, dou
   const KinematicBody& b = body_b(pair);
   std::size_t common = 0;  // what moves both does not part them
   if (is_self()) {
-    const auto of_a = a_->linkage().ancestors(a.frame);
-    const auto of_b = a_->linkage().ancestors(b.frame);
+    const auto of_a = a_->kinematics().ancestors(a.frame);
+    const auto of_b = a_->kinematics().ancestors(b.frame);
     common = static_cast<std::size_t>(std::ranges::mismatch(of_a, of_b).in1 - of_a.begin());
   }
   Scratch& s = *setting_.scratch;
@@ -222,9 +223,9 @@ bool TubePair::keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, dou
 void TubePair::place(Duration time_a, Duration time_b) {
   Scratch& s = *setting_.scratch;
   a_->configuration(time_a, s.state.q.data());
-  place_frames(a_->linkage(), s.state.q.data(), s.state.frames_a.data());
+  place_frames(a_->kinematics(), s.state.q.data(), s.state.frames_a.data());
   b_->configuration(is_self() ? time_a : time_b, s.state.q.data());
-  place_frames(b_->linkage(), s.state.q.data(), s.state.frames_b.data());
+  place_frames(b_->kinematics(), s.state.q.data(), s.state.frames_b.data());
 }
 
 double TubePair::placed_distance(const NarrowPair& pair, double limit_m) const {
