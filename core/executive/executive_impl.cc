@@ -50,6 +50,10 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
   figures_.min_clearance_m = figures_.between_arms_m = std::numeric_limits<double>::infinity();
 }
 
+void Executive::Impl::note(ExecutiveInput input) const {
+  if (options_.inputs != nullptr) options_.inputs->came(ticks_, input);
+}
+
 // ---- The scheduler and its effects ----
 
 void Executive::Impl::step(const Input& input) {
@@ -57,7 +61,7 @@ void Executive::Impl::step(const Input& input) {
   for (const Effect& effect : effects) carry_out(effect);
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
   publisher_.tell_stops();
-  publisher_.tell_queue(now_);
+  publisher_.queue_may_have_changed(now_);
 }
 
 // What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
@@ -75,7 +79,10 @@ void Executive::Impl::carry_out(const Effect& effect) {
   if (const auto* judge = std::get_if<Judge>(&effect)) {
     this->judge(judge->question);
   } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
-    plans_.ask(*plan, scene_.scene, [this](PlanMade made) { step(made); });
+    plans_.ask(*plan, scene_.scene, [this](PlanMade made) {
+      note({ExecutiveInput::Planned{made.job, made.question}});
+      step(made);
+    });
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
     this->dispatch(*dispatch);
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {
@@ -96,6 +103,7 @@ void Executive::Impl::carry_out(const Effect& effect) {
 void Executive::Impl::judge(const Question& question) {
   asked_ = question;
   judges_.ask(question, scene_.scene, [this](Verdict verdict) {
+    note({ExecutiveInput::Judged{verdict.evaluations}});
     asked_.reset();
     step(Judged{std::move(verdict)});
   });
@@ -113,6 +121,7 @@ void Executive::Impl::grant(const Grant& grant) {
 }
 
 void Executive::Impl::start_is_written(JobId job) {
+  note({ExecutiveInput::StartWritten{job}});
   const auto withheld = starts_.open(job);
   if (withheld && scheduler_.find(job)->in<Moving>() != nullptr) motions_.grant({job, *withheld});
 }
@@ -147,6 +156,7 @@ void Executive::Impl::job_changed(JobId id) {
 
 void Executive::Impl::tick(TimePoint now) {
   now_ = now;
+  ++ticks_;
   if (options_.dies_at && now_ >= *options_.dies_at) {
     motions_.tick_arms(now_);
     publisher_.tell_tick(now_);
@@ -166,6 +176,7 @@ void Executive::Impl::tick(TimePoint now) {
   }
   count_motion();
   if (watch_.is_due(now_)) watch();
+  publisher_.tell_queue(now_);
   publisher_.tell_arms(now_);
   publisher_.tell_tick(now_);
   const auto is_moving = [this](ArmId arm) { return motions_.moving(arm); };
@@ -176,7 +187,9 @@ void Executive::Impl::tick(TimePoint now) {
 }
 
 TimePoint Executive::Impl::settled_until() const {
-  return quiet_ && motions_.all_settled() ? wake_at_.value_or(TimePoint::max()) : now_;
+  return quiet_ && motions_.all_settled() && !publisher_.is_behind()
+             ? wake_at_.value_or(TimePoint::max())
+             : now_;
 }
 
 void Executive::Impl::count_motion() {

@@ -9,6 +9,7 @@
 #include "core/executive/arm_faults.h"
 #include "core/executive/drawings.h"
 #include "core/executive/executive.h"
+#include "core/executive/executive_input.h"
 #include "core/executive/job_intake.h"
 #include "core/executive/job_register.h"
 #include "core/executive/motions.h"
@@ -36,11 +37,12 @@ class Executive::Impl {
 
   // submission.cc
   Result<JobView> submit(JobRequest request);
-  Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests, bool atomic);
+  std::optional<BatchAnswers> go_on(Batch& batch);
   std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
 
   // job_commands.cc
   Result<JobView> cancel(const std::string& key);
+  Result<JobView> amend(const std::string& key, JobAmendment amendment);
   Result<JobView> replan(const std::string& key);
 
   // asking.cc
@@ -49,6 +51,7 @@ class Executive::Impl {
             std::function<void(Result<PlanOutcome>)> done);
 
   // executive_impl.cc
+  void note(ExecutiveInput input) const;
   void step(const Input& input);
   void tick(TimePoint now);
   void end(const std::string& cause, bool keeps_waiting, std::function<void()> done);
@@ -68,9 +71,11 @@ class Executive::Impl {
   Drawings drawings_;
   RunFigures figures_;
   TimePoint now_{};
+  std::uint64_t ticks_ = 0;
   Publisher publisher_;
 
  private:
+  Result<std::vector<PreparedJob>> prepare_all(std::vector<JobRequest> requests);
   JobView accept(PreparedJob prepared);
   [[nodiscard]] JobId next_job() const;
   [[nodiscard]] Result<JobId> not_ended(const std::string& key) const;

@@ -104,6 +104,8 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .name = names.name(job.id),
                .state = job.pausing() ? JobState::holding : job.state(),
                .priority = job.priority,
+               .backlog_timeout = job.backlog_timeout,
+               .replans_on_timeout = job.replans_on_timeout,
                .system_job = job.system_job,
                .submitted_at = job.times.submitted_at,
                .backlogged_at = job.times.backlogged_at,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scheduler/admission.h"
+#include "core/scheduler/amending.h"
 #include "core/scheduler/goals.h"
 #include "core/scheduler/horizon/timeline.h"
 #include "core/scheduler/inputs.h"
@@ -78,6 +79,7 @@ class Scheduler {
  private:
   void on(const Submit& input) { add(state_, record_of(state_, input)); }
   void on(const Cancel& input);
+  void on(const Amend& input) { amend(state_, input); }
   void on(const Judged& input) { admission_.on(input, state_, cycles_); }
   void on(const PlanMade& input);
   void on(const Replan& input);
