@@ -63,8 +63,7 @@ void limit_clients(const ServeOptions& options, ServiceOptions& service) {
                     .requests_of_all = {4 * requests, 8 * requests},
                     .jobs = {jobs, 10 * jobs},
                     .jobs_of_all = {2 * jobs, 20 * jobs}};
-  const std::size_t all = service.connections_max;
-  service.connections_per_client_max = std::min(options.connections_per_client, all - all / 8);
+  service.connections_per_client_max = options.connections_per_client;
 }
 
 // Of who may use it: whoever can reach an address that is not the machine's own has to show a
