@@ -54,12 +54,13 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
 void Executive::Impl::walk(std::shared_ptr<Trial> trial,
                            std::function<void(Result<CheckView>)> done) {
   if (auto question = trial->next()) {
-    questions_.service().ask(std::move(*question), scene_.scene(),
-                             [this, trial, done = std::move(done)](Verdict verdict) mutable {
-                               trial->answer(std::move(verdict));
-                               walk(std::move(trial), std::move(done));
-                             });
-    return;
+    const auto answered = [this, trial, done](Verdict verdict) {
+      trial->answer(std::move(verdict));
+      walk(trial, done);
+    };
+    if (questions_.service().consider(std::move(*question), scene_.scene(), answered)) return;
+    return done(failure(Problem{ProblemKind::unavailable, "too-many-checks", "",
+                                "too many checks are being made; ask again in a moment"}));
   }
   Trial::Outcome outcome = trial->outcome();
   for (Wait& wait : outcome.waits) {

@@ -60,6 +60,8 @@ struct JobView {
   JobState state = JobState::queued;
   std::vector<std::string> arms;
   int priority = 0;
+  Duration backlog_timeout{};
+  bool replans_on_timeout = false;
   bool system_job = false;  // the server's: a move aside
   TimePoint submitted_at{};
   std::optional<TimePoint> backlogged_at;  // the first time

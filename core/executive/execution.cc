@@ -20,13 +20,14 @@ Execution::Execution(const CellPtr& cell, std::vector<std::unique_ptr<FaultyArm>
       starts_(log) {}
 
 void Execution::carry_out(const Dispatch& dispatch, const Job& job,
-                          std::function<bool(JobId)> moves) {
+                          std::function<bool(JobId)> written) {
   if (job.terms.system_job) return motions_.dispatch(dispatch, job.trajectory);
-  const auto written = [this, id = job.id, moves = std::move(moves)] {
+  const auto open = [this, id = job.id, written = std::move(written)] {
+    const bool moves = written(id);
     const auto withheld = starts_.open(id);
-    if (withheld && moves(id)) motions_.grant({id, *withheld});
+    if (withheld && moves) motions_.grant({id, *withheld});
   };
-  motions_.dispatch(starts_.pass(dispatch, written), job.trajectory);
+  motions_.dispatch(starts_.pass(dispatch, open), job.trajectory);
 }
 
 void Execution::carry_out(const Grant& grant) {

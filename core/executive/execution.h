@@ -19,9 +19,9 @@ class Execution {
   // All arms stand at home. `log` outlives it; null: nobody asks.
   Execution(const CellPtr& cell, std::vector<std::unique_ptr<FaultyArm>> arms, StartLog* log);
 
-  // `moves`: whether the job is in motion still; asked, on the strand, when it is on disk that its
-  // arms may move.
-  void carry_out(const Dispatch& dispatch, const Job& job, std::function<bool(JobId)> moves);
+  // `written`: told, on the strand, when it is on disk that the job's arms may move; whether it is
+  // in motion still.
+  void carry_out(const Dispatch& dispatch, const Job& job, std::function<bool(JobId)> written);
   void carry_out(const Grant& grant);
   void carry_out(const Brake& brake) { motions_.brake(brake.job); }
   void carry_out(const Release& release) { motions_.release(release.job); }

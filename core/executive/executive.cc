@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/executive/arms_of.h"
+#include "core/executive/batch.h"
 #include "core/executive/executive_impl.h"
 #include "core/executive/timeline.h"
 
@@ -12,10 +13,27 @@ namespace armloom {
 Executive::Executive(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Executive::~Executive() = default;
 
-Result<JobView> Executive::submit(JobRequest request) { return impl_->submit(std::move(request)); }
-Result<std::vector<Result<JobView>>> Executive::submit_batch(std::vector<JobRequest> requests,
-                                                             bool atomic) {
-  return impl_->submit_batch(std::move(requests), atomic);
+Result<JobView> Executive::submit(JobRequest request) {
+  std::vector<JobRequest> alone;
+  alone.push_back(std::move(request));
+  impl_->note({ExecutiveInput::Submitted{alone, ExecutiveInput::Submitted::How::alone}});
+  return impl_->submit(std::move(alone.front()));
+}
+std::shared_ptr<Executive::Batch> Executive::open_batch(std::vector<JobRequest> requests,
+                                                        bool atomic) {
+  using How = ExecutiveInput::Submitted::How;
+  impl_->note({ExecutiveInput::Submitted{requests, atomic ? How::atomic_batch : How::batch}});
+  return std::make_shared<Batch>(std::move(requests), atomic);
+}
+std::optional<Executive::BatchAnswers> Executive::go_on(Batch& batch) {
+  impl_->note({ExecutiveInput::WentOn{}});
+  return impl_->go_on(batch);
+}
+Executive::BatchAnswers Executive::submit_batch(std::vector<JobRequest> requests, bool atomic) {
+  const auto batch = open_batch(std::move(requests), atomic);
+  for (;;) {
+    if (auto answers = go_on(*batch)) return std::move(*answers);
+  }
 }
 void Executive::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
   impl_->check(std::move(request), std::move(done));
@@ -29,25 +47,47 @@ void Executive::diagram(const std::string& key_a, const std::string& key_b,
   impl_->questions_.drawings().draw({key_a, key_b, impl_->scene_.now(), impl_->clock_.now},
                                     std::move(done));
 }
-Result<JobView> Executive::cancel(const std::string& key) { return impl_->cancel(key); }
-Result<JobView> Executive::replan(const std::string& key) { return impl_->replan(key); }
+Result<JobView> Executive::cancel(const std::string& key) {
+  impl_->note({ExecutiveInput::Canceled{key}});
+  return impl_->cancel(key);
+}
+Result<JobView> Executive::amend(const std::string& key, JobAmendment amendment) {
+  impl_->note({ExecutiveInput::Amended{key, amendment}});
+  return impl_->amend(key, std::move(amendment));
+}
+Result<JobView> Executive::replan(const std::string& key) {
+  impl_->note({ExecutiveInput::Replanned{key}});
+  return impl_->replan(key);
+}
+void Executive::alert(Alert alert) {
+  impl_->note({ExecutiveInput::Alerted{alert}});
+  impl_->publisher_.tell(std::move(alert), impl_->clock_.now);
+}
 void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause) {
+  impl_->note({ExecutiveInput::Stopped{arms, cause}});
   impl_->stop(arms, cause);
 }
-void Executive::resume(const std::vector<ArmId>& arms) { impl_->resume(arms); }
+void Executive::resume(const std::vector<ArmId>& arms) {
+  impl_->note({ExecutiveInput::Resumed{arms}});
+  impl_->resume(arms);
+}
 void Executive::wind_down(const std::string& cause, Waiting waiting, std::function<void()> done) {
+  impl_->note({ExecutiveInput::WoundDown{cause, waiting}});
   impl_->end(cause, waiting == Waiting::is_kept, std::move(done));
 }
 std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
+  impl_->note({ExecutiveInput::Restored{jobs}});
   return impl_->restore(std::move(jobs));
 }
 void Executive::stop_all(const std::string& cause) { stop(all_arms(*impl_->cell_), cause); }
 void Executive::resume_all() { resume(all_arms(*impl_->cell_)); }
 LiveScene& Executive::scene() { return impl_->scene_; }
 Result<std::uint64_t> Executive::inject(const FaultRequest& fault) {
+  impl_->note({ExecutiveInput::Injected{fault}});
   return impl_->execution_.faults().inject(fault, impl_->clock_.now);
 }
 Result<void> Executive::remove_fault(std::uint64_t id) {
+  impl_->note({ExecutiveInput::FaultRemoved{id}});
   return impl_->execution_.faults().remove(id);
 }
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }

@@ -31,14 +31,19 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       scene_(
           std::move(checked.scene),
           [this]() -> const Configuration& { return execution_.motions().measured(); },
-          [this](ClearanceQuery query) { scene_has_changed(std::move(query)); }),
+          {.asked = [this](const ExecutiveInput& input) { note(input); },
+           .changed = [this](ClearanceQuery query) { scene_has_changed(std::move(query)); }}),
       execution_(cell_, std::move(checked.arms), options.starts),
       questions_(scheduler_, jobs_, judges),
       count_(cell_->arms.size()),
-      clock_{.dies_at = options.dies_at},
+      clock_{.dies_at = options.dies_at, .inputs = options.inputs},
       publisher_({*cell_, scheduler_, execution_.motions(), jobs_, execution_.starts()}, observer),
       intake_(cell_, scheduler_, jobs_, {options.waiting_max, options.first_job}),
       watch_(scene_.scene()) {}
+
+void Executive::Impl::note(ExecutiveInput input) const {
+  if (clock_.inputs != nullptr) clock_.inputs->came(clock_.ticks, input);
+}
 
 // ---- The scheduler and its effects ----
 
@@ -47,7 +52,7 @@ void Executive::Impl::step(const Input& input) {
   for (const Effect& effect : effects) carry_out(effect);
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
   publisher_.tell_stops();
-  publisher_.tell_queue(clock_.now);
+  publisher_.queue_may_have_changed(clock_.now);
 }
 
 // What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
@@ -63,12 +68,21 @@ std::vector<Effect> Executive::Impl::decided(const Input& input) {
 
 void Executive::Impl::carry_out(const Effect& effect) {
   if (const auto* judge = std::get_if<Judge>(&effect)) {
-    questions_.judge(judge->question, scene_.scene(), [this](const Judged& made) { step(made); });
+    questions_.judge(judge->question, scene_.scene(), [this](const Judged& made) {
+      note({ExecutiveInput::Judged{made.verdict.evaluations}});
+      step(made);
+    });
   } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
-    questions_.plans().ask(*plan, scene_.scene(), [this](const PlanMade& made) { step(made); });
+    questions_.plans().ask(*plan, scene_.scene(), [this](const PlanMade& made) {
+      note({ExecutiveInput::Planned{made.job, made.question}});
+      step(made);
+    });
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
-    const auto moves = [this](JobId job) { return scheduler_.find(job)->in<Moving>() != nullptr; };
-    execution_.carry_out(*dispatch, *scheduler_.find(dispatch->job), moves);
+    const auto written = [this](JobId job) {
+      note({ExecutiveInput::StartWritten{job}});
+      return scheduler_.find(job)->in<Moving>() != nullptr;
+    };
+    execution_.carry_out(*dispatch, *scheduler_.find(dispatch->job), written);
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {
     execution_.carry_out(*grant);
   } else if (const auto* aside = std::get_if<YieldMove>(&effect)) {
@@ -114,6 +128,7 @@ void Executive::Impl::job_changed(JobId id) {
 
 void Executive::Impl::tick(TimePoint now) {
   clock_.now = now;
+  ++clock_.ticks;
   if (clock_.dies_at && now >= *clock_.dies_at) {
     execution_.tick_arms(now);
     publisher_.tell_tick(now);
@@ -132,6 +147,7 @@ void Executive::Impl::tick(TimePoint now) {
   }
   count_.motion(motions);
   if (watch_.is_due(now)) watch();
+  publisher_.tell_queue(now);
   publisher_.tell_arms(now);
   publisher_.tell_tick(now);
   const auto is_moving = [&](ArmId arm) { return motions.moving(arm); };
@@ -142,7 +158,7 @@ void Executive::Impl::tick(TimePoint now) {
 }
 
 TimePoint Executive::Impl::settled_until() const {
-  const bool settled = clock_.quiet && execution_.motions().all_settled();
+  const bool settled = clock_.quiet && execution_.motions().all_settled() && !publisher_.is_behind();
   return settled ? clock_.wake_at.value_or(TimePoint::max()) : clock_.now;
 }
 

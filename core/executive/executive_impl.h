@@ -8,6 +8,7 @@
 
 #include "core/executive/execution.h"
 #include "core/executive/executive.h"
+#include "core/executive/executive_input.h"
 #include "core/executive/job_intake.h"
 #include "core/executive/job_register.h"
 #include "core/executive/live_scene.h"
@@ -35,11 +36,12 @@ class Executive::Impl {
 
   // submission.cc
   Result<JobView> submit(JobRequest request);
-  Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests, bool atomic);
+  std::optional<BatchAnswers> go_on(Batch& batch);
   std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
 
   // job_commands.cc
   Result<JobView> cancel(const std::string& key);
+  Result<JobView> amend(const std::string& key, JobAmendment amendment);
   Result<JobView> replan(const std::string& key);
 
   // asking.cc
@@ -48,6 +50,7 @@ class Executive::Impl {
             std::function<void(Result<PlanOutcome>)> done);
 
   // executive_impl.cc
+  void note(ExecutiveInput input) const;
   void step(const Input& input);
   void tick(TimePoint now);
   void end(const std::string& cause, bool keeps_waiting, std::function<void()> done);
@@ -62,6 +65,8 @@ class Executive::Impl {
     std::optional<TimePoint> wake_at = {};  // asked for by the scheduler
     bool quiet = false;  // the last cycle found all arms settled, and nothing to report
     std::optional<TimePoint> dies_at = {};  // ExecutiveOptions
+    std::uint64_t ticks = 0;                // so many cycles have begun
+    InputLog* inputs = nullptr;             // is told what comes between them
   };
 
   CellPtr cell_;
@@ -75,6 +80,7 @@ class Executive::Impl {
   Publisher publisher_;
 
  private:
+  Result<std::vector<PreparedJob>> prepare_all(std::vector<JobRequest> requests);
   JobView accept(PreparedJob prepared);
   [[nodiscard]] Result<JobId> not_ended(const std::string& key) const;
   void enter(Submit submitted, JobLabel label);

@@ -59,10 +59,10 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
     return failure(Problem{ProblemKind::unavailable, "server-ends", "",
                            "the server is ending and accepts no job"});
   }
-  if (scheduler_.active().size() + ahead.keys.size() >= bounds_.waiting_max) {
-    return failure(Problem{
-        ProblemKind::unavailable, "queue-full", "",
-        "the queue is full: " + std::to_string(bounds_.waiting_max) + " jobs have not ended"});
+  if (jobs_.active() + ahead.keys.size() >= bounds_.waiting_max) {
+    return failure(
+        Problem{ProblemKind::unavailable, "queue-full", "",
+                "the queue is full: " + std::to_string(bounds_.waiting_max) + " jobs have not ended"});
   }
   Problems problems;
   std::vector<TrajectoryPtr> returns;
@@ -111,8 +111,11 @@ std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ah
                                                    std::vector<TrajectoryPtr>& returns,
                                                    Problems& problems) const {
   std::vector<TrajectoryPtr> motions;
-  for (const auto& [place, asked] : request.motions()) {
-    auto motion = validate(asked, *cell_);
+  const auto asked_for = request.motions();
+  for (std::size_t i = 0; i < asked_for.size(); ++i) {
+    const auto& [place, asked] = asked_for[i];
+    const bool is_known = i < request.validated.size();
+    auto motion = is_known ? request.validated[i] : validate(asked, *cell_);
     Problems found = motion ? Problems{} : std::move(motion.error());
     if (motion) {
       begin_where_open(**motion, ahead);

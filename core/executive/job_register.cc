@@ -10,6 +10,8 @@ void JobRegister::add(JobId id, JobLabel label) {
   labels_.emplace(id, std::move(label));
 }
 
+void JobRegister::rename(JobId id, std::string name) { labels_.at(id).name = std::move(name); }
+
 std::vector<JobId> JobRegister::end(JobId id) {
   ended_.push_back(id);
   std::vector<JobId> forgotten;

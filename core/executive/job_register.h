@@ -35,6 +35,7 @@ class JobRegister final : public JobNames {
 
   // Precondition: the key is not taken.
   void add(JobId id, JobLabel label);
+  void rename(JobId id, std::string name);  // precondition: it is known
   // The job has ended. Those that ended longest ago, as far as they are too many, are taken out:
   // returned, for whoever else knows them.
   std::vector<JobId> end(JobId id);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/executive/executive_input.h"
 #include "core/executive/state_watch.h"
 
 namespace armloom {
@@ -33,6 +34,7 @@ Problem no_object(const std::string& name) {
 }  // namespace
 
 Result<void> LiveScene::add(CollisionObject object) {
+  told_.asked({ExecutiveInput::ObjectAdded{object}});
   if (auto taken = taken_in_cell(object.name, now_.scene->cell()))
     return failure(std::move(*taken));
   std::vector<CollisionObject> all = objects();
@@ -45,6 +47,7 @@ Result<void> LiveScene::add(CollisionObject object) {
 }
 
 Result<void> LiveScene::replace(CollisionObject object) {
+  told_.asked({ExecutiveInput::ObjectReplaced{object}});
   std::vector<CollisionObject> all = objects();
   const auto old = std::ranges::find_if(all, named(object.name));
   if (old == all.end()) return failure(no_object(object.name));
@@ -53,6 +56,7 @@ Result<void> LiveScene::replace(CollisionObject object) {
 }
 
 Result<void> LiveScene::remove(const std::string& name) {
+  told_.asked({ExecutiveInput::ObjectRemoved{name}});
   std::vector<CollisionObject> all = objects();
   if (std::erase_if(all, named(name)) == 0) return failure(no_object(name));
   return change(std::move(all));
@@ -73,7 +77,7 @@ Result<void> LiveScene::change(std::vector<CollisionObject> objects) {
     return failure(Problem{ProblemKind::conflict, "object-in-arm", "", text, pair.clearance_m});
   }
   now_ = {std::move(*scene), now_.version + 1};
-  changed_(std::move(query));
+  told_.changed(std::move(query));
   return {};
 }
 

@@ -11,6 +11,8 @@
 
 namespace armloom {
 
+struct ExecutiveInput;
+
 // The planning scene, and which of its versions it is.
 struct VersionedScene {
   PlanningScenePtr scene;
@@ -20,12 +22,14 @@ struct VersionedScene {
 // The planning scene as it is now, and its objects as clients change them. On the strand.
 class LiveScene {
  public:
-  // `measured`: where all joints stand, whenever it is asked. `changed`: the scene is another one;
-  // of it, what the monitor asks.
+  // Where all joints stand, whenever it is asked.
   using Measured = std::function<const Configuration&()>;
-  using Changed = std::function<void(ClearanceQuery)>;
-  LiveScene(PlanningScenePtr scene, Measured measured, Changed changed)
-      : now_{std::move(scene)}, measured_(std::move(measured)), changed_(std::move(changed)) {}
+  struct Told {
+    std::function<void(const ExecutiveInput&)> asked;  // a client wants a change, good or not
+    std::function<void(ClearanceQuery)> changed;       // of the new scene, what the monitor asks
+  };
+  LiveScene(PlanningScenePtr scene, Measured measured, Told told)
+      : now_{std::move(scene)}, measured_(std::move(measured)), told_(std::move(told)) {}
 
   [[nodiscard]] const VersionedScene& now() const { return now_; }
   [[nodiscard]] const PlanningScenePtr& scene() const { return now_.scene; }
@@ -46,7 +50,7 @@ class LiveScene {
 
   VersionedScene now_;
   Measured measured_;
-  Changed changed_;
+  Told told_;
 };
 
 }  // namespace armloom

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/base/add_below.h"
+#include "core/executive/batch.h"
 #include "core/executive/executive_impl.h"
 
 namespace armloom {
@@ -15,13 +16,23 @@ Result<JobView> Executive::Impl::submit(JobRequest request) {
   return accept(std::move(*prepared));
 }
 
-Result<std::vector<Result<JobView>>> Executive::Impl::submit_batch(std::vector<JobRequest> requests,
-                                                                   bool atomic) {
-  std::vector<Result<JobView>> answers;
-  if (!atomic) {
-    for (JobRequest& request : requests) answers.push_back(submit(std::move(request)));
-    return answers;
+std::optional<Executive::BatchAnswers> Executive::Impl::go_on(Batch& batch) {
+  if (batch.atomic && !batch.prepared) {
+    auto prepared = prepare_all(std::move(batch.requests));
+    if (!prepared) return failure(std::move(prepared.error()));
+    batch.prepared = std::move(*prepared);
   }
+  const std::size_t size = batch.atomic ? batch.prepared->size() : batch.requests.size();
+  if (batch.next < size) {
+    const std::size_t i = batch.next++;
+    batch.answers.push_back(batch.atomic ? Result<JobView>(accept(std::move((*batch.prepared)[i])))
+                                         : submit(std::move(batch.requests[i])));
+  }
+  if (batch.next < size) return std::nullopt;
+  return std::move(batch.answers);
+}
+
+Result<std::vector<PreparedJob>> Executive::Impl::prepare_all(std::vector<JobRequest> requests) {
   JobIntake::Ahead ahead = intake_.ahead();
   std::vector<PreparedJob> all;
   Problems problems;
@@ -35,8 +46,7 @@ Result<std::vector<Result<JobView>>> Executive::Impl::submit_batch(std::vector<J
   }
   if (!problems.empty()) return failure(std::move(problems));
   intake_.accepted(std::move(ahead));
-  for (PreparedJob& prepared : all) answers.push_back(accept(std::move(prepared)));
-  return answers;
+  return all;
 }
 
 JobView Executive::Impl::accept(PreparedJob prepared) {

@@ -104,6 +104,8 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .name = names.name(job.id),
                .state = job.pausing() ? JobState::holding : job.state(),
                .priority = job.terms.priority,
+               .backlog_timeout = job.terms.backlog_timeout,
+               .replans_on_timeout = job.terms.replans_on_timeout,
                .system_job = job.terms.system_job,
                .submitted_at = job.times.submitted_at,
                .backlogged_at = job.times.backlogged_at,

@@ -32,6 +32,14 @@ struct Submit {
 struct Cancel {
   JobId job;
 };
+// What is asked of a job is changed, as far as it is named here (amending.h).
+struct Amend {
+  JobId job;
+  std::optional<int> priority = {};
+  // It counts from when the job first was in conflict: it may be over at once.
+  std::optional<Duration> backlog_timeout = {};
+  std::optional<bool> replans_on_timeout = {};
+};
 // Another way for this job, from where its arm stands (replanning.h). One that can be given none
 // (why_not_replanned()) goes on as it is.
 struct Replan {
@@ -85,8 +93,8 @@ struct Interrupt {
 // A time asked for by WakeAt has come. Every other input does the same work besides.
 struct Wake {};
 
-using Input = std::variant<Submit, Cancel, Replan, Judged, PlanMade, MotionReport, Stop, Resume,
-                           SceneChanged, Interrupt, Wake>;
+using Input = std::variant<Submit, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
+                           Resume, SceneChanged, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

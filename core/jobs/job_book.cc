@@ -133,6 +133,14 @@ void JobBook::set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg le
   changed(record);
 }
 
+void JobBook::set_priority(Record& record, int priority) {
+  int& now = record.job.priority;
+  if (--priorities_.at(now) == 0) priorities_.erase(now);
+  now = priority;
+  ++priorities_[now];
+  changed(record);
+}
+
 // What comes next on its arms may have waited for it, or does now.
 void JobBook::explain_with_next(const Job& job) {
   news_.unexplained.insert(job.id);

@@ -89,6 +89,8 @@ class JobBook {
   void take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg, std::size_t place);
   // Its way is known now, or is another one. Precondition: it waits in the queue.
   void set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg leg);
+  // Precondition: it has not ended.
+  void set_priority(Record& record, int priority);
   // Any that say where to go.
   [[nodiscard]] bool has_goals() const { return goals_ > 0; }
   // That could still go on other arms.

@@ -8,6 +8,7 @@
 #include "core/jobs/phases.h"
 #include "core/jobs/state.h"
 #include "core/scheduler/admission.h"
+#include "core/scheduler/amending.h"
 #include "core/scheduler/goals.h"
 #include "core/scheduler/horizon/timeline.h"
 #include "core/scheduler/policy.h"
@@ -78,6 +79,7 @@ class Scheduler {
  private:
   void on(const Submit& input);
   void on(const Cancel& input);
+  void on(const Amend& input) { amend(state_, input); }
   void on(const Judged& input) { admission_.on(input, state_, cycles_); }
   void on(const PlanMade& input);
   void on(const Replan& input);

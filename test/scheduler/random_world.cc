@@ -133,6 +133,11 @@ void World::disturb() {
   if (disturbances_.cancels && dice == 3 && !active.empty()) {
     bench_.input(Cancel{active[random_() % active.size()]});
   }
+  if (disturbances_.amends && dice >= 5 && !active.empty()) {
+    Amend amend{active[random_() % active.size()], static_cast<int>(random_() % 3)};
+    if (disturbances_.cancels) amend.backlog_timeout = 20s + up_to(100s);
+    bench_.input(amend);
+  }
   if (disturbances_.scenes && dice == 4) {
     const double from = place() + 0.005;
     change_scene({{arm, from, from + 0.1 * place()}});
