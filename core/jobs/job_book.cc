@@ -134,7 +134,7 @@ void JobBook::set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg le
 }
 
 void JobBook::set_priority(Record& record, int priority) {
-  int& now = record.job.priority;
+  int& now = record.job.terms.priority;
   if (--priorities_.at(now) == 0) priorities_.erase(now);
   now = priority;
   ++priorities_[now];
