@@ -1,14 +1,12 @@
 #include "server/replay/replay.h"
 
-#include <deque>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "core/arm/arm_controller.h"
-#include "core/collision/check/motion_checker.h"
+#include "core/executive/stepped_loop.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
@@ -86,7 +84,7 @@ Alert alert_of(const Json& line) {
 
 }  // namespace
 
-class Replay::Impl final : public JudgementService, public StartLog, public InputLog {
+class Replay::Impl final : public InputLog {
  public:
   explicit Impl(CellPtr cell) : cell_(std::move(cell)) {}
 
@@ -95,34 +93,20 @@ class Replay::Impl final : public JudgementService, public StartLog, public Inpu
     options.policy = head.at("policy");
     options.seed = head.at("seed");
     options.first_job = JobId{head.at("first_job").get<std::uint64_t>()};
-    options.starts = this;
     options.inputs = this;
-    auto made = Executive::create(cell_, std::move(options), *this, observer);
+    auto made = SteppedLoop::create(cell_, std::move(options), observer);
     if (!made) return std::move(made.error());
-    executive_ = std::move(*made);
+    loop_ = std::move(*made);
     return std::nullopt;
   }
 
-  // ---- What the executive asks for: answered when the log says so ----
-
-  void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
-    asked_ = {std::move(question), std::move(scene), std::move(done)};
-  }
-  bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
-  void plan(PlanTask task) override { plans_.push_back(std::move(task)); }
-  bool draft(PlanTask) override { return false; }
-  void about_to_move(JobId job, std::function<void()> written) override {
-    starts_[job] = std::move(written);
-  }
   void came(std::uint64_t ticks, const ExecutiveInput& input) override {
     echo_.push_back(input_text(ticks, input, *cell_));
   }
 
-  // ---- The log ----
-
   Result<void> take(const std::string& text) {
     const Json line = Json::parse(text);
-    while (ticks_ < line.at("ticks").get<std::uint64_t>()) tick();
+    while (loop_->ticks() < line.at("ticks").get<std::uint64_t>()) loop_->tick();
     echo_.clear();
     const std::string input = line.at("input");
     const auto found = verbs().find(input);
@@ -133,43 +117,14 @@ class Replay::Impl final : public JudgementService, public StartLog, public Inpu
   }
 
   void run_until(TimePoint time) {
-    while (next_ <= time) tick();
+    while (loop_->next() <= time) loop_->tick();
   }
 
-  [[nodiscard]] const Executive& executive() const { return *executive_; }
+  [[nodiscard]] Executive& executive() const { return loop_->executive(); }
 
  private:
-  struct Asked {
-    Question question;
-    PlanningScenePtr scene;
-    std::function<void(Verdict)> done;
-  };
   using Verb = void (*)(Impl&, const Json&);
 
-  void tick() {
-    executive_->tick(next_);
-    next_ += kControlPeriod;
-    ++ticks_;
-  }
-
-  void judge() {
-    if (!asked_) return;  // the echo lacks
-    const Asked asked = *std::exchange(asked_, std::nullopt);
-    if (!checker_) checker_.emplace(asked.scene);
-    checker_->look_at(asked.scene);
-    asked.done(checker_->judge(asked.question));
-  }
-  // They are made one after the other, as they were asked for.
-  void make_plan() {
-    if (plans_.empty()) return;
-    const PlanTask task = std::move(plans_.front());
-    plans_.pop_front();
-    task.done(answer_plan(task.scene, task.question, task.cancelled.get()));
-  }
-  void start_is_written(const Json& line) {
-    const auto node = starts_.extract(JobId{line.at("job").get<std::uint64_t>()});
-    if (!node.empty()) node.mapped()();
-  }
   [[nodiscard]] std::vector<ArmId> arms(const Json& line) const {
     std::vector<ArmId> arms;
     for (const std::string name : line.at("arms")) {
@@ -182,13 +137,7 @@ class Replay::Impl final : public JudgementService, public StartLog, public Inpu
   static const std::map<std::string, Verb>& verbs();
 
   CellPtr cell_;
-  std::unique_ptr<Executive> executive_;
-  std::uint64_t ticks_ = 0;
-  TimePoint next_{};
-  std::optional<Asked> asked_;
-  std::optional<MotionChecker> checker_;
-  std::deque<PlanTask> plans_;
-  std::map<JobId, std::function<void()>> starts_;
+  std::unique_ptr<SteppedLoop> loop_;
   std::shared_ptr<Executive::Batch> batch_;
   std::vector<std::string> echo_;  // of the present line: what this executive says that came
 };
@@ -198,50 +147,53 @@ const std::map<std::string, Replay::Impl::Verb>& Replay::Impl::verbs() {
   static const std::map<std::string, Verb> all{
       {"submit",
        [](Impl& my, Fields line) {
-         (void)my.executive_->submit(std::move(requests_of(line).front()));
+         (void)my.executive().submit(std::move(requests_of(line).front()));
        }},
       {"batch",
        [](Impl& my, Fields line) {
-         my.batch_ = my.executive_->open_batch(requests_of(line), false);
+         my.batch_ = my.executive().open_batch(requests_of(line), false);
        }},
       {"atomic_batch",
        [](Impl& my, Fields line) {
-         my.batch_ = my.executive_->open_batch(requests_of(line), true);
+         my.batch_ = my.executive().open_batch(requests_of(line), true);
        }},
       {"went_on",
        [](Impl& my, Fields) {
-         if (my.batch_) (void)my.executive_->go_on(*my.batch_);
+         if (my.batch_) (void)my.executive().go_on(*my.batch_);
        }},
-      {"restore", [](Impl& my, Fields line) { (void)my.executive_->restore(restored_of(line)); }},
-      {"cancel", [](Impl& my, Fields line) { (void)my.executive_->cancel(line.at("job")); }},
+      {"restore", [](Impl& my, Fields line) { (void)my.executive().restore(restored_of(line)); }},
+      {"cancel", [](Impl& my, Fields line) { (void)my.executive().cancel(line.at("job")); }},
       {"amend",
        [](Impl& my, Fields line) {
-         (void)my.executive_->amend(line.at("job"),
+         (void)my.executive().amend(line.at("job"),
                                     value_of(read_job_amendment(line.at("amendment").dump())));
        }},
-      {"replan", [](Impl& my, Fields line) { (void)my.executive_->replan(line.at("job")); }},
-      {"stop", [](Impl& my, Fields line) { my.executive_->stop(my.arms(line), line.at("cause")); }},
-      {"resume", [](Impl& my, Fields line) { my.executive_->resume(my.arms(line)); }},
+      {"replan", [](Impl& my, Fields line) { (void)my.executive().replan(line.at("job")); }},
+      {"stop", [](Impl& my, Fields line) { my.executive().stop(my.arms(line), line.at("cause")); }},
+      {"resume", [](Impl& my, Fields line) { my.executive().resume(my.arms(line)); }},
       {"wind_down",
        [](Impl& my, Fields line) {
          using Waiting = Executive::Waiting;
          const bool kept = line.at("keeps_waiting");
-         my.executive_->wind_down(line.at("cause"), kept ? Waiting::is_kept : Waiting::ends, [] {});
+         my.executive().wind_down(line.at("cause"), kept ? Waiting::is_kept : Waiting::ends, [] {});
        }},
       {"add_object",
-       [](Impl& my, Fields line) { (void)my.executive_->scene().add(object_of(line)); }},
+       [](Impl& my, Fields line) { (void)my.executive().scene().add(object_of(line)); }},
       {"replace_object",
-       [](Impl& my, Fields line) { (void)my.executive_->scene().replace(object_of(line)); }},
+       [](Impl& my, Fields line) { (void)my.executive().scene().replace(object_of(line)); }},
       {"remove_object",
-       [](Impl& my, Fields line) { (void)my.executive_->scene().remove(line.at("object")); }},
+       [](Impl& my, Fields line) { (void)my.executive().scene().remove(line.at("object")); }},
       {"inject",
-       [](Impl& my, Fields line) { (void)my.executive_->inject(fault_of(line.at("fault"))); }},
+       [](Impl& my, Fields line) { (void)my.executive().inject(fault_of(line.at("fault"))); }},
       {"remove_fault",
-       [](Impl& my, Fields line) { (void)my.executive_->remove_fault(line.at("fault")); }},
-      {"alert", [](Impl& my, Fields line) { my.executive_->alert(alert_of(line)); }},
-      {"judged", [](Impl& my, Fields) { my.judge(); }},
-      {"planned", [](Impl& my, Fields) { my.make_plan(); }},
-      {"start_written", [](Impl& my, Fields line) { my.start_is_written(line); }},
+       [](Impl& my, Fields line) { (void)my.executive().remove_fault(line.at("fault")); }},
+      {"alert", [](Impl& my, Fields line) { my.executive().alert(alert_of(line)); }},
+      {"judged", [](Impl& my, Fields) { my.loop_->answer_question(); }},
+      {"planned", [](Impl& my, Fields) { my.loop_->answer_plan(); }},
+      {"start_written",
+       [](Impl& my, Fields line) {
+         my.loop_->write_start(JobId{line.at("job").get<std::uint64_t>()});
+       }},
   };
   return all;
 }
