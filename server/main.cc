@@ -152,6 +152,19 @@ int run(int argc, char** argv) {
   add_seed(*plan_command, planning.seed, "of the search");
   plan_command->add_option("--out", planning.out, "file of the job, a body of POST /jobs (stdout)");
 
+  ReachOptions reaching;
+  CLI::App* reach_command = app.add_subcommand(
+      "reach", "what each arm's tool reaches, and where the arms' reach overlaps");
+  add_cell(*reach_command, reaching.cell_file);
+  reach_command->add_option("--step", reaching.step_m, "between places of the grid, m")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
+  reach_command->add_option("--link", reaching.link,
+                            "the tool, with or without prefix (the link of the last joint)");
+  reach_command->add_option("--picture", reaching.picture,
+                            "SVG file: what is reached, from above and from the side");
+  reach_command->add_flag("--json", reaching.json, "instead of tables");
+
   SimulateOptions simulating;
   CLI::App* simulate_command = app.add_subcommand("simulate", "run jobs on simulated time");
   add_cell(*simulate_command, simulating.cell_file);
@@ -229,6 +242,7 @@ int run(int argc, char** argv) {
   if (import_command->parsed()) return import_robots(importing);
   if (check_command->parsed()) return check_jobs_file(checking);
   if (plan_command->parsed()) return plan_way(planning);
+  if (reach_command->parsed()) return show_reach(reaching);
   if (simulate_command->parsed()) return simulate_jobs(simulating);
   if (compare_command->parsed()) return compare_policies(comparing);
   if (token_command->parsed()) return change_tokens(tokens);

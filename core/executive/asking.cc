@@ -1,5 +1,8 @@
 // What clients ask without anything being done: what would become of a job, how an arm would get
 // somewhere.
+#include <algorithm>
+#include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "core/base/add_below.h"
@@ -10,32 +13,77 @@
 namespace armloom {
 namespace {
 
-// Where it begins stands in `at`.
-Result<PlanQuestion> question_of(const Cell& cell, const PlanInquiry& inquiry, Configuration at) {
+// For each arm that may go; where that begins stands in `at`.
+Result<std::vector<PlanQuestion>> questions_of(const Cell& cell, const PlanInquiry& inquiry,
+                                               const Configuration& at) {
   Problems problems;
-  auto arm = find_arm(cell, inquiry.arm);
-  if (!arm) add_below("/arm", std::move(arm.error()), problems);
-  if (!arm) return failure(std::move(problems));
-  auto goal = goal_of(cell, *arm, inquiry.to);
-  if (!goal) add_below("/to", std::move(goal.error()), problems);
-  if (inquiry.from) {
-    auto start = joints_of(cell, *arm, *inquiry.from);
+  auto goals = goals_of(cell, {inquiry.arm, inquiry.arms}, inquiry.to, "/to");
+  if (!goals) return failure(std::move(goals.error()));
+  std::vector<PlanQuestion> questions;
+  for (MotionGoal& goal : *goals) {
+    goal.speed = inquiry.speed;
+    const ArmId arm = goal.arm;
+    questions.push_back({.goal = std::move(goal), .at = at, .seed = inquiry.seed});
+    if (!inquiry.from) continue;
+    auto start = joints_of(cell, arm, *inquiry.from);
     if (!start) add_below("/start", std::move(start.error()), problems);
-    if (start) set_joints(at, cell.arm(*arm).joints, *start);
+    if (start) set_joints(questions.back().at, cell.arm(arm).joints, *start);
   }
   if (!problems.empty()) return failure(std::move(problems));
-  goal->speed = inquiry.speed;
-  return PlanQuestion{.goal = *std::move(goal), .at = std::move(at), .seed = inquiry.seed};
+  return questions;
+}
+
+// When it would be there as a job, from now; nothing: that is not known.
+std::optional<double> arrives_s(const PlanView& plan) {
+  if (!plan.verdict || !plan.verdict->earliest_start_s) return std::nullopt;
+  return *plan.verdict->earliest_start_s + to_seconds(plan.motion.timed.trajectory->duration());
+}
+
+std::string why_another(const std::optional<double>& arrives, const PlanView& best) {
+  if (!arrives) return "when it could go is not known";
+  const auto first = arrives_s(best);
+  char text[96];
+  std::snprintf(text, sizeof text, "it would arrive in %.2f s, %s in %.2f s", *arrives,
+                best.arm.c_str(), first.value_or(0.0));
+  return text;
+}
+
+// Of one arm its own; of several each one's, with the kind of the first.
+PlanRefusal refusal_of(const std::vector<std::pair<std::string, PlanRefusal>>& all) {
+  PlanRefusal refusal = all.front().second;
+  if (all.size() == 1) return refusal;
+  refusal.detail.clear();
+  refusal.evaluations = 0;
+  for (const auto& [arm, one] : all) {
+    refusal.detail += (refusal.detail.empty() ? "" : "; ") + arm + ": " + one.detail;
+    refusal.evaluations += one.evaluations;
+  }
+  return refusal;
+}
+
+// What is known when each arm has been asked about.
+PlanOutcome first_of(std::vector<PlanView> plans,
+                     const std::vector<std::pair<std::string, PlanRefusal>>& refused) {
+  if (plans.empty()) return tl::unexpected(refusal_of(refused));
+  const auto when = [](const PlanView& plan) {
+    return arrives_s(plan).value_or(std::numeric_limits<double>::infinity());
+  };
+  const auto best = std::ranges::min_element(plans, {}, when);
+  PlanView view = std::move(*best);
+  plans.erase(best);
+  for (const PlanView& other : plans) {
+    const auto arrives = arrives_s(other);
+    view.others.push_back({other.arm, arrives, why_another(arrives, view)});
+  }
+  for (const auto& [arm, why] : refused) {
+    view.others.push_back({arm, std::nullopt, "no plan: " + why.detail});
+  }
+  return view;
 }
 
 }  // namespace
 
 void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
-  if (request.move_to) {
-    return done(failure(Problem{ProblemKind::invalid, "not-served", "/move_to",
-                                "a goal has no trajectory yet that could be judged: POST /plan "
-                                "plans one, and says how it is judged"}));
-  }
   JobIntake::Ahead ahead = intake_.ahead();
   auto prepared = intake_.prepare(std::move(request), ahead);
   if (!prepared) return done(failure(std::move(prepared.error())));
@@ -46,7 +94,8 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
   }
   jobs.push_back(intake_.submission(std::move(*prepared)));
   for (Submit& job : jobs) job.job = JobId{next++};
-  walk(std::make_shared<Trial>(scheduler_, questions_.asked(), jobs, jobs.back().job, clock_.now),
+  const Trial::Open open{questions_.asked(), questions_.plans().open()};
+  walk(std::make_shared<Trial>(scheduler_, open, jobs, jobs.back().job, clock_.now),
        std::move(done));
 }
 
@@ -62,6 +111,16 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
     return done(failure(Problem{ProblemKind::unavailable, "too-many-checks", "",
                                 "too many checks are being made; ask again in a moment"}));
   }
+  if (const auto plan = trial->next_plan()) {
+    const auto answered = [this, trial, plan, done](PlanAnswer answer) {
+      trial->answer(made_of(*plan, std::move(answer)));
+      walk(trial, done);
+    };
+    const auto cancelled = std::make_shared<std::atomic<bool>>(false);
+    if (questions_.service().draft({plan->question, scene_.scene(), cancelled, answered})) return;
+    return done(failure(Problem{ProblemKind::unavailable, "too-many-plans", "",
+                                "too many plans are being made; ask again in a moment"}));
+  }
   Trial::Outcome outcome = trial->outcome();
   for (Wait& wait : outcome.waits) {
     const bool is_known = wait.job && scheduler_.find(*wait.job) != nullptr;
@@ -72,29 +131,55 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
   done(std::move(view));
 }
 
+struct Executive::Impl::OpenInquiry {
+  std::vector<PlanQuestion> questions;
+  std::shared_ptr<std::atomic<bool>> cancelled;
+  std::function<void(Result<PlanOutcome>)> done;
+  std::size_t next = 0;  // of the questions
+  std::vector<PlanView> plans = {};
+  std::vector<std::pair<std::string, PlanRefusal>> refused = {};
+};
+
 void Executive::Impl::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
                            std::function<void(Result<PlanOutcome>)> done) {
-  auto question = question_of(*cell_, inquiry, scheduler_.predicted_rest());
-  if (!question) return done(failure(std::move(question.error())));
-  for (ArmId arm : all_arms(*cell_)) {
-    if (arm != question->goal.arm && jobs_.has_job(arm)) question->may_move.push_back(arm);
+  auto questions = questions_of(*cell_, inquiry, scheduler_.predicted_rest());
+  if (!questions) return done(failure(std::move(questions.error())));
+  for (PlanQuestion& question : *questions) {
+    for (ArmId arm : all_arms(*cell_)) {
+      if (arm != question.goal.arm && jobs_.has_job(arm)) question.may_move.push_back(arm);
+    }
   }
-  const auto judge = [this, done](PlanAnswer answer) {
-    if (!answer) return done(PlanOutcome(tl::unexpected(std::move(answer.error()))));
+  plan_next(std::make_shared<OpenInquiry>(
+      OpenInquiry{*std::move(questions), std::move(cancelled), std::move(done)}));
+}
+
+// One arm after the other.
+void Executive::Impl::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
+  if (inquiry->next == inquiry->questions.size()) {
+    return inquiry->done(first_of(std::move(inquiry->plans), inquiry->refused));
+  }
+  PlanQuestion question = inquiry->questions[inquiry->next++];
+  const std::string arm = cell_->arm(question.goal.arm).name;
+  const auto judge = [this, inquiry, arm](PlanAnswer answer) {
+    if (!answer) {
+      inquiry->refused.emplace_back(arm, std::move(answer.error()));
+      return plan_next(inquiry);
+    }
     const std::vector<Eigen::VectorXd> points = answer->way.points;
     JobRequest job{.key = "", .name = "", .trajectory = answer->timed.request};
-    PlanView view{.motion = *std::move(answer), .length = 0.0, .straight = 0.0, .verdict = {}};
+    PlanView view{.arm = arm, .others = {}, .motion = *std::move(answer)};
     view.length = view.motion.way.length();
     view.straight = (points.back() - points.front()).norm();
-    check(std::move(job), [view = std::move(view), done](Result<CheckView> verdict) mutable {
+    check(std::move(job), [this, inquiry, view = std::move(view)](auto verdict) mutable {
       view.verdict = std::move(verdict);
-      done(PlanOutcome(std::move(view)));
+      inquiry->plans.push_back(std::move(view));
+      plan_next(inquiry);
     });
   };
-  PlanTask task{*std::move(question), scene_.scene(), std::move(cancelled), judge};
+  PlanTask task{std::move(question), scene_.scene(), inquiry->cancelled, judge};
   if (questions_.service().draft(std::move(task))) return;
-  done(failure(Problem{ProblemKind::unavailable, "too-many-plans", "",
-                       "too many plans are being made; ask again in a moment"}));
+  inquiry->done(failure(Problem{ProblemKind::unavailable, "too-many-plans", "",
+                                "too many plans are being made; ask again in a moment"}));
 }
 
 }  // namespace armloom

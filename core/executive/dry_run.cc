@@ -124,8 +124,7 @@ class Instant final : public JobNames {
 
   [[nodiscard]] Trial trial(const CellPtr& cell,
                             const std::shared_ptr<const Policy>& policy) const {
-    return {Scheduler(cell, policy, rest_, under_way_, now_), std::nullopt, next_,
-            next_.front().job, now_};
+    return {Scheduler(cell, policy, rest_, under_way_, now_), {}, next_, next_.front().job, now_};
   }
 
   std::string key(JobId job) const override { return planned(job).key; }

@@ -28,6 +28,19 @@ struct WaitView {
   std::string detail;
 };
 
+// That it was taken before others, or by one of several arms (scheduler/job.h, Choice).
+struct ChoiceView {
+  std::vector<std::string> among;  // keys of jobs, or names of arms
+  std::string taken;               // of these
+  std::optional<double> saves_s;
+  std::string detail;  // one sentence
+};
+// How a job ended.
+struct JobResultView {
+  Reason reason;
+  std::string detail;
+};
+
 // The answer to "what if": the Verdict of the design.
 struct CheckView {
   Verdict::Kind kind = Verdict::Kind::free;
@@ -38,13 +51,9 @@ struct CheckView {
   std::vector<WaitView> conflicts;               // not free: the same
   std::uint64_t evaluations = 0;
   std::uint64_t scene_version = 0;
-};
-// That it was taken before others, or by one of several arms (jobs/job.h, Choice).
-struct ChoiceView {
-  std::vector<std::string> among;  // keys of jobs, or names of arms
-  std::string taken;               // of these
-  std::optional<double> saves_s;
-  std::string detail;  // one sentence
+  std::optional<ChoiceView> choice;     // of a goal that several arms could go to
+  std::optional<double> approach_s;     // from now until its arms are where it begins
+  std::optional<JobResultView> result;  // it would end at once
 };
 // Other ways that were looked for, for a job (scheduler/replanning.h).
 struct AnotherWayView {

@@ -44,9 +44,11 @@ struct JobRequest {
   // The same work by several arms, of which one will do it: each moves one arm, and back to where
   // it begins. None, or at least two.
   std::vector<TrajectoryRequest> alternatives = {};
-  // Instead: where this arm is to go, and at which share of its speed.
+  // Instead: where this arm is to go, or whichever of these arrives first, and at which share of
+  // its speed.
   std::optional<PlanGoal> move_to = {};
   std::string arm = {};
+  std::vector<std::string> arms = {};
   double speed = 1.0;
   JobOrder order = JobOrder::as_given;
   OnTimeout on_timeout = OnTimeout::abort;
@@ -240,9 +242,10 @@ class Executive {
   // Judges the job as if it were to start now, beside everything that holds a reservation, and
   // changes nothing. `done` is called on the strand, at once or when the verdict is there.
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
-  // How an arm would get there: a trajectory, not executed, with what check() says of it; beside
-  // all other arms where they will be when all accepted jobs have run. `done` as of check(). An
-  // inquiry whose `cancelled` is set is answered soon. Problems: names, sizes, limits (pointers
+  // How an arm would get there, of several the one that would arrive first as a job: a trajectory,
+  // not executed, with what check() says of it; beside all other arms where they will be when all
+  // accepted jobs have run. `done` as of check(). An inquiry whose `cancelled` is set is answered
+  // soon. Problems: names, sizes, limits (pointers
   // "/arm", "/to/...", "/start/..."); unavailable: too many are being planned.
   void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
             std::function<void(Result<PlanOutcome>)> done);

@@ -84,6 +84,8 @@ class Executive::Impl {
   JobView accept(PreparedJob prepared);
   [[nodiscard]] Result<JobId> not_ended(const std::string& key) const;
   void enter(Submit submitted, JobLabel label);
+  struct OpenInquiry;
+  void plan_next(const std::shared_ptr<OpenInquiry>& inquiry);
   void walk(std::shared_ptr<Trial> trial, std::function<void(Result<CheckView>)> done);
 
   [[nodiscard]] std::vector<Effect> decided(const Input& input);

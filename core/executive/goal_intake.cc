@@ -40,31 +40,37 @@ TrajectoryPtr estimate(const Cell& cell, const MotionGoal& goal, const Configura
 
 }  // namespace
 
-std::optional<MotionGoal> JobIntake::read_goal(const JobRequest& request,
-                                               Problems& problems) const {
+std::vector<MotionGoal> JobIntake::read_goals(const JobRequest& request, Problems& problems) const {
   if (request.order == JobOrder::any) {
     problems.push_back({ProblemKind::invalid, "not-served", "/order",
                         "a goal's job keeps its place: whether it ends where it begins is not "
                         "known before it is planned",
                         to_string(request.order)});
   }
-  auto arm = find_arm(*cell_, request.arm);
-  if (!arm) add_below("/arm", std::move(arm.error()), problems);
-  if (!arm) return std::nullopt;
-  auto goal = goal_of(*cell_, *arm, *request.move_to);
-  if (!goal) add_below("/move_to", std::move(goal.error()), problems);
-  if (!goal) return std::nullopt;
-  goal->speed = request.speed;
-  find_outside_limits(*cell_, *goal, problems);
-  return *std::move(goal);
+  auto goals = goals_of(*cell_, {request.arm, request.arms}, *request.move_to, "/move_to");
+  if (!goals) {
+    add_below("", std::move(goals.error()), problems);
+    return {};
+  }
+  for (MotionGoal& goal : *goals) {
+    goal.speed = request.speed;
+    find_outside_limits(*cell_, goal, problems);
+  }
+  return *std::move(goals);
 }
 
-TrajectoryPtr JobIntake::estimate_for(const MotionGoal& goal, Ahead& ahead) const {
-  // It goes there from wherever the arm stands: nobody has to go back first.
-  ahead.ways_back.erase(goal.arm);
-  std::erase(ahead.open, goal.arm);
-  if (std::holds_alternative<LinkTarget>(goal.to)) ahead.open.push_back(goal.arm);
-  return estimate(*cell_, goal, ahead.rest);
+std::vector<TrajectoryPtr> JobIntake::estimates_for(const std::vector<MotionGoal>& goals,
+                                                    Ahead& ahead) const {
+  std::vector<TrajectoryPtr> estimates;
+  for (const MotionGoal& goal : goals) {
+    // It goes there from wherever the arm stands: nobody has to go back first.
+    ahead.ways_back.erase(goal.arm);
+    std::erase(ahead.open, goal.arm);
+    const bool is_open = goals.size() > 1 || std::holds_alternative<LinkTarget>(goal.to);
+    if (is_open) ahead.open.push_back(goal.arm);
+    estimates.push_back(estimate(*cell_, goal, ahead.rest));
+  }
+  return estimates;
 }
 
 }  // namespace armloom

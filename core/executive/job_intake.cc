@@ -60,9 +60,9 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                            "the server is ending and accepts no job"});
   }
   if (jobs_.active() + ahead.keys.size() >= bounds_.waiting_max) {
-    return failure(
-        Problem{ProblemKind::unavailable, "queue-full", "",
-                "the queue is full: " + std::to_string(bounds_.waiting_max) + " jobs have not ended"});
+    return failure(Problem{
+        ProblemKind::unavailable, "queue-full", "",
+        "the queue is full: " + std::to_string(bounds_.waiting_max) + " jobs have not ended"});
   }
   Problems problems;
   std::vector<TrajectoryPtr> returns;
@@ -70,12 +70,13 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
       jobs_.is_taken(request.key) || std::ranges::find(ahead.keys, request.key) != ahead.keys.end();
   if (!request.key.empty() && taken) problems.push_back(key_in_use(request.key));
   find_bad_after(request, ahead, problems);
-  std::optional<MotionGoal> goal;
+  std::vector<MotionGoal> goals;
   std::vector<TrajectoryPtr> motions;
-  if (!request.move_to && !request.arm.empty()) {
-    problems.push_back({ProblemKind::invalid, "unknown-field", "/arm",
+  if (!request.move_to && (!request.arm.empty() || !request.arms.empty())) {
+    problems.push_back({ProblemKind::invalid, "unknown-field",
+                        request.arm.empty() ? "/arms" : "/arm",
                         "an arm is named with move_to; a trajectory's joints say which arms move",
-                        request.arm});
+                        request.arm.empty() ? request.arms.front() : request.arm});
   }
   if (request.approach == Approach::plan && (request.move_to || request.motions().size() > 1)) {
     problems.push_back({ProblemKind::invalid, "not-served", "/approach",
@@ -84,8 +85,8 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                         to_string(request.approach)});
   }
   if (request.move_to) {
-    goal = read_goal(request, problems);
-    if (goal && problems.empty()) motions.push_back(estimate_for(*goal, ahead));
+    goals = read_goals(request, problems);
+    if (problems.empty()) motions = estimates_for(goals, ahead);
   } else {
     motions = read_motions(request, ahead, returns, problems);
   }
@@ -96,7 +97,7 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
   return PreparedJob{std::move(request.key),
                      std::move(request.name),
                      std::move(motions),
-                     std::move(goal),
+                     std::move(goals),
                      request.order,
                      request.on_timeout,
                      request.approach,
@@ -181,7 +182,7 @@ Submit JobIntake::submission(PreparedJob prepared) const {
                        .any_order = prepared.order == JobOrder::any,
                        .replans_on_timeout = prepared.on_timeout == OnTimeout::replan,
                        .approaches = prepared.approach == Approach::plan},
-             .goal = std::move(prepared.goal)};
+             .goals = std::move(prepared.goals)};
   if (prepared.alternatives.size() > 1) job.alternatives = std::move(prepared.alternatives);
   return job;
 }

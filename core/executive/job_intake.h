@@ -18,7 +18,7 @@ struct PreparedJob {
   std::string key;  // empty: one is to be given
   std::string name;
   std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; the only one, mostly
-  std::optional<MotionGoal> goal;           // the trajectory is an estimate
+  std::vector<MotionGoal> goals;            // the trajectories are estimates, one for each
   JobOrder order;
   OnTimeout on_timeout;
   Approach approach;
@@ -76,9 +76,10 @@ class JobIntake {
   [[nodiscard]] std::vector<TrajectoryPtr> read_motions(const JobRequest& request, Ahead& ahead,
                                                         std::vector<TrajectoryPtr>& returns,
                                                         Problems& problems) const;
-  [[nodiscard]] std::optional<MotionGoal> read_goal(const JobRequest& request,
-                                                    Problems& problems) const;
-  [[nodiscard]] TrajectoryPtr estimate_for(const MotionGoal& goal, Ahead& ahead) const;
+  [[nodiscard]] std::vector<MotionGoal> read_goals(const JobRequest& request,
+                                                   Problems& problems) const;
+  [[nodiscard]] std::vector<TrajectoryPtr> estimates_for(const std::vector<MotionGoal>& goals,
+                                                         Ahead& ahead) const;
   void begin_where_open(const Trajectory& motion, Ahead& ahead) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   [[nodiscard]] std::vector<TrajectoryPtr> returns_for(const Trajectory& motion,

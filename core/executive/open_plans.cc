@@ -4,26 +4,39 @@
 
 namespace armloom {
 
+PlanMade made_of(const PlanMotion& asked, PlanAnswer answer) {
+  PlanMade made{.job = asked.job, .question = asked.number, .trajectory = nullptr};
+  if (answer) {
+    made.trajectory = answer->timed.trajectory;
+  } else {
+    made.why = "no plan: " + answer.error().detail;
+  }
+  return made;
+}
+
 void OpenPlans::ask(const PlanMotion& asked, PlanningScenePtr scene,
                     std::function<void(PlanMade)> done) {
   const auto given_up = std::make_shared<std::atomic<bool>>(false);
-  given_up_[asked.job] = given_up;
-  const auto answered = [this, job = asked.job, number = asked.number,
-                         done = std::move(done)](PlanAnswer answer) {
-    given_up_.erase(job);
-    PlanMade made{.job = job, .question = number, .trajectory = nullptr};
-    if (answer) {
-      made.trajectory = answer->timed.trajectory;
-    } else {
-      made.why = "no plan: " + answer.error().detail;
-    }
-    done(std::move(made));
+  const Key key{asked.job, asked.number};
+  plans_.insert_or_assign(key, Plan{asked, given_up});
+  const auto answered = [this, key, done = std::move(done)](PlanAnswer answer) {
+    const auto node = plans_.extract(key);
+    done(made_of(node.mapped().asked, std::move(answer)));
   };
   judges_.plan({asked.question, std::move(scene), given_up, answered});
 }
 
 void OpenPlans::give_up(JobId job) {
-  if (const auto plan = given_up_.find(job); plan != given_up_.end()) *plan->second = true;
+  for (auto plan = plans_.lower_bound({job, 0}); plan != plans_.end(); ++plan) {
+    if (plan->first.first != job) return;
+    *plan->second.given_up = true;
+  }
+}
+
+std::vector<PlanMotion> OpenPlans::open() const {
+  std::vector<PlanMotion> open;
+  for (const auto& [key, plan] : plans_) open.push_back(plan.asked);
+  return open;
 }
 
 }  // namespace armloom

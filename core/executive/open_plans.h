@@ -4,11 +4,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "core/executive/executive.h"
 #include "core/jobs/inputs.h"
 
 namespace armloom {
+
+[[nodiscard]] PlanMade made_of(const PlanMotion& asked, PlanAnswer answer);
 
 // The ways to the goals of jobs that are being planned.
 class OpenPlans {
@@ -19,10 +22,17 @@ class OpenPlans {
   void ask(const PlanMotion& asked, PlanningScenePtr scene, std::function<void(PlanMade)> done);
   // The job needs none any more.
   void give_up(JobId job);
+  // That are not answered yet, by job.
+  [[nodiscard]] std::vector<PlanMotion> open() const;
 
  private:
   JudgementService& judges_;
-  std::map<JobId, std::shared_ptr<std::atomic<bool>>> given_up_;
+  using Key = std::pair<JobId, std::uint64_t>;  // and PlanMotion::number
+  struct Plan {
+    PlanMotion asked;
+    std::shared_ptr<std::atomic<bool>> given_up;
+  };
+  std::map<Key, Plan> plans_;
 };
 
 }  // namespace armloom

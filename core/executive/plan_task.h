@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/collision/scene/planning_scene.h"
 #include "core/executive/events.h"
@@ -26,14 +27,24 @@ struct PlanTask {
 // What a client asks: how an arm would get somewhere.
 struct PlanInquiry {
   std::string arm;
+  std::vector<std::string> arms;  // instead: whichever of these arrives first
   PlanGoal to;
   std::optional<PlanGoal> from;  // absent: where the arm will be when what is admitted has run
   std::uint64_t seed = 1;
   double speed = 1.0;  // MotionGoal::speed
 };
 
+// What became of an arm that could have gone there instead.
+struct OtherArm {
+  std::string arm;
+  std::optional<double> arrives_s;  // from now, as a job
+  std::string detail;               // why it is not that one
+};
+
 // A motion that nobody has been asked to make.
 struct PlanView {
+  std::string arm;
+  std::vector<OtherArm> others;
   PlannedMotion motion;
   double length;    // in joint space (rad, m), ...
   double straight;  // ... and of the straight line

@@ -76,6 +76,11 @@ WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names, bool
 
 namespace {
 
+const char* why_first(const Job& job, std::size_t among) {
+  if (among == 1) return "no other one can";
+  return job.goal ? "no other one arrives sooner" : "no other one makes the plan shorter";
+}
+
 ChoiceView view_of(const Job& job, const Choice& choice, const Cell& cell, const JobNames& names) {
   ChoiceView view;
   for (JobId other : choice.jobs) view.among.push_back(names.key(other));
@@ -84,14 +89,22 @@ ChoiceView view_of(const Job& job, const Choice& choice, const Cell& cell, const
   view.taken = by_arm ? cell.arm(job.trajectory->arms().front()).name : names.key(job.id);
   const std::string& first = view.among.front();
   if (view.taken == first) {
-    view.detail = "no other one makes the plan shorter";
+    view.detail = why_first(job, view.among.size());
   } else if (!choice.saves) {
     view.detail = first + " could not go as things stood";
   } else {
     view.saves_s = to_seconds(*choice.saves);
     char text[64];
-    std::snprintf(text, sizeof text, "the plan costs %.2f s less than with ", *view.saves_s);
+    std::snprintf(
+        text, sizeof text,
+        job.goal ? "it arrives %.2f s sooner than " : "the plan costs %.2f s less than with ",
+        *view.saves_s);
     view.detail = text + first;
+  }
+  for (const Choice::Without& other : choice.without) {
+    const std::string& name = cell.arm(other.arm).name;
+    view.among.push_back(name);
+    view.detail += "; " + name + " cannot: " + other.why;
   }
   return view;
 }
@@ -128,6 +141,11 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   for (const TrajectoryPtr& other : job.alternatives) {
     view.alternatives.push_back(cell.arm(other->arms().front()).name);
   }
+  if (job.goal && job.goal->ways.size() > 1 && view.alternatives.empty()) {
+    for (const GoalWay& way : job.goal->ways) {
+      view.alternatives.push_back(cell.arm(way.goal.arm).name);
+    }
+  }
   if (const auto& other = job.another_way) {
     view.another_way = AnotherWayView{other->done, other->is_open, other->cause, other->refusal};
   }
@@ -161,6 +179,10 @@ const char* to_string(ArmState state) {
 
 CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobNames& names) {
   CheckView view{.kind = outcome.kind, .scene_version = 0};
+  if (outcome.approach) view.approach_s = to_seconds(*outcome.approach);
+  const Job& job = outcome.job;
+  if (job.goal && job.choice) view.choice = view_of(job, *job.choice, cell, names);
+  if (const auto reason = job.reason()) view.result = JobResultView{*reason, job.detail()};
   if (outcome.starts_in) view.earliest_start_s = to_seconds(*outcome.starts_in);
   if (outcome.clearance_bound) {
     view.clearance_bound_m = outcome.clearance_bound->apart_m;

@@ -24,10 +24,11 @@ struct Submit {
   TrajectoryPtr trajectory;
   JobTerms terms = {};
   // The same work by one of several arms, `trajectory` first; none, or two or more. Each moves one
-  // arm, of which no other one is, and ends where it begins.
+  // arm, of which no other one is, and ends where it begins, unless goals are given too.
   std::vector<TrajectoryPtr> alternatives = {};
   // Where its arm is to go: the way is planned first (PlanMotion); `trajectory` is an estimate.
-  std::optional<MotionGoal> goal = {};
+  // Several: one for each of `alternatives`, which are estimates.
+  std::vector<MotionGoal> goals = {};
 };
 struct Cancel {
   JobId job;
@@ -102,8 +103,8 @@ using Input = std::variant<Submit, Cancel, Amend, Replan, Judged, PlanMade, Moti
 struct Judge {
   Question question;
 };
-// Plan this job's motion, on a worker, and come back with PlanMade. Of each job one is open at
-// most.
+// Plan this job's motion, on a worker, and come back with PlanMade. Of each job and arm one is open
+// at most.
 struct PlanMotion {
   JobId job;
   std::uint64_t number;

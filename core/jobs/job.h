@@ -136,19 +136,34 @@ struct Choice {
   // Either is empty. What comes first is how things were.
   std::vector<JobId> jobs = {};  // that could have gone, it among them
   std::vector<ArmId> arms = {};  // on which it could have gone
-  // By so much the plan's cost is less than with what came first; nothing: that could not go.
+  // By which it could not have gone at all, and why.
+  struct Without {
+    ArmId arm;
+    std::string why;
+  };
+  std::vector<Without> without = {};
+  // By so much the plan's cost is less than with what came first, or of a goal its arrival sooner;
+  // nothing: that could not go.
   std::optional<Duration> saves = {};
 };
 
-// Where a job is to go, of which the way is still to be planned, or has been (goals.h).
-struct JobGoal {
+// Where a job is to go by one arm, of which the way is still to be planned, or has been (goals.h).
+struct GoalWay {
   MotionGoal goal;
-  bool is_planned = false;                     // the job's trajectory is the plan; else an estimate
+  bool is_planned = false;                     // its trajectory is the plan; else an estimate
   std::optional<std::uint64_t> question = {};  // that is open: its number
   int tries = 0;                               // since a plan last fitted
   Eigen::VectorXd from = {};                   // the last question: where the arm will be, ...
   Version asked_at = 0;                        // ... and when it was asked
   std::optional<std::string> refusal = {};     // the answer to it, where there is no plan
+};
+struct JobGoal {
+  std::vector<GoalWay> ways;  // several: of one arm each, as Job::alternatives until it is admitted
+  std::size_t taken = 0;      // of these, that of Job::trajectory
+  bool is_planned = false;    // all that still count are answered, and that one is planned
+
+  [[nodiscard]] const GoalWay& way() const { return ways[taken]; }
+  [[nodiscard]] GoalWay& way() { return ways[taken]; }
 };
 
 // Another way for a job, in place of the one that it had (replanning.h).
@@ -194,6 +209,12 @@ struct Job {
   [[nodiscard]] JobState state() const;
   // Its way has to be planned (again) before it can be judged.
   [[nodiscard]] bool is_unplanned() const { return goal && !goal->is_planned; }
+  // A goal that one of several arms will go to; which one is not decided.
+  [[nodiscard]] bool has_open_arm() const { return goal && !alternatives.empty(); }
+  // Whether there is such a way: of goals one that is planned.
+  [[nodiscard]] bool may_go_by(std::size_t alternative) const {
+    return !goal || goal->ways[alternative].is_planned;
+  }
   // It stays where it is until it is known whether there is another way.
   [[nodiscard]] bool is_replanned_now() const { return another_way && another_way->is_open; }
   [[nodiscard]] bool has_ended() const { return in<Ended>() != nullptr; }

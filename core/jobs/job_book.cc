@@ -141,6 +141,24 @@ void JobBook::set_priority(Record& record, int priority) {
   changed(record);
 }
 
+void JobBook::set_alternative(Record& record, std::size_t which, TrajectoryPtr trajectory,
+                              WaitingLeg leg) {
+  Job& job = record.job;
+  const bool is_taken = job.trajectory == job.alternatives[which];
+  queues_.remove_work(job);
+  job.alternatives[which] = trajectory;
+  queues_.add_work(job);
+  if (is_taken) set_motion(record, std::move(trajectory), std::move(leg));
+}
+
+void JobBook::decide_arm(Record& record) {
+  queues_.remove_work(record.job);
+  record.job.alternatives.clear();
+  queues_.add_work(record.job);
+  undecided_.erase(record.job.id);
+  changed(record);
+}
+
 // What comes next on its arms may have waited for it, or does now.
 void JobBook::explain_with_next(const Job& job) {
   news_.unexplained.insert(job.id);

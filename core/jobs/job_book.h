@@ -91,6 +91,10 @@ class JobBook {
   void set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg leg);
   // Precondition: it has not ended.
   void set_priority(Record& record, int priority);
+  // The same of one of its alternatives, the one that it is taken to go by or another.
+  void set_alternative(Record& record, std::size_t which, TrajectoryPtr trajectory, WaitingLeg leg);
+  // It goes by the arm that it has now, and no other one. Precondition: it waits.
+  void decide_arm(Record& record);
   // Any that say where to go.
   [[nodiscard]] bool has_goals() const { return goals_ > 0; }
   // That could still go on other arms.

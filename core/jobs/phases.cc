@@ -83,7 +83,13 @@ Record record_of(State& state, const Submit& job) {
                 .turn = job.job,
                 .errand = {.on_behalf_of = job.job}};
   record.job.times.submitted_at = state.now;
-  if (job.goal) record.job.goal = JobGoal{.goal = *job.goal};
+  if (job.goals.empty()) return record;
+  JobGoal& goal = record.job.goal.emplace();
+  for (const MotionGoal& one : job.goals) goal.ways.push_back({.goal = one});
+  if (!job.alternatives.empty()) {
+    const auto taken = std::ranges::find(job.alternatives, motion);
+    goal.taken = static_cast<std::size_t>(taken - job.alternatives.begin());
+  }
   return record;
 }
 

@@ -6,6 +6,10 @@
 namespace armloom {
 namespace {
 
+// Of the first of two tries. Ways that there are take a tenth of this mostly (README.md); looking
+// for one that there is not would keep the second try waiting for ten times as long.
+constexpr std::uint64_t kBesideBudget = 40'000;
+
 using Goals = tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal>;
 
 Goals joint_goals(const Cell& cell, const PlanQuestion& question) {
@@ -49,12 +53,14 @@ PlanAnswer answer_plan(const PlanningScenePtr& scene, const PlanQuestion& questi
                       .goals = *std::move(goals),
                       .seed = question.seed,
                       .cancelled = cancelled};
+  if (!question.may_move.empty()) request.budget = kBesideBudget;
   const Answer answer(scene, question);
   auto beside = answer.to(request);
   if (beside || question.may_move.empty()) return beside;
   if (beside.error().reason == PlanRefusal::Reason::cancelled) return beside;
   const std::uint64_t spent = beside.error().evaluations;
   request.left_out = question.may_move;
+  request.budget = PlanRequest::kDefaultBudget;
   auto alone = answer.to(request);
   (alone ? alone->way.evaluations : alone.error().evaluations) += spent;
   return alone;

@@ -1,7 +1,9 @@
 #include "core/planning/plan_goal.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "core/base/add_below.h"
 #include "core/base/nearest_name.h"
 
 namespace armloom {
@@ -30,11 +32,51 @@ Result<Eigen::VectorXd> named_state(const Arm& arm, const std::string& name) {
 Result<LinkTarget> target_of(const Cell& cell, const Arm& arm, const PlanPose& pose) {
   if (pose.link) {
     if (const auto link = cell.find_link(*pose.link)) return LinkTarget{*link, pose.X_WL};
+    const auto own = cell.find_link(cell.robots[arm.robot.index()].prefix + *pose.link);
+    if (own) return LinkTarget{*own, pose.X_WL};
     return fault("unknown-link", "/pose/link", "the cell has no link " + *pose.link, *pose.link);
   }
   const auto last = std::ranges::find_if(
       arm.links, [&](LinkId id) { return cell.link(id).driver == arm.joints.back(); });
   return LinkTarget{*last, pose.X_WL};
+}
+
+// Those that there are, each once.
+std::vector<std::pair<std::string, ArmId>> arms_of(const Cell& cell, const GoalArms& who,
+                                                   Problems& problems) {
+  std::vector<std::pair<std::string, ArmId>> arms;  // each with its place
+  const auto add = [&](std::string place, const std::string& name) {
+    auto arm = find_arm(cell, name);
+    if (!arm) return add_below(place, std::move(arm.error()), problems);
+    const auto same = [&](const auto& other) { return other.second == *arm; };
+    if (std::ranges::none_of(arms, same)) return arms.emplace_back(std::move(place), *arm), void();
+    problems.push_back({ProblemKind::invalid, "arm-twice", std::move(place),
+                        "arm " + name + " is named twice", name});
+  };
+  if (who.arms.empty()) {
+    add("/arm", who.arm);
+    return arms;
+  }
+  if (!who.arm.empty()) {
+    problems.push_back({ProblemKind::invalid, "not-both", "/arms",
+                        "one arm goes there, or one of several: give arm or arms", who.arm});
+  }
+  for (std::size_t i = 0; i < who.arms.size(); ++i) add("/arms/" + std::to_string(i), who.arms[i]);
+  return arms;
+}
+
+// Of several arms none is named in vain.
+void find_link_of_another(const Cell& cell, const MotionGoal& goal, const std::string& place,
+                          Problems& problems) {
+  const auto* target = std::get_if<LinkTarget>(&goal.to);
+  const Arm& arm = cell.arm(goal.arm);
+  if (target == nullptr || std::ranges::find(arm.links, target->link) != arm.links.end()) return;
+  const std::string& link = cell.link(target->link).name;
+  problems.push_back({ProblemKind::invalid, "link-of-another-arm", place,
+                      "arm " + arm.name + " does not move " + link +
+                          ": name the link without its prefix, which each arm has under its own, "
+                          "or none",
+                      link});
 }
 
 }  // namespace
@@ -73,6 +115,23 @@ Result<MotionGoal> goal_of(const Cell& cell, ArmId arm, const PlanGoal& said) {
   auto q = joints_of(cell, arm, said);
   if (!q) return failure(std::move(q.error()));
   return MotionGoal{.arm = arm, .to = *std::move(q)};
+}
+
+Result<std::vector<MotionGoal>> goals_of(const Cell& cell, const GoalArms& who,
+                                         const PlanGoal& said, const std::string& place) {
+  Problems problems;
+  std::vector<MotionGoal> goals;
+  for (const auto& [place_of_arm, arm] : arms_of(cell, who, problems)) {
+    auto goal = goal_of(cell, arm, said);
+    if (!goal) {
+      add_below(place, std::move(goal.error()), problems);
+      continue;
+    }
+    if (!who.arms.empty()) find_link_of_another(cell, *goal, place_of_arm, problems);
+    goals.push_back(*std::move(goal));
+  }
+  if (!problems.empty()) return failure(std::move(problems));
+  return goals;
 }
 
 }  // namespace armloom

@@ -12,7 +12,8 @@ namespace armloom {
 
 // Where an arm is to be, as people say it: exactly one of the three.
 struct PlanPose {
-  std::optional<std::string> link;  // with prefix; absent: that of the arm's last joint
+  // With or without the robot's prefix; absent: that of the arm's last joint.
+  std::optional<std::string> link;
   Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();  // in the world (m)
 };
 struct PlanGoal {
@@ -22,11 +23,22 @@ struct PlanGoal {
   bool cartesian = false;  // with a pose: the link goes there in a straight line
 };
 
+// Who is to go there: one arm, or whichever of several; exactly one of the two is given.
+struct GoalArms {
+  std::string arm;
+  std::vector<std::string> arms;
+};
+
 // Problems: pointer "".
 [[nodiscard]] Result<ArmId> find_arm(const Cell& cell, const std::string& name);
 // The same in the cell's terms. Problems: a state or link that there is not, another number of
 // joints; pointers are below the goal ("/named"). Limits are the planner's to look at.
 [[nodiscard]] Result<MotionGoal> goal_of(const Cell& cell, ArmId arm, const PlanGoal& said);
+// For each of the arms. Problems: as above, those of the goal below `place` ("/move_to"), those of
+// arms at "/arm", "/arms" or "/arms/1": unknown, named twice, one that does not move the link.
+[[nodiscard]] Result<std::vector<MotionGoal>> goals_of(const Cell& cell, const GoalArms& who,
+                                                       const PlanGoal& said,
+                                                       const std::string& place);
 // Of joints or a named state; a pose does not say where each joint stands.
 [[nodiscard]] Result<Eigen::VectorXd> joints_of(const Cell& cell, ArmId arm, const PlanGoal& said);
 

@@ -68,6 +68,7 @@ void admit(State& state, const std::vector<JobId>& jobs, std::vector<Coordinated
   const std::size_t before = state.graph.motions().size() - jobs.size();
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     Record& record = state.jobs.at(jobs[i]);
+    if (record.job.has_open_arm()) state.jobs.decide_arm(record);
     enter(state, record, Admitted{});
     record.job.times.scheduled_at = state.now + orders.prediction.begins[before + i];
     record.job.waits_on.clear();

@@ -24,13 +24,12 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
   const Eigen::VectorXd to = joints_of(at, state.cell->arm(arm).joints);
   TrajectoryPtr way = estimate(state, arm, to);
   if (!way) return false;
-  Record record =
-      record_of(state, {.job = state.jobs.next_id(),
-                        .trajectory = std::move(way),
-                        .terms = {.priority = head.job.terms.priority,
-                                  .backlog_timeout = head.job.terms.backlog_timeout,
-                                  .system_job = true},
-                        .goal = MotionGoal{.arm = arm, .to = to, .speed = kApproachSpeed}});
+  Record record = record_of(state, {.job = state.jobs.next_id(),
+                                    .trajectory = std::move(way),
+                                    .terms = {.priority = head.job.terms.priority,
+                                              .backlog_timeout = head.job.terms.backlog_timeout,
+                                              .system_job = true},
+                                    .goals = {{.arm = arm, .to = to, .speed = kApproachSpeed}}});
   record.errand.on_behalf_of = head.errand.on_behalf_of;
   record.errand.before = head.job.id;
   const JobId id = record.job.id;
@@ -80,6 +79,7 @@ void fail_impossible_starts(State& state) {
     const Job& job = head.job;
     if (!job.is_waiting() || job.has_started() || !state.jobs.at_head(head)) continue;
     if (job.goal) continue;  // its way begins where the arm stands
+    if (may_go_first(state, head)) continue;
     if (job.terms.is_held_over && state.arms.stop_of(job)) continue;
     auto mismatch = state.arms.start_mismatch(*state.cell, *job.trajectory);
     if (!mismatch) continue;

@@ -5,30 +5,50 @@
 #include <utility>
 
 #include "core/jobs/phases.h"
+#include "core/scheduler/waiting/options.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
 
 // It was asked for, or made, for where the arm will be and for the scene as it is.
-bool fits(const State& state, const JobGoal& goal, const Eigen::VectorXd& stands) {
-  if (goal.from.size() != stands.size() || goal.asked_at < state.recheck_epoch) return false;
-  const double off = (goal.from - stands).cwiseAbs().maxCoeff();
+bool fits(const State& state, const GoalWay& way, const Eigen::VectorXd& stands) {
+  if (way.from.size() != stands.size() || way.asked_at < state.recheck_epoch) return false;
+  const double off = (way.from - stands).cwiseAbs().maxCoeff();
   return off <= state.cell->execution.start_tolerance_rad;
 }
 
+// Where the arm of this way will be when the job's turn comes; nothing: that is not known yet. What
+// may yet go by another arm counts as if it did.
+std::optional<Configuration> begins_at(const State& state, const Record& record,
+                                       const GoalWay& way) {
+  const ArmId arm = way.goal.arm;
+  Configuration at = state.arms.rest();
+  const auto& queue = state.jobs.queues()[arm];
+  const bool is_taken = record.job.goal->way().goal.arm == arm;
+  std::size_t before = is_taken ? queue.size() : place_on(state, record, arm);
+  for (JobId id : queue) {
+    if (before-- == 0 || id == record.job.id) break;
+    const Job& other = state.jobs.at(id).job;
+    if (other.has_open_arm()) continue;
+    if (other.is_unplanned()) return std::nullopt;
+    follow_to_end(at, *state.cell, arm, *other.trajectory);
+  }
+  return at;
+}
+
 // In its turn: all that came before it is done, and its own arm is where the job finds it.
-PlanQuestion question_about(const State& state, const Record& record, Configuration at) {
-  const ArmId own = record.job.goal->goal.arm;
-  PlanQuestion question{.goal = record.job.goal->goal, .seed = record.job.id.value()};
+PlanQuestion question_about(const State& state, const Record& record, const GoalWay& way,
+                            Configuration at) {
+  PlanQuestion question{.goal = way.goal, .seed = record.job.id.value()};
   const JobId turn = record.errand.before ? state.jobs.at(*record.errand.before).turn : record.turn;
   for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
     const ArmId arm{a};
-    if (arm == own) continue;
+    if (arm == way.goal.arm) continue;
     question.may_move.push_back(arm);
     for (JobId id : state.jobs.queues()[arm]) {
       const Record& other = state.jobs.at(id);
-      if (other.turn < turn && !other.job.is_unplanned()) {
+      if (other.turn < turn && !other.job.is_unplanned() && !other.job.has_open_arm()) {
         follow_to_end(at, *state.cell, arm, *other.job.trajectory);
       }
     }
@@ -37,49 +57,102 @@ PlanQuestion question_about(const State& state, const Record& record, Configurat
   return question;
 }
 
-void ask(State& state, Record& record, const Configuration& at) {
-  JobGoal& goal = *record.job.goal;
-  if (std::exchange(goal.is_planned, false)) {
+void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
+  if (std::exchange(record.job.goal->is_planned, false)) {
     state.lanes.forget_passages();
     state.lanes.renew_later();
     ++state.version;
   }
-  goal.refusal.reset();
-  ++goal.tries;
-  goal.question = ++record.asking.plans;
-  goal.asked_at = state.version;
-  goal.from = joints_of(at, state.cell->arm(goal.goal.arm).joints);
+  way.is_planned = false;
+  way.refusal.reset();
+  ++way.tries;
+  way.question = ++record.asking.plans;
+  way.asked_at = state.version;
+  way.from = joints_of(at, state.cell->arm(way.goal.arm).joints);
   state.decided.effects.push_back(
-      PlanMotion{record.job.id, *goal.question, question_about(state, record, at)});
+      PlanMotion{record.job.id, *way.question, question_about(state, record, way, at)});
 }
 
-// The first of the arm's jobs that is to fail, with its refusal; null: none.
+enum class Answered { planned, refused, not_yet };
+
+// What is not known of the way, or is out of date, is asked.
+Answered answer_of(State& state, Record& record, GoalWay& way) {
+  if (way.question) return Answered::not_yet;
+  const auto at = begins_at(state, record, way);
+  if (!at) return Answered::not_yet;
+  if (fits(state, way, joints_of(*at, state.cell->arm(way.goal.arm).joints))) {
+    if (way.is_planned) way.tries = 0;
+    return way.is_planned ? Answered::planned : Answered::refused;
+  }
+  if (way.tries < kPlansMax) {
+    ask(state, record, way, *at);
+    return Answered::not_yet;
+  }
+  way.is_planned = false;
+  way.refusal = "planned " + std::to_string(kPlansMax) +
+                " times, and each time the arm or the scene was another one by then";
+  return Answered::refused;
+}
+
+// All of them; where one is planned, the job can be judged.
+Answered answer_of(State& state, Record& record) {
+  Job& job = record.job;
+  JobGoal& goal = *job.goal;
+  bool all = true;
+  std::optional<std::size_t> planned;
+  for (std::size_t k = 0; k < goal.ways.size(); ++k) {
+    if (!job.has_open_arm() && k != goal.taken) continue;
+    const Answered answer = answer_of(state, record, goal.ways[k]);
+    if (answer == Answered::not_yet) all = false;
+    if (answer == Answered::planned && (!planned || k == goal.taken)) planned = k;
+  }
+  if (!all) return Answered::not_yet;
+  if (!planned) return Answered::refused;
+  if (job.has_open_arm() && *planned != goal.taken) take_alternative(state, record, *planned);
+  if (!std::exchange(goal.is_planned, true)) {
+    state.lanes.renew_later();
+    ++state.version;
+  }
+  return Answered::planned;
+}
+
+// Where the first of those lead is not known: more than there are arms would be planned in vain.
+bool is_one_of_the_first(const State& state, const Record& record) {
+  std::size_t before = 0;
+  for (JobId id : state.jobs.undecided()) {
+    const Record& other = state.jobs.at(id);
+    const bool is_put_off = other.job.state() == JobState::backlogged;
+    if (other.job.has_open_arm() && !is_put_off && other.turn < record.turn) ++before;
+  }
+  return before < state.cell->arms.size();
+}
+
+// The first of the arm's jobs that is to fail; null: none.
 Record* plan_lane(State& state, ArmId arm) {
-  const auto& queue = state.jobs.queues()[arm];
-  Configuration at = state.arms.rest();
+  // As they stand now: a job may be taken to go by another arm meanwhile.
+  const auto queue = state.jobs.queues()[arm];
   for (std::size_t i = 0; i < std::min(queue.size(), kPlannedAhead); ++i) {
     Record& record = state.jobs.at(queue[i]);
-    Job& job = record.job;
-    if (job.goal && job.in<Queued>() != nullptr) {
-      JobGoal& goal = *job.goal;
-      // What comes of it is seen when it is answered.
-      if (goal.question || job.is_replanned_now()) return nullptr;
-      const bool is_fit = fits(state, goal, joints_of(at, state.cell->arm(arm).joints));
-      if (is_fit && goal.refusal) return &record;
-      if (is_fit && goal.is_planned) {
-        goal.tries = 0;
-      } else if (goal.tries >= kPlansMax) {
-        goal.refusal = "planned " + std::to_string(kPlansMax) +
-                       " times, and each time the arm or the scene was another one by then";
-        return &record;
-      } else {
-        ask(state, record, at);
-        return nullptr;
-      }
-    }
-    follow_to_end(at, *state.cell, arm, *job.trajectory);
+    const Job& job = record.job;
+    if (!job.goal || job.in<Queued>() == nullptr) continue;
+    // What comes of it is seen when it is answered.
+    if (job.is_replanned_now()) return nullptr;
+    if (job.has_open_arm() && !is_one_of_the_first(state, record)) continue;
+    const Answered answer = answer_of(state, record);
+    if (answer == Answered::refused) return &record;
+    if (answer == Answered::not_yet && !job.has_open_arm()) return nullptr;
   }
   return nullptr;
+}
+
+// By arm, where there are several.
+std::string why_none(const State& state, const Job& job) {
+  if (!job.has_open_arm()) return *job.goal->way().refusal;
+  std::string text;
+  for (const GoalWay& way : job.goal->ways) {
+    text += (text.empty() ? "" : "; ") + state.cell->arm(way.goal.arm).name + ": " + *way.refusal;
+  }
+  return text;
 }
 
 }  // namespace
@@ -89,29 +162,49 @@ bool plan_goals(State& state) {
   if (!state.jobs.has_goals()) return any_failed;
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
     while (Record* record = plan_lane(state, ArmId{arm})) {
+      const std::string why = why_none(state, record->job);
       Record* helped = record->errand.before ? state.jobs.find(*record->errand.before) : nullptr;
-      if (helped != nullptr) helped->approaches.refusal = record->job.goal->refusal;
-      end(state, *record, JobState::failed, Reason::no_plan, *record->job.goal->refusal);
+      if (helped != nullptr) helped->approaches.refusal = why;
+      end(state, *record, JobState::failed, Reason::no_plan, why);
       any_failed = true;
     }
   }
   return any_failed;
 }
 
+std::optional<JobId> may_go_first(const State& state, const Record& record) {
+  const Job& job = record.job;
+  if (job.goal || job.in<Queued>() == nullptr) return std::nullopt;
+  const auto arms = job.trajectory->arms();
+  for (JobId id : state.jobs.undecided()) {
+    const Record& open = state.jobs.at(id);
+    if (!open.job.has_open_arm() || open.turn > record.turn) continue;
+    const bool shares = std::ranges::any_of(open.job.goal->ways, [&](const GoalWay& way) {
+      return std::ranges::find(arms, way.goal.arm) != arms.end();
+    });
+    if (shares && state.arms.begins_elsewhere(*state.cell, *job.trajectory)) return id;
+  }
+  return std::nullopt;
+}
+
 void take_plan(State& state, const PlanMade& answer) {
   Record* record = state.jobs.find(answer.job);
   if (record == nullptr || record->job.has_ended() || !record->job.goal) return;
   JobGoal& goal = *record->job.goal;
-  if (goal.question != answer.question) return;
-  goal.question.reset();
-  if (answer.trajectory) {
-    goal.is_planned = true;
-    state.jobs.set_motion(*record, answer.trajectory,
-                          state.arms.leg_of(*state.cell, answer.job, *answer.trajectory));
-    state.lanes.renew_later();
-    ++state.version;
-  } else {
-    goal.refusal = answer.why;
+  const auto asked = std::ranges::find(goal.ways, answer.question, &GoalWay::question);
+  if (asked == goal.ways.end()) return;
+  asked->question.reset();
+  if (!answer.trajectory) {
+    asked->refusal = answer.why;
+    return;
+  }
+  asked->is_planned = true;
+  WaitingLeg leg = state.arms.leg_of(*state.cell, answer.job, *answer.trajectory);
+  if (record->job.has_open_arm()) {
+    const auto which = static_cast<std::size_t>(asked - goal.ways.begin());
+    state.jobs.set_alternative(*record, which, answer.trajectory, std::move(leg));
+  } else if (asked == goal.ways.begin() + static_cast<std::ptrdiff_t>(goal.taken)) {
+    state.jobs.set_motion(*record, answer.trajectory, std::move(leg));
   }
 }
 

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <optional>
+
 #include "core/jobs/state.h"
 
 namespace armloom {
 
-// Jobs that say where an arm is to go (Submit::goal). Each waits at a gate of its own until its
+// Jobs that say where an arm is to go (Submit::goals). Each waits at a gate of its own until its
 // trajectory is planned from where the arm will be at the end of what is before it, beside all else
 // where the jobs before it leave that; then it is a job like any other. Until then its trajectory
-// is an estimate.
+// is an estimate. One that leaves the arm open has its way planned for each; which of these it goes
+// is chosen at its turn (waiting/choosing.h): the one by which it arrives first. Until then the
+// jobs behind it are planned as if it went by another arm.
 
 // Asks for what has no plan (PlanMotion), or one that no longer fits: the arm will be elsewhere, or
 // the scene is another one. A job is given kPlansMax tries in a row, then it fails. Whether one
@@ -16,6 +20,10 @@ namespace armloom {
 inline constexpr int kPlansMax = 5;
 // Of each arm's jobs the first ones are planned.
 inline constexpr std::size_t kPlannedAhead = 16;
+
+// Whose arm is open, and may yet be that of this job, before it: the job does not begin where its
+// arms stand, but may where that one would leave them.
+[[nodiscard]] std::optional<JobId> may_go_first(const State& state, const Record& record);
 
 // An answer. One that no longer fits is left to plan_goals().
 void take_plan(State& state, const PlanMade& answer);

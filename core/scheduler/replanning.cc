@@ -50,11 +50,11 @@ Configuration beside(const State& state, const Job& job) {
 MotionGoal goal_of(const State& state, const Job& job, Configuration end) {
   const ArmId arm = arm_of(job);
   const bool is_last = state.jobs.queues()[arm].back() == job.id;
-  if (job.goal && (is_last || job.goal->goal.straight)) return job.goal->goal;
+  if (job.goal && (is_last || job.goal->way().goal.straight)) return job.goal->way().goal;
   follow_to_end(end, *state.cell, arm, *job.trajectory);
   return {.arm = arm,
           .to = joints_of(end, state.cell->arm(arm).joints),
-          .speed = job.goal ? job.goal->goal.speed : speed_of(*state.cell, *job.trajectory)};
+          .speed = job.goal ? job.goal->way().goal.speed : speed_of(*state.cell, *job.trajectory)};
 }
 
 PlanQuestion question_about(const State& state, const Record& record) {
@@ -123,8 +123,8 @@ const std::vector<Wait>* waits_of(const State& state, const Job& job) {
 std::optional<std::string> why_not_replanned(const Job& job) {
   if (job.terms.system_job) return "it is a move of the server's own";
   if (job.trajectory->arms().size() > 1) return "it moves several arms as one";
-  if (!job.alternatives.empty()) return "it is one of several ways to do the same work";
   if (job.goal) return std::nullopt;
+  if (!job.alternatives.empty()) return "it is one of several ways to do the same work";
   const bool is_loop = job.trajectory->start().isApprox(job.trajectory->goal());
   if (!is_loop) return std::nullopt;
   return "it ends where it begins: what it is to do lies on its way, which would be lost";
@@ -133,6 +133,7 @@ std::optional<std::string> why_not_replanned(const Job& job) {
 void ask_for_another_way(State& state, Record& record, AnotherWay::Cause cause) {
   Job& job = record.job;
   if (job.is_unplanned() || job.is_replanned_now()) return;
+  if (job.has_open_arm()) state.jobs.decide_arm(record);
   if (!job.another_way) job.another_way.emplace();
   job.another_way->cause = cause;
   if (cause == AnotherWay::Cause::client) job.another_way->tries = 0;

@@ -215,8 +215,13 @@ std::vector<ArmId> Scheduler::open_ends() const {
     const auto& queue = state_.jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
     const Job& last = state_.jobs.at(queue.back()).job;
-    const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->goal.to);
+    const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->way().goal.to);
     if (is_pose && last.is_unplanned()) open.push_back(ArmId{arm});
+  }
+  for (JobId id : state_.jobs.undecided()) {
+    const Job& job = state_.jobs.at(id).job;
+    if (!job.goal) continue;
+    for (const GoalWay& way : job.goal->ways) open.push_back(way.goal.arm);
   }
   return open;
 }

@@ -7,18 +7,32 @@
 
 namespace armloom {
 
-Trial::Trial(Scheduler scheduler, std::optional<Question> open, const std::vector<Submit>& jobs,
-             JobId asked, TimePoint now)
+Trial::Trial(Scheduler scheduler, Open open, const std::vector<Submit>& jobs, JobId asked,
+             TimePoint now)
     : scheduler_(std::move(scheduler)), job_(asked), now_(now), open_(std::move(open)) {
   for (const Submit& job : jobs) step(job);
 }
 
 void Trial::step(const Input& input) {
   for (Effect& effect : scheduler_.step(input, now_)) {
-    if (auto* judge = std::get_if<Judge>(&effect)) open_ = std::move(judge->question);
+    if (auto* judge = std::get_if<Judge>(&effect)) open_.question = std::move(judge->question);
+    if (auto* plan = std::get_if<PlanMotion>(&effect)) open_.plans.push_back(std::move(*plan));
+    const auto* sent = std::get_if<YieldMove>(&effect);
+    if (sent != nullptr && sent->to_start && sent->blocked_job == job_) {
+      approaches_.push_back(sent->job);
+    }
   }
   const Job* job = scheduler_.find(job_);
   if (job != nullptr && !job->waits_on.empty()) waits_ = job->waits_on;
+}
+
+// Its arms go to where it begins.
+bool Trial::is_on_its_way() const {
+  const auto goes = [this](JobId id) {
+    const Job& approach = *scheduler_.find(id);
+    return approach.has_authority() || approach.state() == JobState::succeeded;
+  };
+  return !approaches_.empty() && std::ranges::all_of(approaches_, goes);
 }
 
 bool Trial::is_decided() const {
@@ -27,16 +41,27 @@ bool Trial::is_decided() const {
          judgements_ >= kJudgementsMax;
 }
 
-std::optional<Question> Trial::next() const { return is_decided() ? std::nullopt : open_; }
+std::optional<Question> Trial::next() const { return is_decided() ? std::nullopt : open_.question; }
+
+std::optional<PlanMotion> Trial::next_plan() const {
+  if (is_decided() || open_.plans.empty() || plans_ >= kPlansMax) return std::nullopt;
+  return open_.plans.front();
+}
+
+void Trial::answer(const PlanMade& made) {
+  open_.plans.erase(open_.plans.begin());
+  ++plans_;
+  step(made);
+}
 
 void Trial::answer(Verdict verdict) {
-  const Question question = std::move(*open_);
-  open_.reset();
+  const Question question = *std::exchange(open_.question, std::nullopt);
   ++judgements_;
   // Not where an arm is asked about that would have gone aside.
   const bool as_arms_stand = question.rest == scheduler_.rest();
-  const bool of_it =
-      std::ranges::find(question.candidates, job_, &Motion::job) != question.candidates.end();
+  const bool of_it = std::ranges::any_of(question.candidates, [this](const Motion& motion) {
+    return motion.job == job_ || std::ranges::find(approaches_, motion.job) != approaches_.end();
+  });
   if (of_it && as_arms_stand) {
     evaluations_ += verdict.evaluations;
     by_clock_ = scheduler_.earliest_start(question, verdict);
@@ -46,20 +71,35 @@ void Trial::answer(Verdict verdict) {
   step(Judged{std::move(verdict)});
 }
 
+// From now.
+Duration Trial::approach_ends() const {
+  Duration last{};
+  for (JobId id : approaches_) {
+    const Job& approach = *scheduler_.find(id);
+    if (!approach.times.scheduled_at) continue;
+    last = std::max(last, *approach.times.scheduled_at - now_ + approach.trajectory->duration());
+  }
+  return last;
+}
+
 Trial::Outcome Trial::outcome() const {
   const Job& job = *scheduler_.find(job_);
   Outcome outcome{.kind = Verdict::Kind::conflict, .evaluations = evaluations_};
-  if (job.has_authority()) {
+  outcome.job = job;
+  if (is_on_its_way()) outcome.approach = approach_ends();
+  if (job.has_authority() || is_on_its_way()) {
     outcome.kind = Verdict::Kind::free;
-    outcome.starts_in = std::max(Duration{}, *job.times.scheduled_at - now_);
     outcome.waits = job.waits_on;
+    const bool is_itself = job.has_authority();
+    const Duration begins = is_itself ? *job.times.scheduled_at - now_ : approach_ends();
+    outcome.starts_in = std::max(Duration{}, begins);
     if (last_) outcome.clearance_bound = last_->clearance_bound;
     return outcome;
   }
   outcome.starts_in = by_clock_;
   outcome.waits = waits_;
+  if (job.has_ended()) outcome.waits.clear();
   if (job.has_ended() && last_) {
-    outcome.waits.clear();
     for (const Conflict& conflict : last_->conflicts) outcome.waits.push_back(wait_for(conflict));
   }
   if (last_ && last_->kind == Verdict::Kind::undecided) outcome.kind = Verdict::Kind::undecided;

@@ -91,6 +91,17 @@ struct PlanOptions {
 };
 int plan_way(const PlanOptions& options);
 
+// What share of a grid of tool poses each arm reaches, and where the arms' reach overlaps: tables
+// on stdout, or JSON; a picture (SVG) in a file.
+struct ReachOptions {
+  std::string cell_file;
+  double step_m = 0.2;
+  std::string link;     // the tool, with or without prefix; empty: that of each arm's last joint
+  std::string picture;  // empty: none
+  bool json = false;
+};
+int show_reach(const ReachOptions& options);
+
 struct SimulateOptions {
   std::string cell_file;
   std::string jobs_file;

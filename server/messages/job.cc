@@ -26,18 +26,14 @@ FormatPtr<Reason> reason_format() {
                      to_string));
 }
 
-struct JobResult {
-  Reason reason;
-  std::string detail;
-};
-std::optional<JobResult> result_of(const JobView& job) {
+std::optional<JobResultView> result_of(const JobView& job) {
   if (!job.reason) return std::nullopt;
-  return JobResult{*job.reason, job.detail};
+  return JobResultView{*job.reason, job.detail};
 }
-FormatPtr<JobResult> result_format() {
-  return object<JobResult>({
-      told("reason", &JobResult::reason, reason_format()),
-      told("detail", &JobResult::detail, text()),
+FormatPtr<JobResultView> result_format() {
+  return object<JobResultView>({
+      told("reason", &JobResultView::reason, reason_format()),
+      told("detail", &JobResultView::detail, text()),
   });
 }
 
@@ -47,8 +43,8 @@ FormatPtr<ChoiceView> choice_format() {
            "Jobs that could have taken the turn, or arms that could have done it: as it was first"),
       told("taken", &ChoiceView::taken, text(), "One of these"),
       told("saves_s", &ChoiceView::saves_s, nullable(number(kAnyNumber)),
-           "By so much the plan costs less than with the first; null: that is taken, or could not "
-           "go"),
+           "By so much the plan costs less than with the first, or a goal's job arrives sooner; "
+           "null: that is taken, or could not go"),
       told("detail", &ChoiceView::detail, text()),
   });
 }
@@ -99,6 +95,13 @@ PartPtr<CheckView> make_verdict_part() {
       told("conflicts", &View::conflicts, list(wait_format()), "The same, where it is not free"),
       told("evaluations", &View::evaluations, count()),
       told("scene_version", &View::scene_version, count()),
+      told_if("choice", &View::choice, choice_format(),
+              "Of a goal that several arms could go to: which one would"),
+      told_if("approach_s", &View::approach_s, number({0.0}),
+              "Of a job that asks for an approach: so long its arms would take to where it begins. "
+              "The verdict is of that motion; where it would not be admitted together with it, the "
+              "job is judged again when it is there"),
+      told_if("result", &View::result, result_format(), "It would end at once, without moving"),
   });
 }
 

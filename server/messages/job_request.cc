@@ -177,6 +177,11 @@ FormatPtr<JobRequest> job_request_format() {
                 "Instead of a trajectory: where `arm` is to go. The way is planned from where it "
                 "will be when the jobs before it have run, and again where that has changed"),
           field("arm", &Request::arm, formats::name(), "With move_to: which arm goes there"),
+          field("arms", &Request::arms,
+                list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
+                "With move_to, instead of arm: the way is planned for each of these, and the one "
+                "that arrives first takes it"),
+          at_most_one<Request>({"arm", "arms"}),
           at_most_one<Request>({"trajectory", "alternatives", "move_to"}),
           // Both are read after the trajectory, which they time and stretch.
           std::make_shared<MemberPart<Request, bool>>(

@@ -1,11 +1,13 @@
 #include "server/messages/plan.h"
 
+#include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job.h"
+#include "server/messages/job_request.h"
 #include "server/messages/plan_goal.h"
 #include "server/messages/trajectory_request.h"
 
@@ -18,7 +20,11 @@ FormatPtr<PlanInquiry> plan_inquiry_format() {
   static const auto format = formats::named(
       "PlanRequest", "",
       object<Inquiry>({
-          required("arm", &Inquiry::arm, name(), "That is to move"),
+          unless("arms", required("arm", &Inquiry::arm, name(), "That is to move")),
+          field("arms", &Inquiry::arms,
+                list(name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
+                "Instead: the one of these that would arrive first as a job"),
+          at_most_one<Inquiry>({"arm", "arms"}),
           required("to", &Inquiry::to, plan_goal_format(), "Where it is to be"),
           field("start", &Inquiry::from, plan_goal_format(),
                 "Where it begins, as joints or a named state; absent: where it will be when all "
@@ -34,11 +40,27 @@ Result<PlanInquiry> read_plan_inquiry_text(std::string_view text) {
   return read_text(*plan_inquiry_format(), text);
 }
 
+namespace {
+
+FormatPtr<OtherArm> other_arm_format() {
+  return object<OtherArm>({
+      told("arm", &OtherArm::arm, text()),
+      told("arrives_s", &OtherArm::arrives_s, nullable(number({0.0})),
+           "From now; null: it has no way, or when it could go is not known"),
+      told("detail", &OtherArm::detail, text()),
+  });
+}
+
+}  // namespace
+
 FormatPtr<PlanView> plan_format() {
   using View = PlanView;
   static const auto format = formats::named(
       "Plan", "A motion, not executed.",
       object<View>({
+          told("arm", &View::arm, text(), "That goes"),
+          told("others", &View::others, list(other_arm_format()),
+               "Of `arms`, those that would not: when each would arrive, or why it cannot"),
           told(
               "trajectory", [](const View& plan) { return &plan.motion.timed.request; },
               told_trajectory_format(), "As POST /jobs takes it"),

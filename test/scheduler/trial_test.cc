@@ -92,7 +92,7 @@ class Look {
   Trial::Outcome ask(Submit job) {
     const std::string before = told(bench().scheduler);
     job.job = bench().next_id();
-    Trial trial(bench().scheduler, bench().question, {job}, job.job, bench().now());
+    Trial trial(bench().scheduler, {bench().question}, {job}, job.job, bench().now());
     while (const auto question = trial.next()) trial.answer(bench().crossings.answer(*question));
     EXPECT_EQ(told(bench().scheduler), before) << "the trial is seen";
     return trial.outcome();

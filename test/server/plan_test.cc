@@ -83,6 +83,30 @@ TEST_F(PlanOverHttp, SaysWhyThereIsNone) {
   EXPECT_EQ(far["nearest"].size(), 7U);
 }
 
+TEST_F(PlanOverHttp, OfSeveralArmsTakesTheOneThatArrivesFirstAndSaysWhyNotTheOthers) {
+  start(20.0);
+  const json beside_left = {
+      {"pose", {{"link", "panda_link8"}, {"xyz", {-0.6, 0.4, 0.5}}, {"rpy", {3.14, 0, 0}}}}};
+  const json plan = planned({{"arms", {"right", "left"}}, {"to", beside_left}});
+  EXPECT_EQ(plan["arm"], "left");
+  ASSERT_EQ(plan["others"].size(), 1U);
+  EXPECT_EQ(plan["others"][0]["arm"], "right");
+  const json body = {{"arms", {"right", "left"}}, {"move_to", beside_left}, {"id", "either"}};
+  const json said = post("/api/v1/check", body.dump()).json();
+  EXPECT_EQ(said["verdict"], "free") << said;
+  EXPECT_EQ(said["choice"]["taken"], "left") << said;
+  test::Listener listener(port());
+  ASSERT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
+  const json done = until(listener, "either", "succeeded");
+  EXPECT_EQ(done["arms"], json({"left"}));
+  EXPECT_EQ(done["alternatives"], json({"right", "left"}));
+  EXPECT_EQ(done["choice"]["taken"], "left");
+  const json nowhere = {{"pose", {{"xyz", {3, 0, 0.5}}}}};
+  const auto none = this->plan({{"arms", {"right", "left"}}, {"to", nowhere}});
+  EXPECT_EQ(none.status, 422);
+  EXPECT_NE(none.json()["detail"].get<std::string>().find("; left: "), std::string::npos);
+}
+
 TEST_F(PlanOverHttp, RefusesWhatItDoesNotKnowWithItsPlace) {
   start(1.0);
   const json arm = plan({{"arm", "lft"}, {"to", {{"named", "ready"}}}}).json();

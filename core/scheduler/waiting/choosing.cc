@@ -12,8 +12,27 @@
 namespace armloom {
 namespace {
 
+// When the goal is reached, if its job goes as predicted, or behind those that wait on its arm.
+double arrival_of(const State& state, const Job& job, const Prediction& prediction) {
+  const auto& motions = state.graph.motions();
+  if (prediction.ends.size() > motions.size()) return to_seconds(prediction.ends.back());
+  const ArmId arm = job.goal->way().goal.arm;
+  Duration then{};
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    const auto arms = state.jobs.at(motions[m].job).job.trajectory->arms();
+    if (std::ranges::find(arms, arm) != arms.end()) then = std::max(then, prediction.ends[m]);
+  }
+  for (JobId id : state.jobs.queues()[arm]) {
+    const Job& before = state.jobs.at(id).job;
+    if (before.is_waiting()) then += before.trajectory->duration();
+    if (id == job.id) break;
+  }
+  return to_seconds(then);
+}
+
 // Of the plan: what is admitted goes as predicted, `job` too, or waits on its arm; then what waits.
 double cost_of(const State& state, const Job& job, const Prediction& prediction) {
+  if (job.goal) return arrival_of(state, job, prediction);
   std::vector<const Job*> in_front{&job};
   std::vector<double> ends(state.cell->arms.size(), 0.0);
   const auto comes_to = [&](const Trajectory& trajectory, Duration end) {
@@ -65,6 +84,20 @@ std::optional<double> cost_behind_others(State& state, JobId job) {
   return cost_of(state, state.jobs.at(job).job, orders.prediction);
 }
 
+// By which arms it cannot go as things stand.
+std::vector<Choice::Without> without(const State& state, const Job& job) {
+  std::vector<Choice::Without> arms;
+  for (const GoalWay& way : job.goal->ways) {
+    const ArmId arm = way.goal.arm;
+    if (!way.is_planned) {
+      arms.push_back({arm, way.refusal.value_or("")});
+    } else if (state.arms.is_stopped(arm)) {
+      arms.push_back({arm, "it is stopped"});
+    }
+  }
+  return arms;
+}
+
 }  // namespace
 
 bool Choosing::begin(State& state, JobId turn) {
@@ -74,6 +107,7 @@ bool Choosing::begin(State& state, JobId turn) {
   give(state, 0);
   if (options_.size() > 1 && comes_to_one_that_goes(state)) return true;
   give(state, 0);
+  note_only_arm(state);
   return false;
 }
 
@@ -122,6 +156,17 @@ std::optional<Verdict> Choosing::decide(State& state) {
   return std::move(rated_[chosen].verdict);
 }
 
+// Where no other arm can.
+void Choosing::note_only_arm(State& state) const {
+  Record& record = state.jobs.at(job());
+  if (options_.size() > 1 || !record.job.has_open_arm()) return;
+  Choice choice{.arms = record.job.trajectory->arms(), .without = without(state, record.job)};
+  const auto& before = record.job.choice;
+  if (before && before->arms == choice.arms) return;
+  record.job.choice = std::move(choice);
+  state.jobs.changed(record);
+}
+
 void Choosing::note(State& state, std::size_t best) const {
   Record& taker = state.jobs.at(options_[best].job);
   Choice choice;
@@ -139,6 +184,7 @@ void Choosing::note(State& state, std::size_t best) const {
   if (rated_[best].cost && rated_.front().cost) {
     choice.saves = from_seconds(*rated_.front().cost - *rated_[best].cost);
   }
+  if (taker.job.has_open_arm()) choice.without = without(state, taker.job);
   taker.job.choice = std::move(choice);
   state.jobs.changed(taker);
 }

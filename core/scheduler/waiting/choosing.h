@@ -12,7 +12,8 @@ namespace armloom {
 // Which of several options has a turn: each is given it for a while and asked about, as if there
 // were no other; the one with which the plan costs least keeps it. Another one than the first has
 // to be better by more than kWorthwhile. The cost: when the last arm has done its work, what waits
-// included, and OrderSearch::kWeightOfSum times the sum of when each has.
+// included, and OrderSearch::kWeightOfSum times the sum of when each has; of a goal when it
+// arrives.
 class Choosing {
  public:
   inline static constexpr Duration kWorthwhile = std::chrono::milliseconds(50);
@@ -32,6 +33,7 @@ class Choosing {
   void give(State& state, std::size_t option);
   [[nodiscard]] std::size_t best() const;
   void note(State& state, std::size_t best) const;
+  void note_only_arm(State& state) const;
 
   struct Rating {
     std::optional<double> cost;      // s; nothing: it cannot go

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/scheduler/authority.h"
+#include "core/scheduler/goals.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/waiting/options.h"
 
@@ -50,6 +51,15 @@ void add_behind(const State& state, Edges& edges) {
       if (stands(state, state.jobs.at(queue[i - 1]))) edges.push_back({queue[i], queue[i - 1]});
     }
   }
+}
+
+Closed open_arm(const Turns& turns, const Record& record) {
+  const auto first = may_go_first(turns.state(), record);
+  return first ? order(*first) : std::nullopt;
+}
+
+void add_open_arm(const State& state, const Record& record, Edges& edges) {
+  if (const auto first = may_go_first(state, record)) edges.push_back({record.job.id, *first});
 }
 
 Closed after(const Turns&, const Record& record) {
@@ -125,6 +135,7 @@ struct Gate {
 
 constexpr Gate kGates[] = {
     {GateKind::behind, behind, nullptr, true},  // edges: add_behind(), queue by queue
+    {GateKind::open_arm, open_arm, add_open_arm},
     {GateKind::after, after, add_after},
     {GateKind::plan, plan},
     {GateKind::lets_pass, lets_pass, add_lets_pass},

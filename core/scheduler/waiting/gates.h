@@ -13,6 +13,7 @@ namespace armloom {
 // wait is one entry of it.
 enum class GateKind {
   behind,     // another job of its arm comes before it
+  open_arm,   // one that any of several arms may do could leave it where this begins
   after,      // a job that it comes after has not ended
   plan,       // its way is not planned yet, or another one is looked for
   lets_pass,  // an arm that is aside lets another one pass

@@ -53,18 +53,6 @@ bool begins_at(const State& state, const Trajectory& trajectory, const Place& pl
   return true;
 }
 
-// So many of the arm's jobs come before this one: that are admitted, or came before it, and what
-// goes before these.
-std::size_t place_on(const State& state, const Record& record, ArmId arm) {
-  const auto goes_before = [&](JobId id) {
-    const Record& other = state.jobs.at(id);
-    return id != record.job.id && (other.job.in<Queued>() == nullptr || other.turn < record.turn);
-  };
-  const auto& queue = state.jobs.queues()[arm];
-  const auto last = std::find_if(queue.rbegin(), queue.rend(), goes_before);
-  return static_cast<std::size_t>(queue.rend() - last);
-}
-
 // When it could go on the arm of this trajectory: when those have ended that are admitted there, as
 // far as the policy looks ahead; when those have gone that came before it; or not, as these lead
 // elsewhere.
@@ -100,6 +88,7 @@ std::vector<Option> on_several_arms(const State& state, const Record& record) {
   const auto& alternatives = record.job.alternatives;
   std::vector<Option> options;
   for (std::size_t k = 0; k < alternatives.size(); ++k) {
+    if (!record.job.may_go_by(k)) continue;
     const Trajectory& trajectory = *alternatives[k];
     const When when = when_on(state, record, trajectory);
     if (when == When::never || state.arms.is_stopped(arm_of(trajectory))) continue;
@@ -110,15 +99,27 @@ std::vector<Option> on_several_arms(const State& state, const Record& record) {
   return options;
 }
 
-void take_arm(State& state, Record& record, const TrajectoryPtr& trajectory) {
+}  // namespace
+
+std::size_t place_on(const State& state, const Record& record, ArmId arm) {
+  const auto goes_before = [&](JobId id) {
+    const Record& other = state.jobs.at(id);
+    return id != record.job.id && (other.job.in<Queued>() == nullptr || other.turn < record.turn);
+  };
+  const auto& queue = state.jobs.queues()[arm];
+  const auto last = std::find_if(queue.rbegin(), queue.rend(), goes_before);
+  return static_cast<std::size_t>(queue.rend() - last);
+}
+
+void take_alternative(State& state, Record& record, std::size_t which) {
+  const TrajectoryPtr trajectory = record.job.alternatives[which];
   if (record.job.trajectory == trajectory) return;
+  if (record.job.goal) record.job.goal->taken = which;
   WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.id, *trajectory);
   const std::size_t place = place_on(state, record, arm_of(*trajectory));
   state.jobs.take(record, trajectory, std::move(leg), place);
   state.lanes.renew_later();
 }
-
-}  // namespace
 
 std::vector<Option> options_of(State& state, JobId turn) {
   const Record& record = state.jobs.at(turn);
@@ -132,16 +133,18 @@ std::vector<Option> options_of(State& state, JobId turn) {
 }
 
 bool has_turn_on_some_arm(const State& state, const Record& record) {
-  return record.job.in<Queued>() != nullptr &&
-         std::ranges::any_of(record.job.alternatives, [&](const TrajectoryPtr& trajectory) {
-           return has_turn(state, record, *trajectory);
-         });
+  const Job& job = record.job;
+  if (job.in<Queued>() == nullptr) return false;
+  for (std::size_t k = 0; k < job.alternatives.size(); ++k) {
+    if (job.may_go_by(k) && has_turn(state, record, *job.alternatives[k])) return true;
+  }
+  return false;
 }
 
 void give_turn(State& state, const std::vector<Option>& options, std::size_t first) {
   Record& taker = state.jobs.at(options[first].job);
   if (!taker.job.alternatives.empty()) {
-    return take_arm(state, taker, taker.job.alternatives[options[first].alternative]);
+    return take_alternative(state, taker, options[first].alternative);
   }
   if (options.size() == 1) return;
   std::vector<JobId> jobs{options[first].job};
@@ -173,10 +176,10 @@ bool stand(const State& state, const std::vector<Option>& options) {
 }
 
 bool begins_on_other_arm(State& state, Record& record) {
-  for (const TrajectoryPtr& other : record.job.alternatives) {
+  for (std::size_t k = 0; k < record.job.alternatives.size(); ++k) {
     if (record.job.in<Queued>() == nullptr) return false;
-    if (when_on(state, record, *other) == When::never) continue;
-    take_arm(state, record, other);
+    if (when_on(state, record, *record.job.alternatives[k]) == When::never) continue;
+    take_alternative(state, record, k);
     return true;
   }
   return false;

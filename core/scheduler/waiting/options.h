@@ -28,6 +28,12 @@ inline constexpr std::size_t kOptionsMax = 6;
 // It waits, has alternatives, and its turn has come on the arm of one of them.
 [[nodiscard]] bool has_turn_on_some_arm(const State& state, const Record& record);
 
+// So many of the arm's jobs come before this one, which waits: that are admitted, or came before
+// it, and what goes before these.
+[[nodiscard]] std::size_t place_on(const State& state, const Record& record, ArmId arm);
+// From now on it is the job's to go by this alternative, behind those.
+void take_alternative(State& state, Record& record, std::size_t which);
+
 // From now on this is how things are: that one first, then the others as they were.
 void give_turn(State& state, const std::vector<Option>& options, std::size_t first);
 // A job came: where it could take the turn of one that was put off, that is judged again.

@@ -1,0 +1,189 @@
+// Goals that leave the arm open: the one that arrives first takes them.
+#include <gmock/gmock.h>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+JobRequest either(double to_m, std::string key, std::vector<std::string> arms = {"x", "y"}) {
+  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
+  request.arms = std::move(arms);
+  request.move_to = PlanGoal{.joints = std::vector{to_m}, .named = {}, .pose = {}};
+  return request;
+}
+
+JobRequest one(const std::string& arm, double to_m, std::string key) {
+  JobRequest request = either(to_m, std::move(key), {});
+  request.arm = arm;
+  return request;
+}
+
+// Slow, so that who is under way stays so for a while.
+JobRequest slow(JobRequest request) {
+  request.speed = 0.1;
+  return request;
+}
+
+class OpenArms : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { cell.emplace(crossing_description(), GetParam()); }
+  [[nodiscard]] Executive& executive() const { return cell->simulation->executive(); }
+  std::optional<Crossing> cell;
+};
+INSTANTIATE_TEST_SUITE_P(Policies, OpenArms, ::testing::ValuesIn(known_policies()));
+
+TEST_P(OpenArms, TheNearerOneGoes) {
+  cell->submit(slide("y", -1.0, -0.6, 1.0));
+  cell->run_until(at(2s));
+  const JobView accepted = cell->submit(either(-0.5, "job"));
+  EXPECT_EQ(accepted.planned, false);
+  EXPECT_THAT(accepted.alternatives, ElementsAre("x", "y"));
+  cell->run_to_the_end();
+  const JobView job = cell->job("job");
+  EXPECT_EQ(job.state, JobState::succeeded) << job.detail;
+  EXPECT_THAT(job.arms, ElementsAre("y"));
+  EXPECT_THAT(job.alternatives, ElementsAre("x", "y"));
+  ASSERT_TRUE(job.choice);
+  EXPECT_EQ(job.choice->taken, "y");
+  EXPECT_THAT(job.choice->detail, HasSubstr("sooner than x"));
+  EXPECT_GT(job.choice->saves_s.value_or(0.0), 0.1);
+  EXPECT_NEAR(cell->log.last[0], -1.0, 1e-3);
+  EXPECT_NEAR(cell->log.last[1], -0.5, 1e-3);
+}
+
+TEST_P(OpenArms, OneThatIsBusyIsNotWaitedFor) {
+  cell->submit(slow(one("x", -0.5, "long")));
+  cell->run_until(at(300ms));
+  cell->submit(either(-0.9, "job"));
+  cell->run_to_the_end();
+  EXPECT_EQ(cell->job("job").state, JobState::succeeded) << cell->job("job").detail;
+  EXPECT_THAT(cell->job("job").arms, ElementsAre("y"));
+}
+
+TEST_P(OpenArms, OneThatIsStoppedIsNotWaitedFor) {
+  executive().stop({ArmId{0}}, "maintenance");
+  cell->submit(either(-0.5, "job"));
+  cell->run_until(at(10s));
+  EXPECT_EQ(cell->job("job").state, JobState::succeeded) << cell->job("job").detail;
+  EXPECT_THAT(cell->job("job").arms, ElementsAre("y"));
+  EXPECT_THAT(cell->job("job").choice->detail, HasSubstr("x cannot: it is stopped"));
+}
+
+TEST_P(OpenArms, OneThatHasNoWayIsNamedWithTheReason) {
+  CollisionObject post{.name = "post", .shape = Box{{0.1, 0.1, 0.1}}};
+  post.X_WO.translation() = Eigen::Vector3d(-0.5, 0.0, 0.0);
+  ASSERT_TRUE(executive().add_object(post));
+  cell->submit(either(-0.4, "job"));
+  cell->run_to_the_end();
+  const JobView job = cell->job("job");
+  EXPECT_EQ(job.state, JobState::succeeded) << job.detail;
+  EXPECT_THAT(job.arms, ElementsAre("y"));
+  ASSERT_TRUE(job.choice);
+  EXPECT_THAT(job.choice->detail, HasSubstr("x cannot: no plan"));
+}
+
+TEST_P(OpenArms, WhereNoneHasAWayEachSaysWhy) {
+  for (const auto& [name, x, y] : {std::tuple("a", 0.5, 0.0), std::tuple("b", 0.0, 0.5)}) {
+    CollisionObject post{.name = name, .shape = Box{{0.1, 0.1, 0.1}}};
+    post.X_WO.translation() = Eigen::Vector3d(x, y, 0.0);
+    ASSERT_TRUE(executive().add_object(post));
+  }
+  cell->submit(either(0.5, "job"));
+  cell->submit(either(-0.5, "next"));
+  cell->run_to_the_end();
+  const JobView job = cell->job("job");
+  EXPECT_EQ(job.reason, Reason::no_plan);
+  EXPECT_THAT(job.detail, HasSubstr("x: no plan"));
+  EXPECT_THAT(job.detail, HasSubstr("; y: no plan"));
+  EXPECT_EQ(cell->job("next").state, JobState::succeeded);
+}
+
+TEST_P(OpenArms, SeveralAreSharedAndAllAreDone) {
+  for (const auto& [key, to_m] :
+       {std::pair("a", -0.7), std::pair("b", -0.6), std::pair("c", -0.5), std::pair("d", -0.8)}) {
+    cell->submit(slow(either(to_m, key)));
+  }
+  cell->submit(one("x", -0.4, "then x"));
+  cell->submit(one("y", -0.4, "then y"));
+  cell->run_to_the_end(at(120s));
+  std::set<std::string> arms;
+  for (const char* key : {"a", "b", "c", "d"}) {
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail;
+    arms.insert(cell->job(key).arms.at(0));
+  }
+  EXPECT_EQ(arms.size(), 2U) << "one arm does it all";
+  for (const char* key : {"then x", "then y"}) {
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail;
+  }
+}
+
+// Neither knows where it is taken to begin.
+TEST_P(OpenArms, ATrajectoryBehindOneMayBeginWhereItEnds) {
+  cell->submit(slide("y", -1.0, -0.6, 1.0));
+  cell->run_until(at(2s));
+  cell->submit(either(-0.5, "job"));
+  cell->submit(slide("y", -0.5, -0.8, 1.0, "back"));
+  cell->submit(slide("x", -1.0, -0.8, 1.0, "other"));
+  cell->run_to_the_end();
+  for (const char* key : {"job", "back", "other"}) {
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << key << cell->job(key).detail;
+  }
+}
+
+TEST_P(OpenArms, TheSameJobsGoTheSameWayTwice) {
+  const auto run = [&] {
+    Crossing again(crossing_description(), GetParam());
+    for (int i = 0; i < 6; ++i) again.submit(either(0.3 * i - 0.7, "job" + std::to_string(i)));
+    again.run_to_the_end(at(120s));
+    std::vector<std::pair<std::int64_t, std::string>> told;
+    for (const Event& event : again.log.events) {
+      const auto* job = std::get_if<JobView>(&event.body);
+      if (job == nullptr) continue;
+      told.emplace_back(event.time.time_since_epoch().count(), job->key + job->arms.at(0));
+    }
+    return told;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST_P(OpenArms, WhatCanNeverBeIsRefusedAtOnce) {
+  const auto refused = [&](JobRequest request, const std::string& pointer) {
+    const auto answer = executive().submit(std::move(request));
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().front().pointer, pointer) << answer.error().front().detail;
+  };
+  refused(either(0.5, "a", {"x", "z"}), "/arms/1");
+  refused(either(0.5, "b", {"x", "y", "x"}), "/arms/2");
+  refused(either(7.0, "c"), "/move_to/joints/0");
+  JobRequest link = either(0.0, "d");
+  link.move_to = PlanGoal{.joints = {}, .named = {}, .pose = PlanPose{.link = "x_ball"}};
+  refused(link, "/arms/1");
+  JobRequest trajectory = slide("x", -1, 0, 2, "e");
+  trajectory.arms = {"x", "y"};
+  refused(trajectory, "/arms");
+}
+
+// The arm's own link, whatever its prefix.
+TEST_P(OpenArms, APoseIsOfEachArmsOwnLink) {
+  for (const auto& link : {std::optional<std::string>(), std::optional<std::string>("ball")}) {
+    JobRequest request = either(0.0, link ? "named" : "last");
+    request.move_to = PlanGoal{.joints = {}, .named = {}, .pose = PlanPose{.link = link}};
+    request.move_to->pose->X_WL.translation().y() = -0.4;
+    request.move_to->pose->X_WL.linear() =
+        Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    cell->submit(request);
+    cell->run_to_the_end();
+    const JobView job = cell->job(request.key);
+    EXPECT_EQ(job.state, JobState::succeeded) << job.detail;
+    EXPECT_THAT(job.arms, ElementsAre("y"));
+    cell->submit(one("y", -0.8, ""));
+    cell->run_to_the_end();
+  }
+}
+
+}  // namespace
+}  // namespace armloom
