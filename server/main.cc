@@ -66,6 +66,24 @@ int run(int argc, char** argv) {
                    "repeated")
       ->type_name("ORIGIN");
 
+  serve_command
+      ->add_option("--requests-per-second", serving.requests_per_s,
+                   "of one client (token or address), twice as many at once; of all together four "
+                   "times as many. Stop is never limited")
+      ->check(CLI::Range(0.01, 1e9))
+      ->capture_default_str();
+  serve_command
+      ->add_option("--jobs-per-second", serving.jobs_per_s,
+                   "submitted by one client, ten times as many at once; by all together twice as "
+                   "many")
+      ->check(CLI::Range(0.01, 1e9))
+      ->capture_default_str();
+  serve_command
+      ->add_option("--connections-per-client", serving.connections_per_client,
+                   "open at once from one address")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+
   std::string validated_file;
   CLI::App* validate_command =
       app.add_subcommand("validate", "say what a cell holds, or its faults");
@@ -165,6 +183,18 @@ int run(int argc, char** argv) {
   add_seed(*compare_command, comparing.seed);
   compare_command->add_option("--out", comparing.out, "folder for compare.csv and compare.svg");
 
+  ReplayOptions replaying;
+  CLI::App* replay_command = app.add_subcommand(
+      "replay", "run a recording of `serve --data` again, and compare its events");
+  auto* replayed_data =
+      replay_command->add_option("--data", replaying.data, "data folder: the newest run in it");
+  auto* replayed_folder = replay_command->add_option("--recording", replaying.recording,
+                                                     "this one instead: its folder");
+  replayed_data->excludes(replayed_folder);
+  replay_command->require_option(1, 0);
+  replay_command->add_option("--until", replaying.until_s, "so far, in seconds of cell time (all)");
+  replay_command->add_option("--out", replaying.out, "folder for the events of the replay");
+
   HistoryOptions reading;
   CLI::App* history_command =
       app.add_subcommand("history", "print the jobs of a data folder, one a line");
@@ -216,6 +246,7 @@ int run(int argc, char** argv) {
   if (simulate_command->parsed()) return simulate_jobs(simulating);
   if (compare_command->parsed()) return compare_policies(comparing);
   if (token_command->parsed()) return change_tokens(tokens);
+  if (replay_command->parsed()) return replay_recording(replaying);
   if (history_command->parsed()) return print_history(reading);
   return audit_recording(auditing);
 }

@@ -11,6 +11,7 @@
 #include "server/http/http_server.h"
 #include "server/http/static_files.h"
 #include "server/hub/broadcast.h"
+#include "server/replay/input_file.h"
 #include "server/worker.h"
 
 namespace armloom {
@@ -24,7 +25,8 @@ class Service::Impl {
   explicit Impl(ServiceOptions options)
       : options_(std::move(options)),
         files_(options_.web, refusal_response),
-        guard_(options_.tokens, options_.tls.has_value()) {}
+        guard_(options_.tokens, options_.tls.has_value()),
+        limits_(options_.limits) {}
 
   std::optional<Problems> start(const CellPtr& cell, const Recording::Source& source) {
     auto http = HttpServer::listen(options_.address, options_.port, options_.connections_max);
@@ -47,6 +49,7 @@ class Service::Impl {
     });
     router_.guard(
         [this](const Request& request, Role role) { return guard_.refusal(request, role); });
+    router_.limit([this](const Request& request) { return one_too_many(request); });
     clock_.emplace(std::chrono::system_clock::now(), options_.speed);
     const auto post = [http_server = http_.get()](std::function<void()> task) {
       http_server->post(std::move(task));
@@ -65,6 +68,7 @@ class Service::Impl {
       executive_options.starts = keeper_.get();
       executive_options.first_job = JobId{keeper_->store().leftover().last_number + 1};
     }
+    if (auto problems = log_inputs(cell, executive_options, post)) return problems;
     auto loop =
         RealTimeLoop::start(cell, std::move(executive_options), options_.speed, *broadcast_);
     if (!loop) return std::move(loop.error());
@@ -73,7 +77,7 @@ class Service::Impl {
     const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
     api_ = std::make_unique<Api>(ApiParts{
         cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), post, guard_,
-        [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_});
+        [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_, limits_});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;
@@ -84,7 +88,11 @@ class Service::Impl {
     site.handle = [this](const Request& request, Respond respond) {
       router_.dispatch(request, noting(request, std::move(respond)));
     };
-    site.refuse_unread = [this](const Request& request) { return router_.refuse_unread(request); };
+    site.refuse_unread = [this](const Request& request) {
+      auto refused = router_.refuse_unread(request);
+      if (refused) noting(request, [](const Response&) {})(*refused);
+      return refused;
+    };
     site.refuse = refusal_response;
     const bool everywhere = options_.address == "0.0.0.0" || options_.address == "::";
     site.hosts = HostRule{options_.allowed_hosts, options_.allowed_origins, everywhere};
@@ -93,9 +101,11 @@ class Service::Impl {
     site.send_buffer = options_.send_buffer;
     site.memory_max = options_.memory_max;
     site.read_time = options_.read_time;
+    site.connections_per_client_max = options_.connections_per_client_max;
+    site.on_limited_connection = [this] { metrics_->limited("connections"); };
     site.wind_down = [this](std::function<void()> done) {
       const auto waiting = keeper_ ? Executive::Waiting::is_kept : Executive::Waiting::ends;
-      loop_->post([waiting, done = std::move(done)](Executive& executive) {
+      loop_->post_urgent([waiting, done = std::move(done)](Executive& executive) {
         executive.wind_down("the server ends", waiting, done);
       });
     };
@@ -129,6 +139,20 @@ class Service::Impl {
     return std::nullopt;
   }
 
+  // Beside the events: what led to them.
+  std::optional<Problems> log_inputs(const CellPtr& cell, ExecutiveOptions& options,
+                                     const std::function<void(std::function<void()>)>& post) {
+    if (!recording_) return std::nullopt;
+    const std::string& policy = options.policy.empty() ? cell->scheduling.policy : options.policy;
+    auto inputs =
+        InputFile::create(recording_->folder(), {policy, options.seed, options.first_job.value()},
+                          {cell, post, options_.alarm});
+    if (!inputs) return std::move(inputs.error());
+    inputs_ = std::move(*inputs);
+    options.inputs = inputs_.get();
+    return std::nullopt;
+  }
+
   // On the store's thread. No arm is let go that could not be put down as moving.
   void store_fails(const StoreFault* fault) {
     const std::string text = fault != nullptr
@@ -136,7 +160,7 @@ class Service::Impl {
                                  : "jobs can be stored again; arms stay stopped until resumed";
     if (options_.alarm) http_->post([this, text] { options_.alarm(text); });
     if (fault == nullptr || !loop_is_there_) return;
-    loop_->post([text](Executive& executive) { executive.stop_all(text); });
+    loop_->post_urgent([text](Executive& executive) { executive.stop_all(text); });
   }
 
   void go_on(Restart restart, const CellPtr& cell) {
@@ -169,6 +193,13 @@ class Service::Impl {
         };
   }
 
+  std::optional<Refusal> one_too_many(const Request& request) {
+    const auto now = std::chrono::steady_clock::now();
+    auto refusal = limits_.request(guard_.client(request), now);
+    if (refusal) metrics_->limited("requests");
+    return refusal;
+  }
+
   Response answer_file(const Request& request) {
     if (request.target.path == "/" && !guard_.caller(request.token)) {
       return Response{303, "", "", {{"Location", "/login"}, {"Cache-Control", "no-store"}}};
@@ -182,6 +213,7 @@ class Service::Impl {
   ServiceOptions options_;
   StaticFiles files_;
   Guard guard_;
+  ClientLimits limits_;
   const std::string stream_ = random_stream();
   std::optional<WallClock> clock_;
   Hub hub_;
@@ -189,6 +221,7 @@ class Service::Impl {
   std::unique_ptr<JobKeeper> keeper_;
   std::atomic<bool> loop_is_there_{false};  // what the store's thread asks
   std::unique_ptr<Recording> recording_;
+  std::unique_ptr<InputFile> inputs_;
   std::unique_ptr<Metrics> metrics_;
   std::unique_ptr<HttpServer> http_;
   std::unique_ptr<Broadcast> broadcast_;

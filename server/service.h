@@ -12,6 +12,7 @@
 
 #include "core/base/problem.h"
 #include "core/model/cell.h"
+#include "server/http/client_limits.h"
 #include "server/http/http_server.h"
 #include "server/recording/recording.h"
 #include "server/store/job_store.h"
@@ -20,19 +21,21 @@ namespace armloom {
 
 struct ServiceOptions {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 8080;                     // zero: any free one
-  double speed = 1.0;                            // cell seconds per wall second
-  std::string policy;                            // empty: the cell's
-  std::vector<std::string> allowed_origins;      // of other sites (HostRule)
-  std::vector<std::string> allowed_hosts;        // names that commands may come to (HostRule)
-  std::optional<std::filesystem::path> tokens;   // file of those that are asked for; none: all may
-  std::optional<TlsFiles> tls;                   // none: without
-  std::filesystem::path web;                     // the dashboard's files
-  std::optional<std::filesystem::path> data;     // where a recording is written; one in
-                                                 // it is kept (Recording::unused_folder)
-  StoreOptions store = {};                       // of the jobs in `data`
-  bool record_states = false;                    // states.csv as well
-  std::size_t connections_max = 4096;            // one more is refused with 503
+  std::uint16_t port = 8080;                      // zero: any free one
+  double speed = 1.0;                             // cell seconds per wall second
+  std::string policy;                             // empty: the cell's
+  std::vector<std::string> allowed_origins;       // of other sites (HostRule)
+  std::vector<std::string> allowed_hosts;         // names that commands may come to (HostRule)
+  std::optional<std::filesystem::path> tokens;    // file of those that are asked for; none: all may
+  std::optional<TlsFiles> tls;                    // none: without
+  std::filesystem::path web;                      // the dashboard's files
+  std::optional<std::filesystem::path> data;      // where a recording is written; one in
+                                                  // it is kept (Recording::unused_folder)
+  StoreOptions store = {};                        // of the jobs in `data`
+  bool record_states = false;                     // states.csv as well
+  std::size_t connections_max = 4096;             // one more is refused with 503
+  std::size_t connections_per_client_max = 4096;  // of one address; one more is refused with 429
+  ClientLimits::Options limits = {};
   std::chrono::milliseconds keep_alive{15'000};  // of /events, when there are none
   std::chrono::milliseconds send_time{30'000};   // for one event of /events, or message of /ws
   int send_buffer = 128 * 1024;                  // of the socket of a reader of those

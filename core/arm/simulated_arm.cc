@@ -18,6 +18,7 @@ constexpr double kArrived_rad = 1e-5;
 SimulatedArm::SimulatedArm(CellPtr cell, ArmId arm, Eigen::VectorXd q_start, std::uint64_t seed)
     : cell_(std::move(cell)),
       joints_(cell_->arm(arm).joints),
+      controller_(cell_->robots[cell_->arm(arm).robot.index()].controller),
       gaussian_(seed),
       motion_(cell_),
       position_(std::move(q_start)) {
@@ -28,12 +29,8 @@ SimulatedArm::SimulatedArm(CellPtr cell, ArmId arm, Eigen::VectorXd q_start, std
     throw std::logic_error("SimulatedArm: q_start has " + std::to_string(position_.size()) +
                            " entries for " + std::to_string(joints_.size()) + " joints");
   }
-  const ControllerDescription& controller = cell_->robots[description.robot.index()].controller;
-  lag_ = controller.lag;
-  noise_ = controller.noise_rad;
-  start_tolerance_ = cell_->execution.start_tolerance_rad;
-  rows_.assign(joints_.size(), -1);
-  offset_ = Eigen::VectorXd::Zero(position_.size());
+  path_.rows.assign(joints_.size(), -1);
+  offset_.left = Eigen::VectorXd::Zero(position_.size());
   feedback_.measured = position_;
 }
 
@@ -60,23 +57,23 @@ void SimulatedArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration 
   }
   if (!concerned) throw std::logic_error("SimulatedArm::start: none of its joints");
 
-  trajectory->sample_positions(from_progress, path_);
-  path_target_ = path_;  // both have their size before the first tick
+  trajectory->sample_positions(from_progress, path_.at);
+  path_.target = path_.at;  // both have their size before the first tick
   Eigen::VectorXd offset = Eigen::VectorXd::Zero(position_.size());
   for (std::size_t j = 0; j < rows.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
-    if (rows[j] >= 0) offset[i] = position_[i] - path_[rows[j]];
+    if (rows[j] >= 0) offset[i] = position_[i] - path_.at[rows[j]];
   }
   const double away = offset.cwiseAbs().maxCoeff();
-  if (!(away <= start_tolerance_)) {
+  if (!(away <= cell_->execution.start_tolerance_rad)) {
     throw std::logic_error("SimulatedArm::start: the arm is " + std::to_string(away) +
                            " rad away from the trajectory");
   }
-  trajectory_ = std::move(trajectory);
-  rows_ = std::move(rows);
-  offset_ = std::move(offset);
-  has_offset_ = away > 0.0;
-  motion_.follow(trajectory_, from_progress, authority);
+  path_.trajectory = std::move(trajectory);
+  path_.rows = std::move(rows);
+  offset_.left = std::move(offset);
+  offset_.is_any = away > 0.0;
+  motion_.follow(path_.trajectory, from_progress, authority);
   start_at_ = start_at;
   feedback_.phase = Phase::waiting;
   feedback_.commanded_progress = from_progress;
@@ -84,7 +81,7 @@ void SimulatedArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration 
 }
 
 void SimulatedArm::grant(Duration authority) {
-  if (!trajectory_) throw std::logic_error("SimulatedArm::grant: no motion");
+  if (!path_.trajectory) throw std::logic_error("SimulatedArm::grant: no motion");
   if (under_way()) motion_.grant(authority);
 }
 
@@ -92,14 +89,14 @@ void SimulatedArm::brake() {
   if (feedback_.phase == Phase::waiting) {
     feedback_.phase = Phase::stopped;
   } else if (feedback_.phase == Phase::moving &&
-             feedback_.commanded_progress < trajectory_->duration()) {
+             feedback_.commanded_progress < path_.trajectory->duration()) {
     feedback_.phase = Phase::braking;
   }
 }
 
 void SimulatedArm::release() {
   if (under_way()) throw std::logic_error("SimulatedArm::release: a motion is under way");
-  trajectory_.reset();
+  path_.trajectory.reset();
   feedback_.phase = Phase::idle;
   feedback_.commanded_progress = Duration{};
   feedback_.measured_progress = Duration{};
@@ -113,7 +110,7 @@ const ArmFeedback& SimulatedArm::tick(TimePoint now) {
   } else if (under_way()) {
     advance(now - previous);
   }
-  if (noise_ > 0.0) measure();
+  if (controller_.noise_rad > 0.0) measure();
   feedback_.at_rest = stands();
   feedback_.settled = feedback_.at_rest && feedback_.phase != Phase::waiting;
   return feedback_;
@@ -121,7 +118,7 @@ const ArmFeedback& SimulatedArm::tick(TimePoint now) {
 
 bool SimulatedArm::stands() const {
   if (!under_way() || feedback_.phase == Phase::waiting) return true;
-  return feedback_.phase == Phase::moving && motion_.rate() == 0.0 && !has_offset_ &&
+  return feedback_.phase == Phase::moving && motion_.rate() == 0.0 && !offset_.is_any &&
          motion_.progress() >= motion_.end() &&
          feedback_.measured_progress == feedback_.commanded_progress;
 }
@@ -136,39 +133,39 @@ void SimulatedArm::advance(Duration period) {
   const Duration before = feedback_.commanded_progress;
   motion_.advance(period, feedback_.phase == Phase::braking);
   feedback_.commanded_progress = motion_.progress();
-  const bool moved = feedback_.measured_progress != feedback_.commanded_progress || has_offset_;
+  const bool moved = feedback_.measured_progress != feedback_.commanded_progress || offset_.is_any;
   if (moved) {
     lag_behind(before, period);
     place();
   }
   if (motion_.rate() == 0.0) settle();
-  if (moved && noise_ <= 0.0) feedback_.measured = position_;
+  if (moved && controller_.noise_rad <= 0.0) feedback_.measured = position_;
 }
 
 // m' = (s - m) / lag, solved exactly for s moving evenly through the tick.
 void SimulatedArm::lag_behind(Duration commanded_before, Duration period) {
   const Duration commanded = feedback_.commanded_progress;
   Duration& measured = feedback_.measured_progress;
-  if (lag_ <= Duration{}) {
+  if (controller_.lag <= Duration{}) {
     measured = commanded;
-    has_offset_ = false;
-    offset_.setZero();
+    offset_.is_any = false;
+    offset_.left.setZero();
     return;
   }
   if (period <= Duration{}) return;
-  const double share = std::exp(-to_seconds(period) / to_seconds(lag_));
-  const double steady = to_seconds(lag_) * to_seconds(commanded - commanded_before) /
+  const double share = std::exp(-to_seconds(period) / to_seconds(controller_.lag));
+  const double steady = to_seconds(controller_.lag) * to_seconds(commanded - commanded_before) /
                         to_seconds(period);  // how far behind it would stay at this speed
   const double behind = to_seconds(commanded_before - measured);
   // Rounded down, so that it closes to nothing however slow the lag.
   const Duration behind_after{
       static_cast<Duration::rep>((steady + (behind - steady) * share) * 1e9)};
   measured = std::clamp(commanded - behind_after, measured, commanded);
-  if (has_offset_) {
-    offset_ *= share;
-    if (offset_.cwiseAbs().maxCoeff() < 0.1 * kArrived_rad) {
-      offset_.setZero();
-      has_offset_ = false;
+  if (offset_.is_any) {
+    offset_.left *= share;
+    if (offset_.left.cwiseAbs().maxCoeff() < 0.1 * kArrived_rad) {
+      offset_.left.setZero();
+      offset_.is_any = false;
     }
   }
 }
@@ -176,17 +173,17 @@ void SimulatedArm::lag_behind(Duration commanded_before, Duration period) {
 void SimulatedArm::settle() {
   const Duration rest = feedback_.commanded_progress;
   if (feedback_.measured_progress != rest) {
-    trajectory_->sample_positions(rest, path_target_);
+    path_.trajectory->sample_positions(rest, path_.target);
     double left = 0.0;
-    for (const Eigen::Index row : rows_) {
-      if (row >= 0) left = std::max(left, std::abs(path_target_[row] - path_[row]));
+    for (const Eigen::Index row : path_.rows) {
+      if (row >= 0) left = std::max(left, std::abs(path_.target[row] - path_.at[row]));
     }
     if (left >= kArrived_rad) return;
     feedback_.measured_progress = rest;
     place();
   }
-  if (has_offset_) return;
-  if (rest == trajectory_->duration()) {
+  if (offset_.is_any) return;
+  if (rest == path_.trajectory->duration()) {
     feedback_.phase = Phase::finished;
   } else if (feedback_.phase == Phase::braking) {
     feedback_.phase = Phase::stopped;
@@ -194,16 +191,16 @@ void SimulatedArm::settle() {
 }
 
 void SimulatedArm::place() {
-  trajectory_->sample_positions(feedback_.measured_progress, path_);
-  for (std::size_t j = 0; j < rows_.size(); ++j) {
+  path_.trajectory->sample_positions(feedback_.measured_progress, path_.at);
+  for (std::size_t j = 0; j < path_.rows.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
-    if (rows_[j] >= 0) position_[i] = path_[rows_[j]] + offset_[i];
+    if (path_.rows[j] >= 0) position_[i] = path_.at[path_.rows[j]] + offset_.left[i];
   }
 }
 
 void SimulatedArm::measure() {
   for (Eigen::Index i = 0; i < position_.size(); ++i) {
-    feedback_.measured[i] = position_[i] + noise_ * gaussian_.next();
+    feedback_.measured[i] = position_[i] + controller_.noise_rad * gaussian_.next();
   }
 }
 

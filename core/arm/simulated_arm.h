@@ -53,22 +53,25 @@ class SimulatedArm final : public ArmController {
 
   CellPtr cell_;
   std::vector<JointId> joints_;
-  Duration lag_;
-  double noise_;
-  double start_tolerance_;
+  const ControllerDescription& controller_;
   GaussianNoise gaussian_;
   CommandedProgress motion_;
-
-  TrajectoryPtr trajectory_;
-  std::vector<Eigen::Index> rows_;  // of the trajectory, for each of joints_; -1: not in it
   TimePoint start_at_{};
   TimePoint last_tick_{};
 
+  struct Path {
+    TrajectoryPtr trajectory;
+    std::vector<Eigen::Index> rows;  // of the trajectory, for each of joints_; -1: not in it
+    Eigen::VectorXd at;              // scratch, of the trajectory's joints: at measured progress
+    Eigen::VectorXd target;          // the same, at commanded progress
+  };
+  Path path_;
   Eigen::VectorXd position_;  // of joints_: where the arm truly is
-  Eigen::VectorXd offset_;    // of joints_: what is left of the distance to the path at the start
-  bool has_offset_ = false;
-  Eigen::VectorXd path_;         // scratch, of the trajectory's joints
-  Eigen::VectorXd path_target_;  // the same
+  struct Offset {
+    Eigen::VectorXd left;  // of joints_: of the distance to the path at the start
+    bool is_any = false;
+  };
+  Offset offset_;
   ArmFeedback feedback_;
 };
 

@@ -94,20 +94,22 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
   }
   jobs.push_back(intake_.submission(std::move(*prepared)));
   for (Submit& job : jobs) job.job = JobId{next++};
-  const Trial::Open open{asked_, plans_.open()};
-  walk(std::make_shared<Trial>(scheduler_, open, jobs, jobs.back().job, now_), std::move(done));
+  const Trial::Open open{questions_.asked(), questions_.plans().open()};
+  walk(std::make_shared<Trial>(scheduler_, open, jobs, jobs.back().job, clock_.now),
+       std::move(done));
 }
 
 // As admission would, in this instant.
 void Executive::Impl::walk(std::shared_ptr<Trial> trial,
                            std::function<void(Result<CheckView>)> done) {
   if (auto question = trial->next()) {
-    judges_.ask(std::move(*question), scene_.scene,
-                [this, trial, done = std::move(done)](Verdict verdict) mutable {
-                  trial->answer(std::move(verdict));
-                  walk(std::move(trial), std::move(done));
-                });
-    return;
+    const auto answered = [this, trial, done](Verdict verdict) {
+      trial->answer(std::move(verdict));
+      walk(trial, done);
+    };
+    if (questions_.service().consider(std::move(*question), scene_.scene(), answered)) return;
+    return done(failure(Problem{ProblemKind::unavailable, "too-many-checks", "",
+                                "too many checks are being made; ask again in a moment"}));
   }
   if (const auto plan = trial->next_plan()) {
     const auto answered = [this, trial, plan, done](PlanAnswer answer) {
@@ -115,7 +117,7 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
       walk(trial, done);
     };
     const auto cancelled = std::make_shared<std::atomic<bool>>(false);
-    if (judges_.draft({plan->question, scene_.scene, cancelled, answered})) return;
+    if (questions_.service().draft({plan->question, scene_.scene(), cancelled, answered})) return;
     return done(failure(Problem{ProblemKind::unavailable, "too-many-plans", "",
                                 "too many plans are being made; ask again in a moment"}));
   }
@@ -125,7 +127,7 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
     if (wait.job && !is_known) wait.job.reset();  // its arm's own way back, or forgotten meanwhile
   }
   CheckView view = view_of(outcome, *cell_, jobs_);
-  view.scene_version = scene_.version;
+  view.scene_version = scene_.version();
   done(std::move(view));
 }
 
@@ -174,8 +176,8 @@ void Executive::Impl::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
       plan_next(inquiry);
     });
   };
-  PlanTask task{std::move(question), scene_.scene, inquiry->cancelled, judge};
-  if (judges_.draft(std::move(task))) return;
+  PlanTask task{std::move(question), scene_.scene(), inquiry->cancelled, judge};
+  if (questions_.service().draft(std::move(task))) return;
   inquiry->done(failure(Problem{ProblemKind::unavailable, "too-many-plans", "",
                                 "too many plans are being made; ask again in a moment"}));
 }

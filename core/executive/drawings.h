@@ -6,14 +6,9 @@
 
 #include "core/executive/executive.h"
 #include "core/executive/job_register.h"
+#include "core/executive/live_scene.h"
 
 namespace armloom {
-
-// The planning scene, and which of its versions it is.
-struct VersionedScene {
-  PlanningScenePtr scene;
-  std::uint64_t version = 1;
-};
 
 // Coordination diagrams of two jobs, for people who want to see why one waits. Keeps the last ones:
 // whoever looks at one asks again and again where its two are by now.

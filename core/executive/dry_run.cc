@@ -149,13 +149,12 @@ class Instant final : public JobNames {
     const Planned& job = plan_.jobs()[index];
     Submit next{.job = JobId{0},
                 .trajectory = job.trajectory,
-                .backlog_timeout = cell_.scheduling.backlog_timeout,
-                .after = {}};
+                .terms = {.backlog_timeout = cell_.scheduling.backlog_timeout}};
     for (std::size_t before : job.after) {
       if (ended_.contains(before)) continue;
       const auto id = ids_.find(before);
       if (id == ids_.end()) return;
-      next.after.push_back(id->second);
+      next.terms.after.push_back(id->second);
     }
     const auto& arms = job.trajectory->arms();
     if (std::ranges::any_of(arms, [this](ArmId arm) { return taken_.contains(arm); })) return;

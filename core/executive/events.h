@@ -9,9 +9,9 @@
 #include "core/base/ids.h"
 #include "core/base/time.h"
 #include "core/coordination/verdict.h"
+#include "core/jobs/job.h"
 #include "core/model/cell.h"
 #include "core/monitor/monitor.h"
-#include "core/scheduler/job.h"
 
 namespace armloom {
 
@@ -47,7 +47,8 @@ struct CheckView {
   std::optional<double> earliest_start_s;        // from now; absent: not known
   std::optional<double> clearance_bound_m;       // ClearanceBound; absent: nothing is proven
   std::optional<double> self_clearance_bound_m;  // likewise
-  std::vector<WaitView> conflicts;
+  std::vector<WaitView> waits_on;                // as the job's own; free: before it starts
+  std::vector<WaitView> conflicts;               // not free: the same
   std::uint64_t evaluations = 0;
   std::uint64_t scene_version = 0;
   std::optional<ChoiceView> choice;     // of a goal that several arms could go to
@@ -68,6 +69,8 @@ struct JobView {
   JobState state = JobState::queued;
   std::vector<std::string> arms;
   int priority = 0;
+  Duration backlog_timeout{};
+  bool replans_on_timeout = false;
   bool system_job = false;  // the server's: a move aside
   TimePoint submitted_at{};
   std::optional<TimePoint> backlogged_at;  // the first time

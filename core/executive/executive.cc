@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/executive/arms_of.h"
+#include "core/executive/batch.h"
 #include "core/executive/executive_impl.h"
-#include "core/executive/scene_objects.h"
 #include "core/executive/timeline.h"
 
 namespace armloom {
@@ -13,10 +13,27 @@ namespace armloom {
 Executive::Executive(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Executive::~Executive() = default;
 
-Result<JobView> Executive::submit(JobRequest request) { return impl_->submit(std::move(request)); }
-Result<std::vector<Result<JobView>>> Executive::submit_batch(std::vector<JobRequest> requests,
-                                                             bool atomic) {
-  return impl_->submit_batch(std::move(requests), atomic);
+Result<JobView> Executive::submit(JobRequest request) {
+  std::vector<JobRequest> alone;
+  alone.push_back(std::move(request));
+  impl_->note({ExecutiveInput::Submitted{alone, ExecutiveInput::Submitted::How::alone}});
+  return impl_->submit(std::move(alone.front()));
+}
+std::shared_ptr<Executive::Batch> Executive::open_batch(std::vector<JobRequest> requests,
+                                                        bool atomic) {
+  using How = ExecutiveInput::Submitted::How;
+  impl_->note({ExecutiveInput::Submitted{requests, atomic ? How::atomic_batch : How::batch}});
+  return std::make_shared<Batch>(std::move(requests), atomic);
+}
+std::optional<Executive::BatchAnswers> Executive::go_on(Batch& batch) {
+  impl_->note({ExecutiveInput::WentOn{}});
+  return impl_->go_on(batch);
+}
+Executive::BatchAnswers Executive::submit_batch(std::vector<JobRequest> requests, bool atomic) {
+  const auto batch = open_batch(std::move(requests), atomic);
+  for (;;) {
+    if (auto answers = go_on(*batch)) return std::move(*answers);
+  }
 }
 void Executive::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
   impl_->check(std::move(request), std::move(done));
@@ -27,39 +44,52 @@ void Executive::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> can
 }
 void Executive::diagram(const std::string& key_a, const std::string& key_b,
                         std::function<void(Result<DiagramView>)> done) {
-  impl_->drawings_.draw({key_a, key_b, impl_->scene_, impl_->now_}, std::move(done));
+  impl_->questions_.drawings().draw({key_a, key_b, impl_->scene_.now(), impl_->clock_.now},
+                                    std::move(done));
 }
-Result<JobView> Executive::cancel(const std::string& key) { return impl_->cancel(key); }
-Result<JobView> Executive::replan(const std::string& key) { return impl_->replan(key); }
+Result<JobView> Executive::cancel(const std::string& key) {
+  impl_->note({ExecutiveInput::Canceled{key}});
+  return impl_->cancel(key);
+}
+Result<JobView> Executive::amend(const std::string& key, JobAmendment amendment) {
+  impl_->note({ExecutiveInput::Amended{key, amendment}});
+  return impl_->amend(key, std::move(amendment));
+}
+Result<JobView> Executive::replan(const std::string& key) {
+  impl_->note({ExecutiveInput::Replanned{key}});
+  return impl_->replan(key);
+}
+void Executive::alert(Alert alert) {
+  impl_->note({ExecutiveInput::Alerted{alert}});
+  impl_->publisher_.tell(std::move(alert), impl_->clock_.now);
+}
 void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause) {
+  impl_->note({ExecutiveInput::Stopped{arms, cause}});
   impl_->stop(arms, cause);
 }
-void Executive::resume(const std::vector<ArmId>& arms) { impl_->resume(arms); }
+void Executive::resume(const std::vector<ArmId>& arms) {
+  impl_->note({ExecutiveInput::Resumed{arms}});
+  impl_->resume(arms);
+}
 void Executive::wind_down(const std::string& cause, Waiting waiting, std::function<void()> done) {
+  impl_->note({ExecutiveInput::WoundDown{cause, waiting}});
   impl_->end(cause, waiting == Waiting::is_kept, std::move(done));
 }
 std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
+  impl_->note({ExecutiveInput::Restored{jobs}});
   return impl_->restore(std::move(jobs));
 }
 void Executive::stop_all(const std::string& cause) { stop(all_arms(*impl_->cell_), cause); }
 void Executive::resume_all() { resume(all_arms(*impl_->cell_)); }
-Result<void> Executive::add_object(CollisionObject object) {
-  return impl_->change_objects(with_object(*impl_->scene_.scene, std::move(object)));
-}
-Result<void> Executive::replace_object(CollisionObject object) {
-  return impl_->change_objects(with_other_object(*impl_->scene_.scene, std::move(object)));
-}
-Result<void> Executive::remove_object(const std::string& name) {
-  return impl_->change_objects(without_object(*impl_->scene_.scene, name));
-}
-const std::vector<CollisionObject>& Executive::objects() const {
-  return impl_->scene_.scene->objects();
-}
-std::uint64_t Executive::scene_version() const { return impl_->scene_.version; }
+LiveScene& Executive::scene() { return impl_->scene_; }
 Result<std::uint64_t> Executive::inject(const FaultRequest& fault) {
-  return impl_->faults_.inject(fault, impl_->now_);
+  impl_->note({ExecutiveInput::Injected{fault}});
+  return impl_->execution_.faults().inject(fault, impl_->clock_.now);
 }
-Result<void> Executive::remove_fault(std::uint64_t id) { return impl_->faults_.remove(id); }
+Result<void> Executive::remove_fault(std::uint64_t id) {
+  impl_->note({ExecutiveInput::FaultRemoved{id}});
+  return impl_->execution_.faults().remove(id);
+}
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
 Snapshot Executive::snapshot(std::size_t ended_max) const { return impl_->snapshot(ended_max); }
 TrajectoryPtr Executive::trajectory(const std::string& key) const {
@@ -68,12 +98,12 @@ TrajectoryPtr Executive::trajectory(const std::string& key) const {
 }
 std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms(); }
 TimelineView Executive::timeline() const {
-  return timeline_of(impl_->scheduler_, impl_->now_, *impl_->cell_, impl_->jobs_);
+  return timeline_of(impl_->scheduler_, impl_->clock_.now, *impl_->cell_, impl_->jobs_);
 }
-TimePoint Executive::now() const { return impl_->now_; }
+TimePoint Executive::now() const { return impl_->clock_.now; }
 bool Executive::all_ended() const { return impl_->jobs_.active() == 0; }
 TimePoint Executive::settled_until() const { return impl_->settled_until(); }
-const RunFigures& Executive::figures() const { return impl_->figures_; }
+const RunFigures& Executive::figures() const { return impl_->count_.figures(); }
 void Executive::tick(TimePoint now) { impl_->tick(now); }
 
 }  // namespace armloom

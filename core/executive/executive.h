@@ -5,15 +5,16 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/arm/faulty_arm.h"
 #include "core/base/problem.h"
-#include "core/collision/scene/planning_scene.h"
 #include "core/coordination/diagram.h"
 #include "core/coordination/motion.h"
 #include "core/coordination/verdict.h"
 #include "core/executive/events.h"
+#include "core/executive/live_scene.h"
 #include "core/executive/plan_ahead.h"
 #include "core/executive/plan_task.h"
 #include "core/model/cell.h"
@@ -57,6 +58,11 @@ struct JobRequest {
   std::vector<std::string> after;           // keys of jobs that have to succeed first
   // Of those, the ones that are known to have succeeded, in a former run or long ago.
   std::vector<std::string> succeeded = {};
+  // What validate() makes of each of motions(), where somebody has asked it before (validated.h):
+  // it takes time that the strand has not. Empty: nobody has.
+  std::vector<Result<TrajectoryPtr>> validated = {};
+  // As it came, for who writes down what did. Null: nobody does.
+  std::shared_ptr<const std::string> body = {};
 
   // The trajectory, or the alternatives, each with its place in the request ("/alternatives/0").
   struct PlacedMotion {
@@ -66,6 +72,14 @@ struct JobRequest {
   [[nodiscard]] std::vector<PlacedMotion> motions() const;
 };
 
+// What is to be changed of a job that was accepted, as JobRequest has it; what is absent stays.
+struct JobAmendment {
+  std::optional<std::string> name = {};
+  std::optional<int> priority = {};
+  std::optional<Duration> backlog_timeout = {};  // from when it first was in conflict
+  std::optional<OnTimeout> on_timeout = {};
+};
+
 // Where judgements are computed. Called on the strand; `done` must be called exactly once, on the
 // strand again, with the answer.
 class JudgementService {
@@ -73,8 +87,14 @@ class JudgementService {
   virtual ~JudgementService() = default;
   virtual void ask(Question question, PlanningScenePtr scene,
                    std::function<void(Verdict)> done) = 0;
-  // For people who look: changes no verdict and delays none. False: too many are being drawn, and
-  // `done` is not called.
+  // For people who ask what would be: changes no verdict of ask() and delays none. False: too many
+  // are being considered, and `done` is not called.
+  [[nodiscard]] virtual bool consider(Question question, PlanningScenePtr scene,
+                                      std::function<void(Verdict)> done) {
+    ask(std::move(question), std::move(scene), std::move(done));
+    return true;
+  }
+  // For people who look, in the same way.
   [[nodiscard]] virtual bool draw(Drawing drawing, PlanningScenePtr scene,
                                   std::function<void(Diagram)> done) = 0;
   // For jobs.
@@ -111,6 +131,16 @@ class StartLog {
   virtual void about_to_move(JobId job, std::function<void()> written) = 0;
 };
 
+// Where everything is put down that comes to an executive from outside and changes something
+// (executive_input.h), before it does. `ticks`: so many control cycles had begun. Called on the
+// strand; must not block.
+struct ExecutiveInput;
+class InputLog {
+ public:
+  virtual ~InputLog() = default;
+  virtual void came(std::uint64_t ticks, const ExecutiveInput& input) = 0;
+};
+
 // A job of a former run, with the id that it had.
 struct RestoredJob {
   JobId id;
@@ -126,6 +156,7 @@ struct ExecutiveOptions {
   std::size_t waiting_max = 10'000;               // jobs that may be active at once
   JobId first_job{1};          // of those that clients submit; former runs had the ones before
   StartLog* starts = nullptr;  // outlives the executive; null: nobody asks
+  InputLog* inputs = nullptr;  // likewise
   // For tests: from then on only the arms' controllers go on, as if the executive's thread had
   // ended.
   std::optional<TimePoint> dies_at = {};
@@ -197,6 +228,13 @@ class Executive {
   // accepted or none; problems point to "/jobs/<index>/...". Else each has its own answer.
   [[nodiscard]] Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests,
                                                                   bool atomic);
+  // The same part by part, so that a large one holds up no control cycle. Nothing else may be
+  // submitted before the answers are there.
+  class Batch;
+  using BatchAnswers = Result<std::vector<Result<JobView>>>;
+  [[nodiscard]] std::shared_ptr<Batch> open_batch(std::vector<JobRequest> requests, bool atomic);
+  // Takes the next part. The answers, when nothing is left.
+  [[nodiscard]] std::optional<BatchAnswers> go_on(Batch& batch);
   // Jobs that had not begun when a former run ended, in the order of their ids, before any job of
   // this one; each has its answer. Unlike a client's they may begin elsewhere than where their arms
   // will stand: such a one fails at its turn. Problems: as submit() has them.
@@ -218,11 +256,15 @@ class Executive {
                std::function<void(Result<DiagramView>)> done);
   // Problems: not_found; conflict when it has ended.
   [[nodiscard]] Result<JobView> cancel(const std::string& key);
+  // Counts at once (scheduler/amending.h). Problems: those of cancel().
+  [[nodiscard]] Result<JobView> amend(const std::string& key, JobAmendment amendment);
   // Another way for the job, from where its arm stands to where its own way ends, given what else
   // is there (scheduler/replanning.h). One in motion is brought to rest first. Problems: not_found;
   // conflict when it has ended, or is such that it can be given no other way.
   [[nodiscard]] Result<JobView> replan(const std::string& key);
 
+  // Told to everybody; changes nothing.
+  void alert(Alert alert);
   void stop(const std::vector<ArmId>& arms, const std::string& cause);
   void resume(const std::vector<ArmId>& arms);
   void stop_all(const std::string& cause);
@@ -233,14 +275,8 @@ class Executive {
   enum class Waiting { ends, is_kept };
   void wind_down(const std::string& cause, Waiting waiting, std::function<void()> done);
 
-  // Objects of the planning scene. Every motion under way and every waiting job is judged again.
-  // Problems: a name in use or unknown, a shape inside an arm as measured (nearer than the
-  // monitor's stop_clearance).
-  [[nodiscard]] Result<void> add_object(CollisionObject object);
-  [[nodiscard]] Result<void> replace_object(CollisionObject object);
-  [[nodiscard]] Result<void> remove_object(const std::string& name);
-  [[nodiscard]] const std::vector<CollisionObject>& objects() const;
-  [[nodiscard]] std::uint64_t scene_version() const;
+  // The planning scene, and its objects, which may be changed.
+  [[nodiscard]] LiveScene& scene();
 
   // Faults of the simulated arms. Problem: an unknown arm or fault.
   [[nodiscard]] Result<std::uint64_t> inject(const FaultRequest& fault);

@@ -1,9 +1,6 @@
 #include "core/executive/executive_impl.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <iterator>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -11,11 +8,6 @@
 
 namespace armloom {
 namespace {
-
-std::vector<std::unique_ptr<ArmController>> controllers(
-    std::vector<std::unique_ptr<FaultyArm>> arms) {
-  return {std::make_move_iterator(arms.begin()), std::make_move_iterator(arms.end())};
-}
 
 // Those of the pair, and those that stop.
 MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
@@ -34,20 +26,23 @@ MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
 Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementService& judges,
                       Observer& observer)
     : cell_(checked.cell),
-      options_(std::move(options)),
       scheduler_(cell_, std::move(checked.policy), cell_->home()),
-      scene_{std::move(checked.scene)},
-      faults_(cell_, checked.arms),
-      drawings_(scheduler_, jobs_, judges),
-      publisher_({*cell_, scheduler_, motions_, jobs_, starts_}, observer),
-      judges_(judges),
-      intake_(cell_, scheduler_, jobs_, options_.waiting_max),
-      plans_(judges),
-      motions_(cell_, controllers(std::move(checked.arms)), cell_->home()),
-      starts_(options_.starts),
-      watch_(scene_.scene) {
-  figures_.busy.assign(cell_->arms.size(), Duration{});
-  figures_.min_clearance_m = figures_.between_arms_m = std::numeric_limits<double>::infinity();
+      jobs_(scheduler_, options.ended_kept),
+      scene_(
+          std::move(checked.scene),
+          [this]() -> const Configuration& { return execution_.motions().measured(); },
+          {.asked = [this](const ExecutiveInput& input) { note(input); },
+           .changed = [this](ClearanceQuery query) { scene_has_changed(std::move(query)); }}),
+      execution_(cell_, std::move(checked.arms), options.starts),
+      questions_(scheduler_, jobs_, judges),
+      count_(cell_->arms.size()),
+      clock_{.dies_at = options.dies_at, .inputs = options.inputs},
+      publisher_({*cell_, scheduler_, execution_.motions(), jobs_, execution_.starts()}, observer),
+      intake_(cell_, scheduler_, jobs_, {options.waiting_max, options.first_job}),
+      watch_(scene_.scene()) {}
+
+void Executive::Impl::note(ExecutiveInput input) const {
+  if (clock_.inputs != nullptr) clock_.inputs->came(clock_.ticks, input);
 }
 
 // ---- The scheduler and its effects ----
@@ -57,64 +52,50 @@ void Executive::Impl::step(const Input& input) {
   for (const Effect& effect : effects) carry_out(effect);
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
   publisher_.tell_stops();
-  publisher_.tell_queue(now_);
+  publisher_.queue_may_have_changed(clock_.now);
 }
 
 // What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
 // their paths, and the process ends.
 std::vector<Effect> Executive::Impl::decided(const Input& input) {
   try {
-    return scheduler_.step(input, now_);
+    return scheduler_.step(input, clock_.now);
   } catch (const std::logic_error&) {
-    motions_.brake_all();
+    execution_.brake_all();
     throw;
   }
 }
 
 void Executive::Impl::carry_out(const Effect& effect) {
   if (const auto* judge = std::get_if<Judge>(&effect)) {
-    this->judge(judge->question);
+    questions_.judge(judge->question, scene_.scene(), [this](const Judged& made) {
+      note({ExecutiveInput::Judged{made.verdict.evaluations}});
+      step(made);
+    });
   } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
-    plans_.ask(*plan, scene_.scene, [this](PlanMade made) { step(made); });
+    questions_.plans().ask(*plan, scene_.scene(), [this](const PlanMade& made) {
+      note({ExecutiveInput::Planned{made.job, made.question}});
+      step(made);
+    });
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
-    this->dispatch(*dispatch);
+    const auto written = [this](JobId job) {
+      note({ExecutiveInput::StartWritten{job}});
+      return scheduler_.find(job)->in<Moving>() != nullptr;
+    };
+    execution_.carry_out(*dispatch, *scheduler_.find(dispatch->job), written);
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {
-    this->grant(*grant);
+    execution_.carry_out(*grant);
   } else if (const auto* aside = std::get_if<YieldMove>(&effect)) {
     note_aside(*aside);
   } else if (const auto* brake = std::get_if<Brake>(&effect)) {
-    motions_.brake(brake->job);
+    execution_.carry_out(*brake);
   } else if (const auto* release = std::get_if<Release>(&effect)) {
-    motions_.release(release->job);
+    execution_.carry_out(*release);
   } else if (const auto* changed = std::get_if<JobChanged>(&effect)) {
     job_changed(changed->job);
   } else if (const auto* wake = std::get_if<WakeAt>(&effect)) {
-    wake_at_ = wake->when;
+    clock_.wake_at = wake->when;
   }
-}
-
-void Executive::Impl::judge(const Question& question) {
-  asked_ = question;
-  judges_.ask(question, scene_.scene, [this](Verdict verdict) {
-    asked_.reset();
-    step(Judged{std::move(verdict)});
-  });
-}
-
-void Executive::Impl::dispatch(const Dispatch& dispatch) {
-  const Job& job = *scheduler_.find(dispatch.job);
-  if (job.system_job) return motions_.dispatch(dispatch, job.trajectory);
-  const auto written = [this, id = job.id] { start_is_written(id); };
-  motions_.dispatch(starts_.pass(dispatch, written), job.trajectory);
-}
-
-void Executive::Impl::grant(const Grant& grant) {
-  if (!starts_.keeps(grant)) motions_.grant(grant);
-}
-
-void Executive::Impl::start_is_written(JobId job) {
-  const auto withheld = starts_.open(job);
-  if (withheld && scheduler_.find(job)->in<Moving>() != nullptr) motions_.grant({job, *withheld});
 }
 
 void Executive::Impl::note_aside(const YieldMove& aside) {
@@ -135,40 +116,41 @@ void Executive::Impl::note_aside(const YieldMove& aside) {
 void Executive::Impl::job_changed(JobId id) {
   JobView view = publisher_.view(id);
   if (is_terminal(view.state)) {
-    figures_.last_end = std::max(figures_.last_end, *view.ended_at);
-    plans_.give_up(id);
-    starts_.forget(id);
-    for (JobId oldest : jobs_.end(id, options_.ended_kept)) scheduler_.forget(oldest);
+    count_.end_of_a_job(*view.ended_at);
+    questions_.plans().give_up(id);
+    execution_.forget(id);
+    for (JobId oldest : jobs_.end(id)) scheduler_.forget(oldest);
   }
-  publisher_.tell_job(std::move(view), now_);
+  publisher_.tell_job(std::move(view), clock_.now);
 }
 
 // ---- Time ----
 
 void Executive::Impl::tick(TimePoint now) {
-  now_ = now;
-  if (options_.dies_at && now_ >= *options_.dies_at) {
-    motions_.tick_arms(now_);
-    publisher_.tell_tick(now_);
+  clock_.now = now;
+  ++clock_.ticks;
+  if (clock_.dies_at && now >= *clock_.dies_at) {
+    execution_.tick_arms(now);
+    publisher_.tell_tick(now);
     return;
   }
-  quiet_ = motions_.all_settled();
-  if (wake_at_ && now_ >= *wake_at_) {
-    wake_at_.reset();
-    quiet_ = false;
+  const Motions& motions = execution_.motions();
+  clock_.quiet = motions.all_settled();
+  if (clock_.wake_at && now >= *clock_.wake_at) {
+    clock_.wake_at.reset();
+    clock_.quiet = false;
     step(Wake{});
   }
-  for (const MotionReport& report : motions_.tick(now_)) {
-    quiet_ = false;
-    const bool may_move =
-        report.kind != MotionReport::Kind::progressed || !starts_.withholds(report.job);
-    if (may_move) step(report);
+  for (const MotionReport& report : execution_.tick(now)) {
+    clock_.quiet = false;
+    if (!execution_.keeps_back(report)) step(report);
   }
-  count_motion();
-  if (watch_.is_due(now_)) watch();
-  publisher_.tell_arms(now_);
-  publisher_.tell_tick(now_);
-  const auto is_moving = [this](ArmId arm) { return motions_.moving(arm); };
+  count_.motion(motions);
+  if (watch_.is_due(now)) watch();
+  publisher_.tell_queue(now);
+  publisher_.tell_arms(now);
+  publisher_.tell_tick(now);
+  const auto is_moving = [&](ArmId arm) { return motions.moving(arm); };
   if (wind_down_ && wind_down_->done && std::ranges::none_of(all_arms(*cell_), is_moving)) {
     step(Interrupt{wind_down_->keeps_waiting});
     std::exchange(wind_down_->done, nullptr)();
@@ -176,36 +158,23 @@ void Executive::Impl::tick(TimePoint now) {
 }
 
 TimePoint Executive::Impl::settled_until() const {
-  return quiet_ && motions_.all_settled() ? wake_at_.value_or(TimePoint::max()) : now_;
-}
-
-void Executive::Impl::count_motion() {
-  std::size_t in_motion = 0;
-  for (ArmId arm : all_arms(*cell_)) {
-    if (!motions_.advances(arm)) continue;
-    figures_.busy[arm.index()] += kControlPeriod;
-    ++in_motion;
-  }
-  if (in_motion >= 2) figures_.together += kControlPeriod;
+  const bool settled = clock_.quiet && execution_.motions().all_settled() && !publisher_.is_behind();
+  return settled ? clock_.wake_at.value_or(TimePoint::max()) : clock_.now;
 }
 
 void Executive::Impl::watch() {
-  const Configuration& q = motions_.measured();
+  const Motions& motions = execution_.motions();
   std::vector<bool> moving;
-  for (ArmId arm : all_arms(*cell_)) moving.push_back(motions_.moving(arm));
-  if (watch_.look(q, moving, now_)) {
-    for (const Proximity& pair : watch_.near()) {
-      figures_.min_clearance_m = std::min(figures_.min_clearance_m, pair.clearance_m);
-      if (!pair.arm_b) continue;
-      figures_.between_arms_m = std::min(figures_.between_arms_m, pair.clearance_m);
-    }
+  for (ArmId arm : all_arms(*cell_)) moving.push_back(motions.moving(arm));
+  if (watch_.look(motions.measured(), moving, clock_.now)) {
+    count_.look(watch_.near());
     for (const MonitorFinding& finding : watch_.found()) {
-      if (!finding.stops.empty()) ++figures_.monitor_stops;
-      publisher_.tell(event_of(finding, *cell_), now_);
+      if (!finding.stops.empty()) count_.monitor_stop();
+      publisher_.tell(event_of(finding, *cell_), clock_.now);
       if (!finding.stops.empty()) step(Stop{finding.stops, sentence(finding)});
     }
   }
-  publisher_.tell_state(watch_.near(), now_);
+  publisher_.tell_state(watch_.near(), clock_.now);
 }
 
 // ---- What is asked of all arms ----
@@ -213,12 +182,12 @@ void Executive::Impl::watch() {
 void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause) {
   publisher_.tell(
       Alert{Alert::Level::warning, "stopped: " + names_of(*cell_, arms) + " (" + cause + ")"},
-      now_);
+      clock_.now);
   step(Stop{arms, cause});
 }
 
 void Executive::Impl::resume(const std::vector<ArmId>& arms) {
-  publisher_.tell(Alert{Alert::Level::info, "resumed: " + names_of(*cell_, arms)}, now_);
+  publisher_.tell(Alert{Alert::Level::info, "resumed: " + names_of(*cell_, arms)}, clock_.now);
   step(Resume{arms});
 }
 
@@ -229,26 +198,10 @@ void Executive::Impl::end(const std::string& cause, bool keeps_waiting,
   stop(all_arms(*cell_), cause);
 }
 
-// An object may not be set where an arm stands: that is a mistake, or an accident that the monitor
-// would answer with a stop.
-Result<void> Executive::Impl::change_objects(Result<std::vector<CollisionObject>> objects) {
-  if (!objects) return failure(std::move(objects.error()));
-  auto scene = scene_.scene->with_objects(*std::move(objects));
-  if (!scene) return failure(std::move(scene.error()));
-  ClearanceQuery query = StateWatch::query_of(*scene);
-  for (const NearPair& closer : query.near_pairs(motions_.measured())) {
-    const Proximity pair = query.describe(closer);
-    if (!pair.object_b) continue;
-    char text[256];
-    std::snprintf(text, sizeof text, "%s would be %.4f m from %s as it stands now, limit %.4f m",
-                  pair.body_b.c_str(), pair.clearance_m, pair.body_a.c_str(), pair.limit_m);
-    return failure(Problem{ProblemKind::conflict, "object-in-arm", "", text, pair.clearance_m});
-  }
-  scene_ = {std::move(*scene), scene_.version + 1};
+void Executive::Impl::scene_has_changed(ClearanceQuery query) {
   watch_.follow(std::move(query));
-  publisher_.tell(SceneView{scene_.version, scene_.scene->objects()}, now_);
+  publisher_.tell(SceneView{scene_.version(), scene_.objects()}, clock_.now);
   step(SceneChanged{});
-  return {};
 }
 
 // ---- What is to be seen ----
@@ -260,10 +213,10 @@ std::optional<JobView> Executive::Impl::job(const std::string& key) const {
 
 Snapshot Executive::Impl::snapshot(std::size_t ended_max) const {
   Snapshot snapshot{.seq = publisher_.seq(),
-                    .time = now_,
+                    .time = clock_.now,
                     .queue = publisher_.queue(),
                     .arms = publisher_.arms()};
-  snapshot.scene = SceneView{scene_.version, scene_.scene->objects()};
+  snapshot.scene = SceneView{scene_.version(), scene_.objects()};
   const auto& ended = jobs_.ended();
   for (std::size_t i = ended.size() - std::min(ended_max, ended.size()); i < ended.size(); ++i) {
     snapshot.jobs.push_back(publisher_.view(ended[i]));

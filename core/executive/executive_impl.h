@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "core/executive/arm_faults.h"
-#include "core/executive/drawings.h"
+#include "core/executive/execution.h"
 #include "core/executive/executive.h"
+#include "core/executive/executive_input.h"
 #include "core/executive/job_intake.h"
 #include "core/executive/job_register.h"
-#include "core/executive/motions.h"
-#include "core/executive/open_plans.h"
+#include "core/executive/live_scene.h"
+#include "core/executive/open_questions.h"
 #include "core/executive/publishing.h"
-#include "core/executive/start_gate.h"
+#include "core/executive/run_count.h"
 #include "core/executive/state_watch.h"
 #include "core/scheduler/scheduler.h"
 #include "core/scheduler/trial.h"
@@ -36,11 +36,12 @@ class Executive::Impl {
 
   // submission.cc
   Result<JobView> submit(JobRequest request);
-  Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests, bool atomic);
+  std::optional<BatchAnswers> go_on(Batch& batch);
   std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
 
   // job_commands.cc
   Result<JobView> cancel(const std::string& key);
+  Result<JobView> amend(const std::string& key, JobAmendment amendment);
   Result<JobView> replan(const std::string& key);
 
   // asking.cc
@@ -49,30 +50,38 @@ class Executive::Impl {
             std::function<void(Result<PlanOutcome>)> done);
 
   // executive_impl.cc
+  void note(ExecutiveInput input) const;
   void step(const Input& input);
   void tick(TimePoint now);
   void end(const std::string& cause, bool keeps_waiting, std::function<void()> done);
   void stop(const std::vector<ArmId>& arms, const std::string& cause);
   void resume(const std::vector<ArmId>& arms);
-  Result<void> change_objects(Result<std::vector<CollisionObject>> objects);
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
   [[nodiscard]] Snapshot snapshot(std::size_t ended_max) const;
   [[nodiscard]] TimePoint settled_until() const;
 
+  struct Clock {
+    TimePoint now{};
+    std::optional<TimePoint> wake_at = {};  // asked for by the scheduler
+    bool quiet = false;  // the last cycle found all arms settled, and nothing to report
+    std::optional<TimePoint> dies_at = {};  // ExecutiveOptions
+    std::uint64_t ticks = 0;                // so many cycles have begun
+    InputLog* inputs = nullptr;             // is told what comes between them
+  };
+
   CellPtr cell_;
-  ExecutiveOptions options_;
   Scheduler scheduler_;
-  VersionedScene scene_;
-  JobRegister jobs_{scheduler_};
-  ArmFaults faults_;
-  Drawings drawings_;
-  RunFigures figures_;
-  TimePoint now_{};
+  JobRegister jobs_;
+  LiveScene scene_;
+  Execution execution_;
+  OpenQuestions questions_;
+  RunCount count_;
+  Clock clock_;
   Publisher publisher_;
 
  private:
+  Result<std::vector<PreparedJob>> prepare_all(std::vector<JobRequest> requests);
   JobView accept(PreparedJob prepared);
-  [[nodiscard]] JobId next_job() const;
   [[nodiscard]] Result<JobId> not_ended(const std::string& key) const;
   void enter(Submit submitted, JobLabel label);
   struct OpenInquiry;
@@ -81,14 +90,10 @@ class Executive::Impl {
 
   [[nodiscard]] std::vector<Effect> decided(const Input& input);
   void carry_out(const Effect& effect);
-  void judge(const Question& question);
-  void dispatch(const Dispatch& dispatch);
-  void grant(const Grant& grant);
-  void start_is_written(JobId job);
   void note_aside(const YieldMove& aside);
   void job_changed(JobId job);
   void watch();
-  void count_motion();
+  void scene_has_changed(ClearanceQuery query);
 
   // The last act has begun.
   struct WindDown {
@@ -96,15 +101,8 @@ class Executive::Impl {
     bool keeps_waiting;
   };
 
-  JudgementService& judges_;
   JobIntake intake_;
-  OpenPlans plans_;
-  Motions motions_;
-  StartGate starts_;
   StateWatch watch_;
-  std::optional<Question> asked_;  // and not answered
-  std::optional<TimePoint> wake_at_;
-  bool quiet_ = false;  // the last cycle found all arms settled, and nothing to report
   std::optional<WindDown> wind_down_;
 };
 

@@ -27,6 +27,16 @@ Result<JobView> Executive::Impl::cancel(const std::string& key) {
   return publisher_.view(*id);
 }
 
+Result<JobView> Executive::Impl::amend(const std::string& key, JobAmendment amendment) {
+  const auto id = not_ended(key);
+  if (!id) return failure(id.error());
+  if (amendment.name) jobs_.rename(*id, *std::move(amendment.name));
+  Amend input{*id, amendment.priority, amendment.backlog_timeout};
+  if (amendment.on_timeout) input.replans_on_timeout = *amendment.on_timeout == OnTimeout::replan;
+  step(input);
+  return publisher_.view(*id);
+}
+
 Result<JobView> Executive::Impl::replan(const std::string& key) {
   const auto id = not_ended(key);
   if (!id) return failure(id.error());

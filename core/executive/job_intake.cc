@@ -59,10 +59,10 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
     return failure(Problem{ProblemKind::unavailable, "server-ends", "",
                            "the server is ending and accepts no job"});
   }
-  if (scheduler_.active().size() + ahead.keys.size() >= waiting_max_) {
-    return failure(
-        Problem{ProblemKind::unavailable, "queue-full", "",
-                "the queue is full: " + std::to_string(waiting_max_) + " jobs have not ended"});
+  if (jobs_.active() + ahead.keys.size() >= bounds_.waiting_max) {
+    return failure(Problem{
+        ProblemKind::unavailable, "queue-full", "",
+        "the queue is full: " + std::to_string(bounds_.waiting_max) + " jobs have not ended"});
   }
   Problems problems;
   std::vector<TrajectoryPtr> returns;
@@ -112,8 +112,11 @@ std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ah
                                                    std::vector<TrajectoryPtr>& returns,
                                                    Problems& problems) const {
   std::vector<TrajectoryPtr> motions;
-  for (const auto& [place, asked] : request.motions()) {
-    auto motion = validate(asked, *cell_);
+  const auto asked_for = request.motions();
+  for (std::size_t i = 0; i < asked_for.size(); ++i) {
+    const auto& [place, asked] = asked_for[i];
+    const bool is_known = i < request.validated.size();
+    auto motion = is_known ? request.validated[i] : validate(asked, *cell_);
     Problems found = motion ? Problems{} : std::move(motion.error());
     if (motion) {
       begin_where_open(**motion, ahead);
@@ -173,13 +176,13 @@ Submit JobIntake::submission(PreparedJob prepared) const {
   }
   Submit job{.job = JobId{0},
              .trajectory = prepared.alternatives.front(),
-             .priority = prepared.priority,
-             .backlog_timeout = prepared.backlog_timeout,
-             .after = std::move(after),
-             .any_order = prepared.order == JobOrder::any,
-             .goals = std::move(prepared.goals),
-             .replans_on_timeout = prepared.on_timeout == OnTimeout::replan,
-             .approaches = prepared.approach == Approach::plan};
+             .terms = {.priority = prepared.priority,
+                       .backlog_timeout = prepared.backlog_timeout,
+                       .after = std::move(after),
+                       .any_order = prepared.order == JobOrder::any,
+                       .replans_on_timeout = prepared.on_timeout == OnTimeout::replan,
+                       .approaches = prepared.approach == Approach::plan},
+             .goals = std::move(prepared.goals)};
   if (prepared.alternatives.size() > 1) job.alternatives = std::move(prepared.alternatives);
   return job;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -31,10 +32,19 @@ struct PreparedJob {
 // but what it knows of ways back.
 class JobIntake {
  public:
-  // Both outlive it. At most `waiting_max` jobs are to be active at once.
-  JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs,
-            std::size_t waiting_max)
-      : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), waiting_max_(waiting_max) {}
+  // As of ExecutiveOptions.
+  struct Bounds {
+    std::size_t waiting_max;
+    JobId first_job;
+  };
+  // Both outlive it.
+  JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs, const Bounds& bounds)
+      : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), bounds_(bounds) {}
+
+  // The id of the next job.
+  [[nodiscard]] JobId next_job() const {
+    return std::max(scheduler_.next_job(), bounds_.first_job);
+  }
 
   // Where joints will stand, and which keys are taken, when the jobs before it are accepted.
   struct Ahead {
@@ -78,7 +88,7 @@ class JobIntake {
   CellPtr cell_;
   const Scheduler& scheduler_;
   const JobRegister& jobs_;
-  std::size_t waiting_max_;
+  Bounds bounds_;
   std::map<ArmId, TrajectoryPtr> ways_back_;
   bool is_closed_ = false;
 };

@@ -10,10 +10,12 @@ void JobRegister::add(JobId id, JobLabel label) {
   labels_.emplace(id, std::move(label));
 }
 
-std::vector<JobId> JobRegister::end(JobId id, std::size_t kept) {
+void JobRegister::rename(JobId id, std::string name) { labels_.at(id).name = std::move(name); }
+
+std::vector<JobId> JobRegister::end(JobId id) {
   ended_.push_back(id);
   std::vector<JobId> forgotten;
-  while (ended_.size() > kept) {
+  while (ended_.size() > ended_kept_) {
     const JobId oldest = ended_.front();
     ended_.pop_front();
     ids_.erase(labels_.at(oldest).key);

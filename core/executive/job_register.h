@@ -29,14 +29,16 @@ struct JobLabel {
 // The jobs under the names that clients have for them, and which of them have ended.
 class JobRegister final : public JobNames {
  public:
-  // `scheduler` outlives it.
-  explicit JobRegister(const Scheduler& scheduler) : scheduler_(scheduler) {}
+  // `scheduler` outlives it. So many jobs that have ended stay known.
+  JobRegister(const Scheduler& scheduler, std::size_t ended_kept)
+      : scheduler_(scheduler), ended_kept_(ended_kept) {}
 
   // Precondition: the key is not taken.
   void add(JobId id, JobLabel label);
-  // The job has ended. Those that ended longest ago, so that `kept` remain, are taken out:
+  void rename(JobId id, std::string name);  // precondition: it is known
+  // The job has ended. Those that ended longest ago, as far as they are too many, are taken out:
   // returned, for whoever else knows them.
-  std::vector<JobId> end(JobId id, std::size_t kept);
+  std::vector<JobId> end(JobId id);
 
   [[nodiscard]] std::optional<JobId> find(const std::string& key) const;
   [[nodiscard]] bool is_taken(const std::string& key) const { return ids_.contains(key); }
@@ -58,6 +60,7 @@ class JobRegister final : public JobNames {
 
  private:
   const Scheduler& scheduler_;
+  std::size_t ended_kept_;
   std::unordered_map<std::string, JobId> ids_;
   std::unordered_map<JobId, JobLabel> labels_;
   std::deque<JobId> ended_;

@@ -6,8 +6,8 @@
 
 #include "core/arm/arm_controller.h"
 #include "core/coordination/in_step.h"
+#include "core/jobs/inputs.h"
 #include "core/model/cell.h"
-#include "core/scheduler/inputs.h"
 
 namespace armloom {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/executive/executive.h"
-#include "core/scheduler/inputs.h"
+#include "core/jobs/inputs.h"
 
 namespace armloom {
 

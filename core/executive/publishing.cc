@@ -57,11 +57,25 @@ void Publisher::tell_stops() {
   observer_.on_stops(told_stops_);
 }
 
+void Publisher::queue_may_have_changed(TimePoint now) {
+  queue_is_old_ = true;
+  tell_queue(now);
+}
+
 void Publisher::tell_queue(TimePoint now) {
+  if (!queue_is_old_ || (now < next_queue_ && all_stopped() == told_queue_.stopped)) return;
+  queue_is_old_ = false;
   QueueView present = queue();
+  const std::size_t jobs = shown_.jobs.active();
+  next_queue_ = jobs < kShortQueue ? now : now + static_cast<Duration::rep>(jobs) * kForEachJob;
   if (present == told_queue_) return;
   told_queue_ = present;
   tell(std::move(present), now);
+}
+
+bool Publisher::all_stopped() const {
+  return std::ranges::all_of(all_arms(shown_.cell),
+                             [this](ArmId arm) { return shown_.scheduler.stopped(arm); });
 }
 
 void Publisher::tell_state(const std::vector<Proximity>& near, TimePoint now) {
@@ -86,8 +100,7 @@ JobView Publisher::view(JobId id) const {
 
 QueueView Publisher::queue() const {
   QueueView view{.policy = std::string(shown_.scheduler.policy().name())};
-  view.stopped = std::ranges::all_of(all_arms(shown_.cell),
-                                     [&](ArmId a) { return shown_.scheduler.stopped(a); });
+  view.stopped = all_stopped();
   for (JobId id : shown_.scheduler.active()) {
     switch (shown_.scheduler.find(id)->state()) {
       case JobState::queued:

@@ -33,7 +33,11 @@ class Publisher {
   // What is otherwise than it was when told last:
   void tell_arms(TimePoint now);
   void tell_stops();
-  void tell_queue(TimePoint now);
+  // The longer the queue, the more seldom: a list of thousands is not made for each change of it.
+  // That all arms are stopped, or no more, is told at once.
+  void queue_may_have_changed(TimePoint now);
+  void tell_queue(TimePoint now);  // what is left to be told of it, when it is time
+  [[nodiscard]] bool is_behind() const { return queue_is_old_; }
   // Each control cycle.
   void tell_tick(TimePoint now);
   // Each period of the monitor.
@@ -47,6 +51,7 @@ class Publisher {
   [[nodiscard]] std::uint64_t seq() const { return seq_; }
 
  private:
+  [[nodiscard]] bool all_stopped() const;
   [[nodiscard]] bool is_told_of_a_start(ArmId arm) const;
   [[nodiscard]] ArmState state_of(ArmId arm) const;
   [[nodiscard]] ArmView view_of_arm(ArmId arm) const;
@@ -60,6 +65,10 @@ class Publisher {
   std::vector<std::string> told_arm_jobs_;  // ArmId
   std::vector<ArmId> told_stops_;
   QueueView told_queue_;
+  bool queue_is_old_ = false;
+  TimePoint next_queue_{};
+  static constexpr std::size_t kShortQueue = 100;                          // jobs
+  static constexpr Duration kForEachJob = std::chrono::microseconds(100);  // between two lists
 };
 
 }  // namespace armloom

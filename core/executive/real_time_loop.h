@@ -20,8 +20,15 @@ class RealTimeLoop {
                                                                    Observer& observer);
   ~RealTimeLoop();  // stops the threads; arms stay where they are
 
-  // Runs `command` on the strand, soon. Commands run in the order posted.
+  // Runs `command` on the strand, soon: between two control cycles, as many as there is time for.
+  // Commands run in the order posted.
   void post(std::function<void(Executive&)> command);
+  // A command that takes long, part by part: it is called again until it returns true; those behind
+  // it wait, control cycles do not.
+  using Task = std::function<bool(Executive&)>;
+  void post_in_parts(Task task);
+  // Before all that waits, in the order posted: stops and what lets arms go on; what jobs wait for.
+  void post_urgent(std::function<void(Executive&)> command);
   [[nodiscard]] double speed() const;
   void set_speed(double speed);  // > 0; from the next control cycle on
 

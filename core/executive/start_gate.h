@@ -6,7 +6,7 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
-#include "core/scheduler/inputs.h"
+#include "core/jobs/inputs.h"
 
 namespace armloom {
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/base/add_below.h"
+#include "core/executive/batch.h"
 #include "core/executive/executive_impl.h"
 
 namespace armloom {
@@ -15,13 +16,23 @@ Result<JobView> Executive::Impl::submit(JobRequest request) {
   return accept(std::move(*prepared));
 }
 
-Result<std::vector<Result<JobView>>> Executive::Impl::submit_batch(std::vector<JobRequest> requests,
-                                                                   bool atomic) {
-  std::vector<Result<JobView>> answers;
-  if (!atomic) {
-    for (JobRequest& request : requests) answers.push_back(submit(std::move(request)));
-    return answers;
+std::optional<Executive::BatchAnswers> Executive::Impl::go_on(Batch& batch) {
+  if (batch.atomic && !batch.prepared) {
+    auto prepared = prepare_all(std::move(batch.requests));
+    if (!prepared) return failure(std::move(prepared.error()));
+    batch.prepared = std::move(*prepared);
   }
+  const std::size_t size = batch.atomic ? batch.prepared->size() : batch.requests.size();
+  if (batch.next < size) {
+    const std::size_t i = batch.next++;
+    batch.answers.push_back(batch.atomic ? Result<JobView>(accept(std::move((*batch.prepared)[i])))
+                                         : submit(std::move(batch.requests[i])));
+  }
+  if (batch.next < size) return std::nullopt;
+  return std::move(batch.answers);
+}
+
+Result<std::vector<PreparedJob>> Executive::Impl::prepare_all(std::vector<JobRequest> requests) {
   JobIntake::Ahead ahead = intake_.ahead();
   std::vector<PreparedJob> all;
   Problems problems;
@@ -35,28 +46,23 @@ Result<std::vector<Result<JobView>>> Executive::Impl::submit_batch(std::vector<J
   }
   if (!problems.empty()) return failure(std::move(problems));
   intake_.accepted(std::move(ahead));
-  for (PreparedJob& prepared : all) answers.push_back(accept(std::move(prepared)));
-  return answers;
+  return all;
 }
 
 JobView Executive::Impl::accept(PreparedJob prepared) {
   for (TrajectoryPtr& back : prepared.returns) {
     std::string name = cell_->arm(back->arms().front()).name + " returns to where it was left";
     Submit way = intake_.return_of(std::move(back), prepared.priority);
-    way.job = next_job();
+    way.job = intake_.next_job();
     enter(std::move(way), {jobs_.own_key(OwnJob::aside), std::move(name)});
   }
-  const JobId id = next_job();
+  const JobId id = intake_.next_job();
   JobLabel label{std::move(prepared.key), std::move(prepared.name)};
   if (label.key.empty()) label.key = jobs_.free_key(id);
   Submit submitted = intake_.submission(std::move(prepared));
   submitted.job = id;
   enter(std::move(submitted), std::move(label));
   return publisher_.view(id);
-}
-
-JobId Executive::Impl::next_job() const {
-  return std::max(scheduler_.next_job(), options_.first_job);
 }
 
 void Executive::Impl::enter(Submit submitted, JobLabel label) {
@@ -77,7 +83,7 @@ std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> j
     JobLabel label{std::move(prepared->key), std::move(prepared->name), job.submitted_at};
     Submit submitted = intake_.submission(std::move(*prepared));
     submitted.job = job.id;
-    submitted.is_held_over = true;
+    submitted.terms.is_held_over = true;
     enter(submitted, std::move(label));
     answers.push_back(publisher_.view(job.id));
   }

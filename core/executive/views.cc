@@ -116,8 +116,10 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .key = names.key(job.id),
                .name = names.name(job.id),
                .state = job.pausing() ? JobState::holding : job.state(),
-               .priority = job.priority,
-               .system_job = job.system_job,
+               .priority = job.terms.priority,
+               .backlog_timeout = job.terms.backlog_timeout,
+               .replans_on_timeout = job.terms.replans_on_timeout,
+               .system_job = job.terms.system_job,
                .submitted_at = job.times.submitted_at,
                .backlogged_at = job.times.backlogged_at,
                .expires_at = expiry_of(job),
@@ -127,7 +129,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .duration = job.trajectory->duration(),
                .planned = job.goal ? std::optional(!job.is_unplanned()) : std::nullopt,
                .stopping = job.stopping(),
-               .any_order = job.any_order,
+               .any_order = job.terms.any_order,
                .reason = job.reason(),
                .detail = job.detail()};
   view.progress = to_seconds(job.progress) / to_seconds(job.trajectory->duration());
@@ -187,7 +189,8 @@ CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobName
     view.self_clearance_bound_m = outcome.clearance_bound->self_m;
   }
   view.evaluations = outcome.evaluations;
-  for (const Wait& wait : outcome.waits) view.conflicts.push_back(view_of(wait, cell, names));
+  for (const Wait& wait : outcome.waits) view.waits_on.push_back(view_of(wait, cell, names));
+  if (view.kind != Verdict::Kind::free) view.conflicts = view.waits_on;
   return view;
 }
 

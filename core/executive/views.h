@@ -3,8 +3,8 @@
 #include <string>
 
 #include "core/executive/events.h"
+#include "core/jobs/job.h"
 #include "core/model/cell.h"
-#include "core/scheduler/job.h"
 #include "core/scheduler/trial.h"
 
 namespace armloom {

@@ -169,6 +169,8 @@ void PrecedenceGraph::set_outlook(JobId job, const Outlook& outlook) {
   motion(job)->outlook = outlook;
 }
 
+void PrecedenceGraph::set_priority(JobId job, int priority) { motion(job)->priority = priority; }
+
 void PrecedenceGraph::finish(JobId job) {
   const CoordinatedMotion* found = find(job);
   if (found == nullptr) return;

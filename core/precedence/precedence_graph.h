@@ -52,6 +52,7 @@ class PrecedenceGraph {
   void granted(JobId job, Duration authority);
   // What is known of a motion besides its progress. Precondition: it holds it.
   void set_outlook(JobId job, const Outlook& outlook);
+  void set_priority(JobId job, int priority);  // precondition: as above
 
   // The motion has ended: at its goal, or where it rests instead for good. In the latter case
   // motions that would pass there stay where they may be until its arm moves again. Of several arms

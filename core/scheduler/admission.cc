@@ -4,10 +4,10 @@
 #include <iterator>
 #include <utility>
 
+#include "core/jobs/phases.h"
 #include "core/scheduler/groups.h"
 #include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/phases.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/putting_off.h"
 #include "core/scheduler/replanning.h"
@@ -26,7 +26,7 @@ constexpr Duration kHorizon = std::chrono::milliseconds(250);
 std::optional<JobId> next_recheck(const State& state) {
   for (JobId id : state.jobs.past_queue()) {
     const Record& record = state.jobs.at(id);
-    if (record.job.has_authority() && record.checked_at < state.recheck_epoch) return id;
+    if (record.job.has_authority() && record.asking.found_free_at < state.recheck_epoch) return id;
   }
   return std::nullopt;
 }
@@ -51,7 +51,7 @@ void go_on(State& state, Record& record, const Verdict& verdict) {
   if (!waits.empty()) return put_off(state, record, std::move(waits));
   enter(state, record, Admitted{});
   record.job.times.scheduled_at = state.now;
-  record.checked_at = ++state.version;
+  record.asking.found_free_at = ++state.version;
   state.jobs.changed(record);
 }
 
@@ -72,8 +72,8 @@ void admit(State& state, const std::vector<JobId>& jobs, std::vector<Coordinated
     enter(state, record, Admitted{});
     record.job.times.scheduled_at = state.now + orders.prediction.begins[before + i];
     record.job.waits_on.clear();
-    record.checked_at = state.version;
-    record.effort = 1;
+    record.asking.found_free_at = state.version;
+    record.asking.effort = 1;
     state.jobs.changed(record);
   }
   state.expected.renew(state.graph.motions(), orders.prediction, state.now);
@@ -112,20 +112,20 @@ void Admission::ask(State& state, std::vector<JobId> jobs, Purpose purpose) {
   Question question = question_now(state, jobs);
   std::vector<Passage> unknown;
   if (purpose == Purpose::start || purpose == Purpose::option) {
-    question.effort = state.jobs.at(jobs.front()).effort;
+    question.effort = state.jobs.at(jobs.front()).asking.effort;
     auto outlook = state.lanes.after(jobs, state.jobs, state.arms);
     unknown = std::move(outlook.unknown);
     std::ranges::move(outlook.ahead, std::back_inserter(unknown));
     add_passages(question, unknown, state.jobs);
   }
   open_ = OpenQuestion{state.version, std::move(jobs), purpose, {}, std::move(unknown)};
-  state.effects.push_back(Judge{std::move(question)});
+  state.decided.effects.push_back(Judge{std::move(question)});
 }
 
 void Admission::ask_yield(State& state, YieldTrial move) {
   Question question = question_about(state, move);
   open_ = OpenQuestion{state.version, {move.blocked_job}, Purpose::yield, std::move(move)};
-  state.effects.push_back(Judge{std::move(question)});
+  state.decided.effects.push_back(Judge{std::move(question)});
 }
 
 // ---- What an answer means ----
@@ -141,7 +141,7 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
       return answer_yield(state, input.verdict, std::move(*question.yield), cycles);
     case Purpose::recheck: {
       Record& record = state.jobs.at(question.jobs.front());
-      record.checked_at = state.version;
+      record.asking.found_free_at = state.version;
       if (input.verdict.kind != Verdict::Kind::free) hold_back(state, record, input.verdict);
       return;
     }
@@ -176,7 +176,7 @@ void Admission::answer_option(State& state, Verdict verdict) {
   const auto best = choosing_.decide(state);
   if (best) return answer_start(state, *best, {choosing_.job()});
   Record& record = state.jobs.at(choosing_.job());
-  wait_in_turn(state, record, *state.jobs.before(record.job, record.leg.arms.front()));
+  wait_in_turn(state, record, *state.jobs.queues().before(record.job, record.leg.arms.front()));
 }
 
 void Admission::answer_start(State& state, const Verdict& verdict, const std::vector<JobId>& jobs) {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scheduler/state.h"
+#include "core/jobs/state.h"
 #include "core/scheduler/waiting/choosing.h"
 #include "core/scheduler/waiting/wait_cycles.h"
 #include "core/scheduler/yielding/yield_moves.h"

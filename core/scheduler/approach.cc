@@ -2,7 +2,8 @@
 
 #include <utility>
 
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
+#include "core/scheduler/waiting/options.h"
 #include "core/trajectory/joint_line.h"
 #include "core/trajectory/set_joints.h"
 
@@ -25,23 +26,25 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
   if (!way) return false;
   Record record = record_of(state, {.job = state.jobs.next_id(),
                                     .trajectory = std::move(way),
-                                    .priority = head.job.priority,
-                                    .backlog_timeout = head.job.backlog_timeout,
-                                    .system_job = true,
+                                    .terms = {.priority = head.job.terms.priority,
+                                              .backlog_timeout = head.job.terms.backlog_timeout,
+                                              .system_job = true},
                                     .goals = {{.arm = arm, .to = to, .speed = kApproachSpeed}}});
-  record.on_behalf_of = head.on_behalf_of;
-  record.before = head.job.id;
+  record.errand.on_behalf_of = head.errand.on_behalf_of;
+  record.errand.before = head.job.id;
   const JobId id = record.job.id;
   add(state, std::move(record));
-  state.sent_aside.push_back({.job = id, .arm = arm, .blocked_job = head.job.id, .to_start = true});
+  state.decided.sent_aside.push_back(
+      {.job = id, .arm = arm, .blocked_job = head.job.id, .to_start = true});
   return true;
 }
 
-}  // namespace
-
+// Whether its arms are. It is the first of these, waits, and does not begin where they stand.
 bool goes_to_start(State& state, Record& head) {
-  if (!head.job.approaches || head.no_approach || head.approaches >= kApproachesMax) return false;
-  ++head.approaches;
+  if (!head.job.terms.approaches || head.approaches.refusal ||
+      head.approaches.tries >= kApproachesMax)
+    return false;
+  ++head.approaches.tries;
   const std::vector<ArmId> arms = head.job.trajectory->arms();
   bool goes = false;
   for (ArmId arm : arms) {
@@ -51,16 +54,42 @@ bool goes_to_start(State& state, Record& head) {
   return goes;
 }
 
+}  // namespace
+
 std::vector<JobId> approaches_of(const State& state, const Record& record) {
   std::vector<JobId> approaches;
   for (ArmId arm : record.job.trajectory->arms()) {
-    for (JobId id : state.jobs.queue(arm)) {
+    for (JobId id : state.jobs.queues()[arm]) {
       const Record& own = state.jobs.at(id);
-      if (own.before == record.job.id && own.job.system_job && own.job.goal)
+      if (own.errand.before == record.job.id && own.job.terms.system_job && own.job.goal)
         approaches.push_back(id);
     }
   }
   return approaches;
+}
+
+// The end of a job of several arms gives each of them a new head: hence until there are none.
+void fail_impossible_starts(State& state) {
+  const auto arms = static_cast<std::uint32_t>(state.cell->arms.size());
+  for (std::uint32_t unchanged = 0, arm = 0; unchanged < arms; arm = (arm + 1) % arms) {
+    ++unchanged;
+    const auto& queue = state.jobs.queues()[ArmId{arm}];
+    if (queue.empty()) continue;
+    Record& head = state.jobs.at(queue.front());
+    const Job& job = head.job;
+    if (!job.is_waiting() || job.has_started() || !state.jobs.at_head(head)) continue;
+    if (job.goal) continue;  // its way begins where the arm stands
+    if (may_go_first(state, head)) continue;
+    if (job.terms.is_held_over && state.arms.stop_of(job)) continue;
+    auto mismatch = state.arms.start_mismatch(*state.cell, *job.trajectory);
+    if (!mismatch) continue;
+    unchanged = 0;
+    if (begins_on_other_arm(state, head) || goes_to_start(state, head)) continue;
+    if (head.approaches.refusal) {
+      *mismatch += "; no way to where it begins: " + *head.approaches.refusal;
+    }
+    end(state, head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));
+  }
 }
 
 }  // namespace armloom

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/scheduler/state.h"
+#include "core/jobs/state.h"
 
 namespace armloom {
 
@@ -13,9 +13,9 @@ namespace armloom {
 inline constexpr int kApproachesMax = 3;
 inline constexpr double kApproachSpeed = 0.25;  // share of the joints' speeds
 
-// Whether they are sent. Precondition: it is the first of its arms, waits, and does not begin where
-// they stand.
-[[nodiscard]] bool goes_to_start(State& state, Record& head);
+// A job at the head of its arms that cannot begin where they stand, and where they are not brought,
+// will never be able to: ends those that wait there.
+void fail_impossible_starts(State& state);
 // Those that have not ended.
 [[nodiscard]] std::vector<JobId> approaches_of(const State& state, const Record& record);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 #include "core/scheduler/waiting/waits.h"
 
 namespace armloom {
@@ -40,7 +40,7 @@ void dispatch_if_ready(State& state, Record& record) {
     return withdraw(state, record, {});
   }
   if (auto stop = state.arms.stop_of(job)) return state.jobs.set_waits(record, {std::move(*stop)});
-  if (record.checked_at < state.recheck_epoch) return;
+  if (record.asking.found_free_at < state.recheck_epoch) return;
   const Duration limit = state.graph.limit(job.id);
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {
     const auto held = state.graph.held_back(job.id);
@@ -58,7 +58,7 @@ void dispatch_if_ready(State& state, Record& record) {
                .goes_from = job.progress});
   job.times.scheduled_at = state.now;
   state.jobs.set_waits(record, {});
-  state.effects.push_back(Dispatch{job.id, state.now, job.progress, authority});
+  state.decided.effects.push_back(Dispatch{job.id, state.now, job.progress, authority});
 }
 
 void extend_own_authority(State& state, const Record& record) {
@@ -69,7 +69,7 @@ void extend_own_authority(State& state, const Record& record) {
   const Duration granted = state.graph.find(job.id)->authority;
   if (authority <= granted || (authority < granted + kGrantStep && authority < limit)) return;
   state.graph.granted(job.id, authority);
-  state.effects.push_back(Grant{job.id, authority});
+  state.decided.effects.push_back(Grant{job.id, authority});
 }
 
 void go_on(State& state, Record& record) {
@@ -136,7 +136,7 @@ std::optional<Wait> held_where_it_stands(const State& state, const Record& recor
 bool holds_one_ahead(const State& state, const Record& record) {
   const auto& arms = record.job.trajectory->arms();
   return std::ranges::any_of(arms, [&](ArmId arm) {
-    const auto& queue = state.jobs.queue(arm);
+    const auto& queue = state.jobs.queues()[arm];
     const auto goes_ahead = [&](JobId id) { return id != record.job.id && state.graph.holds(id); };
     const auto end = std::ranges::find_if_not(queue, goes_ahead);
     return std::any_of(queue.begin(), end,

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/scheduler/state.h"
+#include "core/jobs/state.h"
 
 namespace armloom {
 

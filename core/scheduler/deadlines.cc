@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 #include "core/scheduler/replanning.h"
 #include "core/scheduler/waiting/gates.h"
 
@@ -47,7 +47,7 @@ void see_whether_in_vain(const State& state, Record& record) {
   const auto waits = found_in_the_way(state, record);
   const bool in_vain = std::ranges::any_of(waits, [&](const Wait& wait) {
     return wait.kind == Wait::Kind::object ||
-           (wait.kind == Wait::Kind::arm && state.jobs.queue(*wait.arm).empty());
+           (wait.kind == Wait::Kind::arm && state.jobs.queues()[*wait.arm].empty());
   });
   if (!in_vain) pause->in_vain_since.reset();
   if (in_vain && !pause->in_vain_since) pause->in_vain_since = state.now;
@@ -73,10 +73,11 @@ std::optional<TimePoint> deadline_of(const Job& job) {
 
 std::optional<TimePoint> expiry_of(const Job& job) {
   if (job.is_replanned_now()) return std::nullopt;  // until that is answered
-  if (job.state() == JobState::backlogged) return *job.times.backlogged_at + job.backlog_timeout;
+  if (job.state() == JobState::backlogged)
+    return *job.times.backlogged_at + job.terms.backlog_timeout;
   const Pause* pause = pause_of(job);
   if (pause == nullptr || !pause->in_vain_since) return std::nullopt;
-  return *pause->in_vain_since + job.backlog_timeout;
+  return *pause->in_vain_since + job.terms.backlog_timeout;
 }
 
 void expire_and_overrun(State& state) {
@@ -88,7 +89,7 @@ void expire_and_overrun(State& state) {
       const auto expiry = expiry_of(job);
       if (!expiry || state.now < *expiry || goes_on_after_timeout(state, record)) continue;
       end(state, record, JobState::expired, Reason::backlog_timeout,
-          "waited " + seconds_text(job.backlog_timeout) + " in the backlog");
+          "waited " + seconds_text(job.terms.backlog_timeout) + " in the backlog");
       continue;
     }
     see_whether_in_vain(state, record);
@@ -98,7 +99,7 @@ void expire_and_overrun(State& state) {
     if (in_vain) {
       give_up(state, record,
               {AfterStop::Then::fail, Reason::backlog_timeout,
-               "waited " + seconds_text(job.backlog_timeout) + " on its path"});
+               "waited " + seconds_text(job.terms.backlog_timeout) + " on its path"});
     } else if (overruns(job, state.now)) {
       fail_overdue(state, record);
     }

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/trajectory/set_joints.h"
 
@@ -24,7 +24,7 @@ std::optional<Configuration> begins_at(const State& state, const Record& record,
                                        const GoalWay& way) {
   const ArmId arm = way.goal.arm;
   Configuration at = state.arms.rest();
-  const auto& queue = state.jobs.queue(arm);
+  const auto& queue = state.jobs.queues()[arm];
   const bool is_taken = record.job.goal->way().goal.arm == arm;
   std::size_t before = is_taken ? queue.size() : place_on(state, record, arm);
   for (JobId id : queue) {
@@ -41,12 +41,12 @@ std::optional<Configuration> begins_at(const State& state, const Record& record,
 PlanQuestion question_about(const State& state, const Record& record, const GoalWay& way,
                             Configuration at) {
   PlanQuestion question{.goal = way.goal, .seed = record.job.id.value()};
-  const JobId turn = record.before ? state.jobs.at(*record.before).turn : record.turn;
+  const JobId turn = record.errand.before ? state.jobs.at(*record.errand.before).turn : record.turn;
   for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
     const ArmId arm{a};
     if (arm == way.goal.arm) continue;
     question.may_move.push_back(arm);
-    for (JobId id : state.jobs.queue(arm)) {
+    for (JobId id : state.jobs.queues()[arm]) {
       const Record& other = state.jobs.at(id);
       if (other.turn < turn && !other.job.is_unplanned() && !other.job.has_open_arm()) {
         follow_to_end(at, *state.cell, arm, *other.job.trajectory);
@@ -66,10 +66,10 @@ void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
   way.is_planned = false;
   way.refusal.reset();
   ++way.tries;
-  way.question = ++record.job.questions;
+  way.question = ++record.asking.plans;
   way.asked_at = state.version;
   way.from = joints_of(at, state.cell->arm(way.goal.arm).joints);
-  state.effects.push_back(
+  state.decided.effects.push_back(
       PlanMotion{record.job.id, *way.question, question_about(state, record, way, at)});
 }
 
@@ -130,7 +130,7 @@ bool is_one_of_the_first(const State& state, const Record& record) {
 // The first of the arm's jobs that is to fail; null: none.
 Record* plan_lane(State& state, ArmId arm) {
   // As they stand now: a job may be taken to go by another arm meanwhile.
-  const auto queue = state.jobs.queue(arm);
+  const auto queue = state.jobs.queues()[arm];
   for (std::size_t i = 0; i < std::min(queue.size(), kPlannedAhead); ++i) {
     Record& record = state.jobs.at(queue[i]);
     const Job& job = record.job;
@@ -163,8 +163,8 @@ bool plan_goals(State& state) {
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
     while (Record* record = plan_lane(state, ArmId{arm})) {
       const std::string why = why_none(state, record->job);
-      Record* helped = record->before ? state.jobs.find(*record->before) : nullptr;
-      if (helped != nullptr) helped->no_approach = why;
+      Record* helped = record->errand.before ? state.jobs.find(*record->errand.before) : nullptr;
+      if (helped != nullptr) helped->approaches.refusal = why;
       end(state, *record, JobState::failed, Reason::no_plan, why);
       any_failed = true;
     }

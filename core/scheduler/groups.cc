@@ -29,7 +29,7 @@ std::set<JobId> first_of_arms(const State& state, const std::vector<JobId>& grou
 
 // It could go when those before it on its arms have gone.
 bool may_follow(const State& state, const Record& record) {
-  return record.job.is_waiting() && !record.job.is_unplanned() && record.job.after.empty() &&
+  return record.job.is_waiting() && !record.job.is_unplanned() && record.job.terms.after.empty() &&
          !state.jobs.lets_another_pass(record) && !state.arms.stop_of(record.job) &&
          state.lanes.follows_on(record.job.id) && !holds_one_ahead(state, record);
 }
@@ -55,7 +55,7 @@ std::vector<JobId> with_next_jobs(const State& state, std::vector<JobId> group,
   if (!state.policy->admits_groups()) return group;
   const auto goes = [&](JobId id) { return state.graph.holds(id) || contains(group, id); };
   const auto next_of = [&](ArmId arm) {
-    const auto& queue = state.jobs.queue(arm);
+    const auto& queue = state.jobs.queues()[arm];
     const auto next = std::ranges::find_if_not(queue, goes);
     return next == queue.end() ? std::nullopt : std::optional(*next);
   };

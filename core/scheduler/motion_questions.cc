@@ -11,7 +11,7 @@ Motion motion_now(const State& state, const Job& job) {
   return Motion{.job = job.id,
                 .trajectory = job.trajectory,
                 .progress = job.progress,
-                .to_come = !state.jobs.is_first(job)};
+                .to_come = !state.jobs.queues().is_first(job)};
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ CoordinatedMotion as_candidate(const Job& job) {
           .duration = job.trajectory->duration(),
           .progress = job.progress,
           .authority = job.progress,
-          .priority = job.priority};
+          .priority = job.terms.priority};
 }
 
 void add_passages(Question& question, const std::vector<Passage>& unknown, const JobBook& jobs) {

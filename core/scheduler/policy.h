@@ -6,10 +6,10 @@
 
 #include "core/base/problem.h"
 #include "core/coordination/motion.h"
+#include "core/jobs/state.h"
 #include "core/model/cell.h"
 #include "core/precedence/passing_orders.h"
 #include "core/scheduler/policy_names.h"
-#include "core/scheduler/state.h"
 
 namespace armloom {
 

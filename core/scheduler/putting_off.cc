@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/coordination/effort.h"
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 #include "core/scheduler/waiting/waits.h"
 
 namespace armloom {
@@ -90,13 +90,13 @@ void hold_back(State& state, Record& record, const Verdict& verdict) {
 }
 
 bool is_asked_again(Record& record, const Verdict& verdict) {
-  const auto effort = larger_effort(verdict, record.effort);
-  if (!effort || record.raised >= kRaisedMax) {
-    record.effort = 1;
+  const auto effort = larger_effort(verdict, record.asking.effort);
+  if (!effort || record.asking.raised >= kRaisedMax) {
+    record.asking.effort = 1;
     return false;
   }
-  record.effort = *effort;
-  ++record.raised;
+  record.asking.effort = *effort;
+  ++record.asking.raised;
   return true;
 }
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -33,7 +33,7 @@ double speed_of(const Cell& cell, const Trajectory& motion) {
 Configuration beside(const State& state, const Job& job) {
   Configuration at = state.arms.rest();
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
-    for (JobId id : state.jobs.queue(ArmId{arm})) {
+    for (JobId id : state.jobs.queues()[ArmId{arm}]) {
       if (id == job.id) break;
       const Job& other = state.jobs.at(id).job;
       if (other.is_admitted() || ArmId{arm} == arm_of(job)) {
@@ -49,7 +49,7 @@ Configuration beside(const State& state, const Job& job) {
 // A pose that others begin at is reached as it was planned; a straight line stays one.
 MotionGoal goal_of(const State& state, const Job& job, Configuration end) {
   const ArmId arm = arm_of(job);
-  const bool is_last = state.jobs.queue(arm).back() == job.id;
+  const bool is_last = state.jobs.queues()[arm].back() == job.id;
   if (job.goal && (is_last || job.goal->way().goal.straight)) return job.goal->way().goal;
   follow_to_end(end, *state.cell, arm, *job.trajectory);
   return {.arm = arm,
@@ -57,15 +57,16 @@ MotionGoal goal_of(const State& state, const Job& job, Configuration end) {
           .speed = job.goal ? job.goal->way().goal.speed : speed_of(*state.cell, *job.trajectory)};
 }
 
-PlanQuestion question_about(const State& state, const Job& job) {
+PlanQuestion question_about(const State& state, const Record& record) {
+  const Job& job = record.job;
   const Configuration at = beside(state, job);
   PlanQuestion question{.goal = goal_of(state, job, at),
                         .at = at,
-                        .seed = job.id.value() + kSeedsOfOneTry * job.questions};
+                        .seed = job.id.value() + kSeedsOfOneTry * record.asking.plans};
   if (job.another_way->cause != AnotherWay::Cause::client)
     return question;  // they are what it shall pass
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
-    const bool moves = ArmId{arm} != question.goal.arm && !state.jobs.queue(ArmId{arm}).empty();
+    const bool moves = ArmId{arm} != question.goal.arm && !state.jobs.queues()[ArmId{arm}].empty();
     if (moves) question.may_move.push_back(ArmId{arm});
   }
   return question;
@@ -89,17 +90,17 @@ void ask_at_rest(State& state, Record& record) {
   Job& job = record.job;
   AnotherWay& other = *job.another_way;
   if (!job.is_waiting() || other.question) return;
-  PlanQuestion question = question_about(state, job);
-  other.question = ++job.questions;
+  PlanQuestion question = question_about(state, record);
+  other.question = ++record.asking.plans;
   other.beside = question.at;
   other.asked_at = state.version;
   ++other.tries;
-  state.effects.push_back(PlanMotion{job.id, *other.question, std::move(question)});
+  state.decided.effects.push_back(PlanMotion{job.id, *other.question, std::move(question)});
 }
 
 void expire(State& state, Record& record, const std::string& why) {
   char waited[32];
-  std::snprintf(waited, sizeof waited, "%.6g s", to_seconds(record.job.backlog_timeout));
+  std::snprintf(waited, sizeof waited, "%.6g s", to_seconds(record.job.terms.backlog_timeout));
   const char* where = record.job.has_started() ? " on its path" : " in the backlog";
   give_up(state, record,
           {AfterStop::Then::fail, Reason::backlog_timeout,
@@ -107,7 +108,7 @@ void expire(State& state, Record& record, const std::string& why) {
 }
 
 bool is_idle_arm(const State& state, const Wait& wait) {
-  return wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queue(*wait.arm).empty();
+  return wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queues()[*wait.arm].empty();
 }
 
 // As it was found when it was judged last, or where it stands.
@@ -120,7 +121,7 @@ const std::vector<Wait>* waits_of(const State& state, const Job& job) {
 }  // namespace
 
 std::optional<std::string> why_not_replanned(const Job& job) {
-  if (job.system_job) return "it is a move of the server's own";
+  if (job.terms.system_job) return "it is a move of the server's own";
   if (job.trajectory->arms().size() > 1) return "it moves several arms as one";
   if (job.goal) return std::nullopt;
   if (!job.alternatives.empty()) return "it is one of several ways to do the same work";
@@ -138,7 +139,7 @@ void ask_for_another_way(State& state, Record& record, AnotherWay::Cause cause) 
   if (cause == AnotherWay::Cause::client) job.another_way->tries = 0;
   job.another_way->is_open = true;
   job.another_way->refusal.reset();
-  state.being_replanned.insert(job.id);
+  state.jobs.being_replanned().insert(job.id);
   if (job.has_authority()) brake(state, record, {});
   ask_at_rest(state, record);
   state.jobs.explain(record);
@@ -146,10 +147,10 @@ void ask_for_another_way(State& state, Record& record, AnotherWay::Cause cause) 
 }
 
 void plan_other_ways(State& state) {
-  for (JobId id : std::set<JobId>(state.being_replanned)) {
+  for (JobId id : std::set<JobId>(state.jobs.being_replanned())) {
     Record* record = state.jobs.find(id);
     if (record == nullptr || record->job.has_ended()) {
-      state.being_replanned.erase(id);
+      state.jobs.being_replanned().erase(id);
       continue;
     }
     if (record->job.in<Admitted>() != nullptr) brake(state, *record, {});  // it had not moved
@@ -170,7 +171,7 @@ bool take_other_way(State& state, const PlanMade& answer) {
     return false;
   }
   other.is_open = false;
-  state.being_replanned.erase(answer.job);
+  state.jobs.being_replanned().erase(answer.job);
   state.jobs.explain(*record);
   state.jobs.changed(*record);
   if (answer.trajectory && is_fit) {
@@ -213,7 +214,7 @@ bool goes_around_idle_arm(State& state) {
 bool goes_on_after_timeout(State& state, Record& record) {
   const Job& job = record.job;
   if (job.is_replanned_now()) return true;
-  if (!job.replans_on_timeout || job.is_unplanned() || why_not_replanned(job)) return false;
+  if (!job.terms.replans_on_timeout || job.is_unplanned() || why_not_replanned(job)) return false;
   if (job.another_way && job.another_way->tries >= kReplansMax) return false;
   ask_for_another_way(state, record, AnotherWay::Cause::timeout);
   return true;

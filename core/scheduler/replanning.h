@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/scheduler/state.h"
+#include "core/jobs/state.h"
 
 namespace armloom {
 

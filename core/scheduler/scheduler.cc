@@ -5,11 +5,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/jobs/invariants.h"
 #include "core/scheduler/approach.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
 #include "core/scheduler/horizon/weighing.h"
-#include "core/scheduler/invariants.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/replanning.h"
 #include "core/scheduler/under_way.h"
@@ -55,6 +55,11 @@ Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configu
   put_under_way(state_, under_way);
 }
 
+void Scheduler::on(const Submit& input) {
+  add(state_, record_of(state_, input));
+  reopen_turn(state_, state_.jobs.at(input.job));
+}
+
 std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   if (now < state_.now) throw std::invalid_argument("Scheduler: time went backwards");
   state_.now = now;
@@ -64,8 +69,8 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 
   // Progress alone, the bulk of all inputs, changes nothing that others wait for.
   const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&
-                             !state_.jobs.has_changes() && state_.version == version_before &&
-                             !(wake_at_ && *wake_at_ <= now);
+                             state_.jobs.news().changed.empty() &&
+                             state_.version == version_before && !(wake_at_ && *wake_at_ <= now);
   if (!only_progress) {
     settle();
     if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);
@@ -73,14 +78,14 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 
   // What clients see comes first, so that an event is told before its consequences.
   std::vector<Effect> result;
-  const std::vector<YieldMove> sent_aside = std::exchange(state_.sent_aside, {});
+  const std::vector<YieldMove> sent_aside = std::exchange(state_.decided.sent_aside, {});
   for (const YieldMove& move : sent_aside) result.push_back(move);
-  std::set<JobId> changed = state_.jobs.take_changed();
+  std::set<JobId> changed = std::exchange(state_.jobs.news().changed, {});
   for (const YieldMove& move : sent_aside) {  // they are known before others wait for them
     if (changed.erase(move.job) != 0) result.push_back(JobChanged{move.job});
   }
   for (JobId job : changed) result.push_back(JobChanged{job});
-  std::ranges::move(std::exchange(state_.effects, {}), std::back_inserter(result));
+  std::ranges::move(std::exchange(state_.decided.effects, {}), std::back_inserter(result));
   return result;
 }
 
@@ -91,7 +96,7 @@ void Scheduler::settle() {
   weigh_again(state_);
   dispatch_ready(state_);
   do {
-    fail_impossible_starts();
+    fail_impossible_starts(state_);
   } while (plan_goals(state_));
   bool put_off = true;
   while (put_off) {  // until a question is open, or nothing is left to be asked
@@ -104,29 +109,6 @@ void Scheduler::settle() {
   ask_for_wake();
 }
 
-// A job at the head of its arms that cannot begin where they stand will never be able to. The end
-// of a job of several arms gives each of them a new head: hence until there are none.
-void Scheduler::fail_impossible_starts() {
-  const auto& queues = state_.jobs.queues();
-  for (std::size_t unchanged = 0, arm = 0; unchanged < queues.size();
-       arm = (arm + 1) % queues.size()) {
-    ++unchanged;
-    if (queues[arm].empty()) continue;
-    Record& head = state_.jobs.at(queues[arm].front());
-    const Job& job = head.job;
-    if (!job.is_waiting() || job.has_started() || !state_.jobs.at_head(head)) continue;
-    if (job.goal) continue;  // its way begins where the arm stands
-    if (may_go_first(state_, head)) continue;
-    if (job.is_held_over && state_.arms.stop_of(job)) continue;
-    if (auto mismatch = state_.arms.start_mismatch(*state_.cell, *job.trajectory)) {
-      unchanged = 0;
-      if (begins_on_other_arm(state_, head) || goes_to_start(state_, head)) continue;
-      if (head.no_approach) *mismatch += "; no way to where it begins: " + *head.no_approach;
-      end(state_, head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));
-    }
-  }
-}
-
 void Scheduler::ask_for_wake() {
   std::optional<TimePoint> next = next_deadline(state_);
   if (cycles_.is_one_to_settle()) {
@@ -134,7 +116,7 @@ void Scheduler::ask_for_wake() {
     next = next ? std::min(*next, soon) : soon;
   }
   if (const auto weighs = weighs_next(state_)) next = next ? std::min(*next, *weighs) : weighs;
-  if (next && next != wake_at_) state_.effects.push_back(WakeAt{*next});
+  if (next && next != wake_at_) state_.decided.effects.push_back(WakeAt{*next});
   wake_at_ = next;
 }
 
@@ -164,7 +146,7 @@ void Scheduler::on(const MotionReport& input) {
   Record* record = state_.jobs.find(input.job);
   if (record == nullptr || record->job.has_ended()) return;
   const Duration before = std::exchange(record->job.progress, input.progress);
-  record->job.progress_seen_at = state_.now;
+  record->job.times.measured_at = state_.now;
   auto* moving = std::get_if<Moving>(&record->job.phase);
   if (moving != nullptr && input.progress > before) note_moved(*moving, input.progress, state_.now);
   state_.graph.progress(record->job.id, input.progress);
@@ -203,7 +185,7 @@ std::vector<JobId> Scheduler::active() const {
 }
 
 std::optional<JobId> Scheduler::occupant(ArmId arm) const {
-  const auto& queue = state_.jobs.queue(arm);
+  const auto& queue = state_.jobs.queues()[arm];
   if (queue.empty()) return std::nullopt;
   const Job& head = state_.jobs.at(queue.front()).job;
   const bool in_motion =
@@ -220,7 +202,7 @@ void Scheduler::forget(JobId ended) {
 Configuration Scheduler::predicted_rest() const {
   Configuration q = rest();
   for (std::uint32_t arm = 0; arm < state_.cell->arms.size(); ++arm) {
-    const auto& queue = state_.jobs.queue(ArmId{arm});
+    const auto& queue = state_.jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
     follow_to_end(q, *state_.cell, ArmId{arm}, *state_.jobs.at(queue.back()).job.trajectory);
   }
@@ -230,7 +212,7 @@ Configuration Scheduler::predicted_rest() const {
 std::vector<ArmId> Scheduler::open_ends() const {
   std::vector<ArmId> open;
   for (std::uint32_t arm = 0; arm < state_.cell->arms.size(); ++arm) {
-    const auto& queue = state_.jobs.queue(ArmId{arm});
+    const auto& queue = state_.jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
     const Job& last = state_.jobs.at(queue.back()).job;
     const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->way().goal.to);

@@ -4,13 +4,14 @@
 #include <optional>
 #include <vector>
 
+#include "core/jobs/inputs.h"
+#include "core/jobs/phases.h"
+#include "core/jobs/state.h"
 #include "core/scheduler/admission.h"
+#include "core/scheduler/amending.h"
 #include "core/scheduler/goals.h"
 #include "core/scheduler/horizon/timeline.h"
-#include "core/scheduler/inputs.h"
-#include "core/scheduler/phases.h"
 #include "core/scheduler/policy.h"
-#include "core/scheduler/state.h"
 #include "core/scheduler/waiting/wait_cycles.h"
 
 namespace armloom {
@@ -76,8 +77,9 @@ class Scheduler {
   void forget(JobId ended);
 
  private:
-  void on(const Submit& input) { add(state_, record_of(state_, input)); }
+  void on(const Submit& input);
   void on(const Cancel& input);
+  void on(const Amend& input) { amend(state_, input); }
   void on(const Judged& input) { admission_.on(input, state_, cycles_); }
   void on(const PlanMade& input);
   void on(const Replan& input);
@@ -88,7 +90,6 @@ class Scheduler {
   void on(const Interrupt& input);
   void on(const Wake& /*input*/) {}
   void settle();
-  void fail_impossible_starts();
   void ask_for_wake();
 
   State state_;

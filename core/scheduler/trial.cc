@@ -89,6 +89,7 @@ Trial::Outcome Trial::outcome() const {
   if (is_on_its_way()) outcome.approach = approach_ends();
   if (job.has_authority() || is_on_its_way()) {
     outcome.kind = Verdict::Kind::free;
+    outcome.waits = job.waits_on;
     const bool is_itself = job.has_authority();
     const Duration begins = is_itself ? *job.times.scheduled_at - now_ : approach_ends();
     outcome.starts_in = std::max(Duration{}, begins);

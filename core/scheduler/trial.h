@@ -37,7 +37,7 @@ class Trial {
   struct Outcome {
     Verdict::Kind kind;
     std::optional<Duration> starts_in;  // from now; not free: if it could begin then by the clock
-    std::vector<Wait> waits;            // not free: for what
+    std::vector<Wait> waits;            // for what; free: before it starts
     std::optional<ClearanceBound> clearance_bound;
     std::uint64_t evaluations = 0;                      // for questions about it
     std::optional<Duration> approach = {};              // so long its arms take to where it begins

@@ -1,7 +1,7 @@
 #include "core/scheduler/under_way.h"
 
+#include "core/jobs/phases.h"
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/phases.h"
 #include "core/scheduler/policy.h"
 
 namespace armloom {
@@ -9,7 +9,7 @@ namespace armloom {
 void put_under_way(State& state, const std::vector<Motion>& motions) {
   std::vector<CoordinatedMotion> admitted;
   for (const Motion& motion : motions) {
-    const Submit job{.job = motion.job, .trajectory = motion.trajectory, .backlog_timeout = {}};
+    const Submit job{.job = motion.job, .trajectory = motion.trajectory};
     add(state, record_of(state, job));
   }
   state.round = state.policy->next_round(state);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/coordination/motion.h"
-#include "core/scheduler/state.h"
+#include "core/jobs/state.h"
 
 namespace armloom {
 

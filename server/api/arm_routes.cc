@@ -22,7 +22,7 @@ template <class Change>
 void with_arm(Call& call, int status, Change change) {
   const auto arm = call.parts.cell->find_arm(call.arguments.front());
   if (!arm) return call.respond(no_such("arm", call.arguments.front()));
-  ask(
+  ask_urgently(
       call.parts,
       [arm = *arm, change](Executive& executive) {
         change(executive, Arms{arm});
@@ -56,7 +56,7 @@ void resume_arm(Call call) {
 
 template <class Change>
 void with_all(Call& call, bool stopped, Change change) {
-  ask(
+  ask_urgently(
       call.parts,
       [stopped, change](Executive& executive) {
         change(executive);
@@ -94,6 +94,7 @@ std::vector<Route> arm_routes() {
   Route stop_one = command("/arms/{name}/stop", "stopArm", "Stop one arm");
   stop_one.outcomes = {outcome(202, "It brakes on its path and holds", arm_format())};
   stop_one.refuses = {404};
+  stop_one.is_never_limited = true;
   stop_one.run = stop_arm;
   Route resume_one = command("/arms/{name}/resume", "resumeArm", "Let one arm go on");
   resume_one.outcomes = {outcome(202, "Its job goes on when that is free", arm_format())};
@@ -101,6 +102,7 @@ std::vector<Route> arm_routes() {
   resume_one.run = resume_arm;
   Route stop = command("/stop", "stopAll", "Stop every arm");
   stop.outcomes = {outcome(202, "They brake on their paths and hold", stopped_format())};
+  stop.is_never_limited = true;
   stop.run = stop_all;
   Route resume = command("/resume", "resumeAll", "Let every arm go on");
   resume.outcomes = {outcome(202, "Jobs go on when that is free", stopped_format())};

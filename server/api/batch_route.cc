@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/add_below.h"
+#include "core/executive/validated.h"
 #include "server/access/digest.h"
 #include "server/api/examples.h"
 #include "server/api/resubmission.h"
@@ -119,6 +120,25 @@ void tell(const ApiParts& parts, const BatchPtr& batch,
           });
 }
 
+// By the executive, part by part: control cycles and stops go on between. `then` on the server's
+// thread.
+void take(const ApiParts& parts, std::vector<JobRequest> jobs, bool atomic,
+          std::function<void(const Executive::BatchAnswers&)> then) {
+  struct Taking {
+    std::vector<JobRequest> jobs;
+    std::shared_ptr<Executive::Batch> batch = {};
+  };
+  const auto taking = std::make_shared<Taking>(Taking{std::move(jobs)});
+  parts.loop.post_in_parts([&parts, taking, atomic, then](Executive& executive) {
+    if (!taking->batch) taking->batch = executive.open_batch(std::move(taking->jobs), atomic);
+    auto answers = executive.go_on(*taking->batch);
+    if (!answers) return false;
+    parts.post([then, answers = std::make_shared<const Executive::BatchAnswers>(
+                          std::move(*answers))] { then(*answers); });
+    return true;
+  });
+}
+
 Problem partly_known(std::ptrdiff_t place, const std::string& id) {
   return {ProblemKind::conflict, "partly-accepted", "/jobs/" + std::to_string(place),
           "this job was accepted before, as \"" + id +
@@ -136,26 +156,24 @@ void submit_batch(const ApiParts& parts, const std::shared_ptr<Batch>& batch,
     return respond(problem_response({partly_known(first - known.begin(), *first)}));
   }
   if (auto refused = refused_by_store(parts, *batch)) return respond(std::move(*refused));
-  ask(
-      parts,
-      [batch](Executive& executive) {
-        std::vector<JobRequest> jobs;
-        for (std::size_t i = 0; i < batch->known.size(); ++i) {
-          if (batch->is_new(i)) jobs.push_back(*batch->request.jobs[i].job);
-        }
-        return executive.submit_batch(std::move(jobs), batch->request.atomic);
-      },
-      [&parts, batch, respond](const Result<std::vector<Result<JobView>>>& results) {
-        if (!results) return respond(problem_response(results.error()));
-        tell(parts, batch, *results, respond);
-      });
+  std::vector<JobRequest> jobs;
+  for (std::size_t i = 0; i < batch->known.size(); ++i) {
+    if (batch->is_new(i)) jobs.push_back(std::move(*batch->request.jobs[i].job));
+  }
+  take(parts, std::move(jobs), batch->request.atomic,
+       [&parts, batch, respond](const Executive::BatchAnswers& results) {
+         if (!results) return respond(problem_response(results.error()));
+         tell(parts, batch, *results, respond);
+       });
 }
 
 void post_batch(Call call) {
   const ApiParts& parts = call.parts;
-  const auto key = idempotency_key(call.request);
+  const auto key = idempotency_key(parts, call.request);
   if (!key) return call.respond(problem_response(key.error()));
-  const auto submit = [&parts, key = *key, respond = call.respond](Submission<BatchRequest> read) {
+  const auto submit = [&parts, key = *key, respond = call.respond,
+                       client = parts.guard.client(call.request)](Submission<BatchRequest> read) {
+    if (is_limited(parts, client, read.request.jobs.size(), respond)) return;
     const auto sent = sent_of(key, read);
     const auto batch = std::make_shared<Batch>(Batch{std::move(read.request), sent, {}});
     recall(parts, sent, respond, [&parts, batch](const KnownJobs& known, const Respond& ending) {
@@ -163,7 +181,18 @@ void post_batch(Call call) {
       submit_batch(parts, batch, ending);
     });
   };
-  read_body(parts, call.request, call.respond, read_batch_submission, submit);
+  // Motions are validated where they are read: the strand has no time for that.
+  const auto read = [cell = parts.cell](std::string_view text) {
+    auto batch = read_batch_submission(text);
+    if (!batch) return batch;
+    for (BatchRequest::Entry& entry : batch->request.jobs) {
+      if (!entry.job) continue;
+      validate_ahead(*entry.job, *cell);
+      entry.job->body = std::make_shared<const std::string>(entry.text);
+    }
+    return batch;
+  };
+  read_body(parts, call.request, call.respond, read, submit);
 }
 
 }  // namespace

@@ -13,6 +13,11 @@ std::optional<Caller> Guard::caller(const std::optional<std::string>& token) {
   return token ? book_->caller(*token) : std::nullopt;
 }
 
+std::string Guard::client(const Request& request) {
+  const auto who = book_ ? caller(request.token) : std::nullopt;
+  return who ? "token " + who->name : "address " + request.peer;
+}
+
 std::optional<Refusal> Guard::refusal(const Request& request, Role needed) {
   const auto who = caller(request.token);
   if (!who) {

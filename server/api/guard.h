@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "server/access/token_book.h"
 #include "server/http/message.h"
@@ -19,6 +20,8 @@ class Guard {
   [[nodiscard]] bool is_tls() const { return tls_; }
   // Whose token this is; nothing: nobody's. Where no tokens are asked for: everybody's.
   [[nodiscard]] std::optional<Caller> caller(const std::optional<std::string>& token);
+  // By which limits know whoever asks: the token's name, or the address.
+  [[nodiscard]] std::string client(const Request& request);
   // Why this may not be done.
   [[nodiscard]] std::optional<Refusal> refusal(const Request& request, Role needed);
 

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <memory>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
+#include "server/api/job_answers.h"
 #include "server/api/job_filter.h"
 #include "server/api/route.h"
 #include "server/codec/scalar_formats.h"
@@ -51,22 +53,16 @@ void list_jobs(Call call) {
       });
 }
 
-// One that the executive does not know, or no more: as the store has it.
-Result<std::optional<StoredJob>> stored_job(const ApiParts& parts, const std::string& key) {
-  if (parts.keeper == nullptr) return std::nullopt;
-  return parts.keeper->history().find(key);
-}
-
 void get_job(Call call) {
   const ApiParts& parts = call.parts;
   const std::string& key = call.arguments.front();
   ask(
       parts, [key](Executive& executive) { return executive.job(key); },
       [&parts, respond = call.respond, key](const std::optional<JobView>& job) {
-        if (job) return respond(answer(200, job_format(), *job, &parts.clock));
+        if (job) return respond(job_answer(200, *job, parts.clock));
         const auto stored = stored_job(parts, key);
         if (!stored) return respond(problem_response(stored.error()));
-        respond(*stored ? json_response(200, (*stored)->view) : no_such("job", key));
+        respond(*stored ? job_answer(**stored) : no_such("job", key));
       });
 }
 
@@ -77,19 +73,12 @@ void command_job(Call call, Result<JobView> (Executive::*command)(const std::str
   ask(
       parts, [key, command](Executive& executive) { return (executive.*command)(key); },
       [&parts, respond = call.respond, key](const Result<JobView>& job) {
-        if (job) {  // who commands may rely on it, whatever happens to the server
-          const auto tell = [&parts, respond, job = *job] {
-            respond(answer(202, job_format(), job, &parts.clock));
-          };
-          return parts.keeper != nullptr ? parts.keeper->when_written(tell) : tell();
-        }
-        const auto stored = stored_job(parts, key);
-        const bool ended_before = stored && *stored && (*stored)->has_ended &&
-                                  job.error().front().kind == ProblemKind::not_found;
-        if (!ended_before) return respond(problem_response(job.error()));
-        respond(
-            problem_response({Problem{ProblemKind::conflict, "job-has-ended", "",
-                                      "job \"" + key + "\" has ended: " + (*stored)->state, key}}));
+        if (!job) return respond(refused_command(parts, key, job.error()));
+        // Who commands may rely on it, whatever happens to the server.
+        const auto tell = [&parts, respond, job = *job] {
+          respond(answer(202, job_format(), job, &parts.clock));
+        };
+        parts.keeper != nullptr ? parts.keeper->when_written(tell) : tell();
       });
 }
 
@@ -131,12 +120,12 @@ void get_diagram(Call call) {
   });
 }
 
-std::vector<JobView> with_keys(const std::vector<JobView>& jobs,
-                               const std::vector<std::string>& keys) {
+using ByKey = std::unordered_map<std::string, const JobView*>;
+
+std::vector<JobView> with_keys(const ByKey& jobs, const std::vector<std::string>& keys) {
   std::vector<JobView> found;
   for (const std::string& key : keys) {
-    const auto job = std::ranges::find(jobs, key, &JobView::key);
-    if (job != jobs.end()) found.push_back(*job);
+    if (const auto job = jobs.find(key); job != jobs.end()) found.push_back(*job->second);
   }
   return found;
 }
@@ -147,12 +136,14 @@ void get_queue(Call call) {
       parts, [](Executive& executive) { return executive.snapshot(0); },
       [&parts, respond = call.respond](const Snapshot& snapshot) {
         const QueueView& ids = snapshot.queue;
+        ByKey jobs;
+        for (const JobView& job : snapshot.jobs) jobs.emplace(job.key, &job);
         const QueueJobs queue{ids.policy,
                               ids.stopped,
-                              with_keys(snapshot.jobs, ids.queued),
-                              with_keys(snapshot.jobs, ids.backlog),
-                              with_keys(snapshot.jobs, ids.scheduled),
-                              with_keys(snapshot.jobs, ids.running)};
+                              with_keys(jobs, ids.queued),
+                              with_keys(jobs, ids.backlog),
+                              with_keys(jobs, ids.scheduled),
+                              with_keys(jobs, ids.running)};
         respond(answer(200, queue_format(), queue, &parts.clock));
       });
 }
@@ -185,6 +176,7 @@ std::vector<Route> job_routes() {
 
   Route get = of_one("GET", "/jobs/{id}", "getJob", "One job");
   get.outcomes = {outcome(200, "The job", job_format())};
+  get.outcomes.front().has_tag = true;
   get.refuses = {404};
   get.run = get_job;
 
@@ -243,7 +235,7 @@ std::vector<Route> job_routes() {
       "something else comes: a prediction, no promise.";
   timeline.outcomes = {outcome(200, "Lane by lane, as things are", timeline_format())};
   timeline.run = get_timeline;
-  return {list, get, cancel, replan, diagram, queue, timeline};
+  return {list, get, amend_route(), cancel, replan, diagram, queue, timeline};
 }
 
 }  // namespace armloom

@@ -1,6 +1,7 @@
 #include "server/api/parts.h"
 
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 
 namespace armloom {
@@ -19,6 +20,15 @@ tl::unexpected<Problems> unsupported(const char* slug, const char* field, std::s
 }
 
 }  // namespace
+
+bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jobs,
+                const Respond& respond) {
+  const auto refusal = parts.limits.jobs(client, jobs, std::chrono::steady_clock::now());
+  if (!refusal) return false;
+  parts.metrics.limited("jobs");
+  respond(refusal_response(*refusal));
+  return true;
+}
 
 Result<void> check_content_type(const Request& request) {
   const std::string found = request.content_type.value_or("none");

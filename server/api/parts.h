@@ -14,6 +14,7 @@
 #include "server/codec/wall_clock.h"
 #include "server/durable/accepted_requests.h"
 #include "server/durable/job_keeper.h"
+#include "server/http/client_limits.h"
 #include "server/hub/hub.h"
 #include "server/metrics/metrics.h"
 #include "server/recording/recording.h"
@@ -37,6 +38,7 @@ struct ApiParts {
   // To a thread for what takes long and needs nothing of this.
   std::function<void(std::function<void()>)> aside;
   Metrics& metrics;
+  ClientLimits& limits;
   // Readers of events that wait for a snapshot: who comes while one is on its way shares it.
   struct Newcomer {
     bool gap;
@@ -54,6 +56,20 @@ void ask(const ApiParts& parts, Ask ask, Then then) {
     parts.post([answer = std::make_shared<Answer>(ask(executive)), then] { then(*answer); });
   });
 }
+
+// The same before all that waits for the strand.
+template <class Ask, class Then>
+void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
+  parts.loop.post_urgent(
+      [&parts, ask = std::move(ask), then = std::move(then)](Executive& executive) {
+        using Answer = decltype(ask(executive));
+        parts.post([answer = std::make_shared<Answer>(ask(executive)), then] { then(*answer); });
+      });
+}
+
+// So many more jobs that whoever asks submits; answered, where they are too many.
+[[nodiscard]] bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jobs,
+                              const Respond& respond);
 
 // Problem (unsupported): the body is not said to be JSON in UTF-8, or is encoded.
 [[nodiscard]] Result<void> check_content_type(const Request& request);

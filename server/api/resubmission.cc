@@ -7,6 +7,7 @@ namespace armloom {
 namespace {
 
 constexpr std::size_t kKeyMax = 255;
+constexpr char kNameEnds = '\x1f';  // of a token, before the key; in none of both
 
 AcceptedRequests::Names names_of(const SentRequest& sent) {
   AcceptedRequests::Names names;
@@ -19,7 +20,8 @@ AcceptedRequests::Names names_of(const SentRequest& sent) {
 
 Problem other_body(const std::string& key) {
   return {ProblemKind::conflict, "idempotency-key-in-use", "Idempotency-Key",
-          "a request with another body was accepted under this Idempotency-Key", key};
+          "a request with another body was accepted under this Idempotency-Key",
+          key.substr(key.find(kNameEnds) + 1)};  // all of it where no token is asked for
 }
 
 // By the key. Problem (conflict): it was another request's.
@@ -95,11 +97,14 @@ Parameter idempotency_parameter() {
       "header"};
 }
 
-Result<std::string> idempotency_key(const Request& request) {
+Result<std::string> idempotency_key(const ApiParts& parts, const Request& request) {
   if (!request.idempotency_key) return std::string();
   const std::string& key = *request.idempotency_key;
   const bool printable = std::ranges::all_of(key, [](char c) { return c >= ' ' && c <= '~'; });
-  if (!key.empty() && key.size() <= kKeyMax && printable) return key;
+  if (!key.empty() && key.size() <= kKeyMax && printable) {
+    const auto who = parts.guard.asks() ? parts.guard.caller(request.token) : std::nullopt;
+    return who ? who->name + kNameEnds + key : key;
+  }
   return failure(Problem{ProblemKind::malformed, "bad-idempotency-key", "Idempotency-Key",
                          "an Idempotency-Key is 1 to 255 printable characters of ASCII",
                          key.substr(0, kKeyMax)});

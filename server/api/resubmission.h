@@ -14,7 +14,7 @@ namespace armloom {
 
 // A request for jobs, as far as it has to be known should it be sent again.
 struct SentRequest {
-  std::string key;     // Idempotency-Key; empty: none
+  std::string key;     // Idempotency-Key, with the token's name before it; empty: none
   std::string digest;  // of its body
   struct Job {
     std::string id;  // the client's; empty: none
@@ -28,8 +28,8 @@ using SentRequestPtr = std::shared_ptr<const SentRequest>;
 using KnownJobs = std::vector<std::string>;
 
 [[nodiscard]] Parameter idempotency_parameter();
-// Problem (malformed): an Idempotency-Key that is none.
-[[nodiscard]] Result<std::string> idempotency_key(const Request& request);
+// Each token has its own: SentRequest::key. Problem (malformed): an Idempotency-Key that is none.
+[[nodiscard]] Result<std::string> idempotency_key(const ApiParts& parts, const Request& request);
 
 // Looks whether the request has come before, and calls then(known, respond); while one of the same
 // key or id is being answered it waits for that. The key with another body is answered: 409.

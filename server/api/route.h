@@ -44,6 +44,7 @@ struct Outcome {
   std::string text;
   std::vector<Content> content = {};
   bool has_location = false;
+  bool has_tag = false;  // ETag
 };
 
 // A verb of the interface: the one description from which come dispatch, `Allow`, and its place in
@@ -61,6 +62,7 @@ struct Route {
   std::vector<int> refuses = {};  // beside what common_refusals() has
   Who who = Who::reader;
   std::optional<Role> role = Role::viewer;  // none: no token is needed
+  bool is_never_limited = false;            // whatever else its client asks for (ClientLimits)
   void (*run)(Call call);  // null: the dashboard's files, which the router leaves to others
 };
 
@@ -69,6 +71,7 @@ struct Route {
 [[nodiscard]] std::vector<Route> motion_routes();      // /jobs/{id}/trajectory
 [[nodiscard]] std::vector<Route> submission_routes();  // POST /jobs, /batches, /check
 [[nodiscard]] Route batch_route();
+[[nodiscard]] Route amend_route();
 [[nodiscard]] std::vector<Route> plan_routes();        // /plan
 [[nodiscard]] std::vector<Route> arm_routes();         // /arms, /stop, /resume
 [[nodiscard]] std::vector<Route> scene_routes();       // /scene

@@ -16,34 +16,34 @@ struct Changed {
   bool created;
 };
 
-bool is_known(const Executive& executive, const std::string& name) {
-  return std::ranges::any_of(executive.objects(),
+bool is_known(Executive& executive, const std::string& name) {
+  return std::ranges::any_of(executive.scene().objects(),
                              [&](const CollisionObject& object) { return object.name == name; });
 }
 
 Result<Changed> add(Executive& executive, const CollisionObject& object) {
-  if (executive.objects().size() >= kObjectsMax) {
+  if (executive.scene().objects().size() >= kObjectsMax) {
     return failure(Problem{
         ProblemKind::unavailable, "scene-full", "",
         "the scene holds " + std::to_string(kObjectsMax) + " objects already; take some away first",
         static_cast<double>(kObjectsMax)});
   }
-  if (auto added = executive.add_object(object); !added) return failure(std::move(added.error()));
-  return Changed{executive.scene_version(), true};
+  if (auto added = executive.scene().add(object); !added) return failure(std::move(added.error()));
+  return Changed{executive.scene().version(), true};
 }
 
 Result<Changed> put(Executive& executive, const CollisionObject& object) {
   if (!is_known(executive, object.name)) return add(executive, object);
-  auto replaced = executive.replace_object(object);
+  auto replaced = executive.scene().replace(object);
   if (!replaced) return failure(std::move(replaced.error()));
-  return Changed{executive.scene_version(), false};
+  return Changed{executive.scene().version(), false};
 }
 
 void get_scene(Call call) {
   ask(
       call.parts,
       [](Executive& executive) {
-        return SceneView{executive.scene_version(), executive.objects()};
+        return SceneView{executive.scene().version(), executive.scene().objects()};
       },
       [respond = call.respond](const SceneView& scene) {
         respond(answer(200, scene_format(), scene));
@@ -77,8 +77,8 @@ void delete_object(Call call) {
   ask(
       call.parts,
       [name = call.arguments.front()](Executive& executive) -> Result<std::uint64_t> {
-        if (auto done = executive.remove_object(name); !done) return failure(done.error());
-        return executive.scene_version();
+        if (auto done = executive.scene().remove(name); !done) return failure(done.error());
+        return executive.scene().version();
       },
       [respond = call.respond](const Result<std::uint64_t>& version) {
         respond(version ? answer(200, scene_version_format(), *version)

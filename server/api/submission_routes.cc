@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "core/executive/validated.h"
 #include "server/access/digest.h"
 #include "server/api/examples.h"
 #include "server/api/resubmission.h"
@@ -48,10 +49,11 @@ void submit_job(const ApiParts& parts, const SentRequestPtr& sent, JobRequest jo
 
 void post_job(Call call) {
   const ApiParts& parts = call.parts;
-  const auto key = idempotency_key(call.request);
+  const auto key = idempotency_key(parts, call.request);
   if (!key) return call.respond(problem_response(key.error()));
-  const auto submit = [&parts, key = *key, respond = call.respond,
-                       body = call.request.body](Submission<JobRequest> read) {
+  const auto submit = [&parts, key = *key, respond = call.respond, body = call.request.body,
+                       client = parts.guard.client(call.request)](Submission<JobRequest> read) {
+    if (is_limited(parts, client, 1, respond)) return;
     const std::string digest = sha256_hex(read.canonical);
     const auto sent =
         std::make_shared<const SentRequest>(SentRequest{key, digest, {{read.request.key, digest}}});
@@ -62,7 +64,13 @@ void post_job(Call call) {
              submit_job(parts, sent, std::move(*job), body, ending);
            });
   };
-  read_body(parts, call.request, call.respond, read_job_submission, submit);
+  const auto read = [cell = parts.cell](std::string_view text) {
+    auto job = read_job_submission(text);
+    if (job) validate_ahead(job->request, *cell);
+    if (job) job->request.body = std::make_shared<const std::string>(job->canonical);
+    return job;
+  };
+  read_body(parts, call.request, call.respond, read, submit);
 }
 
 void post_check(Call call) {
@@ -78,7 +86,12 @@ void post_check(Call call) {
       });
     });
   };
-  read_body(parts, call.request, call.respond, read_job_text, check);
+  const auto read = [cell = parts.cell](std::string_view text) {
+    auto job = read_job_text(text);
+    if (job) validate_ahead(*job, *cell);
+    return job;
+  };
+  read_body(parts, call.request, call.respond, read, check);
 }
 
 }  // namespace

@@ -169,17 +169,6 @@ bool JsonNode::read_within(double& out, double lowest, double highest) const {
   return true;
 }
 
-bool JsonNode::read_positive(double& out) const {
-  double number = 0.0;
-  if (!read(number)) return false;
-  if (!(number > 0.0)) {
-    invalid("out-of-range", spelled(number) + " is not greater than zero");
-    return false;
-  }
-  out = number;
-  return true;
-}
-
 bool JsonNode::read_numbers(double* out, std::size_t size) const {
   std::vector<double> numbers;
   if (!read(numbers)) return false;

@@ -71,9 +71,8 @@ class JsonNode {
   bool read_integer(std::int64_t& out, std::int64_t lowest, std::int64_t highest) const;
   bool read(std::vector<double>& out) const;
   bool read(std::vector<std::string>& out) const;
-  // A number in a closed interval, or greater than zero.
+  // A number in a closed interval.
   bool read_within(double& out, double lowest, double highest) const;
-  bool read_positive(double& out) const;
   // Exactly `size` numbers.
   bool read_numbers(double* out, std::size_t size) const;
 

@@ -33,6 +33,10 @@ struct ServeOptions {
   std::vector<std::string> allowed_origins;  // pages of other sites that may command
   std::vector<std::string> allowed_hosts;    // besides IP addresses and localhost
   std::string policy;                        // empty: the cell's
+  // Of each client; of all together more: see --help.
+  double requests_per_s = 5'000;
+  double jobs_per_s = 1'000;
+  std::size_t connections_per_client = 3'500;
 };
 int serve(const ServeOptions& options);
 
@@ -125,6 +129,17 @@ struct AuditOptions {
   double step_s = 0.001;
 };
 int audit_recording(const AuditOptions& options);
+
+// Runs a recording of `serve --data` again from the log of its inputs. The last line of stdout is a
+// JSON object. Exit 0: it came to the same events; 1: it did not, and the first that differs is
+// told.
+struct ReplayOptions {
+  std::string data;               // the newest recording in it; ...
+  std::string recording;          // ... or this one
+  std::optional<double> until_s;  // cell time; else all of it
+  std::string out;                // folder for the events of the replay; empty: none
+};
+int replay_recording(const ReplayOptions& options);
 
 // The jobs of a data folder, also while a server uses it: oldest first, on stdout, one a line, as
 // JSON or as CSV.

@@ -56,6 +56,16 @@ std::size_t connections_within_descriptors(std::size_t wanted) {
   return static_cast<std::size_t>(limit.rlim_cur - std::min<rlim_t>(kOther, limit.rlim_cur / 2));
 }
 
+// No client takes all that there is.
+void limit_clients(const ServeOptions& options, ServiceOptions& service) {
+  const double requests = options.requests_per_s, jobs = options.jobs_per_s;
+  service.limits = {.requests = {requests, 2 * requests},
+                    .requests_of_all = {4 * requests, 8 * requests},
+                    .jobs = {jobs, 10 * jobs},
+                    .jobs_of_all = {2 * jobs, 20 * jobs}};
+  service.connections_per_client_max = options.connections_per_client;
+}
+
 // Of who may use it: whoever can reach an address that is not the machine's own has to show a
 // token, and nobody between may read it.
 void find_faults_of_access(const ServeOptions& options, const std::string& address,
@@ -142,6 +152,7 @@ int serve(const ServeOptions& options) {
     service_options.store.retention.age_max = std::chrono::days(options.keep_days);
   }
   service_options.connections_max = connections_within_descriptors(service_options.connections_max);
+  limit_clients(options, service_options);
   service_options.alarm = [](const std::string& what) { spdlog::error("{}", what); };
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // a file may not grow: said as any other that cannot be written

@@ -5,6 +5,7 @@
 #include "server/codec/json_writer.h"
 #include "server/codec/read_text.h"
 #include "server/messages/job.h"
+#include "server/messages/job_amendment.h"
 
 namespace armloom {
 namespace {
@@ -82,6 +83,13 @@ void JobKeeper::accept(std::vector<AcceptedJob> jobs,
                  });
 }
 
+void JobKeeper::amend(const JobView& job, std::function<void(std::optional<Refusal>)> then) {
+  store_->amend(job.id.value(), text_of(*job_amendment_format(), amendable_of(job)),
+                [this, then = std::move(then)](bool is_written) {
+                  post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });
+                });
+}
+
 void JobKeeper::when_written(std::function<void()> then) {
   store_->accept({}, [this, then = std::move(then)](bool) { post_(then); });
 }
@@ -96,7 +104,7 @@ std::optional<Refusal> JobKeeper::refusal() const {
 
 void JobKeeper::about_to_move(JobId job, std::function<void()> written) {
   store_->about_to_move(job.value(), [loop = loop_, written = std::move(written)](bool) {
-    loop->post([written](Executive&) { written(); });
+    loop->post_urgent([written](Executive&) { written(); });
   });
 }
 

@@ -45,6 +45,8 @@ class JobKeeper final : public StartLog {
   // Jobs that it has accepted: `then` is called when they are on disk, or with the reason why not;
   // they are canceled then.
   void accept(std::vector<AcceptedJob> jobs, std::function<void(std::optional<Refusal>)> then);
+  // It was changed: `then` is called when that is on disk, or with the reason why not yet.
+  void amend(const JobView& job, std::function<void(std::optional<Refusal>)> then);
   // When all that was told before is on disk, or cannot be written at present.
   void when_written(std::function<void()> then);
   // Why nothing can be accepted, nor any arm be let go, at present.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/codec/json_text.h"
+#include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
 #include "server/messages/problem.h"
 
@@ -74,7 +75,17 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
     return write_off(job, kInterrupted, kRestart,
                      "it can no longer be read: " + problem_sentence("", request.error().front()));
   }
+  if (left.amended) {
+    const auto amendment = read_job_amendment(*left.amended);
+    if (!amendment) {
+      return write_off(job, kInterrupted, kRestart,
+                       "what was changed of it can no longer be read: " +
+                           problem_sentence("", amendment.error().front()));
+    }
+    apply(*amendment, *request);
+  }
   request->key = job.id;
+  request->body = std::make_shared<const std::string>(nlohmann::json::parse(*left.body).dump());
   if (failed_before(*request)) {
     return write_off(job, JobState::failed, Reason::predecessor_failed,
                      "a job that it comes after did not succeed");

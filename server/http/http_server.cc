@@ -1,6 +1,8 @@
 #include "server/http/http_server.h"
 
 #include <csignal>
+#include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "server/http/asio.h"
@@ -103,30 +105,53 @@ class HttpServer::Impl {
     if (connections_ == 0) io_.stop();
   }
 
-  asio::awaitable<void> serve(tcp::socket socket) {
+  asio::awaitable<void> serve(tcp::socket socket, std::string client) {
     ++connections_;
+    ++of_client_[client];
     co_await serve_connection(Transport(std::move(socket), tls_), site_, *memory_);
+    if (--of_client_[client] == 0) of_client_.erase(client);
     if (--connections_ == 0 && said_farewell_) io_.stop();
   }
 
-  asio::awaitable<void> refuse(tcp::socket socket) {
+  [[nodiscard]] Refusal too_many() const {
     const std::string why = connections_ < connections_max_
                                 ? "the system gives no more file descriptors"
                                 : std::to_string(connections_max_) +
                                       " connections are open, more are not served at once";
-    Response full = site_.refuse(
-        {503, "too-many-connections", why, std::nullopt, std::nullopt, {{"Retry-After", "1"}}});
+    return {503, "too-many-connections", why, std::nullopt, std::nullopt, {{"Retry-After", "1"}}};
+  }
+  [[nodiscard]] Refusal too_many_of(const std::string& client) const {
+    return {429,
+            "too-many-connections",
+            std::to_string(site_.connections_per_client_max) + " connections are open from " +
+                client + ", more are not served to one client",
+            std::nullopt,
+            client,
+            {{"Retry-After", "1"}}};
+  }
+
+  asio::awaitable<void> refuse(tcp::socket socket, Refusal why) {
     ++refusing_;
-    co_await refuse_connection(Transport(std::move(socket), tls_), std::move(full), *memory_);
+    co_await refuse_connection(Transport(std::move(socket), tls_), site_.refuse(why), *memory_);
     --refusing_;
   }
 
+  void refuse_soon(tcp::socket socket, Refusal why) {
+    if (refusing_ >= kRefusingMax) return;
+    asio::co_spawn(io_, refuse(std::move(socket), std::move(why)), asio::detached);
+  }
+
   void take(tcp::socket socket) {
-    if (connections_ < connections_max_) {
-      asio::co_spawn(io_, serve(std::move(socket)), asio::detached);
-    } else if (refusing_ < kRefusingMax) {
-      asio::co_spawn(io_, refuse(std::move(socket)), asio::detached);
+    if (connections_ >= connections_max_) return refuse_soon(std::move(socket), too_many());
+    ErrorCode ec;
+    const auto peer = socket.remote_endpoint(ec);
+    const std::string client = ec ? std::string() : peer.address().to_string();
+    const auto known = of_client_.find(client);
+    if (known != of_client_.end() && known->second >= site_.connections_per_client_max) {
+      if (site_.on_limited_connection) site_.on_limited_connection();
+      return refuse_soon(std::move(socket), too_many_of(client));
     }
+    asio::co_spawn(io_, serve(std::move(socket), client), asio::detached);
   }
 
   // The system gives no descriptor for whoever comes: the one that was kept for this takes them,
@@ -136,7 +161,7 @@ class HttpServer::Impl {
     spare_.close(ec);
     tcp::socket socket(io_);
     acceptor_.accept(socket, ec);
-    if (!ec) co_await refuse(std::move(socket));
+    if (!ec) co_await refuse(std::move(socket), too_many());
     spare_.open(tcp::v4(), ec);
   }
 
@@ -169,6 +194,7 @@ class HttpServer::Impl {
   asio::steady_timer farewell_{io_};
   const std::size_t connections_max_;
   std::size_t connections_ = 0;
+  std::unordered_map<std::string, std::size_t> of_client_;  // open ones, by address
   std::size_t refusing_ = 0;
   bool ending_ = false;
   bool said_farewell_ = false;

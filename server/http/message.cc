@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "server/http/entity_tag.h"
+
 namespace armloom {
 namespace {
 
@@ -134,15 +136,9 @@ void answer_conditionally(const Request& request, Response& response) {
   const auto strong = [](std::string_view text) {
     return text.starts_with("W/") ? text.substr(2) : text;
   };
-  bool matches = false;
-  std::string_view rest = *request.if_none_match;
-  while (!rest.empty() && !matches) {
-    std::string_view one = rest.substr(0, rest.find(','));
-    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
-    while (one.starts_with(' ') || one.starts_with('\t')) one.remove_prefix(1);
-    while (one.ends_with(' ') || one.ends_with('\t')) one.remove_suffix(1);
-    matches = one == "*" || strong(one) == strong(tag->second);
-  }
+  const bool matches = any_tag(*request.if_none_match, [&](std::string_view one) {
+    return one == "*" || strong(one) == strong(tag->second);
+  });
   if (!matches) return;
   response.status = 304;
   response.content_type.clear();

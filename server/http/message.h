@@ -56,6 +56,7 @@ struct Request {
   std::optional<std::string> content_encoding = {};
   std::optional<std::string> last_event_id = {};  // of a reader of events who comes back
   std::optional<std::string> if_none_match = {};
+  std::optional<std::string> if_match = {};
   std::optional<std::string> token = {};  // shown as Bearer, or in the cookie that a log-in sets
   std::string peer = {};                  // the address that it came from
   std::optional<std::string> idempotency_key = {};  // names the request, should it come again
@@ -147,6 +148,8 @@ struct Site {
   int send_buffer = 128 * 1024;                     // of a stream: bounds how old a pose can arrive
   std::chrono::milliseconds read_time{10'000};      // for a whole header, and for a whole body
   std::size_t memory_max = std::size_t{64} << 20U;  // of large bodies and answers, all together
+  std::size_t connections_per_client_max = ~std::size_t{0};  // of one address; more: 429
+  std::function<void()> on_limited_connection = {};          // is told of each
 };
 
 }  // namespace armloom

@@ -166,6 +166,7 @@ tl::expected<Request, Refusal> request_of(const RequestHeader& header, const Hos
   request.token = token_of(header);
   request.idempotency_key = one_of(header, "Idempotency-Key");
   request.if_none_match = one_of(header, "If-None-Match");
+  request.if_match = one_of(header, "If-Match");
   for (const std::string_view value : all_of(header, "Accept-Encoding")) {
     request.accept_encoding.append(request.accept_encoding.empty() ? "" : ", ").append(value);
   }

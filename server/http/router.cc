@@ -39,7 +39,7 @@ Response options_of(const Request& request, const std::string& allow) {
   response.headers.emplace_back("Access-Control-Allow-Methods", allow);
   response.headers.emplace_back(
       "Access-Control-Allow-Headers",
-      "Authorization, Content-Type, Idempotency-Key, If-None-Match, Last-Event-ID");
+      "Authorization, Content-Type, Idempotency-Key, If-Match, If-None-Match, Last-Event-ID");
   response.headers.emplace_back("Access-Control-Max-Age", "600");
   return response;
 }
@@ -80,8 +80,10 @@ Router::Found Router::find(const Request& request) const {
 }
 
 std::optional<Response> Router::refusal(const Request& request, const Found& found) const {
-  const Rights unrouted{request.method == "GET" ? Who::reader : Who::commander, std::nullopt};
-  const auto [who, role] = found.route != nullptr ? found.route->rights : unrouted;
+  const Rights unrouted{request.method == "GET" ? Who::reader : Who::commander, std::nullopt,
+                        false};
+  const auto [who, role, is_never_limited] =
+      found.route != nullptr ? found.route->rights : unrouted;
   if (who != Who::anyone && request.stranger) return refuse_(*request.stranger);
   if (who == Who::commander && request.foreign) return refuse_(*request.foreign);
   if (role && guard_) {
@@ -123,6 +125,10 @@ void Router::dispatch(const Request& request, Respond respond) const {
              std::chrono::steady_clock::now() - asked);
       inner(std::move(response));
     };
+  }
+  const bool is_limited = found.route == nullptr || !found.route->rights.is_never_limited;
+  if (is_limited && limit_) {
+    if (const auto why = limit_(request)) return respond(refuse_(*why));
   }
   if (auto refused = refusal(request, found)) return respond(std::move(*refused));
   if (found.route == nullptr) return respond(unrouted(request));

@@ -23,6 +23,7 @@ enum class Who { anyone, reader, commander };
 struct Rights {
   Who who = Who::reader;
   std::optional<Role> role = Role::viewer;
+  bool is_never_limited = false;
 };
 
 // Which function answers which method and path. A pattern is a path in which {id} stands for any
@@ -46,13 +47,16 @@ class Router {
   // Says why whoever asks lacks a role; absent: they have it. Without a guard everyone has each.
   using Guard = std::function<std::optional<Refusal>(const Request&, Role)>;
   void guard(Guard guard) { guard_ = std::move(guard); }
+  // Says why this request is one too many; absent: it is not. Asked before anything else.
+  using Limit = std::function<std::optional<Refusal>(const Request&)>;
+  void limit(Limit limit) { limit_ = std::move(limit); }
   // Answers requests for paths that no pattern fits (the dashboard's files), without their bodies.
   void otherwise(std::function<Response(const Request&)> answer) { otherwise_ = std::move(answer); }
 
-  // 403 when a stranger, or a foreign page, asks for what is not for such, what the guard says, 400
-  // when the query has an unknown parameter (not for what otherwise() answers), 404 when nothing
-  // fits the path, 405 with Allow when only the method does not fit. OPTIONS is answered here: 204
-  // with Allow.
+  // What the limit says, 403 when a stranger, or a foreign page, asks for what is not for such,
+  // what the guard says, 400 when the query has an unknown parameter (not for what otherwise()
+  // answers), 404 when nothing fits the path, 405 with Allow when only the method does not fit.
+  // OPTIONS is answered here: 204 with Allow.
   void dispatch(const Request& request, Respond respond) const;
   // What dispatch() will answer whatever the body says; absent: a route's function answers.
   [[nodiscard]] std::optional<Response> refuse_unread(const Request& request) const;
@@ -79,6 +83,7 @@ class Router {
   std::vector<Route> routes_;
   Watch watch_;
   Guard guard_;
+  Limit limit_;
   std::function<Response(const Request&)> otherwise_;
 };
 

@@ -4,23 +4,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
-#include <cstdio>
 #include <stdexcept>
+
+#include "server/http/entity_tag.h"
 
 namespace armloom {
 namespace {
 
 constexpr std::size_t kPackFrom = 1024;  // below, one packet holds it anyway
-
-std::string tag_of(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  char text[40];
-  std::snprintf(text, sizeof text, "%zx-%016llx", bytes.size(),
-                static_cast<unsigned long long>(hash));
-  return text;
-}
 
 std::string gzipped(const std::string& bytes) {
   static constexpr int kGzip = 15 + 16;  // the largest window; a gzip header instead of zlib's

@@ -14,7 +14,6 @@ using namespace formats;
 
 namespace {
 
-constexpr int kAnyPriority = 1'000'000;
 constexpr Range kShare{0.0, 1.0};
 
 FormatPtr<Reason> reason_format() {
@@ -61,6 +60,10 @@ FormatPtr<AnotherWayView> another_way_format() {
       told("refused", &View::refusal, nullable(text()), "Why it kept its own, the last time"),
   });
 }
+std::optional<Duration> backlog_timeout_of(const JobView& job) { return job.backlog_timeout; }
+std::optional<OnTimeout> on_timeout_of(const JobView& job) {
+  return job.replans_on_timeout ? OnTimeout::replan : OnTimeout::abort;
+}
 std::optional<JobOrder> order_of(const JobView& job) {
   return job.any_order ? std::optional(JobOrder::any) : std::nullopt;
 }
@@ -87,7 +90,9 @@ PartPtr<CheckView> make_verdict_part() {
            "that any such pair was held to"),
       told("self_clearance_bound_m", &View::self_clearance_bound_m, nullable(number(kAnyNumber)),
            "The same of the links of one arm from each other"),
-      told("conflicts", &View::conflicts, list(wait_format())),
+      told("waits_on", &View::waits_on, list(wait_format()),
+           "As the job's own would be: of a free one, what it would wait for before it starts"),
+      told("conflicts", &View::conflicts, list(wait_format()), "The same, where it is not free"),
       told("evaluations", &View::evaluations, count()),
       told("scene_version", &View::scene_version, count()),
       told_if("choice", &View::choice, choice_format(),
@@ -146,8 +151,12 @@ FormatPtr<JobView> job_format() {
           told("name", &View::name, text(), "For people; may be empty"),
           told("state", &View::state, job_state_format()),
           told("arms", &View::arms, list(text()), "That it moves"),
-          told("priority", &View::priority, integer(-kAnyPriority, kAnyPriority),
-               "Larger goes first"),
+          told("priority", &View::priority, priority_format(), "Larger goes first"),
+          told_if("backlog_timeout_s", backlog_timeout_of, backlog_timeout_format(),
+                  "How long it may wait in the backlog. Absent: an older version of the program "
+                  "stored the job"),
+          told_if("on_timeout", on_timeout_of, on_timeout_format(),
+                  "What becomes of it then. Absent as above"),
           told_times("submitted", &View::submitted_at, "When it was accepted"),
           told_if("backlogged_s", &View::backlogged_at, cell_time(),
                   "When it first was found in conflict, in cell time; absent: never"),

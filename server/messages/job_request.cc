@@ -49,13 +49,6 @@ void slow_down(TrajectoryRequest& trajectory, double factor) {
   }
 }
 
-FormatPtr<std::string> name_format() {
-  return text(TextRule{is_name,
-                       "bad-name",
-                       "a name is at most 256 characters without control characters",
-                       {{"maxLength", kJobNameMax}, {"pattern", R"(^[^\u0000-\u001f]*$)"}}});
-}
-
 FormatPtr<JobOrder> order_format() {
   return choice<JobOrder>({JobOrder::as_given, JobOrder::any}, to_string);
 }
@@ -125,23 +118,37 @@ FormatPtr<std::string> job_id_format() {
   return format;
 }
 
+FormatPtr<std::string> job_name_format() {
+  return text(TextRule{is_name,
+                       "bad-name",
+                       "a name is at most 256 characters without control characters",
+                       {{"maxLength", kJobNameMax}, {"pattern", R"(^[^\u0000-\u001f]*$)"}}});
+}
+
+FormatPtr<int> priority_format() { return integer(-kPriorityMax, kPriorityMax); }
+
+FormatPtr<Duration> backlog_timeout_format() { return seconds({0.0, kTimeMax_s}); }
+
+FormatPtr<OnTimeout> on_timeout_format() {
+  return choice<OnTimeout>({OnTimeout::abort, OnTimeout::replan}, to_string);
+}
+
 FormatPtr<JobRequest> job_request_format() {
   using Request = JobRequest;
   static const auto format = named(
       "JobRequest", "",
       object<Request>({
           field("id", &Request::key, job_id_format(), "Absent: the server gives one"),
-          field("name", &Request::name, name_format(), "For people; without control characters"),
-          field("priority", &Request::priority, integer(-kPriorityMax, kPriorityMax),
-                "Larger goes first"),
-          field("backlog_timeout_s", &Request::backlog_timeout, seconds({0.0, kTimeMax_s}),
+          field("name", &Request::name, job_name_format(),
+                "For people; without control characters"),
+          field("priority", &Request::priority, priority_format(), "Larger goes first"),
+          field("backlog_timeout_s", &Request::backlog_timeout, backlog_timeout_format(),
                 "Default: the cell's"),
           field("after", &Request::after,
                 list(job_id_format(), {.most = kAfterMax, .noun = "ids", .what = "predecessors"}),
                 "Jobs that have to succeed first"),
           field(
-              "on_timeout", &Request::on_timeout,
-              choice<OnTimeout>({OnTimeout::abort, OnTimeout::replan}, to_string),
+              "on_timeout", &Request::on_timeout, on_timeout_format(),
               "What becomes of it then. \"replan\": another way is planned to where it ends, from "
               "where its arm stands and past what rests there; it expires when there is none, "
               "and after the third"),

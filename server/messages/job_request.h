@@ -15,6 +15,11 @@ namespace armloom {
 [[nodiscard]] FormatPtr<JobRequest> job_request_format();
 // A client's id for a job: what may stand in a URL.
 [[nodiscard]] FormatPtr<std::string> job_id_format();
+// Members of it that can be changed later, too.
+[[nodiscard]] FormatPtr<std::string> job_name_format();
+[[nodiscard]] FormatPtr<int> priority_format();
+[[nodiscard]] FormatPtr<Duration> backlog_timeout_format();
+[[nodiscard]] FormatPtr<OnTimeout> on_timeout_format();
 
 // A client's id for a job: 1..128 characters of [A-Za-z0-9._-], so that it can stand in a URL.
 inline constexpr std::size_t kJobKeyMax = 128;

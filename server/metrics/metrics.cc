@@ -51,6 +51,7 @@ class Metrics::Impl {
           Wait::Kind::capacity, Wait::Kind::stop, Wait::Kind::plan}) {
       waits_.Add({{"reason", to_string(kind)}});
     }
+    for (const char* what : {"requests", "jobs", "connections"}) limited_.Add({{"what", what}});
     for (const char* state : {"queued", "backlogged", "scheduled", "running"}) at(state);
   }
 
@@ -94,6 +95,8 @@ class Metrics::Impl {
         .Increment();
     took_.Add({{"method", how}, {"route", where}}, kLatencies).Observe(seconds(after));
   }
+
+  void limited(const char* what) { limited_.Add({{"what", what}}).Increment(); }
 
   void stop_taken(std::chrono::nanoseconds after) { stops_.Observe(seconds(after)); }
 
@@ -202,6 +205,8 @@ class Metrics::Impl {
       histograms("armloom_stop_latency_seconds", "From a request to stop to the executive")
           .Add({}, kLatencies);
   Family<Counter>& answers_ = counters("armloom_http_requests_total", "Requests answered");
+  Family<Counter>& limited_ =
+      counters("armloom_limited_total", "What was refused as one too many of a client, or of all");
   Family<Histogram>& took_ =
       histograms("armloom_http_seconds", "From a whole request to its answer");
   Gauge& readers_ = gauges("armloom_event_readers", "Readers of events and poses").Add({});
@@ -221,6 +226,7 @@ void Metrics::ticked() { impl_->ticked(); }
 void Metrics::watched(const StateFrame& frame) { impl_->watched(frame); }
 void Metrics::set_speed(double speed) { impl_->set_speed(speed); }
 void Metrics::stop_taken(std::chrono::nanoseconds after) { impl_->stop_taken(after); }
+void Metrics::limited(const char* what) { impl_->limited(what); }
 void Metrics::happened(const Event& event) { impl_->happened(event); }
 void Metrics::answered(const std::string& method, const std::string& route, int status,
                        std::chrono::nanoseconds after) {

@@ -27,6 +27,8 @@ class Metrics {
 
   // On the server's thread.
   void happened(const Event& event);
+  // Over a limit of clients: "requests", "jobs", "connections".
+  void limited(const char* what);
   // `route`: the pattern that fits, "" for none.
   void answered(const std::string& method, const std::string& route, int status,
                 std::chrono::nanoseconds after);

@@ -34,6 +34,7 @@ const std::map<int, RefusalText>& refusal_texts() {
         "allow it"}},
       {404, {"NotFound", "There is no such thing"}},
       {409, {"Conflict", "It contradicts the present state"}},
+      {412, {"PreconditionFailed", "It is not any more as If-Match has it: read it again"}},
       {413, {"TooLarge", "Over a stated bound: 8 MiB, 10,000 waypoints"}},
       {415, {"WrongMediaType", "The body must be application/json"}},
       {417, {"ExpectationFailed", "The only Expect served is 100-continue"}},
@@ -41,6 +42,10 @@ const std::map<int, RefusalText>& refusal_texts() {
        {"Unprocessable",
         "It can be read but can never be right: the place and the value found are named"}},
       {426, {"UpgradeRequired", "Not a WebSocket handshake"}},
+      {429,
+       {"TooMany",
+        "More requests or jobs a second, or more connections, than one client may have, or all "
+        "together. `Retry-After` says when to come again"}},
       {431, {"HeaderTooLarge", "A header of more than 16 KiB"}},
       {503,
        {"Unavailable",
@@ -112,6 +117,10 @@ Schema outcome_of(const Outcome& outcome) {
   if (outcome.has_location) {
     response["headers"]["Location"] = {{"description", "Where it can be read"},
                                        {"schema", {{"type", "string"}}}};
+  }
+  if (outcome.has_tag) {
+    response["headers"]["ETag"] = {{"description", "For If-Match and If-None-Match"},
+                                   {"schema", {{"type", "string"}}}};
   }
   return response;
 }

@@ -185,6 +185,13 @@ void JobStore::see(StoredJob job) {
   impl_->add(std::move(changes));
 }
 
+void JobStore::amend(std::uint64_t number, std::string amended, Done done) {
+  Pending changes;
+  changes.jobs.emplace(number, JobChange{.amended = std::move(amended)});
+  changes.acceptances.push_back({.jobs = {}, .done = std::move(done)});
+  impl_->add(std::move(changes));
+}
+
 void JobStore::about_to_move(std::uint64_t number, Done done) {
   Pending changes;
   changes.jobs.emplace(number, JobChange{.may_have_moved = true});

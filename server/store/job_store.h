@@ -69,6 +69,9 @@ class JobStore {
   void accept(std::vector<Accepted> jobs, Done done);
   // A job as it is now.
   void see(StoredJob job);
+  // What was changed of an acknowledged job that has not ended, in all; `done`: as of accept().
+  // What cannot be written at present is kept all the same.
+  void amend(std::uint64_t number, std::string amended, Done done);
   // It is about to move: from now on it is no longer one that can be run by the next run. Only ever
   // called back with true.
   void about_to_move(std::uint64_t number, Done done);

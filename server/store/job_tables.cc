@@ -42,6 +42,7 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
           "UPDATE job SET digest = ?2, request_key = nullif(?3, ''), request_digest = ?4, "
           "request_place = ?5 WHERE number = ?1")),
       put_body_(database_.prepare("INSERT OR REPLACE INTO body(number, text) VALUES(?1, ?2)")),
+      amend_(database_.prepare("UPDATE body SET amended = ?2 WHERE number = ?1")),
       drop_body_(database_.prepare("DELETE FROM body WHERE number = ?1")),
       stop_(database_.prepare("INSERT OR IGNORE INTO stopped_arm(name) VALUES(?1)")),
       forget_stops_(database_.prepare("DELETE FROM stopped_arm")),
@@ -55,7 +56,8 @@ Leftover JobTables::leftover() const {
   Leftover left;
   left.last_number = as_number(database_.number("SELECT max(number) FROM job"));
   Statement jobs = database_.prepare(
-      "SELECT job.number, id, state, submitted_ms, arms, view, may_have_moved, body.text FROM job "
+      "SELECT job.number, id, state, submitted_ms, arms, view, may_have_moved, body.text, "
+      "body.amended FROM job "
       "LEFT JOIN body USING(number) WHERE has_ended = 0 ORDER BY job.number");
   while (jobs.step()) {
     LeftJob& found = left.jobs.emplace_back();
@@ -67,6 +69,7 @@ Leftover JobTables::leftover() const {
                  .view = jobs.text(5)};
     found.may_have_moved = jobs.number(6) != 0;
     if (!jobs.is_null(7)) found.body = jobs.text(7);
+    if (!jobs.is_null(8)) found.amended = jobs.text(8);
   }
   Statement arms = database_.prepare("SELECT name FROM stopped_arm ORDER BY name");
   while (arms.step()) left.stopped_arms.push_back(arms.text(0));
@@ -107,11 +110,9 @@ void JobTables::write(std::uint64_t number, const JobChange& change) {
   }
   if (change.may_have_moved) move_.bind_all(key).run();
   const bool has_ended = change.seen && change.seen->has_ended;
-  if (has_ended) {
-    drop_body_.bind_all(key).run();
-  } else if (change.body) {
-    put_body_.bind_all(key, std::string_view(*change.body)).run();
-  }
+  if (has_ended) return drop_body_.bind_all(key).run();
+  if (change.body) put_body_.bind_all(key, std::string_view(*change.body)).run();
+  if (change.amended) amend_.bind_all(key, std::string_view(*change.amended)).run();
 }
 
 bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::time_point now) {

@@ -11,6 +11,7 @@ void Pending::join(Pending later) {
     if (change.seen) mine.seen = std::move(change.seen);
     if (change.body) mine.body = std::move(change.body);
     if (change.origin) mine.origin = std::move(change.origin);
+    if (change.amended) mine.amended = std::move(change.amended);
     mine.may_have_moved = mine.may_have_moved || change.may_have_moved;
   }
   if (later.stopped_arms) stopped_arms = std::move(later.stopped_arms);

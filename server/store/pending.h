@@ -16,6 +16,7 @@ struct JobChange {
   std::optional<StoredJob> seen = {};
   std::optional<std::string> body = {};
   std::optional<RequestOrigin> origin = {};
+  std::optional<std::string> amended = {};
   bool may_have_moved = false;
 };
 

@@ -45,6 +45,7 @@ struct LeftJob {
   StoredJob job;
   bool may_have_moved = false;
   std::optional<std::string> body;  // as the client sent it; none: it never was acknowledged
+  std::optional<std::string> amended = {};  // what was changed of it later; none: nothing
 };
 
 }  // namespace armloom

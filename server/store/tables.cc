@@ -49,6 +49,10 @@ constexpr const char* kVersions[] = {
       status INTEGER NOT NULL
     ) STRICT;
     )",
+    // What was changed of a job after it was accepted (JSON); it lives as long as the body.
+    R"(
+    ALTER TABLE body ADD COLUMN amended TEXT;
+    )",
 };
 constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
 

@@ -78,7 +78,7 @@ void cross_arm(benchmark::State& run, const Motions& motions, bool must_be_free)
                           .duration_b = to_seconds(motions.trajectories[1]->duration())};
   const auto left = std::make_shared<const ArmGeometry>(scene->bodies(), ArmId{0});
   const auto right = std::make_shared<const ArmGeometry>(scene->bodies(), ArmId{1});
-  const PairSet pairs = pairs_between(scene->bodies(), left->linkage, right->linkage);
+  const PairSet pairs = pairs_between(scene->bodies(), left->kinematics, right->kinematics);
   CoordinationDiagram::Answer answer;
   for (auto _ : run) {
     CoordinationDiagram diagram(

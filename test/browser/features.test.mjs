@@ -88,6 +88,24 @@ test('who is blocked says by whom, which links, how close, since when and until 
   assert.match(await row.locator('[data-test=reason]').textContent(), /right_panda_\w+ would (touch|come within).*left_panda_\w+, [\d.]+ s into its motion/);
 });
 
+test('who waits is made more urgent, or less, in its row', { timeout: 60_000 }, async () => {
+  const row = page.locator('[data-test="job-blocked"]');
+  const priority = async () => (await ask(page, 'GET', '/jobs/blocked')).value.priority;
+  await row.hover();
+  await row.getByRole('button', { name: 'More urgent: blocked' }).click();
+  await row.getByText('+1', { exact: true }).waitFor();
+  await row.getByRole('button', { name: 'More urgent: blocked' }).click();
+  await row.getByText('+2', { exact: true }).waitFor();
+  assert.equal(await priority(), 2);
+  for (const shown of ['+1', null]) {
+    await row.getByRole('button', { name: 'Less urgent: blocked' }).click();
+    await (shown ? row.getByText(shown, { exact: true }).waitFor() : row.locator('.priority').waitFor({ state: 'detached' }));
+  }
+  assert.equal(await priority(), 0);
+  const moving = page.locator('[data-test=list-running] .job').first();
+  assert.equal(await moving.locator('[data-test=urgency]').count(), 0, 'nobody goes before what moves');
+});
+
 test('a diagram shows authority, and both arms where it is pointed at', { timeout: 90_000 }, async () => {
   await page.locator('[data-test="job-blocked"] [data-test=why]').click();
   const diagram = page.locator('[data-test=diagram]');

@@ -166,7 +166,7 @@ test('a job is judged before it is sent, a bag of jobs is taken whole', { timeou
   const text = page.locator('[data-test=job-text]');
   await text.fill(JSON.stringify(job_through('judged', names, [q, kMiddle, q], 4)));
   await page.locator('[data-test=judge]').click();
-  assert.match(await page.locator('[data-test=judged]').innerText(), /free: it could start now/);
+  assert.match(await page.locator('[data-test=judged]').innerText(), /free\s+It would start now/);
   assert.equal((await ask(page, 'GET', '/jobs/judged')).status, 404);
 
   // Previewed: a ghost of the arm where it would be, and where it would meet what stands in its way.

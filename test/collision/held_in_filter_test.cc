@@ -17,22 +17,22 @@ using namespace holding;
 // An arm's capsules as the filter has them at one configuration, but in double.
 struct Filtered {
   Filtered(const PlanningScene& scene, ArmId arm, const Configuration& state)
-      : linkage(scene.bodies(), arm), frames(linkage.frames().size() * 12) {
+      : kinematics(scene.bodies(), arm), frames(kinematics.frames().size() * 12) {
     std::vector<double> q;
-    for (const JointId joint : linkage.joints()) {
+    for (const JointId joint : kinematics.joints()) {
       q.push_back(state[static_cast<Eigen::Index>(joint.index())]);
     }
-    place_frames(linkage, q.data(), frames.data());
+    place_frames(kinematics, q.data(), frames.data());
   }
   [[nodiscard]] LinkCapsule capsule(int index) const {
-    const filter::Capsule& capsule = linkage.capsules()[static_cast<std::size_t>(index)];
+    const filter::Capsule& capsule = kinematics.capsules()[static_cast<std::size_t>(index)];
     const Eigen::Map<const Eigen::Matrix<double, 3, 4>> X_WF(frames.data() + 12 * capsule.frame);
     const Eigen::Vector3d center =
         X_WF.leftCols<3>() * Eigen::Vector3d(capsule.center) + X_WF.col(3);
     const Eigen::Vector3d half = X_WF.leftCols<3>() * Eigen::Vector3d(capsule.half);
     return {center - half, center + half, static_cast<double>(capsule.radius_up)};
   }
-  ArmKinematics linkage;
+  ArmKinematics kinematics;
   std::vector<double> frames;
 };
 constexpr double kRounding_m = 1e-9;
@@ -53,8 +53,8 @@ TEST(HeldObjects, LieInTheirCapsulesInTheFilter) {
     forward_kinematics(*h.cell, q, X_WL);
     for (const ArmId id : {ArmId{0}, ArmId{1}}) {
       const Filtered arm(*h.scene, id, q);
-      const ArmKinematics& linkage = arm.linkage;
-      for (const KinematicBody& placed : linkage.bodies()) {
+      const ArmKinematics& kinematics = arm.kinematics;
+      for (const KinematicBody& placed : kinematics.bodies()) {
         const CollisionBody& part = bodies.bodies[placed.body];
         if (!part.held()) continue;
         const Attachment& held = h.scene->attachments()[placed.body - bodies.links_end];
@@ -69,8 +69,8 @@ TEST(HeldObjects, LieInTheirCapsulesInTheFilter) {
                   outside_m, distance_to_axis(capsule, p_W) + ball.radius_m - capsule.radius_m);
             }
             EXPECT_LT(outside_m, kRounding_m) << part.name;
-            EXPECT_LT(p_W.cwiseAbs().maxCoeff(), linkage.extent_m());
-            EXPECT_LT((p_W - linkage.root()).norm(), linkage.reach_m());
+            EXPECT_LT(p_W.cwiseAbs().maxCoeff(), kinematics.extent_m());
+            EXPECT_LT((p_W - kinematics.root()).norm(), kinematics.reach_m());
             ++looked_at;
           }
         }
@@ -115,10 +115,10 @@ TEST(HeldObjects, AreNeverFartherInTheFilterThanTheyAre) {
         add(set.narrow[k], axes_m - one.radius_m - other.radius_m);
       }
     };
-    collect(pairs_between(bodies, left.linkage, right.linkage), left, &right);
+    collect(pairs_between(bodies, left.kinematics, right.kinematics), left, &right);
     for (const Filtered* arm : {&left, &right}) {
-      collect(pairs_between(bodies, arm->linkage, arm->linkage), *arm, arm);
-      collect(pairs_between(bodies, arm->linkage, still), *arm, nullptr);
+      collect(pairs_between(bodies, arm->kinematics, arm->kinematics), *arm, arm);
+      collect(pairs_between(bodies, arm->kinematics, still), *arm, nullptr);
     }
     double closest_m = 1e9;
     for (const auto& [pair, distance_m] : brute_force(h, q)) {

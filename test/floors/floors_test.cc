@@ -29,9 +29,12 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
       "core/collision"}},
     {"core/precedence", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
     {"core/sequence", {"core/base"}},
-    {"core/scheduler",
+    {"core/jobs",
      {"core/base", "core/model", "core/trajectory", "core/coordination", "core/precedence",
       "core/sequence"}},
+    {"core/scheduler",
+     {"core/base", "core/model", "core/trajectory", "core/coordination", "core/precedence",
+      "core/sequence", "core/jobs"}},
     {"core/monitor", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
     {"core/arm", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
     // Shares nothing with admission but the model and what a mesh's file says.
@@ -40,8 +43,8 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
       "core/geometry/mesh/surface_tree.h"}},
     {"core/executive",
      {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
-      "core/collision", "core/planning", "core/precedence", "core/sequence", "core/scheduler",
-      "core/monitor", "core/arm"}},
+      "core/collision", "core/planning", "core/precedence", "core/sequence", "core/jobs",
+      "core/scheduler", "core/monitor", "core/arm"}},
     {"server",
      {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
       "core/planning", "core/executive", "core/audit"}},
@@ -61,6 +64,7 @@ const std::map<std::string, std::vector<std::string>> kMustNotSay = {
      {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
     {"core/sequence",
      {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
+    {"core/jobs", {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
     {"core/scheduler",
      {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
     {"core/monitor",
@@ -150,7 +154,7 @@ TEST(Floors, ABreachIsFound) {
           .empty());
   EXPECT_FALSE(
       breaches_in("core/model/urdf/x.cc", "#include \"core/model/cell/build_cell.h\"\n").empty());
-  EXPECT_FALSE(breaches_in("server/x.cc", "#include \"core/scheduler/job.h\"\n").empty());
+  EXPECT_FALSE(breaches_in("server/x.cc", "#include \"core/jobs/job.h\"\n").empty());
   EXPECT_FALSE(breaches_in("core/monitor/x.cc", "auto t = Clock::now();\n").empty());
   EXPECT_FALSE(breaches_in("core/executive/x.cc", "#include <nlohmann/json.hpp>\n").empty());
   EXPECT_FALSE(breaches_in("core/misc/x.cc", "").empty());
@@ -159,8 +163,8 @@ TEST(Floors, ABreachIsFound) {
   EXPECT_TRUE(breaches_in("core/audit/x.cc", "#include \"core/geometry/mesh/mesh.h\"\n").empty());
   EXPECT_TRUE(
       breaches_in("core/geometry/convex/x.cc", "#include \"core/geometry/mesh/mesh.h\"\n").empty());
-  EXPECT_TRUE(breaches_in("core/scheduler/x.cc", "#include \"core/scheduler/job.h\"\n").empty());
-  EXPECT_TRUE(breaches_in("core/executive/x.cc", "#include \"core/scheduler/job.h\"\n").empty());
+  EXPECT_TRUE(breaches_in("core/scheduler/x.cc", "#include \"core/jobs/job.h\"\n").empty());
+  EXPECT_TRUE(breaches_in("core/executive/x.cc", "#include \"core/jobs/job.h\"\n").empty());
 }
 
 }  // namespace

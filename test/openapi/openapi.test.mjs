@@ -179,9 +179,15 @@ test('Jobs, good and bad', async () => {
   await diagram(400, '?with=reach&cells=no');
   await diagram(404, '?with=nothing');
   await diagram(422, '?with=meet');
+  const amend = (status, body, more) => call(status, 'PATCH', `${v1}/jobs/{id}`, {args: {id: 'meet'}, body, ...more});
+  assert.equal((await amend(200, example(`${v1}/jobs/{id}`, 'PATCH', 'sooner'))).priority, 5);
+  await amend(412, {priority: 6}, {headers: {'If-Match': '"nothing"'}});
+  await amend(422, {priority: 1e9});
+  await call(404, 'PATCH', `${v1}/jobs/{id}`, {args: {id: 'nothing'}, body: {priority: 1}});
   await call(202, 'POST', `${v1}/jobs/{id}/replan`, {args: {id: 'meet'}});
   await call(202, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'meet'}});
   await call(409, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'meet'}});
+  await amend(409, {priority: 1});
   await call(409, 'POST', `${v1}/jobs/{id}/replan`, {args: {id: 'meet'}});
   await call(404, 'POST', `${v1}/jobs/{id}/replan`, {args: {id: 'nothing'}});
   await call(404, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'nothing'}});
@@ -348,11 +354,36 @@ test('A server with tokens asks for them', async () => {
   }
 });
 
+test('A client that asks for too much is told when to come again, and may stop arms all the same', async () => {
+  const strict = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--requests-per-second', '0.01']);
+  const asked = async (method, template, more = {}) => {
+    const answer = await ask(strict.port, method, template.replace(/\{\w+\}/g, 'x'), more);
+    contract.answer(template, method, answer);
+    return answer;
+  };
+  try {
+    assert.equal((await asked('GET', '/healthz')).status, 200);
+    for (const {path: template, method, operation} of contract.operations()) {
+      const headers = template === `${v1}/ws` ? handshake() : {};
+      if (!(429 in operation.responses)) {
+        for (let i = 0; i < 4; ++i) assert.notEqual((await asked(method, template)).status, 429, template);
+        continue;
+      }
+      const refused = await asked(method, template, {headers});
+      assert.equal(refused.status, 429, template);
+      assert.ok(Number(refused.headers['retry-after']) > 1);
+    }
+    assert.equal((await asked('POST', `${v1}/stop`)).status, 202);
+  } finally {
+    strict.end();
+  }
+});
+
 test('Each path answers the methods that are listed, HEAD with GET, and no other', async () => {
   for (const [template, methods] of Object.entries(contract.document.paths)) {
     const target = template.replace(/\{\w+\}/g, 'x');
-    const refused = await ask(server.port, 'PATCH', target);
-    assert.equal(refused.status, 405, `PATCH ${target}`);
+    const refused = await ask(server.port, 'LOCK', target);
+    assert.equal(refused.status, 405, `LOCK ${target}`);
     contract.schema('Problem', JSON.parse(refused.text));
     const allowed = refused.headers.allow.split(', ').sort();
     const listed = ['OPTIONS', ...Object.keys(methods).flatMap((method) => (method === 'get' ? ['GET', 'HEAD'] : [method.toUpperCase()]))].sort();

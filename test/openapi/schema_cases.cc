@@ -11,6 +11,7 @@
 #include "server/codec/json_text.h"
 #include "server/codec/schema_names.h"
 #include "server/messages/fault.h"
+#include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
 #include "server/messages/plan.h"
 #include "server/messages/plan_goal.h"
@@ -62,7 +63,8 @@ std::vector<Incoming> all_incoming() {
           incoming("Goal", *plan_goal_format()),
           incoming("cell file", cell_format()),
           incoming("PlanRequest", *plan_inquiry_format()),
-          incoming("LogIn", *log_in_format())};
+          incoming("LogIn", *log_in_format()),
+          incoming("JobAmendment", *job_amendment_format())};
 }
 
 // Every body of a route is among them.

@@ -58,7 +58,7 @@ TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
   cell->submit(approached(go("a", {1, 0}, {1, 2}, 6, "where b stands")));
   CollisionObject post{.name = "post", .shape = Box{{0.3, 0.3, 0.3}}};
   post.X_WO.translation() = Eigen::Vector3d(-2.0, 1.0, 0.0);
-  ASSERT_TRUE(cell->executive().add_object(std::move(post)));
+  ASSERT_TRUE(cell->executive().scene().add(std::move(post)));
   cell->submit(approached(go("a", {-2, 1}, {-2, 2}, 6, "in the post")));
   ASSERT_TRUE(cell->executive().cancel("where b stands"));
   cell->run_to_the_end();

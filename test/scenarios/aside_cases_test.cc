@@ -157,7 +157,7 @@ TEST_P(Aside, AnArmThatStoppedOnItsWayGoesToTheEndOfThatIfNotBack) {
   cell->submit(slide("x", -1, 0.5, 4, "canceled"));
   while (cell->log.last[0] < -0.1) cell->simulation->tick();
   ASSERT_TRUE(cell->simulation->executive().cancel("canceled"));
-  ASSERT_TRUE(cell->simulation->executive().add_object(behind));
+  ASSERT_TRUE(cell->simulation->executive().scene().add(behind));
   cell->run_until(cell->simulation->now() + 1s);
   cell->submit(slide("y", -1, 1, 3, "passes"));
   cell->run_to_the_end(at(30s));

@@ -128,7 +128,7 @@ class Asked {
     if (dice > 0 && dice < 6) executive_->resume_all();
     if (dice == 6 && !has_object_) add_object();
     if (dice > 7 && has_object_) {
-      EXPECT_TRUE(executive_->remove_object("in the way"));
+      EXPECT_TRUE(executive_->scene().remove("in the way"));
       has_object_ = false;
     }
   }
@@ -154,23 +154,26 @@ class Asked {
   void add_object() {
     CollisionObject object{.name = "in the way", .shape = Sphere{0.02}};
     object.X_WO.translation() << random_.uniform(-0.6, 0.6), random_.uniform(-0.6, 0.6), 0.4;
-    has_object_ = executive_->add_object(object).has_value();  // not where an arm is
+    has_object_ = executive_->scene().add(object).has_value();  // not where an arm is
   }
 
   void compare(const CheckView& says, const JobView& job) {
     const bool is_free = job.state == JobState::scheduled || job.state == JobState::running;
-    const std::string what = told(job) + "; said: " + text(says.conflicts);
+    const std::string what = told(job) + "; said: " + text(says.waits_on);
     ASSERT_EQ(says.kind == Verdict::Kind::free, is_free) << what;
     if (is_free) {
       const Duration until = *job.scheduled_at - executive_->now();
       ASSERT_TRUE(says.earliest_start_s);
       ASSERT_NEAR(*says.earliest_start_s, std::max(0.0, to_seconds(until)), 1e-9) << what;
+      ASSERT_EQ(text(says.waits_on), text(job.waits_on)) << what;
+      ASSERT_TRUE(says.conflicts.empty()) << what;
       ++(until > Duration{} ? seen_.free_later : seen_.free_now);
     } else if (is_terminal(job.state)) {
       ++seen_.fail;
     } else {
       ++seen_.wait;
-      ASSERT_EQ(text(says.conflicts), text(job.waits_on)) << what;
+      ASSERT_EQ(text(says.waits_on), text(job.waits_on)) << what;
+      ASSERT_EQ(says.conflicts.size(), says.waits_on.size()) << what;
     }
   }
 

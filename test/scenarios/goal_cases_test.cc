@@ -57,7 +57,7 @@ TEST_P(Goals, TwoThatCrossBothArriveAndNeverTouch) {
 }
 
 TEST_P(Goals, OneThatIsBehindAnObjectFailsWithThePlannersReason) {
-  ASSERT_TRUE(cell->simulation->executive().add_object(box_at("post", 0.5, 0.0)));
+  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("post", 0.5, 0.0)));
   cell->submit(move_to("x", 0.5, "into it"));
   cell->run_to_the_end(at(10s));
   const JobView failed = cell->job("into it");
@@ -69,7 +69,7 @@ TEST_P(Goals, OneThatIsBehindAnObjectFailsWithThePlannersReason) {
 // The plan was made without the object, and is made again with it.
 TEST_P(Goals, APlanOfAnotherSceneIsMadeAgain) {
   cell->submit(move_to("x", 0.5, "late"));
-  ASSERT_TRUE(cell->simulation->executive().add_object(box_at("post", 0.5, 0.0)));
+  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("post", 0.5, 0.0)));
   cell->run_to_the_end(at(10s));
   EXPECT_EQ(cell->job("late").reason, Reason::no_plan);
   expect_at(-1.0, -1.0);
@@ -87,7 +87,7 @@ TEST_P(Goals, APlanFromElsewhereIsMadeAgain) {
 }
 
 TEST_P(Goals, WhatIsBehindOneThatFailsIsToldAtOnce) {
-  ASSERT_TRUE(cell->simulation->executive().add_object(box_at("post", 0.5, 0.0)));
+  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("post", 0.5, 0.0)));
   cell->submit(move_to("x", 0.5, "fails"));
   cell->submit(slide("x", 0.5, 0.0, 1.0, "cannot begin"));
   cell->submit(move_to("x", 0.0, "begins anywhere"));
@@ -103,7 +103,7 @@ TEST_P(Goals, ASceneThatNeverStaysEndsTheTries) {
   cell->submit(move_to("x", 0.5, "restless"));
   for (int i = 0; i < 20 && !cell->simulation->executive().all_ended(); ++i) {
     const std::string name = "fly " + std::to_string(i);
-    ASSERT_TRUE(cell->simulation->executive().add_object(box_at(name, 3.0, 3.0 + i)));
+    ASSERT_TRUE(cell->simulation->executive().scene().add(box_at(name, 3.0, 3.0 + i)));
     cell->run_until(cell->simulation->now() + kSimulatedPlanning);
   }
   EXPECT_EQ(cell->job("restless").reason, Reason::no_plan);

@@ -168,12 +168,12 @@ class RandomCommands {
     CollisionObject ball{.name = "ball", .shape = Sphere{0.05}};
     ball.X_WO.translation().x() = 0.1 * pick(-10, 10);
     if (bothering_ < 10) ball.X_WO.translation().y() = 0.1 * pick(0, 5);
-    if (executive().objects().empty()) {
-      tally_.changes += executive().add_object(ball) ? 1 : 0;
+    if (executive().scene().objects().empty()) {
+      tally_.changes += executive().scene().add(ball) ? 1 : 0;
     } else if (pick(0, 1) == 0) {
-      tally_.changes += executive().replace_object(ball) ? 1 : 0;
+      tally_.changes += executive().scene().replace(ball) ? 1 : 0;
     } else {
-      tally_.changes += executive().remove_object("ball") ? 1 : 0;
+      tally_.changes += executive().scene().remove("ball") ? 1 : 0;
     }
   }
 

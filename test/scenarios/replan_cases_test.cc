@@ -138,7 +138,7 @@ TEST_P(Replans, OneThatAnObjectStoppedGoesAroundIt) {
   cell->run_until(at(2s));
   CollisionObject post{.name = "post", .shape = Box{{0.1, 0.1, 0.1}}};
   post.X_WO.translation() = Eigen::Vector3d(-0.2, 1.6, 0.0);
-  ASSERT_TRUE(cell->executive().add_object(std::move(post)));
+  ASSERT_TRUE(cell->executive().scene().add(std::move(post)));
   cell->run_until(at(5s));
   ASSERT_EQ(cell->job("stopped").state, JobState::holding);
   ASSERT_TRUE(cell->executive().replan("stopped"));

@@ -70,13 +70,13 @@ class Client {
   }
   void change_scene() {
     if (std::exchange(has_post_, !has_post_)) {
-      (void)cell_.executive().remove_object("post");
+      (void)cell_.executive().scene().remove("post");
       return;
     }
     CollisionObject post{.name = "post", .shape = Box{{0.1, 0.1, 0.1}}};
     const auto [x_m, y_m] = anywhere();
     post.X_WO.translation() = Eigen::Vector3d(x_m, y_m, 0.0);
-    has_post_ = cell_.executive().add_object(std::move(post)).has_value();
+    has_post_ = cell_.executive().scene().add(std::move(post)).has_value();
   }
 
   TwoGantries& cell_;

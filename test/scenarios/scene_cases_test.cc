@@ -17,26 +17,26 @@ TEST(Scene, AnObjectSetInTheWayHoldsTheMotionUntilItIsTakenAway) {
   Crossing cell;
   cell.submit(slide("x", -1, 1, 8, "moves"));
   cell.run_until(at(2s));
-  ASSERT_TRUE(cell.simulation->executive().add_object(ball_at(0.8)));
+  ASSERT_TRUE(cell.simulation->executive().scene().add(ball_at(0.8)));
   EXPECT_TRUE(std::holds_alternative<SceneView>(cell.log.events.back().body));
   cell.run_until(at(10s));
   EXPECT_EQ(cell.job("moves").state, JobState::holding);
   EXPECT_EQ(cell.job("moves").waits_on.front().kind, Wait::Kind::object);
   EXPECT_EQ(cell.job("moves").waits_on.front().links.back(), "ball");
-  ASSERT_TRUE(cell.simulation->executive().remove_object("ball"));
+  ASSERT_TRUE(cell.simulation->executive().scene().remove("ball"));
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("moves").state, JobState::succeeded);
 }
 
 TEST(Scene, AWaitingJobIsTriedAgainWhenTheObjectMoves) {
   Crossing cell;
-  ASSERT_TRUE(cell.simulation->executive().add_object(ball_at(0.5)));
+  ASSERT_TRUE(cell.simulation->executive().scene().add(ball_at(0.5)));
   cell.submit(slide("x", -1, 1, 4, "waits"));
   cell.run_until(at(1s));
   EXPECT_EQ(cell.job("waits").state, JobState::backlogged);
   CollisionObject aside = ball_at(0.5);
   aside.X_WO.translation().z() = 2.0;
-  ASSERT_TRUE(cell.simulation->executive().replace_object(aside));
+  ASSERT_TRUE(cell.simulation->executive().scene().replace(aside));
   cell.run_until(at(1100ms));
   EXPECT_EQ(cell.job("waits").state, JobState::running);
 }
@@ -44,17 +44,17 @@ TEST(Scene, AWaitingJobIsTriedAgainWhenTheObjectMoves) {
 TEST(Scene, RefusesWhatCannotBe) {
   Crossing cell;
   Executive& executive = cell.simulation->executive();
-  const auto in_arm = executive.add_object(ball_at(-1.0));
+  const auto in_arm = executive.scene().add(ball_at(-1.0));
   ASSERT_FALSE(in_arm);
   EXPECT_EQ(in_arm.error().front().slug, "object-in-arm");
-  EXPECT_TRUE(executive.objects().empty());
-  ASSERT_TRUE(executive.add_object(ball_at(1.5)));
-  const std::uint64_t version = executive.scene_version();
-  EXPECT_EQ(executive.add_object(ball_at(1.8)).error().front().kind, ProblemKind::conflict);
-  EXPECT_EQ(executive.replace_object(ball_at(1.8, "other")).error().front().kind,
+  EXPECT_TRUE(executive.scene().objects().empty());
+  ASSERT_TRUE(executive.scene().add(ball_at(1.5)));
+  const std::uint64_t version = executive.scene().version();
+  EXPECT_EQ(executive.scene().add(ball_at(1.8)).error().front().kind, ProblemKind::conflict);
+  EXPECT_EQ(executive.scene().replace(ball_at(1.8, "other")).error().front().kind,
             ProblemKind::not_found);
-  EXPECT_EQ(executive.remove_object("other").error().front().kind, ProblemKind::not_found);
-  EXPECT_EQ(executive.scene_version(), version);
+  EXPECT_EQ(executive.scene().remove("other").error().front().kind, ProblemKind::not_found);
+  EXPECT_EQ(executive.scene().version(), version);
 }
 
 TEST(After, AJobWaitsForTheOnesItNames) {

@@ -169,12 +169,12 @@ void TeamsRun::change_scene() {
   say("scene");
   CollisionObject ball{.name = "ball", .shape = Sphere{0.05}};
   ball.X_WO.translation().x() = random_.uniform(-1.0, 1.0);
-  if (executive().objects().empty()) {
-    static_cast<void>(executive().add_object(ball));
+  if (executive().scene().objects().empty()) {
+    static_cast<void>(executive().scene().add(ball));
   } else if (random_.chance(0.5)) {
-    static_cast<void>(executive().replace_object(ball));
+    static_cast<void>(executive().scene().replace(ball));
   } else {
-    static_cast<void>(executive().remove_object("ball"));
+    static_cast<void>(executive().scene().remove("ball"));
   }
 }
 
@@ -198,7 +198,7 @@ void TeamsRun::note_own_jobs() {
 
 void TeamsRun::settle() {
   const TimePoint limit = simulation_->now() + 900s;
-  if (!executive().objects().empty()) static_cast<void>(executive().remove_object("ball"));
+  if (!executive().scene().objects().empty()) static_cast<void>(executive().scene().remove("ball"));
   executive().resume_all();
   say("all may go on");
   std::size_t events = 0;

@@ -40,6 +40,23 @@ TEST(Admission, ComparesWithTheRemainingMotionAsItWasMeasured) {  // T2
   EXPECT_EQ(bench.question->candidates.front().progress, 0ms);
 }
 
+// For questions about what else could go beside a cell that already moves.
+TEST(Admission, BesideWhatWasUnderWayBeforeComparesFromWhereThatIs) {
+  const CellPtr cell = one_joint_arms(2);
+  for (const Duration progress : {Duration{}, Duration{1200ms}}) {
+    Scheduler scheduler(
+        cell, *make_policy("certified", *cell), cell->home(),
+        {{.job = JobId{1}, .trajectory = move({0}, 0, 1, 2s), .progress = progress}}, at(5s));
+    EXPECT_EQ(scheduler.find(JobId{1})->state(),
+              progress == Duration{} ? JobState::scheduled : JobState::running);
+    const auto effects = scheduler.step(Submit{JobId{2}, move({1}, 0, 1, 2s), 0, 60s}, at(5s));
+    const auto judge = std::ranges::find_if(
+        effects, [](const Effect& effect) { return std::holds_alternative<Judge>(effect); });
+    ASSERT_NE(judge, effects.end());
+    EXPECT_EQ(std::get<Judge>(*judge).question.others.front().progress, progress);
+  }
+}
+
 TEST(Admission, CountsWhatHasNotMovedYetFromItsStart) {
   Bench bench(2);
   bench.submit(move({0}, 0, 1, 2s), at(0ms));

@@ -179,6 +179,19 @@ TEST_F(Graph, CancellingTheNextMotionKeepsTheGoalBeforeItBlocked) {
   EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0});
 }
 
+// B was to wait for Next at the goal to which A would have brought the arm: A never comes there.
+TEST_F(Graph, AGoalIsInNobodysWayWhenWhoWasToComeThereIsAbandonedToo) {
+  admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 5s);
+  admit({motion(kB, 1, 5s), motion(kNext, 0, 4s)},
+        {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 1s}})}}});
+  graph.progress(kA, 2s);
+  graph.abandon(kNext, 0s);
+  ASSERT_EQ(graph.limit(kB), 2s - kShortOf);
+  graph.abandon(kA, 3s);
+  EXPECT_EQ(graph.limit(kB), 5s);
+}
+
 TEST_F(Graph, LargerPriorityPassesFirstWhateverItCostsOthers) {
   admit({motion(kA, 0, 3s)}, {});
   CoordinatedMotion urgent = motion(kB, 1, 9s);

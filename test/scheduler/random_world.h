@@ -18,6 +18,7 @@ struct Disturbances {
   bool cancels = false;
   bool scenes = false;
   bool parks = false;
+  bool amends = false;   // other priorities, other timeouts
   bool choices = false;  // some jobs may be done in any order, or by any of several arms
 };
 

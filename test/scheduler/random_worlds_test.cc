@@ -76,6 +76,17 @@ TEST_P(Worlds, OnScenesThatChangeEveryJobEndsOnce) {
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
+TEST_P(Worlds, WhateverIsGivenAnotherPriorityWhatCanBeDoneInTurnIsDone) {
+  auto ended = run(200, {.delays = true, .amends = true, .choices = true}, true);
+  EXPECT_GT(ended[JobState::succeeded], 1000);
+}
+
+TEST_P(Worlds, WhateverIsAmendedAndCanceledEveryJobEndsOnce) {
+  auto ended = run(
+      200, {.delays = true, .stops = true, .cancels = true, .parks = true, .amends = true}, false);
+  EXPECT_GT(ended[JobState::succeeded], 500);
+}
+
 TEST_P(Worlds, WhereArmsGoAsideEveryJobEndsOnce) {
   auto ended = run(200, {.delays = true, .cancels = true, .parks = true}, false);
   EXPECT_GT(ended[JobState::succeeded], 500);

@@ -76,7 +76,8 @@ class Look {
     }
   }
   bool is_first(const Submit& job) {
-    return job.after.empty() && std::ranges::none_of(job.trajectory->arms(), [this](ArmId arm) {
+    return job.terms.after.empty() &&
+           std::ranges::none_of(job.trajectory->arms(), [this](ArmId arm) {
              return std::ranges::any_of(bench().scheduler.active(), [&](JobId id) {
                const auto& arms = bench().job(id).trajectory->arms();
                return std::ranges::find(arms, arm) != arms.end();
@@ -108,6 +109,7 @@ class Look {
     if (is_free) {
       ASSERT_EQ(says.starts_in, std::max(Duration{}, *job.times.scheduled_at - bench().now()))
           << what;
+      ASSERT_EQ(text(says.waits), text(job.waits_on)) << what;
       ++(*says.starts_in > Duration{} ? seen_.free_later : seen_.free_now);
     } else if (is_terminal(job.state())) {
       ++seen_.fail;

@@ -150,7 +150,7 @@ TEST_F(DiagramOverHttp, KnowsWhereBothAreAndThatOneHasNotBegun) {
 }
 
 TEST_F(DiagramOverHttp, IsDrawnForJobsThatHaveEnded) {
-  start(5.0);  // l goes aside for r, which is to be canceled before it moves
+  start(2.0);  // l goes aside for r, which is to be canceled before it moves
   test::Listener listener(port());
   submit_two_that_cross();
   until(listener, "l", "succeeded");

@@ -95,6 +95,41 @@ TEST_F(Durable, WhatWaitedWaitsAgainUnderAStopAndGoesOnWhenResumed) {
   EXPECT_LE(job("a")["ended_s"].get<double>(), job("b")["started_s"].get<double>());
 }
 
+TEST_F(Durable, WhatWasChangedOfAJobOutlivesTheServer) {
+  start(1);
+  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  submit("a");
+  submit("b", "right");
+  const auto patch = [&](const std::string& id, const json& changes) {
+    return test::request(port(), "PATCH", "/api/v1/jobs/" + id, changes.dump());
+  };
+  ASSERT_EQ(patch("a", {{"priority", 4}, {"on_timeout", "replan"}}).status, 200);
+  ASSERT_EQ(patch("a", {{"backlog_timeout_s", 7}, {"name", "first"}}).status, 200);
+  for (int run = 0; run < 2; ++run) {
+    restart();
+    EXPECT_EQ(job("a")["priority"], 4);
+    EXPECT_EQ(job("a")["on_timeout"], "replan");
+    EXPECT_EQ(job("a")["backlog_timeout_s"], 7);
+    EXPECT_EQ(job("a")["name"], "first");
+    EXPECT_EQ(job("b")["priority"], 0);
+  }
+  EXPECT_EQ(submit("a").status, 200) << "the same request, sent again";
+}
+
+TEST_F(Durable, WhatCannotBeWrittenIsNotSaidToBeChanged) {
+  start(1);
+  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  submit("a");
+  FailingDisk::fail(FailingDisk::Fault::broken, FailingDisk::operations() + 1);
+  const auto refused = test::request(port(), "PATCH", "/api/v1/jobs/a", R"({"priority": 4})");
+  EXPECT_EQ(refused.status, 503) << refused.body;
+  FailingDisk::reset();
+  wait_until([&] { return get("/readyz").status == 200; });
+  EXPECT_EQ(test::request(port(), "PATCH", "/api/v1/jobs/a", R"({"priority": 5})").status, 200);
+  restart();
+  EXPECT_EQ(job("a")["priority"], 5);
+}
+
 TEST_F(Durable, WhatRanIsInterruptedAndWhatCameAfterItFails) {
   start(1);
   submit("ran");

@@ -60,7 +60,7 @@ TEST_F(MetricsRoute, CountsJobsWaitsAndDecisions) {
 TEST_F(MetricsRoute, WatchesLoopsClearanceAndStops) {
   start(1.0);
   test::Listener listener(port());
-  (void)listener.next_of("state");
+  for (int frames = 0; frames < 3; ++frames) (void)listener.next_of("state");
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   const auto values = figures();
   EXPECT_GT(values.at("armloom_period_seconds_count{loop=\"control\"}"), 0);

@@ -78,7 +78,7 @@ TEST_F(Rfc, AnEmptyLineBeforeARequestIsReadOver) {
 TEST_F(Rfc, OptionsTellsWhatIsServed) {
   const auto all = answer_to("OPTIONS * HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_EQ(all.status, 204);
-  EXPECT_EQ(all.headers.at("allow"), "DELETE, GET, HEAD, OPTIONS, POST, PUT");
+  EXPECT_EQ(all.headers.at("allow"), "DELETE, GET, HEAD, OPTIONS, PATCH, POST, PUT");
   const auto jobs = answer_to("OPTIONS /api/v1/jobs HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_EQ(jobs.status, 204);
   EXPECT_EQ(jobs.headers.at("allow"), "GET, HEAD, OPTIONS, POST");

@@ -44,14 +44,15 @@ class Rights : public test::RunningServer {
   }
   // Only the head of the answer: some never end.
   Answered ask(const std::string& method, const std::string& path, const std::string& headers,
-               const std::string& host = "127.0.0.1") {
+               const std::string& body = "", const std::string& host = "127.0.0.1") {
     test::Wire wire(port());
     const bool socket = path.ends_with("/ws");
     wire.send(method + " " + path + " HTTP/1.1\r\nHost: " + host + "\r\n" + headers +
               (socket ? "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
                       : "") +
-              (method == "GET" ? "" : "Content-Length: 0\r\n") + "\r\n");
+              (method == "GET" ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") +
+              "\r\n" + body);
     std::string head = wire.take_until("\r\n\r\n");
     return {std::stoi(head.substr(9, 3)), std::move(head)};
   }
@@ -64,7 +65,7 @@ class Rights : public test::RunningServer {
       }
     }
     EXPECT_EQ(path.find('{'), path.npos) << path;
-    return ask(route.method, path, headers, host);
+    return ask(route.method, path, headers, "", host);
   }
 
   fs::path file_;
@@ -149,6 +150,20 @@ TEST_F(Rights, TokensCountAsSoonAsTheyAreMadeAndNoLongerThanTheyAre) {
   EXPECT_EQ(ask("GET", "/api/v1/arms", bearer(tokens_["admin"])).status, 401) << "nobody's";
 }
 
+TEST_F(Rights, EachTokenHasIdempotencyKeysOfItsOwn) {
+  const auto send = [&](const char* name, const std::string& arm) {
+    const std::string body =
+        R"({"arm": ")" + arm + R"(", "move_to": {"named": "ready"}, "name": "sent"})";
+    return ask("POST", "/api/v1/jobs",
+               bearer(tokens_[name]) + "Idempotency-Key: one\r\nContent-Type: application/json\r\n",
+               body);
+  };
+  EXPECT_EQ(send("operator", "left").status, 202);
+  EXPECT_EQ(send("operator", "left").status, 200);
+  EXPECT_EQ(send("operator", "right").status, 409);
+  EXPECT_EQ(send("admin", "right").status, 202);
+}
+
 TEST_F(Rights, AWebSocketIsClosedWhenItsTokenIsWithdrawn) {
   test::Wire socket(port());
   socket.send(
@@ -205,6 +220,19 @@ class Audit : public Rights {
     }
   }
 };
+
+TEST_F(Audit, KnowsWhoWasRefusedBeforeTheBodyWasRead) {
+  test::Wire wire(port());
+  wire.send(
+      "POST /api/v1/jobs HTTP/1.1\r\nHost: 127.0.0.1\r\nExpect: 100-continue\r\n"
+      "Content-Length: 100\r\n" +
+      bearer(tokens_["viewer"]) + "\r\n");
+  EXPECT_NE(wire.take_until("\r\n\r\n").find("403"), std::string::npos);
+  const auto entry = entries("", 1)["entries"][0];
+  EXPECT_EQ(entry["who"], "viewer");
+  EXPECT_EQ(entry["path"], "/api/v1/jobs");
+  EXPECT_EQ(entry["status"], 403);
+}
 
 TEST_F(Audit, SaysWhoDidWhatAndWhoWasNotLet) {
   ASSERT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);

@@ -67,7 +67,7 @@ class Arm {
     kernel.inflate(view_, placed, spans_.data(), {motion_bounds_.data(), bends_.data()});
   }
 
-  [[nodiscard]] const RandomLinkage& linkage() const { return linkage_; }
+  [[nodiscard]] const RandomLinkage& kinematics() const { return linkage_; }
   [[nodiscard]] NumberedCapsule capsule(int number) const {
     return {number, linkage_.capsules[static_cast<std::size_t>(number)]};
   }
@@ -122,8 +122,8 @@ Tally attack(double span_max, std::size_t rounds) {
     Arm a(random, span_max), b(random, span_max);
     a.move(random);
     b.move(random);
-    const auto capsule_a = static_cast<int>(random() % a.linkage().capsules.size());
-    const auto capsule_b = static_cast<int>(random() % b.linkage().capsules.size());
+    const auto capsule_a = static_cast<int>(random() % a.kinematics().capsules.size());
+    const auto capsule_b = static_cast<int>(random() % b.kinematics().capsules.size());
     const double limit_m = largest_kept(a, b, capsule_a, capsule_b);
     if (limit_m < 0.0) continue;
     ++tally.pairs;

@@ -28,7 +28,7 @@ constexpr float kFar_m = 1e3F;  // a limit that leaves every pair open, so that 
 // One arm in eight configurations.
 struct PlacedArm {
   explicit PlacedArm(const ArmKinematics& arm)
-      : linkage(arm),
+      : kinematics(arm),
         q(arm.joints().size() * kLanes),
         frames(arm.frames().size() * 12 * kLanes),
         axes(arm.frames().size() * 6 * kLanes),
@@ -36,17 +36,17 @@ struct PlacedArm {
         still(static_cast<std::size_t>(arm.motion_bound_rows()) * kLanes, 0.0F) {}
 
   void put(const Configuration& state, std::size_t lane) {
-    for (std::size_t row = 0; row < linkage.joints().size(); ++row) {
-      q[row * kLanes + lane] = state[static_cast<Eigen::Index>(linkage.joints()[row].index())];
+    for (std::size_t row = 0; row < kinematics.joints().size(); ++row) {
+      q[row * kLanes + lane] = state[static_cast<Eigen::Index>(kinematics.joints()[row].index())];
     }
   }
   void place() {
-    filter::best_kernel().place(linkage.view(), q.data(),
+    filter::best_kernel().place(kinematics.view(), q.data(),
                                 {frames.data(), axes.data(), capsules.data()});
   }
   [[nodiscard]] filter::Side side() const { return {capsules.data(), still.data()}; }
 
-  const ArmKinematics& linkage;
+  const ArmKinematics& kinematics;
   std::vector<double> q, frames;
   std::vector<float> axes, capsules, still;
 };
@@ -59,7 +59,7 @@ class Checker {
       linkages_.emplace_back(bodies_, ArmId{a});
     }
     linkages_.emplace_back(bodies_, std::nullopt);  // what stands still
-    for (const ArmKinematics& linkage : linkages_) arms_.emplace_back(linkage);
+    for (const ArmKinematics& kinematics : linkages_) arms_.emplace_back(kinematics);
     for (std::size_t a = 0; a + 1 < arms_.size(); ++a) {
       for (std::size_t b = a + 1; b + 1 < arms_.size(); ++b) {
         add(a, b);

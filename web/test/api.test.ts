@@ -25,6 +25,12 @@ describe('the HTTP calls', () => {
     expect(asked[0]?.url).toBe('/api/v1/jobs/a%2Fb%3Fc');
   });
 
+  it('change what is named of a job', async () => {
+    const { api, asked } = api_that_answers(200, '{"id":"a"}');
+    expect((await api.amend_job('a/b', { priority: 3 })).ok).toBe(true);
+    expect(asked[0]).toMatchObject({ url: '/api/v1/jobs/a%2Fb', init: { method: 'PATCH', body: '{"priority":3}' } });
+  });
+
   it('ask for another way, for how a job moves, and for a way to a goal', async () => {
     const { api, asked } = api_that_answers(200, JSON.stringify({ id: 'a', duration_s: 2, trajectory: { joint_names: ['x'], points: [{ positions: [0] }] } }));
     expect((await api.replan_job('a/b')).ok).toBe(true);

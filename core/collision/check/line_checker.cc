@@ -34,8 +34,9 @@ LineChecker::LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration&
   const auto add = [&](std::optional<ArmId> other, double error) {
     auto geometry = std::make_shared<const ArmGeometry>(scene_->bodies(), other);
     const bool turned = other && *other < arm;
-    PairSet pairs = turned ? pairs_between(scene_->bodies(), geometry->linkage, geometry_->linkage)
-                           : pairs_between(scene_->bodies(), geometry_->linkage, geometry->linkage);
+    PairSet pairs =
+        turned ? pairs_between(scene_->bodies(), geometry->kinematics, geometry_->kinematics)
+               : pairs_between(scene_->bodies(), geometry_->kinematics, geometry->kinematics);
     if (pairs.empty()) return;
     counterparts_.push_back(
         {std::move(pairs), std::make_shared<MotionTube>(geometry, nullptr, rest, error)});
@@ -66,7 +67,7 @@ TubePair LineChecker::pair_with(const Counterpart& other,
                                 const std::shared_ptr<MotionTube>& tube) const {
   const TubePair::Setting setting{&scene_->bodies(), &other.pairs, pair_scratch_};
   if (!other.tube) return {setting, tube, tube};
-  const std::optional<ArmId> arm = other.tube->linkage().arm();
+  const std::optional<ArmId> arm = other.tube->kinematics().arm();
   const bool turned = arm && *arm < arm_;
   return turned ? TubePair(setting, other.tube, tube) : TubePair(setting, tube, other.tube);
 }

@@ -41,7 +41,7 @@ std::uint64_t PairRegionSearch::cells_for(const Side& a, const Side& b) const {
 }
 
 Duration PairRegionSearch::closest() const {
-  return question_.effort > 1 ? CoordinationDiagram::kFinest : kClosest;
+  return question_.effort > 1 ? CellTree::kFinest : kClosest;
 }
 
 PairRegionSearch::PairRegionSearch(MotionStore& store, const Question& question)

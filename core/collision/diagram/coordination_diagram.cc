@@ -25,96 +25,32 @@ struct CoordinationDiagram::Search {
 
 CoordinationDiagram::CoordinationDiagram(TubePair pair)
     : pair_(std::move(pair)),
-      a_(pair_.a()),
-      b_(pair_.is_self() ? std::make_shared<TimeTree>() : pair_.b()) {
-  cells_.push_back({TimeTree::root(), TimeTree::root()});
-}
+      tree_(pair_.a(), pair_.is_self() ? std::make_shared<TimeTree>() : pair_.b()) {}
 
-// ---- The tree ----
-
-ProgressBox CoordinationDiagram::box_of(const DiagramNode& cell) const {
-  return {a_->from(cell.a), a_->to(cell.a), b_->from(cell.b), b_->to(cell.b)};
-}
+// ---- The cells ----
 
 std::vector<CoordinationDiagram::CellView> CoordinationDiagram::cells() const {
   std::vector<CellView> views;
-  for (const DiagramNode& cell : cells_) {
-    if (cell.state != CellState::inner) views.push_back({box_of(cell), cell.state});
+  for (const Node& cell : tree_) {
+    if (cell.state != CellState::inner) views.push_back({tree_.box_of(cell), cell.state});
   }
   return views;
 }
 
-CoordinationDiagram::Witness CoordinationDiagram::witness_at(const DiagramNode& cell, PairId pair,
+CoordinationDiagram::Witness CoordinationDiagram::witness_at(const Node& cell, PairId pair,
                                                              double distance_m) const {
-  return {pair, distance_m, a_->middle(cell.a), b_->middle(cell.b), 0.0};
+  return {pair, distance_m, tree_.a().middle(cell.a), tree_.b().middle(cell.b), 0.0};
 }
 
 std::optional<TimeRange> CoordinationDiagram::meets(const ProgressBand& band,
-                                                    const DiagramNode& cell) const {
-  const ProgressBox box = box_of(cell);
+                                                    const Node& cell) const {
+  const ProgressBox box = tree_.box_of(cell);
   return armloom::meets(band, to_seconds(box.from_a), to_seconds(box.to_a), to_seconds(box.from_b),
                         to_seconds(box.to_b));
 }
 
-bool CoordinationDiagram::wider(const DiagramNode& cell, Duration resolution) const {
-  return a_->width(cell.a) > resolution || b_->width(cell.b) > resolution;
-}
-
-// An unknown cell that is hardly free in one is split before it is looked at.
-void CoordinationDiagram::split_if_wide(int index) {
-  DiagramNode& cell = at(index);
-  if (cell.state != CellState::unknown || !wider(cell, kWide)) return;
-  cell.split_a = a_->width(cell.a) > kWide;
-  cell.split_b = b_->width(cell.b) > kWide;
-  split(index, 1);
-}
-
-// As the cell's split_a, split_b say; children of further levels likewise.
-void CoordinationDiagram::split(int index, int levels) {
-  const DiagramNode cell = at(index);
-  const bool split_a = cell.split_a && a_->width(cell.a) > kFinest;
-  const bool split_b = cell.split_b && b_->width(cell.b) > kFinest;
-  if (!split_a && !split_b) {
-    at(index).state = CellState::finest;
-    return;
-  }
-  const int children = static_cast<int>(cells_.size());
-  at(index).children = children;
-  at(index).state = CellState::inner;
-  at(index).split_a = split_a;
-  at(index).split_b = split_b;
-  const int first_a = split_a ? a_->first_child(cell.a) : cell.a;
-  const int first_b = split_b ? b_->first_child(cell.b) : cell.b;
-  for (int i = 0; i < (split_a ? 2 : 1); ++i) {
-    for (int j = 0; j < (split_b ? 2 : 1); ++j) {
-      DiagramNode child{first_a + i, first_b + j};
-      child.split_a = cell.split_a;
-      child.split_b = cell.split_b;
-      cells_.push_back(child);
-    }
-  }
-  if (levels <= 1) return;
-  const int end = static_cast<int>(cells_.size());
-  for (int child = children; child < end; ++child) {
-    if (wider(at(child), kFinest)) split(child, levels - 1);
-  }
-}
-
-// Where the side that moves more is fine already, the other one is halved.
-void CoordinationDiagram::split_if_coarse(int index, Duration resolution) {
-  DiagramNode& cell = at(index);
-  if (cell.state != CellState::mixed || !wider(cell, resolution)) return;
-  const bool coarse_a = a_->width(cell.a) > resolution;
-  const bool coarse_b = b_->width(cell.b) > resolution;
-  const bool as_chosen = (cell.split_a && coarse_a) || (cell.split_b && coarse_b);
-  cell.split_a = coarse_a && (cell.split_a || !as_chosen);
-  cell.split_b = coarse_b && (cell.split_b || !as_chosen);
-  split(index, 1);
-}
-
 // The conflict at the cell's middle.
-const CoordinationDiagram::NarrowWitness* CoordinationDiagram::proven(
-    const DiagramNode& cell) const {
+const CoordinationDiagram::NarrowWitness* CoordinationDiagram::proven(const Node& cell) const {
   if (cell.witness < 0) return nullptr;
   const NarrowWitness& found = found_[static_cast<std::size_t>(cell.witness)];
   return found.distance_m < pair_.narrow(found.narrow, found.box).limit_m ? &found : nullptr;
@@ -124,17 +60,17 @@ const CoordinationDiagram::NarrowWitness* CoordinationDiagram::proven(
 
 // Adds the unknown leaves below the cell that the question needs; takes note of what is known.
 void CoordinationDiagram::collect(int index, Search& search) {
-  const auto times = meets(search.band, at(index));
+  const auto times = meets(search.band, tree_.at(index));
   if (!times || times->from > search.conflict_at_s - kFirst_s) return;
-  if (at(index).state == CellState::free) return;
+  if (tree_.at(index).state == CellState::free) return;
   const Open open{index, *times};
-  split_if_wide(index);
-  if (at(index).state == CellState::mixed || at(index).state == CellState::conflict) {
+  tree_.split_if_wide(index);
+  if (tree_.at(index).state == CellState::mixed || tree_.at(index).state == CellState::conflict) {
     consider_conflict(open, search);
     if (times->from > search.conflict_at_s - kFirst_s) return;
-    if (at(index).state == CellState::mixed) split(index, at(index).levels);
+    if (tree_.at(index).state == CellState::mixed) tree_.split(index, tree_.at(index).levels);
   }
-  switch (at(index).state) {
+  switch (tree_.at(index).state) {
     case CellState::unknown:
       search.open.push_back(open);
       break;
@@ -145,7 +81,7 @@ void CoordinationDiagram::collect(int index, Search& search) {
       search.leave_open(open);
       break;
     case CellState::inner: {
-      const DiagramNode cell = at(index);
+      const Node cell = tree_.at(index);
       for (int i = 0; i < cell.child_count(); ++i) collect(cell.children + i, search);
       break;
     }
@@ -182,7 +118,7 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const ProgressBand& band,
   answer.proven = answer.conflict.has_value();
   answer.free = !undecided && !answer.proven;
   if (undecided && !answer.proven) {
-    Witness witness = witness_at(at(search.undecided), PairId{0}, 0.0);
+    Witness witness = witness_at(tree_.at(search.undecided), PairId{0}, 0.0);
     const TubePair::PairDistance closest = pair_.closest_at(witness.time_a, witness.time_b);
     witness.pair = closest.pair;
     witness.distance_m = closest.distance_m;
@@ -195,7 +131,7 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const ProgressBand& band,
 // A cell with a conflict at its middle: is that, or what the plan passes in the cell, one of the
 // question's band?
 void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
-  const DiagramNode& cell = at(open.cell);
+  const Node& cell = tree_.at(open.cell);
   const NarrowWitness* found = proven(cell);
   if (found == nullptr) return;
   std::optional<Witness> witness = witness_at(cell, found->pair, found->distance_m);
@@ -216,18 +152,18 @@ void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
 // The state that the plan itself passes in the middle of its time in the cell.
 std::optional<CoordinationDiagram::Witness> CoordinationDiagram::on_the_line(
     const Open& open, const ProgressBand& band) {
-  const DiagramNode& cell = at(open.cell);
+  const Node& cell = tree_.at(open.cell);
   const NarrowWitness& found = found_[static_cast<std::size_t>(cell.witness)];
   const NarrowPair& pair = pair_.narrow(found.narrow, found.box);
-  const double until = std::min(
-      open.times.to, open.times.from + to_seconds(a_->duration()) + to_seconds(b_->duration()));
+  const double until = std::min(open.times.to, open.times.from + to_seconds(tree_.a().duration()) +
+                                                   to_seconds(tree_.b().duration()));
   const double t = 0.5 * (open.times.from + until);
   const auto place = [t](const TimeTree& axis, int node, double progress) {
     const Duration planned = std::clamp(from_seconds(progress + t), Duration{}, axis.duration());
     return std::clamp(planned, axis.from(node), axis.to(node));
   };
-  Witness witness{found.pair, 0.0, place(*a_, cell.a, band.progress_a),
-                  place(*b_, cell.b, band.progress_b), 0.0};
+  Witness witness{found.pair, 0.0, place(tree_.a(), cell.a, band.progress_a),
+                  place(tree_.b(), cell.b, band.progress_b), 0.0};
   const auto at_s = first_at(band, to_seconds(witness.time_a), to_seconds(witness.time_b));
   if (!at_s) return std::nullopt;
   witness.at_s = *at_s;

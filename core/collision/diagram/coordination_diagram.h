@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/collision/diagram/cell_tree.h"
 #include "core/collision/diagram/passing_edges.h"
 #include "core/collision/diagram/progress_band.h"
 #include "core/collision/diagram/tube_pair.h"
@@ -81,7 +82,7 @@ class CoordinationDiagram {
   std::uint64_t refine_close_passes(const std::vector<ProgressBox>& areas, Duration finest,
                                     std::uint64_t budget);
 
-  enum class CellState : std::uint8_t { unknown, free, mixed, conflict, finest, inner };
+  using CellState = CellTree::CellState;
   struct CellView {
     ProgressBox box;
     CellState state;
@@ -91,24 +92,9 @@ class CoordinationDiagram {
 
   // How far the time of a first conflict may be off.
   inline static constexpr double kFirst_s = 0.01;
-  // Wider stretches of a motion are hardly ever free in one: they are halved unseen.
-  inline static constexpr Duration kWide = std::chrono::milliseconds(700);
-  // Cells are not split below this width.
-  inline static constexpr Duration kFinest = std::chrono::microseconds(500);
 
  private:
-  struct DiagramNode {
-    int a;  // nodes of the axes
-    int b;
-    int children = -1;  // first of two or four
-    CellState state = CellState::unknown;
-    bool split_a = false;  // how to split: for the children of inner cells, and for mixed ones
-    bool split_b = false;
-    std::uint8_t levels = 1;  // of a mixed cell: how many halvings at once
-    int witness = -1;         // at its middle
-
-    [[nodiscard]] int child_count() const { return (split_a ? 2 : 1) * (split_b ? 2 : 1); }
-  };
+  using Node = CellTree::Node;
   struct NarrowWitness {  // at the middle of a cell
     PairId pair;
     int narrow;
@@ -121,21 +107,11 @@ class CoordinationDiagram {
   };
   struct Search;
 
-  // The tree (coordination_diagram.cc).
-  [[nodiscard]] DiagramNode& at(int cell) { return cells_[static_cast<std::size_t>(cell)]; }
-  [[nodiscard]] const DiagramNode& at(int cell) const {
-    return cells_[static_cast<std::size_t>(cell)];
-  }
-  [[nodiscard]] ProgressBox box_of(const DiagramNode& cell) const;
-  [[nodiscard]] Witness witness_at(const DiagramNode& cell, PairId pair, double distance_m) const;
-  [[nodiscard]] std::optional<TimeRange> meets(const ProgressBand& band,
-                                               const DiagramNode& cell) const;
+  // Questions (coordination_diagram.cc).
+  [[nodiscard]] Witness witness_at(const Node& cell, PairId pair, double distance_m) const;
+  [[nodiscard]] std::optional<TimeRange> meets(const ProgressBand& band, const Node& cell) const;
   void collect(int cell, Search& search);
-  void split(int cell, int levels);
-  [[nodiscard]] bool wider(const DiagramNode& cell, Duration resolution) const;
-  void split_if_wide(int cell);
-  void split_if_coarse(int cell, Duration resolution);
-  [[nodiscard]] const NarrowWitness* proven(const DiagramNode& cell) const;
+  [[nodiscard]] const NarrowWitness* proven(const Node& cell) const;
   void consider_conflict(const Open& open, Search& search);
   [[nodiscard]] std::optional<Witness> on_the_line(const Open& open, const ProgressBand& band);
 
@@ -149,25 +125,18 @@ class CoordinationDiagram {
   [[nodiscard]] std::vector<OpenLeaf> open_leaves(Duration now_a, Duration now_b) const;
   [[nodiscard]] bool is_outlined(Duration now_a, Duration now_b,
                                  const Resolution& resolution) const;
-  [[nodiscard]] bool remains(const DiagramNode& cell, Duration now_a, Duration now_b) const;
-  template <class Visit>
-  bool leaves_at(const DiagramNode& of, const Visit& visit) const;
 
   // A batch of cells (diagram_cells.cc).
   void evaluate(std::span<const int> cells);
   void decide(int cell, std::vector<TubePair::Undecided>& undecided);
-  [[nodiscard]] TubePair::Nodes nodes_of(const DiagramNode& cell) const;
-  void note(DiagramNode& cell, const NarrowWitness& found);
-  void choose_split(DiagramNode& cell, const TubePair::Undecided& worst);
-  [[nodiscard]] bool clears(DiagramNode& cell, TubePair::Undecided& undecided);
+  [[nodiscard]] TubePair::Nodes nodes_of(const Node& cell) const;
+  void note(Node& cell, const NarrowWitness& found);
+  void choose_split(Node& cell, const TubePair::Undecided& worst);
+  [[nodiscard]] bool clears(Node& cell, TubePair::Undecided& undecided);
 
   TubePair pair_;
-  std::shared_ptr<TimeTree>
-      a_;  // the axes: times of the tubes; of an arm and itself the second one
-  std::shared_ptr<TimeTree> b_;  // has no length
-  std::vector<DiagramNode> cells_;
+  CellTree tree_;  // axes: times of the tubes; of an arm and itself the second one has no length
   std::vector<NarrowWitness> found_;
-  mutable std::vector<int> walk_;  // of leaves_at()
   struct Outlined {
     Duration now_a, now_b;
     Resolution resolution;

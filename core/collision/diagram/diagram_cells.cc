@@ -15,20 +15,20 @@ constexpr double kTowardsShare = 0.25;
 
 }  // namespace
 
-TubePair::Nodes CoordinationDiagram::nodes_of(const DiagramNode& cell) const {
+TubePair::Nodes CoordinationDiagram::nodes_of(const Node& cell) const {
   return {cell.a, pair_.is_self() ? cell.a : cell.b};
 }
 
 // Up to eight.
 void CoordinationDiagram::evaluate(std::span<const int> cells) {
   TubePair::Nodes nodes[filter::kLanes];
-  for (std::size_t i = 0; i < cells.size(); ++i) nodes[i] = nodes_of(at(cells[i]));
+  for (std::size_t i = 0; i < cells.size(); ++i) nodes[i] = nodes_of(tree_.at(cells[i]));
   pair_.filter({nodes, cells.size()});
   for (std::size_t i = 0; i < cells.size(); ++i) decide(cells[i], pair_.undecided(i));
 }
 
 // Whether the pair keeps its limit all over the cell; notes it if not.
-bool CoordinationDiagram::clears(DiagramNode& cell, TubePair::Undecided& u) {
+bool CoordinationDiagram::clears(Node& cell, TubePair::Undecided& u) {
   const NarrowPair& pair = pair_.narrow(u.narrow, u.box);
   const double enough_m = u.limit_m + u.moves_m();
   u.distance_m = pair_.distance(pair, nodes_of(cell), enough_m);
@@ -45,7 +45,7 @@ bool CoordinationDiagram::clears(DiagramNode& cell, TubePair::Undecided& u) {
 // From what the filter has left open to the cell's state.
 void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& undecided) {
   using Undecided = TubePair::Undecided;
-  DiagramNode& cell = at(index);
+  Node& cell = tree_.at(index);
   cell.state = CellState::free;
   if (undecided.empty()) return;
 
@@ -81,7 +81,7 @@ void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& un
 }
 
 // Keeps the closest pair of a cell's middle.
-void CoordinationDiagram::note(DiagramNode& cell, const NarrowWitness& found) {
+void CoordinationDiagram::note(Node& cell, const NarrowWitness& found) {
   if (cell.witness < 0) {
     cell.witness = static_cast<int>(found_.size());
     found_.push_back(found);
@@ -90,17 +90,17 @@ void CoordinationDiagram::note(DiagramNode& cell, const NarrowWitness& found) {
   }
 }
 
-void CoordinationDiagram::choose_split(DiagramNode& cell, const TubePair::Undecided& worst) {
+void CoordinationDiagram::choose_split(Node& cell, const TubePair::Undecided& worst) {
   cell.split_a = worst.moves_a_m >= kBothShare * worst.moves_b_m;
   cell.split_b = worst.moves_b_m >= kBothShare * worst.moves_a_m;
-  if (!(cell.split_a && a_->width(cell.a) > kFinest) &&
-      !(cell.split_b && b_->width(cell.b) > kFinest)) {
+  if (!(cell.split_a && tree_.a().width(cell.a) > CellTree::kFinest) &&
+      !(cell.split_b && tree_.b().width(cell.b) > CellTree::kFinest)) {
     cell.split_a = cell.split_b = true;  // what is left
   }
   const double room_m = worst.distance_m + worst.slack_m - worst.limit_m;
   const double shrink = room_m > 0.0 ? worst.moves_m() / room_m : 2.0;
   cell.levels = shrink > 6.0 ? 2 : 1;
-  cell.state = wider(cell, kFinest) ? CellState::mixed : CellState::finest;
+  cell.state = tree_.wider(cell, CellTree::kFinest) ? CellState::mixed : CellState::finest;
 }
 
 }  // namespace armloom

@@ -36,11 +36,11 @@ std::uint64_t CoordinationDiagram::refine(Duration now_a, Duration now_b, Durati
   const auto expand = [&](std::vector<int>& open, std::vector<int>& unknown) {
     for (std::size_t i = 0; i < open.size(); ++i) {  // grows
       const int index = open[i];
-      if (!remains(at(index), now_a, now_b)) continue;
-      split_if_wide(index);
-      if (at(index).state == CellState::unknown) unknown.push_back(index);
-      split_if_coarse(index, resolution);
-      const DiagramNode now = at(index);
+      if (!tree_.remains(tree_.at(index), now_a, now_b)) continue;
+      tree_.split_if_wide(index);
+      if (tree_.at(index).state == CellState::unknown) unknown.push_back(index);
+      tree_.split_if_coarse(index, resolution);
+      const Node now = tree_.at(index);
       if (now.state != CellState::inner) continue;
       for (int c = 0; c < now.child_count(); ++c) open.push_back(now.children + c);
     }
@@ -48,69 +48,47 @@ std::uint64_t CoordinationDiagram::refine(Duration now_a, Duration now_b, Durati
   return refine_from({0}, budget, expand, [](const std::vector<int>& seen) { return seen; });
 }
 
-bool CoordinationDiagram::remains(const DiagramNode& cell, Duration now_a, Duration now_b) const {
-  return a_->to(cell.a) >= now_a && b_->to(cell.b) >= now_b;
-}
-
-// Calls visit(leaf) for what touches the cell, corners included, until it says yes: whether it did.
-template <class Visit>
-bool CoordinationDiagram::leaves_at(const DiagramNode& of, const Visit& visit) const {
-  std::vector<int>& open = walk_;
-  open.assign(1, 0);
-  while (!open.empty()) {
-    const int index = open.back();
-    open.pop_back();
-    const DiagramNode& cell = at(index);
-    const bool touch = a_->from(cell.a) <= a_->to(of.a) && a_->to(cell.a) >= a_->from(of.a) &&
-                       b_->from(cell.b) <= b_->to(of.b) && b_->to(cell.b) >= b_->from(of.b);
-    if (!touch) continue;
-    if (cell.state != CellState::inner) {
-      if (visit(index)) return true;
-      continue;
-    }
-    for (int i = 0; i < cell.child_count(); ++i) open.push_back(cell.children + i);
-  }
-  return false;
-}
-
 std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b,
                                                   const Resolution& resolution,
                                                   std::uint64_t budget) {
   if (is_outlined(now_a, now_b, resolution)) return 0;
-  std::uint64_t looked_at = refine(now_a, now_b, kWide, budget);
+  std::uint64_t looked_at = refine(now_a, now_b, CellTree::kWide, budget);
   // A motion that is still to come finds the other one anywhere on its way: hence the edges.
-  const auto may_be_entered = [&](const DiagramNode& cell) {
-    return a_->from(cell.a) <= now_a || b_->from(cell.b) <= now_b ||
-           leaves_at(cell, [&](int other) { return at(other).state == CellState::free; });
+  const auto may_be_entered = [&](const Node& cell) {
+    return tree_.a().from(cell.a) <= now_a || tree_.b().from(cell.b) <= now_b ||
+           tree_.leaves_at(cell,
+                           [&](int other) { return tree_.at(other).state == CellState::free; });
   };
   const auto is_open = [&](int index) {
-    const CellState state = at(index).state;
+    const CellState state = tree_.at(index).state;
     return (state == CellState::mixed || state == CellState::unknown) &&
-           remains(at(index), now_a, now_b);
+           tree_.remains(tree_.at(index), now_a, now_b);
   };
   std::vector<int> border;  // leaves that may be entered from what is free
-  for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
-    if (is_open(i) && may_be_entered(at(i))) border.push_back(i);
+  for (int i = 0; i < tree_.size(); ++i) {
+    if (is_open(i) && may_be_entered(tree_.at(i))) border.push_back(i);
   }
   const auto expand = [&](std::vector<int>& leaves, std::vector<int>& unknown) {
     std::ranges::sort(leaves);
     leaves.erase(std::ranges::unique(leaves).begin(), leaves.end());
     for (const int index : leaves) {
-      if (at(index).state == CellState::unknown) unknown.push_back(index);
-      split_if_coarse(index, proven(at(index)) != nullptr ? resolution.coarse : resolution.fine);
-      const DiagramNode cell = at(index);
+      if (tree_.at(index).state == CellState::unknown) unknown.push_back(index);
+      tree_.split_if_coarse(
+          index, proven(tree_.at(index)) != nullptr ? resolution.coarse : resolution.fine);
+      const Node cell = tree_.at(index);
       if (cell.state != CellState::inner) continue;
       for (int child = cell.children; child < cell.children + cell.child_count(); ++child) {
-        if (remains(at(child), now_a, now_b) && may_be_entered(at(child))) unknown.push_back(child);
+        if (tree_.remains(tree_.at(child), now_a, now_b) && may_be_entered(tree_.at(child)))
+          unknown.push_back(child);
       }
     }
   };
   const auto follow = [&](const std::vector<int>& seen) {
     std::vector<int> next;
     for (const int leaf : seen) {
-      if (at(leaf).state == CellState::mixed) next.push_back(leaf);
-      if (at(leaf).state != CellState::free) continue;
-      leaves_at(at(leaf), [&](int other) {
+      if (tree_.at(leaf).state == CellState::mixed) next.push_back(leaf);
+      if (tree_.at(leaf).state != CellState::free) continue;
+      tree_.leaves_at(tree_.at(leaf), [&](int other) {
         if (is_open(other)) next.push_back(other);
         return false;
       });
@@ -136,7 +114,7 @@ bool CoordinationDiagram::is_outlined(Duration now_a, Duration now_b,
   if (before.passing.fine > resolution.passing.fine) return false;
   const auto blurs = [&](const OpenLeaf& leaf) {
     const bool here = leaf.box.from_a <= now_a && leaf.box.from_b <= now_b;
-    return here && leaf.refinable && wider(at(leaf.cell), resolution.passing.fine);
+    return here && leaf.refinable && tree_.wider(tree_.at(leaf.cell), resolution.passing.fine);
   };
   return std::ranges::none_of(open_leaves(now_a, now_b), blurs);
 }
@@ -144,12 +122,12 @@ bool CoordinationDiagram::is_outlined(Duration now_a, Duration now_b,
 // What remains and is not known to be free.
 std::vector<OpenLeaf> CoordinationDiagram::open_leaves(Duration now_a, Duration now_b) const {
   std::vector<OpenLeaf> leaves;
-  for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
-    const DiagramNode& cell = at(i);
+  for (int i = 0; i < tree_.size(); ++i) {
+    const Node& cell = tree_.at(i);
     if (cell.state == CellState::inner || cell.state == CellState::free) continue;
-    if (!remains(cell, now_a, now_b)) continue;
+    if (!tree_.remains(cell, now_a, now_b)) continue;
     const bool refinable = cell.state == CellState::mixed || cell.state == CellState::unknown;
-    leaves.push_back({i, box_of(cell), refinable, proven(cell) != nullptr});
+    leaves.push_back({i, tree_.box_of(cell), refinable, proven(cell) != nullptr});
   }
   return leaves;
 }
@@ -157,9 +135,9 @@ std::vector<OpenLeaf> CoordinationDiagram::open_leaves(Duration now_a, Duration 
 // Of the children those are looked at that bear on where a motion passes: the corner, and its
 // neighbours, which cannot be free where their common corner is in conflict.
 void CoordinationDiagram::split_passing_edge(const CoarseLeaf& leaf, std::vector<int>& unknown) {
-  const bool middle_is_open = proven(at(leaf.cell)) == nullptr;
-  split_if_coarse(leaf.cell, leaf.allowed);
-  const DiagramNode cell = at(leaf.cell);
+  const bool middle_is_open = proven(tree_.at(leaf.cell)) == nullptr;
+  tree_.split_if_coarse(leaf.cell, leaf.allowed);
+  const Node cell = tree_.at(leaf.cell);
   if (cell.state != CellState::inner) return;
   // In order: along B, then along A. The corner (to_a, from_b) is the one where A passes first.
   const int a_first = cell.split_a ? (cell.split_b ? 2 : 1) : 0;
@@ -174,19 +152,19 @@ void CoordinationDiagram::split_passing_edge(const CoarseLeaf& leaf, std::vector
 std::uint64_t CoordinationDiagram::refine_passing_edges(Duration now_a, Duration now_b,
                                                         const PassingResolution& resolution,
                                                         std::uint64_t budget) {
-  const ProgressBox remaining{now_a, a_->duration(), now_b, b_->duration()};
+  const ProgressBox remaining{now_a, tree_.a().duration(), now_b, tree_.b().duration()};
   bool ended = false;
   const auto expand = [&](const std::vector<int>&, std::vector<int>& unknown) {
     const auto coarse = coarse_leaves(open_leaves(now_a, now_b), remaining, resolution);
     ended = coarse.empty();
     for (const CoarseLeaf& leaf : coarse) {
-      if (at(leaf.cell).state == CellState::unknown) {
+      if (tree_.at(leaf.cell).state == CellState::unknown) {
         unknown.push_back(leaf.cell);
       } else {
         split_passing_edge(leaf, unknown);
       }
     }
-    std::erase_if(unknown, [&](int leaf) { return !remains(at(leaf), now_a, now_b); });
+    std::erase_if(unknown, [&](int leaf) { return !tree_.remains(tree_.at(leaf), now_a, now_b); });
   };
   const auto follow = [&](const std::vector<int>&) { return std::vector<int>(ended ? 0 : 1); };
   return refine_from({0}, budget, expand, follow);
@@ -195,10 +173,10 @@ std::uint64_t CoordinationDiagram::refine_passing_edges(Duration now_a, Duration
 std::vector<CoordinationDiagram::Blocked> CoordinationDiagram::blocked(Duration now_a,
                                                                        Duration now_b) const {
   std::vector<Blocked> blocked;
-  for (const DiagramNode& cell : cells_) {
+  for (const Node& cell : tree_) {
     if (cell.state == CellState::inner || cell.state == CellState::free) continue;
-    if (!remains(cell, now_a, now_b)) continue;
-    Blocked& leaf = blocked.emplace_back(Blocked{.box = box_of(cell), .found = {}});
+    if (!tree_.remains(cell, now_a, now_b)) continue;
+    Blocked& leaf = blocked.emplace_back(Blocked{.box = tree_.box_of(cell), .found = {}});
     if (cell.witness < 0) continue;
     const NarrowWitness& found = found_[static_cast<std::size_t>(cell.witness)];
     leaf.found = witness_at(cell, found.pair, found.distance_m);
@@ -209,35 +187,36 @@ std::vector<CoordinationDiagram::Blocked> CoordinationDiagram::blocked(Duration 
 
 std::uint64_t CoordinationDiagram::refine_close_passes(const std::vector<ProgressBox>& areas,
                                                        Duration finest, std::uint64_t budget) {
-  const auto meant = [&](const DiagramNode& cell) {
-    const Duration a = a_->middle(cell.a);
-    const Duration b = b_->middle(cell.b);
+  const auto meant = [&](const Node& cell) {
+    const Duration a = tree_.a().middle(cell.a);
+    const Duration b = tree_.b().middle(cell.b);
     return std::ranges::any_of(areas, [&](const ProgressBox& area) {
       return area.from_a <= a && a <= area.to_a && area.from_b <= b && b <= area.to_b;
     });
   };
-  const auto open = [&](const DiagramNode& cell) {
-    return cell.state == CellState::mixed && wider(cell, finest);
+  const auto open = [&](const Node& cell) {
+    return cell.state == CellState::mixed && tree_.wider(cell, finest);
   };
   std::vector<int> leaves;
-  for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
-    if ((at(i).state == CellState::unknown || open(at(i))) && meant(at(i))) leaves.push_back(i);
+  for (int i = 0; i < tree_.size(); ++i) {
+    if ((tree_.at(i).state == CellState::unknown || open(tree_.at(i))) && meant(tree_.at(i)))
+      leaves.push_back(i);
   }
   const auto expand = [&](std::vector<int>& wide, std::vector<int>& unknown) {
     for (const int index : wide) {
-      if (at(index).state == CellState::unknown) unknown.push_back(index);
+      if (tree_.at(index).state == CellState::unknown) unknown.push_back(index);
     }
     for (const int index : wide) {
-      if (at(index).state == CellState::unknown) continue;
-      split_if_coarse(index, finest);
-      const DiagramNode cell = at(index);
+      if (tree_.at(index).state == CellState::unknown) continue;
+      tree_.split_if_coarse(index, finest);
+      const Node cell = tree_.at(index);
       for (int c = 0; c < cell.child_count(); ++c) unknown.push_back(cell.children + c);
     }
   };
   const auto follow = [&](const std::vector<int>& seen) {
     std::vector<int> next;
     for (const int leaf : seen) {
-      const DiagramNode& cell = at(leaf);
+      const Node& cell = tree_.at(leaf);
       if (cell.state == CellState::conflict || proven(cell) != nullptr) return std::vector<int>{};
       if (open(cell)) next.push_back(leaf);
     }

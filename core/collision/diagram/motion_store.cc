@@ -7,11 +7,11 @@
 namespace armloom {
 
 MotionStore::MotionStore(PlanningScenePtr scene)
-    : scene_(scene), links_(std::move(scene)), pair_scratch_(TubePair::make_scratch()) {
+    : scene_(scene), links_(std::move(scene)), scratch_{{}, TubePair::make_scratch()} {
   const std::size_t arms = scene_->cell().arms.size();
   for (std::uint32_t a = 0; a < arms; ++a) {
     arms_.push_back(std::make_shared<const ArmGeometry>(scene_->bodies(), ArmId{a}));
-    scratch_.push_back(MotionTube::make_scratch(*arms_.back()));
+    scratch_.tubes.push_back(MotionTube::make_scratch(*arms_.back()));
   }
   entries_.resize(arms);
   look_at_still();
@@ -27,8 +27,8 @@ void MotionStore::look_at(PlanningScenePtr scene) {
 }
 
 void MotionStore::look_at_still() {
-  with_still_.clear();
-  still_pairs_.clear();
+  diagrams_.with_still.clear();
+  pairs_.still.clear();
   still_ = std::make_shared<MotionTube>(
       std::make_shared<const ArmGeometry>(scene_->bodies(), std::nullopt), nullptr,
       scene_->cell().home(), 0.0);
@@ -46,10 +46,10 @@ void MotionStore::begin_question() {
 }
 
 void MotionStore::drop(const Entry& entry) {
-  with_itself_.erase({&entry, &entry});
-  with_still_.erase({&entry, &entry});
+  diagrams_.with_itself.erase({&entry, &entry});
+  diagrams_.with_still.erase({&entry, &entry});
   for (Entry* other : entry.compared) {
-    between_.erase(entry.arm < other->arm ? Key{&entry, other} : Key{other, &entry});
+    diagrams_.between.erase(entry.arm < other->arm ? Key{&entry, other} : Key{other, &entry});
     std::erase(other->compared, &entry);
   }
 }
@@ -59,7 +59,7 @@ MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId a
   const std::shared_ptr<const ArmGeometry>& geometry = arms_[arm.index()];
   const auto stands_as = [&](const Entry& entry) {
     for (std::size_t row = 0; row < entry.rest.size(); ++row) {
-      const JointId joint = geometry->linkage.joints()[row];
+      const JointId joint = geometry->kinematics.joints()[row];
       const bool moved = trajectory && std::ranges::find(trajectory->joints(), joint) !=
                                            trajectory->joints().end();
       const double stands = rest[static_cast<Eigen::Index>(joint.index())];
@@ -81,10 +81,10 @@ MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId a
             {},
             tracking_error,
             std::make_shared<MotionTube>(geometry, trajectory, rest, tracking_error,
-                                         scratch_[arm.index()]),
+                                         scratch_.tubes[arm.index()]),
             trajectory ? stopping_reach_s(scene_->cell(), *trajectory) : 0.0,
             question_});
-  for (const JointId joint : geometry->linkage.joints()) {
+  for (const JointId joint : geometry->kinematics.joints()) {
     entry->rest.push_back(rest[static_cast<Eigen::Index>(joint.index())]);
   }
   entries.push_back(std::move(entry));
@@ -92,7 +92,7 @@ MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId a
 }
 
 OrientedDiagram MotionStore::diagram(Diagrams& of, const Key& key, const Comparison& made) {
-  const TubePair::Setting setting{&made.scene.bodies(), &made.pairs, pair_scratch_};
+  const TubePair::Setting setting{&made.scene.bodies(), &made.pairs, scratch_.pair};
   auto& cells = of[key];
   if (!cells) {
     cells = std::make_unique<CoordinationDiagram>(TubePair(setting, key.first->tube, made.second));
@@ -105,41 +105,42 @@ OrientedDiagram MotionStore::between(Entry& own, Entry& other) {
   const bool turned = other.arm < own.arm;
   Entry& a = turned ? other : own;
   Entry& b = turned ? own : other;
-  const auto linkage = [&](ArmId arm) -> const ArmKinematics& {
-    return arms_[arm.index()]->linkage;
+  const auto kinematics = [&](ArmId arm) -> const ArmKinematics& {
+    return arms_[arm.index()]->kinematics;
   };
-  auto pairs = cross_.find({a.arm, b.arm});
-  if (pairs == cross_.end()) {
-    pairs = cross_
+  auto pairs = pairs_.cross.find({a.arm, b.arm});
+  if (pairs == pairs_.cross.end()) {
+    pairs = pairs_.cross
                 .emplace(std::pair(a.arm, b.arm),
-                         pairs_between(links_->bodies(), linkage(a.arm), linkage(b.arm)))
+                         pairs_between(links_->bodies(), kinematics(a.arm), kinematics(b.arm)))
                 .first;
   }
-  if (!between_.contains({&a, &b})) {
+  if (!diagrams_.between.contains({&a, &b})) {
     a.compared.push_back(&b);
     b.compared.push_back(&a);
   }
-  return diagram(between_, {&a, &b}, {*links_, pairs->second, b.tube, turned});
+  return diagram(diagrams_.between, {&a, &b}, {*links_, pairs->second, b.tube, turned});
 }
 
 OrientedDiagram MotionStore::with_still(const Entry& own) {
-  auto pairs = still_pairs_.find(own.arm);
-  if (pairs == still_pairs_.end()) {
-    pairs = still_pairs_
-                .emplace(own.arm,
-                         pairs_between(scene_->bodies(), own.tube->linkage(), still_->linkage()))
+  auto pairs = pairs_.still.find(own.arm);
+  if (pairs == pairs_.still.end()) {
+    pairs = pairs_.still
+                .emplace(own.arm, pairs_between(scene_->bodies(), own.tube->kinematics(),
+                                                still_->kinematics()))
                 .first;
   }
-  return diagram(with_still_, {&own, &own}, {*scene_, pairs->second, still_});
+  return diagram(diagrams_.with_still, {&own, &own}, {*scene_, pairs->second, still_});
 }
 
 OrientedDiagram MotionStore::with_itself(const Entry& own) {
-  return diagram(with_itself_, {&own, &own}, {*links_, own.tube->geometry().self, own.tube});
+  return diagram(diagrams_.with_itself, {&own, &own},
+                 {*links_, own.tube->geometry().self, own.tube});
 }
 
 bool MotionStore::out_of_reach(ArmId a, ArmId b) const {
-  const ArmKinematics& one = arms_[a.index()]->linkage;
-  const ArmKinematics& other = arms_[b.index()]->linkage;
+  const ArmKinematics& one = arms_[a.index()]->kinematics;
+  const ArmKinematics& other = arms_[b.index()]->kinematics;
   // Tracking errors and rounding are far below this.
   constexpr double kSlack_m = 0.05;
   return (one.root() - other.root()).norm() >

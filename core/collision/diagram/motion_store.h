@@ -27,7 +27,7 @@ class MotionStore {
   struct Entry {
     ArmId arm;
     TrajectoryPtr trajectory;  // null: a rest
-    std::vector<double> rest;  // of the arm's joints, rows of its linkage
+    std::vector<double> rest;  // of the arm's joints, rows of its kinematics
     double tracking_error;
     std::shared_ptr<MotionTube> tube;
     double stopping_reach_s;
@@ -68,13 +68,22 @@ class MotionStore {
   PlanningScenePtr scene_;
   PlanningScenePtr links_;  // the scene that cross and self pairs were read from
   std::vector<std::shared_ptr<const ArmGeometry>> arms_;
-  std::vector<std::shared_ptr<MotionTube::Scratch>> scratch_;  // by arm
-  std::shared_ptr<TubePair::Scratch> pair_scratch_;
+  struct Scratch {
+    std::vector<std::shared_ptr<MotionTube::Scratch>> tubes;  // by arm
+    std::shared_ptr<TubePair::Scratch> pair;
+  };
+  Scratch scratch_;
   std::shared_ptr<MotionTube> still_;
-  std::map<std::pair<ArmId, ArmId>, PairSet> cross_;
-  std::map<ArmId, PairSet> still_pairs_;                      // made when asked for
+  struct Pairs {
+    std::map<std::pair<ArmId, ArmId>, PairSet> cross;
+    std::map<ArmId, PairSet> still;  // made when asked for
+  };
+  Pairs pairs_;
   std::vector<std::vector<std::unique_ptr<Entry>>> entries_;  // by arm
-  Diagrams between_, with_still_, with_itself_;
+  struct Kept {
+    Diagrams between, with_still, with_itself;
+  };
+  Kept diagrams_;
   std::uint64_t question_ = 0;
 };
 

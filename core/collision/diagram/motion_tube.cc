@@ -19,8 +19,11 @@ std::size_t lane_size(std::size_t rows) { return rows * static_cast<std::size_t>
 
 struct MotionTube::Scratch {
   std::vector<double> q;
-  std::vector<float> joint_span, joint_drift, joint_loose;  // [row][kLanes]
-  std::vector<float> span, drift, loose;                    // [frame][kLanes]
+  struct Motions {
+    std::vector<float> span, drift, loose;
+  };
+  Motions joints;  // [row][kLanes]
+  Motions frames;  // [frame][kLanes]
   std::vector<float> motion_bounds;
   std::vector<int> capsule_rows;  // in Block::motion_bound
   std::vector<filter::Hit> hits;
@@ -29,13 +32,14 @@ struct MotionTube::Scratch {
 };
 
 std::shared_ptr<MotionTube::Scratch> MotionTube::make_scratch(const ArmGeometry& geometry) {
-  const ArmKinematics& arm = geometry.linkage;
+  const ArmKinematics& arm = geometry.kinematics;
   auto s = std::make_shared<Scratch>();
   s->q.resize(lane_size(arm.joints().size()));
-  for (auto* rows : {&s->joint_span, &s->joint_drift, &s->joint_loose}) {
+  for (auto* rows : {&s->joints.span, &s->joints.drift, &s->joints.loose}) {
     rows->resize(lane_size(arm.joints().size()));
   }
-  for (auto* rows : {&s->span, &s->drift, &s->loose}) rows->resize(lane_size(arm.frames().size()));
+  for (auto* rows : {&s->frames.span, &s->frames.drift, &s->frames.loose})
+    rows->resize(lane_size(arm.frames().size()));
   s->motion_bounds.resize(lane_size(static_cast<std::size_t>(arm.motion_bound_rows())));
   s->capsule_rows.resize(arm.capsules().size());
   std::iota(s->capsule_rows.begin(), s->capsule_rows.end(), 0);
@@ -51,7 +55,7 @@ MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPt
       trajectory_(std::move(trajectory)),
       tracking_error_(tracking_error),
       scratch_(scratch ? std::move(scratch) : make_scratch(*geometry_)) {
-  const ArmKinematics& arm = geometry_->linkage;
+  const ArmKinematics& arm = geometry_->kinematics;
   rest_.reserve(arm.joints().size());
   column_.reserve(arm.joints().size());
   for (const JointId joint : arm.joints()) {
@@ -114,14 +118,14 @@ void MotionTube::fill_lane(int node, int lane) {
       // The rounding of a drift to float is far below a millionth of it.
       loose += s.line.off[column] + kRounding + 1e-6 * std::abs(drift);
     }
-    s.joint_span[place] = std::max(round_up(span), round_up(std::abs(drift) + loose));
-    s.joint_drift[place] = static_cast<float>(drift);
-    s.joint_loose[place] = round_up(loose);
+    s.joints.span[place] = std::max(round_up(span), round_up(std::abs(drift) + loose));
+    s.joints.drift[place] = static_cast<float>(drift);
+    s.joints.loose[place] = round_up(loose);
   }
 }
 
 void MotionTube::place_batch(std::span<const int> nodes) {
-  const ArmKinematics& arm = geometry_->linkage;
+  const ArmKinematics& arm = geometry_->kinematics;
   const filter::Kernel& kernel = filter::best_kernel();
   Scratch& s = *scratch_;
   for (int lane = 0; lane < kLanes; ++lane) {
@@ -133,7 +137,7 @@ void MotionTube::place_batch(std::span<const int> nodes) {
     for (std::size_t row = 0; row < rest_.size(); ++row) {  // an unused lane: as the last one
       const std::size_t to = lane_size(row) + static_cast<std::size_t>(lane);
       s.q[to] = s.q[lane_size(row) + i];
-      for (auto* rows : {&s.joint_span, &s.joint_drift, &s.joint_loose}) {
+      for (auto* rows : {&s.joints.span, &s.joints.drift, &s.joints.loose}) {
         (*rows)[to] = (*rows)[lane_size(row) + i];
       }
     }
@@ -145,9 +149,9 @@ void MotionTube::place_batch(std::span<const int> nodes) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const auto l = static_cast<std::size_t>(lane);
       const std::size_t joint = lane_size(static_cast<std::size_t>(frame.joint)) + l;
-      s.span[lane_size(f) + l] = scale * s.joint_span[joint] * 1.000001F;
-      s.drift[lane_size(f) + l] = factor * s.joint_drift[joint];
-      s.loose[lane_size(f) + l] = scale * s.joint_loose[joint] * 1.000001F;
+      s.frames.span[lane_size(f) + l] = scale * s.joints.span[joint] * 1.000001F;
+      s.frames.drift[lane_size(f) + l] = factor * s.joints.drift[joint];
+      s.frames.loose[lane_size(f) + l] = scale * s.joints.loose[joint] * 1.000001F;
     }
   }
   const std::size_t capsules = arm.capsules().size();
@@ -158,12 +162,13 @@ void MotionTube::place_batch(std::span<const int> nodes) {
   block.ball.resize(lane_size(4));
   block.frames.resize(lane_size(arm.frames().size() * 12));
   block.axes.resize(lane_size(arm.frames().size() * 6));
-  block.drifts = s.drift;
-  block.looses = s.loose;
+  block.drifts = s.frames.drift;
+  block.looses = s.frames.loose;
   block.bends.resize(lane_size(capsules));
   const filter::Placed placed{block.frames.data(), block.axes.data(), block.capsules.data()};
   kernel.place(arm.view(), s.q.data(), placed);
-  kernel.inflate(arm.view(), placed, s.span.data(), {s.motion_bounds.data(), block.bends.data()});
+  kernel.inflate(arm.view(), placed, s.frames.span.data(),
+                 {s.motion_bounds.data(), block.bends.data()});
   for (std::size_t c = 0; c < capsules; ++c) {
     const auto row = static_cast<std::size_t>(arm.capsules()[c].motion_bounds_begin);
     std::copy_n(s.motion_bounds.data() + lane_size(row), kLanes,
@@ -193,11 +198,11 @@ void MotionTube::axes_of(int node, int frame, std::size_t skipped,
                          std::vector<MovingAxis>& axes) const {
   const Place place = place_of(node);
   axes.clear();
-  for (const int f : linkage().ancestors(frame).subspan(skipped)) {
+  for (const int f : kinematics().ancestors(frame).subspan(skipped)) {
     const auto at = static_cast<std::size_t>(f);
     const double* X = place.frames() + lane_size(12 * at);
     MovingAxis axis{
-        .z_W = {}, .p_WO = {}, .loose = 0.0, .prismatic = linkage().frames()[at].prismatic};
+        .z_W = {}, .p_WO = {}, .loose = 0.0, .prismatic = kinematics().frames()[at].prismatic};
     for (int k = 0; k < 3; ++k) {
       axis.z_W[k] = X[lane_size(static_cast<std::size_t>(6 + k))];
       axis.p_WO[k] = X[lane_size(static_cast<std::size_t>(9 + k))];

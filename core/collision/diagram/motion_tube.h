@@ -12,11 +12,12 @@
 
 namespace armloom {
 
-// The linkage of an arm, or of what stands still, with the pairs of its own bodies.
+// The kinematics of an arm, or of what stands still, with the pairs of its own bodies.
 struct ArmGeometry {
   ArmGeometry(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm)
-      : linkage(bodies, arm), self(arm ? pairs_between(bodies, linkage, linkage) : PairSet{}) {}
-  ArmKinematics linkage;
+      : kinematics(bodies, arm),
+        self(arm ? pairs_between(bodies, kinematics, kinematics) : PairSet{}) {}
+  ArmKinematics kinematics;
   PairSet self;
 };
 
@@ -35,7 +36,7 @@ class MotionTube : public TimeTree {
              const Configuration& rest, double tracking_error,
              std::shared_ptr<Scratch> scratch = nullptr);
 
-  [[nodiscard]] const ArmKinematics& linkage() const { return geometry_->linkage; }
+  [[nodiscard]] const ArmKinematics& kinematics() const { return geometry_->kinematics; }
   [[nodiscard]] const ArmGeometry& geometry() const { return *geometry_; }
   [[nodiscard]] const TrajectoryPtr& trajectory() const { return trajectory_; }
 
@@ -62,8 +63,8 @@ class MotionTube : public TimeTree {
   [[nodiscard]] Place place_of(int node) const {
     return {blocks_[at(node).block].get(), at(node).lane};
   }
-  // The axes of the node that carry what a frame of the linkage carries, base to tip, without the
-  // first `skipped`.
+  // The axes of the node that carry what a frame of the kinematics carries, base to tip, without
+  // the first `skipped`.
   void axes_of(int node, int frame, std::size_t skipped, std::vector<MovingAxis>& axes) const;
   // Pairs of the arm's own links (ArmGeometry::self) that are undecided over the interval; the
   // motion bound is that against each other.

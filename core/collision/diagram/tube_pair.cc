@@ -25,13 +25,19 @@ struct TubePair::Gathered {
 // What is at hand: nodes to be filtered, what is open of one of them, one state.
 struct TubePair::Scratch {
   Gathered a, b;
-  std::vector<filter::Hit> hits, box_hits;
-  int hit_count = 0, box_hit_count = 0;
+  struct Hits {
+    std::vector<filter::Hit> of;
+    int count = 0;
+  };
+  Hits pairs, boxes;
   std::vector<int> nodes_a, nodes_b;
   filter::Side side_a;
   std::vector<Undecided> undecided;
   std::vector<MovingAxis> axes_a, axes_b;
-  std::vector<double> point_a, point_b, q;  // frames and joints of one state
+  struct OneState {
+    std::vector<double> frames_a, frames_b, q;
+  };
+  OneState state;
 };
 
 // The nodes of a batch in their tube, lane by lane.
@@ -70,10 +76,10 @@ struct TubePair::Batch {
     return gathered.data();
   }
   // Nothing moves what stands still.
-  [[nodiscard]] filter::MovedCapsules moved(const filter::ArmKinematics& linkage) const {
-    if (linkage.frame_count == 0) return {.capsules = side.capsules};
+  [[nodiscard]] filter::MovedCapsules moved(const filter::ArmKinematics& kinematics) const {
+    if (kinematics.frame_count == 0) return {.capsules = side.capsules};
     return {.capsules = side.capsules,
-            .linkage = &linkage,
+            .kinematics = &kinematics,
             .axes = rows(&Block::axes, to.axes),
             .drift = rows(&Block::drifts, to.drifts),
             .loose = rows(&Block::looses, to.looses),
@@ -87,11 +93,12 @@ TubePair::TubePair(Setting setting, std::shared_ptr<MotionTube> a, std::shared_p
     : setting_(std::move(setting)), a_(std::move(a)), b_(std::move(b)) {
   Scratch& s = *setting_.scratch;
   const auto make_room = [](auto& of, std::size_t size) { of.resize(std::max(of.size(), size)); };
-  make_room(s.hits, setting_.pairs->pairs.size() + 1);
-  make_room(s.box_hits, setting_.pairs->boxes.size() + 1);
-  make_room(s.point_a, a_->linkage().frames().size() * 12);
-  make_room(s.point_b, b_->linkage().frames().size() * 12);
-  make_room(s.q, std::max(a_->linkage().joints().size(), b_->linkage().joints().size()));
+  make_room(s.pairs.of, setting_.pairs->pairs.size() + 1);
+  make_room(s.boxes.of, setting_.pairs->boxes.size() + 1);
+  make_room(s.state.frames_a, a_->kinematics().frames().size() * 12);
+  make_room(s.state.frames_b, b_->kinematics().frames().size() * 12);
+  make_room(s.state.q,
+            std::max(a_->kinematics().joints().size(), b_->kinematics().joints().size()));
 }
 
 // Of the pairs that bounds of their motion leave open, those that stay so along the direction that
@@ -99,18 +106,18 @@ TubePair::TubePair(Setting setting, std::shared_ptr<MotionTube> a, std::shared_p
 int TubePair::left_open(const Batch& a, const Batch& b, int hits) {
   if (hits == 0) return 0;
   Scratch& s = *setting_.scratch;
-  const filter::ArmKinematics linkage_a = a_->linkage().view();
-  const filter::ArmKinematics linkage_b = b_->linkage().view();
-  const filter::MovedCapsules of_a = a.moved(linkage_a);
-  const filter::MovedCapsules of_b = b.moved(linkage_b);
+  const filter::ArmKinematics kinematics_a = a_->kinematics().view();
+  const filter::ArmKinematics kinematics_b = b_->kinematics().view();
+  const filter::MovedCapsules of_a = a.moved(kinematics_a);
+  const filter::MovedCapsules of_b = b.moved(kinematics_b);
   const filter::Kernel& kernel = filter::best_kernel();
   int left = 0;
   for (int h = 0; h < hits; ++h) {
-    filter::Hit& hit = s.hits[static_cast<std::size_t>(h)];
+    filter::Hit& hit = s.pairs.of[static_cast<std::size_t>(h)];
     const filter::Pair& pair = setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)];
     hit.lanes &= ~kernel.keep_apart(of_a, of_b, pair, hit.lanes);
     if (hit.lanes == 0) continue;
-    if (left != h) s.hits[static_cast<std::size_t>(left)] = hit;
+    if (left != h) s.pairs.of[static_cast<std::size_t>(left)] = hit;
     ++left;
   }
   return left;
@@ -133,10 +140,10 @@ void TubePair::filter(std::span<const Nodes> batch) {
   const PairSet& set = *setting_.pairs;
   const filter::Kernel& kernel = filter::best_kernel();
   const unsigned lanes = (1U << batch.size()) - 1U;
-  const int found = kernel.near_pairs(a.side, b.side, set.grouped(), lanes, s.hits.data());
-  s.hit_count = left_open(a, b, found);
-  s.box_hit_count = kernel.near_boxes(a.side, set.boxes.data(), static_cast<int>(set.boxes.size()),
-                                      lanes, s.box_hits.data());
+  const int found = kernel.near_pairs(a.side, b.side, set.grouped(), lanes, s.pairs.of.data());
+  s.pairs.count = left_open(a, b, found);
+  s.boxes.count = kernel.near_boxes(a.side, set.boxes.data(), static_cast<int>(set.boxes.size()),
+                                    lanes, s.boxes.of.data());
 }
 
 std::vector<TubePair::Undecided>& TubePair::undecided(std::size_t lane) {
@@ -167,8 +174,8 @@ std::vector<TubePair::Undecided>& TubePair::undecided(std::size_t lane) {
           hit.motion_bound[lane]);
     }
   };
-  add_all(s.hits, s.hit_count, false);
-  add_all(s.box_hits, s.box_hit_count, true);
+  add_all(s.pairs.of, s.pairs.count, false);
+  add_all(s.boxes.of, s.boxes.count, true);
   return s.undecided;
 }
 
@@ -178,10 +185,10 @@ const NarrowPair& TubePair::narrow(int entry, bool box) const {
 }
 
 const KinematicBody& TubePair::body_a(const NarrowPair& pair) const {
-  return a_->linkage().bodies()[static_cast<std::size_t>(pair.body_a)];
+  return a_->kinematics().bodies()[static_cast<std::size_t>(pair.body_a)];
 }
 const KinematicBody& TubePair::body_b(const NarrowPair& pair) const {
-  return b_->linkage().bodies()[static_cast<std::size_t>(pair.body_b)];
+  return b_->kinematics().bodies()[static_cast<std::size_t>(pair.body_b)];
 }
 
 PlacedBody TubePair::placed_a(const NarrowPair& pair, Nodes at) const {
@@ -202,8 +209,8 @@ bool TubePair::keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, dou
   const KinematicBody& b = body_b(pair);
   std::size_t common = 0;  // what moves both does not part them
   if (is_self()) {
-    const auto of_a = a_->linkage().ancestors(a.frame);
-    const auto of_b = a_->linkage().ancestors(b.frame);
+    const auto of_a = a_->kinematics().ancestors(a.frame);
+    const auto of_b = a_->kinematics().ancestors(b.frame);
     common = static_cast<std::size_t>(std::ranges::mismatch(of_a, of_b).in1 - of_a.begin());
   }
   Scratch& s = *setting_.scratch;
@@ -215,10 +222,10 @@ bool TubePair::keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, dou
 
 void TubePair::place(Duration time_a, Duration time_b) {
   Scratch& s = *setting_.scratch;
-  a_->configuration(time_a, s.q.data());
-  place_frames(a_->linkage(), s.q.data(), s.point_a.data());
-  b_->configuration(is_self() ? time_a : time_b, s.q.data());
-  place_frames(b_->linkage(), s.q.data(), s.point_b.data());
+  a_->configuration(time_a, s.state.q.data());
+  place_frames(a_->kinematics(), s.state.q.data(), s.state.frames_a.data());
+  b_->configuration(is_self() ? time_a : time_b, s.state.q.data());
+  place_frames(b_->kinematics(), s.state.q.data(), s.state.frames_b.data());
 }
 
 double TubePair::placed_distance(const NarrowPair& pair, double limit_m) const {
@@ -226,8 +233,9 @@ double TubePair::placed_distance(const NarrowPair& pair, double limit_m) const {
   const KinematicBody& b = body_b(pair);
   const Scratch& s = *setting_.scratch;
   const std::vector<CollisionBody>& bodies = setting_.bodies->bodies;
-  return body_distance(setting_.bodies->shapes, {bodies[a.body], body_pose(a, s.point_a.data())},
-                       {bodies[b.body], body_pose(b, s.point_b.data())}, limit_m);
+  return body_distance(setting_.bodies->shapes,
+                       {bodies[a.body], body_pose(a, s.state.frames_a.data())},
+                       {bodies[b.body], body_pose(b, s.state.frames_b.data())}, limit_m);
 }
 
 std::vector<TubePair::PairDistance> TubePair::too_close_at(Duration time_a, Duration time_b) {

@@ -158,11 +158,11 @@ int ArmKinematics::common_ancestors(int capsule_a, int capsule_b) const {
   return static_cast<int>(std::mismatch(of_a, of_a + least, of_b).first - of_a);
 }
 
-void place_frames(const ArmKinematics& linkage, const double* q, double* frames) {
+void place_frames(const ArmKinematics& kinematics, const double* q, double* frames) {
   using Columns = Eigen::Map<Eigen::Matrix<double, 3, 4>>;
   using ConstColumns = Eigen::Map<const Eigen::Matrix<double, 3, 4>>;
-  for (std::size_t f = 0; f < linkage.frames().size(); ++f) {
-    const filter::Frame& frame = linkage.frames()[f];
+  for (std::size_t f = 0; f < kinematics.frames().size(); ++f) {
+    const filter::Frame& frame = kinematics.frames()[f];
     Columns X(frames + 12 * f);
     const ConstColumns C(frame.C);
     if (frame.parent < 0) {

@@ -11,8 +11,8 @@
 
 namespace armloom {
 
-// A body (scene_bodies.h) of a linkage: the frame that carries it (-1: it stands in the world) and
-// its capsules in the filter.
+// A body (scene_bodies.h) of a kinematics: the frame that carries it (-1: it stands in the world)
+// and its capsules in the filter.
 struct KinematicBody {
   std::size_t body;  // in PlanningScene::Bodies::bodies
   int frame;
@@ -24,7 +24,7 @@ struct KinematicBody {
 // One arm, with what it holds, as the filter's kernels want it: only what moves is a frame, fixed
 // links are folded into the frame that carries them, every frame's joint turns about its z. Works
 // for any tree of revolute, continuous, prismatic and mimic joints. Or all that stands still,
-// static links and objects: a linkage without frames. Immutable.
+// static links and objects: a kinematics without frames. Immutable.
 class ArmKinematics {
  public:
   // No arm: what stands still.
@@ -75,7 +75,7 @@ class ArmKinematics {
 
 // The pose of each frame of one configuration, in double: [frame][12] as filter::Frame::C.
 // q as ArmKinematics::joints.
-void place_frames(const ArmKinematics& linkage, const double* q, double* frames);
+void place_frames(const ArmKinematics& kinematics, const double* q, double* frames);
 // Where a body is; `frames` as above, `stride` between consecutive numbers.
 [[nodiscard]] Eigen::Isometry3d body_pose(const KinematicBody& body, const double* frames,
                                           int stride = 1);

@@ -70,9 +70,9 @@ struct Side {
 
 // The capsules of a side that is held apart along one direction, and what moves them.
 struct MovedCapsules {
-  const float* capsules;         // as Placed::capsules
-  const ArmKinematics* linkage;  // null: nothing moves them
-  const float* axes;             // as Placed::axes
+  const float* capsules;            // as Placed::capsules
+  const ArmKinematics* kinematics;  // null: nothing moves them
+  const float* axes;                // as Placed::axes
   // Of the frame's joint, [frame][kLanes]: it is off by s * drift + e, the same s for all of them
   // from -1 to 1, |e| <= loose; |drift| + loose is no more than the span by much.
   const float* drift;
@@ -142,7 +142,7 @@ struct Hit {
 
 struct Kernel {
   const char* name;
-  void (*place)(const ArmKinematics& linkage, const double* q, const Placed& out);
+  void (*place)(const ArmKinematics& kinematics, const double* q, const Placed& out);
   // `at`: as place() made it. span: [frame][kLanes], how far the joint of the frame may be from the
   // configuration (rad, m), rounded up. Row m of a capsule bounds how far any point of it moves
   // against anything that shares its first m ancestors: the sum over the other ancestors of span
@@ -150,10 +150,10 @@ struct Kernel {
   // from base to tip, each turns what is behind it in the shape that it has here: hence the levers
   // at hand bound motions of any size.) bend: what along any direction is to be added to the first
   // order of that motion (sweep.h, the second sum, with what turning adds to a round end).
-  void (*inflate)(const ArmKinematics& linkage, const Placed& at, const float* span,
+  void (*inflate)(const ArmKinematics& kinematics, const Placed& at, const float* span,
                   const MotionBounds& out);
   // The ball of a side; rows[c] is the row of capsule c in `motion_bound`. Null: nothing moves.
-  void (*enclose)(const ArmKinematics& linkage, const float* capsules, const float* motion_bound,
+  void (*enclose)(const ArmKinematics& kinematics, const float* capsules, const float* motion_bound,
                   const int* rows, float* ball);
   // Writes the pairs that are undecided in one of `lanes`; returns their number. `hits` has room
   // for all pairs.

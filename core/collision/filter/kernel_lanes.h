@@ -93,9 +93,9 @@ inline void place_frame(const Frame& frame, const double* parent, const double* 
 }
 
 template <class D>
-void place(const ArmKinematics& linkage, const double* q, const Placed& out) {
-  for (int f = 0; f < linkage.frame_count; ++f) {
-    const Frame& frame = linkage.frames[f];
+void place(const ArmKinematics& kinematics, const double* q, const Placed& out) {
+  for (int f = 0; f < kinematics.frame_count; ++f) {
+    const Frame& frame = kinematics.frames[f];
     double* X = out.frames + f * 12 * kLanes;
     const double* parent = frame.parent < 0 ? nullptr : out.frames + frame.parent * 12 * kLanes;
     float* axis = out.axes + f * 6 * kLanes;
@@ -107,8 +107,8 @@ void place(const ArmKinematics& linkage, const double* q, const Placed& out) {
       }
     }
   }
-  for (int c = 0; c < linkage.capsule_count; ++c) {
-    const Capsule& capsule = linkage.capsules[c];
+  for (int c = 0; c < kinematics.capsule_count; ++c) {
+    const Capsule& capsule = kinematics.capsules[c];
     float* to = out.capsules + c * 6 * kLanes;
     for (int l = 0; l < kLanes; l += D::kLanes) {
       D center[3] = {D::all(capsule.center[0]), D::all(capsule.center[1]),
@@ -152,11 +152,11 @@ inline Vec<F> minus(const Vec<F>& a, const Vec<F>& b) {
 
 // Float roundings of a lever are below one part in 1e5 and a micrometre.
 template <class F>
-void inflate(const ArmKinematics& linkage, const Placed& at, const float* span,
+void inflate(const ArmKinematics& kinematics, const Placed& at, const float* span,
              const MotionBounds& out) {
-  for (int c = 0; c < linkage.capsule_count; ++c) {
-    const Capsule& capsule = linkage.capsules[c];
-    const int* ancestors = linkage.ancestors + capsule.ancestors_begin;
+  for (int c = 0; c < kinematics.capsule_count; ++c) {
+    const Capsule& capsule = kinematics.capsules[c];
+    const int* ancestors = kinematics.ancestors + capsule.ancestors_begin;
     float* rows = out.rows + capsule.motion_bounds_begin * kLanes;
     const F extra = F::all(capsule.radius_up + 2e-6F);
     const F half_one = F::all(0.5F);
@@ -171,7 +171,7 @@ void inflate(const ArmKinematics& linkage, const Placed& at, const float* span,
         const int f = ancestors[k];
         const F by = F::load(span + f * kLanes + l);
         F lever = F::all(1.0F);
-        if (!linkage.frames[f].prismatic) {
+        if (!kinematics.frames[f].prismatic) {
           const Vec<F> origin = Vec<F>::load(at.axes + f * 6 * kLanes + l);
           const Vec<F> axis = Vec<F>::load(at.axes + (f * 6 + 3) * kLanes + l);
           const Vec<F> u = cross(minus(center, origin), axis);

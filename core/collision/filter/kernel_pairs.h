@@ -46,9 +46,9 @@ struct Axis {
 template <class F>
 inline F reach_along(const MovedCapsules& of, int c, const Vec<F>& d, const Axis<F>& at, int l) {
   const F along = dot(d, at.half);
-  if (of.linkage == nullptr) return F::abs(along);
-  const Capsule& capsule = of.linkage->capsules[c];
-  const int* ancestors = of.linkage->ancestors + capsule.ancestors_begin;
+  if (of.kinematics == nullptr) return F::abs(along);
+  const Capsule& capsule = of.kinematics->capsules[c];
+  const int* ancestors = of.kinematics->ancestors + capsule.ancestors_begin;
   const F zero = F::all(0.0F);
   F ahead = zero;   // of the end at center + half
   F behind = zero;  // of the other one
@@ -59,7 +59,7 @@ inline F reach_along(const MovedCapsules& of, int c, const Vec<F>& d, const Axis
     const Vec<F> axis = Vec<F>::load(of.axes + (f * 6 + 3) * kLanes + l);
     const F drift = F::load(of.drift + f * kLanes + l);
     const F loose = F::load(of.loose + f * kLanes + l);
-    if (of.linkage->frames[f].prismatic) {
+    if (of.kinematics->frames[f].prismatic) {
       const F shift = dot(d, axis);
       drift_ahead = drift_ahead + drift * shift;
       drift_behind = drift_behind + drift * shift;
@@ -103,16 +103,16 @@ unsigned keep_apart(const MovedCapsules& a, const MovedCapsules& b, const Pair& 
 
 // About the middle of the box around the capsules' centres.
 template <class F>
-void enclose(const ArmKinematics& linkage, const float* capsules, const float* motion_bound,
+void enclose(const ArmKinematics& kinematics, const float* capsules, const float* motion_bound,
              const int* rows, float* ball) {
-  if (linkage.capsule_count == 0) {  // an arm without shapes: nothing is compared with it
+  if (kinematics.capsule_count == 0) {  // an arm without shapes: nothing is compared with it
     for (int i = 0; i < 4 * kLanes; ++i) ball[i] = 0.0F;
     return;
   }
   for (int l = 0; l < kLanes; l += F::kLanes) {
     Vec<F> low = Vec<F>::load(capsules + l);
     Vec<F> high = low;
-    for (int c = 1; c < linkage.capsule_count; ++c) {
+    for (int c = 1; c < kinematics.capsule_count; ++c) {
       const Vec<F> p = Vec<F>::load(capsules + c * 6 * kLanes + l);
       low = {F::min(low.x, p.x), F::min(low.y, p.y), F::min(low.z, p.z)};
       high = {F::max(high.x, p.x), F::max(high.y, p.y), F::max(high.z, p.z)};
@@ -121,9 +121,9 @@ void enclose(const ArmKinematics& linkage, const float* capsules, const float* m
     const Vec<F> center = {(low.x + high.x) * half, (low.y + high.y) * half,
                            (low.z + high.z) * half};
     F radius = F::all(0.0F);
-    for (int c = 0; c < linkage.capsule_count; ++c) {
+    for (int c = 0; c < kinematics.capsule_count; ++c) {
       const Vec<F> w = minus(Vec<F>::load(capsules + c * 6 * kLanes + l), center);
-      F far = F::sqrt(dot(w, w)) * F::all(1.00001F) + F::all(linkage.capsules[c].ball_up);
+      F far = F::sqrt(dot(w, w)) * F::all(1.00001F) + F::all(kinematics.capsules[c].ball_up);
       if (motion_bound != nullptr) far = far + F::load(motion_bound + rows[c] * kLanes + l);
       radius = F::max(radius, far);
     }

@@ -11,7 +11,7 @@ namespace armloom {
 // What stands behind a pair of capsules: two bodies that must not come closer than limit_m.
 struct NarrowPair {
   PairId pair;  // in PlanningScene::Bodies::pairs
-  int body_a;   // in the linkage of the first side
+  int body_a;   // in the kinematics of the first side
   int body_b;   // in that of the second side
   double limit_m;
 };
@@ -51,7 +51,7 @@ struct PairSet {
 
 // All pairs that are looked at between two arms (the first one's id is the smaller), an arm and
 // what stands still, or an arm and itself (a and b are one), with the cell's limits. Rows of the
-// sides' motion_bound arrays: one for each capsule; of an arm and itself those of the linkage's
+// sides' motion_bound arrays: one for each capsule; of an arm and itself those of the kinematics's
 // motion bounds, where what both capsules share does not count.
 [[nodiscard]] PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& a,
                                     const ArmKinematics& b);

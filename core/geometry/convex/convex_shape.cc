@@ -198,14 +198,6 @@ Bound lower_bound(const ConvexShape& a, const PlacedConvexShape& at_a, const Con
   return {segment_segment_distance(at_a.segment, at_b.segment) - a.radius_m - b.radius_m, exact};
 }
 
-bool clears_box(const Eigen::Vector3d& p_W, double radius_m, const ConvexShape& box,
-                const PlacedConvexShape& at_box, double limit_m) {
-  const Eigen::Vector3d p_B = at_box.X_WS.linear().transpose() * (p_W - at_box.X_WS.translation());
-  const Eigen::Vector3d outside = (p_B.cwiseAbs() - box.half_size_m).cwiseMax(0.0);
-  const double reach = limit_m + radius_m;
-  return reach <= 0.0 || outside.squaredNorm() >= reach * reach;
-}
-
 std::optional<Separation> separation(const ConvexShape& a, const PlacedConvexShape& at_a,
                                      const ConvexShape& b, const PlacedConvexShape& at_b) {
   if (a.kind != ConvexShapeKind::round || b.kind != ConvexShapeKind::round) {

@@ -64,10 +64,6 @@ struct Bound {
 [[nodiscard]] Bound lower_bound(const ConvexShape& a, const PlacedConvexShape& at_a,
                                 const ConvexShape& b, const PlacedConvexShape& at_b);
 
-// Whether every point within radius_m of a point in the world keeps at least limit_m from the box.
-[[nodiscard]] bool clears_box(const Eigen::Vector3d& p_W, double radius_m, const ConvexShape& box,
-                              const PlacedConvexShape& at_box, double limit_m);
-
 // Two bodies with a gap of distance_m between two planes across n, of unit length from a to b.
 // Nothing where none is found, as in contact.
 struct Separation {

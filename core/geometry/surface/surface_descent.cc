@@ -23,11 +23,11 @@ SurfaceDescent::SurfaceDescent(const SurfaceTree& a, const SurfaceTree& b,
       of_a_in_b_(turn_of(X_AB.inverse(Eigen::Isometry))),
       best_m_(limit_m),
       enough_m_(enough_m),
-      kept_along_m_(std::numeric_limits<double>::infinity()) {
+      kept_{nullptr, std::numeric_limits<double>::infinity()} {
   // Of some thirty roundings of numbers not larger than `most_m`, and of ten.
   const double most_m = a.reach_m + b.reach_m + X_AB.translation().norm();
-  box_rounding_m_ = 64.0F * std::numeric_limits<float>::epsilon() * static_cast<float>(most_m);
-  rounding_m_ = 64.0 * std::numeric_limits<double>::epsilon() * most_m;
+  rounding_.boxes_m = 64.0F * std::numeric_limits<float>::epsilon() * static_cast<float>(most_m);
+  rounding_.triangles_m = 64.0 * std::numeric_limits<double>::epsilon() * most_m;
 }
 
 SurfaceDescent::Turn SurfaceDescent::turn_of(const Eigen::Isometry3d& X) {
@@ -43,7 +43,8 @@ void SurfaceDescent::part_along(const Vector3d& n_A) {
   of_a_in_b_.n_S = -in_b;
   of_b_in_a_.n_width_S = of_a_in_b_.n_width_X = in_a.cwiseAbs();
   of_a_in_b_.n_width_S = of_b_in_a_.n_width_X = in_b.cwiseAbs();
-  if (kept_ != nullptr) kept_along_m_ = kept_->enough_along(n_A) + rounding_m_;
+  if (kept_.apart != nullptr)
+    kept_.along_m = kept_.apart->enough_along(n_A) + rounding_.triangles_m;
 }
 
 double SurfaceDescent::run() {
@@ -87,7 +88,8 @@ SurfaceDescent::Gaps SurfaceDescent::gaps(const Box& box, const Node& others,
     squared_other += gap.max(0.0F).square();
   }
   const Array4f least = squared.max(squared_other).sqrt().max(along);
-  return {least - box_rounding_m_, along - box_rounding_m_, (across > 0.0F).select(least, across)};
+  return {least - rounding_.boxes_m, along - rounding_.boxes_m,
+          (across > 0.0F).select(least, across)};
 }
 
 void SurfaceDescent::visit(const Box& a, const Box& b) {
@@ -109,7 +111,7 @@ void SurfaceDescent::visit(const Box& a, const Box& b) {
   before(1, 2);
   for (const int i : next) {
     if (static_cast<double>(found.least_m[i]) >= best_m_ || best_m_ < enough_m_) continue;
-    if (static_cast<double>(found.along_m[i]) >= kept_along_m_) continue;
+    if (static_cast<double>(found.along_m[i]) >= kept_.along_m) continue;
     const Box box = opened.box(static_cast<std::size_t>(i));
     into_a ? visit(box, b) : visit(a, box);
   }
@@ -122,18 +124,18 @@ void SurfaceDescent::measure(std::uint32_t a, std::uint32_t b) {
   last = both;
   TrianglePoints other = b_.corners(b);
   for (Vector3d& p : other) p = X_AB_ * p;
-  const double limit_m = best_m_ + rounding_m_;
+  const double limit_m = best_m_ + rounding_.triangles_m;
   const TrianglePoints own = a_.corners(a);
   const double along = std::min({n_A_.dot(other[0]), n_A_.dot(other[1]), n_A_.dot(other[2])}) -
                        std::max({n_A_.dot(own[0]), n_A_.dot(own[1]), n_A_.dot(own[2])});
-  if (along >= std::min(limit_m, kept_along_m_)) return;
+  if (along >= std::min(limit_m, kept_.along_m)) return;
   const TriangleGap found = triangle_gap(own, other, limit_m);
   if (found.distance_m >= limit_m) return;
-  if (kept_ != nullptr && found.distance_m > 0.0 && kept_->keeps(own, other, found.n)) {
+  if (kept_.apart != nullptr && found.distance_m > 0.0 && kept_.apart->keeps(own, other, found.n)) {
     part_along(found.n);
     return;
   }
-  best_m_ = found.distance_m - rounding_m_;
+  best_m_ = found.distance_m - rounding_.triangles_m;
   if (found.distance_m > 0.0) part_along(found.n);
 }
 

@@ -30,7 +30,7 @@ class SurfaceDescent {
   SurfaceDescent(const SurfaceTree& a, const SurfaceTree& b, const Eigen::Isometry3d& X_AB,
                  double limit_m, double enough_m);
 
-  void pass_over(KeptApart* kept) { kept_ = kept; }
+  void pass_over(KeptApart* kept) { kept_.apart = kept; }
   // min(distance, limit), never larger than the true one; above enough_m less than 1e-9 m below it.
   [[nodiscard]] double run();
   // After run(), of surfaces apart and below the limit: the direction from a to b of the nearest
@@ -69,13 +69,19 @@ class SurfaceDescent {
   Eigen::Vector3d n_A_ = Eigen::Vector3d::Zero();  // that direction, from a to b
   Turn of_b_in_a_;
   Turn of_a_in_b_;
-  float box_rounding_m_;
-  double rounding_m_;
+  struct Rounding {
+    float boxes_m;
+    double triangles_m;
+  };
+  Rounding rounding_;
   double best_m_;
   double enough_m_;
   double roots_m_ = 0.0;
-  KeptApart* kept_ = nullptr;
-  double kept_along_m_;  // what is so far apart along n_A_ is left out
+  struct Kept {
+    KeptApart* apart = nullptr;
+    double along_m;  // what is so far apart along n_A_ is left out
+  };
+  Kept kept_;
   // Pairs of triangles that were measured, as several leaves may have them: the last at each place,
   // plus one.
   std::array<std::uint64_t, 128> measured_{};

@@ -30,13 +30,13 @@ void append_item(std::string& list, const char* separator, const std::string& it
   list += item;
 }
 
-LimitsOfJoint::LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint, Mover mover,
-                             Diagnostics& diagnostics)
+LimitsOfJoint::LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint,
+                             OwnerOfJoint owner, Diagnostics& diagnostics)
     : robot_(robot),
       link_(link),
       joint_(joint),
-      arm_(mover.arm),
-      own_(mover.own),
+      arm_(owner.arm),
+      own_(owner.own),
       diagnostics_(diagnostics) {
   if (arm_ != nullptr) {
     const auto given = arm_->description->limits.find(link.joint);

@@ -22,11 +22,11 @@ void append_item(std::string& list, const char* separator, const std::string& it
 // nothing.
 class LimitsOfJoint {
  public:
-  struct Mover {
+  struct OwnerOfJoint {
     const ArmBuild* arm;  // none: no arm moves the joint
     bool own;             // of the arm's group, not of its gripper
   };
-  LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint, Mover mover,
+  LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint, OwnerOfJoint owner,
                 Diagnostics& diagnostics);
 
   void settle(LimitsFile::Joint* filed, Needs& needs);
@@ -79,7 +79,7 @@ class LimitsOfJoint {
   const RobotBuild& robot_;
   TreeLink& link_;
   Joint& joint_;
-  const ArmBuild* arm_;  // as of its Mover
+  const ArmBuild* arm_;  // as of its OwnerOfJoint
   bool own_;
   Diagnostics& diagnostics_;
   JointLimitsDescription cell_;

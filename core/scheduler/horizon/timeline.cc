@@ -18,7 +18,8 @@ Duration expected_to_stand(const State& state, const Job& job, TimePoint now) {
   if (job.in<Admitted>() == nullptr) return stands;
   for (ArmId arm : job.trajectory->arms()) {
     const auto since = state.arms.stopped_since(arm);
-    if (since && state.jobs.queue(arm).front() == job.id) stands = std::max(stands, now - *since);
+    if (since && state.jobs.queues()[arm].front() == job.id)
+      stands = std::max(stands, now - *since);
   }
   return stands;
 }

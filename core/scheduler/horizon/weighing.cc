@@ -23,7 +23,7 @@ std::optional<TimePoint> stands_since(const Job& job) {
     return moving->pause ? std::nullopt : std::optional(moving->moved_at);
   }
   const bool stopped = job.in<Braking>() != nullptr || job.in<Held>() != nullptr;
-  return stopped ? std::optional(job.progress_seen_at) : std::nullopt;
+  return stopped ? std::optional(job.times.measured_at) : std::nullopt;
 }
 
 }  // namespace
@@ -48,7 +48,8 @@ double pace_of(const Job& job, TimePoint now) {
 }
 
 void prepare_choice(State& state, const std::vector<JobId>& jobs) {
-  std::vector<JobId> in_front = jobs;
+  std::vector<const Job*> in_front;
+  for (JobId id : jobs) in_front.push_back(&state.jobs.at(id).job);
   for (const CoordinatedMotion& motion : state.graph.motions()) {
     const Record& record = state.jobs.at(motion.job);
     const bool weighs = state.policy->weighs_again();
@@ -58,9 +59,9 @@ void prepare_choice(State& state, const std::vector<JobId>& jobs) {
     state.graph.set_outlook(motion.job, {.keeps_its_place = is_aged && stands <= Duration{},
                                          .stands_for = stands,
                                          .pace = weighs ? pace_of(record.job, state.now) : 1.0});
-    in_front.push_back(motion.job);
+    in_front.push_back(&record.job);
   }
-  state.graph.set_work_behind(state.jobs.work_behind(in_front));
+  state.graph.set_work_behind(state.jobs.queues().work_but(in_front));
 }
 
 void weigh_again(State& state) {

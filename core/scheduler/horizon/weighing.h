@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scheduler/state.h"
+#include "core/jobs/state.h"
 
 namespace armloom {
 

@@ -30,7 +30,7 @@ class LockstepPolicy final : public Policy {
     std::erase_if(round.jobs, [&](JobId id) { return !book.is_active(id); });
     for (const auto& queue : book.queues()) {
       for (const JobId id : queue) {
-        const auto& before = book.at(id).before;
+        const auto& before = book.at(id).errand.before;
         if (!before) break;
         if (round.jobs.contains(*before)) round.jobs.insert(id);
       }

@@ -22,7 +22,7 @@ double arrival_of(const State& state, const Job& job, const Prediction& predicti
     const auto arms = state.jobs.at(motions[m].job).job.trajectory->arms();
     if (std::ranges::find(arms, arm) != arms.end()) then = std::max(then, prediction.ends[m]);
   }
-  for (JobId id : state.jobs.queue(arm)) {
+  for (JobId id : state.jobs.queues()[arm]) {
     const Job& before = state.jobs.at(id).job;
     if (before.is_waiting()) then += before.trajectory->duration();
     if (id == job.id) break;
@@ -33,7 +33,7 @@ double arrival_of(const State& state, const Job& job, const Prediction& predicti
 // Of the plan: what is admitted goes as predicted, `job` too, or waits on its arm; then what waits.
 double cost_of(const State& state, const Job& job, const Prediction& prediction) {
   if (job.goal) return arrival_of(state, job, prediction);
-  std::vector<JobId> in_front{job.id};
+  std::vector<const Job*> in_front{&job};
   std::vector<double> ends(state.cell->arms.size(), 0.0);
   const auto comes_to = [&](const Trajectory& trajectory, Duration end) {
     for (ArmId arm : trajectory.arms()) {
@@ -42,10 +42,11 @@ double cost_of(const State& state, const Job& job, const Prediction& prediction)
   };
   const auto& motions = state.graph.motions();
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    comes_to(*state.jobs.at(motions[m].job).job.trajectory, prediction.ends[m]);
-    in_front.push_back(motions[m].job);
+    const Job& admitted = state.jobs.at(motions[m].job).job;
+    comes_to(*admitted.trajectory, prediction.ends[m]);
+    in_front.push_back(&admitted);
   }
-  std::vector<Duration> behind = state.jobs.work_behind(in_front);
+  std::vector<Duration> behind = state.jobs.queues().work_but(in_front);
   if (prediction.ends.size() > motions.size()) {
     comes_to(*job.trajectory, prediction.ends.back());
   } else {

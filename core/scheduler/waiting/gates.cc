@@ -26,7 +26,7 @@ Closed order(JobId first, std::optional<ArmId> arm = {}) {
 // It is one of the arm's first jobs, as many as the policy looks ahead, and those before it are
 // admitted. Of an admitted one all others would have to have ended.
 bool is_next(const State& state, const Record& record, ArmId arm) {
-  const auto& queue = state.jobs.queue(arm);
+  const auto& queue = state.jobs.queues()[arm];
   const bool ahead = record.job.is_waiting() && state.lanes.follows_on(record.job.id);
   const std::size_t horizon = ahead ? state.policy->horizon() : 1;
   for (std::size_t place = 0; place < std::min(horizon, queue.size()); ++place) {
@@ -40,7 +40,7 @@ bool is_next(const State& state, const Record& record, ArmId arm) {
 Closed behind(const Turns& turns, const Record& record) {
   for (ArmId arm : record.job.trajectory->arms()) {
     if (is_next(turns.state(), record, arm)) continue;
-    return order(*turns.state().jobs.before(record.job, arm), arm);
+    return order(*turns.state().jobs.queues().before(record.job, arm), arm);
   }
   return std::nullopt;
 }
@@ -63,12 +63,12 @@ void add_open_arm(const State& state, const Record& record, Edges& edges) {
 }
 
 Closed after(const Turns&, const Record& record) {
-  if (record.job.after.empty()) return std::nullopt;
-  return order(record.job.after.front());
+  if (record.job.terms.after.empty()) return std::nullopt;
+  return order(record.job.terms.after.front());
 }
 
 void add_after(const State& state, const Record& record, Edges& edges) {
-  for (JobId before : record.job.after) {
+  for (JobId before : record.job.terms.after) {
     if (stands(state, state.jobs.at(before))) edges.push_back({record.job.id, before});
   }
 }
@@ -80,11 +80,12 @@ Closed plan(const Turns&, const Record& record) {
 
 Closed lets_pass(const Turns& turns, const Record& record) {
   if (!turns.state().jobs.lets_another_pass(record)) return std::nullopt;
-  return order(*record.lets_pass);
+  return order(*record.errand.lets_pass);
 }
 
 void add_lets_pass(const State& state, const Record& record, Edges& edges) {
-  if (state.jobs.lets_another_pass(record)) edges.push_back({record.job.id, *record.lets_pass});
+  if (state.jobs.lets_another_pass(record))
+    edges.push_back({record.job.id, *record.errand.lets_pass});
 }
 
 Closed stop(const Turns& turns, const Record& record) {
@@ -190,7 +191,7 @@ std::optional<JobId> has_to_move_first(const State& state, const Wait& wait) {
   std::optional<JobId> first = wait.job;
   const bool begun = of_job && jobs.at(*wait.job).job.has_started();
   if (!begun && wait.arm) {  // its arm moves with its next job
-    const auto& queue = jobs.queue(*wait.arm);
+    const auto& queue = jobs.queues()[*wait.arm];
     first = queue.empty() ? std::nullopt : std::optional(queue.front());
   }
   if (!first) return std::nullopt;

@@ -17,8 +17,8 @@ bool is_loop(const Record& record) {
 }
 
 bool may_change_places(const Record& record) {
-  return record.job.any_order && record.job.in<Queued>() != nullptr && is_loop(record) &&
-         record.job.after.empty() && !record.before && !record.lets_pass;
+  return record.job.terms.any_order && record.job.in<Queued>() != nullptr && is_loop(record) &&
+         record.job.terms.after.empty() && !record.errand.before && !record.errand.lets_pass;
 }
 
 bool is_overtaken_no_more(const State& state, const Record& record) {
@@ -28,10 +28,11 @@ bool is_overtaken_no_more(const State& state, const Record& record) {
 std::vector<Option> in_any_order(const State& state, const Record& turn) {
   std::vector<Option> options{{turn.job.id}};
   if (!may_change_places(turn) || is_overtaken_no_more(state, turn)) return options;
-  const auto& queue = state.jobs.queue(turn.leg.arms.front());
+  const auto& queue = state.jobs.queues()[turn.leg.arms.front()];
   for (auto id = std::ranges::find(queue, turn.job.id) + 1; id != queue.end(); ++id) {
     const Record& other = state.jobs.at(*id);
-    const bool fits = may_change_places(other) && other.job.priority == turn.job.priority &&
+    const bool fits = may_change_places(other) &&
+                      other.job.terms.priority == turn.job.terms.priority &&
                       other.leg.from == turn.leg.from;
     if (!fits || options.size() >= kOptionsMax) break;
     options.push_back({*id});
@@ -62,7 +63,7 @@ When when_on(const State& state, const Record& record, const Trajectory& traject
   std::size_t admitted = 0;
   bool is_next = true;
   const std::size_t place = place_on(state, record, arm);
-  for (JobId id : state.jobs.queue(arm) | std::views::take(place)) {
+  for (JobId id : state.jobs.queues()[arm] | std::views::take(place)) {
     if (id == record.job.id) continue;
     const Record& other = state.jobs.at(id);
     if (other.job.is_admitted()) ++admitted;
@@ -105,7 +106,7 @@ std::size_t place_on(const State& state, const Record& record, ArmId arm) {
     const Record& other = state.jobs.at(id);
     return id != record.job.id && (other.job.in<Queued>() == nullptr || other.turn < record.turn);
   };
-  const auto& queue = state.jobs.queue(arm);
+  const auto& queue = state.jobs.queues()[arm];
   const auto last = std::find_if(queue.rbegin(), queue.rend(), goes_before);
   return static_cast<std::size_t>(queue.rend() - last);
 }
@@ -160,7 +161,7 @@ void give_turn(State& state, const std::vector<Option>& options, std::size_t fir
 
 void reopen_turn(State& state, const Record& added) {
   if (!may_change_places(added)) return;
-  const auto& queue = state.jobs.queue(added.leg.arms.front());
+  const auto& queue = state.jobs.queues()[added.leg.arms.front()];
   const auto waits = [&](JobId id) { return state.jobs.at(id).job.is_waiting(); };
   Record& first = state.jobs.at(*std::ranges::find_if(queue, waits));
   auto* queued = std::get_if<Queued>(&first.job.phase);

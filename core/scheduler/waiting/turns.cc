@@ -26,7 +26,7 @@ bool waits_beyond_turns(const State& state, const Record& record) {
   if (!record.job.is_waiting() || record.job.judgement().at != state.version) return false;
   return std::ranges::any_of(record.job.judgement().found, [&](const Wait& wait) {
     if (wait.kind != Wait::Kind::arm) return wait.kind == Wait::Kind::object;
-    const auto& queue = state.jobs.queue(*wait.arm);
+    const auto& queue = state.jobs.queues()[*wait.arm];
     const bool moves = !queue.empty() && !state.jobs.at(queue.front()).job.is_waiting();
     return !moves && !has_to_move_first(state, wait);
   });
@@ -79,7 +79,7 @@ std::optional<JobId> Turns::held_back_by(const Record& record) const {
     if (a.job == record.job.id) break;
     if (std::ranges::binary_search(a.goes_first, record.job.id)) break;
     const Job& old = state_.jobs.at(a.job).job;
-    const bool outranks = record.job.id < old.id && record.job.priority > old.priority;
+    const bool outranks = record.job.id < old.id && record.job.terms.priority > old.terms.priority;
     if (!outranks) return a.job;
   }
   return std::nullopt;
@@ -91,7 +91,7 @@ std::map<JobId, int> Turns::urgencies() const {
   std::vector<Urgency> jobs;
   for (JobId id : state_.jobs.active()) {
     const Job& job = state_.jobs.at(id).job;
-    if (job.is_waiting()) jobs.push_back({id, job.priority});
+    if (job.is_waiting()) jobs.push_back({id, job.terms.priority});
   }
   return effective_priorities(waits_for(state_), std::move(jobs));
 }
@@ -100,7 +100,8 @@ std::optional<JobId> Turns::next() const {
   const Record* best = nullptr;
   const std::map<JobId, int> urgency = urgencies();
   const auto goes_before = [&](const Record& a, const Record& b) {
-    if (a.effort != b.effort) return a.effort < b.effort;  // what takes long keeps nobody waiting
+    if (a.asking.effort != b.asking.effort)
+      return a.asking.effort < b.asking.effort;  // what takes long keeps nobody waiting
     const bool a_held = a.job.in<Held>() != nullptr;
     const bool b_held = b.job.in<Held>() != nullptr;
     if (a_held != b_held) return a_held;
@@ -123,7 +124,7 @@ std::optional<JobId> Turns::next() const {
 
 // What is not the first of an arm waits for the one before it, as long as that is the same.
 void explain_waits(State& state) {
-  std::set<JobId> jobs = state.jobs.take_unexplained();
+  std::set<JobId> jobs = std::exchange(state.jobs.news().unexplained, {});
   for (const auto& queue : state.jobs.queues()) {
     if (!queue.empty()) jobs.insert(queue.front());
     if (const auto first = first_that_waits(state, queue)) jobs.insert(*first);

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scheduler/state.h"
+#include "core/jobs/state.h"
 #include "core/scheduler/waiting/waits_for.h"
 
 namespace armloom {

@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/jobs/phases.h"
 #include "core/scheduler/authority.h"
-#include "core/scheduler/phases.h"
 #include "core/scheduler/replanning.h"
 #include "core/scheduler/waiting/gates.h"
 
@@ -55,16 +55,16 @@ void untell(State& state, const WaitCycle& ring) {
 void resolve(State& state, const WaitCycle& ring) {
   for (JobId id : ring) {
     Record& record = state.jobs.at(id);
-    if (state.jobs.lets_another_pass(record) && contains(ring, *record.lets_pass)) {
-      record.lets_pass.reset();
+    if (state.jobs.lets_another_pass(record) && contains(ring, *record.errand.lets_pass)) {
+      record.errand.lets_pass.reset();
       state.lanes.renew_later();
       return;
     }
   }
   const auto dispensable = [&](JobId id) {
     const Record& record = state.jobs.at(id);
-    return std::tuple(!record.job.system_job || !is_counted_on(state, record),
-                      record.job.system_job, id);
+    return std::tuple(!record.job.terms.system_job || !is_counted_on(state, record),
+                      record.job.terms.system_job, id);
   };
   Record& last = state.jobs.at(*std::ranges::max_element(ring, {}, dispensable));
   give_up(state, last, {AfterStop::Then::fail, Reason::deadlock});

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/scheduler/state.h"
+#include "core/jobs/state.h"
 #include "core/scheduler/waiting/waits_for.h"
 #include "core/scheduler/yielding/yield_moves.h"
 

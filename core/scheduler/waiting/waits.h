@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/coordination/verdict.h"
+#include "core/jobs/job.h"
 #include "core/precedence/passing_orders.h"
-#include "core/scheduler/job.h"
 
 namespace armloom {
 

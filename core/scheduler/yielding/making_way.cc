@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/scheduler/phases.h"
+#include "core/jobs/phases.h"
 #include "core/trajectory/joint_line.h"
 
 namespace armloom {
@@ -11,19 +11,21 @@ namespace {
 JobId add_own(State& state, const YieldTrial& move, TrajectoryPtr way, std::optional<JobId> goes) {
   const JobId id = state.jobs.next_id();
   const JobId helped = goes ? *move.before : move.blocked_job;
-  Record record = record_of(state, {.job = id,
-                                    .trajectory = std::move(way),
-                                    .priority = state.jobs.at(move.blocked_job).job.priority,
-                                    .backlog_timeout = state.cell->scheduling.backlog_timeout,
-                                    .system_job = true});
-  record.on_behalf_of = state.jobs.at(helped).on_behalf_of;
-  record.before = move.before;
+  const Job& blocked = state.jobs.at(move.blocked_job).job;
+  Record record =
+      record_of(state, {.job = id,
+                        .trajectory = std::move(way),
+                        .terms = {.priority = blocked.terms.priority,
+                                  .backlog_timeout = state.cell->scheduling.backlog_timeout,
+                                  .system_job = true}});
+  record.errand.on_behalf_of = state.jobs.at(helped).errand.on_behalf_of;
+  record.errand.before = move.before;
   if (goes) {
-    record.job.after = {*goes};
-    record.lets_pass = move.blocked_job;
+    record.job.terms.after = {*goes};
+    record.errand.lets_pass = move.blocked_job;
   }
   add(state, std::move(record));
-  state.sent_aside.push_back(
+  state.decided.sent_aside.push_back(
       {id, move.arm, move.blocked_job, move.before.has_value(), goes.has_value()});
   return id;
 }

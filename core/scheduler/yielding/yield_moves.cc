@@ -49,14 +49,14 @@ std::optional<YieldTrial> untried(const State& state, const Record& record, ArmI
       state.arms.is_stopped(arm)) {
     return std::nullopt;
   }
-  if (!state.jobs.is_active(record.on_behalf_of)) return std::nullopt;
+  if (!state.jobs.is_active(record.errand.on_behalf_of)) return std::nullopt;
   static const YieldsTried kNone;
   const auto tried_for = [arm](const Record& job) -> const YieldsTried& {
     const auto found = job.yields.find(arm);
     return found == job.yields.end() ? kNone : found->second;
   };
   const YieldsTried& tried = tried_for(record);
-  const YieldsTried& of_all = tried_for(state.jobs.at(record.on_behalf_of));
+  const YieldsTried& of_all = tried_for(state.jobs.at(record.errand.on_behalf_of));
   if (of_all.total >= kYieldsMax) return std::nullopt;
   const TrajectoryPtr& came_by = state.arms.came_by(arm);
   const auto ways = ways_aside(*state.cell, arm, state.arms.rest(), came_by);
@@ -82,7 +82,7 @@ std::optional<YieldTrial> next_yield(const State& state) {
     if (job.is_replanned_now()) continue;  // perhaps it passes
     for (const Wait& wait : waits_of(job)) {
       const bool idle =
-          wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queue(*wait.arm).empty();
+          wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queues()[*wait.arm].empty();
       if (!idle) continue;
       if (auto move = untried(state, record, *wait.arm)) return move;
     }
@@ -93,18 +93,18 @@ std::optional<YieldTrial> next_yield(const State& state) {
 std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring) {
   const bool dispensable = std::ranges::any_of(ring, [&](JobId id) {
     const Record& record = state.jobs.at(id);
-    return record.job.system_job && !is_counted_on(state, record);
+    return record.job.terms.system_job && !is_counted_on(state, record);
   });
   if (dispensable) return std::nullopt;
   const WaitCycle from_last = beginning_with(*std::ranges::max_element(ring), ring);
   for (std::size_t i = 0; i < from_last.size(); ++i) {
     const Job& next = state.jobs.at(from_last[i]).job;
     const Record& waits = state.jobs.at(from_last[(i + from_last.size() - 1) % from_last.size()]);
-    if (!next.is_waiting() || next.has_started() || next.system_job) continue;
+    if (!next.is_waiting() || next.has_started() || next.terms.system_job) continue;
     for (const Wait& wait : waits_of(waits.job)) {
       const bool near = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::job;
       if (!near || !wait.arm) continue;
-      const auto& queue = state.jobs.queue(*wait.arm);
+      const auto& queue = state.jobs.queues()[*wait.arm];
       if (queue.empty() || queue.front() != next.id) continue;
       auto move = untried(state, waits, *wait.arm);
       if (!move) continue;
@@ -128,14 +128,14 @@ Question question_about(const State& state, const YieldTrial& move) {
 
 bool is_as_asked(const State& state, const YieldTrial& move) {
   if (!state.jobs.is_active(move.blocked_job)) return false;
-  const auto& queue = state.jobs.queue(move.arm);
+  const auto& queue = state.jobs.queues()[move.arm];
   return move.before ? !queue.empty() && queue.front() == *move.before : queue.empty();
 }
 
 bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& move) {
   const auto stays = [&](ArmId arm) {
     if (move.is_free) return arm == move.arm;
-    const auto& queue = state.jobs.queue(arm);
+    const auto& queue = state.jobs.queues()[arm];
     if (queue.empty()) return false;  // it may go aside too
     return queue.front() == move.blocked_job ||
            (move.before && state.jobs.at(queue.front()).job.is_waiting());
@@ -159,16 +159,16 @@ void note_tried(State& state, const YieldTrial& move, bool goes) {
   YieldsTried& tried = record.yields[move.arm];
   tried.from = state.arms.came_by(move.arm);
   tried.next = move.index + 1;
-  if (!state.jobs.is_active(record.on_behalf_of)) return;
-  YieldsTried& of_all = state.jobs.at(record.on_behalf_of).yields[move.arm];
+  if (!state.jobs.is_active(record.errand.on_behalf_of)) return;
+  YieldsTried& of_all = state.jobs.at(record.errand.on_behalf_of).yields[move.arm];
   ++of_all.total;
   if (goes) of_all.went_to.push_back(move.way->goal());
 }
 
 bool is_counted_on(const State& state, const Record& own) {
   const ArmId arm = own.job.trajectory->arms().front();
-  const auto& queue = state.jobs.queue(arm);
-  const auto of_a_client = [&](JobId id) { return !state.jobs.at(id).job.system_job; };
+  const auto& queue = state.jobs.queues()[arm];
+  const auto of_a_client = [&](JobId id) { return !state.jobs.at(id).job.terms.system_job; };
   const auto next = std::find_if(std::ranges::find(queue, own.job.id), queue.end(), of_a_client);
   if (next == queue.end()) return false;
   if (state.jobs.at(*next).job.goal) return false;  // begins wherever the arm stands

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "core/scheduler/state.h"
+#include "core/jobs/state.h"
 #include "core/scheduler/waiting/waits_for.h"
 
 namespace armloom {

@@ -2,7 +2,7 @@
 
 import type { Api } from '../server/api';
 import type { Problem, Verdict } from '../server/messages';
-import { conflict_in_words, millimetres, seconds } from '../wording';
+import { conflict_in_words, millimetres, seconds, wait_in_words } from '../wording';
 import { bodies_of, type Bag } from './bag';
 import { Refused } from './refused';
 
@@ -34,20 +34,22 @@ export function Judged({ judgements, show }: { judgements: Judgement[]; show: ((
 }
 
 const kWords: Record<Verdict['verdict'], string> = {
-  free: '✓ free: it could start now', conflict: '✕ in conflict', undecided: '? not proven free',
+  free: '✓ free', conflict: '✕ in conflict', undecided: '? not proven free',
 };
 
 function Said({ title, verdict, show }: { title: string; verdict: Verdict; show: ((t_s: number) => void) | null }) {
   const { earliest_start_s: start_s, clearance_bound_m: bound_m, self_clearance_bound_m: self_m } = verdict;
-  const later = verdict.verdict === 'free' ? '' : start_s === null ? 'Not as things stand.' : `It could start in ${seconds(start_s)}.`;
+  const in_words = verdict.verdict === 'free' ? wait_in_words : conflict_in_words;
+  const could = verdict.verdict === 'free' ? 'would' : 'could';
+  const when = start_s === null ? 'Not as things stand.' : start_s > 0 ? `It ${could} start in ${seconds(start_s)}.` : `It ${could} start now.`;
   return (
     <>
       <div class={`verdict-word ${verdict.verdict}`}><b>{title}</b>: {kWords[verdict.verdict]}</div>
-      {later !== '' && <div>{later}</div>}
+      <div>{when}</div>
       {bound_m !== null && <div class="dim small">At least {millimetres(bound_m)} are kept{self_m !== null && `, ${millimetres(self_m)} from the arm's own links`}, proven.</div>}
-      {verdict.conflicts.map((conflict, i) => (
+      {verdict.waits_on.map((conflict, i) => (
         <div key={i} class="words">
-          {conflict_in_words(conflict)}
+          {in_words(conflict)}
           {show && conflict.own_time_s !== null && (
             <>{' '}<button class="small" data-test="show-conflict" onClick={() => show(conflict.own_time_s ?? 0)}>Show it there</button></>
           )}

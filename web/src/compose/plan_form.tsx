@@ -101,8 +101,8 @@ function Goal({ form, app, set }: { form: GoalForm; app: App; set(part: Partial<
 function Planned({ plan }: { plan: Plan }) {
   const { verdict, not_judged } = plan;
   const words = verdict === undefined ? `As a job it would be refused now: ${not_judged?.detail ?? ''}`
-    : verdict.verdict === 'free' ? '✓ As a job it could start now.'
-    : verdict.earliest_start_s === null ? 'As a job it would wait, as things are.' : `As a job it could start in ${seconds(verdict.earliest_start_s)}.`;
+    : verdict.verdict === 'free' && !verdict.earliest_start_s ? '✓ As a job it could start now.'
+    : verdict.earliest_start_s === null ? 'As a job it would wait, as things are.' : `As a job it ${verdict.verdict === 'free' ? 'would' : 'could'} start in ${seconds(verdict.earliest_start_s)}.`;
   if (plan.duration_s < kAlready_s) return <p class="planned-words" role="status" data-test="planned">The arm will be there already.</p>;
   return (
     <p class="planned-words" role="status" data-test="planned">

@@ -86,6 +86,13 @@ export interface components {
             arms: string[];
             /** @description Larger goes first */
             priority: number;
+            /** @description How long it may wait in the backlog. Absent: an older version of the program stored the job */
+            backlog_timeout_s?: number;
+            /**
+             * @description What becomes of it then. Absent as above
+             * @enum {string}
+             */
+            on_timeout?: "abort" | "replan";
             /** @description When it was accepted, in cell time */
             submitted_s: number;
             /**

@@ -47,6 +47,7 @@ export function Row({ job, app }: Props) {
         </Link>
       )}
       {!ended && <When job={job} app={app} />}
+      {waits(job) && <Urgency job={job} app={app} />}
       {!ended && <Cancel job={job} app={app} />}
     </article>
   );
@@ -80,6 +81,20 @@ function When({ job, app }: Props) {
   const first = only_waits_its_turn(job) ? job.waits_on[0]?.id ?? null : null;
   const words = [first === null ? '' : `after ${short_id(first)}`, when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
   return words === '' ? null : <span class="when" data-test="when">{words}</span>;
+}
+
+function waits(job: Job): boolean {
+  return job.state === 'queued' || job.state === 'backlogged';
+}
+
+/** Who of those that wait goes first: seen when the row is pointed at or has the focus. */
+function Urgency({ job, app }: Props) {
+  const mute = why_mute(app.store.link);
+  const step = (by: number, sign: string, what: string) => (
+    <button class="small" disabled={mute !== null} title={mute ?? `${what}: priority ${job.priority + by}`} aria-label={`${what}: ${job.id}`}
+      onClick={() => { void app.actions.set_priority(job.id, job.priority + by); }}>{sign}</button>
+  );
+  return <div class="urgency" data-test="urgency">{step(1, '▲', 'More urgent')}{step(-1, '▼', 'Less urgent')}</div>;
 }
 
 /** The first click asks, the second does it; the question goes away by itself. */

@@ -2,7 +2,7 @@
 
 import {
   parse_cell, parse_diagram, parse_forecast, parse_job, parse_job_motion, parse_plan, parse_problem, parse_verdict,
-  type Cell, type Diagram, type Forecast, type Job, type JobMotion, type Parsed, type Plan, type Problem, type SceneObject, type Verdict,
+  type Cell, type Diagram, type Forecast, type Job, type JobAmendment, type JobMotion, type Parsed, type Plan, type Problem, type SceneObject, type Verdict,
 } from './messages';
 
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
@@ -60,6 +60,11 @@ export class Api {
 
   remove_object(name: string): Promise<Answer<unknown>> {
     return this.ask('DELETE', `/scene/objects/${encodeURIComponent(name)}`);
+  }
+
+  /** What is named of the job is changed. */
+  amend_job(id: string, changes: JobAmendment): Promise<Answer<unknown>> {
+    return this.ask('PATCH', `/jobs/${encodeURIComponent(id)}`, JSON.stringify(changes));
   }
 
   cancel_job(id: string): Promise<Answer<unknown>> {

@@ -33,6 +33,8 @@ export type Forecast = Schemas['Timeline'];
 export type ForecastLeg = Schemas['TimelineLeg'];
 /** What the admission code says of a job that was only asked about. */
 export type Verdict = Schemas['Verdict'];
+/** What of a job can be changed. */
+export type JobAmendment = Partial<Pick<Job, 'name' | 'priority' | 'backlog_timeout_s' | 'on_timeout'>>;
 /** How a job moves. */
 export type JobMotion = Schemas['JobMotion'];
 /** A motion to a goal, which is not executed. */

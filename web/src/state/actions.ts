@@ -56,6 +56,11 @@ export class Actions {
     await this.ask(`Another way for ${id}`, this.api_.replan_job(id));
   }
 
+  /** Larger goes first; it counts at once. */
+  async set_priority(id: string, priority: number): Promise<void> {
+    await this.ask(`Priority ${priority} of ${id}`, this.api_.amend_job(id, { priority }));
+  }
+
   async cancel(id: string): Promise<void> {
     await this.ask(`Cancel ${id}`, this.api_.cancel_job(id));
   }

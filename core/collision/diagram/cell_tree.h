@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/collision/diagram/time_tree.h"
+#include "core/coordination/conflict_region.h"
+
+namespace armloom {
+
+// The cells of a diagram: rectangles over the times of two motions, halved along one side or both.
+// The first one covers both motions; the children of a cell follow each other.
+class CellTree {
+ public:
+  enum class CellState : std::uint8_t { unknown, free, mixed, conflict, finest, inner };
+  struct Node {
+    int a;  // nodes of the axes
+    int b;
+    int children = -1;  // first of two or four
+    CellState state = CellState::unknown;
+    bool split_a = false;  // how to split: for the children of inner cells, and for mixed ones
+    bool split_b = false;
+    std::uint8_t levels = 1;  // of a mixed cell: how many halvings at once
+    int witness = -1;         // at its middle
+
+    [[nodiscard]] int child_count() const { return (split_a ? 2 : 1) * (split_b ? 2 : 1); }
+  };
+
+  // Wider stretches of a motion are hardly ever free in one: they are halved unseen.
+  inline static constexpr Duration kWide = std::chrono::milliseconds(700);
+  // Cells are not split below this width.
+  inline static constexpr Duration kFinest = std::chrono::microseconds(500);
+
+  CellTree(std::shared_ptr<TimeTree> a, std::shared_ptr<TimeTree> b);
+
+  // References hold until the next split.
+  [[nodiscard]] Node& at(int cell) { return cells_[static_cast<std::size_t>(cell)]; }
+  [[nodiscard]] const Node& at(int cell) const { return cells_[static_cast<std::size_t>(cell)]; }
+  [[nodiscard]] int size() const { return static_cast<int>(cells_.size()); }
+  [[nodiscard]] auto begin() const { return cells_.begin(); }
+  [[nodiscard]] auto end() const { return cells_.end(); }
+
+  [[nodiscard]] const TimeTree& a() const { return *a_; }
+  [[nodiscard]] const TimeTree& b() const { return *b_; }
+  [[nodiscard]] ProgressBox box_of(const Node& cell) const;
+  // On either side.
+  [[nodiscard]] bool wider(const Node& cell, Duration than) const {
+    return a_->width(cell.a) > than || b_->width(cell.b) > than;
+  }
+  // Neither motion has passed all of it.
+  [[nodiscard]] bool remains(const Node& cell, Duration now_a, Duration now_b) const {
+    return a_->to(cell.a) >= now_a && b_->to(cell.b) >= now_b;
+  }
+
+  // As its split_a, split_b say; children of further levels likewise.
+  void split(int cell, int levels);
+  // An unknown one that is hardly free in one is split before it is looked at.
+  void split_if_wide(int cell);
+  // A mixed one. Where the side that moves more is fine already, the other one is halved.
+  void split_if_coarse(int cell, Duration resolution);
+
+  // Calls visit(leaf) for what touches the cell, corners included, until it says yes: whether it
+  // did.
+  template <class Visit>
+  bool leaves_at(const Node& of, const Visit& visit) const {
+    std::vector<int>& open = walk_;
+    open.assign(1, 0);
+    while (!open.empty()) {
+      const int index = open.back();
+      open.pop_back();
+      const Node& cell = at(index);
+      const bool touch = a_->from(cell.a) <= a_->to(of.a) && a_->to(cell.a) >= a_->from(of.a) &&
+                         b_->from(cell.b) <= b_->to(of.b) && b_->to(cell.b) >= b_->from(of.b);
+      if (!touch) continue;
+      if (cell.state != CellState::inner) {
+        if (visit(index)) return true;
+        continue;
+      }
+      for (int i = 0; i < cell.child_count(); ++i) open.push_back(cell.children + i);
+    }
+    return false;
+  }
+
+ private:
+  std::shared_ptr<TimeTree> a_;
+  std::shared_ptr<TimeTree> b_;
+  std::vector<Node> cells_;
+  mutable std::vector<int> walk_;  // of leaves_at()
+};
+
+}  // namespace armloom

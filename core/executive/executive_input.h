@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/executive/executive.h"
+
+namespace armloom {
+
+// What comes to an executive from outside and changes something, as InputLog has it. Beside its
+// cell, its options and the ticks this is all that decides what it does: arms are simulated from a
+// seed, and verdicts and plans follow from their questions; only when they come is an input.
+struct ExecutiveInput {
+  struct Submitted {
+    const std::vector<JobRequest>& requests;
+    enum class How { alone, batch, atomic_batch } how;
+  };
+  // One more part of the batch that was opened last was taken.
+  struct WentOn {};
+  struct Restored {
+    const std::vector<RestoredJob>& jobs;
+  };
+  struct Canceled {
+    std::string job;
+  };
+  struct Amended {
+    std::string job;
+    JobAmendment amendment;
+  };
+  struct Replanned {
+    std::string job;
+  };
+  struct Stopped {
+    std::vector<ArmId> arms;
+    std::string cause;
+  };
+  struct Resumed {
+    std::vector<ArmId> arms;
+  };
+  struct WoundDown {
+    std::string cause;
+    Executive::Waiting waiting;
+  };
+  struct ObjectAdded {
+    CollisionObject object;
+  };
+  struct ObjectReplaced {
+    CollisionObject object;
+  };
+  struct ObjectRemoved {
+    std::string name;
+  };
+  struct Injected {
+    FaultRequest fault;
+  };
+  struct FaultRemoved {
+    std::uint64_t fault;
+  };
+  struct Alerted {
+    Alert alert;
+  };
+  // The answer to the one question of the scheduler that is open; `evaluations` tell whether a
+  // replay comes to the same one.
+  struct Judged {
+    std::uint64_t evaluations;
+  };
+  // The answer to the open question about this job's way.
+  struct Planned {
+    JobId job;
+    std::uint64_t question;
+  };
+  // That this job may have moved is on disk (StartLog).
+  struct StartWritten {
+    JobId job;
+  };
+  std::variant<Submitted, WentOn, Restored, Canceled, Amended, Replanned, Stopped, Resumed,
+               WoundDown, ObjectAdded, ObjectReplaced, ObjectRemoved, Injected, FaultRemoved,
+               Alerted, Judged, Planned, StartWritten>
+      what;
+};
+
+}  // namespace armloom

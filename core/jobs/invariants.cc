@@ -1,0 +1,72 @@
+#include "core/jobs/invariants.h"
+
+#include <algorithm>
+
+namespace armloom {
+namespace {
+
+using Broken = std::optional<std::string>;
+
+std::string name(JobId job) { return "job " + std::to_string(job.value()); }
+
+std::string at(Duration progress) { return std::to_string(to_seconds(progress)) + " s"; }
+
+Broken of_job(const State& state, const Job& job) {
+  const bool occupies =
+      job.in<Moving>() != nullptr || job.in<Braking>() != nullptr || job.in<Held>() != nullptr;
+  if (job.has_ended()) return name(job.id) + " has ended and is in a queue";
+  if (occupies && !state.jobs.queues().is_first(job)) {
+    return name(job.id) + " has an arm, and another job comes before it";
+  }
+  if (!job.has_authority() || state.graph.holds(job.id)) return std::nullopt;
+  return name(job.id) + " moves or is about to, and is not admitted";
+}
+
+Broken of_motion(const State& state, const CoordinatedMotion& motion) {
+  if (!state.jobs.is_active(motion.job)) return name(motion.job) + " has ended and is admitted";
+  if (state.jobs.at(motion.job).job.in<Queued>() != nullptr) {
+    return name(motion.job) + " waits in the queue and is admitted";
+  }
+  const bool in_order = Duration{} <= motion.progress && motion.progress <= motion.authority &&
+                        motion.authority <= motion.duration;
+  if (in_order) return of_job(state, state.jobs.at(motion.job).job);
+  return name(motion.job) + ": progress " + at(motion.progress) + ", authority " +
+         at(motion.authority) + ", duration " + at(motion.duration) + " are out of order";
+}
+
+Broken of_order(const State& state, const Precedence& order) {
+  const CoordinatedMotion* first = state.graph.find(order.first());
+  const CoordinatedMotion* second = state.graph.find(order.second());
+  if (first == nullptr || second == nullptr) {
+    return "an order of " + name(order.first()) + " and " + name(order.second()) +
+           " outlives a motion";
+  }
+  for (const ProgressBox& box : order.region().boxes) {
+    const bool meets = first->progress < box.to_a && box.from_a < first->authority &&
+                       second->progress < box.to_b && box.from_b < second->authority;
+    if (!meets) continue;
+    return name(order.first()) + " may be at " + at(first->progress) + " to " +
+           at(first->authority) + ", " + name(order.second()) + " at " + at(second->progress) +
+           " to " + at(second->authority) + ", in their region from " + at(box.from_a) + " and " +
+           at(box.from_b);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> broken_invariant(const State& state) {
+  for (const CoordinatedMotion& motion : state.graph.motions()) {
+    if (auto broken = of_motion(state, motion)) return broken;
+  }
+  for (const Precedence& order : state.graph.precedences()) {
+    if (auto broken = of_order(state, order)) return broken;
+  }
+  for (const auto& queue : state.jobs.queues()) {
+    if (queue.empty()) continue;
+    if (auto broken = of_job(state, state.jobs.at(queue.front()).job)) return broken;
+  }
+  return std::nullopt;
+}
+
+}  // namespace armloom

@@ -1,0 +1,216 @@
+#include "core/jobs/job_book.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace armloom {
+namespace {
+
+// The table in job.h. What only gets other data stays in its phase.
+bool leads_to(const JobPhase& from, const JobPhase& to) {
+  struct Allowed {
+    bool queued, admitted, moving, braking, held, ended;
+  };
+  static constexpr Allowed kTable[] = {
+      {true, true, false, false, false, true},     // Queued
+      {true, true, true, false, true, true},       // Admitted
+      {false, true, true, true, true, true},       // Moving
+      {true, true, false, true, true, true},       // Braking
+      {true, true, false, false, true, true},      // Held
+      {false, false, false, false, false, false},  // Ended
+  };
+  const Allowed& row = kTable[from.index()];
+  const bool allowed[] = {row.queued, row.admitted, row.moving, row.braking, row.held, row.ended};
+  return allowed[to.index()];
+}
+
+}  // namespace
+
+Record& JobBook::add(Record record) {
+  const Job& job = record.job;
+  if (job.id < next_id()) throw std::invalid_argument("Submit: ids must grow");
+  last_id_ = job.id.value();
+  queues_.insert(job, record.errand.before);
+  queues_.add_work(job);
+  active_.insert(job.id);
+  if (!job.alternatives.empty()) undecided_.insert(job.id);
+  if (job.goal) ++goals_;
+  news_.unexplained.insert(job.id);
+  if (record.errand.before) news_.unexplained.insert(*record.errand.before);
+  ++priorities_[job.terms.priority];
+  for (JobId before : job.terms.after) followers_[before].push_back(job.id);
+  Record& added = records_.emplace(job.id, std::move(record)).first->second;
+  changed(added);
+  return added;
+}
+
+void JobBook::forget(JobId job) { records_.erase(job); }
+
+Record* JobBook::find(JobId job) {
+  const auto it = records_.find(job);
+  return it == records_.end() ? nullptr : &it->second;
+}
+
+const Record* JobBook::find(JobId job) const {
+  const auto it = records_.find(job);
+  return it == records_.end() ? nullptr : &it->second;
+}
+
+std::vector<const Job*> JobBook::occupying() const {
+  std::vector<const Job*> jobs;
+  for (JobId id : past_queue_) {
+    const Job& job = at(id).job;
+    if (job.in<Held>() != nullptr || job.has_authority()) jobs.push_back(&job);
+  }
+  return jobs;
+}
+
+bool JobBook::at_head(const Record& record) const {
+  return record.job.terms.after.empty() && !lets_another_pass(record) &&
+         queues_.is_first(record.job);
+}
+
+bool JobBook::lets_another_pass(const Record& record) const {
+  return record.errand.lets_pass && is_active(*record.errand.lets_pass) &&
+         at(*record.errand.lets_pass).job.is_waiting();
+}
+
+// By turn, but for those that took their places before others: these stand first of their arms, in
+// the order in which they came.
+std::vector<JobId> JobBook::in_turn(const std::set<JobId>& jobs) const {
+  std::map<JobId, JobId> behind;  // the first job of the arm that did not
+  for (const auto& queue : queues_) {
+    const auto first = std::ranges::find_if_not(
+        queue, [this](JobId id) { return at(id).errand.before.has_value(); });
+    if (first == queue.end()) continue;
+    for (auto id = queue.begin(); id != first; ++id) behind.emplace(*id, *first);
+  }
+  std::vector<JobId> sorted(jobs.begin(), jobs.end());
+  const auto turn = [this](JobId id) { return at(id).turn; };
+  if (behind.empty() && std::ranges::is_sorted(sorted, {}, turn)) return sorted;
+  std::ranges::sort(sorted, {}, [&](JobId id) {
+    const auto first = behind.find(id);
+    const bool placed = first != behind.end();
+    return std::tuple(placed ? turn(first->second) : turn(id), !placed, turn(id));
+  });
+  return sorted;
+}
+
+void JobBook::put_in_order(const std::vector<JobId>& jobs) {
+  queues_.put_in_order(at(jobs.front()).job, jobs);
+  std::vector<JobId> turns;
+  for (JobId id : jobs) turns.push_back(at(id).turn);
+  std::ranges::sort(turns);
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    at(jobs[i]).turn = turns[i];
+    explain_with_next(at(jobs[i]).job);
+  }
+}
+
+void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg, std::size_t place) {
+  Job& job = record.job;
+  explain_with_next(job);
+  queues_.erase(job);
+  job.trajectory = std::move(trajectory);
+  record.leg = std::move(leg);
+  queues_.insert_at(job, place);
+  explain_with_next(job);
+}
+
+void JobBook::set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
+  Job& job = record.job;
+  queues_.remove_work(job);
+  job.trajectory = std::move(trajectory);
+  record.leg = std::move(leg);
+  record.asking.effort = 1;
+  record.asking.raised = 0;
+  if (auto* queued = std::get_if<Queued>(&job.phase)) queued->judgement = {};
+  queues_.add_work(job);
+  explain_with_next(job);
+  changed(record);
+}
+
+void JobBook::set_priority(Record& record, int priority) {
+  int& now = record.job.terms.priority;
+  if (--priorities_.at(now) == 0) priorities_.erase(now);
+  now = priority;
+  ++priorities_[now];
+  changed(record);
+}
+
+void JobBook::set_alternative(Record& record, std::size_t which, TrajectoryPtr trajectory,
+                              WaitingLeg leg) {
+  Job& job = record.job;
+  const bool is_taken = job.trajectory == job.alternatives[which];
+  queues_.remove_work(job);
+  job.alternatives[which] = trajectory;
+  queues_.add_work(job);
+  if (is_taken) set_motion(record, std::move(trajectory), std::move(leg));
+}
+
+void JobBook::decide_arm(Record& record) {
+  queues_.remove_work(record.job);
+  record.job.alternatives.clear();
+  queues_.add_work(record.job);
+  undecided_.erase(record.job.id);
+  changed(record);
+}
+
+// What comes next on its arms may have waited for it, or does now.
+void JobBook::explain_with_next(const Job& job) {
+  news_.unexplained.insert(job.id);
+  for (ArmId arm : job.trajectory->arms()) {
+    if (const auto next = queues_.behind(job, arm)) news_.unexplained.insert(*next);
+  }
+}
+
+void JobBook::enter(Record& record, JobPhase phase) {
+  Job& job = record.job;
+  if (!leads_to(job.phase, phase)) {
+    throw std::logic_error("job " + std::to_string(job.id.value()) + ": no way from phase " +
+                           std::to_string(job.phase.index()) + " to " +
+                           std::to_string(phase.index()));
+  }
+  if (!job.alternatives.empty()) queues_.remove_work(job);
+  job.phase = std::move(phase);
+  if (!job.alternatives.empty()) queues_.add_work(job);
+  const bool is_decided = job.alternatives.empty() || job.in<Queued>() == nullptr;
+  is_decided ? (void)undecided_.erase(job.id) : (void)undecided_.insert(job.id);
+  if (job.state() == JobState::queued || job.has_ended()) {
+    past_queue_.erase(job.id);
+  } else {
+    past_queue_.insert(job.id);
+  }
+  explain_with_next(job);
+}
+
+std::vector<JobId> JobBook::end(Record& record, Ended how) {
+  enter(record, std::move(how));
+  Job& job = record.job;
+  const Ended& ended = *job.in<Ended>();
+  if (ended.reason != Reason::deadlock) job.ring.clear();
+  if (ended.state != JobState::expired) job.waits_on.clear();  // else: what it waited for in vain
+  if (ended.state == JobState::succeeded) job.progress = job.trajectory->duration();
+  queues_.erase(job);
+  queues_.remove_work(job);
+  active_.erase(job.id);
+  if (job.goal) --goals_;
+  news_.unexplained.erase(job.id);
+  if (--priorities_.at(job.terms.priority) == 0) priorities_.erase(job.terms.priority);
+  changed(record);
+  const auto node = followers_.extract(job.id);
+  return node.empty() ? std::vector<JobId>{} : node.mapped();
+}
+
+void JobBook::set_waits(Record& record, std::vector<Wait> waits) {
+  auto& old = record.job.waits_on;
+  const bool same =
+      std::ranges::equal(old, waits, [](const Wait& a, const Wait& b) { return a.same_cause(b); });
+  old = std::move(waits);
+  if (!same) changed(record);
+}
+
+}  // namespace armloom

@@ -1,0 +1,82 @@
+#include "core/jobs/lanes.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace armloom {
+
+void Lanes::add(const Record& record) {
+  if (record.errand.before) is_stale_ = true;
+  if (is_stale_ || record.job.is_unplanned()) return;
+  WaitingLeg leg = record.leg;
+  leg.after = record.job.terms.after;
+  sequence_.append(std::move(leg));
+}
+
+void Lanes::follow(const Job& job, const JobPhase& before) {
+  const bool waited = std::holds_alternative<Queued>(before);
+  const auto* ended = job.in<Ended>();
+  if (waited && ended != nullptr) {
+    if (!sequence_.remove(job.id)) is_stale_ = true;
+  } else if (!waited && (job.in<Queued>() != nullptr ||
+                         (ended != nullptr && ended->state != JobState::succeeded))) {
+    is_stale_ = true;
+  }
+}
+
+void Lanes::renew(const JobBook& book, const ArmRests& arms) {
+  if (!std::exchange(is_stale_, false)) return;
+  std::vector<PlacePtr> stands = arms.places();
+  std::set<JobId> waiting;
+  for (std::uint32_t arm = 0; arm < stands.size(); ++arm) {
+    for (JobId id : book.queues()[ArmId{arm}]) {
+      const Record& record = book.at(id);
+      if (record.job.in<Queued>() != nullptr) {
+        if (!record.job.is_unplanned()) waiting.insert(id);
+        continue;
+      }
+      for (std::size_t i = 0; i < record.leg.arms.size(); ++i) {
+        if (record.leg.arms[i].index() == arm) stands[arm] = record.leg.to[i];
+      }
+    }
+  }
+  std::vector<WaitingLeg> legs;
+  for (JobId id : book.in_turn(waiting)) {
+    const Record& record = book.at(id);
+    WaitingLeg& leg = legs.emplace_back(record.leg);
+    leg.after = record.job.terms.after;
+    if (record.errand.lets_pass && book.is_active(*record.errand.lets_pass)) {
+      leg.after.push_back(*record.errand.lets_pass);
+    }
+    leg.stopped = arms.stop_of(record.job).has_value();
+  }
+  sequence_.renew(std::move(stands), legs);
+}
+
+SafeSequence::Outlook Lanes::after(const std::vector<JobId>& jobs, const JobBook& book,
+                                   const ArmRests& arms) {
+  const auto in_queue = [&](JobId id) { return book.at(id).job.in<Queued>() != nullptr; };
+  if (!std::ranges::all_of(jobs, in_queue)) return {};
+  renew(book, arms);
+  return sequence_.after(jobs);
+}
+
+void Lanes::learn(const std::vector<Passage>& asked, const Verdict& verdict, const JobBook& book) {
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const Passage& passage = asked[i];
+    const PassageAnswer answer =
+        verdict.passages.empty() ? PassageAnswer::free : verdict.passages[i];
+    sequence_.learn(passage, answer != PassageAnswer::blocked);
+    const Record* leg = book.find(passage.leg);
+    if (answer != PassageAnswer::apart || leg == nullptr) continue;
+    for (ArmId arm : leg->leg.arms) sequence_.learn_apart(arm, passage.place->arm);
+  }
+}
+
+void Lanes::learn_in_the_way(JobId job, ArmId arm, const JobBook& book, const ArmRests& arms) {
+  const auto& queue = book.queues()[ArmId{arm}];
+  const bool rests = queue.empty() || book.at(queue.front()).job.in<Queued>() != nullptr;
+  if (rests && !is_stale_) sequence_.learn({job, arms.place(arm)}, false);
+}
+
+}  // namespace armloom

@@ -1,0 +1,93 @@
+// PATCH /jobs/{id}: what was asked for is changed.
+#include <utility>
+
+#include "server/api/job_answers.h"
+#include "server/api/route.h"
+#include "server/messages/job_amendment.h"
+
+namespace armloom {
+namespace {
+
+// The job changed; nothing: it is not any more as If-Match has it.
+using Amended = Result<std::optional<JobView>>;
+
+Response is_another_by_now(const std::string& key, const std::string& if_match) {
+  return refusal_response({412, "precondition-failed",
+                           "job \"" + key + "\" was changed since: read it again", "If-Match",
+                           if_match});
+}
+
+// Of one that has ended it does not matter how it was.
+Amended amended(Executive& executive, const std::string& key,
+                const std::optional<std::string>& if_match, JobAmendment amendment) {
+  const auto job = executive.job(key);
+  const bool goes_on = job && !is_terminal(job->state);
+  if (goes_on && if_match && !is_as_tagged(*if_match, *job)) return std::nullopt;
+  auto view = executive.amend(key, std::move(amendment));
+  if (!view) return failure(view.error());
+  return std::optional(std::move(*view));
+}
+
+void answer_amended(const ApiParts& parts, const JobView& job, const Respond& respond) {
+  if (parts.keeper == nullptr) return respond(job_answer(200, job, parts.clock));
+  parts.keeper->amend(job, [&parts, job, respond](const std::optional<Refusal>& refusal) {
+    respond(refusal ? refusal_response(*refusal) : job_answer(200, job, parts.clock));
+  });
+}
+
+void amend_job(Call call) {
+  const ApiParts& parts = call.parts;
+  if (parts.keeper != nullptr) {
+    if (const auto refusal = parts.keeper->refusal()) {
+      return call.respond(refusal_response(*refusal));
+    }
+  }
+  const auto amend = [&parts, key = call.arguments.front(), if_match = call.request.if_match,
+                      respond = call.respond](JobAmendment amendment) {
+    ask(
+        parts,
+        [key, if_match, amendment = std::move(amendment)](Executive& executive) {
+          return amended(executive, key, if_match, amendment);
+        },
+        [&parts, key, if_match, respond](const Amended& job) {
+          if (!job) return respond(refused_command(parts, key, job.error()));
+          if (!*job) return respond(is_another_by_now(key, *if_match));
+          answer_amended(parts, **job, respond);
+        });
+  };
+  read_body(parts, call.request, call.respond, read_job_amendment, amend);
+}
+
+}  // namespace
+
+Route amend_route() {
+  Route route{.method = "PATCH",
+              .path = api_path("/jobs/{id}"),
+              .id = "amendJob",
+              .tag = "jobs",
+              .summary = "Change what was asked for of a job"};
+  route.text =
+      "Its priority, its time in the backlog, what becomes of it then, its name; whatever is "
+      "absent "
+      "stays. It counts at once: with another priority everything that waits is judged again, in "
+      "the order that follows from it. With `--data` it is on disk when it is answered. `If-Match` "
+      "holds as long as nobody else has changed the job, whatever else has happened to it. 409 "
+      "when it has ended.";
+  route.parameters = {{"If-Match",
+                       "The `ETag` of the job as it was read: 412 when it was changed since",
+                       {{"type", "string"}},
+                       false,
+                       "header"}};
+  route.reads =
+      body(job_amendment_format(), {{"sooner", R"({"priority": 5})"},
+                                    {"later", R"({"priority": -1, "backlog_timeout_s": 600})"}});
+  route.outcomes = {outcome(200, "The job as it is now", job_format())};
+  route.outcomes.front().has_tag = true;
+  route.refuses = {404, 409, 412, 422, 507};
+  route.who = Who::commander;
+  route.role = Role::operate;
+  route.run = amend_job;
+  return route;
+}
+
+}  // namespace armloom

@@ -1,0 +1,180 @@
+// A recording run again from its log of inputs, and its events compared.
+#include "server/replay/replay.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "server/codec/json_writer.h"
+#include "server/command/command.h"
+#include "server/messages/events.h"
+#include "server/messages/problem.h"
+#include "server/replay/input_file.h"
+
+namespace armloom {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The newest of those in the folder, itself among them.
+std::optional<fs::path> newest_recording(const fs::path& data) {
+  std::error_code ec;
+  std::optional<fs::path> newest;
+  fs::file_time_type newest_at{};
+  const auto consider = [&](const fs::path& folder) {
+    const auto at = fs::last_write_time(folder / InputFile::kName, ec);
+    if (ec || (newest && at <= newest_at)) return;
+    newest = folder;
+    newest_at = at;
+  };
+  consider(data);
+  for (const auto& entry : fs::directory_iterator(data, ec)) consider(entry.path());
+  return newest;
+}
+
+// Wall time is none of what follows from the inputs.
+void drop_wall_time(Json& value) {
+  if (value.is_object()) {
+    for (auto it = value.begin(); it != value.end();) {
+      const bool is_wall_time = it.key() == "at" || it.key().ends_with("_at");
+      it = is_wall_time ? value.erase(it) : std::next(it);
+    }
+  }
+  if (value.is_structured()) std::ranges::for_each(value, drop_wall_time);
+}
+
+std::vector<std::string> whole_lines(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) {
+    if (in.eof()) break;  // it was being written when the server ended
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+// Compares what is told with what was, event by event.
+class Comparison final : public Observer {
+ public:
+  Comparison(std::vector<std::string> recorded, const std::string& out)
+      : recorded_(std::move(recorded)) {
+    if (out.empty()) return;
+    fs::create_directories(out);
+    out_.open(fs::path(out) / "events.jsonl", std::ios::binary);
+  }
+  void on_event(const Event& event) override {
+    const std::string replayed = event_json(event, stream(), nullptr);
+    if (out_.is_open()) out_ << replayed << '\n';
+    if (events_ < recorded_.size() && !differs_) compare(recorded_[events_], replayed);
+    ++events_;
+  }
+  void on_tick(TimePoint, const Configuration&) override {}
+  void on_state(const StateFrame&) override {}
+
+  // Of the last event that was recorded.
+  [[nodiscard]] TimePoint end() const {
+    if (recorded_.empty()) return TimePoint{};
+    const Json last = Json::parse(recorded_.back(), nullptr, false);
+    return TimePoint(from_seconds(last.value("t_s", 0.0)));
+  }
+  // Of what was recorded until then, something is missing here.
+  void expect_all_until(TimePoint time) {
+    if (differs_ || events_ >= recorded_.size()) return;
+    const Json next = Json::parse(recorded_[events_], nullptr, false);
+    if (TimePoint(from_seconds(next.value("t_s", 0.0))) > time) return;
+    differs_ = {recorded_[events_], "nothing"};
+  }
+  struct Difference {
+    std::string recorded, replayed;
+  };
+  [[nodiscard]] const std::optional<Difference>& difference() const { return differs_; }
+  [[nodiscard]] std::size_t events() const { return events_; }
+  [[nodiscard]] bool is_written() const { return !out_.is_open() || out_.good(); }
+
+ private:
+  [[nodiscard]] std::string stream() const {
+    if (recorded_.empty()) return "replay";
+    return Json::parse(recorded_.front(), nullptr, false).value("stream", "replay");
+  }
+  void compare(const std::string& recorded, const std::string& replayed) {
+    Json told = Json::parse(recorded, nullptr, false);
+    drop_wall_time(told);
+    if (told.dump() == Json::parse(replayed).dump()) return;
+    differs_ = {told.dump(), replayed};
+  }
+
+  std::vector<std::string> recorded_;
+  std::ofstream out_;
+  std::size_t events_ = 0;
+  std::optional<Difference> differs_;
+};
+
+struct Run {
+  std::size_t inputs = 0;
+  TimePoint ended{};
+};
+
+// All lines until then; problems of the log.
+Result<Run> run(Replay& replay, const std::vector<std::string>& lines,
+                std::optional<TimePoint> until) {
+  Run done;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const auto at = Replay::time_of(lines[i]);
+    if (until && at && *at > *until) break;
+    if (auto taken = replay.take(lines[i]); !taken) {
+      taken.error().front().pointer = "line " + std::to_string(i + 1);
+      return failure(std::move(taken.error()));
+    }
+    ++done.inputs;
+  }
+  return done;
+}
+
+int tell(const fs::path& folder, const Run& done, const Comparison& comparison) {
+  const auto& difference = comparison.difference();
+  if (difference) {
+    std::cerr << "armloom: recorded: " << difference->recorded << '\n'
+              << "armloom: replayed: " << difference->replayed << '\n';
+  }
+  JsonWriter out;
+  out.begin_object().field("recording", folder.string()).field("ended_s", done.ended);
+  out.field("inputs", done.inputs).field("events", comparison.events());
+  out.field("same", !difference).end_object();
+  std::cout << out.text() << std::endl;
+  return difference ? 1 : comparison.is_written() ? kExitDone : kExitNotWritten;
+}
+
+}  // namespace
+
+int replay_recording(const ReplayOptions& options) {
+  const auto folder = options.recording.empty() ? newest_recording(options.data)
+                                                : std::optional<fs::path>(options.recording);
+  const auto lines = folder ? whole_lines(*folder / InputFile::kName) : std::vector<std::string>{};
+  if (lines.empty()) {
+    const std::string& asked = options.recording.empty() ? options.data : options.recording;
+    return refuse(
+        "", {Problem{ProblemKind::not_found, "no-log",
+                     options.recording.empty() ? "--data" : "--recording",
+                     "there is no " + std::string(InputFile::kName) + " in " + asked, asked}});
+  }
+  const auto loaded = load_cell((*folder / "cell.json").string());
+  if (!loaded) return kExitBadInput;
+  Comparison comparison(whole_lines(*folder / "events.jsonl"), options.out);
+  auto replay = Replay::begin(loaded->cell, lines.front(), comparison);
+  if (!replay) return refuse((*folder / InputFile::kName).string(), replay.error());
+  std::optional<TimePoint> until;
+  if (options.until_s) until = TimePoint(from_seconds(*options.until_s));
+  auto done = run(**replay, lines, until);
+  if (!done) {
+    complain((*folder / InputFile::kName).string(), done.error());
+    return done.error().front().slug == "diverged" ? 1 : kExitBadInput;
+  }
+  (*replay)->run_until(until.value_or(comparison.end()));
+  done->ended = (*replay)->executive().now();
+  comparison.expect_all_until(done->ended);
+  return tell(*folder, *done, comparison);
+}
+
+}  // namespace armloom

@@ -1,0 +1,29 @@
+#include "server/replay/input_file.h"
+
+namespace armloom {
+
+Result<std::unique_ptr<InputFile>> InputFile::create(const std::filesystem::path& folder,
+                                                     const InputLogHead& head, Parts parts) {
+  std::unique_ptr<InputFile> log(new InputFile(std::move(parts)));
+  const std::filesystem::path path = folder / kName;
+  log->file_.open(path, std::ios::binary);
+  log->file_ << head_text(head) << '\n' << std::flush;
+  if (log->file_) return log;
+  return failure(Problem{ProblemKind::unavailable, "cannot-write", "--data",
+                         path.string() + " cannot be written", path.string()});
+}
+
+void InputFile::came(std::uint64_t ticks, const ExecutiveInput& input) {
+  parts_.post([this, line = input_text(ticks, input, *parts_.cell)] { write(line); });
+}
+
+// After a gap nothing could be replayed.
+void InputFile::write(const std::string& line) {
+  if (said_lost_) return;
+  file_ << line << '\n' << std::flush;
+  if (file_) return;
+  said_lost_ = true;
+  if (parts_.alarm) parts_.alarm("the log of inputs is no longer whole: it cannot be written");
+}
+
+}  // namespace armloom

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/base/problem.h"
+#include "core/executive/executive_input.h"
+#include "server/replay/input_text.h"
+
+namespace armloom {
+
+// inputs.jsonl of a recording being written, beside its events: an input is there before what
+// follows from it.
+class InputFile final : public InputLog {
+ public:
+  static constexpr const char* kName = "inputs.jsonl";
+
+  // `post`: to the thread that writes events, in order. `alarm`: is told there, once, when the file
+  // cannot be written any more. Problem (unavailable): it cannot be made.
+  struct Parts {
+    CellPtr cell;
+    std::function<void(std::function<void()>)> post;
+    std::function<void(const std::string&)> alarm;  // may be null
+  };
+  [[nodiscard]] static Result<std::unique_ptr<InputFile>> create(
+      const std::filesystem::path& folder, const InputLogHead& head, Parts parts);
+
+  void came(std::uint64_t ticks, const ExecutiveInput& input) override;
+
+ private:
+  explicit InputFile(Parts parts) : parts_(std::move(parts)) {}
+  void write(const std::string& line);
+
+  Parts parts_;
+  std::ofstream file_;
+  bool said_lost_ = false;
+};
+
+}  // namespace armloom

@@ -1,0 +1,120 @@
+// What is asked of a job is changed while it waits, or moves.
+#include "core/scheduler/amending.h"
+
+#include <gmock/gmock.h>
+
+#include "test/scheduler/bench_cell.h"
+
+namespace armloom {
+namespace {
+
+// Two jobs of other arms wait for the motion of the first arm.
+struct TwoWait : Bench {
+  TwoWait() : Bench(3, "certified") {
+    runs = submit(move({0}, 0, 1, 40s), at(0ms));
+    answer_free(at(1ms));
+    progressed(runs, 0ms, at(2ms));
+    earlier = wait_in_backlog(1, at(10ms));
+    later = wait_in_backlog(2, at(20ms));
+  }
+  JobId wait_in_backlog(std::uint32_t arm, TimePoint now) {
+    const JobId job = submit(move({arm}, 0, 1, 2s), now, 10s);
+    answer_conflict(now + 1ms, Conflict::With::motion, runs, ArmId{0});
+    return job;
+  }
+  JobId candidate() const { return question->candidates.front().job; }
+
+  JobId runs{0}, earlier{0}, later{0};
+};
+
+TEST(Amending, TheLargerPriorityGoesNextAtOnceThoughAnotherOneIsAskedAbout) {
+  TwoWait bench;
+  bench.finished(bench.runs, at(1s));
+  ASSERT_EQ(bench.candidate(), bench.earlier);
+  bench.step(Amend{bench.later, 5}, at(1001ms));
+  EXPECT_EQ(bench.job(bench.later).priority, 5);
+  bench.answer_free(at(1002ms));
+  EXPECT_EQ(bench.state(bench.earlier), JobState::backlogged) << "the answer is void";
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.candidate(), bench.later);
+  bench.answer_free(at(1003ms));
+  EXPECT_EQ(bench.state(bench.later), JobState::scheduled);
+  EXPECT_EQ(bench.candidate(), bench.earlier);
+}
+
+TEST(Amending, WhatWaitsIsJudgedAgainAndTheSamePriorityIsNoReason) {
+  TwoWait bench;
+  ASSERT_FALSE(bench.question);
+  bench.step(Amend{bench.earlier, 0}, at(1s));
+  EXPECT_FALSE(bench.question);
+  bench.step(Amend{bench.earlier, 1}, at(1s));
+  ASSERT_TRUE(bench.question);
+  EXPECT_EQ(bench.candidate(), bench.earlier);
+}
+
+TEST(Amending, ATimeoutCountsFromWhenTheJobFirstWasInConflict) {
+  TwoWait bench;
+  EXPECT_EQ(bench.wake_at, at(10011ms));
+  bench.step(Amend{.job = bench.earlier, .backlog_timeout = 60s}, at(1s));
+  EXPECT_EQ(bench.wake_at, at(10021ms)) << "that of the other one";
+  bench.step(Amend{.job = bench.later, .backlog_timeout = 30s}, at(1s));
+  EXPECT_EQ(bench.wake_at, at(30021ms));
+  bench.step(Amend{.job = bench.earlier, .backlog_timeout = 1s}, at(2s));
+  EXPECT_EQ(bench.state(bench.earlier), JobState::expired) << "it was over already";
+  EXPECT_EQ(bench.terminal_events[bench.earlier], 1);
+  EXPECT_EQ(bench.state(bench.later), JobState::backlogged);
+}
+
+TEST(Amending, WhatIsNotNamedStays) {
+  TwoWait bench;
+  bench.step(Amend{bench.earlier, 7}, at(1s));
+  EXPECT_EQ(bench.job(bench.earlier).backlog_timeout, 10s);
+  bench.step(Amend{.job = bench.earlier, .backlog_timeout = 20s}, at(1s));
+  EXPECT_EQ(bench.job(bench.earlier).priority, 7);
+  EXPECT_FALSE(bench.job(bench.earlier).replans_on_timeout);
+  bench.step(Amend{.job = bench.earlier, .replans_on_timeout = true}, at(1s));
+  EXPECT_TRUE(bench.job(bench.earlier).replans_on_timeout);
+}
+
+TEST(Amending, AJobThatHasEndedOrIsUnknownIsLeftAlone) {
+  TwoWait bench;
+  bench.step(Cancel{bench.later}, at(1s));
+  ASSERT_EQ(bench.state(bench.later), JobState::canceled);
+  ASSERT_TRUE(bench.question) << "what is left is tried again";
+  const Version version = bench.question->version;
+  bench.step(Amend{bench.later, 5}, at(1s));
+  bench.step(Amend{JobId{77}, 5}, at(1s));
+  EXPECT_EQ(bench.job(bench.later).priority, 0);
+  bench.answer_free(at(2s));
+  EXPECT_EQ(bench.state(bench.earlier), JobState::scheduled)
+      << "the answer on " << version << " counts";
+}
+
+// Motions that are admitted and wait for each other pass in the order of their priorities, as far
+// as none has authority where they meet.
+TEST(Amending, AdmittedMotionsChangePlacesWhereThePolicyWeighsThatAgain) {
+  Bench bench(2, "coordinated");
+  const JobId first = bench.submit(move({0}, 0, 1, 10s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(first, 0ms, at(2ms));
+  const JobId second = bench.submit(move({1}, 0, 1, 10s), at(3ms));
+  const ProgressBox meet{6s, 8s, 6s, 8s};
+  bench.answer_regions(at(4ms), {{second, first, {region(meet)}}});
+  ASSERT_EQ(bench.state(second), JobState::scheduled);
+  bench.progressed(second, 0ms, at(5ms));
+  const auto limit_of = [&](JobId job) { return bench.authority(job); };
+  for (Duration t = 100ms; t < 1500ms; t += 100ms) {
+    bench.progressed(first, t, at(5ms) + t);
+    bench.progressed(second, t, at(6ms) + t);
+  }
+  bench.step(Amend{second, 9}, at(1500ms));
+  for (Duration t = 1600ms; t < 5900ms; t += 100ms) {
+    bench.progressed(first, t, at(5ms) + t);
+    bench.progressed(second, t, at(6ms) + t);
+  }
+  EXPECT_LE(limit_of(first), 6s);
+  EXPECT_GT(limit_of(second), 6s) << "the more urgent one passes first";
+}
+
+}  // namespace
+}  // namespace armloom

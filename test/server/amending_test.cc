@@ -1,0 +1,124 @@
+// PATCH /jobs/{id}: what was asked for of a job is changed, and by whom it was changed since.
+#include "test/server/verbs_fixture.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+using test::kAside;
+
+class Amending : public test::VerbsFixture {
+ protected:
+  test::Answer patch(const std::string& id, const json& body, const std::string& if_match = "") {
+    const std::string text = body.dump();
+    test::Wire wire(port());
+    wire.send("PATCH /api/v1/jobs/" + id + " HTTP/1.1\r\nHost: 127.0.0.1\r\n" +
+              "Content-Type: application/json\r\nContent-Length: " + std::to_string(text.size()) +
+              (if_match.empty() ? "" : "\r\nIf-Match: " + if_match) + "\r\n\r\n" + text);
+    return test::read_answer(wire);
+  }
+  std::string tag(const std::string& id) { return get("/api/v1/jobs/" + id).headers.at("etag"); }
+  void submit(const std::string& id, const std::string& arm = "left") {
+    ASSERT_EQ(post("/api/v1/jobs", job(id, test::kHome, kAside, arm).dump()).status, 202);
+  }
+};
+
+TEST_F(Amending, ChangesWhatIsNamedAndTellsIt) {
+  start(1.0);
+  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  submit("a");
+  test::Listener listener(port());
+  const auto changed = patch("a", {{"priority", 5}, {"backlog_timeout_s", 600}});
+  ASSERT_EQ(changed.status, 200) << changed.body;
+  EXPECT_EQ(changed.json()["priority"], 5);
+  EXPECT_EQ(changed.json()["backlog_timeout_s"], 600);
+  EXPECT_EQ(changed.json()["on_timeout"], "abort");
+  next_job(listener, "a", [](const json& told) { return told["priority"] == 5; });
+  const auto renamed = patch("a", {{"name", "the first"}, {"on_timeout", "replan"}});
+  EXPECT_EQ(renamed.json()["name"], "the first");
+  EXPECT_EQ(renamed.json()["on_timeout"], "replan");
+  EXPECT_EQ(renamed.json()["priority"], 5);
+  next_job(listener, "a", [](const json& told) { return told["name"] == "the first"; });
+  EXPECT_EQ(get("/api/v1/jobs/a").json()["backlog_timeout_s"], 600);
+  EXPECT_EQ(patch("a", json::object()).status, 200) << "nothing is to be changed";
+}
+
+TEST_F(Amending, RefusesWhatCannotBe) {
+  start(20.0);
+  submit("a");
+  expect_refused(patch("a", {{"priority", 2'000'000}}), 422, "/priority", 2'000'000);
+  expect_refused(patch("a", {{"backlog_timeout_s", -1}}), 422, "/backlog_timeout_s", -1);
+  EXPECT_EQ(patch("a", {{"id", "b"}}).status, 422);
+  EXPECT_EQ(patch("a", {{"priority", "high"}}).status, 400);
+  EXPECT_EQ(patch("nobody", {{"priority", 1}}).status, 404);
+  test::Listener listener(port());
+  if (get("/api/v1/jobs/a").json()["state"] != "succeeded") until(listener, "a", "succeeded");
+  expect_refused(patch("a", {{"priority", 1}}), 409, "", "a");
+  expect_refused(patch("a", {{"priority", 1}}, "\"old\""), 409, "", "a");
+}
+
+TEST_F(Amending, OnlyWhoHasSeenTheLastChangeMayMakeTheNext) {
+  start(1.0);
+  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  submit("a");
+  const std::string first = tag("a");
+  const auto changed = patch("a", {{"priority", 5}}, first);
+  ASSERT_EQ(changed.status, 200) << changed.body;
+  const std::string second = changed.headers.at("etag");
+  EXPECT_NE(second, first);
+  expect_refused(patch("a", {{"priority", 6}}, first), 412, "If-Match", first);
+  EXPECT_EQ(get("/api/v1/jobs/a").json()["priority"], 5);
+  EXPECT_EQ(patch("a", {{"priority", 6}}, "\"other\", " + second).status, 200);
+  EXPECT_EQ(patch("a", {{"priority", 7}}, "W/" + tag("a")).status, 412) << "weak";
+  EXPECT_EQ(patch("a", {{"priority", 7}}, "*").status, 200);
+}
+
+// That a job waits for something else by now, or moves, is no change of what was asked for; but who
+// asks whether anything is new of it is told.
+TEST_F(Amending, WhatHappensToAJobIsNoChangeOfIt) {
+  start(1.0);
+  submit("a");
+  test::Listener listener(port());
+  const std::string read = tag("a");
+  while (get("/api/v1/jobs/a").json()["progress"] < 0.1) {
+  }
+  EXPECT_NE(tag("a"), read);
+  EXPECT_EQ(patch("a", {{"priority", 2}}, read).status, 200);
+}
+
+// Both want the middle, and leave it.
+TEST_F(Amending, TheMoreUrgentOneGoesFirst) {
+  start(5.0);
+  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  const auto meet = [&](const std::string& id, const std::string& arm) {
+    json body = job(id, test::kHome, test::kMiddle, arm);
+    const json back = job(id, test::kMiddle, test::kHome, arm);
+    for (json point : back["trajectory"]["points"]) {
+      const double after_s = point["time_from_start"];
+      point["time_from_start"] = 3.0 + after_s;
+      if (after_s > 0) body["trajectory"]["points"].push_back(point);
+    }
+    ASSERT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
+  };
+  meet("earlier", "left");
+  meet("later", "right");
+  ASSERT_EQ(patch("later", {{"priority", 1}}).status, 200);
+  test::Listener listener(port());
+  ASSERT_EQ(post("/api/v1/resume", "").status, 202);
+  until(listener, "later", "running");
+  EXPECT_TRUE(get("/api/v1/jobs/earlier").json()["started_s"].is_null());
+}
+
+TEST_F(Amending, PagesOfAllowedSitesMaySendIfMatch) {
+  options_.allowed_origins = {"https://page.example"};
+  start(1.0);
+  test::Wire wire(port());
+  wire.send(
+      "OPTIONS /api/v1/jobs/a HTTP/1.1\r\nHost: 127.0.0.1\r\nOrigin: https://page.example\r\n\r\n");
+  const auto allowed = test::read_answer(wire);
+  EXPECT_NE(allowed.headers.at("access-control-allow-methods").find("PATCH"), std::string::npos);
+  EXPECT_NE(allowed.headers.at("access-control-allow-headers").find("If-Match"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,92 @@
+// A data folder is a bug report: what happened on a server is run again from it.
+#include <csignal>
+#include <fstream>
+
+#include "test/server/command_fixture.h"
+#include "test/server/serve_process.h"
+#include "test/server/wire.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+
+class ReplayCommand : public test::CommandFixture {
+ protected:
+  std::string data() const { return (folder_ / "data").string(); }
+  // Jobs that meet, one of them more urgent by and by, a plan, an object, a stop; killed.
+  void live() const {
+    test::ServeProcess server({"--cell", test::kCell, "--data", data(), "--speed", "4"},
+                              (folder_ / "log").string());
+    const auto call = [&](const std::string& method, const std::string& path, const json& body) {
+      const auto answer =
+          test::request(server.port(), method, "/api/v1" + path, body.is_null() ? "" : body.dump());
+      EXPECT_LT(answer.status, 300) << method << " " << path << ": " << answer.body;
+      return answer;
+    };
+    json jobs = json::array();
+    for (const char* arm : {"left", "right"}) {
+      for (const bool there : {true, false}) {
+        json job = test::move(arm, there ? test::kHome : test::kMiddle,
+                              there ? test::kMiddle : test::kHome);
+        job["id"] = std::string(arm) + (there ? "-there" : "-back");
+        jobs.push_back(job);
+      }
+    }
+    call("POST", "/batches", {{"jobs", jobs}});
+    call("PATCH", "/jobs/right-there", {{"priority", 3}});
+    call("POST", "/scene/objects",
+         {{"name", "crate"},
+          {"box", {0.1, 0.1, 0.1}},
+          {"xyz", {0, 1.5, 0.1}},
+          {"rpy", {0.1, 0.2, 0.3}}});
+    call("POST", "/jobs", {{"id", "goal"}, {"arm", "left"}, {"move_to", {{"named", "ready"}}}});
+    call("POST", "/stop", nullptr);
+    call("POST", "/resume", nullptr);
+    call("PUT", "/sim/speed", {{"speed", 20}});
+    for (json state; state != "succeeded";) {
+      state = call("GET", "/jobs/goal", nullptr).json()["state"];
+    }
+    server.signal(SIGKILL);
+    server.wait();
+  }
+};
+
+TEST_F(ReplayCommand, ComesToTheEventsThatAKilledServerHadTold) {
+  live();
+  const auto replayed = run("replay --data " + data() + " --out " + (folder_ / "again").string());
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+  const json summary = replayed.last_line();
+  EXPECT_EQ(summary["same"], true);
+  EXPECT_GT(summary["events"], 30);
+  EXPECT_GT(summary["ended_s"], 6.0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "again/events.jsonl"));
+  const auto part = run("replay --recording " + data() + " --until 1.5");
+  EXPECT_EQ(part.exit_code, 0) << part.out << part.err;
+  EXPECT_LT(part.last_line()["events"], summary["events"]);
+  EXPECT_NEAR(part.last_line()["ended_s"].get<double>(), 1.5, 0.01);
+}
+
+TEST_F(ReplayCommand, SaysWhatIsOtherwise) {
+  live();
+  const auto file_of = [&](const char* name) { return std::filesystem::path(data()) / name; };
+  std::string events = read_text_file(file_of("events.jsonl")).value();
+  const std::size_t at = events.find("\"backlogged\"");
+  ASSERT_NE(at, std::string::npos);
+  std::ofstream(file_of("events.jsonl")) << events.replace(at, 12, "\"scheduled\"");
+  const auto replayed = run("replay --data " + data());
+  EXPECT_EQ(replayed.exit_code, 1);
+  EXPECT_EQ(replayed.last_line()["same"], false);
+  EXPECT_NE(replayed.err.find("recorded: {"), std::string::npos) << replayed.err;
+}
+
+TEST_F(ReplayCommand, RefusesWhatIsNoRecording) {
+  const auto none = run("replay --data " + folder_.string());
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("--data: there is no inputs.jsonl in " + folder_.string()),
+            std::string::npos)
+      << none.err;
+}
+
+}  // namespace
+}  // namespace armloom
