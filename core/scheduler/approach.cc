@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/jobs/phases.h"
+#include "core/scheduler/goals.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/trajectory/joint_line.h"
 #include "core/trajectory/set_joints.h"
