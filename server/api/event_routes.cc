@@ -53,20 +53,24 @@ void welcome(const ApiParts& parts, const Snapshot& snapshot) {
           snapshot_json({&snapshot, parts.cell.get(), parts.loop.speed(), newcomer.gap},
                         parts.stream, parts.clock));
     }
-    if (FeedPtr feed = parts.hub.resume(snapshot.seq, text)) newcomer.then(std::move(feed));
+    if (SubscriptionPtr subscription = parts.hub.resume(snapshot.seq, text))
+      newcomer.then(std::move(subscription));
   }
 }
 
-// Calls then(feed). It resumes where the reader was; otherwise, and when those events are gone
+// Calls then(subscription). It resumes where the reader was; otherwise, and when those events are
+// gone
 // ("gap"), it begins with a snapshot.
-void subscribe(const ApiParts& parts, const Place& place, std::function<void(FeedPtr)> then) {
+void subscribe(const ApiParts& parts, const Place& place,
+               std::function<void(SubscriptionPtr)> then) {
   if (place.since) {
     std::uint64_t seq = 0;
     const char* end = place.since->data() + place.since->size();
     const auto [stop, ec] = std::from_chars(place.since->data(), end, seq);
     const bool read = ec == std::errc{} && stop == end;
     if (read && place.stream == parts.stream) {
-      if (FeedPtr feed = parts.hub.resume(seq)) return then(std::move(feed));
+      if (SubscriptionPtr subscription = parts.hub.resume(seq))
+        return then(std::move(subscription));
     }
   }
   parts.newcomers->push_back({place.since.has_value(), std::move(then)});
@@ -84,9 +88,9 @@ void stream(Call& call, int status, bool frames) {
   }
   subscribe(call.parts, place_of(call.request),
             [&parts = call.parts, status, frames, token = call.request.token,
-             respond = call.respond](FeedPtr feed) {
+             respond = call.respond](SubscriptionPtr subscription) {
               Response response{status, "text/event-stream", "", {{"Cache-Control", "no-store"}}};
-              response.events = EventStream{std::move(feed), parts.stream, frames};
+              response.events = EventStream{std::move(subscription), parts.stream, frames};
               if (parts.guard.asks()) {
                 response.events->permitted = [&parts, token] {
                   return parts.guard.caller(token).has_value();

@@ -42,7 +42,7 @@ struct ApiParts {
   // Readers of events that wait for a snapshot: who comes while one is on its way shares it.
   struct Newcomer {
     bool gap;
-    std::function<void(FeedPtr)> then;
+    std::function<void(SubscriptionPtr)> then;
   };
   std::shared_ptr<AcceptedRequests> accepted = std::make_shared<AcceptedRequests>();
   std::shared_ptr<std::vector<Newcomer>> newcomers = std::make_shared<std::vector<Newcomer>>();

@@ -50,7 +50,7 @@ class SentEvents final : public StreamCarrier {
   asio::awaitable<void> write(std::string_view text, ErrorCode& ec) {
     co_await asio::async_write(stream_, asio::buffer(text), into(ec));
   }
-  asio::awaitable<void> send(const Feed::Message& message, ErrorCode& ec) override {
+  asio::awaitable<void> send(const Subscription::Message& message, ErrorCode& ec) override {
     std::string text;
     text.reserve(message.text->size() + 80);
     if (message.seq) text += "id: " + id_ + ":" + std::to_string(*message.seq) + "\n";
@@ -62,8 +62,8 @@ class SentEvents final : public StreamCarrier {
   asio::awaitable<void> keep_alive(ErrorCode& ec) override {
     co_await write(": keep-alive\n\n", ec);
   }
-  asio::awaitable<void> say_farewell(const Farewell& farewell, ErrorCode& ec) override {
-    const std::string text = ": " + farewell.text + "\n\n";
+  asio::awaitable<void> say_why(const CloseReason& reason, ErrorCode& ec) override {
+    const std::string text = ": " + reason.text + "\n\n";
     co_await write(text, ec);
   }
   void close() override { stream_.close(); }

@@ -6,9 +6,9 @@
 
 namespace armloom {
 
-// Answers with the feed as Server-Sent Events ("id: <id>:<seq>", "data: <envelope>") until either
-// side ends it. When nothing was sent for site.keep_alive, a comment line keeps the proxies between
-// from closing the connection.
+// Answers with the subscription as Server-Sent Events ("id: <id>:<seq>", "data: <envelope>") until
+// either side ends it. When nothing was sent for site.keep_alive, a comment line keeps the proxies
+// between from closing the connection.
 asio::awaitable<void> serve_event_stream(Transport stream, const Request& request,
                                          EventStream events, const Site& site);
 

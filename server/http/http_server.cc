@@ -12,9 +12,9 @@
 namespace armloom {
 namespace {
 
-constexpr std::chrono::milliseconds kFarewell{500};  // for readers to read to the end
-constexpr std::size_t kRefusingMax = 32;             // at once; beyond, closed without a word
-// For arms to come to rest: with the farewell, the process ends within two seconds.
+constexpr std::chrono::milliseconds kReadToTheEnd{500};  // for readers to read to the end
+constexpr std::size_t kRefusingMax = 32;                 // at once; beyond, closed without a word
+// For arms to come to rest: with the closing of connections, the process ends within two seconds.
 constexpr std::chrono::milliseconds kWindDownMax{1200};
 
 Problem cannot_listen(const std::string& address, std::uint16_t port, const std::string& why) {
@@ -89,19 +89,19 @@ class HttpServer::Impl {
     signals_.async_wait([this](ErrorCode ec, int) {
       if (!ec) end();
     });
-    farewell_.expires_after(kWindDownMax);
-    farewell_.async_wait([this](ErrorCode ec) {
+    winding_down_.expires_after(kWindDownMax);
+    winding_down_.async_wait([this](ErrorCode ec) {
       if (!ec) end();
     });
     site_.wind_down([this] { asio::post(io_, [this] { end(); }); });
   }
 
-  // Feeds are told that the server ends, and connections get a moment to read it.
+  // Subscriptions are told that the server ends, and connections get a moment to read it.
   void end() {
     if (std::exchange(said_farewell_, true)) return;
     site_.end();
-    farewell_.expires_after(kFarewell);
-    farewell_.async_wait([this](ErrorCode) { io_.stop(); });
+    winding_down_.expires_after(kReadToTheEnd);
+    winding_down_.async_wait([this](ErrorCode) { io_.stop(); });
     if (connections_ == 0) io_.stop();
   }
 
@@ -191,7 +191,7 @@ class HttpServer::Impl {
   tcp::acceptor acceptor_{io_};
   tcp::socket spare_{io_};  // a descriptor for refusing whoever comes when there is no other
   asio::signal_set signals_{io_};
-  asio::steady_timer farewell_{io_};
+  asio::steady_timer winding_down_{io_};
   const std::size_t connections_max_;
   std::size_t connections_ = 0;
   std::unordered_map<std::string, std::size_t> of_client_;  // open ones, by address

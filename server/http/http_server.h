@@ -41,7 +41,7 @@ class HttpServer {
   [[nodiscard]] std::uint16_t port() const;
 
   // Serves `site` on the calling thread until stop(), or until SIGINT, SIGTERM or SIGHUP if those
-  // are to be watched: then every feed says farewell first. Connections are closed.
+  // are to be watched: then every subscription says why it closes first. Connections are closed.
   void run(Site site, bool until_signal);
 
   // Thread-safe. Runs `task` on the server's thread, soon, in the order posted.

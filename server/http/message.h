@@ -71,32 +71,32 @@ struct Request {
 };
 
 // Why a reader of the event stream is sent away.
-struct Farewell {
+struct CloseReason {
   enum class Why { too_slow, server_ends, not_permitted };
   Why why;
   std::string text;
 };
 
 // One reader of the event stream, as a WebSocket or SSE sees it. All calls on the server's thread.
-class Feed {
+class Subscription {
  public:
   struct Message {
     std::shared_ptr<const std::string> text;
     std::optional<std::uint64_t> seq;  // none: a pose frame, which may be passed over
   };
-  virtual ~Feed() = default;
+  virtual ~Subscription() = default;
   // The next message to send; absent: nothing at present.
   virtual std::optional<Message> next() = 0;
   // Absent while the reader may stay.
-  [[nodiscard]] virtual std::optional<Farewell> farewell() const = 0;
-  // `call` is called whenever next() or farewell() may have something new.
+  [[nodiscard]] virtual std::optional<CloseReason> close_reason() const = 0;
+  // `call` is called whenever next() or close_reason() may have something new.
   virtual void on_news(std::function<void()> call) = 0;
 };
-using FeedPtr = std::shared_ptr<Feed>;
+using SubscriptionPtr = std::shared_ptr<Subscription>;
 
-// A feed as the answer to a request: on a WebSocket (status 101), or as Server-Sent Events.
+// A subscription as the answer to a request: on a WebSocket (status 101), or as Server-Sent Events.
 struct EventStream {
-  FeedPtr feed;
+  SubscriptionPtr subscription;
   std::string id;                        // stands before the number of each event: "<id>:<seq>"
   bool frames = true;                    // messages without a number, too
   std::function<bool()> permitted = {};  // whether its reader still may; null: always
@@ -141,8 +141,8 @@ struct Site {
   WriteRefusal refuse;  // what is wrong with HTTP itself: framing, limits, targets
   // The server is asked to end: bring everything to rest, then call `done` (from any thread).
   std::function<void(std::function<void()> done)> wind_down;
-  std::function<void()> end;                        // the server ends: every feed says farewell
-  HostRule hosts;                                   // by which names requests may come
+  std::function<void()> end;  // the server ends: every subscription says why it closes
+  HostRule hosts;             // by which names requests may come
   std::chrono::milliseconds keep_alive{15'000};     // no event for so long: a comment line is sent
   std::chrono::milliseconds send_time{30'000};      // that one message may take; then it is cut
   int send_buffer = 128 * 1024;                     // of a stream: bounds how old a pose can arrive

@@ -17,9 +17,9 @@ constexpr std::chrono::seconds kLooksAgain{1};
 // What reader and writer of one stream share.
 class Session : public std::enable_shared_from_this<Session> {
  public:
-  Session(std::shared_ptr<StreamCarrier> on, FeedPtr of)
+  Session(std::shared_ptr<StreamCarrier> on, SubscriptionPtr of)
       : carrier(std::move(on)),
-        feed(std::move(of)),
+        subscription(std::move(of)),
         news(carrier->executor()),
         deadline_(carrier->executor()) {}
 
@@ -36,13 +36,13 @@ class Session : public std::enable_shared_from_this<Session> {
   void look_at_news() {
     news.cancel();
     if (!sending_ || hurried_) return;
-    const auto farewell = feed->farewell();
-    hurried_ = farewell && farewell->why == Farewell::Why::too_slow;
+    const auto reason = subscription->close_reason();
+    hurried_ = reason && reason->why == CloseReason::Why::too_slow;
     if (hurried_) cut_at(std::min(deadline_.expiry(), Clock::now() + kLastMessage));
   }
 
   std::shared_ptr<StreamCarrier> carrier;
-  FeedPtr feed;
+  SubscriptionPtr subscription;
   asio::steady_timer news;  // cancelled when there is something to do
   bool closed = false;
 
@@ -77,8 +77,8 @@ Clock::time_point after(std::chrono::milliseconds pause) {
 
 asio::awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier,
                             StreamTimes times) {
-  const auto session = std::make_shared<Session>(carrier, events.feed);
-  events.feed->on_news([weak = std::weak_ptr(session)] {
+  const auto session = std::make_shared<Session>(carrier, events.subscription);
+  events.subscription->on_news([weak = std::weak_ptr(session)] {
     if (const auto still = weak.lock()) still->look_at_news();
   });
   asio::co_spawn(carrier->executor(), watch(session), asio::detached);
@@ -87,17 +87,17 @@ asio::awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> c
   // Counted from the last byte sent: news that this reader does not get wakes it, too.
   auto keep_alive_at = after(times.keep_alive);
   while (!ec && !session->closed) {
-    auto farewell = session->feed->farewell();
-    if (!farewell && !is_permitted()) {
-      farewell = {Farewell::Why::not_permitted, "the token was withdrawn"};
+    auto reason = session->subscription->close_reason();
+    if (!reason && !is_permitted()) {
+      reason = {CloseReason::Why::not_permitted, "the token was withdrawn"};
     }
-    if (farewell) {
+    if (reason) {
       session->begin_sending(times.send);
-      co_await carrier->say_farewell(*farewell, ec);
+      co_await carrier->say_why(*reason, ec);
       session->end_sending();
       break;
     }
-    if (const auto message = session->feed->next()) {
+    if (const auto message = session->subscription->next()) {
       if (!message->seq && !events.frames) continue;
       session->begin_sending(times.send);
       co_await carrier->send(*message, ec);

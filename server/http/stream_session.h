@@ -8,17 +8,18 @@
 
 namespace armloom {
 
-// What carries a feed to its reader: a WebSocket, or Server-Sent Events. On the server's thread.
+// What carries a subscription to its reader: a WebSocket, or Server-Sent Events. On the server's
+// thread.
 class StreamCarrier {
  public:
   virtual ~StreamCarrier() = default;
   [[nodiscard]] virtual asio::any_io_executor executor() = 0;
   // Reads over what the reader sends, until it has gone.
   virtual asio::awaitable<void> read_until_closed() = 0;
-  virtual asio::awaitable<void> send(const Feed::Message& message, ErrorCode& ec) = 0;
+  virtual asio::awaitable<void> send(const Subscription::Message& message, ErrorCode& ec) = 0;
   // Nothing was sent for the time that carry() was given.
   virtual asio::awaitable<void> keep_alive(ErrorCode& ec) = 0;
-  virtual asio::awaitable<void> say_farewell(const Farewell& farewell, ErrorCode& ec) = 0;
+  virtual asio::awaitable<void> say_why(const CloseReason& reason, ErrorCode& ec) = 0;
   virtual void close() = 0;
   // At once, whatever is under way, which then ends with an error.
   virtual void cut() = 0;
@@ -31,8 +32,9 @@ struct StreamTimes {
   std::chrono::milliseconds keep_alive;
 };
 
-// Sends what the feed has until either side ends it. A reader that lets a message wait for longer
-// than it may, or falls farther behind than the feed holds, is cut off, whatever it sends itself.
+// Sends what the subscription has until either side ends it. A reader that lets a message wait for
+// longer than it may, or falls farther behind than the subscription holds, is cut off, whatever it
+// sends itself.
 asio::awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier,
                             StreamTimes times);
 

@@ -19,13 +19,13 @@ constexpr std::chrono::seconds kIdle{
     30};  // then the peer is pinged, and dropped if it stays silent
 constexpr std::size_t kMessageMax = 4096;  // that a client may send
 
-websocket::close_code code_of(Farewell::Why why) {
+websocket::close_code code_of(CloseReason::Why why) {
   switch (why) {
-    case Farewell::Why::too_slow:
+    case CloseReason::Why::too_slow:
       return websocket::close_code::try_again_later;
-    case Farewell::Why::not_permitted:
+    case CloseReason::Why::not_permitted:
       return websocket::close_code::policy_error;
-    case Farewell::Why::server_ends:
+    case CloseReason::Why::server_ends:
       break;
   }
   return websocket::close_code::going_away;
@@ -58,14 +58,14 @@ class WebSocket final : public StreamCarrier {
       buffer.clear();
     }
   }
-  asio::awaitable<void> send(const Feed::Message& message, ErrorCode& ec) override {
+  asio::awaitable<void> send(const Subscription::Message& message, ErrorCode& ec) override {
     co_await socket_.async_write(asio::buffer(*message.text), into(ec));
   }
   asio::awaitable<void> keep_alive(ErrorCode&) override { co_return; }  // pings do it
-  asio::awaitable<void> say_farewell(const Farewell& farewell, ErrorCode& ec) override {
-    const auto code = code_of(farewell.why);
-    const websocket::close_reason reason(code, farewell.text.substr(0, 120));
-    co_await socket_.async_close(reason, into(ec));
+  asio::awaitable<void> say_why(const CloseReason& reason, ErrorCode& ec) override {
+    const auto code = code_of(reason.why);
+    const websocket::close_reason said(code, reason.text.substr(0, 120));
+    co_await socket_.async_close(said, into(ec));
   }
   void close() override {}  // the closing handshake, or the timeout, has done it
   void cut() override { beast::get_lowest_layer(socket_).close(); }

@@ -7,8 +7,9 @@
 
 namespace armloom {
 
-// Accepts the upgrade and sends what the feed has until either side ends it. What the client sends
-// is read and ignored. A feed that says farewell is closed with that reason.
+// Accepts the upgrade and sends what the subscription has until either side ends it. What the
+// client sends is read and ignored. A subscription that says why it closes is closed with that
+// reason.
 asio::awaitable<void> serve_websocket(Transport stream, RequestHeader upgrade, EventStream events,
                                       const Site& site);
 

@@ -5,7 +5,7 @@
 
 namespace armloom {
 
-class Hub::Reader final : public Feed {
+class Hub::Reader final : public Subscription {
  public:
   Reader(const Hub& hub, std::uint64_t since, Text first)
       : hub_(hub), read_(since), first_(std::move(first)) {}
@@ -21,15 +21,15 @@ class Hub::Reader final : public Feed {
     return std::nullopt;
   }
 
-  std::optional<Farewell> farewell() const override {
+  std::optional<CloseReason> close_reason() const override {
     const bool has_read_all = !first_ && behind() == 0;
     if (hub_.ended_ && has_read_all) {
-      return Farewell{Farewell::Why::server_ends, "the server ends"};
+      return CloseReason{CloseReason::Why::server_ends, "the server ends"};
     }
     if (!is_too_slow()) return std::nullopt;
-    return Farewell{Farewell::Why::too_slow, "too slow: " + std::to_string(behind()) +
-                                                 " events behind, " +
-                                                 std::to_string(hub_.ring_.size()) + " are kept"};
+    return CloseReason{CloseReason::Why::too_slow,
+                       "too slow: " + std::to_string(behind()) + " events behind, " +
+                           std::to_string(hub_.ring_.size()) + " are kept"};
   }
 
   void on_news(std::function<void()> call) override { news_ = std::move(call); }
@@ -79,7 +79,7 @@ void Hub::end() {
   tell_readers();
 }
 
-FeedPtr Hub::resume(std::uint64_t since, Text first) {
+SubscriptionPtr Hub::resume(std::uint64_t since, Text first) {
   if (since > last_seq_ || last_seq_ - since > ring_.size()) return nullptr;
   const auto reader = std::make_shared<Reader>(*this, since, std::move(first));
   readers_.push_back(reader);

@@ -33,7 +33,7 @@ class Hub {
 
   // A reader that gets `first` and then every event after `since`.
   // Null: the events after `since` are not all in the ring, or `since` is still to come.
-  [[nodiscard]] FeedPtr resume(std::uint64_t since, Text first = nullptr);
+  [[nodiscard]] SubscriptionPtr resume(std::uint64_t since, Text first = nullptr);
 
   // Sends every reader away, those to come as well, each when it has read what there is.
   void end();

@@ -13,17 +13,17 @@ void publish(Hub& hub, std::uint64_t from, std::uint64_t to) {
   for (std::uint64_t seq = from; seq <= to; ++seq) hub.publish(seq, text(std::to_string(seq)));
 }
 
-std::string read_all(Feed& feed) {
+std::string read_all(Subscription& subscription) {
   std::string all;
-  while (const auto message = feed.next()) all += *message->text + " ";
+  while (const auto message = subscription.next()) all += *message->text + " ";
   return all;
 }
 
 TEST(Hub, ServesEveryReaderInOrderAtItsOwnPace) {
   Hub hub;
   publish(hub, 1, 3);
-  const FeedPtr early = hub.resume(1);
-  const FeedPtr late = hub.resume(3, text("snapshot"));
+  const SubscriptionPtr early = hub.resume(1);
+  const SubscriptionPtr late = hub.resume(3, text("snapshot"));
   publish(hub, 4, 5);
   EXPECT_EQ(read_all(*early), "2 3 4 5 ");
   EXPECT_EQ(read_all(*late), "snapshot 4 5 ");
@@ -32,18 +32,18 @@ TEST(Hub, ServesEveryReaderInOrderAtItsOwnPace) {
 
 TEST(Hub, GivesOnlyTheNewestFrameAndOnlyAfterEvents) {
   Hub hub;
-  const FeedPtr feed = hub.resume(0);
+  const SubscriptionPtr subscription = hub.resume(0);
   hub.publish_frame(text("old"));
   hub.publish_frame(text("new"));
   publish(hub, 1, 1);
-  EXPECT_EQ(read_all(*feed), "1 new ");
+  EXPECT_EQ(read_all(*subscription), "1 new ");
 }
 
 TEST(Hub, TellsAReaderThatThereAreNews) {
   Hub hub;
-  const FeedPtr feed = hub.resume(0);
+  const SubscriptionPtr subscription = hub.resume(0);
   int news = 0;
-  feed->on_news([&] { ++news; });
+  subscription->on_news([&] { ++news; });
   publish(hub, 1, 1);
   hub.publish_frame(text("frame"));
   EXPECT_EQ(news, 2);
@@ -60,24 +60,24 @@ TEST(Hub, DoesNotResumeWhatItNoLongerOrNotYetHas) {
 
 TEST(Hub, SendsAReaderAwayThatFallsBehindAndSaysWhy) {
   Hub hub(10);
-  const FeedPtr feed = hub.resume(0);
+  const SubscriptionPtr subscription = hub.resume(0);
   publish(hub, 1, 10);
-  EXPECT_FALSE(feed->farewell());
+  EXPECT_FALSE(subscription->close_reason());
   publish(hub, 11, 11);
-  ASSERT_TRUE(feed->farewell());
-  EXPECT_EQ(feed->farewell()->why, Farewell::Why::too_slow);
-  EXPECT_EQ(feed->farewell()->text, "too slow: 11 events behind, 10 are kept");
-  EXPECT_FALSE(feed->next());
+  ASSERT_TRUE(subscription->close_reason());
+  EXPECT_EQ(subscription->close_reason()->why, CloseReason::Why::too_slow);
+  EXPECT_EQ(subscription->close_reason()->text, "too slow: 11 events behind, 10 are kept");
+  EXPECT_FALSE(subscription->next());
 }
 
 TEST(Hub, SendsAwayAReaderWhoseEventsAreMoreBytesThanAreKept) {
   Hub hub(1000, 100);
-  const FeedPtr feed = hub.resume(0);
+  const SubscriptionPtr subscription = hub.resume(0);
   for (std::uint64_t seq = 1; seq <= 4; ++seq) hub.publish(seq, text(std::string(25, 'e')));
-  EXPECT_FALSE(feed->farewell());
+  EXPECT_FALSE(subscription->close_reason());
   hub.publish(5, text("e"));
-  ASSERT_TRUE(feed->farewell());
-  EXPECT_EQ(feed->farewell()->why, Farewell::Why::too_slow);
+  ASSERT_TRUE(subscription->close_reason());
+  EXPECT_EQ(subscription->close_reason()->why, CloseReason::Why::too_slow);
   // An event alone is kept, however large.
   hub.publish(6, text(std::string(200, 'e')));
   EXPECT_TRUE(hub.resume(5)->next());
@@ -86,35 +86,35 @@ TEST(Hub, SendsAwayAReaderWhoseEventsAreMoreBytesThanAreKept) {
 TEST(Hub, NumbersEventsAndTheSnapshotButNoFrames) {
   Hub hub;
   publish(hub, 1, 3);
-  const FeedPtr feed = hub.resume(2, text("snapshot"));
+  const SubscriptionPtr subscription = hub.resume(2, text("snapshot"));
   hub.publish_frame(text("frame"));
-  EXPECT_EQ(feed->next()->seq, 2U);
-  EXPECT_EQ(feed->next()->seq, 3U);
-  EXPECT_EQ(feed->next()->seq, std::nullopt);
+  EXPECT_EQ(subscription->next()->seq, 2U);
+  EXPECT_EQ(subscription->next()->seq, 3U);
+  EXPECT_EQ(subscription->next()->seq, std::nullopt);
 }
 
 TEST(Hub, SendsEveryReaderAwayAtItsEnd) {
   Hub hub;
-  const FeedPtr feed = hub.resume(0);
+  const SubscriptionPtr subscription = hub.resume(0);
   int news = 0;
-  feed->on_news([&] { ++news; });
+  subscription->on_news([&] { ++news; });
   hub.end();
   EXPECT_EQ(news, 1);
-  ASSERT_TRUE(feed->farewell());
-  EXPECT_EQ(feed->farewell()->why, Farewell::Why::server_ends);
+  ASSERT_TRUE(subscription->close_reason());
+  EXPECT_EQ(subscription->close_reason()->why, CloseReason::Why::server_ends);
 }
 
 TEST(Hub, LetsAReaderReadToTheEndBeforeItsFarewell) {
   Hub hub;
-  const FeedPtr feed = hub.resume(0, text("snapshot"));
+  const SubscriptionPtr subscription = hub.resume(0, text("snapshot"));
   publish(hub, 1, 2);
   hub.end();
   for (int message = 0; message < 3; ++message) {
-    EXPECT_FALSE(feed->farewell());
-    EXPECT_TRUE(feed->next());
+    EXPECT_FALSE(subscription->close_reason());
+    EXPECT_TRUE(subscription->next());
   }
-  ASSERT_TRUE(feed->farewell());
-  EXPECT_EQ(feed->farewell()->why, Farewell::Why::server_ends);
+  ASSERT_TRUE(subscription->close_reason());
+  EXPECT_EQ(subscription->close_reason()->why, CloseReason::Why::server_ends);
 }
 
 TEST(Hub, RefusesAHoleInTheLog) {
@@ -125,9 +125,9 @@ TEST(Hub, RefusesAHoleInTheLog) {
 
 TEST(Hub, ForgetsReadersThatAreGone) {
   Hub hub;
-  FeedPtr feed = hub.resume(0);
+  SubscriptionPtr subscription = hub.resume(0);
   EXPECT_EQ(hub.readers(), 1U);
-  feed.reset();
+  subscription.reset();
   EXPECT_EQ(hub.readers(), 0U);
 }
 

@@ -19,9 +19,8 @@ struct ConvexHull {
 // this side, so that the hull is that much too large and never too small.
 inline constexpr double kFlat_m = 2e-4;
 // A hull with more vertices than this is replaced by a simpler polytope around it, which touches it
-// in kHullDirections directions (for a sphere at most 1.5 % of the radius too large).
+// in 162 directions (for a sphere at most 1.5 % of the radius too large).
 inline constexpr std::size_t kMaxHullVertices = 400;
-inline constexpr std::size_t kHullDirections = 162;
 // No point lies farther outside of a face than this (it is measured for every point).
 inline constexpr double kHullTolerance_m = 1e-6;
 
