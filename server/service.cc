@@ -160,7 +160,7 @@ class Service::Impl {
                                  : "jobs can be stored again; arms stay stopped until resumed";
     if (options_.alarm) http_->post([this, text] { options_.alarm(text); });
     if (fault == nullptr || !loop_is_there_) return;
-    loop_->post_urgent([text](Executive& executive) { executive.stop_all(text); });
+    loop_->post_urgent([text](Executive& executive) { stop_all(executive, text); });
   }
 
   void go_on(Restart restart, const CellPtr& cell) {

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/executive/executive.h"
+#include "core/executive/executive_input.h"
 
 namespace armloom {
 
-ArmFaults::ArmFaults(CellPtr cell, const std::vector<std::unique_ptr<FaultyArm>>& arms)
-    : cell_(std::move(cell)) {
+ArmFaults::ArmFaults(CellPtr cell, const std::vector<std::unique_ptr<FaultyArm>>& arms,
+                     Asked asked)
+    : cell_(std::move(cell)), asked_(std::move(asked)) {
   for (const auto& arm : arms) arms_.push_back(arm.get());
 }
 
-Result<std::uint64_t> ArmFaults::inject(const FaultRequest& request, TimePoint now) {
+Result<std::uint64_t> ArmFaults::inject(const FaultRequest& request) {
+  const TimePoint now = asked_({ExecutiveInput::Injected{request}});
   const auto arm = cell_->find_arm(request.arm);
   if (!arm) {
     return failure(Problem{ProblemKind::invalid, "unknown-arm", "/arm",
@@ -26,6 +28,7 @@ Result<std::uint64_t> ArmFaults::inject(const FaultRequest& request, TimePoint n
 }
 
 Result<void> ArmFaults::remove(std::uint64_t id) {
+  asked_({ExecutiveInput::FaultRemoved{id}});
   if (std::ranges::any_of(arms_, [id](FaultyArm* arm) { return arm->remove(id); })) return {};
   return failure(Problem{ProblemKind::not_found, "unknown-fault", "",
                          "there is no fault " + std::to_string(id), static_cast<double>(id)});

@@ -14,8 +14,8 @@ std::vector<std::unique_ptr<ArmController>> controllers(
 }  // namespace
 
 Execution::Execution(const CellPtr& cell, std::vector<std::unique_ptr<FaultyArm>> arms,
-                     StartLog* log)
-    : faults_(cell, arms),
+                     StartLog* log, ArmFaults::Asked asked)
+    : faults_(cell, arms, std::move(asked)),
       motions_(cell, controllers(std::move(arms)), cell->home()),
       starts_(log) {}
 

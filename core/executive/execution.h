@@ -17,7 +17,8 @@ namespace armloom {
 class Execution {
  public:
   // All arms stand at home. `log` outlives it; null: nobody asks.
-  Execution(const CellPtr& cell, std::vector<std::unique_ptr<FaultyArm>> arms, StartLog* log);
+  Execution(const CellPtr& cell, std::vector<std::unique_ptr<FaultyArm>> arms, StartLog* log,
+            ArmFaults::Asked asked);
 
   // `written`: told, on the strand, when it is on disk that the job's arms may move; whether it is
   // in motion still.

@@ -29,12 +29,6 @@ std::optional<Executive::BatchAnswers> Executive::go_on(Batch& batch) {
   impl_->note({ExecutiveInput::WentOn{}});
   return impl_->go_on(batch);
 }
-Executive::BatchAnswers Executive::submit_batch(std::vector<JobRequest> requests, bool atomic) {
-  const auto batch = open_batch(std::move(requests), atomic);
-  for (;;) {
-    if (auto answers = go_on(*batch)) return std::move(*answers);
-  }
-}
 void Executive::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
   impl_->check(std::move(request), std::move(done));
 }
@@ -79,17 +73,8 @@ std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
   impl_->note({ExecutiveInput::Restored{jobs}});
   return impl_->restore(std::move(jobs));
 }
-void Executive::stop_all(const std::string& cause) { stop(all_arms(*impl_->cell_), cause); }
-void Executive::resume_all() { resume(all_arms(*impl_->cell_)); }
 LiveScene& Executive::scene() { return impl_->scene_; }
-Result<std::uint64_t> Executive::inject(const FaultRequest& fault) {
-  impl_->note({ExecutiveInput::Injected{fault}});
-  return impl_->execution_.faults().inject(fault, impl_->clock_.now);
-}
-Result<void> Executive::remove_fault(std::uint64_t id) {
-  impl_->note({ExecutiveInput::FaultRemoved{id}});
-  return impl_->execution_.faults().remove(id);
-}
+ArmFaults& Executive::faults() { return impl_->execution_.faults(); }
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
 Snapshot Executive::snapshot(std::size_t ended_max) const { return impl_->snapshot(ended_max); }
 TrajectoryPtr Executive::trajectory(const std::string& key) const {
@@ -105,5 +90,22 @@ bool Executive::all_ended() const { return impl_->jobs_.active() == 0; }
 TimePoint Executive::settled_until() const { return impl_->settled_until(); }
 const RunFigures& Executive::figures() const { return impl_->count_.figures(); }
 void Executive::tick(TimePoint now) { impl_->tick(now); }
+
+
+Executive::BatchAnswers submit_batch(Executive& executive, std::vector<JobRequest> requests,
+                                     bool atomic) {
+  const auto batch = executive.open_batch(std::move(requests), atomic);
+  for (;;) {
+    if (auto answers = executive.go_on(*batch)) return std::move(*answers);
+  }
+}
+
+void stop_all(Executive& executive, const std::string& cause) {
+  executive.stop(all_arms(executive.scene().scene()->cell()), cause);
+}
+
+void resume_all(Executive& executive) {
+  executive.resume(all_arms(executive.scene().scene()->cell()));
+}
 
 }  // namespace armloom

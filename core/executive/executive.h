@@ -13,72 +13,17 @@
 #include "core/coordination/diagram.h"
 #include "core/coordination/motion.h"
 #include "core/coordination/verdict.h"
+#include "core/executive/arm_faults.h"
 #include "core/executive/events.h"
+#include "core/executive/job_request.h"
 #include "core/executive/live_scene.h"
 #include "core/executive/plan_ahead.h"
 #include "core/executive/plan_task.h"
 #include "core/model/cell.h"
-#include "core/trajectory/validate.h"
 
 namespace armloom {
 
 struct TimelineView;
-
-// Whether jobs of one arm that begin and end at one place have to run in the order in which they
-// came. They may change places with each other where each of them says `any`.
-enum class JobOrder { as_given, any };
-[[nodiscard]] const char* to_string(JobOrder order);
-
-// What becomes of a job when its time in the backlog is over.
-enum class OnTimeout { abort, replan };
-[[nodiscard]] const char* to_string(OnTimeout what);
-// How an arm comes to where a job begins: that is where it stands by then, or it is brought there.
-enum class Approach { none, plan };
-[[nodiscard]] const char* to_string(Approach how);
-
-// A job as a client asks for it, its JSON already read.
-struct JobRequest {
-  std::string key;  // the client's id; empty: one is given ("job-17")
-  std::string name;
-  TrajectoryRequest trajectory;  // not read where there are alternatives, or a goal
-  // The same work by several arms, of which one will do it: each moves one arm, and back to where
-  // it begins. None, or at least two.
-  std::vector<TrajectoryRequest> alternatives = {};
-  // Instead: where this arm is to go, or whichever of these arrives first, and at which share of
-  // its speed.
-  std::optional<PlanGoal> move_to = {};
-  std::string arm = {};
-  std::vector<std::string> arms = {};
-  double speed = 1.0;
-  JobOrder order = JobOrder::as_given;
-  OnTimeout on_timeout = OnTimeout::abort;
-  Approach approach = Approach::none;
-  int priority = 0;
-  std::optional<Duration> backlog_timeout;  // absent: the cell's
-  std::vector<std::string> after;           // keys of jobs that have to succeed first
-  // Of those, the ones that are known to have succeeded, in a former run or long ago.
-  std::vector<std::string> succeeded = {};
-  // What validate() makes of each of motions(), where somebody has asked it before (validated.h):
-  // it takes time that the strand has not. Empty: nobody has.
-  std::vector<Result<TrajectoryPtr>> validated = {};
-  // As it came, for who writes down what did. Null: nobody does.
-  std::shared_ptr<const std::string> body = {};
-
-  // The trajectory, or the alternatives, each with its place in the request ("/alternatives/0").
-  struct PlacedMotion {
-    std::string place;
-    const TrajectoryRequest& motion;
-  };
-  [[nodiscard]] std::vector<PlacedMotion> motions() const;
-};
-
-// What is to be changed of a job that was accepted, as JobRequest has it; what is absent stays.
-struct JobAmendment {
-  std::optional<std::string> name = {};
-  std::optional<int> priority = {};
-  std::optional<Duration> backlog_timeout = {};  // from when it first was in conflict
-  std::optional<OnTimeout> on_timeout = {};
-};
 
 // Where judgements are computed. Called on the strand; `done` must be called exactly once, on the
 // strand again, with the answer.
@@ -197,15 +142,6 @@ struct DiagramView {
   std::uint64_t scene_version = 0;
 };
 
-// A fault of a simulated arm, as a client asks for it.
-struct FaultRequest {
-  std::string arm;
-  ArmFault::Kind kind = ArmFault::Kind::stall;
-  std::optional<TimePoint> at;      // absent: now
-  std::optional<Duration> lasting;  // absent: until removed; a fault strikes once
-  double value = 0.0;
-};
-
 // The one strand where clock, scheduler, checks, monitor and arms meet. Not thread-safe: every
 // call comes from the strand's thread (the simulation's loop, or RealTimeLoop's thread). Owns no
 // thread and no clock: its drivers call tick() with growing cell time.
@@ -225,11 +161,9 @@ class Executive {
   // fails with Reason::self_collision), so is whether there is a way to a goal (no_plan).
   [[nodiscard]] Result<JobView> submit(JobRequest request);
   // Several at once, in order; a job may come `after` an earlier one of the batch. Atomic: all are
-  // accepted or none; problems point to "/jobs/<index>/...". Else each has its own answer.
-  [[nodiscard]] Result<std::vector<Result<JobView>>> submit_batch(std::vector<JobRequest> requests,
-                                                                  bool atomic);
-  // The same part by part, so that a large one holds up no control cycle. Nothing else may be
-  // submitted before the answers are there.
+  // accepted or none; problems point to "/jobs/<index>/...". Else each has its own answer. Part by
+  // part, so that a large one holds up no control cycle; nothing else may be submitted before the
+  // answers are there.
   class Batch;
   using BatchAnswers = Result<std::vector<Result<JobView>>>;
   [[nodiscard]] std::shared_ptr<Batch> open_batch(std::vector<JobRequest> requests, bool atomic);
@@ -267,8 +201,6 @@ class Executive {
   void alert(Alert alert);
   void stop(const std::vector<ArmId>& arms, const std::string& cause);
   void resume(const std::vector<ArmId>& arms);
-  void stop_all(const std::string& cause);
-  void resume_all();
   // The last act: stops all arms, and when they are at rest every job that has not ended becomes
   // `interrupted`, or every one that has begun where others are kept for the next run; then `done`
   // is called, on the strand. Accepts no job from now on.
@@ -278,9 +210,8 @@ class Executive {
   // The planning scene, and its objects, which may be changed.
   [[nodiscard]] LiveScene& scene();
 
-  // Faults of the simulated arms. Problem: an unknown arm or fault.
-  [[nodiscard]] Result<std::uint64_t> inject(const FaultRequest& fault);
-  [[nodiscard]] Result<void> remove_fault(std::uint64_t id);
+  // What is wrong with the simulated arms, as clients want it.
+  [[nodiscard]] ArmFaults& faults();
 
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
   // The motion of a job while it is known; of a goal that is not planned yet, and of alternatives,
@@ -308,5 +239,12 @@ class Executive {
   explicit Executive(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
+
+// A batch in one go.
+[[nodiscard]] Executive::BatchAnswers submit_batch(Executive& executive,
+                                                   std::vector<JobRequest> requests, bool atomic);
+// Every arm of the cell.
+void stop_all(Executive& executive, const std::string& cause);
+void resume_all(Executive& executive);
 
 }  // namespace armloom

@@ -33,7 +33,11 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
           [this]() -> const Configuration& { return execution_.motions().measured(); },
           {.asked = [this](const ExecutiveInput& input) { note(input); },
            .changed = [this](ClearanceQuery query) { scene_has_changed(std::move(query)); }}),
-      execution_(cell_, std::move(checked.arms), options.starts),
+      execution_(cell_, std::move(checked.arms), options.starts,
+                 [this](const ExecutiveInput& input) {
+                   note(input);
+                   return clock_.now;
+                 }),
       questions_(scheduler_, jobs_, judges),
       count_(cell_->arms.size()),
       clock_{.dies_at = options.dies_at, .inputs = options.inputs},

@@ -82,7 +82,6 @@ class Executive::Impl {
  private:
   Result<std::vector<PreparedJob>> prepare_all(std::vector<JobRequest> requests);
   JobView accept(PreparedJob prepared);
-  [[nodiscard]] Result<JobId> not_ended(const std::string& key) const;
   void enter(Submit submitted, JobLabel label);
   struct OpenInquiry;
   void plan_next(const std::shared_ptr<OpenInquiry>& inquiry);

@@ -6,29 +6,15 @@
 
 namespace armloom {
 
-Result<JobId> Executive::Impl::not_ended(const std::string& key) const {
-  const auto id = jobs_.find(key);
-  if (!id) {
-    return failure(Problem{ProblemKind::not_found, "no-such-job", "request target",
-                           "there is no job \"" + key + "\"", key});
-  }
-  const JobState state = scheduler_.find(*id)->state();
-  if (is_terminal(state)) {
-    return failure(Problem{ProblemKind::conflict, "job-has-ended", "",
-                           "job \"" + key + "\" has ended: " + to_string(state), key});
-  }
-  return *id;
-}
-
 Result<JobView> Executive::Impl::cancel(const std::string& key) {
-  const auto id = not_ended(key);
+  const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
   step(Cancel{*id});
   return publisher_.view(*id);
 }
 
 Result<JobView> Executive::Impl::amend(const std::string& key, JobAmendment amendment) {
-  const auto id = not_ended(key);
+  const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
   if (amendment.name) jobs_.rename(*id, *std::move(amendment.name));
   Amend input{*id, amendment.priority, amendment.backlog_timeout};
@@ -38,7 +24,7 @@ Result<JobView> Executive::Impl::amend(const std::string& key, JobAmendment amen
 }
 
 Result<JobView> Executive::Impl::replan(const std::string& key) {
-  const auto id = not_ended(key);
+  const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
   if (const auto why = why_not_replanned(*scheduler_.find(*id))) {
     return failure(Problem{ProblemKind::conflict, "no-other-way", "",

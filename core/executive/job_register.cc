@@ -69,4 +69,18 @@ bool JobRegister::has_job(ArmId arm) const {
   });
 }
 
+Result<JobId> JobRegister::not_ended(const std::string& key) const {
+  const auto id = find(key);
+  if (!id) {
+    return failure(Problem{ProblemKind::not_found, "no-such-job", "request target",
+                           "there is no job \"" + key + "\"", key});
+  }
+  const JobState state = scheduler_.find(*id)->state();
+  if (is_terminal(state)) {
+    return failure(Problem{ProblemKind::conflict, "job-has-ended", "",
+                           "job \"" + key + "\" has ended: " + to_string(state), key});
+  }
+  return *id;
+}
+
 }  // namespace armloom

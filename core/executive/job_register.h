@@ -41,6 +41,8 @@ class JobRegister final : public JobNames {
   std::vector<JobId> end(JobId id);
 
   [[nodiscard]] std::optional<JobId> find(const std::string& key) const;
+  // Problems: not_found; conflict when it has ended.
+  [[nodiscard]] Result<JobId> not_ended(const std::string& key) const;
   [[nodiscard]] bool is_taken(const std::string& key) const { return ids_.contains(key); }
   // Null for what was forgotten.
   [[nodiscard]] const JobLabel* label(JobId id) const;

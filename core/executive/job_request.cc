@@ -1,6 +1,6 @@
-#include <string>
+#include "core/executive/job_request.h"
 
-#include "core/executive/executive.h"
+#include <string>
 
 namespace armloom {
 

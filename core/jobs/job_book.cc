@@ -59,46 +59,6 @@ const Record* JobBook::find(JobId job) const {
   return it == records_.end() ? nullptr : &it->second;
 }
 
-std::vector<const Job*> JobBook::occupying() const {
-  std::vector<const Job*> jobs;
-  for (JobId id : past_queue_) {
-    const Job& job = at(id).job;
-    if (job.in<Held>() != nullptr || job.has_authority()) jobs.push_back(&job);
-  }
-  return jobs;
-}
-
-bool JobBook::at_head(const Record& record) const {
-  return record.job.terms.after.empty() && !lets_another_pass(record) &&
-         queues_.is_first(record.job);
-}
-
-bool JobBook::lets_another_pass(const Record& record) const {
-  return record.errand.lets_pass && is_active(*record.errand.lets_pass) &&
-         at(*record.errand.lets_pass).job.is_waiting();
-}
-
-// By turn, but for those that took their places before others: these stand first of their arms, in
-// the order in which they came.
-std::vector<JobId> JobBook::in_turn(const std::set<JobId>& jobs) const {
-  std::map<JobId, JobId> behind;  // the first job of the arm that did not
-  for (const auto& queue : queues_) {
-    const auto first = std::ranges::find_if_not(
-        queue, [this](JobId id) { return at(id).errand.before.has_value(); });
-    if (first == queue.end()) continue;
-    for (auto id = queue.begin(); id != first; ++id) behind.emplace(*id, *first);
-  }
-  std::vector<JobId> sorted(jobs.begin(), jobs.end());
-  const auto turn = [this](JobId id) { return at(id).turn; };
-  if (behind.empty() && std::ranges::is_sorted(sorted, {}, turn)) return sorted;
-  std::ranges::sort(sorted, {}, [&](JobId id) {
-    const auto first = behind.find(id);
-    const bool placed = first != behind.end();
-    return std::tuple(placed ? turn(first->second) : turn(id), !placed, turn(id));
-  });
-  return sorted;
-}
-
 void JobBook::put_in_order(const std::vector<JobId>& jobs) {
   queues_.put_in_order(at(jobs.front()).job, jobs);
   std::vector<JobId> turns;
@@ -211,6 +171,46 @@ void JobBook::set_waits(Record& record, std::vector<Wait> waits) {
       std::ranges::equal(old, waits, [](const Wait& a, const Wait& b) { return a.same_cause(b); });
   old = std::move(waits);
   if (!same) changed(record);
+}
+
+std::vector<const Job*> occupying(const JobBook& book) {
+  std::vector<const Job*> jobs;
+  for (JobId id : book.past_queue()) {
+    const Job& job = book.at(id).job;
+    if (job.in<Held>() != nullptr || job.has_authority()) jobs.push_back(&job);
+  }
+  return jobs;
+}
+
+bool is_at_head(const JobBook& book, const Record& record) {
+  return record.job.terms.after.empty() && !lets_another_pass(book, record) &&
+         book.queues().is_first(record.job);
+}
+
+bool lets_another_pass(const JobBook& book, const Record& record) {
+  return record.errand.lets_pass && book.is_active(*record.errand.lets_pass) &&
+         book.at(*record.errand.lets_pass).job.is_waiting();
+}
+
+// By turn, but for those that took their places before others: these stand first of their arms, in
+// the order in which they came.
+std::vector<JobId> in_turn(const JobBook& book, const std::set<JobId>& jobs) {
+  std::map<JobId, JobId> behind;  // the first job of the arm that did not
+  for (const auto& queue : book.queues()) {
+    const auto first = std::ranges::find_if_not(
+        queue, [&](JobId id) { return book.at(id).errand.before.has_value(); });
+    if (first == queue.end()) continue;
+    for (auto id = queue.begin(); id != first; ++id) behind.emplace(*id, *first);
+  }
+  std::vector<JobId> sorted(jobs.begin(), jobs.end());
+  const auto turn = [&](JobId id) { return book.at(id).turn; };
+  if (behind.empty() && std::ranges::is_sorted(sorted, {}, turn)) return sorted;
+  std::ranges::sort(sorted, {}, [&](JobId id) {
+    const auto first = behind.find(id);
+    const bool placed = first != behind.end();
+    return std::tuple(placed ? turn(first->second) : turn(id), !placed, turn(id));
+  });
+  return sorted;
 }
 
 }  // namespace armloom

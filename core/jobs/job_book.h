@@ -76,13 +76,7 @@ class JobBook {
   // All that have not ended; of these, all that were judged. In order of submission.
   [[nodiscard]] const std::set<JobId>& active() const { return active_; }
   [[nodiscard]] const std::set<JobId>& past_queue() const { return past_queue_; }
-  // Admitted or held on their paths.
-  [[nodiscard]] std::vector<const Job*> occupying() const;
-
   [[nodiscard]] const ArmQueues& queues() const { return queues_; }
-  // That would not keep it waiting: first of its arms, all in `after` ended, none let pass.
-  [[nodiscard]] bool at_head(const Record& record) const;
-  [[nodiscard]] bool lets_another_pass(const Record& record) const;
   // These follow each other on the same arms and wait: now in this order.
   void put_in_order(const std::vector<JobId>& jobs);
   // By another arm, before which so many of that one's jobs stand. Precondition: it waits.
@@ -101,8 +95,6 @@ class JobBook {
   [[nodiscard]] const std::set<JobId>& undecided() const { return undecided_; }
   // Job::is_replanned_now(), or were when they were put there; some may have ended.
   [[nodiscard]] std::set<JobId>& being_replanned() { return being_replanned_; }
-  // The same jobs, each after those before it.
-  [[nodiscard]] std::vector<JobId> in_turn(const std::set<JobId>& jobs) const;
   [[nodiscard]] bool all_as_urgent() const { return priorities_.size() <= 1; }
 
   // A transition of the table in job.h; any other one throws std::logic_error.
@@ -136,5 +128,13 @@ class JobBook {
   ArmQueues queues_;
   News news_;
 };
+
+// Those that are admitted or held on their paths.
+[[nodiscard]] std::vector<const Job*> occupying(const JobBook& book);
+// Nothing of its own keeps it waiting: first of its arms, all in `after` ended, none let pass.
+[[nodiscard]] bool is_at_head(const JobBook& book, const Record& record);
+[[nodiscard]] bool lets_another_pass(const JobBook& book, const Record& record);
+// The same jobs, each after those before it.
+[[nodiscard]] std::vector<JobId> in_turn(const JobBook& book, const std::set<JobId>& jobs);
 
 }  // namespace armloom

@@ -41,7 +41,7 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
     }
   }
   std::vector<WaitingLeg> legs;
-  for (JobId id : book.in_turn(waiting)) {
+  for (JobId id : in_turn(book, waiting)) {
     const Record& record = book.at(id);
     WaitingLeg& leg = legs.emplace_back(record.leg);
     leg.after = record.job.terms.after;

@@ -78,7 +78,7 @@ void fail_impossible_starts(State& state) {
     if (queue.empty()) continue;
     Record& head = state.jobs.at(queue.front());
     const Job& job = head.job;
-    if (!job.is_waiting() || job.has_started() || !state.jobs.at_head(head)) continue;
+    if (!job.is_waiting() || job.has_started() || !is_at_head(state.jobs, head)) continue;
     if (job.goal) continue;  // its way begins where the arm stands
     if (may_go_first(state, head)) continue;
     if (job.terms.is_held_over && state.arms.stop_of(job)) continue;

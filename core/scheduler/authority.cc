@@ -34,7 +34,7 @@ void pause_at_rest(State& state, Record& record) {
 
 void dispatch_if_ready(State& state, Record& record) {
   Job& job = record.job;
-  if (!state.jobs.at_head(record)) return;
+  if (!is_at_head(state.jobs, record)) return;
   if (!record.ages_from) record.ages_from = state.now;
   if (!job.has_started() && state.arms.start_mismatch(*state.cell, *job.trajectory)) {
     return withdraw(state, record, {});
@@ -145,7 +145,7 @@ bool holds_one_ahead(const State& state, const Record& record) {
 }
 
 bool stands(const State& state, const Record& record) {
-  const bool behind = record.job.in<Admitted>() != nullptr && !state.jobs.at_head(record);
+  const bool behind = record.job.in<Admitted>() != nullptr && !is_at_head(state.jobs, record);
   return record.job.is_waiting() || behind || held_where_it_stands(state, record).has_value();
 }
 

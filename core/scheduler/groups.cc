@@ -30,7 +30,7 @@ std::set<JobId> first_of_arms(const State& state, const std::vector<JobId>& grou
 // It could go when those before it on its arms have gone.
 bool may_follow(const State& state, const Record& record) {
   return record.job.is_waiting() && !record.job.is_unplanned() && record.job.terms.after.empty() &&
-         !state.jobs.lets_another_pass(record) && !state.arms.stop_of(record.job) &&
+         !lets_another_pass(state.jobs, record) && !state.arms.stop_of(record.job) &&
          state.lanes.follows_on(record.job.id) && !holds_one_ahead(state, record);
 }
 
@@ -39,7 +39,7 @@ bool may_follow(const State& state, const Record& record) {
 std::vector<JobId> with_all_that_wait(const State& state, const std::vector<JobId>& group) {
   std::vector<JobId> all = group;
   std::vector<std::size_t> left(state.cell->arms.size(), kTogetherMax);
-  for (JobId id : state.jobs.in_turn(first_of_arms(state, group))) {
+  for (JobId id : in_turn(state.jobs, first_of_arms(state, group))) {
     const Record& record = state.jobs.at(id);
     const auto& arms = record.job.trajectory->arms();
     const bool room = std::ranges::all_of(arms, [&](ArmId arm) { return left[arm.index()] > 0; });

@@ -55,7 +55,7 @@ void note_found(Record& record, std::vector<Wait> waits) {
 void put_off(State& state, Record& record, std::vector<Wait> waits) {
   judgement_of(record) = {state.version, waits};
   state.jobs.set_waits(record, std::move(waits));
-  if (!state.jobs.at_head(record)) return;  // it has had no turn yet
+  if (!is_at_head(state.jobs, record)) return;  // it has had no turn yet
   if (!record.ages_from) record.ages_from = state.now;
   const auto* queued = record.job.in<Queued>();
   if (queued != nullptr && !queued->in_backlog) {
@@ -74,7 +74,7 @@ void wait_in_turn(State& state, Record& record, JobId first) {
     state.jobs.changed(record);
   }
   judgement_of(record) = {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}};
-  if (!record.ages_from && state.jobs.at_head(record)) record.ages_from = state.now;
+  if (!record.ages_from && is_at_head(state.jobs, record)) record.ages_from = state.now;
   state.jobs.set_waits(record, record.job.judgement().found);
 }
 

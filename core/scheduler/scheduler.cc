@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "core/jobs/invariants.h"
@@ -65,7 +66,11 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   state_.now = now;
   const auto* report = std::get_if<MotionReport>(&input);
   const Version version_before = state_.version;
-  std::visit([this](const auto& i) { on(i); }, input);
+  std::visit(
+      [this]<class I>(const I& i) {
+        if constexpr (!std::is_same_v<I, Wake>) on(i);  // what follows is all that it asks for
+      },
+      input);
 
   // Progress alone, the bulk of all inputs, changes nothing that others wait for.
   const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&

@@ -88,7 +88,6 @@ class Scheduler {
   void on(const Resume& input);
   void on(const SceneChanged& input);
   void on(const Interrupt& input);
-  void on(const Wake& /*input*/) {}
   void settle();
   void ask_for_wake();
 

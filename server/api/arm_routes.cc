@@ -69,13 +69,13 @@ void with_all(Call& call, bool stopped, Change change) {
 void stop_all(Call call) {
   const auto asked = std::chrono::steady_clock::now();
   with_all(call, true, [&parts = call.parts, asked](Executive& executive) {
-    executive.stop_all("operator");
+    stop_all(executive, "operator");
     parts.metrics.stop_taken(std::chrono::steady_clock::now() - asked);
   });
 }
 void resume_all(Call call) {
   if (is_held_by_store(call)) return;
-  with_all(call, false, [](Executive& executive) { executive.resume_all(); });
+  with_all(call, false, [](Executive& executive) { resume_all(executive); });
 }
 
 Route command(const char* path, const char* id, const char* summary) {

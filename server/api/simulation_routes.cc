@@ -36,7 +36,7 @@ void put_speed(Call call) {
 void post_fault(Call call) {
   const auto inject = [&parts = call.parts, respond = call.respond](const auto& fault) {
     ask(
-        parts, [fault](Executive& executive) { return executive.inject(fault); },
+        parts, [fault](Executive& executive) { return executive.faults().inject(fault); },
         [respond, fault](const Result<std::uint64_t>& id) {
           if (!id) return respond(problem_response(id.error()));
           respond(located(answer(201, fault_format(), {*id, fault}),
@@ -53,7 +53,7 @@ void delete_fault(Call call) {
   const auto [stop, ec] = std::from_chars(name.data(), end, id);
   if (ec != std::errc{} || stop != end) return call.respond(no_such("fault", name));
   ask(
-      call.parts, [id](Executive& executive) { return executive.remove_fault(id); },
+      call.parts, [id](Executive& executive) { return executive.faults().remove(id); },
       [respond = call.respond, name](const Result<void>& removed) {
         respond(removed ? Response{204, ""} : no_such("fault", name));
       });

@@ -114,7 +114,7 @@ std::string Restart::summary() const {
 void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
   const bool asks = cell.scheduling.on_restart == OnRestart::ask;
   if (asks && (!waiting_.empty() || !written_off_.empty())) {
-    executive.stop_all(summary());
+    stop_all(executive, summary());
   } else {
     std::vector<ArmId> arms;
     for (const std::string& name : stopped_arms_) {

@@ -67,11 +67,11 @@ class Delays final : public Observer {
     job.late = inject(executive, job, ArmFault::Kind::late_start, job.job->delay->late_s);
   }
   Fault inject(Executive& executive, const Delayed& job, ArmFault::Kind kind, double value) {
-    return *executive.inject({.arm = cell_.arm(job.job->arm).name, .kind = kind, .value = value});
+    return *executive.faults().inject({.arm = cell_.arm(job.job->arm).name, .kind = kind, .value = value});
   }
   static void lift(Executive& executive, Fault& fault) {
     if (!fault) return;
-    const auto lifted = executive.remove_fault(*std::exchange(fault, std::nullopt));
+    const auto lifted = executive.faults().remove(*std::exchange(fault, std::nullopt));
     if (!lifted) throw std::logic_error(lifted.error().front().detail);
   }
 

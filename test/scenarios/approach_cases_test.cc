@@ -82,22 +82,22 @@ TEST_P(Approaches, CancelingTheJobStopsTheArmOnItsWayThere) {
 TEST_P(Approaches, AStoppedOneGoesOnWhenResumed) {
   cell->submit(approached(go("a", {-2, 2}, {-2, 3}, 6, "job")));
   cell->run_until(at(2s));
-  cell->executive().stop_all("operator");
+  stop_all(cell->executive(), "operator");
   cell->run_until(at(5s));
   EXPECT_EQ(cell->job("approach-1").state, JobState::holding);
-  cell->executive().resume_all();
+  resume_all(cell->executive());
   cell->run_to_the_end();
   expect_succeeded("job");
 }
 
 TEST_P(Approaches, AfterAFaultAnotherOneFollows) {
   cell->submit(approached(go("a", {-2, 2}, {-2, 3}, 6, "job")));
-  ASSERT_TRUE(cell->executive().inject(
+  ASSERT_TRUE(cell->executive().faults().inject(
       {.arm = "a", .kind = ArmFault::Kind::fault, .at = at(2s), .lasting = {}}));
   cell->run_until(at(5s));
   EXPECT_EQ(cell->job("approach-1").reason, Reason::arm_fault);
   EXPECT_EQ(cell->job("job").state, JobState::queued);
-  cell->executive().resume_all();
+  resume_all(cell->executive());
   cell->run_to_the_end();
   expect_succeeded("approach-2");
   expect_succeeded("job");

@@ -124,8 +124,8 @@ class Asked {
       tick();
     }
     const std::size_t dice = random_.index(10);
-    if (dice == 0) executive_->stop_all("operator");
-    if (dice > 0 && dice < 6) executive_->resume_all();
+    if (dice == 0) stop_all(*executive_, "operator");
+    if (dice > 0 && dice < 6) resume_all(*executive_);
     if (dice == 6 && !has_object_) add_object();
     if (dice > 7 && has_object_) {
       EXPECT_TRUE(executive_->scene().remove("in the way"));

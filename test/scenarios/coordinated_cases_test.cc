@@ -13,7 +13,7 @@ struct Coordinated : ::testing::Test {
 
 TEST(CoordinatedLate, GoesAsFarAsItMayAndPausesThere) {
   Crossing cell(crossing_description(), "coordinated");
-  ASSERT_TRUE(cell.simulation->executive().inject(
+  ASSERT_TRUE(cell.simulation->executive().faults().inject(
       {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1800ms), .lasting = 3s}));
   cell.submit(slide("x", -1, 1, 4, "first"));
   cell.submit(slide("y", -1, 1, 4, "second"));
@@ -46,7 +46,7 @@ TEST_F(Coordinated, LetsAShortOnePassBeforeALongOneThatIsStillFar) {
 // T5: the leader stalls in the crossing; who follows stays before it for as long as that takes.
 TEST(CoordinatedLate, WaitsForALeaderThatStalls) {
   Crossing cell(crossing_description(), "coordinated");
-  ASSERT_TRUE(cell.simulation->executive().inject(
+  ASSERT_TRUE(cell.simulation->executive().faults().inject(
       {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1900ms), .lasting = 6s}));
   cell.submit(slide("x", -1, 1, 4, "stalls"));
   cell.submit(slide("y", -1, 1, 4, "follows"));
@@ -114,9 +114,9 @@ TEST_F(Coordinated, DoesNotCountOnAJobWhoseStartWillNotBeReached) {
   EXPECT_GT(cell.log.closest_m, 0.015);
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
   // Nor does a resume lead it there.
-  cell.simulation->executive().stop_all("operator");
+  stop_all(cell.simulation->executive(), "operator");
   cell.run_until(at(21s));
-  cell.simulation->executive().resume_all();
+  resume_all(cell.simulation->executive());
   cell.run_until(at(30s));
   EXPECT_GT(cell.log.closest_m, 0.015);
   cell.submit(slide("x", 0, -1, 3, "makes way"));
@@ -129,11 +129,11 @@ TEST_F(Coordinated, KeepsItsOrderOverAStopAndAResume) {
   cell.submit(slide("x", -1, 1, 4, "first"));
   cell.submit(slide("y", -1, 1, 4, "second"));
   cell.run_until(at(1500ms));
-  cell.simulation->executive().stop_all("operator");
+  stop_all(cell.simulation->executive(), "operator");
   cell.run_until(at(4s));
   EXPECT_EQ(cell.job("first").state, JobState::holding);
   EXPECT_EQ(cell.job("second").state, JobState::holding);
-  cell.simulation->executive().resume_all();
+  resume_all(cell.simulation->executive());
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("first").state, JobState::succeeded);
   EXPECT_EQ(cell.job("second").state, JobState::succeeded);

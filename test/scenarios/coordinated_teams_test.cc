@@ -41,7 +41,7 @@ TEST(CoordinatedTeams, AnArmThatGotAheadOfItsSiblingIsInTheWayWhereItRests) {
     CellDescription description = crossing_description();
     description.robots.push_back(moved(description.robots[0], "z", {0, 5, 0}));
     Crossing cell(description, "coordinated");
-    ASSERT_TRUE(cell.simulation->executive().inject(
+    ASSERT_TRUE(cell.simulation->executive().faults().inject(
         {.arm = "z", .kind = ArmFault::Kind::stall, .at = at(stalls)}));
     cell.submit(together({{"x", -1, 1}, {"z", -1, 1}}, 2.2, "team"));
     cell.submit(slide("y", -1, 1, 4, "follows"));
@@ -64,7 +64,7 @@ TEST(CoordinatedTeams, ArmsOfOneMotionAreFreeOfEachOtherOutOfStepToo) {
     Crossing cell(crossing_description(), "coordinated");
     cell.submit(slide("x", -1, -1 + head_start_m, 1, "sets out"));
     cell.run_to_the_end();
-    ASSERT_TRUE(cell.simulation->executive().inject({.arm = "x",
+    ASSERT_TRUE(cell.simulation->executive().faults().inject({.arm = "x",
                                                      .kind = ArmFault::Kind::stall,
                                                      .at = cell.simulation->now() + 900ms,
                                                      .lasting = 2s}));
@@ -122,7 +122,7 @@ TEST(CoordinatedTeams, AMotionThatWasStoppedWhileItPausedIsInItsRingAgain) {
   cell.submit(together({{"x", cell.log.last[0], -1}, {"y", 1, 0.8}}, 2, "both"));
   cell.run_until(at(6s));
   EXPECT_EQ(cell.job("both").state, JobState::queued);
-  cell.simulation->executive().resume_all();
+  resume_all(cell.simulation->executive());
   cell.run_until(at(7s));
   EXPECT_EQ(cell.job("pauses").state, JobState::holding);
   EXPECT_EQ(cell.job("both").reason, Reason::deadlock);
@@ -141,8 +141,8 @@ TEST(CoordinatedTeams, AStopBeforeTheyMoveKeepsTheirPlace) {
   cell.submit(slide("x", -1, 0, 1, "in the middle"));
   cell.submit(together({{"x", 0, 1}, {"z", 0.3, 1}}, 2, "leaves"));
   cell.run_until(at(500ms));
-  ASSERT_TRUE(executive.inject({.arm = "x", .kind = ArmFault::Kind::late_start, .value = 5}));
-  ASSERT_TRUE(executive.inject({.arm = "z", .kind = ArmFault::Kind::late_start, .value = 5}));
+  ASSERT_TRUE(executive.faults().inject({.arm = "x", .kind = ArmFault::Kind::late_start, .value = 5}));
+  ASSERT_TRUE(executive.faults().inject({.arm = "z", .kind = ArmFault::Kind::late_start, .value = 5}));
   cell.run_until(at(1100ms));  // x stands in the crossing
   cell.submit(slide("y", -1, 1, 3, "follows"));
   cell.run_until(at(3s));
@@ -152,7 +152,7 @@ TEST(CoordinatedTeams, AStopBeforeTheyMoveKeepsTheirPlace) {
   cell.submit(slide("w", -1, 1, 12, "last"));
   cell.run_until(at(10s));
   ASSERT_EQ(cell.job("last").state, JobState::holding);
-  executive.resume_all();
+  resume_all(executive);
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("follows").state, JobState::succeeded);
   EXPECT_EQ(cell.job("last").state, JobState::succeeded);

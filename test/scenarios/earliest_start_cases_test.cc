@@ -72,7 +72,7 @@ TEST_P(Policies, T5ALateStartAndASlowArmTouchNobodyAndEveryJobSucceeds) {
       SCOPED_TRACE(std::to_string(to_seconds(when)) + " s, " +
                    (fault.kind == ArmFault::Kind::slow ? "slow" : "late"));
       Crossing cell(crossing_description(), GetParam());
-      ASSERT_TRUE(cell.simulation->executive().inject(fault));
+      ASSERT_TRUE(cell.simulation->executive().faults().inject(fault));
       cell.submit(slide("x", -1, 1, 4, "off its plan"));
       cell.run_until(at(when));
       cell.submit(slide("y", -1, 1, 4, "other"));

@@ -19,7 +19,7 @@ CellDescription crossing_and_far() {
 }
 
 void inject(Crossing& cell, FaultRequest fault) {
-  ASSERT_TRUE(cell.simulation->executive().inject(fault));
+  ASSERT_TRUE(cell.simulation->executive().faults().inject(fault));
 }
 
 // x has left the crossing when y comes to it, unless x stalls there.
@@ -61,7 +61,7 @@ TEST(T6, AFaultFailsItsJobAndStopsOnlyThoseItEndangers) {
 
   // The arm is taken out of the way after a resume.
   const double stands = cell.log.last[0];
-  cell.simulation->executive().resume_all();
+  resume_all(cell.simulation->executive());
   cell.submit(slide("x", stands, 1.5, 4, "taken away"));
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("endangered").state, JobState::succeeded);
@@ -146,21 +146,21 @@ TEST(T7, ACanceledJobBrakesAndItsReservationShrinksToWhereItStands) {
 TEST(Fault, OfAnUnknownArmOrAnUnknownFaultIsAProblem) {
   Crossing cell;
   const auto refused =
-      cell.simulation->executive().inject({.arm = "z", .kind = ArmFault::Kind::stall});
+      cell.simulation->executive().faults().inject({.arm = "z", .kind = ArmFault::Kind::stall});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().front().pointer, "/arm");
-  EXPECT_FALSE(cell.simulation->executive().remove_fault(99));
+  EXPECT_FALSE(cell.simulation->executive().faults().remove(99));
 }
 
 TEST(Fault, CanBeTakenAwayAgain) {
   Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, -0.5, 2, "stalls"));
   const auto fault =
-      cell.simulation->executive().inject({.arm = "x", .kind = ArmFault::Kind::stall});
+      cell.simulation->executive().faults().inject({.arm = "x", .kind = ArmFault::Kind::stall});
   ASSERT_TRUE(fault);
   cell.run_until(at(5s));
   EXPECT_EQ(cell.job("stalls").state, JobState::running);
-  ASSERT_TRUE(cell.simulation->executive().remove_fault(*fault));
+  ASSERT_TRUE(cell.simulation->executive().faults().remove(*fault));
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("stalls").state, JobState::succeeded);
 }

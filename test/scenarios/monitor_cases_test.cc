@@ -56,7 +56,7 @@ TEST(Monitor, AfterAStopOneArmCanBeTakenAwayAndTheOtherGoesOn) {
   EXPECT_EQ(cell.job("one").state, JobState::canceled);
   const double stands = cell.log.last[0];
   ASSERT_TRUE(cell.simulation->executive().cancel("two"));
-  cell.simulation->executive().resume_all();
+  resume_all(cell.simulation->executive());
   cell.submit(slide("x", stands, -1, 3, "retreat"));
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("retreat").state, JobState::succeeded);

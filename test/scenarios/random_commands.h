@@ -135,7 +135,7 @@ class RandomCommands {
       case 8:
         return executive().resume({arm});
       case 9:
-        return executive().resume_all();
+        return resume_all(executive());
       case 10:
         return change_scene();
       case 11:
@@ -150,7 +150,7 @@ class RandomCommands {
   void batch() {
     std::vector<JobRequest> jobs = {random_job(), random_job()};
     std::vector<JobRequest> copy = jobs;
-    const auto answers = executive().submit_batch(std::move(jobs), pick(0, 1) == 0);
+    const auto answers = submit_batch(executive(), std::move(jobs), pick(0, 1) == 0);
     if (!answers) return;
     for (std::size_t i = 0; i < copy.size(); ++i) {
       remember((*answers)[i], copy[i].trajectory.joint_names,
@@ -178,7 +178,7 @@ class RandomCommands {
   }
 
   void inject(ArmFault::Kind kind, double value) {
-    const auto injected = executive().inject({.arm = arms_[static_cast<std::size_t>(pick(0, 1))],
+    const auto injected = executive().faults().inject({.arm = arms_[static_cast<std::size_t>(pick(0, 1))],
                                               .kind = kind,
                                               .lasting = std::chrono::milliseconds(pick(100, 1500)),
                                               .value = value});

@@ -38,7 +38,7 @@ inline constexpr Delays kFarBeyond{.late_s = 10.0, .slowest = 0.1, .stall_s = 30
 // The arm starts late, runs slowly, and stalls three times within `within_s`.
 inline void delay_at_random(Executive& executive, const std::string& arm, double within_s,
                             Random& random, const Delays& delays = {}) {
-  const auto inject = [&](FaultRequest fault) { EXPECT_TRUE(executive.inject(fault)); };
+  const auto inject = [&](FaultRequest fault) { EXPECT_TRUE(executive.faults().inject(fault)); };
   inject({.arm = arm,
           .kind = ArmFault::Kind::late_start,
           .value = random.uniform(0.0, delays.late_s)});

@@ -152,13 +152,13 @@ TEST_P(Replans, AStoppedJobGoesOnWhenItIsResumed) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "stopped"));
   cell->run_until(at(2s));
-  cell->executive().stop_all("operator");
+  stop_all(cell->executive(), "operator");
   cell->run_until(at(3s));
   ASSERT_TRUE(cell->executive().replan("stopped"));
   cell->run_until(at(6s));
   EXPECT_FALSE(is_terminal(cell->job("stopped").state));
   EXPECT_EQ(cell->job("stopped").another_way->done, 1U);
-  cell->executive().resume_all();
+  resume_all(cell->executive());
   cell->run_to_the_end();
   expect_succeeded("stopped");
 }

@@ -60,12 +60,12 @@ TEST(StartLog, WhoIsStoppedMeanwhileGoesOnWhenResumed) {
   Restarted cell(&starts);
   cell.submit(slide("x", -1, 1, 4, "go"));
   cell.run_until(at(500ms));
-  cell.executive().stop_all("test");
+  stop_all(cell.executive(), "test");
   cell.run_until(at(1s));
   starts.write_all();
   cell.run_until(at(2s));
   EXPECT_EQ(cell.x(), -1.0) << "it was written, but all is stopped";
-  cell.executive().resume_all();
+  resume_all(cell.executive());
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("go").state, JobState::succeeded);
 }
@@ -75,9 +75,9 @@ TEST(StartLog, WhoIsStoppedAndResumedMeanwhileStillWaits) {
   Restarted cell(&starts);
   cell.submit(slide("x", -1, 1, 4, "go"));
   cell.run_until(at(500ms));
-  cell.executive().stop_all("test");
+  stop_all(cell.executive(), "test");
   cell.run_until(at(1s));
-  cell.executive().resume_all();
+  resume_all(cell.executive());
   cell.run_until(at(2s));
   EXPECT_EQ(cell.x(), -1.0);
   starts.write_all();
@@ -147,7 +147,7 @@ std::vector<RestoredJob> two_of_x() {
 
 TEST(Restore, JobsHaveTheirIdsTheirOrderAndTheirConditions) {
   Restarted cell(nullptr, "coordinated", JobId{20});
-  cell.executive().stop_all("restart");
+  stop_all(cell.executive(), "restart");
   const auto answers = cell.executive().restore(two_of_x());
   ASSERT_TRUE(answers[0] && answers[1]);
   cell.run_until(at(3s));
@@ -156,7 +156,7 @@ TEST(Restore, JobsHaveTheirIdsTheirOrderAndTheirConditions) {
   EXPECT_EQ(cell.job("second").submitted_at, at(-5s));
   EXPECT_EQ(cell.job("first").state, JobState::queued);
   EXPECT_EQ(cell.submit(slide("y", -1, 0, 2)).key, "job-20") << "numbers are never given again";
-  cell.executive().resume_all();
+  resume_all(cell.executive());
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("second").state, JobState::succeeded);
   EXPECT_LE(*cell.job("first").ended_at, *cell.job("second").started_at);
@@ -164,14 +164,14 @@ TEST(Restore, JobsHaveTheirIdsTheirOrderAndTheirConditions) {
 
 TEST(Restore, OneThatBeginsElsewhereFailsWhenItIsResumedAndNotBefore) {
   Restarted cell(nullptr);
-  cell.executive().stop_all("restart");
+  stop_all(cell.executive(), "restart");
   std::vector<RestoredJob> jobs;
   jobs.push_back({JobId{3}, slide("x", 0.2, -1, 2, "elsewhere"), at(-1s)});
   ASSERT_TRUE(cell.executive().restore(std::move(jobs)).front());
   cell.submit(slide("x", -1, 0, 2, "next"));
   cell.run_until(at(5s));
   EXPECT_EQ(cell.job("elsewhere").state, JobState::queued);
-  cell.executive().resume_all();
+  resume_all(cell.executive());
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("elsewhere").reason, Reason::start_mismatch);
   EXPECT_EQ(cell.job("next").state, JobState::succeeded);

@@ -107,13 +107,13 @@ TEST(Batch, IsAcceptedWholeOrNotAtAll) {
   Executive& executive = cell.simulation->executive();
   JobRequest back = slide("x", -0.5, -1, 2, "back");
   back.after = {"out"};
-  auto accepted = executive.submit_batch({slide("x", -1, -0.5, 2, "out"), back}, true);
+  auto accepted = submit_batch(executive, {slide("x", -1, -0.5, 2, "out"), back}, true);
   ASSERT_TRUE(accepted);
   EXPECT_EQ(accepted->size(), 2u);
 
   // The second does not begin where the first ends; the third has the first one's id.
   const auto refused =
-      executive.submit_batch({slide("y", -1, -0.5, 2, "one"), slide("y", -1, -0.5, 2, "two"),
+      submit_batch(executive, {slide("y", -1, -0.5, 2, "one"), slide("y", -1, -0.5, 2, "two"),
                               slide("y", -0.5, -1, 2, "one")},
                              true);
   ASSERT_FALSE(refused);
@@ -227,7 +227,7 @@ TEST(Synchronous, AFaultOfOneArmStopsItsSibling) {
   both.trajectory.points = {{{-1, -1}, {0, 0}, {0, 0}, 0.0}, {{1, 1}, {0, 0}, {0, 0}, 4.0}};
   cell.submit(both);
   cell.run_until(at(1500ms));
-  ASSERT_TRUE(cell.simulation->executive().inject({.arm = "x", .kind = ArmFault::Kind::fault}));
+  ASSERT_TRUE(cell.simulation->executive().faults().inject({.arm = "x", .kind = ArmFault::Kind::fault}));
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("both").reason, Reason::arm_fault);
   EXPECT_LT(cell.log.last[1], 0.5) << "the sibling stopped, too";
@@ -253,7 +253,7 @@ TEST(Synchronous, ArmsKeepClearOfEachOtherWhenOneOfThemFallsBehind) {
   for (const char* policy : {"coordinated", "earliest_start", "certified"}) {
     Crossing cell(crossing_from_behind(), policy);
     cell.submit(one_after_the_other(8));
-    ASSERT_TRUE(cell.simulation->executive().inject(
+    ASSERT_TRUE(cell.simulation->executive().faults().inject(
         {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(3500ms), .lasting = 3s}));
     cell.run_to_the_end();
     EXPECT_EQ(cell.job("both").state, JobState::succeeded) << policy;

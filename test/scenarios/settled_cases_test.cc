@@ -13,7 +13,7 @@ class Settled : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { cell.emplace(crossing_description(), GetParam()); }
   void inject(const FaultRequest& request) {
-    ASSERT_TRUE(cell->simulation->executive().inject(request));
+    ASSERT_TRUE(cell->simulation->executive().faults().inject(request));
   }
   // Runs until nothing can happen any more, and on for longer than anything in the cell waits.
   void expect_nothing_more(TimePoint limit) {
@@ -45,10 +45,10 @@ TEST_P(Settled, WhileAllArmsAreStoppedAndNobodyResumes) {
   cell->submit(slide("x", -1, 1, 2, "one"));
   cell->submit(slide("y", -1, 1, 3, "two"));
   cell->run_until(at(500ms));
-  cell->simulation->executive().stop_all("operator");
+  stop_all(cell->simulation->executive(), "operator");
   expect_nothing_more(at(100s));
   EXPECT_FALSE(cell->simulation->executive().all_ended());
-  cell->simulation->executive().resume_all();
+  resume_all(cell->simulation->executive());
   cell->run_to_the_end(at(400s));
   EXPECT_EQ(cell->job("one").state, JobState::succeeded);
   // Under reservation it was in the backlog already, and its time there was over.

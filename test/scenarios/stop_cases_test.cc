@@ -11,7 +11,7 @@ TEST(Stop, HoldsAllMotionsAndResumeFinishesThem) {
   cell.submit(slide("x", -1, -0.4, 4, "one"));
   cell.submit(slide("y", -1, -0.4, 4, "two"));
   cell.run_until(at(2s));
-  cell.simulation->executive().stop_all("operator");
+  stop_all(cell.simulation->executive(), "operator");
   cell.run_until(at(3s));
   EXPECT_EQ(cell.job("one").state, JobState::holding);
   EXPECT_FALSE(cell.job("one").stopping);
@@ -19,7 +19,7 @@ TEST(Stop, HoldsAllMotionsAndResumeFinishesThem) {
   const Configuration stands = cell.log.last;
   cell.run_until(at(10s));
   EXPECT_EQ(cell.log.last, stands);
-  cell.simulation->executive().resume_all();
+  resume_all(cell.simulation->executive());
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("one").state, JobState::succeeded);
   EXPECT_EQ(cell.job("two").state, JobState::succeeded);

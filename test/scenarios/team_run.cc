@@ -125,7 +125,7 @@ void TeamsRun::submit() {
 void TeamsRun::batch() {
   // Of different arms, or the second one may not begin where the first one ends.
   std::vector<JobRequest> jobs = {random_job(), random_job()};
-  const auto answers = executive().submit_batch(jobs, random_.chance(0.5));
+  const auto answers = submit_batch(executive(), jobs, random_.chance(0.5));
   if (!answers) return;
   for (std::size_t i = 0; i < jobs.size(); ++i) remember((*answers)[i], jobs[i]);
 }
@@ -151,7 +151,7 @@ void TeamsRun::command() {
       return executive().resume({arm});
     case 17:
       say("resume all");
-      return executive().resume_all();
+      return resume_all(executive());
     case 18:
       if (may_see_objects_) change_scene();
       return;
@@ -183,7 +183,7 @@ void TeamsRun::inject(const std::string& arm) {
   faulted_ = faulted_ || fault;
   say((fault ? "fault " : "stall ") + arm);
   static_cast<void>(
-      executive().inject({.arm = arm,
+      executive().faults().inject({.arm = arm,
                           .kind = fault ? ArmFault::Kind::fault : ArmFault::Kind::stall,
                           .lasting = from_seconds(random_.uniform(0.1, 3.0))}));
 }
@@ -199,7 +199,7 @@ void TeamsRun::note_own_jobs() {
 void TeamsRun::settle() {
   const TimePoint limit = simulation_->now() + 900s;
   if (!executive().scene().objects().empty()) static_cast<void>(executive().scene().remove("ball"));
-  executive().resume_all();
+  resume_all(executive());
   say("all may go on");
   std::size_t events = 0;
   const TimePoint begun_at = simulation_->now();
@@ -211,7 +211,7 @@ void TeamsRun::settle() {
       changed_at = simulation_->now();
     }
     if (simulation_->now() > resumed_at + 1s) {
-      if (stopped_in_vain()) executive().resume_all();
+      if (stopped_in_vain()) resume_all(executive());
       resumed_at = simulation_->now();
     }
     if (simulation_->now() > std::max(changed_at, watched_.moved_at) + kQuiet) break;

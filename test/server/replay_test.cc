@@ -110,9 +110,9 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
     jobs.push_back({JobId{1}, request(swing("left")), TimePoint(-3s)});
     jobs.back().request.key = "former";
     jobs.back().request.priority = 3;
-    executive_->stop_all("started again");
+    stop_all(*executive_, "started again");
     (void)executive_->restore(std::move(jobs));
-    executive_->resume_all();
+    resume_all(*executive_);
   }
   JobRequest request(json body) {
     JobRequest job = read_job(body).value();
@@ -160,7 +160,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
       case 2:
       case 15:
       case 16:
-        return executive_->resume_all();
+        return resume_all(*executive_);
       case 3:
         return (void)executive_->cancel(some_job());
       case 4:
@@ -175,12 +175,12 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
       case 8:
         return (void)executive_->scene().remove("crate");
       case 9:
-        return (void)executive_->inject(
+        return (void)executive_->faults().inject(
             {.arm = arm(), .kind = ArmFault::Kind::slow, .lasting = 300ms, .value = 0.3});
       case 10:
-        return (void)executive_->inject({.arm = arm(), .kind = ArmFault::Kind::stall});
+        return (void)executive_->faults().inject({.arm = arm(), .kind = ArmFault::Kind::stall});
       case 11:
-        return (void)executive_->remove_fault(1 + random_() % 4);
+        return (void)executive_->faults().remove(1 + random_() % 4);
       case 12: {
         if (batch_) return;
         std::vector<JobRequest> jobs;

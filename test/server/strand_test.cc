@@ -54,7 +54,7 @@ TEST(Strand, CyclesAndWhatIsUrgentGoOnWhileSomethingLongIsTakenPartByPart) {
       });
       (*loop)->post_urgent([&](Executive& stopped) {
         parts_at_stop = parts;
-        stopped.stop_all("operator");
+        stop_all(stopped, "operator");
       });
     }
     std::this_thread::sleep_for(1ms);
@@ -79,9 +79,9 @@ TEST(Strand, ALongQueueIsToldSeldomAndAStopOfAllAtOnce) {
     nlohmann::json body = test::move(i % 2 == 0 ? "left" : "right", test::kHome, test::kHome);
     jobs.push_back(read_job(body).value());
   }
-  ASSERT_TRUE(executive.submit_batch(std::move(jobs), true));
+  ASSERT_TRUE(submit_batch(executive, std::move(jobs), true));
   EXPECT_LE(observer.told, 110U) << "lists of hundreds are not made for each change";
-  executive.stop_all("operator");
+  stop_all(executive, "operator");
   EXPECT_TRUE(observer.last.stopped);
   (*simulation)->run_until(TimePoint(200ms));
   const QueueView& last = observer.last;

@@ -12,7 +12,7 @@ namespace {
 // Waits for something else of the round, or for an arm that has no job in it.
 bool stands_in_vain(const State& state, const Record& record) {
   const bool tried = record.job.is_waiting() &&
-                     (record.job.judgement().at == state.version || !state.jobs.at_head(record));
+                     (record.job.judgement().at == state.version || !is_at_head(state.jobs, record));
   return tried || held_where_it_stands(state, record).has_value();
 }
 
@@ -44,7 +44,7 @@ class LockstepPolicy final : public Policy {
       if (queue.empty()) continue;
       const Record& record = book.at(queue.front());
       const bool goes = record.job.is_waiting() && !record.job.is_unplanned() &&
-                        book.at_head(record) && !state.arms.stop_of(record.job);
+                        is_at_head(book, record) && !state.arms.stop_of(record.job);
       if (goes) round.jobs.insert(queue.front());
     }
     return round;

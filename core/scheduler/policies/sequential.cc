@@ -11,7 +11,7 @@ class SequentialPolicy final : public Policy {
 
   std::string_view name() const override { return "sequential"; }
   std::optional<JobId> place_taken_by(const State& state, const Record& record) const override {
-    std::vector<const Job*> others = state.jobs.occupying();
+    std::vector<const Job*> others = occupying(state.jobs);
     std::erase(others, &record.job);  // held on its path
     return others.empty() ? std::nullopt : std::optional(others.front()->id);
   }

@@ -79,12 +79,12 @@ Closed plan(const Turns&, const Record& record) {
 }
 
 Closed lets_pass(const Turns& turns, const Record& record) {
-  if (!turns.state().jobs.lets_another_pass(record)) return std::nullopt;
+  if (!lets_another_pass(turns.state().jobs, record)) return std::nullopt;
   return order(*record.errand.lets_pass);
 }
 
 void add_lets_pass(const State& state, const Record& record, Edges& edges) {
-  if (state.jobs.lets_another_pass(record))
+  if (lets_another_pass(state.jobs, record))
     edges.push_back({record.job.id, *record.errand.lets_pass});
 }
 

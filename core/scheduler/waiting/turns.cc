@@ -15,13 +15,13 @@ namespace {
 bool is_aged(const State& state, const Record& record) {
   return record.job.in<Queued>() != nullptr && record.ages_from &&
          state.now - *record.ages_from >= state.cell->scheduling.aging &&
-         state.jobs.at_head(record) && !state.arms.stop_of(record.job);
+         is_at_head(state.jobs, record) && !state.arms.stop_of(record.job);
 }
 
 // Nothing that other jobs do or leave would let it go: an arm that no job will move, an object, a
 // stop.
 bool waits_beyond_turns(const State& state, const Record& record) {
-  if (!state.jobs.at_head(record)) return false;
+  if (!is_at_head(state.jobs, record)) return false;
   if (state.arms.stop_of(record.job)) return true;
   if (!record.job.is_waiting() || record.job.judgement().at != state.version) return false;
   return std::ranges::any_of(record.job.judgement().found, [&](const Wait& wait) {

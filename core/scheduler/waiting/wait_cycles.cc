@@ -55,7 +55,7 @@ void untell(State& state, const WaitCycle& ring) {
 void resolve(State& state, const WaitCycle& ring) {
   for (JobId id : ring) {
     Record& record = state.jobs.at(id);
-    if (state.jobs.lets_another_pass(record) && contains(ring, *record.errand.lets_pass)) {
+    if (lets_another_pass(state.jobs, record) && contains(ring, *record.errand.lets_pass)) {
       record.errand.lets_pass.reset();
       state.lanes.renew_later();
       return;

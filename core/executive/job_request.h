@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/problem.h"
+#include "core/base/time.h"
+#include "core/executive/plan_ahead.h"
+#include "core/trajectory/validate.h"
+
+namespace armloom {
+
+// Whether jobs of one arm that begin and end at one place have to run in the order in which they
+// came. They may change places with each other where each of them says `any`.
+enum class JobOrder { as_given, any };
+[[nodiscard]] const char* to_string(JobOrder order);
+
+// What becomes of a job when its time in the backlog is over.
+enum class OnTimeout { abort, replan };
+[[nodiscard]] const char* to_string(OnTimeout what);
+// How an arm comes to where a job begins: that is where it stands by then, or it is brought there.
+enum class Approach { none, plan };
+[[nodiscard]] const char* to_string(Approach how);
+
+// A job as a client asks for it, its JSON already read.
+struct JobRequest {
+  std::string key;  // the client's id; empty: one is given ("job-17")
+  std::string name;
+  TrajectoryRequest trajectory;  // not read where there are alternatives, or a goal
+  // The same work by several arms, of which one will do it: each moves one arm, and back to where
+  // it begins. None, or at least two.
+  std::vector<TrajectoryRequest> alternatives = {};
+  // Instead: where this arm is to go, or whichever of these arrives first, and at which share of
+  // its speed.
+  std::optional<PlanGoal> move_to = {};
+  std::string arm = {};
+  std::vector<std::string> arms = {};
+  double speed = 1.0;
+  JobOrder order = JobOrder::as_given;
+  OnTimeout on_timeout = OnTimeout::abort;
+  Approach approach = Approach::none;
+  int priority = 0;
+  std::optional<Duration> backlog_timeout;  // absent: the cell's
+  std::vector<std::string> after;           // keys of jobs that have to succeed first
+  // Of those, the ones that are known to have succeeded, in a former run or long ago.
+  std::vector<std::string> succeeded = {};
+  // What validate() makes of each of motions(), where somebody has asked it before (validated.h):
+  // it takes time that the strand has not. Empty: nobody has.
+  std::vector<Result<TrajectoryPtr>> validated = {};
+  // As it came, for who writes down what did. Null: nobody does.
+  std::shared_ptr<const std::string> body = {};
+
+  // The trajectory, or the alternatives, each with its place in the request ("/alternatives/0").
+  struct PlacedMotion {
+    std::string place;
+    const TrajectoryRequest& motion;
+  };
+  [[nodiscard]] std::vector<PlacedMotion> motions() const;
+};
+
+// What is to be changed of a job that was accepted, as JobRequest has it; what is absent stays.
+struct JobAmendment {
+  std::optional<std::string> name = {};
+  std::optional<int> priority = {};
+  std::optional<Duration> backlog_timeout = {};  // from when it first was in conflict
+  std::optional<OnTimeout> on_timeout = {};
+};
+
+}  // namespace armloom
