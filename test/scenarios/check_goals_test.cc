@@ -38,7 +38,7 @@ class CheckedGoals : public ::testing::TestWithParam<std::string> {
   [[nodiscard]] std::string set_post(double x, double y) const {
     CollisionObject post{.name = "post", .shape = Box{{0.1, 0.1, 0.1}}};
     post.X_WO.translation() = Eigen::Vector3d(x, y, 0.0);
-    return cell->simulation->executive().add_object(post) ? "" : "not set";
+    return cell->simulation->executive().scene().add(post) ? "" : "not set";
   }
   std::optional<Crossing> cell;
 };

@@ -76,7 +76,7 @@ TEST_P(OpenArms, OneThatIsStoppedIsNotWaitedFor) {
 TEST_P(OpenArms, OneThatHasNoWayIsNamedWithTheReason) {
   CollisionObject post{.name = "post", .shape = Box{{0.1, 0.1, 0.1}}};
   post.X_WO.translation() = Eigen::Vector3d(-0.5, 0.0, 0.0);
-  ASSERT_TRUE(executive().add_object(post));
+  ASSERT_TRUE(executive().scene().add(post));
   cell->submit(either(-0.4, "job"));
   cell->run_to_the_end();
   const JobView job = cell->job("job");
@@ -90,7 +90,7 @@ TEST_P(OpenArms, WhereNoneHasAWayEachSaysWhy) {
   for (const auto& [name, x, y] : {std::tuple("a", 0.5, 0.0), std::tuple("b", 0.0, 0.5)}) {
     CollisionObject post{.name = name, .shape = Box{{0.1, 0.1, 0.1}}};
     post.X_WO.translation() = Eigen::Vector3d(x, y, 0.0);
-    ASSERT_TRUE(executive().add_object(post));
+    ASSERT_TRUE(executive().scene().add(post));
   }
   cell->submit(either(0.5, "job"));
   cell->submit(either(-0.5, "next"));

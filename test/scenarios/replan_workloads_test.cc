@@ -3,7 +3,9 @@
 // anew.
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <random>
+#include <string>
 
 #include "core/executive/known_policies.h"
 #include "core/executive/simulation.h"
@@ -104,7 +106,17 @@ struct Outcome {
   std::size_t done = 0;  // jobs of clients
   double makespan_s = 0.0;
   std::uint64_t replanned = 0;
+  std::map<std::string, std::string> undone = {};  // by key: how it ended instead
 };
+
+// Which jobs another run did, and this one not, with how they ended.
+std::string lost(const Outcome& than, const Outcome& run) {
+  std::string text;
+  for (const auto& [key, how] : run.undone) {
+    if (!than.undone.contains(key)) text += "\n    " + key + ": " + how;
+  }
+  return text;
+}
 
 enum class Way { abort, park, replan };
 constexpr Way kWays[] = {Way::abort, Way::park, Way::replan};
@@ -133,7 +145,10 @@ Outcome run(Workload load, Way way) {
   for (const JobView& job : result->jobs) {
     if (job.system_job) continue;
     ++of_clients;
-    if (job.state != JobState::succeeded) continue;
+    if (job.state != JobState::succeeded) {
+      outcome.undone[job.key] = std::string(to_string(*job.reason)) + ", " + job.detail;
+      continue;
+    }
     ++outcome.done;
     outcome.makespan_s = std::max(outcome.makespan_s, to_seconds(*job.ended_at));
   }
@@ -153,15 +168,19 @@ TEST_P(BlockedGoals, ReplanDoesMoreJobsAndNothingTouches) {
     SCOPED_TRACE(seed);
     const Workload load = WorkloadMaker(GetParam(), seed).make();
     jobs += load.jobs.size();
-    std::size_t done[3];
+    Outcome runs[3];
     for (int i = 0; i < 3; ++i) {
-      const Outcome one = run(load, kWays[i]);
-      done[i] = one.done;
-      sum[i].done += one.done;
-      sum[i].makespan_s += one.makespan_s;
-      sum[i].replanned += one.replanned;
+      runs[i] = run(load, kWays[i]);
+      sum[i].done += runs[i].done;
+      sum[i].makespan_s += runs[i].makespan_s;
+      sum[i].replanned += runs[i].replanned;
     }
-    if (done[2] < std::max(done[0], done[1])) ++fewer;
+    const int most = runs[0].done >= runs[1].done ? 0 : 1;
+    if (runs[2].done >= runs[most].done) continue;
+    ++fewer;
+    std::printf("seed %llu: %s did %zu, replan %zu, which left undone%s\n",
+                static_cast<unsigned long long>(seed), kNames[most], runs[most].done, runs[2].done,
+                lost(runs[most], runs[2]).c_str());
   }
   for (int i = 0; i < 3; ++i) {
     std::printf("%zu arms, %s: %zu of %zu jobs, makespan %.1f s in the mean, %llu planned anew\n",
