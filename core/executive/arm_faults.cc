@@ -7,8 +7,7 @@
 
 namespace armloom {
 
-ArmFaults::ArmFaults(CellPtr cell, const std::vector<std::unique_ptr<FaultyArm>>& arms,
-                     Asked asked)
+ArmFaults::ArmFaults(CellPtr cell, const std::vector<std::unique_ptr<FaultyArm>>& arms, Asked asked)
     : cell_(std::move(cell)), asked_(std::move(asked)) {
   for (const auto& arm : arms) arms_.push_back(arm.get());
 }

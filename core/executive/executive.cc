@@ -91,7 +91,6 @@ TimePoint Executive::settled_until() const { return impl_->settled_until(); }
 const RunFigures& Executive::figures() const { return impl_->count_.figures(); }
 void Executive::tick(TimePoint now) { impl_->tick(now); }
 
-
 Executive::BatchAnswers submit_batch(Executive& executive, std::vector<JobRequest> requests,
                                      bool atomic) {
   const auto batch = executive.open_batch(std::move(requests), atomic);

@@ -28,11 +28,10 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
     : cell_(checked.cell),
       scheduler_(cell_, std::move(checked.policy), cell_->home()),
       jobs_(scheduler_, options.ended_kept),
-      scene_(
-          std::move(checked.scene),
-          [this]() -> const Configuration& { return execution_.motions().measured(); },
-          {.asked = [this](const ExecutiveInput& input) { note(input); },
-           .changed = [this](ClearanceQuery query) { scene_has_changed(std::move(query)); }}),
+      scene_(std::move(checked.scene),
+             [this]() -> const Configuration& { return execution_.motions().measured(); },
+             {.asked = [this](const ExecutiveInput& input) { note(input); },
+              .changed = [this](ClearanceQuery query) { scene_has_changed(std::move(query)); }}),
       execution_(cell_, std::move(checked.arms), options.starts,
                  [this](const ExecutiveInput& input) {
                    note(input);
@@ -162,7 +161,8 @@ void Executive::Impl::tick(TimePoint now) {
 }
 
 TimePoint Executive::Impl::settled_until() const {
-  const bool settled = clock_.quiet && execution_.motions().all_settled() && !publisher_.is_behind();
+  const bool settled =
+      clock_.quiet && execution_.motions().all_settled() && !publisher_.is_behind();
   return settled ? clock_.wake_at.value_or(TimePoint::max()) : clock_.now;
 }
 

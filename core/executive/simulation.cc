@@ -121,7 +121,8 @@ Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options, Scenar
   Executive& executive = (*simulation)->executive();
 
   for (const FaultRequest& fault : scenario.faults) {
-    if (auto injected = executive.faults().inject(fault); !injected) return failure(injected.error());
+    if (auto injected = executive.faults().inject(fault); !injected)
+      return failure(injected.error());
   }
 
   std::vector<std::size_t> order(jobs.size());

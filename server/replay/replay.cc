@@ -184,7 +184,9 @@ const std::map<std::string, Replay::Impl::Verb>& Replay::Impl::verbs() {
       {"remove_object",
        [](Impl& my, Fields line) { (void)my.executive().scene().remove(line.at("object")); }},
       {"inject",
-       [](Impl& my, Fields line) { (void)my.executive().faults().inject(fault_of(line.at("fault"))); }},
+       [](Impl& my, Fields line) {
+         (void)my.executive().faults().inject(fault_of(line.at("fault")));
+       }},
       {"remove_fault",
        [](Impl& my, Fields line) { (void)my.executive().faults().remove(line.at("fault")); }},
       {"alert", [](Impl& my, Fields line) { my.executive().alert(alert_of(line)); }},

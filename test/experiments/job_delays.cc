@@ -67,7 +67,8 @@ class Delays final : public Observer {
     job.late = inject(executive, job, ArmFault::Kind::late_start, job.job->delay->late_s);
   }
   Fault inject(Executive& executive, const Delayed& job, ArmFault::Kind kind, double value) {
-    return *executive.faults().inject({.arm = cell_.arm(job.job->arm).name, .kind = kind, .value = value});
+    return *executive.faults().inject(
+        {.arm = cell_.arm(job.job->arm).name, .kind = kind, .value = value});
   }
   static void lift(Executive& executive, Fault& fault) {
     if (!fault) return;

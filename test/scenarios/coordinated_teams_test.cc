@@ -65,9 +65,9 @@ TEST(CoordinatedTeams, ArmsOfOneMotionAreFreeOfEachOtherOutOfStepToo) {
     cell.submit(slide("x", -1, -1 + head_start_m, 1, "sets out"));
     cell.run_to_the_end();
     ASSERT_TRUE(cell.simulation->executive().faults().inject({.arm = "x",
-                                                     .kind = ArmFault::Kind::stall,
-                                                     .at = cell.simulation->now() + 900ms,
-                                                     .lasting = 2s}));
+                                                              .kind = ArmFault::Kind::stall,
+                                                              .at = cell.simulation->now() + 900ms,
+                                                              .lasting = 2s}));
     cell.submit(together({{"x", -1 + head_start_m, 1}, {"y", -1, 1 - head_start_m}}, 2, "team"));
     cell.run_to_the_end();
     EXPECT_GT(cell.log.closest_m, 0.015) << "head start " << head_start_m << " m";
@@ -141,8 +141,10 @@ TEST(CoordinatedTeams, AStopBeforeTheyMoveKeepsTheirPlace) {
   cell.submit(slide("x", -1, 0, 1, "in the middle"));
   cell.submit(together({{"x", 0, 1}, {"z", 0.3, 1}}, 2, "leaves"));
   cell.run_until(at(500ms));
-  ASSERT_TRUE(executive.faults().inject({.arm = "x", .kind = ArmFault::Kind::late_start, .value = 5}));
-  ASSERT_TRUE(executive.faults().inject({.arm = "z", .kind = ArmFault::Kind::late_start, .value = 5}));
+  ASSERT_TRUE(
+      executive.faults().inject({.arm = "x", .kind = ArmFault::Kind::late_start, .value = 5}));
+  ASSERT_TRUE(
+      executive.faults().inject({.arm = "z", .kind = ArmFault::Kind::late_start, .value = 5}));
   cell.run_until(at(1100ms));  // x stands in the crossing
   cell.submit(slide("y", -1, 1, 3, "follows"));
   cell.run_until(at(3s));

@@ -178,10 +178,11 @@ class RandomCommands {
   }
 
   void inject(ArmFault::Kind kind, double value) {
-    const auto injected = executive().faults().inject({.arm = arms_[static_cast<std::size_t>(pick(0, 1))],
-                                              .kind = kind,
-                                              .lasting = std::chrono::milliseconds(pick(100, 1500)),
-                                              .value = value});
+    const auto injected =
+        executive().faults().inject({.arm = arms_[static_cast<std::size_t>(pick(0, 1))],
+                                     .kind = kind,
+                                     .lasting = std::chrono::milliseconds(pick(100, 1500)),
+                                     .value = value});
     tally_.faults += injected ? 1 : 0;
   }
 

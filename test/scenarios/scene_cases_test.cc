@@ -112,10 +112,10 @@ TEST(Batch, IsAcceptedWholeOrNotAtAll) {
   EXPECT_EQ(accepted->size(), 2u);
 
   // The second does not begin where the first ends; the third has the first one's id.
-  const auto refused =
-      submit_batch(executive, {slide("y", -1, -0.5, 2, "one"), slide("y", -1, -0.5, 2, "two"),
-                              slide("y", -0.5, -1, 2, "one")},
-                             true);
+  const auto refused = submit_batch(executive,
+                                    {slide("y", -1, -0.5, 2, "one"), slide("y", -1, -0.5, 2, "two"),
+                                     slide("y", -0.5, -1, 2, "one")},
+                                    true);
   ASSERT_FALSE(refused);
   ASSERT_EQ(refused.error().size(), 2u);
   EXPECT_EQ(refused.error()[0].pointer, "/jobs/1/trajectory/points/0/positions/0");
@@ -127,8 +127,9 @@ TEST(Batch, IsAcceptedWholeOrNotAtAll) {
 
 TEST(Batch, NotAtomicAnswersEachForItself) {
   Crossing cell;
-  auto answers = cell.simulation->executive().submit_batch(
-      {slide("y", 0, -0.5, 2, "bad"), slide("y", -1, -0.5, 2, "good")}, false);
+  auto answers =
+      submit_batch(cell.simulation->executive(),
+                   {slide("y", 0, -0.5, 2, "bad"), slide("y", -1, -0.5, 2, "good")}, false);
   ASSERT_TRUE(answers);
   EXPECT_FALSE((*answers)[0]);
   EXPECT_TRUE((*answers)[1]);
@@ -227,7 +228,8 @@ TEST(Synchronous, AFaultOfOneArmStopsItsSibling) {
   both.trajectory.points = {{{-1, -1}, {0, 0}, {0, 0}, 0.0}, {{1, 1}, {0, 0}, {0, 0}, 4.0}};
   cell.submit(both);
   cell.run_until(at(1500ms));
-  ASSERT_TRUE(cell.simulation->executive().faults().inject({.arm = "x", .kind = ArmFault::Kind::fault}));
+  ASSERT_TRUE(
+      cell.simulation->executive().faults().inject({.arm = "x", .kind = ArmFault::Kind::fault}));
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("both").reason, Reason::arm_fault);
   EXPECT_LT(cell.log.last[1], 0.5) << "the sibling stopped, too";

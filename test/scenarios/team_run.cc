@@ -184,8 +184,8 @@ void TeamsRun::inject(const std::string& arm) {
   say((fault ? "fault " : "stall ") + arm);
   static_cast<void>(
       executive().faults().inject({.arm = arm,
-                          .kind = fault ? ArmFault::Kind::fault : ArmFault::Kind::stall,
-                          .lasting = from_seconds(random_.uniform(0.1, 3.0))}));
+                                   .kind = fault ? ArmFault::Kind::fault : ArmFault::Kind::stall,
+                                   .lasting = from_seconds(random_.uniform(0.1, 3.0))}));
 }
 
 void TeamsRun::note_own_jobs() {
