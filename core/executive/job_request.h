@@ -8,7 +8,7 @@
 
 #include "core/base/problem.h"
 #include "core/base/time.h"
-#include "core/executive/plan_ahead.h"
+#include "core/planning/plan_goal.h"
 #include "core/trajectory/validate.h"
 
 namespace armloom {

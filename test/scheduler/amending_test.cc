@@ -32,7 +32,7 @@ TEST(Amending, TheLargerPriorityGoesNextAtOnceThoughAnotherOneIsAskedAbout) {
   bench.finished(bench.runs, at(1s));
   ASSERT_EQ(bench.candidate(), bench.earlier);
   bench.step(Amend{bench.later, 5}, at(1001ms));
-  EXPECT_EQ(bench.job(bench.later).priority, 5);
+  EXPECT_EQ(bench.job(bench.later).terms.priority, 5);
   bench.answer_free(at(1002ms));
   EXPECT_EQ(bench.state(bench.earlier), JobState::backlogged) << "the answer is void";
   ASSERT_TRUE(bench.question);
@@ -68,12 +68,12 @@ TEST(Amending, ATimeoutCountsFromWhenTheJobFirstWasInConflict) {
 TEST(Amending, WhatIsNotNamedStays) {
   TwoWait bench;
   bench.step(Amend{bench.earlier, 7}, at(1s));
-  EXPECT_EQ(bench.job(bench.earlier).backlog_timeout, 10s);
+  EXPECT_EQ(bench.job(bench.earlier).terms.backlog_timeout, 10s);
   bench.step(Amend{.job = bench.earlier, .backlog_timeout = 20s}, at(1s));
-  EXPECT_EQ(bench.job(bench.earlier).priority, 7);
-  EXPECT_FALSE(bench.job(bench.earlier).replans_on_timeout);
+  EXPECT_EQ(bench.job(bench.earlier).terms.priority, 7);
+  EXPECT_FALSE(bench.job(bench.earlier).terms.replans_on_timeout);
   bench.step(Amend{.job = bench.earlier, .replans_on_timeout = true}, at(1s));
-  EXPECT_TRUE(bench.job(bench.earlier).replans_on_timeout);
+  EXPECT_TRUE(bench.job(bench.earlier).terms.replans_on_timeout);
 }
 
 TEST(Amending, AJobThatHasEndedOrIsUnknownIsLeftAlone) {
@@ -84,7 +84,7 @@ TEST(Amending, AJobThatHasEndedOrIsUnknownIsLeftAlone) {
   const Version version = bench.question->version;
   bench.step(Amend{bench.later, 5}, at(1s));
   bench.step(Amend{JobId{77}, 5}, at(1s));
-  EXPECT_EQ(bench.job(bench.later).priority, 0);
+  EXPECT_EQ(bench.job(bench.later).terms.priority, 0);
   bench.answer_free(at(2s));
   EXPECT_EQ(bench.state(bench.earlier), JobState::scheduled)
       << "the answer on " << version << " counts";

@@ -59,7 +59,7 @@ TEST(Lockstep, AJobWhoseWayIsNotPlannedYetIsInNoRound) {
   const JobId goal = bench.submit(Submit{.job = JobId{0},
                                          .trajectory = move({0}, 0, 1, 2s),
                                          .terms = {.backlog_timeout = 60s},
-                                         .goal = MotionGoal{ArmId{0}, Eigen::VectorXd::Ones(1)}},
+                                         .goals = {MotionGoal{ArmId{0}, Eigen::VectorXd::Ones(1)}}},
                                   at(0ms));
   const JobId right = bench.submit(move({1}, 0, 1, 2s), at(0ms));
   ASSERT_TRUE(bench.question);

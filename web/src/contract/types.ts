@@ -243,6 +243,9 @@ export interface components {
             clearance_bound_m: number | null;
             /** @description The same of the links of one arm from each other */
             self_clearance_bound_m: number | null;
+            /** @description As the job's own would be: of a free one, what it would wait for before it starts */
+            waits_on: components["schemas"]["Wait"][];
+            /** @description The same, where it is not free */
             conflicts: components["schemas"]["Wait"][];
             evaluations: number;
             scene_version: number;
