@@ -166,8 +166,9 @@ class Service::Impl {
   void go_on(Restart restart, const CellPtr& cell) {
     keeper_->runs_on(*loop_);
     loop_is_there_ = true;
-    loop_->post([this, cell, restart = std::make_shared<Restart>(std::move(restart))](
-                    Executive& executive) { restart->go_on(executive, *cell, *keeper_); });
+    // Before whatever comes from outside, stops and resumes too.
+    loop_->post_urgent([this, cell, restart = std::make_shared<Restart>(std::move(restart))](
+                           Executive& executive) { restart->go_on(executive, *cell, *keeper_); });
   }
 
   // Who did something, or was not let do it, is put down.

@@ -17,28 +17,36 @@ void list_arms(Call call) {
       });
 }
 
-// Does change(executive, arms) to one arm, and answers with what it is then.
-template <class Change>
-void with_arm(Call& call, int status, Change change) {
+// The arm that the path names; nothing: it is answered that there is none.
+std::optional<ArmId> named_arm(const Call& call) {
   const auto arm = call.parts.cell->find_arm(call.arguments.front());
-  if (!arm) return call.respond(no_such("arm", call.arguments.front()));
+  if (!arm) call.respond(no_such("arm", call.arguments.front()));
+  return arm;
+}
+
+// Does change(executive, arms) to one arm, before all that waits, and answers with what it is then.
+template <class Change>
+void with_arm(Call& call, Change change) {
+  const auto arm = named_arm(call);
+  if (!arm) return;
   ask_urgently(
       call.parts,
       [arm = *arm, change](Executive& executive) {
         change(executive, Arms{arm});
         return executive.arms()[arm.index()];
       },
-      [respond = call.respond, status](const ArmView& view) {
-        respond(answer(status, arm_format(), view));
-      });
+      [respond = call.respond](const ArmView& view) { respond(answer(202, arm_format(), view)); });
 }
 
 void get_arm(Call call) {
-  with_arm(call, 200, [](Executive&, const Arms&) {});
+  const auto arm = named_arm(call);
+  if (!arm) return;
+  ask(
+      call.parts, [arm = *arm](Executive& executive) { return executive.arms()[arm.index()]; },
+      [respond = call.respond](const ArmView& view) { respond(answer(200, arm_format(), view)); });
 }
 void stop_arm(Call call) {
-  with_arm(call, 202,
-           [](Executive& executive, const Arms& arms) { executive.stop(arms, "operator"); });
+  with_arm(call, [](Executive& executive, const Arms& arms) { executive.stop(arms, "operator"); });
 }
 // Arms are not let go while it cannot be put down that they move.
 bool is_held_by_store(const Call& call) {
@@ -51,7 +59,7 @@ bool is_held_by_store(const Call& call) {
 
 void resume_arm(Call call) {
   if (is_held_by_store(call)) return;
-  with_arm(call, 202, [](Executive& executive, const Arms& arms) { executive.resume(arms); });
+  with_arm(call, [](Executive& executive, const Arms& arms) { executive.resume(arms); });
 }
 
 template <class Change>
