@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/executive/real_time_loop.h"
+#include "core/executive/worker.h"
 #include "server/api/api.h"
 #include "server/codec/stream_id.h"
 #include "server/durable/restart.h"
@@ -12,7 +13,6 @@
 #include "server/http/static_files.h"
 #include "server/hub/broadcast.h"
 #include "server/replay/input_file.h"
-#include "server/worker.h"
 
 namespace armloom {
 

@@ -13,6 +13,11 @@
 namespace armloom {
 namespace {
 
+Problem too_many(const std::string& what) {
+  return {ProblemKind::unavailable, "too-many-" + what, "",
+          "too many " + what + " are being made; ask again in a moment"};
+}
+
 // For each arm that may go; where that begins stands in `at`.
 Result<std::vector<PlanQuestion>> questions_of(const Cell& cell, const PlanInquiry& inquiry,
                                                const Configuration& at) {
@@ -108,8 +113,7 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
       walk(trial, done);
     };
     if (questions_.service().consider(std::move(*question), scene_.scene(), answered)) return;
-    return done(failure(Problem{ProblemKind::unavailable, "too-many-checks", "",
-                                "too many checks are being made; ask again in a moment"}));
+    return done(failure(too_many("checks")));
   }
   if (const auto plan = trial->next_plan()) {
     const auto answered = [this, trial, plan, done](PlanAnswer answer) {
@@ -118,8 +122,7 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
     };
     const auto cancelled = std::make_shared<std::atomic<bool>>(false);
     if (questions_.service().draft({plan->question, scene_.scene(), cancelled, answered})) return;
-    return done(failure(Problem{ProblemKind::unavailable, "too-many-plans", "",
-                                "too many plans are being made; ask again in a moment"}));
+    return done(failure(too_many("plans")));
   }
   Trial::Outcome outcome = trial->outcome();
   for (Wait& wait : outcome.waits) {
@@ -178,8 +181,7 @@ void Executive::Impl::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
   };
   PlanTask task{std::move(question), scene_.scene(), inquiry->cancelled, judge};
   if (questions_.service().draft(std::move(task))) return;
-  inquiry->done(failure(Problem{ProblemKind::unavailable, "too-many-plans", "",
-                                "too many plans are being made; ask again in a moment"}));
+  inquiry->done(failure(too_many("plans")));
 }
 
 }  // namespace armloom

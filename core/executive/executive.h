@@ -179,8 +179,8 @@ class Executive {
   // How an arm would get there, of several the one that would arrive first as a job: a trajectory,
   // not executed, with what check() says of it; beside all other arms where they will be when all
   // accepted jobs have run. `done` as of check(). An inquiry whose `cancelled` is set is answered
-  // soon. Problems: names, sizes, limits (pointers
-  // "/arm", "/to/...", "/start/..."); unavailable: too many are being planned.
+  // soon. Problems: names, sizes, limits (pointers "/arm", "/to/...", "/start/..."); unavailable:
+  // too many are being planned.
   void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
             std::function<void(Result<PlanOutcome>)> done);
   // What the motions of two jobs do to each other, ended jobs included while they are known. `done`

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <deque>
-#include <optional>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
 
-#include "core/collision/check/motion_checker.h"
+#include "core/executive/own_checker.h"
 #include "core/executive/worker.h"
 
 namespace armloom {
@@ -34,27 +35,39 @@ constexpr Wall::duration kInputsAtLeast = std::chrono::microseconds(500);
 constexpr Wall::duration kTellsLate = std::chrono::milliseconds(500);
 constexpr Wall::duration kTellsAgain = std::chrono::minutes(1);
 
-// What is asked of a scene, and whom to tell.
-template <class Asked, class Answer>
-struct Inquiry {
-  Asked asked;
-  PlanningScenePtr scene;
-  std::function<void(Answer)> done;
-};
-using ToJudge = Inquiry<Question, Verdict>;
-using ToDraw = Inquiry<Drawing, Diagram>;
-
-// The checker of one thread, made when it is first asked.
-class OwnChecker {
+// A closed-off inbox: posted by any thread, taken whole by the one that owns it.
+template <class Item>
+class Inbox {
  public:
-  MotionChecker& in(const PlanningScenePtr& scene) {
-    if (!checker_) checker_.emplace(scene);
-    checker_->look_at(scene);
-    return *checker_;
+  void post(Item item) {
+    {
+      const std::scoped_lock lock(mutex_);
+      items_.push_back(std::move(item));
+    }
+    arrived_.notify_one();
+  }
+  // Waits until something arrives, `until`, or a stop request; returns all that has arrived.
+  std::deque<Item> take(std::stop_token stop, Wall::time_point until) {
+    std::unique_lock lock(mutex_);
+    arrived_.wait_until(lock, stop, until, [this] { return !items_.empty(); });
+    return std::exchange(items_, {});
+  }
+  // What has arrived.
+  std::deque<Item> take() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(items_, {});
   }
 
  private:
-  std::optional<MotionChecker> checker_;
+  std::mutex mutex_;
+  std::condition_variable_any arrived_;
+  std::deque<Item> items_;
+};
+
+// A thread that looks at scenes.
+struct Looker {
+  OwnChecker checker;
+  Worker worker;  // the last: it ends first
 };
 
 }  // namespace
@@ -67,74 +80,60 @@ class RealTimeLoop::Impl final : public JudgementService {
 
   ~Impl() override {
     // The workers first: they post into the loop's inbox.
-    judge_.end();
-    considerer_.end();
-    artist_.end();
-    planner_.end();
-    drafter_.end();
+    ending_.request_stop();
+    for (Looker* looker : {&judge_, &considerer_, &artist_}) looker->worker.end();
+    for (Worker* worker : {&planner_, &drafter_}) worker->end();
     if (!loop_.joinable()) return;
     loop_.request_stop();
     loop_.join();
   }
 
-  // Each worker has its own checker: however long it takes, no job waits for what clients ask, and
-  // verdicts on jobs do not depend on it.
   void run(std::unique_ptr<Executive> executive) {
     executive_ = std::move(executive);
-    for (Worker<ToJudge>* worker : {&judge_, &considerer_}) {
-      worker->run([this, checker = std::make_shared<OwnChecker>()](ToJudge& judged, auto) {
-        post_urgent([verdict = checker->in(judged.scene).judge(judged.asked),
-                     done = std::move(judged.done)](Executive&) { done(verdict); });
-      });
-    }
-    artist_.run([this, checker = std::make_shared<OwnChecker>()](ToDraw& drawn, auto) {
-      post_urgent([diagram = checker->in(drawn.scene).draw(drawn.asked),
-                   done = std::move(drawn.done)](Executive&) { done(diagram); });
-    });
-    for (Worker<PlanTask>* worker : {&planner_, &drafter_}) {
-      worker->run([this](PlanTask& task, std::stop_token stop) {
-        const std::stop_callback at_end(stop, [&task] { *task.cancelled = true; });
-        post_urgent([answer = answer_plan(task.scene, task.question, task.cancelled.get()),
-                     done = std::move(task.done)](Executive&) { done(answer); });
-      });
-    }
     loop_ = std::jthread([this](std::stop_token stop) { cycle(stop); });
   }
 
   // The scheduler has at most one question open.
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
-    judge_.post({std::move(question), std::move(scene), std::move(done)});
+    judge(judge_, std::move(question), std::move(scene), std::move(done));
   }
 
+  // On a thread and with a checker of its own, as all that clients ask: however long it takes, no
+  // job waits for it, and verdicts on jobs do not depend on it.
   bool consider(Question question, PlanningScenePtr scene,
                 std::function<void(Verdict)> done) override {
     if (open_.considered >= kConsideredMax) return false;
-    considerer_.post(
-        {std::move(question), std::move(scene), counted(open_.considered, std::move(done))});
+    judge(considerer_, std::move(question), std::move(scene),
+          counted(open_.considered, std::move(done)));
     return true;
   }
 
   bool draw(Drawing drawing, PlanningScenePtr scene, std::function<void(Diagram)> done) override {
     if (open_.drawings >= kDrawingsMax) return false;
-    artist_.post({std::move(drawing), std::move(scene), counted(open_.drawings, std::move(done))});
+    const auto drawn = counted(open_.drawings, std::move(done));
+    artist_.worker.post([this, drawn, drawing = std::move(drawing), scene = std::move(scene)] {
+      post_urgent([drawn, diagram = artist_.checker.in(scene).draw(drawing)](Executive&) {
+        drawn(diagram);
+      });
+    });
     return true;
   }
 
-  void plan(PlanTask task) override { planner_.post(std::move(task)); }
+  void plan(PlanTask task) override { plan(planner_, std::move(task)); }
 
   bool draft(PlanTask task) override {
     if (open_.drafts >= kDraftsMax) return false;
     task.done = counted(open_.drafts, std::move(task.done));
-    drafter_.post(std::move(task));
+    plan(drafter_, std::move(task));
     return true;
   }
 
-  void post(Task command) { commands_.post({false, std::move(command)}); }
+  void post(Task command) { commands_.came.post({false, std::move(command)}); }
   void post_urgent(std::function<void(Executive&)> command) {
-    commands_.post({true, [command = std::move(command)](Executive& executive) {
-                      command(executive);
-                      return true;
-                    }});
+    commands_.came.post({true, [command = std::move(command)](Executive& executive) {
+                           command(executive);
+                           return true;
+                         }});
   }
   double speed() const { return speed_; }
   void set_speed(double speed) { speed_ = speed; }
@@ -144,6 +143,24 @@ class RealTimeLoop::Impl final : public JudgementService {
     bool is_urgent;
     Task run;
   };
+
+  void judge(Looker& looker, Question question, PlanningScenePtr scene,
+             std::function<void(Verdict)> done) {
+    looker.worker.post([this, &looker, question = std::move(question), scene = std::move(scene),
+                        done = std::move(done)] {
+      post_urgent([verdict = looker.checker.in(scene).judge(question), done](Executive&) {
+        done(verdict);
+      });
+    });
+  }
+
+  void plan(Worker& worker, PlanTask task) {
+    worker.post([this, task = std::move(task)] {
+      const std::stop_callback at_end(ending_.get_token(), [&task] { *task.cancelled = true; });
+      post_urgent([answer = answer_plan(task.scene, task.question, task.cancelled.get()),
+                   done = task.done](Executive&) { done(answer); });
+    });
+  }
 
   // One more is open until it is done.
   template <class Answer>
@@ -175,10 +192,11 @@ class RealTimeLoop::Impl final : public JudgementService {
   // Until the next cycle is due.
   void take_inputs(const std::stop_token& stop, Wall::time_point due) {
     const Wall::time_point until = std::max(due, Wall::now() + kInputsAtLeast);
+    std::deque<Task>& waiting = commands_.waiting;
     do {
-      sort_in(waiting_.empty() ? commands_.take(stop, due) : commands_.take());
-      if (!waiting_.empty() && waiting_.front()(*executive_)) waiting_.pop_front();
-    } while (!stop.stop_requested() && Wall::now() < (waiting_.empty() ? due : until));
+      sort_in(waiting.empty() ? commands_.came.take(stop, due) : commands_.came.take());
+      if (!waiting.empty() && waiting.front()(*executive_)) waiting.pop_front();
+    } while (!stop.stop_requested() && Wall::now() < (waiting.empty() ? due : until));
   }
 
   // What is urgent is done at once.
@@ -187,7 +205,7 @@ class RealTimeLoop::Impl final : public JudgementService {
       if (command.is_urgent) {
         command.run(*executive_);
       } else {
-        waiting_.push_back(std::move(command.run));
+        commands_.waiting.push_back(std::move(command.run));
       }
     }
   }
@@ -202,19 +220,23 @@ class RealTimeLoop::Impl final : public JudgementService {
   }
 
   std::atomic<double> speed_;
-  Worker<ToJudge> judge_;
-  Worker<ToJudge> considerer_;
-  Worker<ToDraw> artist_;
-  Worker<PlanTask> planner_;
-  Worker<PlanTask> drafter_;
+  std::stop_source ending_;
+  Looker judge_;
+  Looker considerer_;
+  Looker artist_;
+  Worker planner_;
+  Worker drafter_;
   struct Open {  // asked for and not done; the loop thread's
     int considered = 0;
     int drawings = 0;
     int drafts = 0;
   };
   Open open_;
-  Inbox<Command> commands_;
-  std::deque<Task> waiting_;  // of them, in their order; the loop thread's
+  struct Commands {
+    Inbox<Command> came;
+    std::deque<Task> waiting;  // of them, in their order; the loop thread's
+  };
+  Commands commands_;
   Wall::time_point tells_late_from_{};
   std::unique_ptr<Executive> executive_;  // the loop thread's
   std::jthread loop_;

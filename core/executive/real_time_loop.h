@@ -8,8 +8,8 @@
 
 namespace armloom {
 
-// Runs an Executive in (scaled) real time on a thread of its own, with a worker thread for
-// judgements and one for diagrams. All public calls are thread-safe.
+// Runs an Executive in (scaled) real time on a thread of its own, with worker threads for
+// what it has to know: judgements, diagrams, plans. All public calls are thread-safe.
 class RealTimeLoop {
  public:
   // The observer is called on the loop's thread and outlives the loop. speed > 0: cell seconds per

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/collision/check/motion_checker.h"
+#include "core/executive/own_checker.h"
 
 namespace armloom {
 
@@ -15,10 +15,9 @@ namespace armloom {
 class Simulation::Judge final : public JudgementService {
  public:
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
-    if (!checker_) checker_.emplace(scene);
-    checker_->look_at(std::move(scene));
+    MotionChecker& checker = checker_.in(scene);
     const auto begun = std::chrono::steady_clock::now();
-    Verdict verdict = checker_->judge(question);
+    Verdict verdict = checker.judge(question);
     judging_.wall += std::chrono::steady_clock::now() - begun;
     judging_.evaluations += verdict.evaluations;
     ++judging_.judgements;
@@ -27,9 +26,7 @@ class Simulation::Judge final : public JudgementService {
 
   // By a checker of its own: what has been drawn must not change the evaluations of a verdict.
   bool draw(Drawing drawing, PlanningScenePtr scene, std::function<void(Diagram)> done) override {
-    if (!artist_) artist_.emplace(scene);
-    artist_->look_at(std::move(scene));
-    answer([diagram = artist_->draw(drawing), done = std::move(done)] { done(diagram); });
+    answer([diagram = artist_.in(scene).draw(drawing), done = std::move(done)] { done(diagram); });
     return true;
   }
 
@@ -66,8 +63,8 @@ class Simulation::Judge final : public JudgementService {
     pending_.insert(later, {due, std::move(deliver)});
   }
 
-  std::optional<MotionChecker> checker_;
-  std::optional<MotionChecker> artist_;
+  OwnChecker checker_;
+  OwnChecker artist_;
   TimePoint now_{};
   std::deque<Answer> pending_;
   Judging judging_;

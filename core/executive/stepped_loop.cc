@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/collision/check/motion_checker.h"
+#include "core/executive/own_checker.h"
 
 namespace armloom {
 
@@ -24,9 +24,7 @@ class SteppedLoop::Service final : public JudgementService, public StartLog {
   void answer_question() {
     if (!asked_) return;
     const Asked asked = *std::exchange(asked_, std::nullopt);
-    if (!checker_) checker_.emplace(asked.scene);
-    checker_->look_at(asked.scene);
-    asked.done(checker_->judge(asked.question));
+    asked.done(checker_.in(asked.scene).judge(asked.question));
   }
   void answer_plan() {
     if (plans_.empty()) return;
@@ -46,7 +44,7 @@ class SteppedLoop::Service final : public JudgementService, public StartLog {
     std::function<void(Verdict)> done;
   };
   std::optional<Asked> asked_;
-  std::optional<MotionChecker> checker_;
+  OwnChecker checker_;
   std::deque<PlanTask> plans_;
   std::map<JobId, std::function<void()>> starts_;
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -10,57 +9,19 @@
 
 namespace armloom {
 
-// A closed-off inbox: posted by any thread, taken whole by the one that owns it.
-template <class Item>
-class Inbox {
+// A thread for what would hold up another one: the control loop, or the one that serves all
+// connections. Tasks run one after the other, in the order given; those that have not begun at the
+// end are dropped. How many wait is bounded by who gives them.
+class Worker {
  public:
-  void post(Item item) {
+  void post(std::function<void()> task) {
     {
       const std::scoped_lock lock(mutex_);
-      items_.push_back(std::move(item));
+      tasks_.push_back(std::move(task));
     }
     arrived_.notify_one();
   }
-  // Waits until something arrives, `until`, or a stop request; returns all that has arrived.
-  std::deque<Item> take(std::stop_token stop, std::chrono::steady_clock::time_point until) {
-    std::unique_lock lock(mutex_);
-    arrived_.wait_until(lock, stop, until, [this] { return !items_.empty(); });
-    return std::exchange(items_, {});
-  }
-  std::deque<Item> take(std::stop_token stop) {
-    std::unique_lock lock(mutex_);
-    arrived_.wait(lock, stop, [this] { return !items_.empty(); });
-    return std::exchange(items_, {});
-  }
-  // What has arrived.
-  std::deque<Item> take() {
-    const std::scoped_lock lock(mutex_);
-    return std::exchange(items_, {});
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable_any arrived_;
-  std::deque<Item> items_;
-};
-
-// A thread with an inbox: does one item after the other until it is told to end, or destroyed.
-template <class Item>
-class Worker {
- public:
-  using Work = std::function<void(Item&, std::stop_token)>;
-
-  void run(Work work) {
-    thread_ = std::jthread([this, work = std::move(work)](std::stop_token stop) {
-      while (!stop.stop_requested()) {
-        for (Item& item : inbox_.take(stop)) {
-          if (stop.stop_requested()) return;
-          work(item, stop);
-        }
-      }
-    });
-  }
-  void post(Item item) { inbox_.post(std::move(item)); }
+  // When the present task is done. So does the destructor.
   void end() {
     if (!thread_.joinable()) return;
     thread_.request_stop();
@@ -68,8 +29,23 @@ class Worker {
   }
 
  private:
-  Inbox<Item> inbox_;
-  std::jthread thread_;
+  void work(const std::stop_token& stop) {
+    for (;;) {
+      std::unique_lock lock(mutex_);
+      if (!arrived_.wait(lock, stop, [this] { return !tasks_.empty(); })) return;
+      const auto task = std::move(tasks_.front());
+      tasks_.pop_front();
+      lock.unlock();
+      if (stop.stop_requested()) return;
+      task();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable_any arrived_;
+  std::deque<std::function<void()>> tasks_;
+  std::jthread thread_{
+      [this](const std::stop_token& stop) { work(stop); }};  // the last: it ends first
 };
 
 }  // namespace armloom

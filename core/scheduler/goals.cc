@@ -20,8 +20,8 @@ bool fits(const State& state, const GoalWay& way, const Eigen::VectorXd& stands)
 
 // Where the arm of this way will be when the job's turn comes; nothing: that is not known yet. What
 // may yet go by another arm counts as if it did.
-std::optional<Configuration> begins_at(const State& state, const Record& record,
-                                       const GoalWay& way) {
+std::optional<Configuration> at_its_turn(const State& state, const Record& record,
+                                         const GoalWay& way) {
   const ArmId arm = way.goal.arm;
   Configuration at = state.arms.rest();
   const auto& queue = state.jobs.queues()[arm];
@@ -78,7 +78,7 @@ enum class Answered { planned, refused, not_yet };
 // What is not known of the way, or is out of date, is asked.
 Answered answer_of(State& state, Record& record, GoalWay& way) {
   if (way.question) return Answered::not_yet;
-  const auto at = begins_at(state, record, way);
+  const auto at = at_its_turn(state, record, way);
   if (!at) return Answered::not_yet;
   if (fits(state, way, joints_of(*at, state.cell->arm(way.goal.arm).joints))) {
     if (way.is_planned) way.tries = 0;

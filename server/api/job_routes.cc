@@ -160,6 +160,56 @@ Route of_one(const char* method, const char* path, const char* id, const char* s
   return {.method = method, .path = api_path(path), .id = id, .tag = "jobs", .summary = summary};
 }
 
+Route replan_route() {
+  Route replan = of_one("POST", "/jobs/{id}/replan", "replanJob", "Another way for a job");
+  replan.text =
+      "From where its arm stands to where the job ends (of a trajectory: its last waypoint; what "
+      "it "
+      "was to do on the way is lost), past what rests there, as fast as its own way was at its "
+      "fastest. A job in motion brakes on its path first; until the answer is there it stays where "
+      "it is (`waits_on` has the kind `plan`). Then it waits under its id like one that has just "
+      "come, or keeps its own way where there is no other: its member `replan` says which. 409 "
+      "when it has ended, moves several arms, ends where it begins, or is the server's own.";
+  replan.outcomes = {outcome(202, "Another way is being looked for", job_format())};
+  replan.refuses = {404, 409};
+  replan.who = Who::commander;
+  replan.role = Role::operate;
+  replan.run = replan_job;
+  return replan;
+}
+
+Route diagram_route() {
+  Route diagram =
+      of_one("GET", "/jobs/{id}/diagram", "getDiagram", "The coordination diagram of two jobs");
+  diagram.text =
+      "What the motions of two jobs do to each other, wherever each is on its own way: rectangles "
+      "of trajectory time of A (the job of the path) and B (`with`) that are certified free, in "
+      "conflict, or undecided, down to 5 ms where that takes no more than 64,000 cells. Jobs that "
+      "have ended are drawn while they are known. 422 when both are the same job, or move only the "
+      "same arm.";
+  diagram.parameters = {{"with", "The other job", {{"type", "string"}}, true},
+                        {"cells",
+                         "0: without them, for who has them and asks what lies ahead by now",
+                         {{"type", "string"}, {"enum", {"0", "1"}}}}};
+  diagram.outcomes = {outcome(200, "The diagram", diagram_format())};
+  diagram.refuses = {404, 422};
+  diagram.run = get_diagram;
+  return diagram;
+}
+
+Route timeline_route() {
+  Route timeline = of_one("GET", "/timeline", "getTimeline", "When each arm is expected to move");
+  timeline.text =
+      "Of every arm the legs that are admitted, with the times that follow from who passes first, "
+      "if everything goes as fast as its trajectory says; their pauses, and for whom. What stands "
+      "for a reason of its own (late, stalled, stopped until it is resumed) is expected to do so "
+      "for as long again as it has. Orders may be chosen anew when something comes otherwise, or "
+      "something else comes: a prediction, no promise.";
+  timeline.outcomes = {outcome(200, "Lane by lane, as things are", timeline_format())};
+  timeline.run = get_timeline;
+  return timeline;
+}
+
 }  // namespace
 
 std::vector<Route> job_routes() {
@@ -190,52 +240,13 @@ std::vector<Route> job_routes() {
   cancel.role = Role::operate;
   cancel.run = cancel_job;
 
-  Route replan = of_one("POST", "/jobs/{id}/replan", "replanJob", "Another way for a job");
-  replan.text =
-      "From where its arm stands to where the job ends (of a trajectory: its last waypoint; what "
-      "it "
-      "was to do on the way is lost), past what rests there, as fast as its own way was at its "
-      "fastest. A job in motion brakes on its path first; until the answer is there it stays where "
-      "it is (`waits_on` has the kind `plan`). Then it waits under its id like one that has just "
-      "come, or keeps its own way where there is no other: its member `replan` says which. 409 "
-      "when it has ended, moves several arms, ends where it begins, or is the server's own.";
-  replan.outcomes = {outcome(202, "Another way is being looked for", job_format())};
-  replan.refuses = {404, 409};
-  replan.who = Who::commander;
-  replan.role = Role::operate;
-  replan.run = replan_job;
-
-  Route diagram =
-      of_one("GET", "/jobs/{id}/diagram", "getDiagram", "The coordination diagram of two jobs");
-  diagram.text =
-      "What the motions of two jobs do to each other, wherever each is on its own way: rectangles "
-      "of trajectory time of A (the job of the path) and B (`with`) that are certified free, in "
-      "conflict, or undecided, down to 5 ms where that takes no more than 64,000 cells. Jobs that "
-      "have ended are drawn while they are known. 422 when both are the same job, or move only the "
-      "same arm.";
-  diagram.parameters = {{"with", "The other job", text, true},
-                        {"cells",
-                         "0: without them, for who has them and asks what lies ahead by now",
-                         {{"type", "string"}, {"enum", {"0", "1"}}}}};
-  diagram.outcomes = {outcome(200, "The diagram", diagram_format())};
-  diagram.refuses = {404, 422};
-  diagram.run = get_diagram;
-
   Route queue = of_one("GET", "/queue", "getQueue", "What waits, and why, and what runs");
   queue.outcomes = {
       outcome(200, "Queue, backlog with reasons, scheduled, running", queue_format())};
   queue.run = get_queue;
 
-  Route timeline = of_one("GET", "/timeline", "getTimeline", "When each arm is expected to move");
-  timeline.text =
-      "Of every arm the legs that are admitted, with the times that follow from who passes first, "
-      "if everything goes as fast as its trajectory says; their pauses, and for whom. What stands "
-      "for a reason of its own (late, stalled, stopped until it is resumed) is expected to do so "
-      "for as long again as it has. Orders may be chosen anew when something comes otherwise, or "
-      "something else comes: a prediction, no promise.";
-  timeline.outcomes = {outcome(200, "Lane by lane, as things are", timeline_format())};
-  timeline.run = get_timeline;
-  return {list, get, amend_route(), cancel, replan, diagram, queue, timeline};
+  return {
+      list, get, amend_route(), cancel, replan_route(), diagram_route(), queue, timeline_route()};
 }
 
 }  // namespace armloom

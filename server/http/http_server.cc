@@ -34,7 +34,7 @@ Reach reach_of(const std::string& address) {
 
 class HttpServer::Impl {
  public:
-  explicit Impl(std::size_t connections_max) : connections_max_(connections_max) {}
+  explicit Impl(std::size_t connections_max) : connections_{.max = connections_max} {}
 
   std::optional<Problem> open(const std::string& address, std::uint16_t port) {
     ErrorCode ec;
@@ -98,25 +98,25 @@ class HttpServer::Impl {
 
   // Subscriptions are told that the server ends, and connections get a moment to read it.
   void end() {
-    if (std::exchange(said_farewell_, true)) return;
+    if (std::exchange(told_readers_, true)) return;
     site_.end();
     winding_down_.expires_after(kReadToTheEnd);
     winding_down_.async_wait([this](ErrorCode) { io_.stop(); });
-    if (connections_ == 0) io_.stop();
+    if (connections_.open == 0) io_.stop();
   }
 
   asio::awaitable<void> serve(tcp::socket socket, std::string client) {
-    ++connections_;
-    ++of_client_[client];
+    ++connections_.open;
+    ++connections_.of_client[client];
     co_await serve_connection(Transport(std::move(socket), tls_), site_, *memory_);
-    if (--of_client_[client] == 0) of_client_.erase(client);
-    if (--connections_ == 0 && said_farewell_) io_.stop();
+    if (--connections_.of_client[client] == 0) connections_.of_client.erase(client);
+    if (--connections_.open == 0 && told_readers_) io_.stop();
   }
 
   [[nodiscard]] Refusal too_many() const {
-    const std::string why = connections_ < connections_max_
+    const std::string why = connections_.open < connections_.max
                                 ? "the system gives no more file descriptors"
-                                : std::to_string(connections_max_) +
+                                : std::to_string(connections_.max) +
                                       " connections are open, more are not served at once";
     return {503, "too-many-connections", why, std::nullopt, std::nullopt, {{"Retry-After", "1"}}};
   }
@@ -131,23 +131,24 @@ class HttpServer::Impl {
   }
 
   asio::awaitable<void> refuse(tcp::socket socket, Refusal why) {
-    ++refusing_;
+    ++connections_.refusing;
     co_await refuse_connection(Transport(std::move(socket), tls_), site_.refuse(why), *memory_);
-    --refusing_;
+    --connections_.refusing;
   }
 
   void refuse_soon(tcp::socket socket, Refusal why) {
-    if (refusing_ >= kRefusingMax) return;
+    if (connections_.refusing >= kRefusingMax) return;
     asio::co_spawn(io_, refuse(std::move(socket), std::move(why)), asio::detached);
   }
 
   void take(tcp::socket socket) {
-    if (connections_ >= connections_max_) return refuse_soon(std::move(socket), too_many());
+    if (connections_.open >= connections_.max) return refuse_soon(std::move(socket), too_many());
     ErrorCode ec;
     const auto peer = socket.remote_endpoint(ec);
     const std::string client = ec ? std::string() : peer.address().to_string();
-    const auto known = of_client_.find(client);
-    if (known != of_client_.end() && known->second >= site_.connections_per_client_max) {
+    const auto known = connections_.of_client.find(client);
+    if (known != connections_.of_client.end() &&
+        known->second >= site_.connections_per_client_max) {
       if (site_.on_limited_connection) site_.on_limited_connection();
       return refuse_soon(std::move(socket), too_many_of(client));
     }
@@ -192,12 +193,15 @@ class HttpServer::Impl {
   tcp::socket spare_{io_};  // a descriptor for refusing whoever comes when there is no other
   asio::signal_set signals_{io_};
   asio::steady_timer winding_down_{io_};
-  const std::size_t connections_max_;
-  std::size_t connections_ = 0;
-  std::unordered_map<std::string, std::size_t> of_client_;  // open ones, by address
-  std::size_t refusing_ = 0;
+  struct Connections {
+    const std::size_t max;
+    std::size_t open = 0;
+    std::unordered_map<std::string, std::size_t> of_client = {};  // of these, by address
+    std::size_t refusing = 0;
+  };
+  Connections connections_;
   bool ending_ = false;
-  bool said_farewell_ = false;
+  bool told_readers_ = false;
 };
 
 Result<std::unique_ptr<HttpServer>> HttpServer::listen(const std::string& address,

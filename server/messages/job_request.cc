@@ -106,6 +106,37 @@ FormatPtr<std::vector<TimedJob>> jobs_file_format() {
   return format;
 }
 
+PartPtr<JobRequest> retime_part() {
+  using Request = JobRequest;
+  return std::make_shared<MemberPart<Request, bool>>(
+      MemberText{"retime",
+                 "Times, velocities and accelerations are made: the fastest within the "
+                 "joints' limits along the waypoints (corners are cut by 0.01 rad at "
+                 "most), at rest at both ends. What the waypoints have of them is read "
+                 "over",
+                 Need::optional, Schema(false)},
+      flag(), [](const Request&) { return std::optional<bool>(); },
+      [](Request& request, bool retime) {
+        for (TrajectoryRequest* motion : motions_of(request)) {
+          motion->retime = retime ? std::optional(RateShares{}) : std::nullopt;
+        }
+      });
+}
+
+PartPtr<JobRequest> velocity_scaling_part() {
+  using Request = JobRequest;
+  return std::make_shared<MemberPart<Request, double>>(
+      MemberText{"velocity_scaling_factor",
+                 "As MoveIt's: the share of its speed at which the trajectory is run. It is "
+                 "stretched in time before anything is checked",
+                 Need::optional, Schema(1)},
+      number({0.001, 1.0}), [](const Request&) { return std::optional<double>(); },
+      [](Request& request, double factor) {
+        request.speed = factor;
+        for (TrajectoryRequest* motion : motions_of(request)) slow_down(*motion, factor);
+      });
+}
+
 }  // namespace
 
 FormatPtr<std::string> job_id_format() {
@@ -184,30 +215,8 @@ FormatPtr<JobRequest> job_request_format() {
           at_most_one<Request>({"arm", "arms"}),
           at_most_one<Request>({"trajectory", "alternatives", "move_to"}),
           // Both are read after the trajectory, which they time and stretch.
-          std::make_shared<MemberPart<Request, bool>>(
-              MemberText{"retime",
-                         "Times, velocities and accelerations are made: the fastest within the "
-                         "joints' limits along the waypoints (corners are cut by 0.01 rad at "
-                         "most), at rest at both ends. What the waypoints have of them is read "
-                         "over",
-                         Need::optional, Schema(false)},
-              flag(), [](const Request&) { return std::optional<bool>(); },
-              [](Request& request, bool retime) {
-                for (TrajectoryRequest* motion : motions_of(request)) {
-                  motion->retime = retime ? std::optional(RateShares{}) : std::nullopt;
-                }
-              }),
-          std::make_shared<MemberPart<Request, double>>(
-              MemberText{
-                  "velocity_scaling_factor",
-                  "As MoveIt's: the share of its speed at which the trajectory is run. It is "
-                  "stretched in time before anything is checked",
-                  Need::optional, Schema(1)},
-              number({0.001, 1.0}), [](const Request&) { return std::optional<double>(); },
-              [](Request& request, double factor) {
-                request.speed = factor;
-                for (TrajectoryRequest* motion : motions_of(request)) slow_down(*motion, factor);
-              }),
+          retime_part(),
+          velocity_scaling_part(),
       }));
   return format;
 }

@@ -8,8 +8,8 @@
 #include <iostream>
 #include <sstream>
 
-#include "core/collision/check/motion_checker.h"
 #include "core/executive/known_policies.h"
+#include "core/executive/own_checker.h"
 #include "core/model/cell/build_cell.h"
 #include "core/trajectory/joint_line.h"
 #include "server/codec/cell_codec.h"
@@ -53,13 +53,11 @@ class Judges final : public JudgementService {
     if (asked.empty()) return false;
     const Asked first = std::move(asked.front());
     asked.pop_front();
-    if (!checker_) checker_.emplace(first.scene);
-    checker_->look_at(first.scene);
-    first.done(checker_->judge(first.question));
+    first.done(checker_.in(first.scene).judge(first.question));
     return true;
   }
 
-  std::optional<MotionChecker> checker_;
+  OwnChecker checker_;
   std::deque<Asked> of_check_, of_scheduler_;
   bool checking_ = false;
 };

@@ -77,6 +77,13 @@ struct Graph : ::testing::Test {
     if (orders.blockers.empty()) graph.admit(candidates, orders);
     return orders;
   }
+  // B meets A at A's goal, and passes there when Next has taken the arm away.
+  void let_b_wait_until_next_has_left() {
+    admit({motion(kA, 0, 5s)}, {});
+    graph.granted(kA, 5s);
+    admit({motion(kB, 1, 5s), motion(kNext, 0, 4s)},
+          {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 1s}})}}});
+  }
 };
 
 TEST_F(Graph, ACandidatePassesFirstWhereThatCostsLess) {
@@ -168,10 +175,7 @@ TEST_F(Graph, AnAbandonedMotionBlocksWhatWouldPassItsRestAndNothingElse) {
 }
 
 TEST_F(Graph, CancellingTheNextMotionKeepsTheGoalBeforeItBlocked) {
-  admit({motion(kA, 0, 5s)}, {});
-  graph.granted(kA, 5s);
-  admit({motion(kB, 1, 5s), motion(kNext, 0, 4s)},
-        {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 1s}})}}});
+  let_b_wait_until_next_has_left();
   graph.abandon(kNext, 0s);
   graph.progress(kA, 5s);
   graph.finish(kA);
@@ -181,10 +185,7 @@ TEST_F(Graph, CancellingTheNextMotionKeepsTheGoalBeforeItBlocked) {
 
 // B was to wait for Next at the goal to which A would have brought the arm: A never comes there.
 TEST_F(Graph, AGoalIsInNobodysWayWhenWhoWasToComeThereIsAbandonedToo) {
-  admit({motion(kA, 0, 5s)}, {});
-  graph.granted(kA, 5s);
-  admit({motion(kB, 1, 5s), motion(kNext, 0, 4s)},
-        {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 1s}})}}});
+  let_b_wait_until_next_has_left();
   graph.progress(kA, 2s);
   graph.abandon(kNext, 0s);
   ASSERT_EQ(graph.limit(kB), 2s - kShortOf);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "core/collision/check/motion_checker.h"
+
+namespace armloom {
+
+// The checker of one thread, made when it is first asked, in the scene that is asked about.
+class OwnChecker {
+ public:
+  [[nodiscard]] MotionChecker& in(const PlanningScenePtr& scene) {
+    if (!checker_) checker_.emplace(scene);
+    checker_->look_at(scene);
+    return *checker_;
+  }
+
+ private:
+  std::optional<MotionChecker> checker_;
+};
+
+}  // namespace armloom

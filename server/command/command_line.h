@@ -1,0 +1,18 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <vector>
+
+namespace armloom {
+
+// A command of the program, and what does it when it was asked for: its exit code.
+struct Command {
+  CLI::App* parser;
+  std::function<int()> run;
+};
+
+// All of them, with their options.
+[[nodiscard]] std::vector<Command> add_commands(CLI::App& app);
+
+}  // namespace armloom
