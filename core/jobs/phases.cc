@@ -231,8 +231,7 @@ void stop_arms(State& state, const Stop& stop) {
     Record& record = state.jobs.at(state.jobs.queues()[arm].front());
     if (record.job.in<Moving>() == nullptr) continue;  // undispatched: keeps its place
     brake(state, record, {});
-    state.jobs.set_waits(record,
-                         {Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop.cause}});
+    state.jobs.set_wait(record, {.kind = Wait::Kind::stop, .arm = arm, .detail = stop.cause});
   }
 }
 

@@ -76,12 +76,14 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&
                              state_.jobs.news().changed.empty() &&
                              state_.version == version_before && !(wake_at_ && *wake_at_ <= now);
-  if (!only_progress) {
-    settle();
-    if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);
-  }
+  if (only_progress) return std::exchange(state_.decided.effects, {});
+  settle();
+  if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);
+  return take_effects();
+}
 
-  // What clients see comes first, so that an event is told before its consequences.
+// What clients see comes first, so that an event is told before its consequences.
+std::vector<Effect> Scheduler::take_effects() {
   std::vector<Effect> result;
   const std::vector<YieldMove> sent_aside = std::exchange(state_.decided.sent_aside, {});
   for (const YieldMove& move : sent_aside) result.push_back(move);

@@ -89,6 +89,7 @@ class Scheduler {
   void on(const SceneChanged& input);
   void on(const Interrupt& input);
   void settle();
+  [[nodiscard]] std::vector<Effect> take_effects();
   void ask_for_wake();
 
   State state_;
