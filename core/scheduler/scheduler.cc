@@ -170,7 +170,7 @@ void Scheduler::on(const Stop& input) { stop_arms(state_, input); }
 void Scheduler::on(const Resume& input) {
   for (ArmId arm : input.arms) state_.arms.resume(arm);
   ++state_.version;
-  state_.lanes.renew_later();
+  state_.lanes.follow_stops(state_.arms);
 }
 
 void Scheduler::on(const SceneChanged&) {
