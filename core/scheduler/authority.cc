@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/jobs/phases.h"
-#include "core/scheduler/waiting/waits.h"
+#include "core/jobs/waits.h"
 
 namespace armloom {
 namespace {

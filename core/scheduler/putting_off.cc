@@ -6,7 +6,7 @@
 
 #include "core/coordination/effort.h"
 #include "core/jobs/phases.h"
-#include "core/scheduler/waiting/waits.h"
+#include "core/jobs/waits.h"
 
 namespace armloom {
 namespace {

@@ -10,12 +10,12 @@
 #include "core/scheduler/approach.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
-#include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/replanning.h"
 #include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
+#include "core/scheduler/weighing.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {

@@ -7,10 +7,10 @@
 #include "core/jobs/inputs.h"
 #include "core/jobs/phases.h"
 #include "core/jobs/state.h"
+#include "core/jobs/timeline.h"
 #include "core/scheduler/admission.h"
 #include "core/scheduler/amending.h"
 #include "core/scheduler/goals.h"
-#include "core/scheduler/horizon/timeline.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/waiting/wait_cycles.h"
 
