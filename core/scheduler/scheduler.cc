@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/jobs/invariants.h"
+#include "core/jobs/pace.h"
 #include "core/scheduler/approach.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
