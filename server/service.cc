@@ -76,7 +76,7 @@ class Service::Impl {
     if (restart) go_on(std::move(*restart), cell);
     const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
     api_ = std::make_unique<Api>(ApiParts{
-        cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), post, guard_,
+        cell, stream_, std::make_shared<std::string>(policy), *clock_, *loop_, hub_, recording_.get(), keeper_.get(), post, guard_,
         [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_, limits_});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });

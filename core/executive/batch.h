@@ -15,9 +15,13 @@ namespace armloom {
 // accepted, and none can be refused any more.
 class Executive::Batch {
  public:
-  Batch(std::vector<JobRequest> asked, bool all_or_none)
-      : requests(std::move(asked)), atomic(all_or_none) {}
+  Batch(Impl& taker, std::vector<JobRequest> asked, bool all_or_none)
+      : executive(taker), requests(std::move(asked)), atomic(all_or_none) {}
 
+  // Takes the next part. The answers, when nothing is left.
+  [[nodiscard]] std::optional<BatchAnswers> go_on();
+
+  Impl& executive;
   std::vector<JobRequest> requests;
   const bool atomic;
   std::optional<std::vector<PreparedJob>> prepared = {};  // atomic: all that is accepted

@@ -23,11 +23,11 @@ std::shared_ptr<Executive::Batch> Executive::open_batch(std::vector<JobRequest> 
                                                         bool atomic) {
   using How = ExecutiveInput::Submitted::How;
   impl_->note({ExecutiveInput::Submitted{requests, atomic ? How::atomic_batch : How::batch}});
-  return std::make_shared<Batch>(std::move(requests), atomic);
+  return std::make_shared<Batch>(*impl_, std::move(requests), atomic);
 }
-std::optional<Executive::BatchAnswers> Executive::go_on(Batch& batch) {
-  impl_->note({ExecutiveInput::WentOn{}});
-  return impl_->go_on(batch);
+std::optional<Executive::BatchAnswers> Executive::Batch::go_on() {
+  executive.note({ExecutiveInput::WentOn{}});
+  return executive.go_on(*this);
 }
 void Executive::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
   impl_->check(std::move(request), std::move(done));
@@ -95,7 +95,7 @@ Executive::BatchAnswers submit_batch(Executive& executive, std::vector<JobReques
                                      bool atomic) {
   const auto batch = executive.open_batch(std::move(requests), atomic);
   for (;;) {
-    if (auto answers = executive.go_on(*batch)) return std::move(*answers);
+    if (auto answers = batch->go_on()) return std::move(*answers);
   }
 }
 

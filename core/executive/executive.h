@@ -162,13 +162,11 @@ class Executive {
   [[nodiscard]] Result<JobView> submit(JobRequest request);
   // Several at once, in order; a job may come `after` an earlier one of the batch. Atomic: all are
   // accepted or none; problems point to "/jobs/<index>/...". Else each has its own answer. Part by
-  // part, so that a large one holds up no control cycle; nothing else may be submitted before the
-  // answers are there.
+  // part (batch.h), so that a large one holds up no control cycle; nothing else may be submitted
+  // before the answers are there. The executive outlives it.
   class Batch;
   using BatchAnswers = Result<std::vector<Result<JobView>>>;
   [[nodiscard]] std::shared_ptr<Batch> open_batch(std::vector<JobRequest> requests, bool atomic);
-  // Takes the next part. The answers, when nothing is left.
-  [[nodiscard]] std::optional<BatchAnswers> go_on(Batch& batch);
   // Jobs that had not begun when a former run ended, in the order of their ids, before any job of
   // this one; each has its answer. Unlike a client's they may begin elsewhere than where their arms
   // will stand: such a one fails at its turn. Problems: as submit() has them.
@@ -201,6 +199,10 @@ class Executive {
   void alert(Alert alert);
   void stop(const std::vector<ArmId>& arms, const std::string& cause);
   void resume(const std::vector<ArmId>& arms);
+  // From now on this policy decides, until the next start. Problems: unknown-policy ("/policy");
+  // conflict while a job is admitted: its orders are those of the policy that chose them.
+  [[nodiscard]] Result<void> change_policy(const std::string& name);
+
   // The last act: stops all arms, and when they are at rest every job that has not ended becomes
   // `interrupted`, or every one that has begun where others are kept for the next run; then `done`
   // is called, on the strand. Accepts no job from now on.

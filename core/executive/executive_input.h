@@ -40,6 +40,9 @@ struct ExecutiveInput {
   struct Resumed {
     std::vector<ArmId> arms;
   };
+  struct PolicyChanged {
+    std::string policy;
+  };
   struct WoundDown {
     std::string cause;
     Executive::Waiting waiting;
@@ -77,8 +80,8 @@ struct ExecutiveInput {
     JobId job;
   };
   std::variant<Submitted, WentOn, Restored, Canceled, Amended, Replanned, Stopped, Resumed,
-               WoundDown, ObjectAdded, ObjectReplaced, ObjectRemoved, Injected, FaultRemoved,
-               Alerted, Judged, Planned, StartWritten>
+               PolicyChanged, WoundDown, ObjectAdded, ObjectReplaced, ObjectRemoved, Injected,
+               FaultRemoved, Alerted, Judged, Planned, StartWritten>
       what;
 };
 

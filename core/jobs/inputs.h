@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -15,6 +16,8 @@
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
+
+class Policy;
 
 // ---- Inputs: everything that can happen to the scheduler. Time comes beside them, in step(). ----
 
@@ -86,6 +89,11 @@ struct Resume {
 };
 // The planning scene is another one: what was judged on the old one is judged again.
 struct SceneChanged {};
+// From now on this policy decides; it is not null. Ignored while a motion is admitted: its orders
+// are those of the policy that chose them.
+struct ChangePolicy {
+  std::shared_ptr<const Policy> policy;
+};
 // The server ends: every job that has not ended is interrupted; or only those that have begun,
 // where the others are kept for the next run. Sent when the arms are at rest.
 struct Interrupt {
@@ -95,7 +103,7 @@ struct Interrupt {
 struct Wake {};
 
 using Input = std::variant<Submit, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
-                           Resume, SceneChanged, Interrupt, Wake>;
+                           Resume, SceneChanged, ChangePolicy, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 
 #include "core/jobs/invariants.h"
@@ -43,6 +42,48 @@ void note_progress(State& state, Record& record) {
   if (moving != nullptr) extend_authority(state, record.job.id);
 }
 
+// ---- Inputs that concern the shared state alone ----
+
+void take(State& state, const Amend& input) { amend(state, input); }
+
+void take(State& state, const Stop& input) { stop_arms(state, input); }
+
+void take(State& state, const Resume& input) {
+  for (ArmId arm : input.arms) state.arms.resume(arm);
+  ++state.version;
+  state.lanes.follow_stops(state.arms);
+}
+
+void take(State& state, const SceneChanged&) {
+  state.recheck_epoch = ++state.version;
+  state.lanes.forget_passages();
+}
+
+void take(State& state, const ChangePolicy& input) {
+  if (!state.graph.motions().empty()) return;
+  state.policy = input.policy;
+  state.round = {};
+  ++state.version;
+}
+
+void take(State& state, const Interrupt& input) { interrupt(state, input.keeps_waiting); }
+
+void take(State&, const Wake&) {}  // what follows is all that it asks for
+
+// What clients see comes first, so that an event is told before its consequences.
+std::vector<Effect> taken_effects(State& state) {
+  std::vector<Effect> result;
+  const std::vector<YieldMove> sent_aside = std::exchange(state.decided.sent_aside, {});
+  for (const YieldMove& move : sent_aside) result.push_back(move);
+  std::set<JobId> changed = std::exchange(state.jobs.news().changed, {});
+  for (const YieldMove& move : sent_aside) {  // they are known before others wait for them
+    if (changed.erase(move.job) != 0) result.push_back(JobChanged{move.job});
+  }
+  for (JobId job : changed) result.push_back(JobChanged{job});
+  std::ranges::move(std::exchange(state.decided.effects, {}), std::back_inserter(result));
+  return result;
+}
+
 }  // namespace
 
 Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest)
@@ -68,8 +109,12 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   const auto* report = std::get_if<MotionReport>(&input);
   const Version version_before = state_.version;
   std::visit(
-      [this]<class I>(const I& i) {
-        if constexpr (!std::is_same_v<I, Wake>) on(i);  // what follows is all that it asks for
+      [this](const auto& i) {
+        if constexpr (requires { take(state_, i); }) {
+          take(state_, i);
+        } else {
+          on(i);
+        }
       },
       input);
 
@@ -80,21 +125,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   if (only_progress) return std::exchange(state_.decided.effects, {});
   settle();
   if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);
-  return take_effects();
-}
-
-// What clients see comes first, so that an event is told before its consequences.
-std::vector<Effect> Scheduler::take_effects() {
-  std::vector<Effect> result;
-  const std::vector<YieldMove> sent_aside = std::exchange(state_.decided.sent_aside, {});
-  for (const YieldMove& move : sent_aside) result.push_back(move);
-  std::set<JobId> changed = std::exchange(state_.jobs.news().changed, {});
-  for (const YieldMove& move : sent_aside) {  // they are known before others wait for them
-    if (changed.erase(move.job) != 0) result.push_back(JobChanged{move.job});
-  }
-  for (JobId job : changed) result.push_back(JobChanged{job});
-  std::ranges::move(std::exchange(state_.decided.effects, {}), std::back_inserter(result));
-  return result;
+  return taken_effects(state_);
 }
 
 void Scheduler::settle() {
@@ -165,21 +196,6 @@ void Scheduler::on(const MotionReport& input) {
     come_to_rest(state_, *record, input);
   }
 }
-
-void Scheduler::on(const Stop& input) { stop_arms(state_, input); }
-
-void Scheduler::on(const Resume& input) {
-  for (ArmId arm : input.arms) state_.arms.resume(arm);
-  ++state_.version;
-  state_.lanes.follow_stops(state_.arms);
-}
-
-void Scheduler::on(const SceneChanged&) {
-  state_.recheck_epoch = ++state_.version;
-  state_.lanes.forget_passages();
-}
-
-void Scheduler::on(const Interrupt& input) { interrupt(state_, input.keeps_waiting); }
 
 // ---- What others read ----
 

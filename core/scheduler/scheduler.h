@@ -57,6 +57,8 @@ class Scheduler {
   // What the next job is to be called: not what an effect has called one of the scheduler's own.
   [[nodiscard]] JobId next_job() const { return state_.jobs.next_id(); }
   [[nodiscard]] const Policy& policy() const { return *state_.policy; }
+  // Nothing is admitted, so that it may be another one (ChangePolicy).
+  [[nodiscard]] bool may_change_policy() const { return state_.graph.motions().empty(); }
   // By the clock, of the one candidate of a question that is open: when it could begin beside what
   // is admitted, from now. Nothing: not, as things stand.
   [[nodiscard]] std::optional<Duration> earliest_start(const Question& question,
@@ -79,17 +81,11 @@ class Scheduler {
  private:
   void on(const Submit& input);
   void on(const Cancel& input);
-  void on(const Amend& input) { amend(state_, input); }
   void on(const Judged& input) { admission_.on(input, state_, cycles_); }
   void on(const PlanMade& input);
   void on(const Replan& input);
   void on(const MotionReport& input);
-  void on(const Stop& input);
-  void on(const Resume& input);
-  void on(const SceneChanged& input);
-  void on(const Interrupt& input);
   void settle();
-  [[nodiscard]] std::vector<Effect> take_effects();
   void ask_for_wake();
 
   State state_;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/executive/batch.h"
 #include "core/base/add_below.h"
 #include "core/executive/validated.h"
 #include "server/access/digest.h"
@@ -131,7 +132,7 @@ void take(const ApiParts& parts, std::vector<JobRequest> jobs, bool atomic,
   const auto taking = std::make_shared<Taking>(Taking{std::move(jobs)});
   parts.loop.post_in_parts([&parts, taking, atomic, then](Executive& executive) {
     if (!taking->batch) taking->batch = executive.open_batch(std::move(taking->jobs), atomic);
-    auto answers = executive.go_on(*taking->batch);
+    auto answers = taking->batch->go_on();
     if (!answers) return false;
     parts.post([then, answers = std::make_shared<const Executive::BatchAnswers>(
                           std::move(*answers))] { then(*answers); });

@@ -7,8 +7,29 @@ namespace {
 
 void get_cell(Call call) {
   const ApiParts& parts = call.parts;
-  const CellView cell = view_of(*parts.cell, parts.policy, parts.loop.speed());
+  const CellView cell = view_of(*parts.cell, *parts.policy, parts.loop.speed());
   call.respond(answer(200, cell_view_format(), cell));
+}
+
+void put_policy(Call call) {
+  const ApiParts& parts = call.parts;
+  const auto change = [&parts, respond = call.respond](const PolicyChoice& choice) {
+    ask(
+        parts,
+        [choice](Executive& executive) {
+          auto changed = executive.change_policy(choice.policy);
+          if (changed) executive.alert({Alert::Level::info, "the policy is now " + choice.policy});
+          return changed;
+        },
+        [&parts, respond, choice](const Result<void>& changed) {
+          if (!changed) return respond(problem_response(changed.error()));
+          *parts.policy = choice.policy;
+          respond(answer(200, policy_choice_format(), choice));
+        });
+  };
+  read_body(
+      parts, call.request, call.respond,
+      [](std::string_view text) { return read_text(*policy_choice_format(), text); }, change);
 }
 
 void get_mesh(Call call) { call.respond(call.meshes.answer(call.request, call.arguments.front())); }
@@ -27,6 +48,18 @@ std::vector<Route> cell_routes() {
        .summary = "Robots, joints, settings",
        .outcomes = {outcome(200, "The cell as the dashboard needs it", cell_view_format())},
        .run = get_cell},
+      {.method = "PUT",
+       .path = api_path("/policy"),
+       .id = "changePolicy",
+       .tag = "cell",
+       .summary = "Change the policy",
+       .text = "Whenever no job is admitted. What waits is judged anew. Until the next start.",
+       .reads = body(policy_choice_format(), {{"coordinated", R"({"policy": "coordinated"})"}}),
+       .outcomes = {outcome(200, "In force", policy_choice_format())},
+       .refuses = {409, 422},
+       .who = Who::commander,
+       .role = Role::operate,
+       .run = put_policy},
       {.method = "GET",
        .path = api_path(kMeshFolder + std::string("{name}")),
        .id = "getMesh",

@@ -27,7 +27,7 @@ namespace armloom {
 struct ApiParts {
   CellPtr cell;
   std::string stream;
-  std::string policy;  // in force
+  std::shared_ptr<std::string> policy;  // in force; the server's thread's
   WallClock& clock;    // the server's thread's
   RealTimeLoop& loop;
   Hub& hub;

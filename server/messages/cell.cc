@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/executive/known_policies.h"
 #include "server/codec/cell_format.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/scalar_formats.h"
@@ -165,6 +166,14 @@ FormatPtr<CellView> cell_view_format() {
                 told("joints", &View::joints, list(joint_view_format())),
                 inlined(&View::settings, settings_part()),
             }));
+  return format;
+}
+
+FormatPtr<PolicyChoice> policy_choice_format() {
+  static const auto format = named(
+      "PolicyChoice", "",
+      object<PolicyChoice>({required("policy", &PolicyChoice::policy, one_of(known_policies()),
+                                     "The one that decides from now on")}));
   return format;
 }
 

@@ -33,6 +33,11 @@ struct CellView {
 };
 
 // `cell` outlives the view.
+struct PolicyChoice {
+  std::string policy;
+};
+[[nodiscard]] FormatPtr<PolicyChoice> policy_choice_format();
+
 [[nodiscard]] CellView view_of(const Cell& cell, std::string policy, double speed);
 [[nodiscard]] FormatPtr<CellView> cell_view_format();
 

@@ -96,6 +96,7 @@ FormatPtr<QueueView> queue_ids_format() {
   static const auto format =
       named("QueueIds", "",
             object<QueueView>({
+                told("policy", &QueueView::policy, text(), "In force"),
                 told("stopped", &QueueView::stopped, flag(), "Every arm is stopped"),
                 ids("queued", &QueueView::queued),
                 ids("backlog", &QueueView::backlog),

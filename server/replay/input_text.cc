@@ -55,6 +55,9 @@ class InputWriter {
   void operator()(const ExecutiveInput::Resumed& input) {
     name("resume").field("arms", names(input.arms));
   }
+  void operator()(const ExecutiveInput::PolicyChanged& input) {
+    name("change_policy").field("policy", input.policy);
+  }
   void operator()(const ExecutiveInput::WoundDown& input) {
     name("wind_down").field("cause", input.cause);
     out_.field("keeps_waiting", input.waiting == Executive::Waiting::is_kept);

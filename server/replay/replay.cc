@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/executive/batch.h"
 #include "core/executive/stepped_loop.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
@@ -159,7 +160,7 @@ const std::map<std::string, Replay::Impl::Verb>& Replay::Impl::verbs() {
        }},
       {"went_on",
        [](Impl& my, Fields) {
-         if (my.batch_) (void)my.executive().go_on(*my.batch_);
+         if (my.batch_) (void)my.batch_->go_on();
        }},
       {"restore", [](Impl& my, Fields line) { (void)my.executive().restore(restored_of(line)); }},
       {"cancel", [](Impl& my, Fields line) { (void)my.executive().cancel(line.at("job")); }},
@@ -171,6 +172,8 @@ const std::map<std::string, Replay::Impl::Verb>& Replay::Impl::verbs() {
       {"replan", [](Impl& my, Fields line) { (void)my.executive().replan(line.at("job")); }},
       {"stop", [](Impl& my, Fields line) { my.executive().stop(my.arms(line), line.at("cause")); }},
       {"resume", [](Impl& my, Fields line) { my.executive().resume(my.arms(line)); }},
+      {"change_policy",
+       [](Impl& my, Fields line) { (void)my.executive().change_policy(line.at("policy")); }},
       {"wind_down",
        [](Impl& my, Fields line) {
          using Waiting = Executive::Waiting;

@@ -161,6 +161,7 @@ test('Jobs, good and bad', async () => {
   await call(200, 'POST', `${v1}/jobs`, {body: reach});
   await call(409, 'POST', `${v1}/jobs`, {body: {...reach, priority: 7}});
   await call(409, 'POST', `${v1}/check`, {body: reach});
+  await call(409, 'PUT', `${v1}/policy`, {body: {policy: 'sequential'}});  // a job is under way
   const right = (text) => JSON.parse(JSON.stringify(text).replaceAll('left_', 'right_'));
   const meet = {...right(reach), id: 'meet'};
   const verdict = await call(200, 'POST', `${v1}/check`, {body: {...meet, id: 'what-if'}});
@@ -194,6 +195,11 @@ test('Jobs, good and bad', async () => {
   await call(202, 'POST', `${v1}/jobs`, {body: example(`${v1}/jobs`, 'POST', 'moveit')});
   assert.equal((await ended('reach')).result.reason, 'completed');
   await ended('swing');
+  await call(422, 'PUT', `${v1}/policy`, {body: {policy: 'best'}});
+  const {policy} = await call(200, 'GET', `${v1}/cell`);
+  await call(200, 'PUT', `${v1}/policy`, {body: example(`${v1}/policy`, 'PUT', 'coordinated')});
+  assert.equal((await call(200, 'GET', `${v1}/cell`)).policy, 'coordinated');
+  await call(200, 'PUT', `${v1}/policy`, {body: {policy}});
   const page = await call(200, 'GET', `${v1}/jobs`, {query: '?limit=1'});
   await call(200, 'GET', `${v1}/jobs`, {query: `?limit=1&cursor=${page.next_cursor}`});
 

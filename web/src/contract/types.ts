@@ -675,6 +675,8 @@ export interface components {
             deviation_rad: number;
         };
         QueueIds: {
+            /** @description In force */
+            policy: string;
             /** @description Every arm is stopped */
             stopped: boolean;
             queued: string[];

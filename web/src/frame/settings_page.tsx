@@ -4,8 +4,10 @@ import type { App } from '../state/app';
 import type { Theme } from '../state/settings';
 import { use_store } from '../state/use_store';
 import { seconds } from '../wording';
+import { PolicyForm } from './policy_form';
 
 const kThemes: readonly [Theme, string][] = [['system', 'As the system'], ['dark', 'Dark'], ['light', 'Light']];
+const kIdleBlockers = { report: 'is only reported', park: 'is sent aside', replan: 'is passed by another way, if there is one' };
 const kKeys: readonly [string, string][] = [
   ['F8', 'Stop all, wherever the focus is'], ['Escape', 'Back to the cell'], ['c', 'Cell'], ['n', 'New job'],
   ['o', 'Scene'], ['h', 'History'], ['r', 'Recordings'], [',', 'Settings'],
@@ -43,15 +45,17 @@ export function SettingsPage({ app }: { app: App }) {
           <p class="hint">As the server runs it; a cell file sets these.</p>
           <dl class="facts-list" data-test="cell-facts">
             {([
-              ['Cell', cell.name], ['Policy', store.policy], ['Speed', `× ${store.speed}`], ['Arms', String(store.arms.size)],
+              ['Cell', cell.name], ['Speed', `× ${store.speed}`], ['Arms', String(store.arms.size)],
               ['Clearance', `${(1000 * cell.clearance_m).toFixed(0)} mm`],
               ['Monitor stops below', `${(1000 * cell.monitor.stop_clearance_m).toFixed(0)} mm`],
               ['Backlog timeout', seconds(cell.scheduling.backlog_timeout_s)],
               ['Overtaken no more after', seconds(cell.scheduling.aging_s)],
               ['Admitted ahead', `${cell.scheduling.horizon_legs} jobs of each arm`],
-              ['An idle arm in the way', cell.scheduling.on_idle_blocker === 'park' ? 'is sent aside' : 'is only reported'],
+              ['An idle arm in the way', kIdleBlockers[cell.scheduling.on_idle_blocker]],
             ] as const).map(([what, value]) => <div key={what}><dt>{what}</dt><dd>{value}</dd></div>)}
           </dl>
+          <h2>The policy</h2>
+          <PolicyForm app={app} />
           <p class="hint"><a class="link" href="/docs">The API, for programs</a></p>
         </section>
       )}

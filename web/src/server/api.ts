@@ -76,6 +76,11 @@ export class Api {
     return this.ask('POST', `/jobs/${encodeURIComponent(id)}/replan`);
   }
 
+  /** While no job is admitted. */
+  change_policy(policy: string): Promise<Answer<unknown>> {
+    return this.ask('PUT', '/policy', JSON.stringify({ policy }));
+  }
+
   stop(): Promise<Answer<unknown>> {
     return this.ask('POST', '/stop');
   }

@@ -42,6 +42,10 @@ export class Actions {
     await this.ask(`Resume ${name}`, this.api_.resume_arm(name));
   }
 
+  async change_policy(policy: string): Promise<void> {
+    await this.ask(`The policy ${policy}`, this.api_.change_policy(policy));
+  }
+
   /** Along a way that the server plans, at this share of its speed. */
   async send_to(name: string, state: string, speed: number): Promise<void> {
     const job = { name: `${name} to ${state}`, arm: name, move_to: { named: state }, velocity_scaling_factor: speed };

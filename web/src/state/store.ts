@@ -112,6 +112,7 @@ export class Store {
         break;
       case 'queue': {
         const { data } = message;
+        this.policy = data.policy;
         this.stopped = data.stopped;
         this.book.set_order(data);
         break;

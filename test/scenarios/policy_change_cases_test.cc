@@ -1,0 +1,71 @@
+// Another policy for a cell that runs: while no job is admitted, and what waits goes by it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "test/scenarios/crossing.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::HasSubstr;
+
+Problem refused(Crossing& cell, const std::string& policy) {
+  const auto changed = cell.simulation->executive().change_policy(policy);
+  EXPECT_FALSE(changed);
+  return changed ? Problem{} : changed.error().front();
+}
+
+std::string policy_of(const Crossing& cell) {
+  return cell.simulation->executive().snapshot().queue.policy;
+}
+
+TEST(APolicyIsChanged, NotWhileAJobIsUnderWay) {
+  Crossing cell(crossing_description(), "sequential");
+  cell.submit(slide("x", -1.0, -0.5, 2.0, "a"));
+  cell.run_until(at(1s));
+  const Problem problem = refused(cell, "coordinated");
+  EXPECT_EQ(problem.slug, "not-at-rest");
+  EXPECT_THAT(problem.detail, HasSubstr("a"));
+  EXPECT_EQ(policy_of(cell), "sequential");
+  cell.run_to_the_end();
+  EXPECT_TRUE(cell.simulation->executive().change_policy("coordinated"));
+  EXPECT_EQ(policy_of(cell), "coordinated");
+}
+
+// Held on its path, it keeps the orders that it has.
+TEST(APolicyIsChanged, NotWhileAJobIsHeldOnItsPath) {
+  Crossing cell(crossing_description(), "coordinated");
+  cell.submit(slide("x", -1.0, 1.0, 4.0, "a"));
+  cell.run_until(at(1s));
+  stop_all(cell.simulation->executive(), "operator");
+  cell.run_until(at(3s));
+  ASSERT_EQ(cell.job("a").state, JobState::holding);
+  EXPECT_THAT(refused(cell, "sequential").detail, HasSubstr("a"));
+}
+
+TEST(APolicyIsChanged, ToOneThatThereIs) {
+  Crossing cell(crossing_description(), "sequential");
+  const Problem problem = refused(cell, "best");
+  EXPECT_EQ(problem.slug, "unknown-policy");
+  EXPECT_EQ(problem.pointer, "/policy");
+}
+
+// Of two jobs that wait behind a stop, both go at once afterwards.
+TEST(APolicyIsChanged, AndWhatWaitsGoesByIt) {
+  for (const bool changes : {false, true}) {
+    Crossing cell(crossing_description(), "sequential");
+    stop_all(cell.simulation->executive(), "operator");
+    cell.submit(slide("x", -1.0, -0.5, 2.0, "a"));
+    cell.submit(slide("y", -1.0, -0.5, 2.0, "b"));
+    cell.run_until(at(500ms));
+    if (changes) ASSERT_TRUE(cell.simulation->executive().change_policy("certified"));
+    resume_all(cell.simulation->executive());
+    cell.run_to_the_end();
+    const TimePoint ended = *cell.job("a").ended_at, begun = *cell.job("b").started_at;
+    EXPECT_EQ(begun < ended, changes);
+    EXPECT_EQ(cell.job("b").state, JobState::succeeded);
+  }
+}
+
+}  // namespace
+}  // namespace armloom
