@@ -54,9 +54,10 @@ class Service::Impl {
     const auto post = [http_server = http_.get()](std::function<void()> task) {
       http_server->post(std::move(task));
     };
-    broadcast_ = std::make_unique<Broadcast>(Broadcast::Parts{cell, stream_, *clock_, hub_,
-                                                              recording_.get(), keeper_.get(), post,
-                                                              options_.alarm, *metrics_});
+    alerts_ = std::make_unique<AlertBook>(stream_, *clock_, keeper_.get());
+    broadcast_ = std::make_unique<Broadcast>(
+        Broadcast::Parts{cell, stream_, *clock_, hub_, recording_.get(), keeper_.get(), *alerts_,
+                         post, options_.alarm, *metrics_});
     ExecutiveOptions executive_options;
     executive_options.policy = options_.policy;
     std::optional<Restart> restart;
@@ -76,8 +77,9 @@ class Service::Impl {
     if (restart) go_on(std::move(*restart), cell);
     const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
     api_ = std::make_unique<Api>(ApiParts{
-        cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), post, guard_,
-        [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_, limits_});
+        cell, stream_, policy, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), *alerts_,
+        post, guard_, [this](std::function<void()> task) { worker_.post(std::move(task)); },
+        *metrics_, limits_});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;
@@ -221,6 +223,7 @@ class Service::Impl {
   Router router_{refusal_response};
   std::unique_ptr<JobKeeper> keeper_;
   std::atomic<bool> loop_is_there_{false};  // what the store's thread asks
+  std::unique_ptr<AlertBook> alerts_;
   std::unique_ptr<Recording> recording_;
   std::unique_ptr<InputFile> inputs_;
   std::unique_ptr<Metrics> metrics_;

@@ -211,6 +211,12 @@ void JobStore::note(AuditEntry entry) {
   impl_->add(std::move(changes));
 }
 
+void JobStore::keep(StoredAlert alert) {
+  Pending changes;
+  changes.alerts.push_back(std::move(alert));
+  impl_->add(std::move(changes));
+}
+
 bool JobStore::flush() {
   const auto written = std::make_shared<std::promise<bool>>();
   accept({}, [written](bool is_written) { written->set_value(is_written); });

@@ -10,7 +10,7 @@ import time
 import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "server"))
-from kills import swing  # noqa: E402
+from killed_server import swing  # noqa: E402
 from latency import TOP, start_server  # noqa: E402
 
 API = "/api/v1"

@@ -10,6 +10,7 @@
 #include "server/codec/cell_format.h"
 #include "server/codec/json_text.h"
 #include "server/codec/schema_names.h"
+#include "server/messages/alert.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
@@ -64,7 +65,8 @@ std::vector<Incoming> all_incoming() {
           incoming("cell file", cell_format()),
           incoming("PlanRequest", *plan_inquiry_format()),
           incoming("LogIn", *log_in_format()),
-          incoming("JobAmendment", *job_amendment_format())};
+          incoming("JobAmendment", *job_amendment_format()),
+          incoming("AlertsSeen", *alerts_seen_format())};
 }
 
 // Every body of a route is among them.
