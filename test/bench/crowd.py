@@ -2,7 +2,7 @@
 """The server in a crowd: figures of each of these, or of those that are named.
 
     test/bench/crowd.py ARMLOOM [handshakes slow_readers bodies queue durable_jobs readers stalled connections
-                                 restart memory]
+                                 slow_clients restart memory]
 
 Client and server share the machine. Times are of whole requests on connections of their own.
 """
@@ -194,6 +194,17 @@ def connections(armloom):
               f"{server.memory_mib():.0f} MiB")
 
 
+def slow_clients(armloom):
+    """slowhttptest: 3,000 connections that send a header, and a body, byte by byte."""
+    for kind, how in (("headers", "-H"), ("bodies", "-B")):
+        with LoadedServer(armloom, demo=True) as server:
+            time.sleep(1)
+            stops = Repeated(server.port, "POST", API + "/stop", "127.0.0.2")
+            subprocess.run(["slowhttptest", how, "-c", "3000", "-r", "1500", "-i", "2", "-l", "15", "-p", "2", "-u",
+                            f"http://127.0.0.1:{server.port}{API}/jobs"], stdout=subprocess.DEVNULL, check=True)
+            print(f"slowhttptest, 3,000 connections with slow {kind}: POST /stop of others {quantiles(stops.end())}")
+
+
 def stored_jobs(armloom, folder, ended, waiting):
     """A data folder as a long life leaves it: the rows that a server wrote of some jobs, many times."""
     with LoadedServer(armloom, "--data", folder) as server:
@@ -264,7 +275,8 @@ def memory(armloom, minutes=5, speed=100):
 
 
 def main():
-    figures = [handshakes, slow_readers, bodies, queue, durable_jobs, readers, stalled, connections, restart, memory]
+    figures = [handshakes, slow_readers, bodies, queue, durable_jobs, readers, stalled, connections, slow_clients, restart,
+               memory]
     by_name = {figure.__name__: figure for figure in figures}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("armloom")
