@@ -6,7 +6,7 @@
 
 #include "core/coordination/effort.h"
 #include "core/jobs/phases.h"
-#include "core/scheduler/waiting/waits.h"
+#include "core/jobs/waits.h"
 
 namespace armloom {
 namespace {
@@ -53,8 +53,8 @@ void note_found(Record& record, std::vector<Wait> waits) {
 }
 
 void put_off(State& state, Record& record, std::vector<Wait> waits) {
-  judgement_of(record) = {state.version, waits};
-  state.jobs.set_waits(record, std::move(waits));
+  state.jobs.set_waits(record, waits);
+  judgement_of(record) = {state.version, std::move(waits)};
   if (!is_at_head(state.jobs, record)) return;  // it has had no turn yet
   if (!record.ages_from) record.ages_from = state.now;
   const auto* queued = record.job.in<Queued>();
@@ -86,7 +86,7 @@ void hold_back(State& state, Record& record, const Verdict& verdict) {
   auto waits = waits_for(state, record, verdict);
   if (!waits) return;
   brake(state, record, {});
-  state.jobs.set_waits(record, std::move(*waits));
+  state.jobs.set_waits(record, *waits);
 }
 
 bool is_asked_again(Record& record, const Verdict& verdict) {
