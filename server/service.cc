@@ -35,6 +35,7 @@ class Service::Impl {
     if (options_.tls) {
       if (auto used = http_->use_tls(*options_.tls); !used) return std::move(used.error());
     }
+    metrics_ = std::make_unique<Metrics>(cell, options_.speed);
     if (options_.data) {
       if (auto problems = open_store(*options_.data)) return problems;
       auto recording = Recording::create(Recording::unused_folder(*options_.data), source, *cell,
@@ -42,7 +43,6 @@ class Service::Impl {
       if (!recording) return std::move(recording.error());
       recording_ = std::move(*recording);
     }
-    metrics_ = std::make_unique<Metrics>(cell, options_.speed);
     router_.watch([this](const std::string& method, const std::string& route, int status,
                          std::chrono::nanoseconds after) {
       metrics_->answered(method, route, status, after);
@@ -135,6 +135,9 @@ class Service::Impl {
   std::optional<Problems> open_store(const std::filesystem::path& folder) {
     StoreOptions store_options = options_.store;
     store_options.on_fault = [this](const StoreFault* fault) { store_fails(fault); };
+    store_options.on_written = [this](std::chrono::nanoseconds within) {
+      metrics_->stored(within);
+    };
     auto keeper = JobKeeper::open(folder, std::move(store_options));
     if (!keeper) return std::move(keeper.error());
     keeper_ = std::move(*keeper);

@@ -91,12 +91,14 @@ class JobStore::Impl {
       batch = std::exchange(pending_, {});
     }
     if (batch.is_empty()) return true;
+    const auto begun = Wall::now();
     try {
       tables_->write(batch);
     } catch (const SqlFault& fault) {
       give_back(std::move(batch), {fault.is_full(), fault.what()});
       return false;
     }
+    if (options_.on_written) options_.on_written(Wall::now() - begun);
     bool was_faulty = false;
     {
       const std::scoped_lock lock(mutex_);

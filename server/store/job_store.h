@@ -34,6 +34,8 @@ struct StoreOptions {
   std::string vfs = {};                   // SQLite's file system; empty: the system's
   // Is told, on the store's thread, that it cannot be written, and (null) that it can again.
   std::function<void(const StoreFault*)> on_fault = {};
+  // Is told, on the store's thread, how long each transaction took until it was synced.
+  std::function<void(std::chrono::nanoseconds)> on_written = {};
 };
 
 // What a data folder held when it was opened.
