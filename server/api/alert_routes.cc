@@ -13,7 +13,8 @@ void get_alerts(Call call) {
   const auto& alerts = call.parts.alerts.alerts();
   AlertList list;
   list.alerts.assign(alerts.rbegin(), alerts.rend());
-  call.respond(answer(200, alert_list_format(), list));
+  const Respond respond = std::move(call.respond);
+  respond(answer(200, alert_list_format(), list));
 }
 
 // A token's name is proven, what a client says of itself is not.
@@ -43,8 +44,9 @@ void tell_others(const ApiParts& parts, const std::string& who, const AlertsSeen
 
 void acknowledge(Call call) {
   const ApiParts& parts = call.parts;
+  const Respond respond = std::move(call.respond);
   const auto go_on = [&parts, caller = parts.guard.caller(call.request.token),
-                      peer = call.request.peer, respond = call.respond](const AlertsSeen& seen) {
+                      peer = call.request.peer, respond](const AlertsSeen& seen) {
     if (const auto refusal = unknown_of(parts.alerts, seen)) {
       return respond(refusal_response(*refusal));
     }
@@ -60,7 +62,7 @@ void acknowledge(Call call) {
           respond(answer(200, alert_list_format(), list));
         });
   };
-  read_body(parts, call.request, call.respond, read_alerts_seen, go_on);
+  read_body(parts, call.request, respond, read_alerts_seen, go_on);
 }
 
 }  // namespace
