@@ -35,6 +35,7 @@ class Service::Impl {
     if (options_.tls) {
       if (auto used = http_->use_tls(*options_.tls); !used) return std::move(used.error());
     }
+    metrics_ = std::make_unique<Metrics>(cell, options_.speed);
     if (options_.data) {
       if (auto problems = open_store(*options_.data)) return problems;
       auto recording = Recording::create(Recording::unused_folder(*options_.data), source, *cell,
@@ -42,7 +43,6 @@ class Service::Impl {
       if (!recording) return std::move(recording.error());
       recording_ = std::move(*recording);
     }
-    metrics_ = std::make_unique<Metrics>(cell, options_.speed);
     router_.watch([this](const std::string& method, const std::string& route, int status,
                          std::chrono::nanoseconds after) {
       metrics_->answered(method, route, status, after);
@@ -54,9 +54,10 @@ class Service::Impl {
     const auto post = [http_server = http_.get()](std::function<void()> task) {
       http_server->post(std::move(task));
     };
-    broadcast_ = std::make_unique<Broadcast>(Broadcast::Parts{cell, stream_, *clock_, hub_,
-                                                              recording_.get(), keeper_.get(), post,
-                                                              options_.alarm, *metrics_});
+    alerts_ = std::make_unique<AlertBook>(stream_, *clock_, keeper_.get());
+    broadcast_ = std::make_unique<Broadcast>(
+        Broadcast::Parts{cell, stream_, *clock_, hub_, recording_.get(), keeper_.get(), *alerts_,
+                         post, options_.alarm, *metrics_});
     ExecutiveOptions executive_options;
     executive_options.policy = options_.policy;
     std::optional<Restart> restart;
@@ -76,7 +77,8 @@ class Service::Impl {
     if (restart) go_on(std::move(*restart), cell);
     const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
     api_ = std::make_unique<Api>(ApiParts{
-        cell, stream_, std::make_shared<std::string>(policy), *clock_, *loop_, hub_, recording_.get(), keeper_.get(), post, guard_,
+        cell, stream_, std::make_shared<std::string>(policy), *clock_, *loop_, hub_,
+        recording_.get(), keeper_.get(), *alerts_, post, guard_,
         [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_, limits_});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
@@ -133,6 +135,9 @@ class Service::Impl {
   std::optional<Problems> open_store(const std::filesystem::path& folder) {
     StoreOptions store_options = options_.store;
     store_options.on_fault = [this](const StoreFault* fault) { store_fails(fault); };
+    store_options.on_written = [this](std::chrono::nanoseconds within) {
+      metrics_->stored(within);
+    };
     auto keeper = JobKeeper::open(folder, std::move(store_options));
     if (!keeper) return std::move(keeper.error());
     keeper_ = std::move(*keeper);
@@ -221,6 +226,7 @@ class Service::Impl {
   Router router_{refusal_response};
   std::unique_ptr<JobKeeper> keeper_;
   std::atomic<bool> loop_is_there_{false};  // what the store's thread asks
+  std::unique_ptr<AlertBook> alerts_;
   std::unique_ptr<Recording> recording_;
   std::unique_ptr<InputFile> inputs_;
   std::unique_ptr<Metrics> metrics_;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -45,6 +46,14 @@ tl::unexpected<Problems> cannot_write(const std::filesystem::path& file, int err
       Problem{ProblemKind::unavailable, "cannot-write", "--tokens",
               file.string() + " cannot be written: " + std::generic_category().message(error),
               file.string()});
+}
+
+// The file that takes the place of another one is read by the same: root changes what a service's
+// user may read.
+bool takes_owner_and_mode(int fd, const std::filesystem::path& of) {
+  struct stat kept {};
+  if (stat(of.c_str(), &kept) != 0) return errno == ENOENT;
+  return fchown(fd, kept.st_uid, kept.st_gid) == 0 && fchmod(fd, kept.st_mode & 0777U) == 0;
 }
 
 // Others that change the file wait.
@@ -108,7 +117,8 @@ Result<void> TokenFile::write(const std::vector<KeptToken>& tokens) const {
   const int fd = open(next.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (fd < 0) return cannot_write(file_, errno);
   const ssize_t size = ::write(fd, text.data(), text.size());
-  const bool written = size == static_cast<ssize_t>(text.size()) && fsync(fd) == 0;
+  const bool written = size == static_cast<ssize_t>(text.size()) &&
+                       takes_owner_and_mode(fd, file_) && fsync(fd) == 0;
   const int error = size >= 0 && !written && errno == 0 ? ENOSPC : errno;
   close(fd);
   if (!written) {

@@ -75,10 +75,12 @@ void command_job(Call call, Result<JobView> (Executive::*command)(const std::str
       [&parts, respond = call.respond, key](const Result<JobView>& job) {
         if (!job) return respond(refused_command(parts, key, job.error()));
         // Who commands may rely on it, whatever happens to the server.
-        const auto tell = [&parts, respond, job = *job] {
-          respond(answer(202, job_format(), job, &parts.clock));
+        const auto tell = [&parts, respond, job = *job](std::optional<Refusal> refusal) {
+          if (!refusal) return respond(answer(202, job_format(), job, &parts.clock));
+          refusal->detail = "this is done, but the next run may not know of it: " + refusal->detail;
+          respond(refusal_response(*refusal));
         };
-        parts.keeper != nullptr ? parts.keeper->when_written(tell) : tell();
+        parts.keeper != nullptr ? parts.keeper->when_written(tell) : tell(std::nullopt);
       });
 }
 
@@ -171,7 +173,7 @@ Route replan_route() {
       "come, or keeps its own way where there is no other: its member `replan` says which. 409 "
       "when it has ended, moves several arms, ends where it begins, or is the server's own.";
   replan.outcomes = {outcome(202, "Another way is being looked for", job_format())};
-  replan.refuses = {404, 409};
+  replan.refuses = {404, 409, 507};
   replan.who = Who::commander;
   replan.role = Role::operate;
   replan.run = replan_job;
@@ -235,7 +237,7 @@ std::vector<Route> job_routes() {
       "An arm in motion brakes on its path; the others go on. 409 when the job has ended.";
   cancel.outcomes = {
       outcome(202, "Canceled, or \"stopping\" until its arm is at rest", job_format())};
-  cancel.refuses = {404, 409};
+  cancel.refuses = {404, 409, 507};
   cancel.who = Who::commander;
   cancel.role = Role::operate;
   cancel.run = cancel_job;

@@ -13,6 +13,7 @@
 #include "server/api/guard.h"
 #include "server/codec/wall_clock.h"
 #include "server/durable/accepted_requests.h"
+#include "server/durable/alert_book.h"
 #include "server/durable/job_keeper.h"
 #include "server/http/client_limits.h"
 #include "server/hub/hub.h"
@@ -31,8 +32,9 @@ struct ApiParts {
   WallClock& clock;    // the server's thread's
   RealTimeLoop& loop;
   Hub& hub;
-  Recording* recording;                             // null: none
-  JobKeeper* keeper;                                // null: jobs end with the server
+  Recording* recording;  // null: none
+  JobKeeper* keeper;     // null: jobs end with the server
+  AlertBook& alerts;
   std::function<void(std::function<void()>)> post;  // to the server's thread, in order
   Guard& guard;
   // To a thread for what takes long and needs nothing of this.

@@ -9,9 +9,10 @@ namespace armloom {
 const std::vector<Route>& all_routes() {
   static const std::vector<Route> routes = [] {
     std::vector<Route> all;
-    for (const auto& part : {submission_routes(), plan_routes(), job_routes(), motion_routes(),
-                             arm_routes(), scene_routes(), cell_routes(), simulation_routes(),
-                             event_routes(), session_routes(), audit_routes(), service_routes()}) {
+    for (const auto& part :
+         {submission_routes(), plan_routes(), job_routes(), motion_routes(), arm_routes(),
+          scene_routes(), cell_routes(), simulation_routes(), event_routes(), session_routes(),
+          audit_routes(), alert_routes(), service_routes()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

@@ -78,6 +78,7 @@ struct Route {
 [[nodiscard]] std::vector<Route> cell_routes();        // /cell and its meshes
 [[nodiscard]] std::vector<Route> simulation_routes();  // /sim
 [[nodiscard]] std::vector<Route> event_routes();       // /events, /ws
+[[nodiscard]] std::vector<Route> alert_routes();       // /alerts
 [[nodiscard]] std::vector<Route> audit_routes();       // /audit
 [[nodiscard]] std::vector<Route> session_routes();     // /session, /login
 [[nodiscard]] std::vector<Route> service_routes();     // /healthz, /docs, ...

@@ -90,8 +90,10 @@ void JobKeeper::amend(const JobView& job, std::function<void(std::optional<Refus
                 });
 }
 
-void JobKeeper::when_written(std::function<void()> then) {
-  store_->accept({}, [this, then = std::move(then)](bool) { post_(then); });
+void JobKeeper::when_written(std::function<void(std::optional<Refusal>)> then) {
+  store_->accept({}, [this, then = std::move(then)](bool is_written) {
+    post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });
+  });
 }
 
 std::optional<Refusal> JobKeeper::refusal() const {

@@ -47,8 +47,8 @@ class JobKeeper final : public StartLog {
   void accept(std::vector<AcceptedJob> jobs, std::function<void(std::optional<Refusal>)> then);
   // It was changed: `then` is called when that is on disk, or with the reason why not yet.
   void amend(const JobView& job, std::function<void(std::optional<Refusal>)> then);
-  // When all that was told before is on disk, or cannot be written at present.
-  void when_written(std::function<void()> then);
+  // When all that was told before is on disk, or with the reason why not yet.
+  void when_written(std::function<void(std::optional<Refusal>)> then);
   // Why nothing can be accepted, nor any arm be let go, at present.
   [[nodiscard]] std::optional<Refusal> refusal() const;
   void stopped(std::vector<std::string> arms) { store_->stopped(std::move(arms)); }

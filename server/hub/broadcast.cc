@@ -14,6 +14,7 @@ void Broadcast::on_event(const Event& event) {
     if (parts_.recording != nullptr) parts_.recording->event(*text);
     const auto* job = std::get_if<JobView>(&event->body);
     if (job != nullptr && parts_.keeper != nullptr) parts_.keeper->see(*job);
+    parts_.alerts.happened(*event);
     parts_.hub.publish(event->seq, text);
     parts_.metrics.happened(*event);
   });

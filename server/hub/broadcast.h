@@ -8,6 +8,7 @@
 
 #include "core/executive/executive.h"
 #include "server/codec/wall_clock.h"
+#include "server/durable/alert_book.h"
 #include "server/durable/job_keeper.h"
 #include "server/hub/hub.h"
 #include "server/metrics/metrics.h"
@@ -28,8 +29,9 @@ class Broadcast final : public Observer {
     std::string stream;
     WallClock& clock;  // the server's thread's
     Hub& hub;
-    Recording* recording;                             // null: none
-    JobKeeper* keeper;                                // null: jobs end with the server
+    Recording* recording;  // null: none
+    JobKeeper* keeper;     // null: jobs end with the server
+    AlertBook& alerts;
     std::function<void(std::function<void()>)> post;  // to the server's thread, in order
     // Is told once that the recording is lost, and why; empty: nobody.
     std::function<void(const std::string&)> alarm;

@@ -99,6 +99,7 @@ class Metrics::Impl {
   void limited(const char* what) { limited_.Add({{"what", what}}).Increment(); }
 
   void stop_taken(std::chrono::nanoseconds after) { stops_.Observe(seconds(after)); }
+  void stored(std::chrono::nanoseconds within) { transactions_.Observe(seconds(within)); }
 
   std::string text(const Readings& readings) {
     readers_.Set(static_cast<double>(readings.readers));
@@ -204,6 +205,9 @@ class Metrics::Impl {
   Histogram& stops_ =
       histograms("armloom_stop_latency_seconds", "From a request to stop to the executive")
           .Add({}, kLatencies);
+  Histogram& transactions_ =
+      histograms("armloom_database_seconds", "Of a transaction with --data, until it was synced")
+          .Add({}, kLatencies);
   Family<Counter>& answers_ = counters("armloom_http_requests_total", "Requests answered");
   Family<Counter>& limited_ =
       counters("armloom_limited_total", "What was refused as one too many of a client, or of all");
@@ -226,6 +230,7 @@ void Metrics::ticked() { impl_->ticked(); }
 void Metrics::watched(const StateFrame& frame) { impl_->watched(frame); }
 void Metrics::set_speed(double speed) { impl_->set_speed(speed); }
 void Metrics::stop_taken(std::chrono::nanoseconds after) { impl_->stop_taken(after); }
+void Metrics::stored(std::chrono::nanoseconds within) { impl_->stored(within); }
 void Metrics::limited(const char* what) { impl_->limited(what); }
 void Metrics::happened(const Event& event) { impl_->happened(event); }
 void Metrics::answered(const std::string& method, const std::string& route, int status,

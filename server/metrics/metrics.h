@@ -24,6 +24,7 @@ class Metrics {
   // Thread-safe.
   void set_speed(double speed);
   void stop_taken(std::chrono::nanoseconds after);  // from the request to the strand
+  void stored(std::chrono::nanoseconds within);     // a transaction, until it was synced
 
   // On the server's thread.
   void happened(const Event& event);

@@ -91,12 +91,14 @@ class JobStore::Impl {
       batch = std::exchange(pending_, {});
     }
     if (batch.is_empty()) return true;
+    const auto begun = Wall::now();
     try {
       tables_->write(batch);
     } catch (const SqlFault& fault) {
       give_back(std::move(batch), {fault.is_full(), fault.what()});
       return false;
     }
+    if (options_.on_written) options_.on_written(Wall::now() - begun);
     bool was_faulty = false;
     {
       const std::scoped_lock lock(mutex_);
@@ -208,6 +210,12 @@ void JobStore::stopped(std::vector<std::string> arms) {
 void JobStore::note(AuditEntry entry) {
   Pending changes;
   changes.audit.push_back(std::move(entry));
+  impl_->add(std::move(changes));
+}
+
+void JobStore::keep(StoredAlert alert) {
+  Pending changes;
+  changes.alerts.push_back(std::move(alert));
   impl_->add(std::move(changes));
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/problem.h"
+#include "server/store/stored_alert.h"
 #include "server/store/stored_job.h"
 
 namespace armloom {
@@ -33,6 +34,8 @@ struct StoreOptions {
   std::string vfs = {};                   // SQLite's file system; empty: the system's
   // Is told, on the store's thread, that it cannot be written, and (null) that it can again.
   std::function<void(const StoreFault*)> on_fault = {};
+  // Is told, on the store's thread, how long each transaction took until it was synced.
+  std::function<void(std::chrono::nanoseconds)> on_written = {};
 };
 
 // What a data folder held when it was opened.
@@ -40,6 +43,7 @@ struct Leftover {
   std::uint64_t last_number = 0;  // of any job ever
   std::vector<LeftJob> jobs;      // in order of their numbers
   std::vector<std::string> stopped_arms;
+  std::vector<StoredAlert> alerts;  // oldest first
 };
 
 // The jobs of a data folder, on disk (SQLite, write-ahead log, synced). One thread writes: whatever
@@ -79,6 +83,7 @@ class JobStore {
 
   // Soon on disk.
   void note(AuditEntry entry);
+  void keep(StoredAlert alert);  // as it is now
 
   // Waits until what has come before is on disk; false: it could not be written.
   [[nodiscard]] bool flush();

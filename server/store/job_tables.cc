@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::int64_t kCleanedAtOnce = 1000;
 constexpr std::int64_t kAuditKept = 100'000;
+constexpr std::int64_t kAlertsKept = 1'000;
 
 Database opened(const std::filesystem::path& file, const std::string& vfs) {
   Database database(file, Database::Access::write, vfs);
@@ -47,7 +48,11 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
       stop_(database_.prepare("INSERT OR IGNORE INTO stopped_arm(name) VALUES(?1)")),
       forget_stops_(database_.prepare("DELETE FROM stopped_arm")),
       note_(database_.prepare("INSERT INTO audit(at_ms, who, peer, method, path, status) "
-                              "VALUES(?1, ?2, ?3, ?4, ?5, ?6)")) {
+                              "VALUES(?1, ?2, ?3, ?4, ?5, ?6)")),
+      keep_alert_(database_.prepare(
+          "INSERT INTO alert(id, at_ms, level, text, who, acknowledged_ms) VALUES(?1, ?2, ?3, ?4, "
+          "nullif(?5, ''), ?6) ON CONFLICT(id) DO UPDATE SET who = nullif(?5, ''), acknowledged_ms "
+          "= ?6")) {
   database_.run(
       "DELETE FROM job WHERE view = ''");  // never acknowledged, and nothing is known of it
 }
@@ -73,6 +78,15 @@ Leftover JobTables::leftover() const {
   }
   Statement arms = database_.prepare("SELECT name FROM stopped_arm ORDER BY name");
   while (arms.step()) left.stopped_arms.push_back(arms.text(0));
+  Statement alerts = database_.prepare(
+      "SELECT id, at_ms, level, text, who, acknowledged_ms FROM (SELECT * FROM alert ORDER BY "
+      "number DESC LIMIT ?1) ORDER BY number");
+  alerts.bind_all(kAlertsKept);
+  while (alerts.step()) {
+    StoredAlert& alert =
+        left.alerts.emplace_back(alerts.text(0), alerts.number(1), alerts.text(2), alerts.text(3));
+    if (!alerts.is_null(4)) alert.acknowledged = {alerts.text(4), alerts.number(5)};
+  }
   return left;
 }
 
@@ -90,7 +104,17 @@ void JobTables::write(const Pending& changes) {
                    std::int64_t{entry.status});
     note_.run();
   }
+  for (const StoredAlert& alert : changes.alerts) write(alert);
   transaction.commit();
+}
+
+void JobTables::write(const StoredAlert& alert) {
+  const auto& seen = alert.acknowledged;
+  const std::string_view who = seen ? std::string_view(seen->who) : "";
+  const auto when = seen ? std::optional(seen->at_ms) : std::nullopt;
+  keep_alert_.bind_all(std::string_view(alert.id), alert.at_ms, std::string_view(alert.level),
+                       std::string_view(alert.text), who, when);
+  keep_alert_.run();
 }
 
 void JobTables::write(std::uint64_t number, const JobChange& change) {
@@ -138,11 +162,15 @@ bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::
         "SELECT number FROM job WHERE has_ended = 1 AND ended_ms < ?1 ORDER BY ended_ms LIMIT ?2",
         oldest.count());
   }
-  Statement audit = database_.prepare(
-      "DELETE FROM audit WHERE number IN (SELECT number FROM audit WHERE number <= (SELECT "
-      "max(number) FROM audit) - ?1 ORDER BY number LIMIT ?2)");
-  audit.bind_all(kAuditKept, kCleanedAtOnce).run();
-  deleted = std::max(deleted, database_.number("SELECT changes()"));
+  const auto keep_last = [&](const std::string& table, std::int64_t count) {
+    Statement statement = database_.prepare(
+        "DELETE FROM " + table + " WHERE number IN (SELECT number FROM " + table +
+        " WHERE number <= (SELECT max(number) FROM " + table + ") - ?1 ORDER BY number LIMIT ?2)");
+    statement.bind_all(count, kCleanedAtOnce).run();
+    deleted = std::max(deleted, database_.number("SELECT changes()"));
+  };
+  keep_last("audit", kAuditKept);
+  keep_last("alert", kAlertsKept);
   transaction.commit();
   return deleted == kCleanedAtOnce;
 }

@@ -23,8 +23,10 @@ class JobTables {
 
  private:
   void write(std::uint64_t number, const JobChange& change);
+  void write(const StoredAlert& alert);
   Database database_;
-  Statement see_, expect_, move_, come_, put_body_, amend_, drop_body_, stop_, forget_stops_, note_;
+  Statement see_, expect_, move_, come_, put_body_, amend_, drop_body_, stop_, forget_stops_, note_,
+      keep_alert_;
 };
 
 }  // namespace armloom

@@ -18,6 +18,9 @@ void Pending::join(Pending later) {
   for (AuditEntry& entry : later.audit) {
     if (audit.size() < kAuditMax) audit.push_back(std::move(entry));
   }
+  for (StoredAlert& alert : later.alerts) {
+    if (alerts.size() < kAlertsMax) alerts.push_back(std::move(alert));
+  }
   std::ranges::move(later.acceptances, std::back_inserter(acceptances));
   std::ranges::move(later.starts, std::back_inserter(starts));
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "server/store/stored_alert.h"
 #include "server/store/stored_job.h"
 
 namespace armloom {
@@ -25,7 +26,8 @@ struct Pending {
   using Done = std::function<void(bool)>;
   std::map<std::uint64_t, JobChange> jobs = {};  // by number
   std::optional<std::vector<std::string>> stopped_arms = {};
-  std::vector<AuditEntry> audit = {};  // kAuditMax at most, the first ones
+  std::vector<AuditEntry> audit = {};    // kAuditMax at most, the first ones
+  std::vector<StoredAlert> alerts = {};  // as they came: of one alert the last counts
   struct Acceptance {
     std::vector<std::uint64_t> jobs;
     Done done;
@@ -35,9 +37,10 @@ struct Pending {
 
   // While nothing can be written; what comes beyond is not told.
   inline static constexpr std::size_t kAuditMax = 10'000;
+  inline static constexpr std::size_t kAlertsMax = 10'000;
 
   [[nodiscard]] bool is_empty() const {
-    return jobs.empty() && !stopped_arms && acceptances.empty() && audit.empty();
+    return jobs.empty() && !stopped_arms && acceptances.empty() && audit.empty() && alerts.empty();
   }
   // What came after this.
   void join(Pending later);

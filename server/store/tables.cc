@@ -53,6 +53,18 @@ constexpr const char* kVersions[] = {
     R"(
     ALTER TABLE body ADD COLUMN amended TEXT;
     )",
+    // What somebody had to see to, and who has (StoredAlert).
+    R"(
+    CREATE TABLE alert(
+      number INTEGER PRIMARY KEY,
+      id TEXT NOT NULL UNIQUE,
+      at_ms INTEGER NOT NULL,
+      level TEXT NOT NULL,
+      text TEXT NOT NULL,
+      who TEXT,
+      acknowledged_ms INTEGER
+    ) STRICT;
+    )",
 };
 constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
 

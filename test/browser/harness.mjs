@@ -27,8 +27,8 @@ export const kPatience_ms = 20_000;
 
 /** A server of one cell; it can be ended, and begun anew at the same address. */
 export class Server {
-  constructor(cell, policy) {
-    this.arguments_ = ['serve', '--cell', cell, '--policy', policy];
+  constructor(cell, policy, more = []) {
+    this.arguments_ = ['serve', '--cell', cell, '--policy', policy, ...more];
     if (process.env.ARMLOOM_WEB) this.arguments_.push('--web', resolve(process.env.ARMLOOM_WEB));
     this.listen_ = '127.0.0.1:0';
   }

@@ -121,6 +121,11 @@ test('The readers of events are told everything from a snapshot on', async () =>
 
 test('What only reads', async () => {
   await call(200, 'GET', '/');
+  await call(200, 'GET', `${v1}/alerts`);
+  const seen = (status, body) => call(status, 'POST', `${v1}/alerts/acknowledge`, {body});
+  await seen(200, example(`${v1}/alerts/acknowledge`, 'POST', 'none'));
+  await seen(404, {ids: ['x:1']});
+  await seen(422, {ids: [], who: 'a\nb'});
   await call(404, 'GET', `${v1}/audit`);
   await call(422, 'GET', `${v1}/audit`, {query: '?limit=0'});
   for (const part of ['/docs', '/docs.css', '/docs.js', '/login', '/login.js']) await call(200, 'GET', part);

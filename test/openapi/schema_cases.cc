@@ -10,6 +10,7 @@
 #include "server/codec/cell_format.h"
 #include "server/codec/json_text.h"
 #include "server/codec/schema_names.h"
+#include "server/messages/alert.h"
 #include "server/messages/cell.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
@@ -66,6 +67,7 @@ std::vector<Incoming> all_incoming() {
           incoming("PlanRequest", *plan_inquiry_format()),
           incoming("LogIn", *log_in_format()),
           incoming("JobAmendment", *job_amendment_format()),
+          incoming("AlertsSeen", *alerts_seen_format()),
           incoming("PolicyChoice", *policy_choice_format())};
 }
 

@@ -233,6 +233,17 @@ TEST_F(Durable, AFullDiskRefusesJobsStopsArmsAndIsOverWhenItIs) {
   EXPECT_NE(job("refused")["state"], "queued") << "its client was told that it is not accepted";
 }
 
+TEST_F(Durable, WhatIsCanceledBesideAFullDiskIsNotSaidToBeKept) {
+  start(1);
+  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  ASSERT_EQ(submit("waits").status, 202);
+  FailingDisk::fail(FailingDisk::Fault::full, 0);
+  const auto canceled = remove("/api/v1/jobs/waits");
+  EXPECT_EQ(canceled.status, 507) << canceled.body;
+  EXPECT_NE(canceled.body.find("the next run may not know of it"), std::string::npos);
+  EXPECT_EQ(job("waits")["state"], "canceled") << "it is done all the same";
+}
+
 TEST_F(Durable, ABrokenDiskIsNoFullOne) {
   start(1);
   FailingDisk::fail(FailingDisk::Fault::broken, 0);

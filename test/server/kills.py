@@ -3,12 +3,15 @@
 
     test/server/kills.py ARMLOOM [--kills 12] [--seed 1] [--folder DIR]
 
-After each kill: every job that was acknowledged is there, once, in the order in which it was accepted;
-what had ended has ended as it had; what waited waits; what had moved is `interrupted` and stays so;
-arms are stopped until they are resumed. Over all runs no job has moved in two of them (the recordings
-say so). With --kills 1000 it is the long run.
+One after the other, a kill comes at some time, at the Nth change of a job's state that is told, and, by strace
+where that is installed, at the Nth sync and at the Nth write of the database, N growing from the first one of the
+process; or some writes or syncs fail first, as on a full or a broken disk. After each: every job that was
+acknowledged is there, once, in the order in which it was accepted; what had ended has ended as it had; what waited
+waits; what had moved is `interrupted` and stays so; arms are stopped until they are resumed. Over all runs no job
+has moved in two of them (the recordings say so). With --kills 1000 it is the long run.
 """
 import argparse
+import http.client
 import json
 import pathlib
 import random
@@ -18,50 +21,11 @@ import sys
 import tempfile
 import threading
 import time
-import urllib.error
-import urllib.request
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from killed_server import API, Kill, NotUp, Server, swing
+
 ENDED = {"succeeded", "canceled", "expired", "failed", "interrupted"}
-HOME = [0, -1.2, 0, -2.6, 0, 1.6, 0.785]
-API = "/api/v1"
-
-
-def swing(job_id, arm, duration_s, after):
-    """There and back, so that it can begin wherever another one has ended."""
-    away = [HOME[0] + (0.3 if arm == "left" else -0.3)] + HOME[1:]
-    still = [0.0] * 7
-    points = [{"positions": q, "velocities": still, "time_from_start": duration_s * i / 2}
-              for i, q in enumerate((HOME, away, HOME))]
-    return {"id": job_id, "after": after, "trajectory": {
-        "joint_names": [f"{arm}_panda_joint{j}" for j in range(1, 8)], "points": points}}
-
-
-class Server:
-    def __init__(self, program, data, log):
-        self.process = subprocess.Popen(
-            [program, "serve", "--cell", str(ROOT / "config/two_pandas.json"), "--speed", "5",
-             "--listen", "127.0.0.1:0", "--data", str(data)],
-            stdout=subprocess.PIPE, stderr=log, text=True)
-        line = self.process.stdout.readline()
-        if ":" not in line:
-            sys.exit(f"the server did not come up: {line!r}, see {log.name}")
-        self.port = int(line.rsplit(":", 1)[1].strip("/\n"))
-
-    def call(self, method, path, body=None):
-        request = urllib.request.Request(
-            f"http://127.0.0.1:{self.port}{path}", method=method,
-            data=None if body is None else json.dumps(body).encode(),
-            headers={"Content-Type": "application/json"})
-        try:
-            with urllib.request.urlopen(request, timeout=20) as answer:
-                return answer.status, json.loads(answer.read() or b"null")
-        except urllib.error.HTTPError as error:
-            return error.code, json.loads(error.read() or b"null")
-
-    def kill(self):
-        self.process.kill()
-        self.process.wait()
+ONE_LIFE = 50  # kills of one data folder, then another one is begun
 
 
 class Trial:
@@ -72,7 +36,6 @@ class Trial:
         self.order = []     # ids, as acknowledged one after the other on one connection
         self.ended = {}     # id: the state in which it was seen to end
         self.next = 0
-        self.batches = 0
 
     def one(self, server):
         self.next += 1
@@ -82,8 +45,9 @@ class Trial:
         return swing(f"k{self.next}", arm, self.rng.choice([0.8, 1.5]), after)
 
     def load(self, server, done):
-        """Submits, cancels and looks until the server is gone."""
+        """Resumes, submits, cancels and looks until the server is gone."""
         try:
+            server.call("POST", API + "/resume")
             while not done.is_set():
                 what = self.rng.random()
                 if what < 0.1:
@@ -91,7 +55,6 @@ class Trial:
                     status, _ = server.call("POST", API + "/batches", {"jobs": jobs})
                     if status == 202:
                         self.order += [job["id"] for job in jobs]
-                        self.batches += 1
                 elif what < 0.8:
                     job = self.one(server)
                     status, _ = server.call("POST", API + "/jobs", job)
@@ -104,7 +67,7 @@ class Trial:
                         self.ended[job_id] = "canceled"
                 else:
                     server.call("GET", API + "/jobs?limit=200")
-        except (OSError, ValueError):
+        except (OSError, ValueError, http.client.HTTPException):
             pass  # killed
 
     def look(self, server):
@@ -154,38 +117,81 @@ def moved_in(folder):
     return moved
 
 
-def run(program, kills, seed, folder):
-    rng = random.Random(seed)
-    trial, data, moved = Trial(rng), folder / "data", {}
-    up, waited = [], 0
-    log = open(folder / "log", "a", encoding="utf-8")
-    for number in range(kills + 1):
-        before = set(data.glob("*/events.jsonl")) | set(data.glob("events.jsonl"))
-        began = time.monotonic()
-        server = Server(program, data, log)
-        waiting = trial.look(server)
-        up.append(time.monotonic() - began)
-        waited += waiting
-        server.call("POST", API + "/resume")
-        done = threading.Event()
-        load = threading.Thread(target=trial.load, args=(server, done))
-        load.start()
-        time.sleep(rng.uniform(0.0, 0.6))
+class Lives:
+    """One data folder after the other, each of many runs."""
+
+    def __init__(self, program, folder, seed):
+        self.program, self.folder, self.rng = program, folder, random.Random(seed)
+        can_trace = shutil.which("strace") and subprocess.run(["strace", "-o", "/dev/null", "true"]).returncode == 0
+        self.kinds = Kill.KINDS if can_trace else Kill.KINDS[:2]
+        self.log = open(folder / "log", "a", encoding="utf-8")
+        self.up, self.kills, self.came = [], 0, dict.fromkeys(self.kinds, 0)
+        self.acknowledged = self.waited = self.interrupted = self.moved_jobs = 0
+
+    def next_kill(self):
+        kind = self.kinds[self.kills % len(self.kinds)]
+        nth = 1 + self.kills // len(self.kinds)
+        self.kills += 1
+        return Kill(kind, 1 + nth % {"time": 1, "change": 40, "fdatasync": 60}.get(kind, 150))
+
+    def live(self, kills):
+        trial, data, moved = Trial(self.rng), self.folder / "data", {}
+        for number in range(kills):
+            kill = self.next_kill()
+            try:
+                self.run_once(trial, data, moved, kill)
+            except NotUp:
+                if not kill.may_hinder_start():
+                    raise
+                self.came[kill.kind] += 1
+            except AssertionError as found:
+                raise AssertionError(f"kill {number} of this folder, the one at {kill}: {found}") from found
+        server = Server(self.program, data, self.log)  # what the last one left
+        self.waited += trial.look(server)
         server.kill()
-        done.set()
+        self.acknowledged += len(trial.order)
+        self.interrupted += sum(state == "interrupted" for state in trial.ended.values())
+        self.moved_jobs += len(moved)
+        shutil.rmtree(data)
+
+    def run_once(self, trial, data, moved, kill):
+        before = recordings(data)
+        began = time.monotonic()
+        server = Server(self.program, data, self.log, kill.tracer())
+        done = threading.Event()
+        try:
+            # A server that is killed as it starts, or whose disk fails, is looked through by the next one.
+            if not kill.may_hinder_start():
+                self.waited += trial.look(server)
+                self.up.append(time.monotonic() - began)
+            load = threading.Thread(target=trial.load, args=(server, done))
+            load.start()
+            self.came[kill.kind] += kill.await_and_kill(server, self.rng)
+        finally:
+            server.kill()
+            done.set()
         load.join()
-        after = set(data.glob("*/events.jsonl")) | set(data.glob("events.jsonl"))
-        for events in after - before:
+        for events in recordings(data) - before:
             for job in moved_in(events.parent):
-                assert job not in moved, f"{job} has moved in two runs: {moved[job]}, {number}"
-                moved[job] = number
+                assert job not in moved, f"{job} has moved in two runs: {moved[job]}, {kill}"
+                moved[job] = str(kill)
             if events.parent != data:
                 shutil.rmtree(events.parent)
-    interrupted = sum(state == "interrupted" for state in trial.ended.values())
-    print(f"{kills} kills, seed {seed}: {len(trial.order)} jobs acknowledged ({trial.batches} batches), "
-          f"{len(moved)} moved, {interrupted} interrupted, {waited} found waiting; "
-          f"up and looked through after {sorted(up)[len(up) // 2]:.2f} s, {max(up):.2f} s at most")
-    assert len(trial.order) >= 2 * kills and moved and interrupted and waited, "too little was tried"
+
+
+def recordings(data):
+    return set(data.glob("*/events.jsonl")) | set(data.glob("events.jsonl"))
+
+
+def run(program, kills, seed, folder):
+    lives = Lives(program, folder, seed)
+    while lives.kills < kills:
+        lives.live(min(ONE_LIFE, kills - lives.kills))
+    print(f"{kills} kills, seed {seed}: {lives.acknowledged} jobs acknowledged, {lives.moved_jobs} moved, "
+          f"{lives.interrupted} interrupted, {lives.waited} found waiting; up and looked through after "
+          f"{sorted(lives.up)[len(lives.up) // 2]:.2f} s, {max(lives.up):.2f} s at most\ncame where they were to: "
+          + ", ".join(f"{kind} {count}" for kind, count in lives.came.items()))
+    assert lives.acknowledged >= kills and lives.moved_jobs and lives.interrupted and lives.waited, "too little"
 
 
 def main():
@@ -197,7 +203,10 @@ def main():
     options = parser.parse_args()
     folder = pathlib.Path(options.folder or tempfile.mkdtemp(prefix="armloom-kills-"))
     folder.mkdir(parents=True, exist_ok=True)
-    run(options.program, options.kills, options.seed, folder)
+    try:
+        run(options.program, options.kills, options.seed, folder)
+    except NotUp as error:
+        sys.exit(str(error))
     if not options.folder:
         shutil.rmtree(folder)
 

@@ -95,6 +95,19 @@ TEST_F(MetricsRoute, CountsAnswersByRouteAndStatusAndNothingThatAClientNames) {
   }
 }
 
+TEST_F(MetricsRoute, SayHowLongTheDiskTakes) {
+  options_.data = std::filesystem::path(::testing::TempDir()) / "armloom-metrics-data";
+  std::filesystem::remove_all(*options_.data);
+  start(1.0);
+  const double before = figures().at("armloom_database_seconds_count");
+  const json job = test::move("left", test::kHome, test::kMiddle);
+  ASSERT_EQ(post("/api/v1/jobs", job.dump()).status, 202);
+  const auto after = figures();
+  EXPECT_GT(after.at("armloom_database_seconds_count"), before)
+      << "it was on disk when it was answered";
+  EXPECT_GT(after.at("armloom_database_seconds_sum"), 0);
+}
+
 TEST_F(MetricsRoute, HaveEverythingThatTheGrafanaDashboardAsksFor) {
   start(1.0);
   test::Listener listener(port());

@@ -234,6 +234,29 @@ TEST_F(Audit, KnowsWhoWasRefusedBeforeTheBodyWasRead) {
   EXPECT_EQ(entry["status"], 403);
 }
 
+TEST_F(Audit, AnAlertIsAcknowledgedByTheTokensNameWhateverTheClientSays) {
+  ASSERT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
+  test::Wire wire(port());
+  wire.send("GET /api/v1/alerts HTTP/1.1\r\nHost: 127.0.0.1\r\n" + bearer(tokens_["viewer"]) +
+            "\r\n");
+  const auto id = test::read_answer(wire).json()["alerts"][0]["id"].get<std::string>();
+  const std::string body = R"({"ids": [")" + id + R"("], "who": "the boss"})";
+  const auto acknowledge = [&](const char* role) {
+    test::Wire asking(port());
+    asking.send("POST /api/v1/alerts/acknowledge HTTP/1.1\r\nHost: 127.0.0.1\r\n" +
+                bearer(tokens_[role]) + "Content-Type: application/json\r\nContent-Length: " +
+                std::to_string(body.size()) + "\r\n\r\n" + body);
+    return test::read_answer(asking);
+  };
+  EXPECT_EQ(acknowledge("viewer").status, 403);
+  const auto seen = acknowledge("operator");
+  ASSERT_EQ(seen.status, 200) << seen.body;
+  EXPECT_EQ(seen.json()["alerts"][0]["acknowledged"]["who"], "operator");
+  const auto entry = entries("", 3)["entries"][0];
+  EXPECT_EQ(entry["who"], "operator");
+  EXPECT_EQ(entry["path"], "/api/v1/alerts/acknowledge");
+}
+
 TEST_F(Audit, SaysWhoDidWhatAndWhoWasNotLet) {
   ASSERT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
   ASSERT_EQ(ask("GET", "/api/v1/arms", bearer(tokens_["viewer"])).status, 200);

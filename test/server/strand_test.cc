@@ -67,6 +67,43 @@ TEST(Strand, CyclesAndWhatIsUrgentGoOnWhileSomethingLongIsTakenPartByPart) {
   EXPECT_GE(ended - begun, 30ms) << "cell time stood still";
 }
 
+class Alerts final : public Observer {
+ public:
+  void on_event(const Event& event) override {
+    const auto* alert = std::get_if<Alert>(&event.body);
+    if (alert == nullptr) return;
+    told.push_back(alert->text);
+    if (told.size() == 1) first.set_value();
+  }
+  void on_tick(TimePoint, const Configuration&) override {}
+  void on_state(const StateFrame&) override {}
+  std::vector<std::string> told;  // the loop's thread
+  std::promise<void> first;
+};
+
+TEST(Strand, ALoopThatWasHeldUpSaysSoOnce) {
+  Alerts alerts;
+  const auto loop = RealTimeLoop::start(two_pandas(), {}, 1.0, alerts);
+  ASSERT_TRUE(loop);
+  const auto hold_up = [&] {
+    (*loop)->post([](Executive&) { std::this_thread::sleep_for(600ms); });
+  };
+  hold_up();
+  ASSERT_EQ(alerts.first.get_future().wait_for(20s), std::future_status::ready);
+  hold_up();
+  std::promise<std::vector<std::string>> told;
+  TimePoint at{};
+  (*loop)->post_in_parts([&](Executive& executive) {  // until cycles go on after it
+    if (at == TimePoint{}) at = executive.now();
+    if (executive.now() - at < 20ms) return false;
+    told.set_value(alerts.told);
+    return true;
+  });
+  const auto texts = told.get_future().get();
+  ASSERT_EQ(texts.size(), 1U) << "of a busy machine it is said once in a minute";
+  EXPECT_TRUE(texts[0].starts_with("the control loop was held up for ")) << texts[0];
+}
+
 TEST(Strand, ALongQueueIsToldSeldomAndAStopOfAllAtOnce) {
   constexpr std::size_t kJobs = 400;
   Queues observer;

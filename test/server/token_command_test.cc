@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 
 #include "test/server/command_fixture.h"
@@ -33,6 +34,15 @@ TEST_F(Token, IsMadeListedAndWithdrawn) {
   EXPECT_EQ(run("token list --tokens " + tokens()).out, "");
   EXPECT_EQ(run("token withdraw --tokens " + tokens() + " --name cell-7").exit_code, 2);
   EXPECT_EQ(run("token add --tokens " + tokens() + " --name a --role root").exit_code, 2);
+}
+
+TEST_F(Token, TheFileStaysReadableToWhomItWas) {
+  namespace fs = std::filesystem;
+  add("a", "viewer");
+  EXPECT_EQ(fs::status(tokens()).permissions(), fs::perms{0600}) << "nobody else, unless it is let";
+  fs::permissions(tokens(), fs::perms{0640});
+  add("b", "viewer");
+  EXPECT_EQ(fs::status(tokens()).permissions(), fs::perms{0640});
 }
 
 TEST_F(Token, AServerThatOthersReachDoesNotStartWithoutTokensAndTls) {

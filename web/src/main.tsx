@@ -9,6 +9,7 @@ import { Header } from './frame/header';
 import { Pane } from './frame/pane';
 import { listen_to_keys } from './frame/shortcuts';
 import { use_staleness } from './frame/staleness';
+import { AlertList } from './alerts/alert_list';
 import { Notices } from './alerts/notices';
 import { Jobs } from './jobs/jobs';
 import { MotionBook } from './motion/motion_book';
@@ -18,7 +19,7 @@ import { address_bar_of, Router } from './route/router';
 import { Api } from './server/api';
 import { backoff_ms, Connection, type SocketLike, type Timers } from './server/connection';
 import { follow_timeline } from './server/follow_timeline';
-import { Acknowledged } from './state/acknowledged';
+import type { Session } from './server/messages';
 import { Actions } from './state/actions';
 import type { App } from './state/app';
 import { Settings } from './state/settings';
@@ -41,6 +42,8 @@ const timers: Timers = {
   set: (callback, delay_ms) => window.setTimeout(callback, delay_ms),
   clear: (id) => window.clearTimeout(id),
 };
+const alerts = new AlertList(api, timers);
+const session = signal<Session | null>(null);
 const connection = new Connection({
   url: `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${kBase}/ws`,
   open_socket: (url) => new WebSocket(url) as unknown as SocketLike,
@@ -48,21 +51,24 @@ const connection = new Connection({
   on_message: (message) => {
     const other_run = message.type !== 'state' && store.stream !== null && message.stream !== store.stream;
     store.take(message);
+    if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
     if (other_run) {
       motions.clear();
       void load_cell();
     }
   },
-  on_link: (link) => store.set_link(link),
+  on_link: (link) => {
+    store.set_link(link);
+    if (link.status === 'lost') void know_who();
+  },
   on_reject: ({ kind, what }) => {
     if (store.reject(kind)) console.warn(`${kind} message (further ones are only counted): ${what}`);
   },
 });
 const router = new Router(address_bar_of(window));
 const app: App = {
-  store, api, motions, covered_px: signal(0), ghost: signal(null), by_hand: signal(null),
+  store, api, motions, alerts, session, covered_px: signal(0), ghost: signal(null), by_hand: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
-  acknowledged: new Acknowledged(shelf()),
   router, player: new Player(store, connection, router),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),
 };
@@ -73,6 +79,14 @@ function shelf(): Storage | null {
   } catch {
     return null;  // some browsers forbid it
   }
+}
+
+/** Whose token was withdrawn, or who has logged out in another window, may nothing any more but log in. */
+async function know_who(): Promise<void> {
+  const answer = await api.session();
+  if (!answer.ok) return;
+  session.value = answer.value;
+  if (answer.value.role === null) location.assign('/login');
 }
 
 async function load_cell(attempt = 1): Promise<void> {
@@ -115,7 +129,7 @@ const root = document.getElementById('app');
 if (root) render(<Page />, root);
 install_debug_hook(app, () => connection.break());
 listen_to_keys(app, window);
-window.addEventListener('storage', () => app.acknowledged.read());
 void load_cell();
+void know_who();
 connection.start();
 follow_timeline(api, store, timers, () => document.visibilityState === 'visible');

@@ -1,7 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { cause_of, need_of, waiting_arms } from '../src/recovery/needs';
 import type { Arm, Job } from '../src/server/messages';
-import { Acknowledged } from '../src/state/acknowledged';
 import type { Notice } from '../src/state/store';
 import { arm_json, job_json, wait_json } from './samples';
 
@@ -29,20 +28,5 @@ describe('after a stop', () => {
     expect(need_of(arm({ state: 'idle' }), null, [0.5, -1.2])).toMatchObject({ resume: false, home: true });
     expect(need_of(arm({ state: 'idle' }), null, [0, -1.2])).toMatchObject({ resume: false, home: false });
     expect(need_of(arm({ state: 'holding' }), job, [0, 0]).words).toMatch(/pick 7/);
-  });
-});
-
-describe('acknowledgements', () => {
-  it('say who and when, and outlive the page', () => {
-    const kept = new Map<string, string>();
-    const shelf = { getItem: (key: string) => kept.get(key) ?? null, setItem: (key: string, value: string) => { kept.set(key, value); } };
-    const at = new Date('2026-11-23T04:00:00Z');
-    new Acknowledged(shelf, () => at).acknowledge(['s:1', 's:2'], 'Ada');
-    const later = new Acknowledged(shelf);
-    expect(later.of('s:2')).toEqual({ who: 'Ada', at: at.toISOString() });
-    expect(later.of('s:3')).toBeNull();
-    kept.set('armloom.acknowledged', '[["x", 7], 3]');
-    later.read();
-    expect(later.of('x')).toBeNull();
   });
 });

@@ -5,11 +5,11 @@ import type { App } from '../state/app';
 import type { Notice } from '../state/store';
 import { use_store } from '../state/use_store';
 import { clock } from '../wording';
-import { key_of, to_see_to } from './alerts';
+import { id_of } from './alerts';
 
 export function Notices({ app }: { app: App }) {
   use_store(app.store);
-  const open = to_see_to(app).length;
+  const open = app.alerts.open.length;
   return (
     <section class="notices" aria-label="Events">
       <div class="line head">
@@ -36,7 +36,7 @@ export function NoticeList({ app }: { app: App }) {
 }
 
 function Line({ notice, app }: { notice: Notice; app: App }) {
-  const seen = app.acknowledged.of(key_of(notice));
+  const seen = app.alerts.of(id_of(notice))?.acknowledged;
   return (
     <div class={`notice ${notice.level}${seen ? ' seen' : ''}`}>
       <span class="mono">{clock(notice.t_s)}</span>

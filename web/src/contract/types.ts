@@ -300,6 +300,19 @@ export interface components {
             /** @description Instead: why POST /jobs would refuse it now */
             not_judged?: components["schemas"]["Problem"];
         };
+        AlertList: {
+            /** @description Newest first */
+            alerts: components["schemas"]["KeptAlert"][];
+        };
+        /** @description Who asks, and what they may. */
+        Session: {
+            /** @description Else everybody may everything */
+            asks_for_token: boolean;
+            /** @description Of the token; null: there is none */
+            name: string | null;
+            /** @description null: may nothing but log in */
+            role: ("viewer" | "operator" | "admin") | null;
+        };
         SnapshotEvent: {
             /**
              * Format: uuid
@@ -647,6 +660,18 @@ export interface components {
                 points?: unknown[];
             };
         };
+        /** @description What somebody has to see to, until somebody has. */
+        KeptAlert: {
+            /** @description `<stream>:<seq>` of the event that told it */
+            id: string;
+            /** @description RFC 3339, UTC */
+            at: string;
+            /** @description warning, error */
+            level: string;
+            text: string;
+            /** @description null: by nobody yet */
+            acknowledged: components["schemas"]["Acknowledgement"] | null;
+        };
         Snapshot: {
             cell: string;
             policy: string;
@@ -760,6 +785,12 @@ export interface components {
              * @default null
              */
             time_from_start: components["schemas"]["Time"];
+        };
+        Acknowledgement: {
+            /** @description The token's name, or whoever said to be it */
+            who: string;
+            /** @description RFC 3339, UTC */
+            at: string;
         };
         /** @enum {string} */
         ArmState: "idle" | "moving" | "holding" | "stopped" | "fault";

@@ -1,6 +1,5 @@
 // The top line: which cell, where we are, whether we hear it, and Stop, always at the right end.
 
-import { to_see_to } from '../alerts/alerts';
 import type { Place } from '../route/address';
 import { Link } from '../route/link';
 import type { App } from '../state/app';
@@ -50,8 +49,7 @@ export function Header({ app }: { app: App }) {
 }
 
 function OpenAlerts({ app }: { app: App }) {
-  use_store(app.store);
-  const open = to_see_to(app);
+  const { open } = app.alerts;
   if (open.length === 0) return null;
   return (
     <Link app={app} to={{ page: 'alerts' }} class={`alert-count ${open.some(({ level }) => level === 'error') ? 'error' : ''}`} test="open-alerts" title="Alerts that nobody has acknowledged">

@@ -17,6 +17,10 @@ const kKeys: readonly [string, string][] = [
 export function SettingsPage({ app }: { app: App }) {
   use_store(app.store);
   const { settings, store } = app;
+  const session = app.session.value;
+  const log_out = async () => {
+    if (await app.actions.ask('Log out', app.api.log_out())) location.assign('/login');
+  };
   const { cell } = store;
   return (
     <div class="columns">
@@ -30,6 +34,12 @@ export function SettingsPage({ app }: { app: App }) {
             </label>
           ))}
         </fieldset>
+        {session?.asks_for_token && (
+          <>
+            <h2>You</h2>
+            <p data-test="session"><b>{session.name}</b>, {session.role} <button class="small" data-test="log-out" onClick={() => void log_out()}>Log out</button></p>
+          </>
+        )}
         <h2>Keys</h2>
         <label class="check">
           <input type="checkbox" checked={settings.letter_keys.value} onChange={(event) => settings.set_letter_keys(event.currentTarget.checked)} />

@@ -1,8 +1,8 @@
 // The HTTP calls that the page makes. Every answer is a value: what was asked for, or a Problem.
 
 import {
-  parse_cell, parse_diagram, parse_forecast, parse_job, parse_job_motion, parse_plan, parse_problem, parse_verdict,
-  type Cell, type Diagram, type Forecast, type Job, type JobAmendment, type JobMotion, type Parsed, type Plan, type Problem, type SceneObject, type Verdict,
+  parse_alerts, parse_cell, parse_diagram, parse_forecast, parse_job, parse_job_motion, parse_plan, parse_problem, parse_session, parse_verdict,
+  type AlertList, type Cell, type Diagram, type Forecast, type Job, type JobAmendment, type JobMotion, type Parsed, type Plan, type Problem, type SceneObject, type Session, type Verdict,
 } from './messages';
 
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
@@ -95,6 +95,23 @@ export class Api {
 
   resume_arm(name: string): Promise<Answer<unknown>> {
     return this.ask('POST', `/arms/${encodeURIComponent(name)}/resume`);
+  }
+
+  async alerts(): Promise<Answer<AlertList>> {
+    return checked('list of alerts', await this.ask('GET', '/alerts'), parse_alerts);
+  }
+
+  /** Without a name: the server says where it came from. */
+  acknowledge(ids: readonly string[], who: string): Promise<Answer<unknown>> {
+    return this.ask('POST', '/alerts/acknowledge', JSON.stringify(who === '' ? { ids } : { ids, who }));
+  }
+
+  async session(): Promise<Answer<Session>> {
+    return checked('session', await this.ask('GET', '/session'), parse_session);
+  }
+
+  log_out(): Promise<Answer<unknown>> {
+    return this.ask('DELETE', '/session');
   }
 
   private async ask(method: string, path: string, body?: string): Promise<Answer<unknown>> {

@@ -39,6 +39,11 @@ export type JobAmendment = Partial<Pick<Job, 'name' | 'priority' | 'backlog_time
 export type JobMotion = Schemas['JobMotion'];
 /** A motion to a goal, which is not executed. */
 export type Plan = Schemas['Plan'];
+/** What somebody has to see to, until somebody has. */
+export type KeptAlert = Schemas['KeptAlert'];
+export type AlertList = Schemas['AlertList'];
+/** Who asks, and what they may. */
+export type Session = Schemas['Session'];
 export type QueueData = Schemas['QueueIds'];
 export type MonitorData = Schemas['MonitorFinding'];
 /** RFC 9457, with the place of the fault and the value found. */
@@ -117,5 +122,7 @@ export const parse_diagram = (value: unknown): Parsed<Diagram> => check('Diagram
 export const parse_forecast = (value: unknown): Parsed<Forecast> => check('Timeline', value);
 export const parse_job_motion = (value: unknown): Parsed<JobMotion> => check('JobMotion', value);
 export const parse_plan = (value: unknown): Parsed<Plan> => check('Plan', value);
+export const parse_alerts = (value: unknown): Parsed<AlertList> => check('AlertList', value);
+export const parse_session = (value: unknown): Parsed<Session> => check('Session', value);
 export const parse_verdict = (value: unknown): Parsed<Verdict> => check('Verdict', value);
 export const parse_problem = (value: unknown): Parsed<Problem> => check('Problem', value);

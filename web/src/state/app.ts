@@ -1,11 +1,12 @@
 // What every part of the page is given: what is known, what can be asked, where we are, how it looks.
 
 import type { Signal } from '@preact/signals';
+import type { AlertList } from '../alerts/alert_list';
 import type { Api } from '../server/api';
+import type { Session } from '../server/messages';
 import type { MotionBook } from '../motion/motion_book';
 import type { Player } from '../recordings/player';
 import type { Router } from '../route/router';
-import type { Acknowledged } from './acknowledged';
 import type { Actions } from './actions';
 import type { Settings } from './settings';
 import type { Store } from './store';
@@ -18,7 +19,9 @@ export interface App {
   router: Router;
   player: Player;
   settings: Settings;
-  acknowledged: Acknowledged;
+  alerts: AlertList;
+  /** Who uses this browser, where the server asks for tokens; null: not known yet. */
+  session: Signal<Session | null>;
   /** Joints as they would stand, shown in the cell; null: nothing is previewed. */
   ghost: Signal<Readonly<Record<string, number>> | null>;
   /** The object that may be moved by hand in the cell. */

@@ -1,0 +1,97 @@
+// What somebody has to see to, and who has.
+#include <algorithm>
+#include <ranges>
+#include <utility>
+
+#include "server/api/route.h"
+#include "server/messages/alert.h"
+
+namespace armloom {
+namespace {
+
+void get_alerts(Call call) {
+  const auto& alerts = call.parts.alerts.alerts();
+  AlertList list;
+  list.alerts.assign(alerts.rbegin(), alerts.rend());
+  const Respond respond = std::move(call.respond);
+  respond(answer(200, alert_list_format(), list));
+}
+
+// A token's name is proven, what a client says of itself is not.
+std::string who_of(const Guard& guard, const std::optional<Caller>& caller, const AlertsSeen& seen,
+                   const std::string& peer) {
+  if (guard.asks() && caller) return caller->name;
+  return seen.who && !seen.who->empty() ? *seen.who : peer;
+}
+
+std::optional<Refusal> unknown_of(const AlertBook& book, const AlertsSeen& seen) {
+  for (std::size_t i = 0; i < seen.ids.size(); ++i) {
+    if (book.find(seen.ids[i]) != nullptr) continue;
+    return Refusal{404, "not-found", "there is no alert \"" + seen.ids[i] + "\", or not any more",
+                   "/ids/" + std::to_string(i), seen.ids[i]};
+  }
+  return std::nullopt;
+}
+
+void tell_others(const ApiParts& parts, const std::string& who, const AlertsSeen& seen) {
+  const std::size_t count = seen.ids.size();
+  const std::string what =
+      count == 1 ? parts.alerts.find(seen.ids.front())->text : std::to_string(count) + " alerts";
+  parts.loop.post([text = who + " acknowledged: " + what](Executive& executive) {
+    executive.alert({Alert::Level::info, text});
+  });
+}
+
+void acknowledge(Call call) {
+  const ApiParts& parts = call.parts;
+  const Respond respond = std::move(call.respond);
+  const auto go_on = [&parts, caller = parts.guard.caller(call.request.token),
+                      peer = call.request.peer, respond](const AlertsSeen& seen) {
+    if (const auto refusal = unknown_of(parts.alerts, seen)) {
+      return respond(refusal_response(*refusal));
+    }
+    const std::string who = who_of(parts.guard, caller, seen, peer);
+    if (!seen.ids.empty()) tell_others(parts, who, seen);
+    parts.alerts.acknowledge(
+        seen.ids, who, [&parts, ids = seen.ids, respond](const std::optional<Refusal>& refusal) {
+          if (refusal) return respond(refusal_response(*refusal));
+          AlertList list;
+          for (const std::string& id : ids) {
+            if (const auto* alert = parts.alerts.find(id)) list.alerts.push_back(*alert);
+          }
+          respond(answer(200, alert_list_format(), list));
+        });
+  };
+  read_body(parts, call.request, respond, read_alerts_seen, go_on);
+}
+
+}  // namespace
+
+std::vector<Route> alert_routes() {
+  Route get{.method = "GET",
+            .path = api_path("/alerts"),
+            .id = "listAlerts",
+            .tag = "service",
+            .summary = "Warnings and errors, and who has seen to them; newest first",
+            .text = "The last 1,000; with `--data` those of former runs, too."};
+  get.outcomes = {outcome(200, "The alerts", alert_list_format())};
+  get.run = get_alerts;
+  Route seen{.method = "POST",
+             .path = api_path("/alerts/acknowledge"),
+             .id = "acknowledgeAlerts",
+             .tag = "service",
+             .summary = "Say that somebody has seen to alerts",
+             .text =
+                 "All of them or, where one is not known, none. Whoever was the first one "
+                 "stays. With `--data` it is on disk when it is answered. Others hear of it by "
+                 "an event."};
+  seen.reads = body(alerts_seen_format(), {{"none", R"({"ids": [], "who": "Ada"})"}});
+  seen.outcomes = {outcome(200, "These alerts as they are now", alert_list_format())};
+  seen.refuses = {404, 422, 507};
+  seen.who = Who::commander;
+  seen.role = Role::operate;
+  seen.run = acknowledge;
+  return {get, seen};
+}
+
+}  // namespace armloom

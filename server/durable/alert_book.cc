@@ -1,0 +1,63 @@
+#include "server/durable/alert_book.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+#include <variant>
+
+#include "core/executive/state_watch.h"
+
+namespace armloom {
+namespace {
+
+std::int64_t since_1970_ms(WallClock::Wall wall) {
+  using std::chrono::milliseconds;
+  return std::chrono::floor<milliseconds>(wall.time_since_epoch()).count();
+}
+
+}  // namespace
+
+AlertBook::AlertBook(std::string stream, const WallClock& clock, JobKeeper* keeper)
+    : stream_(std::move(stream)), clock_(clock), keeper_(keeper) {
+  if (keeper_ == nullptr) return;
+  const auto& left = keeper_->store().leftover().alerts;
+  alerts_.assign(left.begin(), left.end());
+}
+
+void AlertBook::happened(const Event& event) {
+  StoredAlert alert{.id = stream_ + ":" + std::to_string(event.seq),
+                    .at_ms = since_1970_ms(clock_.wall_at(event.time))};
+  if (const auto* told = std::get_if<Alert>(&event.body)) {
+    if (told->level == Alert::Level::info) return;
+    alert.level = told->level == Alert::Level::error ? "error" : "warning";
+    alert.text = told->text;
+  } else if (const auto* found = std::get_if<MonitorEvent>(&event.body)) {
+    alert.level = found->stopped.empty() ? "warning" : "error";
+    alert.text = sentence(found->finding);
+  } else {
+    return;
+  }
+  alerts_.push_back(alert);
+  if (alerts_.size() > kMost) alerts_.pop_front();
+  if (keeper_ != nullptr) keeper_->store().keep(std::move(alert));
+}
+
+const StoredAlert* AlertBook::find(const std::string& id) const {
+  const auto found = std::ranges::find(alerts_, id, &StoredAlert::id);
+  return found == alerts_.end() ? nullptr : &*found;
+}
+
+void AlertBook::acknowledge(const std::vector<std::string>& ids, const std::string& who,
+                            std::function<void(std::optional<Refusal>)> then) {
+  const StoredAlert::Acknowledgement now{who, since_1970_ms(std::chrono::system_clock::now())};
+  for (const std::string& id : ids) {
+    StoredAlert& alert = *std::ranges::find(alerts_, id, &StoredAlert::id);
+    if (alert.acknowledged) continue;
+    alert.acknowledged = now;
+    if (keeper_ != nullptr) keeper_->store().keep(alert);
+  }
+  if (keeper_ == nullptr) return then(std::nullopt);
+  keeper_->when_written(std::move(then));
+}
+
+}  // namespace armloom

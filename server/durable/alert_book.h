@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/executive/events.h"
+#include "server/codec/wall_clock.h"
+#include "server/durable/job_keeper.h"
+#include "server/store/stored_alert.h"
+
+namespace armloom {
+
+// Warnings and errors, each until somebody acknowledges it. With a keeper they outlive the process.
+// On the server's thread.
+class AlertBook {
+ public:
+  inline static constexpr std::size_t kMost = 1000;  // the latest; older ones are forgotten
+
+  // `keeper`: null: they end with the server; it outlives this, as `clock` does.
+  AlertBook(std::string stream, const WallClock& clock, JobKeeper* keeper);
+
+  void happened(const Event& event);
+  [[nodiscard]] const std::deque<StoredAlert>& alerts() const { return alerts_; }  // oldest first
+  [[nodiscard]] const StoredAlert* find(const std::string& id) const;
+
+  // Whoever was the first one stays. `then` is called when it is on disk, or with the reason why
+  // not yet. Precondition: find() knows all of them.
+  void acknowledge(const std::vector<std::string>& ids, const std::string& who,
+                   std::function<void(std::optional<Refusal>)> then);
+
+ private:
+  void add(StoredAlert alert);
+
+  std::string stream_;
+  const WallClock& clock_;
+  JobKeeper* keeper_;
+  std::deque<StoredAlert> alerts_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,73 @@
+// A server that asks for tokens: logging in and out, and a token that is withdrawn while the page is open.
+//
+//   node --test test/browser/login.test.mjs      (after the server and web/dist were built; see harness.mjs)
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { Browser, kBinary, path_for, Server } from './harness.mjs';
+
+const folder = mkdtempSync(join(tmpdir(), 'armloom-login-'));
+const tokens = join(folder, 'tokens');
+const token_command = (...words) => execFileSync(kBinary, ['token', words[0], '--tokens', tokens, ...words.slice(1)], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }).trim();
+const token = token_command('add', '--name', 'ada', '--role', 'operator');
+
+const server = new Server('config/two_pandas.json', 'coordinated', ['--tokens', tokens]);
+const chromium = new Browser();
+let url;
+let page;
+
+before(async () => {
+  url = await server.start();
+  page = await chromium.open({ colorScheme: 'dark' });
+}, { timeout: 90_000 });
+
+after(async () => {
+  await chromium.close();
+  await server.end();
+  rmSync(folder, { recursive: true });
+}, { timeout: 30_000 });
+
+async function log_in(with_token) {
+  await page.locator('#token').fill(with_token);
+  await page.locator('button').click();
+}
+const connected = () => page.locator('[data-test=link]', { hasText: 'connected' }).waitFor();
+
+test('who shows no token is asked for one, and a wrong one is refused', { timeout: 60_000 }, async () => {
+  await page.goto(url);
+  assert.equal(new URL(page.url()).pathname, '/login');
+  await log_in('armloom_' + '0'.repeat(64));
+  await page.locator('[role=alert]', { hasText: 'none of this server' }).waitFor();
+  await log_in(token);
+  await connected();
+});
+
+test('who acknowledges is known by the token', { timeout: 60_000 }, async () => {
+  await page.locator('button', { hasText: 'Stop' }).first().click();
+  await page.locator('[data-test=open-alerts]').click();
+  await page.locator('[data-test=acknowledge-all]').click();
+  await page.locator('[data-test=alerts]', { hasText: 'Acknowledged by ada' }).waitFor();
+});
+
+test('logging out leads to the login page, and back only with a token', { timeout: 60_000 }, async () => {
+  await page.locator('[data-test=go-settings]').click();
+  await page.locator('[data-test=session]', { hasText: 'ada, operator' }).waitFor();
+  await page.screenshot(path_for('session-dark'));
+  await page.locator('[data-test=log-out]').click();
+  await page.waitForURL('**/login');
+  await page.goto(url);
+  assert.equal(new URL(page.url()).pathname, '/login');
+  await log_in(token);
+  await connected();
+});
+
+test('a page whose token is withdrawn goes to the login page', { timeout: 60_000 }, async () => {
+  token_command('withdraw', '--name', 'ada');
+  await page.waitForURL('**/login', { timeout: 15_000 });
+  await log_in(token);
+  await page.locator('[role=alert]', { hasText: 'withdrawn' }).waitFor();
+});

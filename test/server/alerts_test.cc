@@ -1,0 +1,82 @@
+// Alerts wait until somebody has seen to them, and it is known who and when.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "test/server/running_server.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+
+class Alerts : public test::RunningServer {
+ protected:
+  void SetUp() override {
+    options_.data = std::filesystem::path(::testing::TempDir()) / "armloom-alerts" /
+                    ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::remove_all(*options_.data);
+    start(1);
+    post("/api/v1/stop", "");
+    post("/api/v1/resume", "");
+  }
+  json alerts() { return get("/api/v1/alerts").json()["alerts"]; }
+  test::Answer acknowledge(const std::vector<std::string>& ids, const std::string& who) {
+    return post("/api/v1/alerts/acknowledge", json{{"ids", ids}, {"who", who}}.dump());
+  }
+};
+
+TEST_F(Alerts, AreAcknowledgedOnceWithWhoAndWhen) {
+  test::Listener listener(port());
+  json open = alerts();
+  ASSERT_EQ(open.size(), 1U) << "that arms may go on again is no alert: " << open;
+  EXPECT_EQ(open[0]["text"], "stopped: left, right (operator)");
+  EXPECT_EQ(open[0]["level"], "warning");
+  EXPECT_TRUE(open[0]["acknowledged"].is_null());
+
+  const auto seen = acknowledge({open[0]["id"]}, "Ada");
+  ASSERT_EQ(seen.status, 200) << seen.body;
+  EXPECT_EQ(seen.json()["alerts"][0]["acknowledged"]["who"], "Ada");
+  EXPECT_TRUE(seen.json()["alerts"][0]["acknowledged"]["at"].get<std::string>().ends_with("Z"));
+  json told;
+  do told = listener.next_of("alert")["data"];
+  while (told["level"] != "info" || told["text"].get<std::string>().starts_with("resumed"));
+  EXPECT_EQ(told["text"], "Ada acknowledged: stopped: left, right (operator)");
+
+  EXPECT_EQ(acknowledge({open[0]["id"]}, "Bob").status, 200);
+  EXPECT_EQ(alerts()[0]["acknowledged"]["who"], "Ada") << "whoever was the first one stays";
+}
+
+TEST_F(Alerts, AllOfThemAreAcknowledgedOrNone) {
+  const auto unknown = acknowledge({alerts()[0]["id"], "x:1"}, "Ada");
+  EXPECT_EQ(unknown.status, 404);
+  EXPECT_EQ(unknown.json()["pointer"], "/ids/1");
+  EXPECT_TRUE(alerts()[0]["acknowledged"].is_null());
+  EXPECT_EQ(post("/api/v1/alerts/acknowledge", R"({"ids": [1]})").status, 400);
+  EXPECT_EQ(post("/api/v1/alerts/acknowledge", R"({"ids": [], "who": "\n"})").status, 422);
+  EXPECT_EQ(acknowledge({}, "Ada").status, 200);
+}
+
+TEST_F(Alerts, AreKeptWithWhoHasSeenThem) {
+  const std::string first = alerts()[0]["id"];
+  EXPECT_EQ(acknowledge({first}, "Ada").status, 200);
+  post("/api/v1/arms/left/stop", "");
+  json before = alerts();
+  ASSERT_EQ(before.size(), 2U);
+  end();
+  start(1);
+  json after = alerts();  // the arm that was stopped still is, which this run tells again
+  ASSERT_GE(after.size(), 2U) << after;
+  after.erase(after.begin(), after.end() - 2);
+  EXPECT_EQ(after, before);
+  EXPECT_EQ(after[1]["id"], first);
+  EXPECT_EQ(after[1]["acknowledged"]["who"], "Ada");
+  EXPECT_EQ(acknowledge({after[0]["id"]}, "").status, 200);
+  EXPECT_EQ(alerts()[alerts().size() - 2]["acknowledged"]["who"], "127.0.0.1")
+      << "who does not say, is where it came from";
+}
+
+}  // namespace
+}  // namespace armloom
