@@ -24,13 +24,6 @@ void Lanes::follow(const Job& job, const JobPhase& before) {
   }
 }
 
-void Lanes::follow_stops(const ArmRests& arms) {
-  if (is_stale_) return;
-  std::vector<bool> stopped;
-  for (const PlacePtr& place : arms.places()) stopped.push_back(arms.is_stopped(place->arm));
-  sequence_.set_stopped(stopped);
-}
-
 void Lanes::renew(const JobBook& book, const ArmRests& arms) {
   if (!std::exchange(is_stale_, false)) return;
   std::vector<PlacePtr> stands = arms.places();
@@ -55,7 +48,6 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
     if (record.errand.lets_pass && book.is_active(*record.errand.lets_pass)) {
       leg.after.push_back(*record.errand.lets_pass);
     }
-    leg.stopped = arms.stop_of(record.job).has_value();
   }
   sequence_.renew(std::move(stands), legs);
 }

@@ -12,16 +12,15 @@ namespace armloom {
 // The lanes of the arms, as far as they wait: a sequence in which all of it can be done, kept up
 // to date with the jobs and with what becomes known of them. What waits in the queue is a leg; what
 // is admitted, held on its path or not, will come to its end; what ended elsewhere leaves its arms
-// where they stand.
+// where they stand. Who is stopped will go on: that changes nothing of what can be done in turn.
 class Lanes {
  public:
   explicit Lanes(double start_tolerance) : sequence_(start_tolerance) {}
 
   // A job came, at the end of its lanes or before others; or is in another phase than `before`;
-  // arms are stopped, or resumed; or something else has changed what waits.
+  // or something else has changed what waits.
   void add(const Record& record);
   void follow(const Job& job, const JobPhase& before);
-  void follow_stops(const ArmRests& arms);
   void renew_later() { is_stale_ = true; }
   void admitted(const std::vector<JobId>& jobs) { sequence_.admitted(jobs); }
 

@@ -232,7 +232,6 @@ void stop_arms(State& state, const Stop& stop) {
     brake(state, record, {});
     state.jobs.set_wait(record, {.kind = Wait::Kind::stop, .arm = arm, .detail = stop.cause});
   }
-  state.lanes.follow_stops(state.arms);
 }
 
 }  // namespace armloom

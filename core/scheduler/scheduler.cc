@@ -51,7 +51,6 @@ void take(State& state, const Stop& input) { stop_arms(state, input); }
 void take(State& state, const Resume& input) {
   for (ArmId arm : input.arms) state.arms.resume(arm);
   ++state.version;
-  state.lanes.follow_stops(state.arms);
 }
 
 void take(State& state, const SceneChanged&) {

@@ -183,7 +183,7 @@ std::optional<SafeSequence::Outlook> SafeSequence::mend(const State& then, const
 
 // ---- What is in no sequence ----
 
-// Neither stopped, nor cut, nor behind what is.
+// Neither cut, nor behind what is.
 SafeSequence::Order SafeSequence::all_that_may_go(const std::vector<JobId>& but) {
   Order legs;
   std::vector<bool> barred(stands_.size(), false);
@@ -191,7 +191,7 @@ SafeSequence::Order SafeSequence::all_that_may_go(const std::vector<JobId>& but)
   for (Legs* list : {&sequence_, &unplaced_}) {
     for (Leg& leg : *list) {
       if (among(but, leg.job)) continue;
-      const bool goes = !leg.stopped && !leg.cut && std::ranges::none_of(leg.arms, [&](ArmId arm) {
+      const bool goes = !leg.cut && std::ranges::none_of(leg.arms, [&](ArmId arm) {
         return barred[arm.index()];
       }) && std::ranges::none_of(leg.after, [&](JobId job) { return left.contains(job); });
       if (goes) {
@@ -231,13 +231,10 @@ void SafeSequence::place_behind(std::vector<Passage>& unknown) {
     const auto here = leg++;
     const bool behind = std::ranges::any_of(
         here->arms, [&](ArmId arm) { return static_cast<bool>(passed_over[arm.index()]); });
-    const bool free = !behind && !here->stopped && !here->cut &&
-                      std::ranges::all_of(here->after,
-                                          [&](JobId job) {
-                                            const auto known = index_.find(job);
-                                            return known == index_.end() || known->second->placed;
-                                          }) &&
-                      passes(*here, state, &unknown) == Passes::free;
+    const bool free = !behind && !here->cut && std::ranges::all_of(here->after, [&](JobId job) {
+      const auto known = index_.find(job);
+      return known == index_.end() || known->second->placed;
+    }) && passes(*here, state, &unknown) == Passes::free;
     if (!free) {
       for (ArmId arm : here->arms) passed_over[arm.index()] = true;
       continue;

@@ -30,7 +30,7 @@ void SafeSequence::move(State& state, const Leg& leg) {
 
 // The end of its lanes is in the sequence, and so is what it comes after.
 bool SafeSequence::follows(const Leg& leg) const {
-  return !leg.stopped && !leg.cut && std::ranges::all_of(leg.arms, [&](ArmId arm) {
+  return !leg.cut && std::ranges::all_of(leg.arms, [&](ArmId arm) {
     return unplaced_legs_[arm.index()] == 0;
   }) && std::ranges::all_of(leg.after, [&](JobId before) {
     const auto known = index_.find(before);
@@ -130,25 +130,6 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
         std::ranges::any_of(leg->after, [&](JobId job) { return to_be_added.contains(job); });
     if (too_early && added.placed) take_out(added);
   }
-}
-
-void SafeSequence::set_stopped(const std::vector<bool>& arms) {
-  Legs legs = std::move(sequence_);
-  legs.splice(legs.end(), unplaced_);
-  unplaced_legs_.assign(arms.size(), 0);
-  for (Leg& leg : legs) leg.placed = false;
-  while (!legs.empty()) {
-    Leg& leg = legs.front();
-    leg.stopped = std::ranges::any_of(
-        leg.arms, [&](ArmId arm) { return static_cast<bool>(arms[arm.index()]); });
-    leg.placed = follows(leg);
-    for (ArmId arm : leg.arms) unplaced_legs_[arm.index()] += leg.placed ? 0 : 1;
-    Legs& now = leg.placed ? sequence_ : unplaced_;
-    now.splice(now.end(), legs, legs.begin());
-  }
-  asked_.clear();
-  found_.clear();
-  tried_ = false;
 }
 
 bool SafeSequence::follows_on(JobId job) const {

@@ -20,7 +20,6 @@ struct WaitingLeg {
   std::vector<PlacePtr> from;  // by arm, as in `arms`
   std::vector<PlacePtr> to;
   std::vector<JobId> after = {};  // it does not begin before these, as long as they wait
-  bool stopped = false;           // its arms start nothing for now
 };
 
 // Does this leg find its way free while an arm that it does not move rests there?
@@ -65,9 +64,6 @@ class SafeSequence {
   // that every lane allows. What is known of legs is kept; those that were there before keep their
   // order in the sequence.
   void renew(std::vector<PlacePtr> stands, const std::vector<WaitingLeg>& legs);
-
-  // By ArmId: these start nothing for now. What waits for one of them is in no sequence.
-  void set_stopped(const std::vector<bool>& arms);
 
   // Answers to Passages; of two arms: they never meet, wherever they are.
   void learn(const Passage& passage, bool free);

@@ -52,15 +52,6 @@ class Lanes {
     sequence.admitted(group);
     for (JobId job : group) go(job);
   }
-  // By arm.
-  void stop(const std::vector<bool>& stopped) { sequence.set_stopped(stopped); }
-  void stop_anew(const std::vector<bool>& stopped) {
-    for (WaitingLeg& leg : legs_) {
-      leg.stopped =
-          std::ranges::any_of(leg.arms, [&](ArmId a) { return bool(stopped[a.index()]); });
-    }
-    renew();
-  }
   // Whether this leg, the first of its lanes, finds its way free now.
   [[nodiscard]] bool passes_now(JobId job) {
     const WaitingLeg& leg = of(job);
@@ -253,36 +244,6 @@ TEST(SafeSequence, WhatCanBeDoneInTurnIsDoneWhateverIsDoneInBetween) {
   }
   EXPECT_GT(waits, 300U);
   EXPECT_GT(ahead, 300U);
-}
-
-// Stops are followed as if everything were looked at anew.
-TEST(SafeSequence, AStopLeavesTheSequenceThatIsMadeAnewWithoutTheArm) {
-  std::size_t waits = 0, other = 0;
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    std::mt19937_64 random(seed);
-    const auto arms = static_cast<std::uint32_t>(2 + random() % 3);
-    Lanes followed(arms), anew(arms);
-    for (Lanes* lanes : {&followed, &anew}) add_random_legs(*lanes, arms, 8 + seed % 40, seed);
-    std::vector<std::optional<JobId>> before;
-    for (JobId head : followed.heads()) before.push_back(followed.after({head}).first);
-    for (JobId head : anew.heads()) (void)anew.after({head});
-    std::vector<bool> stopped(arms);
-    for (int n = 0; n < 6; ++n) {
-      const std::size_t arm = random() % arms;
-      stopped[arm] = !stopped[arm];
-      followed.stop(stopped);
-      anew.stop_anew(stopped);
-      std::size_t k = 0;
-      for (JobId head : followed.heads()) {
-        const auto first = followed.after({head}).first;
-        ASSERT_EQ(first, anew.after({head}).first) << "seed " << seed << ", job " << head.value();
-        waits += first ? 1 : 0;
-        other += first != before[k++] ? 1 : 0;
-      }
-    }
-  }
-  EXPECT_GT(waits, 300U);
-  EXPECT_GT(other, 100U) << "stops make no difference";
 }
 
 }  // namespace
