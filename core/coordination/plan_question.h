@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "core/base/ids.h"
+#include "core/base/time.h"
 #include "core/model/cell.h"
+#include "core/trajectory/trajectory.h"
 
 namespace armloom {
 
@@ -15,10 +17,16 @@ struct LinkTarget {
   LinkId link;
   Eigen::Isometry3d X_WL;  // in the world (m)
 };
+// Wherever the arm stands clear of what remains of this motion of others: the nearest such place
+// that is found.
+struct ClearOf {
+  TrajectoryPtr motion;
+  Duration progress{};
+};
 struct MotionGoal {
   ArmId arm;
-  // Of the arm's joints, in its order (rad, m); or of one of its links.
-  std::variant<Eigen::VectorXd, LinkTarget> to;
+  // Of the arm's joints, in its order (rad, m); or of one of its links; or out of the way.
+  std::variant<Eigen::VectorXd, LinkTarget, ClearOf> to;
   double speed = 1.0;     // in (0, 1]: as if all were stretched in time
   bool straight = false;  // of a link: along a straight line in the world (tool_line.h)
 };

@@ -1,5 +1,6 @@
 #include "core/planning/answer_plan.h"
 
+#include "core/planning/clear_places.h"
 #include "core/planning/pose_goal.h"
 #include "core/planning/tool_line.h"
 
@@ -10,13 +11,24 @@ namespace {
 // for one that there is not would keep the second try waiting for ten times as long.
 constexpr std::uint64_t kBesideBudget = 40'000;
 
-using Goals = tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal>;
+struct JointGoals {
+  std::vector<Eigen::VectorXd> q;
+  std::uint64_t evaluations = 0;  // for them
+};
+using Goals = tl::expected<JointGoals, PlanRefusal>;
 
-Goals joint_goals(const Cell& cell, const PlanQuestion& question) {
+Goals joint_goals(const PlanningScenePtr& scene, const PlanQuestion& question) {
   const MotionGoal& goal = question.goal;
-  if (const auto* q = std::get_if<Eigen::VectorXd>(&goal.to)) return std::vector{*q};
+  if (const auto* q = std::get_if<Eigen::VectorXd>(&goal.to)) return JointGoals{{*q}};
+  if (const auto* way = std::get_if<ClearOf>(&goal.to)) {
+    return places_clear_of(scene, {goal.arm, way->motion, way->progress}, question.at)
+        .map([](ClearPlaces places) {
+          return JointGoals{std::move(places.q), places.evaluations};
+        });
+  }
   const auto& target = std::get<LinkTarget>(goal.to);
-  return reach_pose(cell, {goal.arm, target.link, target.X_WL}, question.at);
+  return reach_pose(scene->cell(), {goal.arm, target.link, target.X_WL}, question.at)
+      .map([](std::vector<Eigen::VectorXd> q) { return JointGoals{std::move(q)}; });
 }
 
 // One try of each kind of goal.
@@ -46,24 +58,27 @@ class Answer {
 
 PlanAnswer answer_plan(const PlanningScenePtr& scene, const PlanQuestion& question,
                        const std::atomic<bool>* cancelled) {
-  auto goals = question.goal.straight ? Goals{} : joint_goals(scene->cell(), question);
+  auto goals = question.goal.straight ? Goals{} : joint_goals(scene, question);
   if (!goals) return tl::unexpected(std::move(goals.error()));
   PlanRequest request{.arm = question.goal.arm,
                       .at = question.at,
-                      .goals = *std::move(goals),
+                      .goals = std::move(goals->q),
                       .seed = question.seed,
                       .cancelled = cancelled};
+  std::uint64_t spent = goals->evaluations;
+  const auto with_spent = [&spent](PlanAnswer answer) {
+    (answer ? answer->way.evaluations : answer.error().evaluations) += spent;
+    return answer;
+  };
   if (!question.may_move.empty()) request.budget = kBesideBudget;
   const Answer answer(scene, question);
-  auto beside = answer.to(request);
+  auto beside = with_spent(answer.to(request));
   if (beside || question.may_move.empty()) return beside;
   if (beside.error().reason == PlanRefusal::Reason::cancelled) return beside;
-  const std::uint64_t spent = beside.error().evaluations;
+  spent = beside.error().evaluations;
   request.left_out = question.may_move;
   request.budget = PlanRequest::kDefaultBudget;
-  auto alone = answer.to(request);
-  (alone ? alone->way.evaluations : alone.error().evaluations) += spent;
-  return alone;
+  return with_spent(answer.to(request));
 }
 
 }  // namespace armloom

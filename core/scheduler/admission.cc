@@ -14,6 +14,7 @@
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/waiting/waits.h"
 #include "core/scheduler/yielding/making_way.h"
+#include "core/scheduler/yielding/planned_aside.h"
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
@@ -92,7 +93,7 @@ bool Admission::ask_next(State& state, const WaitCycles& cycles) {
   }
   if (auto opens = cycles.next_yield(state)) {
     ask_yield(state, std::move(*opens));
-    return put_off;
+    if (open_) return put_off;
   }
   while (const auto turn = Turns(state).next()) {
     const bool is_choice = choosing_.begin(state, *turn);
@@ -123,6 +124,7 @@ void Admission::ask(State& state, std::vector<JobId> jobs, Purpose purpose) {
 }
 
 void Admission::ask_yield(State& state, YieldTrial move) {
+  if (!move.way) return ask_for_way_aside(state, move);
   Question question = question_about(state, move);
   open_ = OpenQuestion{state.version, {move.blocked_job}, Purpose::yield, std::move(move)};
   state.decided.effects.push_back(Judge{std::move(question)});

@@ -121,7 +121,6 @@ const std::vector<Wait>* waits_of(const State& state, const Job& job) {
 }  // namespace
 
 std::optional<std::string> why_not_replanned(const Job& job) {
-  if (job.terms.system_job) return "it is a move of the server's own";
   if (job.trajectory->arms().size() > 1) return "it moves several arms as one";
   if (job.goal) return std::nullopt;
   if (!job.alternatives.empty()) return "it is one of several ways to do the same work";

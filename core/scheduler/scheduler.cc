@@ -16,6 +16,7 @@
 #include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
+#include "core/scheduler/yielding/planned_aside.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -136,6 +137,7 @@ void Scheduler::on(const Replan& input) {
 void Scheduler::on(const PlanMade& input) {
   take_plan(state_, input);
   if (take_other_way(state_, input)) cycles_.has_opened(state_, input.job);
+  take_way_aside(state_, input);
 }
 
 void Scheduler::on(const Cancel& input) {
