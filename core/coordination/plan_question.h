@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -39,7 +40,9 @@ struct PlanQuestion {
   // Arms that do not rest there for good: a way past them is looked for first, and where there is
   // none, one as if they were gone.
   std::vector<ArmId> may_move = {};
+  bool has_no_way_past = false;  // that is known already of these: it is looked for as if gone
   std::uint64_t seed = 1;
+  std::optional<std::uint64_t> budget = {};  // evaluations of a try; else the planner's own
 };
 
 }  // namespace armloom

@@ -32,10 +32,10 @@ class Simulation::Judge final : public JudgementService {
 
   void plan(PlanTask task) override {
     const auto begun = std::chrono::steady_clock::now();
-    PlanAnswer planned = answer_plan(task.scene, task.question, task.cancelled.get());
+    PlanAnswer planned = answer_of(task);
     planning_.wall += std::chrono::steady_clock::now() - begun;
     planning_.evaluations += planned ? planned->way.evaluations : planned.error().evaluations;
-    ++planning_.plans;
+    if (!task.known) ++planning_.plans;
     answer([planned = std::move(planned), done = std::move(task.done)] { done(planned); },
            kSimulatedPlanning);
   }

@@ -1,5 +1,7 @@
 #include "core/planning/answer_plan.h"
 
+#include <algorithm>
+
 #include "core/planning/clear_places.h"
 #include "core/planning/pose_goal.h"
 #include "core/planning/tool_line.h"
@@ -70,15 +72,22 @@ PlanAnswer answer_plan(const PlanningScenePtr& scene, const PlanQuestion& questi
     (answer ? answer->way.evaluations : answer.error().evaluations) += spent;
     return answer;
   };
-  if (!question.may_move.empty()) request.budget = kBesideBudget;
+  const std::uint64_t budget = question.budget.value_or(PlanRequest::kDefaultBudget);
+  request.budget = question.may_move.empty() ? budget : std::min(budget, kBesideBudget);
   const Answer answer(scene, question);
-  auto beside = with_spent(answer.to(request));
-  if (beside || question.may_move.empty()) return beside;
-  if (beside.error().reason == PlanRefusal::Reason::cancelled) return beside;
-  spent = beside.error().evaluations;
+  std::optional<PlanRefusal> not_past;
+  if (question.may_move.empty() || !question.has_no_way_past) {
+    auto beside = with_spent(answer.to(request));
+    if (beside || question.may_move.empty()) return beside;
+    if (beside.error().reason == PlanRefusal::Reason::cancelled) return beside;
+    spent = beside.error().evaluations;
+    not_past = std::move(beside.error());
+  }
   request.left_out = question.may_move;
-  request.budget = PlanRequest::kDefaultBudget;
-  return with_spent(answer.to(request));
+  request.budget = budget;
+  auto alone = with_spent(answer.to(request));
+  if (alone) alone->not_past = std::move(not_past);
+  return alone;
 }
 
 }  // namespace armloom

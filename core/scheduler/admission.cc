@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/jobs/phases.h"
+#include "core/scheduler/detour.h"
 #include "core/scheduler/groups.h"
 #include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/motion_questions.h"
@@ -201,6 +202,7 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   const PassingOrders orders =
       state.policy->decide(state.graph.question(candidates, verdict.regions));
   const bool can_go = orders.blockers.empty();
+  if (jobs.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
   if (tries_together(state, jobs, can_go)) return;
   if (can_go) {
     if (leaves_a_sequence(state, jobs)) {

@@ -10,6 +10,7 @@
 #include "core/scheduler/approach.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
+#include "core/scheduler/detour.h"
 #include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/replanning.h"
@@ -138,6 +139,7 @@ void Scheduler::on(const PlanMade& input) {
   take_plan(state_, input);
   if (take_other_way(state_, input)) cycles_.has_opened(state_, input.job);
   take_way_aside(state_, input);
+  take_detour(state_, input);
 }
 
 void Scheduler::on(const Cancel& input) {

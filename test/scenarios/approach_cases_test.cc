@@ -83,9 +83,7 @@ TEST_P(Approaches, AnArmThatHasComeToRestOnTheWayThereIsPassed) {
   cell->run_to_the_end();
   expect_succeeded("far");
   expect_succeeded("approach-1");
-  ASSERT_TRUE(cell->job("approach-1").another_way);
-  EXPECT_EQ(cell->job("approach-1").another_way->done, 1U);
-  cell->expect_at("b", {-1, 1});
+  cell->expect_at("b", {-1, 1});  // and not sent aside
 }
 
 TEST_P(Approaches, CancelingTheJobStopsTheArmOnItsWayThere) {
