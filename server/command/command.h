@@ -86,7 +86,7 @@ struct PlanOptions {
   std::string arm;
   std::vector<std::string> arms;  // instead: whichever of these is there first
   std::string to;                 // a named state, or JSON (server/messages/plan_goal.h)
-  std::string from;  // the same without poses; empty: home
+  std::string from;               // the same without poses; empty: home
   std::uint64_t seed = 1;
   std::string out;  // empty: stdout
 };
