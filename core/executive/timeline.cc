@@ -7,7 +7,8 @@ namespace armloom {
 TimelineView timeline_of(const Scheduler& scheduler, TimePoint now, const Cell& cell,
                          const JobNames& names) {
   const PredictedTimeline predicted = scheduler.timeline(now);
-  TimelineView view{.now = predicted.now, .horizon_legs = predicted.horizon, .lanes = {}};
+  TimelineView view{
+      .now = predicted.now, .horizon_legs = scheduler.policy().horizon(), .lanes = {}};
   for (std::size_t arm = 0; arm < cell.arms.size(); ++arm) {
     view.lanes.push_back(
         {.arm = cell.arms[arm].name, .legs = {}, .waiting = predicted.waiting[arm]});

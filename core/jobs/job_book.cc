@@ -165,11 +165,11 @@ std::vector<JobId> JobBook::end(Record& record, Ended how) {
   return node.empty() ? std::vector<JobId>{} : node.mapped();
 }
 
-void JobBook::set_waits(Record& record, std::vector<Wait> waits) {
+void JobBook::set_waits(Record& record, std::span<const Wait> waits) {
   auto& old = record.job.waits_on;
   const bool same =
       std::ranges::equal(old, waits, [](const Wait& a, const Wait& b) { return a.same_cause(b); });
-  old = std::move(waits);
+  old.assign(waits.begin(), waits.end());
   if (!same) changed(record);
 }
 

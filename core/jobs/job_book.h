@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -107,7 +109,8 @@ class JobBook {
   void enter(Record& record, JobPhase phase);
   // Into Ended, and out of the queues. Active jobs that named it in `after`.
   [[nodiscard]] std::vector<JobId> end(Record& record, Ended how);
-  void set_waits(Record& record, std::vector<Wait> waits);
+  void set_waits(Record& record, std::span<const Wait> waits);
+  void set_wait(Record& record, const Wait& only) { set_waits(record, {&only, 1}); }
 
   // For clients, or for whoever explains waits: it, or what is before it, is not as it was told.
   void changed(const Record& record) { news_.changed.insert(record.job.id); }
@@ -122,7 +125,7 @@ class JobBook {
  private:
   void explain_with_next(const Job& job);
 
-  std::map<JobId, Record> records_;
+  std::unordered_map<JobId, Record> records_;
   std::uint64_t last_id_ = 0;
   std::set<JobId> active_;
   std::set<JobId> past_queue_;

@@ -24,6 +24,13 @@ void Lanes::follow(const Job& job, const JobPhase& before) {
   }
 }
 
+void Lanes::follow_stops(const ArmRests& arms) {
+  if (is_stale_) return;
+  std::vector<bool> stopped;
+  for (const PlacePtr& place : arms.places()) stopped.push_back(arms.is_stopped(place->arm));
+  sequence_.set_stopped(stopped);
+}
+
 void Lanes::renew(const JobBook& book, const ArmRests& arms) {
   if (!std::exchange(is_stale_, false)) return;
   std::vector<PlacePtr> stands = arms.places();

@@ -17,10 +17,11 @@ class Lanes {
  public:
   explicit Lanes(double start_tolerance) : sequence_(start_tolerance) {}
 
-  // A job came, at the end of its lanes or before others; or is in another phase than `before`; or
-  // arms are stopped, resumed.
+  // A job came, at the end of its lanes or before others; or is in another phase than `before`;
+  // arms are stopped, or resumed; or something else has changed what waits.
   void add(const Record& record);
   void follow(const Job& job, const JobPhase& before);
+  void follow_stops(const ArmRests& arms);
   void renew_later() { is_stale_ = true; }
   void admitted(const std::vector<JobId>& jobs) { sequence_.admitted(jobs); }
 

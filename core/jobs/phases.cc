@@ -224,16 +224,15 @@ void give_up(State& state, Record& record, const AfterStop& after) {
 
 void stop_arms(State& state, const Stop& stop) {
   ++state.version;  // an answer that is under way shall start nothing on these arms
-  state.lanes.renew_later();
   for (ArmId arm : stop.arms) {
     if (!state.arms.is_stopped(arm)) state.arms.stop(arm, stop.cause, state.now);
     if (state.jobs.queues()[arm].empty()) continue;
     Record& record = state.jobs.at(state.jobs.queues()[arm].front());
     if (record.job.in<Moving>() == nullptr) continue;  // undispatched: keeps its place
     brake(state, record, {});
-    state.jobs.set_waits(record,
-                         {Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop.cause}});
+    state.jobs.set_wait(record, {.kind = Wait::Kind::stop, .arm = arm, .detail = stop.cause});
   }
+  state.lanes.follow_stops(state.arms);
 }
 
 }  // namespace armloom

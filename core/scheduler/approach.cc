@@ -61,6 +61,7 @@ bool goes_to_start(State& state, Record& head) {
 
 std::vector<JobId> approaches_of(const State& state, const Record& record) {
   std::vector<JobId> approaches;
+  if (record.approaches.tries == 0) return approaches;
   for (ArmId arm : record.job.trajectory->arms()) {
     for (JobId id : state.jobs.queues()[arm]) {
       const Record& own = state.jobs.at(id);

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/jobs/phases.h"
-#include "core/scheduler/waiting/waits.h"
+#include "core/jobs/waits.h"
 
 namespace armloom {
 namespace {
@@ -16,7 +16,7 @@ constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
 void explain_pause(State& state, Record& record) {
   const auto held = state.graph.held_back(record.job.id);
-  if (held) state.jobs.set_waits(record, {wait_for(*held)});
+  if (held) state.jobs.set_wait(record, wait_for(*held));
 }
 
 // Later than this, going on from now, it may overrun.
@@ -39,7 +39,7 @@ void dispatch_if_ready(State& state, Record& record) {
   if (!job.has_started() && state.arms.start_mismatch(*state.cell, *job.trajectory)) {
     return withdraw(state, record, {});
   }
-  if (auto stop = state.arms.stop_of(job)) return state.jobs.set_waits(record, {std::move(*stop)});
+  if (auto stop = state.arms.stop_of(job)) return state.jobs.set_wait(record, *stop);
   if (record.asking.found_free_at < state.recheck_epoch) return;
   const Duration limit = state.graph.limit(job.id);
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {

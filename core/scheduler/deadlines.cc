@@ -44,8 +44,8 @@ void see_whether_in_vain(const State& state, Record& record) {
   if (state.arms.stop_of(record.job)) return pause->in_vain_since.reset();
   const bool held = record.job.in<Held>() != nullptr;
   if (held && record.job.judgement().at != state.version) return;  // not known yet
-  const auto waits = found_in_the_way(state, record);
-  const bool in_vain = std::ranges::any_of(waits, [&](const Wait& wait) {
+  const FoundWaits waits = found_in_the_way(state, record);
+  const bool in_vain = std::ranges::any_of(waits.all(), [&](const Wait& wait) {
     return wait.kind == Wait::Kind::object ||
            (wait.kind == Wait::Kind::arm && state.jobs.queues()[*wait.arm].empty());
   });

@@ -176,7 +176,7 @@ bool plan_goals(State& state) {
 std::optional<JobId> may_go_first(const State& state, const Record& record) {
   const Job& job = record.job;
   if (job.goal || job.in<Queued>() == nullptr) return std::nullopt;
-  const auto arms = job.trajectory->arms();
+  const auto& arms = job.trajectory->arms();
   for (JobId id : state.jobs.undecided()) {
     const Record& open = state.jobs.at(id);
     if (!open.job.has_open_arm() || open.turn > record.turn) continue;

@@ -6,8 +6,8 @@
 
 #include "core/coordination/effort.h"
 #include "core/jobs/phases.h"
+#include "core/jobs/waits.h"
 #include "core/scheduler/detour.h"
-#include "core/scheduler/waiting/waits.h"
 
 namespace armloom {
 namespace {
@@ -55,8 +55,8 @@ void note_found(Record& record, std::vector<Wait> waits) {
 
 void put_off(State& state, Record& record, std::vector<Wait> waits) {
   if (gives_detour_up(state, record)) return;
-  judgement_of(record) = {state.version, waits};
-  state.jobs.set_waits(record, std::move(waits));
+  state.jobs.set_waits(record, waits);
+  judgement_of(record) = {state.version, std::move(waits)};
   if (!is_at_head(state.jobs, record)) return;  // it has had no turn yet
   if (!record.ages_from) record.ages_from = state.now;
   const auto* queued = record.job.in<Queued>();
@@ -89,7 +89,7 @@ void hold_back(State& state, Record& record, const Verdict& verdict) {
   auto waits = waits_for(state, record, verdict);
   if (!waits) return;
   brake(state, record, {});
-  state.jobs.set_waits(record, std::move(*waits));
+  state.jobs.set_waits(record, *waits);
 }
 
 bool is_asked_again(Record& record, const Verdict& verdict) {

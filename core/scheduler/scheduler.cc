@@ -7,16 +7,17 @@
 #include <utility>
 
 #include "core/jobs/invariants.h"
+#include "core/jobs/pace.h"
 #include "core/scheduler/approach.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
 #include "core/scheduler/detour.h"
-#include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/replanning.h"
 #include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
+#include "core/scheduler/weighing.h"
 #include "core/scheduler/yielding/planned_aside.h"
 #include "core/trajectory/set_joints.h"
 
@@ -78,12 +79,14 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&
                              state_.jobs.news().changed.empty() &&
                              state_.version == version_before && !(wake_at_ && *wake_at_ <= now);
-  if (!only_progress) {
-    settle();
-    if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);
-  }
+  if (only_progress) return std::exchange(state_.decided.effects, {});
+  settle();
+  if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);
+  return take_effects();
+}
 
-  // What clients see comes first, so that an event is told before its consequences.
+// What clients see comes first, so that an event is told before its consequences.
+std::vector<Effect> Scheduler::take_effects() {
   std::vector<Effect> result;
   const std::vector<YieldMove> sent_aside = std::exchange(state_.decided.sent_aside, {});
   for (const YieldMove& move : sent_aside) result.push_back(move);
@@ -172,7 +175,7 @@ void Scheduler::on(const Stop& input) { stop_arms(state_, input); }
 void Scheduler::on(const Resume& input) {
   for (ArmId arm : input.arms) state_.arms.resume(arm);
   ++state_.version;
-  state_.lanes.renew_later();
+  state_.lanes.follow_stops(state_.arms);
 }
 
 void Scheduler::on(const SceneChanged&) {

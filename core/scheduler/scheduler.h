@@ -7,10 +7,10 @@
 #include "core/jobs/inputs.h"
 #include "core/jobs/phases.h"
 #include "core/jobs/state.h"
+#include "core/jobs/timeline.h"
 #include "core/scheduler/admission.h"
 #include "core/scheduler/amending.h"
 #include "core/scheduler/goals.h"
-#include "core/scheduler/horizon/timeline.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/waiting/wait_cycles.h"
 
@@ -89,6 +89,7 @@ class Scheduler {
   void on(const SceneChanged& input);
   void on(const Interrupt& input);
   void settle();
+  [[nodiscard]] std::vector<Effect> take_effects();
   void ask_for_wake();
 
   State state_;

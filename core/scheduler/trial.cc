@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/scheduler/waiting/waits.h"
+#include "core/jobs/waits.h"
 
 namespace armloom {
 

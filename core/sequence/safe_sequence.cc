@@ -132,6 +132,25 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
   }
 }
 
+void SafeSequence::set_stopped(const std::vector<bool>& arms) {
+  Legs legs = std::move(sequence_);
+  legs.splice(legs.end(), unplaced_);
+  unplaced_legs_.assign(arms.size(), 0);
+  for (Leg& leg : legs) leg.placed = false;
+  while (!legs.empty()) {
+    Leg& leg = legs.front();
+    leg.stopped = std::ranges::any_of(
+        leg.arms, [&](ArmId arm) { return static_cast<bool>(arms[arm.index()]); });
+    leg.placed = follows(leg);
+    for (ArmId arm : leg.arms) unplaced_legs_[arm.index()] += leg.placed ? 0 : 1;
+    Legs& now = leg.placed ? sequence_ : unplaced_;
+    now.splice(now.end(), legs, legs.begin());
+  }
+  asked_.clear();
+  found_.clear();
+  tried_ = false;
+}
+
 bool SafeSequence::follows_on(JobId job) const {
   const auto known = index_.find(job);
   return known == index_.end() || !known->second->cut;

@@ -66,6 +66,9 @@ class SafeSequence {
   // order in the sequence.
   void renew(std::vector<PlacePtr> stands, const std::vector<WaitingLeg>& legs);
 
+  // By ArmId: these start nothing for now. What waits for one of them is in no sequence.
+  void set_stopped(const std::vector<bool>& arms);
+
   // Answers to Passages; of two arms: they never meet, wherever they are.
   void learn(const Passage& passage, bool free);
   void learn_apart(ArmId a, ArmId b) {

@@ -52,6 +52,15 @@ class Lanes {
     sequence.admitted(group);
     for (JobId job : group) go(job);
   }
+  // By arm.
+  void stop(const std::vector<bool>& stopped) { sequence.set_stopped(stopped); }
+  void stop_anew(const std::vector<bool>& stopped) {
+    for (WaitingLeg& leg : legs_) {
+      leg.stopped =
+          std::ranges::any_of(leg.arms, [&](ArmId a) { return bool(stopped[a.index()]); });
+    }
+    renew();
+  }
   // Whether this leg, the first of its lanes, finds its way free now.
   [[nodiscard]] bool passes_now(JobId job) {
     const WaitingLeg& leg = of(job);
@@ -194,32 +203,38 @@ TEST(SafeSequence, AfterACancelWhatBeginsElsewhereIsInNoSequence) {
   EXPECT_FALSE(lanes.sequence.remove(a1)) << "renew() is called for";
 }
 
+// So many legs, each of which passes where all stand in the order of submission; else it may be
+// blocked.
+void add_random_legs(Lanes& lanes, std::uint32_t arms, std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto below = [&](std::uint64_t n) { return static_cast<std::uint32_t>(random() % n); };
+  std::vector<double> stands(arms, 0.0);
+  Jobs all;
+  for (std::size_t n = 0; n < count; ++n) {
+    std::vector<std::uint32_t> own{below(arms)};
+    if (below(8) == 0 && below(arms) != own[0]) own.push_back((own[0] + 1) % arms);
+    Jobs after;
+    if (!all.empty() && below(4) == 0) after.push_back(all[below(all.size())]);
+    const JobId job = lanes.leg(own, below(6), after);
+    for (std::uint32_t arm = 0; arm < arms; ++arm) {
+      for (int at = 0; at < 6; ++at) {
+        const bool is_own = std::ranges::find(own, arm) != own.end();
+        if (!is_own && at != stands[arm] && below(3) == 0) lanes.blocked(job, arm, at);
+      }
+    }
+    all.push_back(job);
+    for (std::uint32_t arm : own) stands[arm] = lanes.end_of(arm);
+  }
+}
+
 // Whatever is admitted while a sequence remains, all comes to its end.
 TEST(SafeSequence, WhatCanBeDoneInTurnIsDoneWhateverIsDoneInBetween) {
   std::size_t waits = 0, ahead = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     std::mt19937_64 random(seed);
-    const auto below = [&](std::uint64_t n) { return static_cast<std::uint32_t>(random() % n); };
-    const std::uint32_t arms = 2 + below(3);
+    const auto arms = static_cast<std::uint32_t>(2 + random() % 3);
     Lanes lanes(arms);
-    // Each leg passes where all stand in the order of submission; else it may be blocked.
-    std::vector<double> stands(arms, 0.0);
-    Jobs all;
-    for (std::size_t n = 0; n < 8 + seed % 60; ++n) {
-      std::vector<std::uint32_t> own{below(arms)};
-      if (below(8) == 0 && below(arms) != own[0]) own.push_back((own[0] + 1) % arms);
-      Jobs after;
-      if (!all.empty() && below(4) == 0) after.push_back(all[below(all.size())]);
-      const JobId job = lanes.leg(own, below(6), after);
-      for (std::uint32_t arm = 0; arm < arms; ++arm) {
-        for (int at = 0; at < 6; ++at) {
-          const bool is_own = std::ranges::find(own, arm) != own.end();
-          if (!is_own && at != stands[arm] && below(3) == 0) lanes.blocked(job, arm, at);
-        }
-      }
-      all.push_back(job);
-      for (std::uint32_t arm : own) stands[arm] = lanes.end_of(arm);
-    }
+    add_random_legs(lanes, arms, 8 + seed % 60, random());
     while (!lanes.done()) {
       Jobs go;
       for (JobId head : lanes.heads()) {
@@ -231,13 +246,43 @@ TEST(SafeSequence, WhatCanBeDoneInTurnIsDoneWhateverIsDoneInBetween) {
         }
       }
       ASSERT_FALSE(go.empty()) << "seed " << seed << ": nothing can go any more";
-      const JobId chosen = go[below(go.size())];
+      const JobId chosen = go[random() % go.size()];
       if (chosen != go.front()) ++ahead;
       lanes.admit({chosen});
     }
   }
   EXPECT_GT(waits, 300U);
   EXPECT_GT(ahead, 300U);
+}
+
+// Stops are followed as if everything were looked at anew.
+TEST(SafeSequence, AStopLeavesTheSequenceThatIsMadeAnewWithoutTheArm) {
+  std::size_t waits = 0, other = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto arms = static_cast<std::uint32_t>(2 + random() % 3);
+    Lanes followed(arms), anew(arms);
+    for (Lanes* lanes : {&followed, &anew}) add_random_legs(*lanes, arms, 8 + seed % 40, seed);
+    std::vector<std::optional<JobId>> before;
+    for (JobId head : followed.heads()) before.push_back(followed.after({head}).first);
+    for (JobId head : anew.heads()) (void)anew.after({head});
+    std::vector<bool> stopped(arms);
+    for (int n = 0; n < 6; ++n) {
+      const std::size_t arm = random() % arms;
+      stopped[arm] = !stopped[arm];
+      followed.stop(stopped);
+      anew.stop_anew(stopped);
+      std::size_t k = 0;
+      for (JobId head : followed.heads()) {
+        const auto first = followed.after({head}).first;
+        ASSERT_EQ(first, anew.after({head}).first) << "seed " << seed << ", job " << head.value();
+        waits += first ? 1 : 0;
+        other += first != before[k++] ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(waits, 300U);
+  EXPECT_GT(other, 100U) << "stops make no difference";
 }
 
 }  // namespace

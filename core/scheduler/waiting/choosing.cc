@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "core/precedence/order_search.h"
-#include "core/scheduler/horizon/weighing.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/policy.h"
+#include "core/scheduler/weighing.h"
 
 namespace armloom {
 namespace {

@@ -11,16 +11,11 @@
 namespace armloom {
 namespace {
 
-using Closed = std::optional<std::vector<Wait>>;  // nothing: open
+using Closed = std::optional<FoundWaits>;  // nothing: open
 using Edges = std::vector<WaitsForEdge>;
 
-Closed only(std::optional<Wait> wait) {
-  if (!wait) return std::nullopt;
-  return std::vector<Wait>{std::move(*wait)};
-}
-
 Closed order(JobId first, std::optional<ArmId> arm = {}) {
-  return only(Wait{.kind = Wait::Kind::order, .job = first, .arm = arm});
+  return FoundWaits(Wait{.kind = Wait::Kind::order, .job = first, .arm = arm});
 }
 
 // It is one of the arm's first jobs, as many as the policy looks ahead, and those before it are
@@ -77,7 +72,7 @@ Closed plan(const Turns&, const Record& record) {
   const Job& job = record.job;
   const bool is_asked = job.is_unplanned() || job.is_replanned_now() || job.is_detour_asked();
   if (!is_asked) return std::nullopt;
-  return only(Wait{.kind = Wait::Kind::plan});
+  return FoundWaits(Wait{.kind = Wait::Kind::plan});
 }
 
 Closed lets_pass(const Turns& turns, const Record& record) {
@@ -91,23 +86,27 @@ void add_lets_pass(const State& state, const Record& record, Edges& edges) {
 }
 
 Closed stop(const Turns& turns, const Record& record) {
-  return only(turns.state().arms.stop_of(record.job));
+  auto stop = turns.state().arms.stop_of(record.job);
+  if (!stop) return std::nullopt;
+  return FoundWaits(std::move(*stop));
 }
 
 Closed place(const Turns& turns, const Record& record) {
   const auto taken_by = turns.state().policy->place_taken_by(turns.state(), record);
   if (!taken_by) return std::nullopt;
-  return only(Wait{.kind = Wait::Kind::capacity, .job = *taken_by});
+  return FoundWaits(Wait{.kind = Wait::Kind::capacity, .job = *taken_by});
 }
 
 Closed conflict(const Turns& turns, const Record& record) {
   if (!record.job.is_waiting()) return std::nullopt;
   const Judgement& judgement = record.job.judgement();
-  return judgement.at == turns.state().version ? Closed(judgement.found) : std::nullopt;
+  if (judgement.at != turns.state().version) return std::nullopt;
+  return FoundWaits(judgement.found);
 }
 
 void add_conflict(const State& state, const Record& record, Edges& edges) {
-  for (const Wait& wait : found_in_the_way(state, record)) {
+  const FoundWaits found = found_in_the_way(state, record);
+  for (const Wait& wait : found.all()) {
     const auto first = has_to_move_first(state, wait);
     if (!first) continue;
     if (wait.kind == Wait::Kind::arm) {
@@ -123,7 +122,7 @@ Closed aging(const Turns& turns, const Record& record) {
   const auto old = turns.held_back_by(record);
   if (!old) return std::nullopt;
   const bool is_judged = turns.state().jobs.at(*old).job.judgement().at == turns.state().version;
-  return is_judged ? order(*old) : std::vector<Wait>{};  // else it may be about to go
+  return is_judged ? order(*old) : FoundWaits();  // else it may be about to go
 }
 
 struct Gate {
@@ -171,13 +170,13 @@ WaitsFor waits_for(const State& state) {
   return WaitsFor(std::move(edges));
 }
 
-std::vector<Wait> found_in_the_way(const State& state, const Record& record) {
+FoundWaits found_in_the_way(const State& state, const Record& record) {
   if (record.job.is_waiting()) {
     const Judgement& judgement = record.job.judgement();
-    return judgement.at == state.version ? judgement.found : std::vector<Wait>{};
+    return judgement.at == state.version ? FoundWaits(judgement.found) : FoundWaits();
   }
-  const auto held = held_where_it_stands(state, record);
-  return held ? std::vector<Wait>{*held} : std::vector<Wait>{};
+  auto held = held_where_it_stands(state, record);
+  return held ? FoundWaits(std::move(*held)) : FoundWaits();
 }
 
 // What is undecided counts as a conflict: it stays so while nothing moves.

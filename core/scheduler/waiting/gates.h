@@ -1,7 +1,8 @@
 #pragma once
 
 #include <optional>
-#include <vector>
+#include <span>
+#include <utility>
 
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/waiting/waits_for.h"
@@ -23,9 +24,23 @@ enum class GateKind {
   aging,      // an older one comes first
 };
 
+// What a job waits for: one thing, or what was found when it was judged, which stays where it is.
+class FoundWaits {
+ public:
+  FoundWaits() = default;
+  explicit FoundWaits(Wait wait) : own_(std::move(wait)) {}
+  explicit FoundWaits(std::span<const Wait> found) : found_(found) {}
+
+  [[nodiscard]] std::span<const Wait> all() const { return own_ ? std::span(&*own_, 1) : found_; }
+
+ private:
+  std::optional<Wait> own_;
+  std::span<const Wait> found_;
+};
+
 struct ClosedGate {
-  GateKind gate;
-  std::vector<Wait> waits;  // empty: as it was told before
+  GateKind kind;
+  FoundWaits waits;  // none: as it was told before
 };
 // The first that is closed for this job; nothing: it may be judged.
 [[nodiscard]] std::optional<ClosedGate> closed_gate(const Turns& turns, const Record& record);
@@ -34,7 +49,7 @@ struct ClosedGate {
 [[nodiscard]] WaitsFor waits_for(const State& state);
 
 // What was found when it was judged last, if that still counts; of what is admitted, what holds it.
-[[nodiscard]] std::vector<Wait> found_in_the_way(const State& state, const Record& record);
+[[nodiscard]] FoundWaits found_in_the_way(const State& state, const Record& record);
 // The job that has to move before what is waited for changes; nothing: it moves, or never will.
 [[nodiscard]] std::optional<JobId> has_to_move_first(const State& state, const Wait& wait);
 

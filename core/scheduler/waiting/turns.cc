@@ -42,6 +42,22 @@ std::optional<JobId> first_that_waits(const State& state, const std::deque<JobId
   return first == queue.end() ? std::nullopt : std::optional(*first);
 }
 
+// Whose waits may be others than they were told. Ascending.
+std::vector<JobId> to_explain(State& state) {
+  const std::set<JobId> unexplained = std::exchange(state.jobs.news().unexplained, {});
+  std::vector<JobId> jobs(unexplained.begin(), unexplained.end());
+  for (const auto& queue : state.jobs.queues()) {
+    if (!queue.empty()) jobs.push_back(queue.front());
+    if (const auto first = first_that_waits(state, queue)) jobs.push_back(*first);
+  }
+  std::ranges::copy(state.jobs.undecided() | std::views::take(kUndecidedMax),
+                    std::back_inserter(jobs));
+  std::ranges::sort(jobs);
+  const auto again = std::ranges::unique(jobs);
+  jobs.erase(again.begin(), again.end());
+  return jobs;
+}
+
 }  // namespace
 
 Turns::Turns(const State& state) : state_(state), aged_(aged_jobs()) {}
@@ -124,30 +140,23 @@ std::optional<JobId> Turns::next() const {
 
 // What is not the first of an arm waits for the one before it, as long as that is the same.
 void explain_waits(State& state) {
-  std::set<JobId> jobs = std::exchange(state.jobs.news().unexplained, {});
-  for (const auto& queue : state.jobs.queues()) {
-    if (!queue.empty()) jobs.insert(queue.front());
-    if (const auto first = first_that_waits(state, queue)) jobs.insert(*first);
-  }
-  std::ranges::copy(state.jobs.undecided() | std::views::take(kUndecidedMax),
-                    std::inserter(jobs, jobs.end()));
   const Turns turns(state);
-  for (JobId id : jobs) {
+  for (JobId id : to_explain(state)) {
     Record& record = state.jobs.at(id);
     const bool waits = record.job.is_waiting();
     if (!waits && record.job.in<Admitted>() == nullptr) continue;
-    auto closed = closed_gate(turns, record);
+    const auto closed = closed_gate(turns, record);
     if (!waits) {  // it is admitted: only what is before it on its arms counts
-      if (closed && closed->gate == GateKind::behind) {
-        state.jobs.set_waits(record, std::move(closed->waits));
+      if (closed && closed->kind == GateKind::behind) {
+        state.jobs.set_waits(record, closed->waits.all());
       }
       continue;
     }
-    if (closed && closed->gate == GateKind::place && !record.ages_from) {
+    if (closed && closed->kind == GateKind::place && !record.ages_from) {
       record.ages_from = state.now;
     }
-    if (closed && !closed->waits.empty()) {
-      state.jobs.set_waits(record, std::move(closed->waits));
+    if (closed && !closed->waits.all().empty()) {
+      state.jobs.set_waits(record, closed->waits.all());
     } else if (!closed && record.job.judgement().at == 0) {
       state.jobs.set_waits(record, {});  // nothing stands against it but that it is not judged yet
     }

@@ -21,8 +21,8 @@ bool contains(const WaitCycle& ring, JobId job) {
 bool one_is_in_the_way(const State& state) {
   return std::ranges::any_of(state.jobs.queues(), [&](const auto& queue) {
     if (queue.empty()) return false;
-    const auto waits = found_in_the_way(state, state.jobs.at(queue.front()));
-    return std::ranges::any_of(waits, [&](const Wait& wait) {
+    const FoundWaits waits = found_in_the_way(state, state.jobs.at(queue.front()));
+    return std::ranges::any_of(waits.all(), [&](const Wait& wait) {
       return wait.kind != Wait::Kind::order && has_to_move_first(state, wait).has_value();
     });
   });

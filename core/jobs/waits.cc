@@ -1,4 +1,4 @@
-#include "core/scheduler/waiting/waits.h"
+#include "core/jobs/waits.h"
 
 namespace armloom {
 

@@ -1,13 +1,12 @@
-#include "core/scheduler/horizon/timeline.h"
+#include "core/jobs/timeline.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "core/jobs/pace.h"
+#include "core/jobs/waits.h"
 #include "core/precedence/motion_chains.h"
 #include "core/precedence/prediction.h"
-#include "core/scheduler/horizon/weighing.h"
-#include "core/scheduler/policy.h"
-#include "core/scheduler/waiting/waits.h"
 
 namespace armloom {
 namespace {
@@ -133,8 +132,7 @@ class Timetable {
 }  // namespace
 
 PredictedTimeline predicted_timeline(const State& state, TimePoint now) {
-  PredictedTimeline timeline{
-      .now = now, .horizon = state.policy->horizon(), .legs = {}, .waiting = {}};
+  PredictedTimeline timeline{.now = now, .legs = {}, .waiting = {}};
   const Timetable timetable(state, now);
   for (std::size_t m = 0; m < state.graph.motions().size(); ++m) {
     timeline.legs.push_back(timetable.leg(m));

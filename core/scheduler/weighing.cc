@@ -1,51 +1,19 @@
-#include "core/scheduler/horizon/weighing.h"
+#include "core/scheduler/weighing.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "core/jobs/pace.h"
 #include "core/scheduler/policy.h"
 
 namespace armloom {
 namespace {
 
 constexpr Duration kEvery = std::chrono::milliseconds(250);
-// An arm that sets out or brakes may be seen so long in one place.
-constexpr Duration kStandsFrom = std::chrono::milliseconds(250);
-// The pace of a motion is told from so much of its way, and counts from there on.
-constexpr Duration kPaceFrom = std::chrono::milliseconds(100);
-constexpr double kHardlySlow = 1.1;
 // Who has stood for so long is not looked at any more.
 constexpr Duration kStandsForGood = std::chrono::minutes(10);
 
-// Since when its arms have stood for no reason of ours.
-std::optional<TimePoint> stands_since(const Job& job) {
-  if (const auto* moving = job.in<Moving>()) {
-    return moving->pause ? std::nullopt : std::optional(moving->moved_at);
-  }
-  const bool stopped = job.in<Braking>() != nullptr || job.in<Held>() != nullptr;
-  return stopped ? std::optional(job.times.measured_at) : std::nullopt;
-}
-
 }  // namespace
-
-bool is_standing(const Moving& moving, TimePoint now) {
-  return now - moving.moved_at >= kStandsFrom;
-}
-
-Duration stood_for(const Job& job, TimePoint now) {
-  const auto since = stands_since(job);
-  const Duration stood = since ? now - *since : Duration{};
-  return stood < kStandsFrom ? Duration{} : stood;
-}
-
-double pace_of(const Job& job, TimePoint now) {
-  const auto* moving = job.in<Moving>();
-  if (moving == nullptr || moving->pause || is_standing(*moving, now)) return 1.0;
-  const Duration way = job.progress - moving->goes_from;
-  if (way < kPaceFrom) return 1.0;
-  const double pace = to_seconds(moving->moved_at - moving->goes_since) / to_seconds(way);
-  return pace < kHardlySlow ? 1.0 : pace;
-}
 
 void prepare_choice(State& state, const std::vector<JobId>& jobs) {
   std::vector<const Job*> in_front;

@@ -26,7 +26,6 @@ struct PredictedLeg {
 
 struct PredictedTimeline {
   TimePoint now;
-  std::size_t horizon;               // legs of a lane that are admitted at most
   std::vector<PredictedLeg> legs;    // those of one arm in the order in which they go
   std::vector<std::size_t> waiting;  // by ArmId: jobs that are not admitted
 };
