@@ -9,8 +9,11 @@
 #include "core/base/add_below.h"
 #include "core/collision/check/motion_checker.h"
 #include "core/collision/state/check_home.h"
+#include "core/executive/arms_of.h"
 #include "core/executive/start_elsewhere.h"
 #include "core/executive/views.h"
+#include "core/planning/answer_plan.h"
+#include "core/planning/plan_goal.h"
 #include "core/scheduler/scheduler.h"
 #include "core/scheduler/trial.h"
 #include "core/trajectory/set_joints.h"
@@ -20,6 +23,7 @@ namespace {
 
 // A job with the time at which it begins if everything goes as planned.
 struct Planned {
+  std::size_t place;  // in the file
   std::string key;
   std::string name;
   TrajectoryPtr trajectory;
@@ -36,48 +40,96 @@ struct Planned {
 // Reads the jobs in the order of the file: where each arm stands, and when it is free.
 class Plan {
  public:
-  explicit Plan(const Cell& cell)
-      : cell_(cell), rest_(cell.home()), free_at_(cell.arms.size(), TimePoint{}) {}
+  explicit Plan(PlanningScenePtr scene)
+      : scene_(std::move(scene)),
+        cell_(scene_->cell()),
+        rest_(cell_.home()),
+        free_at_(cell_.arms.size(), TimePoint{}) {}
 
   void add(const TimedJob& timed, Problems& problems) {
-    const std::string place = "/" + std::to_string(jobs_.size() + refused_) + "/job";
-    const auto refuse = [&](Problem problem) {
-      problem.pointer.insert(0, place);
-      problems.push_back(std::move(problem));
-    };
     const std::size_t before = problems.size();
-    Planned job{timed.job.key, timed.job.name, nullptr, timed.at, timed.at};
-    if (job.key.empty()) job.key = "job-" + std::to_string(jobs_.size() + refused_ + 1);
-    if (by_key_.contains(job.key)) {
-      refuse({ProblemKind::conflict, "id-in-use", "/id",
-              "the id is used by an earlier job of the file", job.key});
+    Planned job{read_, timed.job.key, timed.job.name, nullptr, timed.at, timed.at};
+    const std::string place = "/" + std::to_string(read_++) + "/job";
+    if (job.key.empty()) job.key = "job-" + std::to_string(read_);
+    Problems found;
+    const bool fails = find_what_it_follows(timed.job, job, found);
+    add_below(place, std::move(found), problems);
+    if (timed.job.move_to) {
+      auto goals = goals_of(cell_, {timed.job.arm, timed.job.arms}, *timed.job.move_to, "/move_to");
+      if (!goals) add_below(place, std::move(goals.error()), problems);
+      if (goals && !fails) plan(*goals, timed.job.speed, job);
+    } else {
+      const auto motion = timed.job.motions().front();  // as if that were chosen
+      auto trajectory = validate(motion.motion, cell_);
+      Problems wrong = trajectory ? Problems{} : std::move(trajectory.error());
+      if (trajectory) find_start_elsewhere(cell_, **trajectory, rest_, wrong);
+      add_below(place + motion.place, std::move(wrong), problems);
+      if (trajectory) job.trajectory = *std::move(trajectory);
     }
-    for (std::size_t i = 0; i < timed.job.after.size(); ++i) {
-      const std::string& key = timed.job.after[i];
+    if (problems.size() > before) return;
+    if (fails) ended_.emplace(job.key, std::pair(job.place, Reason::predecessor_failed));
+    if (!ended_.contains(job.key)) take(std::move(job));
+  }
+
+  [[nodiscard]] const std::vector<Planned>& jobs() const { return jobs_; }
+  // Those that would end without a motion; by their keys.
+  using Ended = std::map<std::string, std::pair<std::size_t, Reason>>;
+  [[nodiscard]] const Ended& ended() const { return ended_; }
+  [[nodiscard]] const std::string& why(const std::string& key) const { return why_.at(key); }
+
+ private:
+  // Whether one of these fails.
+  bool find_what_it_follows(const JobRequest& request, Planned& job, Problems& problems) {
+    if (by_key_.contains(job.key) || ended_.contains(job.key)) {
+      problems.push_back({ProblemKind::conflict, "id-in-use", "/id",
+                          "the id is used by an earlier job of the file", job.key});
+    }
+    bool fails = false;
+    for (std::size_t i = 0; i < request.after.size(); ++i) {
+      const std::string& key = request.after[i];
       if (const auto it = by_key_.find(key); it != by_key_.end()) {
         job.starts = std::max(job.starts, jobs_[it->second].ends());
         job.after.push_back(it->second);
+      } else if (ended_.contains(key)) {
+        fails = true;
+        why_[job.key] = "a job that it comes after did not succeed";
       } else {
-        refuse({ProblemKind::invalid, "unknown-job", "/after/" + std::to_string(i),
-                "no job before this one has the id \"" + key + "\"", key});
+        problems.push_back({ProblemKind::invalid, "unknown-job", "/after/" + std::to_string(i),
+                            "no job before this one has the id \"" + key + "\"", key});
       }
     }
-    if (timed.job.move_to) {
-      refuse({ProblemKind::invalid, "not-served", "/move_to",
-              "a goal has no trajectory yet that could be judged: `armloom plan` plans one"});
-      ++refused_;
-      return;
+    return fails;
+  }
+
+  // From where the jobs before it leave all arms, as the server asks; by the arm that is there
+  // first.
+  void plan(std::vector<MotionGoal>& goals, double speed, Planned& job) {
+    std::string why;
+    TimePoint arrives = TimePoint::max();
+    for (MotionGoal& goal : goals) {
+      goal.speed = speed;
+      PlanQuestion question{.goal = goal, .at = rest_, .seed = job.place + 1};
+      for (ArmId arm : all_arms(cell_)) {
+        if (arm != goal.arm) question.may_move.push_back(arm);
+      }
+      const PlanAnswer answer = answer_plan(scene_, question);
+      if (!answer) {
+        why += (why.empty() ? "" : "; ") + cell_.arm(goal.arm).name +
+               ": no plan: " + answer.error().detail;
+        continue;
+      }
+      const TimePoint there =
+          std::max(job.starts, free_at_[goal.arm.index()]) + answer->timed.trajectory->duration();
+      if (there >= arrives) continue;
+      arrives = there;
+      job.trajectory = answer->timed.trajectory;
     }
-    const auto motion = timed.job.motions().front();  // as if that were chosen
-    auto trajectory = validate(motion.motion, cell_);
-    Problems found = trajectory ? Problems{} : std::move(trajectory.error());
-    if (trajectory) find_start_elsewhere(cell_, **trajectory, rest_, found);
-    add_below(place + motion.place, std::move(found), problems);
-    if (problems.size() > before) {
-      ++refused_;
-      return;
-    }
-    job.trajectory = std::move(*trajectory);
+    if (job.trajectory) return;
+    ended_.emplace(job.key, std::pair(job.place, Reason::no_plan));
+    why_[job.key] = why;
+  }
+
+  void take(Planned job) {
     for (ArmId arm : job.trajectory->arms()) {
       job.starts = std::max(job.starts, free_at_[arm.index()]);
     }
@@ -87,15 +139,15 @@ class Plan {
     jobs_.push_back(std::move(job));
   }
 
-  [[nodiscard]] const std::vector<Planned>& jobs() const { return jobs_; }
-
- private:
+  PlanningScenePtr scene_;
   const Cell& cell_;
   Configuration rest_;
   std::vector<TimePoint> free_at_;
+  std::size_t read_ = 0;
   std::vector<Planned> jobs_;
   std::map<std::string, std::size_t> by_key_;
-  std::size_t refused_ = 0;
+  Ended ended_;
+  std::map<std::string, std::string> why_;
 };
 
 // The instant at which a job begins: what has begun by then is under way or has ended, whatever the
@@ -192,21 +244,27 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
   auto scene = PlanningScene::build(cell);
   if (!scene) return failure(std::move(scene.error()));
   if (auto too_close = check_home(*scene); !too_close.empty()) return failure(std::move(too_close));
-  Plan plan(*cell);
+  Plan plan(*scene);
   Problems problems;
   for (const TimedJob& timed : jobs) plan.add(timed, problems);
   if (!problems.empty()) return failure(std::move(problems));
 
-  std::vector<std::size_t> order(jobs.size());
+  std::vector<std::size_t> order(plan.jobs().size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return plan.jobs()[i].starts; });
   MotionChecker checker(*scene);
   std::vector<CheckedJob> checked(jobs.size());
+  for (const auto& [key, how] : plan.ended()) {
+    CheckView& view = (checked[how.first] = {key, {}}).verdict;
+    view.kind = Verdict::Kind::conflict;
+    view.scene_version = 1;
+    view.result = JobResultView{how.second, plan.why(key)};
+  }
   std::vector<std::size_t> begun;
   for (std::size_t index : order) {
     const auto& job = plan.jobs()[index];
-    checked[index].key = job.key;
-    CheckView& view = checked[index].verdict;
+    checked[job.place].key = job.key;
+    CheckView& view = checked[job.place].verdict;
     view = judged(Instant(plan, *cell, index, begun), cell, policy, checker);
     view.scene_version = 1;
     // Counted from where it was judged.

@@ -22,6 +22,9 @@ struct CheckedJob {
 //
 // Problems: an unknown policy; arms too close at home, as in a cell that cannot be served; what
 // submit() would say, its pointers below "/<index>/job".
+// A goal (`move_to`) is planned from where the jobs before it leave all arms; of several arms the
+// one that would arrive first without the others has it. Where there is no plan it is told by the
+// verdict's result, as of what comes after it.
 [[nodiscard]] Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& policy,
                                                          const std::vector<TimedJob>& jobs);
 

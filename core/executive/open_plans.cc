@@ -19,11 +19,15 @@ void OpenPlans::ask(const PlanMotion& asked, PlanningScenePtr scene,
   const auto given_up = std::make_shared<std::atomic<bool>>(false);
   const Key key{asked.job, asked.number};
   plans_.insert_or_assign(key, Plan{asked, given_up});
-  const auto answered = [this, key, done = std::move(done)](PlanAnswer answer) {
+  const auto answered = [this, key, scene, done = std::move(done)](PlanAnswer answer) {
     const auto node = plans_.extract(key);
-    done(made_of(node.mapped().asked, std::move(answer)));
+    const Plan& plan = node.mapped();
+    if (!*plan.given_up) refused_.learn(plan.asked.question, scene, answer);
+    done(made_of(plan.asked, std::move(answer)));
   };
-  judges_.plan({asked.question, std::move(scene), given_up, answered});
+  PlanTask task{asked.question, std::move(scene), given_up, answered};
+  refused_.tell(task);
+  judges_.plan(std::move(task));
 }
 
 void OpenPlans::give_up(JobId job) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/executive/executive.h"
+#include "core/executive/refused_plans.h"
 #include "core/jobs/inputs.h"
 
 namespace armloom {
@@ -33,6 +34,7 @@ class OpenPlans {
     std::shared_ptr<std::atomic<bool>> given_up;
   };
   std::map<Key, Plan> plans_;
+  RefusedPlans refused_;
 };
 
 }  // namespace armloom

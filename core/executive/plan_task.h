@@ -22,7 +22,13 @@ struct PlanTask {
   PlanningScenePtr scene;
   std::shared_ptr<std::atomic<bool>> cancelled;
   std::function<void(PlanAnswer)> done;
+  std::optional<PlanRefusal> known = {};  // the answer, where it was asked before (RefusedPlans)
 };
+// Thread-safe.
+[[nodiscard]] inline PlanAnswer answer_of(const PlanTask& task) {
+  if (task.known) return tl::unexpected(*task.known);
+  return answer_plan(task.scene, task.question, task.cancelled.get());
+}
 
 // What a client asks: how an arm would get somewhere.
 struct PlanInquiry {

@@ -157,8 +157,7 @@ class RealTimeLoop::Impl final : public JudgementService {
   void plan(Worker& worker, PlanTask task) {
     worker.post([this, task = std::move(task)] {
       const std::stop_callback at_end(ending_.get_token(), [&task] { *task.cancelled = true; });
-      post_urgent([answer = answer_plan(task.scene, task.question, task.cancelled.get()),
-                   done = task.done](Executive&) { done(answer); });
+      post_urgent([answer = answer_of(task), done = task.done](Executive&) { done(answer); });
     });
   }
 

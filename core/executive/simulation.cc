@@ -31,8 +31,12 @@ class Simulation::Judge final : public JudgementService {
   }
 
   void plan(PlanTask task) override {
-    answer([planned = answer_plan(task.scene, task.question, task.cancelled.get()),
-            done = std::move(task.done)] { done(planned); },
+    const auto begun = std::chrono::steady_clock::now();
+    PlanAnswer planned = answer_of(task);
+    planning_.wall += std::chrono::steady_clock::now() - begun;
+    planning_.evaluations += planned ? planned->way.evaluations : planned.error().evaluations;
+    if (!task.known) ++planning_.plans;
+    answer([planned = std::move(planned), done = std::move(task.done)] { done(planned); },
            kSimulatedPlanning);
   }
   bool draft(PlanTask task) override {
@@ -50,6 +54,7 @@ class Simulation::Judge final : public JudgementService {
   }
 
   [[nodiscard]] const Judging& judging() const { return judging_; }
+  [[nodiscard]] const Planning& planning() const { return planning_; }
   [[nodiscard]] bool is_idle() const { return pending_.empty(); }
 
  private:
@@ -68,6 +73,7 @@ class Simulation::Judge final : public JudgementService {
   TimePoint now_{};
   std::deque<Answer> pending_;
   Judging judging_;
+  Planning planning_;
 };
 
 Simulation::Simulation(std::unique_ptr<Judge> judge) : judge_(std::move(judge)) {}
@@ -83,6 +89,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(CellPtr cell, ExecutiveOp
 }
 
 const Judging& Simulation::judging() const { return judge_->judging(); }
+const Planning& Simulation::planning() const { return judge_->planning(); }
 
 bool Simulation::settled() const {
   return judge_->is_idle() && executive_->settled_until() == TimePoint::max();
@@ -142,6 +149,7 @@ Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options, Scenar
   result.ended_at = executive.now();
   result.figures = executive.figures();
   result.judging = (*simulation)->judging();
+  result.planning = (*simulation)->planning();
   result.jobs = executive.snapshot().jobs;
   result.wall = std::chrono::steady_clock::now() - begun;
   return result;

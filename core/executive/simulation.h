@@ -23,6 +23,12 @@ struct Judging {
   std::uint64_t evaluations = 0;
   Duration wall{};
 };
+// The same of planning: ways that were asked for, and the evaluations that each of them took.
+struct Planning {
+  std::uint64_t plans = 0;
+  std::uint64_t evaluations = 0;
+  Duration wall{};
+};
 
 // The same executive as in real time, on simulated time: the caller turns the clock. Deterministic
 // for a seed. Single-threaded.
@@ -37,6 +43,7 @@ class Simulation {
   [[nodiscard]] Executive& executive() { return *executive_; }
   [[nodiscard]] TimePoint now() const { return executive_->now(); }
   [[nodiscard]] const Judging& judging() const;
+  [[nodiscard]] const Planning& planning() const;
 
   // Nothing happens any more unless somebody asks for it.
   [[nodiscard]] bool settled() const;
@@ -73,6 +80,7 @@ struct Scenario {
 struct SimulationResult {
   RunFigures figures;
   Judging judging;
+  Planning planning;
   std::vector<JobView> jobs;  // every job that was accepted, as it ended, in order of submission
   struct Refused {
     std::size_t index;  // into the jobs given

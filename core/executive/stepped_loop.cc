@@ -30,7 +30,7 @@ class SteppedLoop::Service final : public JudgementService, public StartLog {
     if (plans_.empty()) return;
     const PlanTask task = std::move(plans_.front());
     plans_.pop_front();
-    task.done(armloom::answer_plan(task.scene, task.question, task.cancelled.get()));
+    task.done(answer_of(task));
   }
   void write_start(JobId job) {
     const auto node = starts_.extract(job);

@@ -10,8 +10,14 @@ namespace armloom {
 namespace {
 
 constexpr const char* kToPark = "\"on_idle_blocker\": \"park\" in the cell's scheduling";
-constexpr const char* kWaysAside =
-    "back along its last motion, home, or to a named pose of its group";
+
+// By which an arm may go out of the way.
+std::string ways_aside(const Cell& cell) {
+  const std::string known = "back along its last motion, home, ";
+  const bool plans = cell.scheduling.on_idle_blocker == OnIdleBlocker::replan;
+  return known + (plans ? "to a named pose of its group, or to a place planned beside the way"
+                        : "or to a named pose of its group");
+}
 
 // What would open the way past an arm that stays where it is; nothing while its jobs move it.
 std::optional<std::string> opens(ArmId id, bool in_vain, const Cell& cell, const JobNames& names) {
@@ -28,11 +34,11 @@ std::optional<std::string> opens(ArmId id, bool in_vain, const Cell& cell, const
            (stopped ? " when resumed" : "");
   }
   if (in_vain && !stopped) {
-    return begins + "no free way aside was found (" + kWaysAside +
+    return begins + "no free way aside was found (" + ways_aside(cell) +
            "); one that moves it away would have opened this one";
   }
   return begins + (stopped ? "when it is resumed " : "") +
-         "it goes aside where it has a free way (" + kWaysAside +
+         "it goes aside where it has a free way (" + ways_aside(cell) +
          "), else one that moves it away would open this one";
 }
 
@@ -52,7 +58,7 @@ std::string deadlock_text(const std::vector<std::string>& ring, const Cell& cell
   if (cell.scheduling.on_idle_blocker == OnIdleBlocker::report) {
     return text + kToPark + ", which sends one aside";
   }
-  return text + "a free way aside for one (" + kWaysAside + "), of which none was found";
+  return text + "a free way aside for one (" + ways_aside(cell) + "), of which none was found";
 }
 
 }  // namespace

@@ -157,10 +157,22 @@ struct GoalWay {
   Version asked_at = 0;                        // ... and when it was asked
   std::optional<std::string> refusal = {};     // the answer to it, where there is no plan
 };
+// Another way to a goal, around the places that others hold (detour.h).
+struct Detour {
+  std::optional<std::uint64_t> question = {};  // that is open: its number
+  Configuration beside = {};                   // the last question: where all would stand, ...
+  Version asked_at = 0;                        // ... and when it was asked
+  int tries = 0;
+  bool is_weighed = false;       // the job has another way for a while, to be judged by it
+  TrajectoryPtr best = nullptr;  // of the ways that were weighed, its own among them, ...
+  TimePoint arrives{};           // ... and when it arrives by that, as it was predicted
+  TimePoint soon_enough{};       // what arrives by then is taken
+};
 struct JobGoal {
   std::vector<GoalWay> ways;  // several: of one arm each, as Job::alternatives until it is admitted
   std::size_t taken = 0;      // of these, that of Job::trajectory
   bool is_planned = false;    // all that still count are answered, and that one is planned
+  std::optional<Detour> detour = {};
 
   [[nodiscard]] const GoalWay& way() const { return ways[taken]; }
   [[nodiscard]] GoalWay& way() { return ways[taken]; }
@@ -209,6 +221,10 @@ struct Job {
   [[nodiscard]] JobState state() const;
   // Its way has to be planned (again) before it can be judged.
   [[nodiscard]] bool is_unplanned() const { return goal && !goal->is_planned; }
+  // It has a way, and another one is being looked for that may be sooner.
+  [[nodiscard]] bool is_detour_asked() const {
+    return goal && goal->detour && goal->detour->question;
+  }
   // A goal that one of several arms will go to; which one is not decided.
   [[nodiscard]] bool has_open_arm() const { return goal && !alternatives.empty(); }
   // Whether there is such a way: of goals one that is planned.

@@ -17,9 +17,15 @@ namespace armloom {
 
 // Ways out of another job's way that have been tried for it with one arm (yield_moves.h).
 struct YieldsTried {
+  struct Planned {
+    std::optional<std::uint64_t> question = {};  // that is open: its number
+    bool is_answered = false;
+    TrajectoryPtr way = nullptr;  // null: there is none
+  };
   std::size_t total = 0;  // for all that helps the job too
   std::size_t next = 0;   // of the ways from where the arm came to rest by `from`
   TrajectoryPtr from;
+  Planned planned = {};                  // from there, the last of these ways (planned_aside.h)
   std::vector<Eigen::VectorXd> went_to;  // for all that helps the job too
 };
 

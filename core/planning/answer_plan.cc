@@ -1,5 +1,8 @@
 #include "core/planning/answer_plan.h"
 
+#include <algorithm>
+
+#include "core/planning/clear_places.h"
 #include "core/planning/pose_goal.h"
 #include "core/planning/tool_line.h"
 
@@ -10,13 +13,24 @@ namespace {
 // for one that there is not would keep the second try waiting for ten times as long.
 constexpr std::uint64_t kBesideBudget = 40'000;
 
-using Goals = tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal>;
+struct JointGoals {
+  std::vector<Eigen::VectorXd> q;
+  std::uint64_t evaluations = 0;  // for them
+};
+using Goals = tl::expected<JointGoals, PlanRefusal>;
 
-Goals joint_goals(const Cell& cell, const PlanQuestion& question) {
+Goals joint_goals(const PlanningScenePtr& scene, const PlanQuestion& question) {
   const MotionGoal& goal = question.goal;
-  if (const auto* q = std::get_if<Eigen::VectorXd>(&goal.to)) return std::vector{*q};
+  if (const auto* q = std::get_if<Eigen::VectorXd>(&goal.to)) return JointGoals{{*q}};
+  if (const auto* way = std::get_if<ClearOf>(&goal.to)) {
+    return places_clear_of(scene, {goal.arm, way->motion, way->progress}, question.at)
+        .map([](ClearPlaces places) {
+          return JointGoals{std::move(places.q), places.evaluations};
+        });
+  }
   const auto& target = std::get<LinkTarget>(goal.to);
-  return reach_pose(cell, {goal.arm, target.link, target.X_WL}, question.at);
+  return reach_pose(scene->cell(), {goal.arm, target.link, target.X_WL}, question.at)
+      .map([](std::vector<Eigen::VectorXd> q) { return JointGoals{std::move(q)}; });
 }
 
 // One try of each kind of goal.
@@ -46,23 +60,33 @@ class Answer {
 
 PlanAnswer answer_plan(const PlanningScenePtr& scene, const PlanQuestion& question,
                        const std::atomic<bool>* cancelled) {
-  auto goals = question.goal.straight ? Goals{} : joint_goals(scene->cell(), question);
+  auto goals = question.goal.straight ? Goals{} : joint_goals(scene, question);
   if (!goals) return tl::unexpected(std::move(goals.error()));
   PlanRequest request{.arm = question.goal.arm,
                       .at = question.at,
-                      .goals = *std::move(goals),
+                      .goals = std::move(goals->q),
                       .seed = question.seed,
                       .cancelled = cancelled};
-  if (!question.may_move.empty()) request.budget = kBesideBudget;
+  std::uint64_t spent = goals->evaluations;
+  const auto with_spent = [&spent](PlanAnswer answer) {
+    (answer ? answer->way.evaluations : answer.error().evaluations) += spent;
+    return answer;
+  };
+  const std::uint64_t budget = question.budget.value_or(PlanRequest::kDefaultBudget);
+  request.budget = question.may_move.empty() ? budget : std::min(budget, kBesideBudget);
   const Answer answer(scene, question);
-  auto beside = answer.to(request);
-  if (beside || question.may_move.empty()) return beside;
-  if (beside.error().reason == PlanRefusal::Reason::cancelled) return beside;
-  const std::uint64_t spent = beside.error().evaluations;
+  std::optional<PlanRefusal> not_past;
+  if (question.may_move.empty() || !question.has_no_way_past) {
+    auto beside = with_spent(answer.to(request));
+    if (beside || question.may_move.empty()) return beside;
+    if (beside.error().reason == PlanRefusal::Reason::cancelled) return beside;
+    spent = beside.error().evaluations;
+    not_past = std::move(beside.error());
+  }
   request.left_out = question.may_move;
-  request.budget = PlanRequest::kDefaultBudget;
-  auto alone = answer.to(request);
-  (alone ? alone->way.evaluations : alone.error().evaluations) += spent;
+  request.budget = budget;
+  auto alone = with_spent(answer.to(request));
+  if (alone) alone->not_past = std::move(not_past);
   return alone;
 }
 

@@ -12,6 +12,8 @@ struct PlannedMotion {
   TimedMotion timed;
   // How far corners of the way were cut (joint space, rad or m); 0: the arm rests at each.
   double rounded_within = 0.0;
+  // As if other arms were gone (answer_plan.h): why there is no way past them.
+  std::optional<PlanRefusal> not_past = {};
 };
 
 // What stands against the motion as a job would be judged (Swept), everything else standing as in

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/planning/halton.h"
 #include "core/planning/kdl_chain.h"
 #include "core/planning/pose_descent.h"
 #include "core/trajectory/set_joints.h"
@@ -15,15 +16,8 @@ namespace {
 
 using Reason = PlanRefusal::Reason;
 
-// Further seeds: the Halton sequence over the joints' ranges, a prime for each joint.
+// Further seeds: the Halton sequence over the joints' ranges.
 constexpr int kFurtherSeeds = 40;
-constexpr int kPrimes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
-
-double halton(int index, int base) {
-  double share = 0.0, digit = 1.0;
-  for (int i = index; i > 0; i /= base) share += (digit /= base) * (i % base);
-  return share;
-}
 
 class PoseSearch {
  public:
@@ -56,14 +50,13 @@ class PoseSearch {
     std::vector<Eigen::VectorXd> seeds{standing_, arm_.home};
     for (const auto& [name, q] : arm_.named_states) seeds.push_back(q);
     for (int i = 1; i <= kFurtherSeeds; ++i) {
-      Eigen::VectorXd q(standing_.size());
+      Eigen::VectorXd q = halton(i, standing_.size());
       for (Eigen::Index j = 0; j < q.size(); ++j) {
         const Joint& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(j)]);
         const bool ranged = std::isfinite(joint.lower) && std::isfinite(joint.upper);
         const double lower = ranged ? joint.lower : standing_[j] - std::numbers::pi;
         const double upper = ranged ? joint.upper : standing_[j] + std::numbers::pi;
-        const int prime = kPrimes[static_cast<std::size_t>(j) % std::size(kPrimes)];
-        q[j] = lower + halton(i, prime) * (upper - lower);
+        q[j] = lower + q[j] * (upper - lower);
       }
       seeds.push_back(std::move(q));
     }

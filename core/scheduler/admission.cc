@@ -6,6 +6,7 @@
 
 #include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
+#include "core/scheduler/detour.h"
 #include "core/scheduler/groups.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/policy.h"
@@ -14,6 +15,7 @@
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/weighing.h"
 #include "core/scheduler/yielding/making_way.h"
+#include "core/scheduler/yielding/planned_aside.h"
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
@@ -92,7 +94,7 @@ bool Admission::ask_next(State& state, const WaitCycles& cycles) {
   }
   if (auto opens = cycles.next_yield(state)) {
     ask_yield(state, std::move(*opens));
-    return put_off;
+    if (open_) return put_off;
   }
   while (const auto turn = Turns(state).next()) {
     const bool is_choice = choosing_.begin(state, *turn);
@@ -123,6 +125,7 @@ void Admission::ask(State& state, std::vector<JobId> jobs, Purpose purpose) {
 }
 
 void Admission::ask_yield(State& state, YieldTrial move) {
+  if (!move.way) return ask_for_way_aside(state, move);
   Question question = question_about(state, move);
   open_ = OpenQuestion{state.version, {move.blocked_job}, Purpose::yield, std::move(move)};
   state.decided.effects.push_back(Judge{std::move(question)});
@@ -199,6 +202,7 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   const PassingOrders orders =
       state.policy->decide(state.graph.question(candidates, verdict.regions));
   const bool can_go = orders.blockers.empty();
+  if (jobs.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
   if (tries_together(state, jobs, can_go)) return;
   if (can_go) {
     if (leaves_a_sequence(state, jobs)) {

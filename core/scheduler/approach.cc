@@ -25,12 +25,14 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
   const Eigen::VectorXd to = joints_of(at, state.cell->arm(arm).joints);
   TrajectoryPtr way = estimate(state, arm, to);
   if (!way) return false;
-  Record record = record_of(state, {.job = state.jobs.next_id(),
-                                    .trajectory = std::move(way),
-                                    .terms = {.priority = head.job.terms.priority,
-                                              .backlog_timeout = head.job.terms.backlog_timeout,
-                                              .system_job = true},
-                                    .goals = {{.arm = arm, .to = to, .speed = kApproachSpeed}}});
+  Record record =
+      record_of(state, {.job = state.jobs.next_id(),
+                        .trajectory = std::move(way),
+                        .terms = {.priority = head.job.terms.priority,
+                                  .backlog_timeout = head.job.terms.backlog_timeout,
+                                  .system_job = true,
+                                  .replans_on_timeout = head.job.terms.replans_on_timeout},
+                        .goals = {{.arm = arm, .to = to, .speed = kApproachSpeed}}});
   record.errand.on_behalf_of = head.errand.on_behalf_of;
   record.errand.before = head.job.id;
   const JobId id = record.job.id;

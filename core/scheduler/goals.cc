@@ -63,6 +63,7 @@ void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
     state.lanes.renew_later();
     ++state.version;
   }
+  record.job.goal->detour.reset();
   way.is_planned = false;
   way.refusal.reset();
   ++way.tries;

@@ -7,6 +7,7 @@
 #include "core/coordination/effort.h"
 #include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
+#include "core/scheduler/detour.h"
 
 namespace armloom {
 namespace {
@@ -53,6 +54,7 @@ void note_found(Record& record, std::vector<Wait> waits) {
 }
 
 void put_off(State& state, Record& record, std::vector<Wait> waits) {
+  if (gives_detour_up(state, record)) return;
   state.jobs.set_waits(record, waits);
   judgement_of(record) = {state.version, std::move(waits)};
   if (!is_at_head(state.jobs, record)) return;  // it has had no turn yet
@@ -67,6 +69,7 @@ void put_off(State& state, Record& record, std::vector<Wait> waits) {
 }
 
 void wait_in_turn(State& state, Record& record, JobId first) {
+  if (gives_detour_up(state, record)) return;
   const auto* queued = record.job.in<Queued>();
   if (queued != nullptr && queued->in_backlog) {
     enter(state, record, Queued{});

@@ -121,7 +121,6 @@ const std::vector<Wait>* waits_of(const State& state, const Job& job) {
 }  // namespace
 
 std::optional<std::string> why_not_replanned(const Job& job) {
-  if (job.terms.system_job) return "it is a move of the server's own";
   if (job.trajectory->arms().size() > 1) return "it moves several arms as one";
   if (job.goal) return std::nullopt;
   if (!job.alternatives.empty()) return "it is one of several ways to do the same work";
@@ -177,6 +176,12 @@ bool take_other_way(State& state, const PlanMade& answer) {
   if (answer.trajectory && is_fit) {
     ++other.done;
     set_out_anew(state, *record, answer.trajectory);
+    if (record->job.goal) {  // it is the plan to its goal from now on
+      GoalWay& way = record->job.goal->way();
+      way.from = joints_of(other.beside, state.cell->arm(way.goal.arm).joints);
+      way.asked_at = other.asked_at;
+      record->job.goal->detour.reset();
+    }
     return true;
   }
   other.refusal =

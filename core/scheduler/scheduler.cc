@@ -10,12 +10,14 @@
 #include "core/scheduler/approach.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
+#include "core/scheduler/detour.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/replanning.h"
 #include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/weighing.h"
+#include "core/scheduler/yielding/planned_aside.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -169,6 +171,8 @@ void Scheduler::on(const Replan& input) {
 void Scheduler::on(const PlanMade& input) {
   take_plan(state_, input);
   if (take_other_way(state_, input)) cycles_.has_opened(state_, input.job);
+  take_way_aside(state_, input);
+  take_detour(state_, input);
 }
 
 void Scheduler::on(const Cancel& input) {

@@ -84,8 +84,9 @@ int check_jobs_file(const CheckOptions& options);
 struct PlanOptions {
   std::string cell_file;
   std::string arm;
-  std::string to;    // a named state, or JSON (server/messages/plan_goal.h)
-  std::string from;  // the same without poses; empty: home
+  std::vector<std::string> arms;  // instead: whichever of these is there first
+  std::string to;                 // a named state, or JSON (server/messages/plan_goal.h)
+  std::string from;               // the same without poses; empty: home
   std::uint64_t seed = 1;
   std::string out;  // empty: stdout
 };

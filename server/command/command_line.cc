@@ -152,7 +152,11 @@ Command plan_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("plan", "a job that brings an arm to a goal, all others at home");
   add_cell(*command, options->cell_file);
-  command->add_option("--arm", options->arm, "which one")->required();
+  auto* which = command->add_option_group("who goes there");
+  which->add_option("--arm", options->arm, "which one");
+  which->add_option("--arms", options->arms, "whichever of these, as left,right, is there first")
+      ->delimiter(',');
+  which->require_option(1);
   command
       ->add_option("--to", options->to,
                    "a named state, or JSON: {\"joints\": [...]}, {\"pose\": {\"link\", "

@@ -18,47 +18,92 @@ tl::unexpected<Problems> at_option(const char* option, Problems problems) {
   return failure(std::move(problems));
 }
 
-void say(const PlanRefusal& refusal) {
-  std::cerr << "armloom: no plan: " << refusal.detail << '\n';
+using RefusedArm = std::pair<std::string, PlanRefusal>;
+
+// Of several arms each one's, with the kind of the first.
+void say(const std::vector<RefusedArm>& refused) {
+  const PlanRefusal& first = refused.front().second;
+  std::string detail;
+  std::uint64_t evaluations = 0;
+  for (const auto& [arm, refusal] : refused) {
+    const std::string whose = refused.size() > 1 ? arm + ": " : "";
+    detail += (detail.empty() ? "" : "; ") + whose + refusal.detail;
+    evaluations += refusal.evaluations;
+  }
+  std::cerr << "armloom: no plan: " << detail << '\n';
   JsonWriter out;
   out.begin_object()
-      .field("result", reason_name(refusal.reason))
-      .field("detail", refusal.detail)
-      .field("evaluations", refusal.evaluations);
-  if (refusal.proximity) {
-    out.key("links").begin_array().value(refusal.proximity->body_a);
-    out.value(refusal.proximity->body_b).end_array();
-    out.field("clearance_m", refusal.proximity->clearance_m);
+      .field("result", reason_name(first.reason))
+      .field("detail", detail)
+      .field("evaluations", evaluations);
+  if (first.proximity) {
+    out.key("links").begin_array().value(first.proximity->body_a);
+    out.value(first.proximity->body_b).end_array();
+    out.field("clearance_m", first.proximity->clearance_m);
   }
   out.end_object();
   std::cout << out.text() << '\n';
 }
 
 // The body of POST /jobs.
-std::string job_text(const PlanOptions& options, const TrajectoryRequest& request) {
+std::string job_text(const std::string& arm, const std::string& to,
+                     const TrajectoryRequest& request) {
   JsonWriter out;
-  out.begin_object().field("name", options.arm + ": to " + options.to.substr(0, 200));
+  out.begin_object().field("name", arm + ": to " + to.substr(0, 200));
   out.key("trajectory");
   trajectory_request_format()->write(out, request);
   out.end_object();
   return out.take();
 }
 
-Result<PlanQuestion> question_of(const PlanOptions& options, const Cell& cell) {
-  const auto arm = find_arm(cell, options.arm);
-  if (!arm) return at_option("--arm", arm.error());
+// For each arm that may go.
+Result<std::vector<PlanQuestion>> questions_of(const PlanOptions& options, const Cell& cell) {
   const auto said = read_plan_goal(options.to);
   if (!said) return at_option("--to", said.error());
-  const auto goal = goal_of(cell, *arm, *said);
-  if (!goal) return at_option("--to", goal.error());
-  PlanQuestion question{.goal = *goal, .at = cell.home(), .seed = options.seed};
-  if (options.from.empty()) return question;
-  const auto from = read_plan_goal(options.from);
+  auto goals = goals_of(cell, {options.arm, options.arms}, *said, "/to");
+  if (!goals) {
+    Problems problems = std::move(goals.error());
+    for (Problem& problem : problems) {
+      const bool is_arm = problem.pointer.starts_with("/arm");
+      problem.pointer = !is_arm ? "--to" : options.arms.empty() ? "--arm" : "--arms";
+    }
+    return failure(std::move(problems));
+  }
+  const auto from = options.from.empty() ? Result<PlanGoal>{PlanGoal{.named = "home"}}
+                                         : read_plan_goal(options.from);
   if (!from) return at_option("--from", from.error());
-  const auto q = joints_of(cell, *arm, *from);
-  if (!q) return at_option("--from", q.error());
-  set_joints(question.at, cell.arm(*arm).joints, *q);
-  return question;
+  std::vector<PlanQuestion> questions;
+  for (MotionGoal& goal : *goals) {
+    const ArmId arm = goal.arm;
+    PlanQuestion question{.goal = std::move(goal), .at = cell.home(), .seed = options.seed};
+    if (!options.from.empty()) {
+      const auto q = joints_of(cell, arm, *from);
+      if (!q) return at_option("--from", q.error());
+      set_joints(question.at, cell.arm(arm).joints, *q);
+    }
+    questions.push_back(std::move(question));
+  }
+  return questions;
+}
+
+// The one that is there first; or none, and why.
+std::optional<std::pair<std::string, PlannedMotion>> first_there(
+    const PlanningScenePtr& scene, const std::vector<PlanQuestion>& questions,
+    std::vector<RefusedArm>& refused) {
+  std::optional<std::pair<std::string, PlannedMotion>> best;
+  for (const PlanQuestion& question : questions) {
+    const std::string& arm = scene->cell().arm(question.goal.arm).name;
+    auto planned = answer_plan(scene, question);
+    if (!planned) {
+      refused.emplace_back(arm, std::move(planned.error()));
+      continue;
+    }
+    const auto lasts = [](const PlannedMotion& motion) {
+      return motion.timed.trajectory->duration();
+    };
+    if (!best || lasts(*planned) < lasts(best->second)) best.emplace(arm, *std::move(planned));
+  }
+  return best;
 }
 
 }  // namespace
@@ -68,12 +113,14 @@ int plan_way(const PlanOptions& options) {
   if (!loaded) return kExitBadInput;
   const auto scene = PlanningScene::build(loaded->cell);
   if (!scene) return refuse(options.cell_file, scene.error());
-  const auto question = question_of(options, *loaded->cell);
-  if (!question) return refuse("plan", question.error());
-  const auto planned = answer_plan(*scene, *question);
-  if (!planned) return say(planned.error()), kExitFound;
+  const auto questions = questions_of(options, *loaded->cell);
+  if (!questions) return refuse("plan", questions.error());
+  std::vector<RefusedArm> refused;
+  const auto first = first_there(*scene, *questions, refused);
+  if (!first) return say(refused), kExitFound;
+  const auto& [arm, planned] = *first;
 
-  const std::string job = job_text(options, planned->timed.request);
+  const std::string job = job_text(arm, options.to, planned.timed.request);
   if (options.out.empty()) {
     std::cout << job << '\n';
   } else {
@@ -84,10 +131,9 @@ int plan_way(const PlanOptions& options) {
                                      "cannot write " + options.out, options.out}});
     }
   }
-  std::cerr << "armloom: " << options.arm << " in "
-            << to_seconds(planned->timed.trajectory->duration()) << " s, by "
-            << planned->way.points.size() - 2 << " corners, " << planned->way.length()
-            << " of joint space; " << planned->way.evaluations << " evaluations\n";
+  std::cerr << "armloom: " << arm << " in " << to_seconds(planned.timed.trajectory->duration())
+            << " s, by " << planned.way.points.size() - 2 << " corners, " << planned.way.length()
+            << " of joint space; " << planned.way.evaluations << " evaluations\n";
   return kExitDone;
 }
 

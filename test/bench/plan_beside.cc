@@ -54,7 +54,7 @@ class TimedJudge final : public JudgementService {
   bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
   void plan(PlanTask task) override {
     const auto begun = Clock::now();
-    PlanAnswer answer = answer_plan(task.scene, task.question, task.cancelled.get());
+    PlanAnswer answer = answer_of(task);
     if (task.question.goal.arm == asked_) {
       ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begun).count());
       solved += answer.has_value();

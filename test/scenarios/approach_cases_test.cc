@@ -69,6 +69,23 @@ TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
   cell->expect_at("a", {-1, 0});
 }
 
+// Its way was planned while the other arm was elsewhere, and that then stops on it.
+TEST_P(Approaches, AnArmThatHasComeToRestOnTheWayThereIsPassed) {
+  cell.emplace(gantries(OnIdleBlocker::replan), GetParam());
+  cell->executive().stop({ArmId{0}}, "operator");
+  cell->submit(approached(go("a", {-1, 2}, {-1, 3}, 6, "far")));
+  cell->run_until(at(1s));
+  ASSERT_EQ(cell->job("approach-1").state, JobState::queued);
+  cell->submit(go("b", {1, 0}, {-1, 1}, 6, "onto it"));
+  cell->run_until(at(10s));
+  expect_succeeded("onto it");
+  cell->executive().resume({ArmId{0}});
+  cell->run_to_the_end();
+  expect_succeeded("far");
+  expect_succeeded("approach-1");
+  cell->expect_at("b", {-1, 1});  // and not sent aside
+}
+
 TEST_P(Approaches, CancelingTheJobStopsTheArmOnItsWayThere) {
   cell->submit(approached(go("a", {-2, 2}, {-2, 3}, 6, "gone")));
   cell->run_until(at(2s));

@@ -36,5 +36,52 @@ TEST(DryRun, RefusesACellWhoseArmsAreTooCloseAtHomeAsTheServerDoes) {
   EXPECT_EQ(checked.error().front().pointer, served.error().front().pointer);
 }
 
+JobRequest to_place(const std::string& arm, double to_m, std::string key) {
+  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
+  request.arm = arm;
+  request.move_to = PlanGoal{.joints = std::vector{to_m}, .named = {}, .pose = {}};
+  return request;
+}
+
+// Each from where the one before it ends; both cross in the middle.
+TEST(DryRun, PlansGoalsFromWhereTheJobsBeforeThemLeaveTheArms) {
+  const auto cell = build_cell(crossing_description());
+  ASSERT_TRUE(cell);
+  const auto checked = check_jobs(*cell, "certified",
+                                  {{at(0s), to_place("x", 0.5, "x")},
+                                   {at(0s), to_place("y", 0.8, "y")},
+                                   {at(0s), to_place("x", -0.5, "then")},
+                                   {at(0s), slide("x", -0.5, 0.2, 2, "from there")}});
+  ASSERT_TRUE(checked) << checked.error().front().detail;
+  ASSERT_EQ(checked->size(), 4U);
+  EXPECT_EQ(checked->at(0).verdict.kind, Verdict::Kind::free);
+  EXPECT_EQ(checked->at(1).verdict.kind, Verdict::Kind::conflict) << "x is on its way";
+  EXPECT_EQ(checked->at(2).key, "then");
+  EXPECT_FALSE(checked->at(2).verdict.result);
+  EXPECT_FALSE(checked->at(3).verdict.result);
+}
+
+TEST(DryRun, SaysOfAGoalWithoutAWayHowItWouldEndAndWhatComesAfterIt) {
+  CellDescription description = crossing_description();
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+  X_WO.translation() = Eigen::Vector3d(0.5, 0.0, 0.0);
+  description.objects.push_back({"post", Box{{0.1, 0.1, 0.1}}, X_WO});
+  const auto cell = build_cell(description);
+  ASSERT_TRUE(cell);
+  JobRequest behind = to_place("y", 0.2, "behind");
+  behind.after = {"into it"};
+  const auto checked = check_jobs(*cell, "certified",
+                                  {{at(0s), to_place("x", 0.5, "into it")},
+                                   {at(0s), behind},
+                                   {at(0s), to_place("x", -0.5, "before it")}});
+  ASSERT_TRUE(checked) << checked.error().front().detail;
+  ASSERT_TRUE(checked->at(0).verdict.result);
+  EXPECT_EQ(checked->at(0).verdict.result->reason, Reason::no_plan);
+  EXPECT_NE(checked->at(0).verdict.result->detail.find("post"), std::string::npos);
+  ASSERT_TRUE(checked->at(1).verdict.result);
+  EXPECT_EQ(checked->at(1).verdict.result->reason, Reason::predecessor_failed);
+  EXPECT_EQ(checked->at(2).verdict.kind, Verdict::Kind::free);
+}
+
 }  // namespace
 }  // namespace armloom

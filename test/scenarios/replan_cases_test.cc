@@ -48,6 +48,26 @@ TEST_P(Replans, WhereThereIsNoWayAroundTheArmGoesAside) {
   expect_apart();
 }
 
+// It has come from nowhere, and stands at home: none of the straight ways aside is one.
+TEST_P(Replans, WhereThereIsNoStraightWayAsideOneIsPlanned) {
+  for (const auto how : {OnIdleBlocker::park, OnIdleBlocker::replan}) {
+    start(how);
+    JobRequest job = go("a", {-1, 0}, {1, 0}, 6, "into its home");
+    job.backlog_timeout = 5s;
+    cell->submit(std::move(job));
+    cell->run_to_the_end();
+    if (how == OnIdleBlocker::park) {
+      EXPECT_EQ(cell->job("into its home").state, JobState::expired);
+      continue;
+    }
+    expect_succeeded("into its home");
+    expect_succeeded("aside-1");
+    EXPECT_EQ(cell->job("aside-1").name, "b moves aside for into its home");
+    cell->expect_at("a", {1, 0});
+    expect_apart();
+  }
+}
+
 // Each would pass where the other stands; both goals are free.
 TEST_P(Replans, ARingOpensByAWayAround) {
   for (const auto how : {OnIdleBlocker::report, OnIdleBlocker::replan}) {

@@ -106,6 +106,7 @@ struct Outcome {
   std::size_t done = 0;  // jobs of clients
   double makespan_s = 0.0;
   std::uint64_t replanned = 0;
+  Planning planning = {};
   std::map<std::string, std::string> undone = {};  // by key: how it ended instead
 };
 
@@ -154,6 +155,7 @@ Outcome run(Workload load, Way way) {
   }
   EXPECT_EQ(of_clients + result->refused.size(), count);
   outcome.replanned = seen.replanned;
+  outcome.planning = result->planning;
   return outcome;
 }
 
@@ -174,6 +176,9 @@ TEST_P(BlockedGoals, ReplanDoesMoreJobsAndNothingTouches) {
       sum[i].done += runs[i].done;
       sum[i].makespan_s += runs[i].makespan_s;
       sum[i].replanned += runs[i].replanned;
+      sum[i].planning.plans += runs[i].planning.plans;
+      sum[i].planning.evaluations += runs[i].planning.evaluations;
+      sum[i].planning.wall += runs[i].planning.wall;
     }
     const int most = runs[0].done >= runs[1].done ? 0 : 1;
     if (runs[2].done >= runs[most].done) continue;
@@ -183,14 +188,18 @@ TEST_P(BlockedGoals, ReplanDoesMoreJobsAndNothingTouches) {
                 lost(runs[most], runs[2]).c_str());
   }
   for (int i = 0; i < 3; ++i) {
-    std::printf("%zu arms, %s: %zu of %zu jobs, makespan %.1f s in the mean, %llu planned anew\n",
-                GetParam(), kNames[i], sum[i].done, jobs,
-                sum[i].makespan_s / static_cast<double>(seeds),
-                static_cast<unsigned long long>(sum[i].replanned));
+    std::printf(
+        "%zu arms, %s: %zu of %zu jobs, makespan %.1f s in the mean, %llu planned anew; "
+        "%llu plans, %.1f thousand evaluations and %.1f ms of planning a run\n",
+        GetParam(), kNames[i], sum[i].done, jobs, sum[i].makespan_s / static_cast<double>(seeds),
+        static_cast<unsigned long long>(sum[i].replanned),
+        static_cast<unsigned long long>(sum[i].planning.plans),
+        1e-3 * static_cast<double>(sum[i].planning.evaluations) / static_cast<double>(seeds),
+        1e3 * to_seconds(sum[i].planning.wall) / static_cast<double>(seeds));
   }
   std::printf("%zu of %llu seeds: replan did fewer than one of the others\n", fewer,
               static_cast<unsigned long long>(seeds));
-  EXPECT_LE(fewer, seeds / 25) << "who goes first may shut others out: it is the exception";
+  EXPECT_EQ(fewer, 0U);
   EXPECT_GT(sum[2].done, sum[0].done);
   EXPECT_GE(sum[2].done, sum[1].done);
 }

@@ -83,6 +83,9 @@ class TwoGantries {
   // Of one joint of the cell, from tick to tick.
   [[nodiscard]] double fastest_m_s() const { return log_.fastest_m_s; }
   [[nodiscard]] const std::vector<Event>& events() const { return log_.events; }
+  // Of a's ball from the x axis.
+  [[nodiscard]] double farthest_off_m() const { return log_.farthest_off_m; }
+  [[nodiscard]] const Planning& planning() const { return simulation_->planning(); }
 
  private:
   struct Log final : Observer {
@@ -94,6 +97,7 @@ class TwoGantries {
       }
       before = now;
       last = q;
+      farthest_off_m = std::max(farthest_off_m, std::abs(q[1]));
       closest_m = std::min(closest_m, (q.head<2>() - q.tail<2>()).norm() - 0.2);
     }
     void on_state(const StateFrame&) override {}
@@ -102,6 +106,7 @@ class TwoGantries {
     TimePoint before{};
     double closest_m = 1e9;
     double fastest_m_s = 0.0;
+    double farthest_off_m = 0.0;
   };
   Log log_;
   std::unique_ptr<Simulation> simulation_;

@@ -55,6 +55,26 @@ TEST_F(PlanCommand, SaysWhyThereIsNoPlan) {
   EXPECT_EQ(plan("--to '[0, 0, 0, 1, 0, 1, 0]'").last_line()["result"], "outside-limits");
 }
 
+// Only the right one gets so far.
+TEST_F(PlanCommand, OfSeveralArmsTheOneThatIsThereFirstGoes) {
+  const auto by_arms = [&](const std::string& arguments) {
+    return run("plan --cell " + test::kCell + " --arms left,right " + arguments);
+  };
+  const std::string far = "'{\"pose\": {\"xyz\": [0.75, 0.45, 0.5], \"rpy\": [3.14, 0, 0]}}'";
+  const Outcome planned = by_arms("--to " + far);
+  ASSERT_EQ(planned.exit_code, 0) << planned.err;
+  EXPECT_EQ(planned.last_line()["trajectory"]["joint_names"][0], "right_panda_joint1");
+  EXPECT_EQ(by_arms("--to ready --from extended").exit_code, 0);
+  const Outcome nobody = by_arms("--to '{\"pose\": {\"xyz\": [0, 9, 0.5]}}'");
+  EXPECT_EQ(nobody.exit_code, 1);
+  const std::string detail = nobody.last_line()["detail"];
+  EXPECT_NE(detail.find("left: "), std::string::npos) << detail;
+  EXPECT_NE(detail.find("right: "), std::string::npos) << detail;
+  EXPECT_EQ(by_arms("--arm left --to ready").exit_code, 2);
+  EXPECT_EQ(run("plan --cell " + test::kCell + " --to ready").exit_code, 2);
+  EXPECT_EQ(run("plan --cell " + test::kCell + " --arms left,lft --to ready").exit_code, 2);
+}
+
 TEST_F(PlanCommand, RefusesBadInputWithPlaceAndRemedy) {
   const auto refused = [&](const std::string& arguments, const std::string& says) {
     const Outcome outcome = plan(arguments);

@@ -81,9 +81,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
   bool draft(PlanTask) override { return false; }
   void plan(PlanTask task) override {
     planned_by_ = std::max(planned_by_, now_) + Duration(random_() % 40) * kControlPeriod.count();
-    pending_.emplace(planned_by_, [task = std::move(task)] {
-      task.done(answer_plan(task.scene, task.question, task.cancelled.get()));
-    });
+    pending_.emplace(planned_by_, [task = std::move(task)] { task.done(answer_of(task)); });
   }
   void about_to_move(JobId, std::function<void()> written) override { later(std::move(written)); }
   void came(std::uint64_t ticks, const ExecutiveInput& input) override {

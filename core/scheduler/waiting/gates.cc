@@ -69,7 +69,9 @@ void add_after(const State& state, const Record& record, Edges& edges) {
 }
 
 Closed plan(const Turns&, const Record& record) {
-  if (!record.job.is_unplanned() && !record.job.is_replanned_now()) return std::nullopt;
+  const Job& job = record.job;
+  const bool is_asked = job.is_unplanned() || job.is_replanned_now() || job.is_detour_asked();
+  if (!is_asked) return std::nullopt;
   return FoundWaits(Wait{.kind = Wait::Kind::plan});
 }
 

@@ -60,11 +60,18 @@ std::optional<YieldTrial> untried(const State& state, const Record& record, ArmI
   if (of_all.total >= kYieldsMax) return std::nullopt;
   const TrajectoryPtr& came_by = state.arms.came_by(arm);
   const auto ways = ways_aside(*state.cell, arm, state.arms.rest(), came_by);
-  for (std::size_t i = tried.from == came_by ? tried.next : 0; i < ways.size(); ++i) {
-    if (has_been_there(of_all, *ways[i])) continue;
-    return YieldTrial{.blocked_job = record.job.id, .arm = arm, .way = ways[i], .index = i};
+  YieldTrial trial{.blocked_job = record.job.id, .arm = arm, .way = nullptr};
+  const bool is_there_still = tried.from == came_by;
+  for (trial.index = is_there_still ? tried.next : 0; trial.index < ways.size(); ++trial.index) {
+    trial.way = ways[trial.index];
+    if (!has_been_there(of_all, *trial.way)) return trial;
   }
-  return std::nullopt;
+  if (state.cell->scheduling.on_idle_blocker != OnIdleBlocker::replan) return std::nullopt;
+  const bool is_planned = is_there_still && tried.planned.is_answered;
+  trial.way = is_planned ? tried.planned.way : nullptr;
+  if (!is_planned) return trial;
+  const bool goes = trial.way && trial.index == ways.size() && !has_been_there(of_all, *trial.way);
+  return goes ? std::optional(trial) : std::nullopt;
 }
 
 const std::vector<Wait>& waits_of(const Job& job) {

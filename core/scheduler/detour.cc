@@ -1,0 +1,161 @@
+#include "core/scheduler/detour.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "core/scheduler/waiting/choosing.h"
+#include "core/trajectory/set_joints.h"
+
+namespace armloom {
+namespace {
+
+constexpr TimePoint kNever = TimePoint::max();
+
+bool may_go_round(const Record& record) {
+  const Job& job = record.job;
+  return job.goal && !job.has_open_arm() && job.in<Queued>() != nullptr && !job.is_unplanned() &&
+         !job.is_replanned_now() && !job.goal->way().goal.straight;
+}
+
+// When it would be there.
+TimePoint arrival(const State& state, const PassingOrders& orders) {
+  const bool goes =
+      orders.blockers.empty() && orders.prediction.ends.size() > state.graph.motions().size();
+  return goes ? state.now + orders.prediction.ends.back() : kNever;
+}
+
+// If nobody met it on its way.
+TimePoint soonest(const State& state, const Job& job, const PassingOrders& orders) {
+  const auto& motions = state.graph.motions();
+  const ArmId arm = job.goal->way().goal.arm;
+  Duration ready{};
+  for (std::size_t m = 0; m < std::min(motions.size(), orders.prediction.ends.size()); ++m) {
+    const auto& arms = motions[m].arms;
+    if (std::ranges::find(arms, arm) != arms.end())
+      ready = std::max(ready, orders.prediction.ends[m]);
+  }
+  return state.now + ready + job.trajectory->duration();
+}
+
+// From when to when of its own time the other motion is in the way there.
+std::pair<Duration, Duration> holds(const ConflictRegion& region) {
+  const auto from = std::ranges::min_element(region.boxes, {}, &ProgressBox::from_b)->from_b;
+  const auto to = std::ranges::max_element(region.boxes, {}, &ProgressBox::to_b)->to_b;
+  return {from, to};
+}
+
+// Where each of the others is half-way through the longest time for which it is in the way; all
+// else where it rests, or will.
+Configuration places_held(const State& state, const Record& record,
+                          const std::vector<PairRegions>& regions) {
+  Configuration at = state.arms.rest();
+  for (const CoordinatedMotion& motion : state.graph.motions()) {
+    const Trajectory& trajectory = *state.jobs.at(motion.job).job.trajectory;
+    set_joints(at, trajectory, trajectory.goal());
+  }
+  Eigen::VectorXd held;
+  for (const PairRegions& pair : regions) {
+    const auto* other = std::get_if<JobId>(&pair.b);
+    if (other == nullptr || pair.regions.empty()) continue;
+    const Trajectory& trajectory = *state.jobs.at(*other).job.trajectory;
+    Duration from{}, to{};
+    for (const ConflictRegion& region : pair.regions) {
+      const auto [begins, ends] = holds(region);
+      if (ends - begins >= to - from) std::tie(from, to) = std::pair(begins, ends);
+    }
+    trajectory.sample_positions(from + (to - from) / 2, held);
+    set_joints(at, trajectory, held);
+  }
+  set_joints(at, *record.job.trajectory, record.job.trajectory->start());
+  return at;
+}
+
+void go_by(State& state, Record& record, TrajectoryPtr way) {
+  WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.id, *way);
+  state.jobs.set_motion(record, std::move(way), std::move(leg));
+  state.lanes.forget_passages();
+  state.lanes.renew_later();
+  ++state.version;
+}
+
+void ask(State& state, Record& record) {
+  const Job& job = record.job;
+  JobGoal& goal = *record.job.goal;
+  Detour& detour = *goal.detour;
+  ++detour.tries;
+  detour.question = ++record.asking.plans;
+  detour.asked_at = state.version;
+  PlanQuestion question{.goal = {.arm = goal.way().goal.arm,
+                                 .to = Eigen::VectorXd(job.trajectory->goal()),
+                                 .speed = goal.way().goal.speed},
+                        .at = detour.beside,
+                        .seed = job.id.value() + static_cast<std::uint64_t>(detour.tries),
+                        .budget = kDetourBudget};
+  state.decided.effects.push_back(PlanMotion{job.id, *detour.question, std::move(question)});
+}
+
+// It has been judged by another way. Whether it is to be judged once more: by a further one, or by
+// the best of them.
+bool rate(State& state, Record& record, TimePoint arrives) {
+  Detour& detour = *record.job.goal->detour;
+  if (arrives != kNever && arrives + Choosing::kWorthwhile < detour.arrives) {
+    detour.best = record.job.trajectory;
+    detour.arrives = arrives;
+  }
+  if (detour.arrives > detour.soon_enough && detour.tries < kDetoursMax) {
+    ask(state, record);
+    return true;
+  }
+  return gives_detour_up(state, record);
+}
+
+}  // namespace
+
+bool weighs_detour(State& state, Record& record, const std::vector<PairRegions>& regions,
+                   const PassingOrders& orders) {
+  if (!may_go_round(record)) return false;
+  auto& detour = record.job.goal->detour;
+  const TimePoint arrives = arrival(state, orders);
+  if (detour && std::exchange(detour->is_weighed, false)) return rate(state, record, arrives);
+  const TimePoint soon_enough = soonest(state, record.job, orders) + kWaitWorthADetour;
+  if (arrives <= soon_enough || (detour && detour->tries >= kDetoursMax)) return false;
+  Configuration beside = places_held(state, record, regions);
+  const bool is_as_tried =
+      detour && detour->asked_at >= state.recheck_epoch && detour->beside == beside;
+  if (is_as_tried) return false;
+  if (!detour) detour.emplace();
+  detour->beside = std::move(beside);
+  detour->best = record.job.trajectory;
+  detour->arrives = arrives;
+  detour->soon_enough = soon_enough;
+  ask(state, record);
+  return true;
+}
+
+bool gives_detour_up(State& state, Record& record) {
+  if (!may_go_round(record) || !record.job.goal->detour) return false;
+  Detour& detour = *record.job.goal->detour;
+  detour.is_weighed = false;
+  if (!detour.best || record.job.trajectory == detour.best) return false;
+  go_by(state, record, detour.best);
+  return true;
+}
+
+void take_detour(State& state, const PlanMade& answer) {
+  Record* record = state.jobs.find(answer.job);
+  if (record == nullptr || !record->job.goal || !record->job.goal->detour) return;
+  Detour& detour = *record->job.goal->detour;
+  if (detour.question != answer.question) return;
+  detour.question.reset();
+  state.jobs.explain(*record);
+  if (!may_go_round(*record)) return;
+  const bool is_of_use = answer.trajectory && detour.asked_at >= state.recheck_epoch &&
+                         state.now + answer.trajectory->duration() < detour.arrives &&
+                         answer.trajectory->start().isApprox(detour.best->start());
+  if (!is_of_use) return (void)gives_detour_up(state, *record);
+  detour.is_weighed = true;
+  go_by(state, *record, answer.trajectory);
+}
+
+}  // namespace armloom

@@ -1,0 +1,49 @@
+#include "core/scheduler/yielding/planned_aside.h"
+
+#include <utility>
+
+#include "core/trajectory/set_joints.h"
+
+namespace armloom {
+namespace {
+
+// Where all stand when what is admitted has run.
+Configuration at_rest(const State& state) {
+  Configuration at = state.arms.rest();
+  for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
+    for (JobId id : state.jobs.queues()[ArmId{a}]) {
+      const Job& job = state.jobs.at(id).job;
+      if (!job.is_admitted()) break;
+      follow_to_end(at, *state.cell, ArmId{a}, *job.trajectory);
+    }
+  }
+  return at;
+}
+
+}  // namespace
+
+void ask_for_way_aside(State& state, const YieldTrial& move) {
+  Record& record = state.jobs.at(move.blocked_job);
+  YieldsTried& tried = record.yields[move.arm];
+  if (tried.planned.question) return;
+  tried.from = state.arms.came_by(move.arm);
+  tried.next = move.index;
+  tried.planned = {.question = ++record.asking.plans};
+  const Job& job = record.job;
+  PlanQuestion question{.goal = {.arm = move.arm, .to = ClearOf{job.trajectory, job.progress}},
+                        .at = at_rest(state),
+                        .seed = job.id.value()};
+  state.decided.effects.push_back(PlanMotion{job.id, *tried.planned.question, std::move(question)});
+}
+
+void take_way_aside(State& state, const PlanMade& answer) {
+  Record* record = state.jobs.find(answer.job);
+  if (record == nullptr || record->job.has_ended()) return;
+  for (auto& [arm, tried] : record->yields) {
+    if (tried.planned.question != answer.question) continue;
+    const bool is_there_still = tried.from == state.arms.came_by(arm);
+    tried.planned = {.is_answered = is_there_still, .way = answer.trajectory};
+  }
+}
+
+}  // namespace armloom
