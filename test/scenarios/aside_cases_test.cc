@@ -48,6 +48,29 @@ TEST_P(Aside, WhatWouldHaveOpenedTheWayStandsInTheReasonWhenItExpires) {
       << expired.detail;
 }
 
+// x is canceled in the middle, where y is to end; then both are to go on together from where x has
+// not come to: x makes way once, and that motion is told why it cannot begin.
+TEST_P(Aside, NobodyReturnsForAJobThatDoesNotBeginThere) {
+  if (GetParam() == "timed_discrete") return;  // there the monitor stops y where x is canceled
+  cell.emplace(parking(OnIdleBlocker::park), GetParam());
+  cell->submit(slide("x", -1, 1, 4, "canceled"));
+  cell->submit(slide("y", -1, 0, 2, "into"));
+  JobRequest both = slide("x", 1, -1, 3, "both");
+  both.trajectory.joint_names.push_back("y_slide");
+  both.trajectory.points = {{{1, 0}, {0, 0}, {0, 0}, 0.0}, {{-1, -1}, {0, 0}, {0, 0}, 3.0}};
+  cell->submit(both);
+  while (cell->log.last[0] < -0.05) cell->simulation->tick();
+  ASSERT_TRUE(cell->simulation->executive().cancel("canceled"));
+  cell->run_to_the_end();
+  EXPECT_EQ(cell->job("into").state, JobState::succeeded);
+  EXPECT_EQ(cell->job("both").reason, Reason::start_mismatch);
+  std::set<std::string> asides;
+  for (const JobView& job : cell->simulation->executive().snapshot().jobs) {
+    if (job.key.starts_with("aside-")) asides.insert(job.key);
+  }
+  EXPECT_LE(asides.size(), 1U);
+}
+
 // As soon as a job is there that moves the arm, nobody has to be told how to open the way.
 TEST_P(Aside, AnArmThatAJobWillMoveIsToldWithoutAdvice) {
   start(OnIdleBlocker::report);

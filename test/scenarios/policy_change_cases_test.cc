@@ -58,7 +58,9 @@ TEST(APolicyIsChanged, AndWhatWaitsGoesByIt) {
     cell.submit(slide("x", -1.0, -0.5, 2.0, "a"));
     cell.submit(slide("y", -1.0, -0.5, 2.0, "b"));
     cell.run_until(at(500ms));
-    if (changes) ASSERT_TRUE(cell.simulation->executive().change_policy("certified"));
+    if (changes) {
+      ASSERT_TRUE(cell.simulation->executive().change_policy("certified"));
+    }
     resume_all(cell.simulation->executive());
     cell.run_to_the_end();
     const TimePoint ended = *cell.job("a").ended_at, begun = *cell.job("b").started_at;

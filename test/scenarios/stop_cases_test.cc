@@ -63,6 +63,28 @@ TEST(Cancel, HoldsAMotionThatReliedOnTheOtherLeaving) {
   EXPECT_GT(cell.log.closest_m, 0.0);
 }
 
+// The other arm would come to rest in its way for good: it waits, as it would if nobody was stopped.
+TEST(Stop, OfAnArmLeavesWhatWaitsForItPossible) {
+  for (const std::string& policy : known_policies()) {
+    Crossing cell(crossing_description(), policy);
+    Executive& executive = cell.simulation->executive();
+    stop_all(executive, "operator");
+    cell.submit(slide("x", -1.0, 1.0, 4.0, "through"));
+    cell.submit(slide("y", -1.0, 0.0, 2.0, "into"));
+    executive.resume({ArmId{1}});
+    cell.run_until(at(5s));
+    const JobView waits = cell.job("into");
+    EXPECT_EQ(waits.state, JobState::queued) << policy;
+    ASSERT_EQ(waits.waits_on.size(), 1U) << policy;
+    EXPECT_EQ(waits.waits_on.front().job, "through") << policy;
+    resume_all(executive);
+    cell.run_to_the_end();
+    for (const char* job : {"through", "into"}) {
+      EXPECT_EQ(cell.job(job).state, JobState::succeeded) << policy << ", " << job;
+    }
+  }
+}
+
 TEST(WindDown, BringsArmsToRestAndEndsEveryJobOnce) {
   Crossing cell;
   cell.submit(slide("x", -1, 1, 4, "moves"));

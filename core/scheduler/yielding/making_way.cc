@@ -30,11 +30,18 @@ JobId add_own(State& state, const YieldTrial& move, TrajectoryPtr way, std::opti
   return id;
 }
 
+// The arm's next job gains nothing by its return, where it begins elsewhere anyway.
+bool begins_there(const State& state, const YieldTrial& move) {
+  const Trajectory& next = *state.jobs.at(*move.before).job.trajectory;
+  return !state.arms.begins_elsewhere(*state.cell, next, move.arm);
+}
+
 }  // namespace
 
 void send_aside(State& state, const YieldTrial& move) {
+  const bool returns = move.before && begins_there(state, move);
   const JobId goes = add_own(state, move, move.way, std::nullopt);
-  if (move.before) (void)add_own(state, move, retraced(*move.way), goes);
+  if (returns) (void)add_own(state, move, retraced(*move.way), goes);
 }
 
 }  // namespace armloom
