@@ -93,16 +93,17 @@ FormatPtr<JobPage> job_page_format() {
 }
 
 FormatPtr<QueueView> queue_ids_format() {
-  static const auto format =
-      named("QueueIds", "",
-            object<QueueView>({
-                told("policy", &QueueView::policy, text(), "In force"),
-                told("stopped", &QueueView::stopped, flag(), "Every arm is stopped"),
-                ids("queued", &QueueView::queued),
-                ids("backlog", &QueueView::backlog),
-                ids("scheduled", &QueueView::scheduled),
-                ids("running", &QueueView::running),
-            }));
+  const auto policy = [](const QueueView& view) { return std::optional(view.policy); };
+  static const auto format = named(
+      "QueueIds", "",
+      object<QueueView>({
+          told_if("policy", policy, text(), "In force; recordings from before it was told lack it"),
+          told("stopped", &QueueView::stopped, flag(), "Every arm is stopped"),
+          ids("queued", &QueueView::queued),
+          ids("backlog", &QueueView::backlog),
+          ids("scheduled", &QueueView::scheduled),
+          ids("running", &QueueView::running),
+      }));
   return format;
 }
 

@@ -4,8 +4,8 @@
 
 namespace armloom {
 
-// Jobs of the scheduler's own take the arm out of the way, and, where it has a job that begins where it
-// stands, back before that.
+// Jobs of the scheduler's own take the arm out of the way, and, where it has a job that begins
+// where it stands, back before that.
 void send_aside(State& state, const YieldTrial& move);
 
 }  // namespace armloom

@@ -700,8 +700,8 @@ export interface components {
             deviation_rad: number;
         };
         QueueIds: {
-            /** @description In force */
-            policy: string;
+            /** @description In force; recordings from before it was told lack it */
+            policy?: string;
             /** @description Every arm is stopped */
             stopped: boolean;
             queued: string[];

@@ -112,7 +112,7 @@ export class Store {
         break;
       case 'queue': {
         const { data } = message;
-        this.policy = data.policy;
+        this.policy = data.policy ?? this.policy;
         this.stopped = data.stopped;
         this.book.set_order(data);
         break;
