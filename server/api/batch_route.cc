@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/executive/batch.h"
 #include "core/base/add_below.h"
+#include "core/executive/batch.h"
 #include "core/executive/validated.h"
 #include "server/access/digest.h"
 #include "server/api/examples.h"

@@ -29,7 +29,7 @@ struct ApiParts {
   CellPtr cell;
   std::string stream;
   std::shared_ptr<std::string> policy;  // in force; the server's thread's
-  WallClock& clock;    // the server's thread's
+  WallClock& clock;                     // the server's thread's
   RealTimeLoop& loop;
   Hub& hub;
   Recording* recording;  // null: none

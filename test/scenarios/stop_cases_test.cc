@@ -63,7 +63,8 @@ TEST(Cancel, HoldsAMotionThatReliedOnTheOtherLeaving) {
   EXPECT_GT(cell.log.closest_m, 0.0);
 }
 
-// The other arm would come to rest in its way for good: it waits, as it would if nobody was stopped.
+// The other arm would come to rest in its way for good: it waits, as it would if nobody was
+// stopped.
 TEST(Stop, OfAnArmLeavesWhatWaitsForItPossible) {
   for (const std::string& policy : known_policies()) {
     Crossing cell(crossing_description(), policy);

@@ -1,6 +1,5 @@
 // What is logged of an executive's inputs leads to the same events, byte for byte: random runs in
 // which verdicts, plans and words from the disk come when they like, as on a busy machine.
-#include "core/executive/batch.h"
 #include "server/replay/replay.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include <random>
 
 #include "core/collision/check/motion_checker.h"
+#include "core/executive/batch.h"
 #include "core/executive/validated.h"
 #include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
