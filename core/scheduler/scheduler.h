@@ -56,6 +56,8 @@ class Scheduler {
 
   // What the next job is to be called: not what an effect has called one of the scheduler's own.
   [[nodiscard]] JobId next_job() const { return state_.jobs.next_id(); }
+  // The last WakeAt.
+  [[nodiscard]] std::optional<TimePoint> wakes_at() const { return wake_at_; }
   [[nodiscard]] const Policy& policy() const { return *state_.policy; }
   // Nothing is admitted, so that it may be another one (ChangePolicy).
   [[nodiscard]] bool may_change_policy() const { return state_.graph.motions().empty(); }

@@ -225,6 +225,43 @@ test('an object is moved by hand', { timeout: 90_000 }, async () => {
   await go('#/');
 });
 
+test('another policy decides from the settings on, while no job is admitted', { timeout: 60_000 }, async () => {
+  const choose = (policy) => page.locator(`[data-test=policy-form] input[value=${policy}]`).check();
+  await go('#/settings');
+  await page.locator('[data-test=change-policy]:disabled').waitFor();
+  await choose('coordinated');
+  await page.locator('[data-test=change-policy]').click();
+  await page.locator('.fact', { hasText: 'coordinated' }).waitFor();
+  await speed(1);
+  await send('right', 'keeps-its-policy', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);
+  await choose('certified');
+  await page.locator('[data-test=change-policy]').click();
+  await page.locator('[data-test=refusal]', { hasText: 'keeps-its-policy' }).waitFor();
+  await page.screenshot(path_for('policy-dark'));
+  await page.locator('[data-test=refusal] button').click();
+  await speed(10);
+  await go('#/');
+  await finished('keeps-its-policy');
+  assert.equal((await ask(page, 'PUT', '/policy', { policy: 'certified' })).status, 200);
+  await page.locator('.fact', { hasText: 'certified' }).waitFor();
+});
+
+test('a job is given another way from its page', { timeout: 90_000 }, async () => {
+  await speed(0.5);
+  await send('right', 'another-way', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle))], 6);
+  await go('#/job/another-way');
+  await page.waitForFunction(async () => (await (await fetch('/api/v1/jobs/another-way')).json()).state === 'running');
+  await page.locator('[data-test=replan]').click();
+  await page.getByRole('button', { name: 'Brake, and plan another way' }).click();
+  await page.waitForFunction(async () => {
+    const { replan } = await (await fetch('/api/v1/jobs/another-way')).json();
+    return replan?.done > 0;
+  }, null, { timeout: 40_000 });
+  await speed(10);
+  await go('#/');
+  await finished('another-way');
+});
+
 test('no event is missed or comes twice when the connection breaks', { timeout: 60_000 }, async () => {
   const before = await page.evaluate(() => window.armloom.numbers());
   assert.deepEqual([before.missed, before.doubled], [0, 0]);
@@ -254,5 +291,5 @@ test('the first view is light: all but the 3D part and what is loaded when it is
 });
 
 test('nothing so far was an error in the console', () => {
-  assert.deepEqual(chromium.errors.filter((text) => !/422 \(|ERR_INTERNET_DISCONNECTED|ERR_NETWORK/.test(text)), []);
+  assert.deepEqual(chromium.errors.filter((text) => !/409 \(|422 \(|ERR_INTERNET_DISCONNECTED|ERR_NETWORK/.test(text)), []);
 });
