@@ -80,9 +80,9 @@ FormatPtr<ExecutionSettings> execution_format() {
             "How far an arm may stand from where its job begins."),
       field("duration_scaling", &Execution::duration_scaling, number({1.0, 100.0}),
             "A motion fails as overrun when it takes longer than this times its duration, plus the "
-            "margin, and no longer moves."),
+            "margin, and has not moved for 10 s."),
       field("duration_margin_s", &Execution::duration_margin, seconds(kTime),
-            "The margin of that."),
+            "The margin of that; larger where arms may stall for longer."),
   });
 }
 

@@ -66,6 +66,10 @@ TEST_P(Worlds, WhatIsStoppedLateGoesOn) {
   EXPECT_GT(run(200, {.delays = true, .pauses = true}, !is_timed())[JobState::succeeded], 1000);
 }
 
+TEST_P(Worlds, WhoeverIsStoppedWhatCanBeDoneInTurnIsDone) {
+  EXPECT_GT(run(200, {.delays = true, .stops = true}, !is_timed())[JobState::succeeded], 1000);
+}
+
 TEST_P(Worlds, WhateverIsCanceledEveryJobEndsOnce) {
   auto ended = run(200, {.delays = true, .stops = true, .cancels = true}, false);
   EXPECT_GT(ended[JobState::canceled], 50);
