@@ -76,14 +76,18 @@ TEST_P(Approaches, AnArmThatHasComeToRestOnTheWayThereIsPassed) {
   cell->submit(approached(go("a", {-1, 2}, {-1, 3}, 6, "far")));
   cell->run_until(at(1s));
   ASSERT_EQ(cell->job("approach-1").state, JobState::queued);
-  cell->submit(go("b", {1, 0}, {-1, 1}, 6, "onto it"));
-  cell->run_until(at(10s));
-  expect_succeeded("onto it");
+  cell->submit(go("b", {1, 0}, {-3, 2}, 6, "across it"));
+  cell->run_until(at(4s));
+  ASSERT_TRUE(cell->executive().cancel("across it"));
+  cell->run_until(at(6s));
+  const Configuration stands = cell->measured();
+  ASSERT_NEAR(stands[2], -1.0, 0.15);
+  ASSERT_NEAR(stands[3], 1.0, 0.15);
   cell->executive().resume({ArmId{0}});
   cell->run_to_the_end();
   expect_succeeded("far");
   expect_succeeded("approach-1");
-  cell->expect_at("b", {-1, 1});  // and not sent aside
+  cell->expect_at("b", {stands[2], stands[3]});  // and not sent aside
 }
 
 TEST_P(Approaches, CancelingTheJobStopsTheArmOnItsWayThere) {

@@ -79,6 +79,7 @@ class TwoGantries {
     EXPECT_NEAR(log_.last[first], place.first, 1e-3) << arm;
     EXPECT_NEAR(log_.last[first + 1], place.second, 1e-3) << arm;
   }
+  [[nodiscard]] const Configuration& measured() const { return log_.last; }
   [[nodiscard]] double closest_m() const { return log_.closest_m; }
   // Of one joint of the cell, from tick to tick.
   [[nodiscard]] double fastest_m_s() const { return log_.fastest_m_s; }
