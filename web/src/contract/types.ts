@@ -70,9 +70,9 @@ export interface components {
             execution: {
                 /** @description How far an arm may stand from where its job begins. */
                 start_tolerance_rad: number;
-                /** @description A motion fails as overrun when it takes longer than this times its duration, plus the margin, and no longer moves. */
+                /** @description A motion fails as overrun when it takes longer than this times its duration, plus the margin, and has not moved for 10 s. */
                 duration_scaling: number;
-                /** @description The margin of that. */
+                /** @description The margin of that; larger where arms may stall for longer. */
                 duration_margin_s: number;
             };
         };
