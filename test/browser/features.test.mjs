@@ -231,7 +231,7 @@ test('another policy decides from the settings on, while no job is admitted', { 
   await page.locator('[data-test=change-policy]:disabled').waitFor();
   await choose('coordinated');
   await page.locator('[data-test=change-policy]').click();
-  await page.locator('.fact', { hasText: 'coordinated' }).waitFor();
+  await page.locator('.fact', { hasText: 'coordinated' }).waitFor({ state: 'attached' });
   await speed(1);
   await send('right', 'keeps-its-policy', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);
   await choose('certified');
@@ -243,7 +243,7 @@ test('another policy decides from the settings on, while no job is admitted', { 
   await go('#/');
   await finished('keeps-its-policy');
   assert.equal((await ask(page, 'PUT', '/policy', { policy: 'certified' })).status, 200);
-  await page.locator('.fact', { hasText: 'certified' }).waitFor();
+  await page.locator('.fact', { hasText: 'certified' }).waitFor({ state: 'attached' });
 });
 
 test('a job is given another way from its page', { timeout: 90_000 }, async () => {
