@@ -34,7 +34,7 @@ export function PolicyForm({ app }: { app: App }) {
         {kPolicies.map(([name, what]) => (
           <label key={name}>
             <input type="radio" name="policy" value={name} checked={policy === name} onChange={() => set_chosen(name)} />
-            {' '}<b>{name}</b>: {what}
+            <span><b>{name}</b>: {what}</span>
           </label>
         ))}
       </fieldset>
