@@ -75,11 +75,10 @@ class Service::Impl {
     if (!loop) return std::move(loop.error());
     loop_ = std::move(*loop);
     if (restart) go_on(std::move(*restart), cell);
-    const std::string& policy = options_.policy.empty() ? cell->scheduling.policy : options_.policy;
     api_ = std::make_unique<Api>(ApiParts{
-        cell, stream_, std::make_shared<std::string>(policy), *clock_, *loop_, hub_,
-        recording_.get(), keeper_.get(), *alerts_, post, guard_,
-        [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_, limits_});
+        cell, stream_, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), *alerts_, post,
+        guard_, [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_,
+        limits_});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;

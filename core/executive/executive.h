@@ -199,9 +199,9 @@ class Executive {
   void alert(Alert alert);
   void stop(const std::vector<ArmId>& arms, const std::string& cause);
   void resume(const std::vector<ArmId>& arms);
-  // From now on this policy decides, until the next start. Problems: unknown-policy ("/policy");
-  // conflict while a job is admitted: its orders are those of the policy that chose them.
-  [[nodiscard]] Result<void> change_policy(const std::string& name);
+  // Which one decides, and may be another (active_policy.h).
+  class ActivePolicy;
+  [[nodiscard]] ActivePolicy policy();
 
   // The last act: stops all arms, and when they are at rest every job that has not ended becomes
   // `interrupted`, or every one that has begun where others are kept for the next run; then `done`

@@ -210,7 +210,11 @@ void set_out_anew(State& state, Record& record, TrajectoryPtr way) {
   job.progress = Duration{};
   record.farthest = Duration{};
   record.asking.found_free_at = 0;
-  WaitingLeg leg = state.arms.leg_of(*state.cell, job.id, *way);
+  go_by(state, record, std::move(way));
+}
+
+void go_by(State& state, Record& record, TrajectoryPtr way) {
+  WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.id, *way);
   state.jobs.set_motion(record, std::move(way), std::move(leg));
   state.lanes.forget_passages();
   state.lanes.renew_later();

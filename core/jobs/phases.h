@@ -35,6 +35,8 @@ void come_to_rest(State& state, Record& record, const MotionReport& report);
 // It stands, and forgets the way that it had: it waits in the queue again, to go this way from
 // there. Precondition: it waits.
 void set_out_anew(State& state, Record& record, TrajectoryPtr way);
+// This way instead of its own, from the same place. Precondition: it waits in the queue.
+void go_by(State& state, Record& record, TrajectoryPtr way);
 
 // Arms shall not move until they are resumed; what was not told to them keeps its place.
 void stop_arms(State& state, const Stop& stop);

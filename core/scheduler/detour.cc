@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/jobs/phases.h"
 #include "core/scheduler/waiting/choosing.h"
 #include "core/trajectory/set_joints.h"
 
@@ -69,14 +70,6 @@ Configuration places_held(const State& state, const Record& record,
   }
   set_joints(at, *record.job.trajectory, record.job.trajectory->start());
   return at;
-}
-
-void go_by(State& state, Record& record, TrajectoryPtr way) {
-  WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.id, *way);
-  state.jobs.set_motion(record, std::move(way), std::move(leg));
-  state.lanes.forget_passages();
-  state.lanes.renew_later();
-  ++state.version;
 }
 
 void ask(State& state, Record& record) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/scheduler/policy.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
@@ -50,6 +51,20 @@ void add_passages(Question& question, const std::vector<Passage>& unknown, const
                                         .to_come = true},
                                  passage.place->arm, passage.place->q});
   }
+}
+
+Configuration rest_after_admitted(const State& state, const Job* job) {
+  Configuration at = state.arms.rest();
+  for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
+    const ArmId arm{a};
+    const bool is_its_own = job != nullptr && job->trajectory->arms().front() == arm;
+    for (JobId id : state.jobs.queues()[arm]) {
+      const Job& other = state.jobs.at(id).job;
+      if (&other == job || (!other.is_admitted() && !is_its_own)) break;
+      follow_to_end(at, *state.cell, arm, *other.trajectory);
+    }
+  }
+  return at;
 }
 
 }  // namespace armloom

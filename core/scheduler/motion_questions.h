@@ -12,6 +12,9 @@ namespace armloom {
 [[nodiscard]] Question question_now(const State& state, const std::vector<JobId>& candidates);
 // A job's motion, to be ordered beside what is admitted.
 [[nodiscard]] CoordinatedMotion as_candidate(const Job& job);
+// Where all stand when what is admitted has run; and what comes before that job on its arm, if
+// given.
+[[nodiscard]] Configuration rest_after_admitted(const State& state, const Job* job = nullptr);
 // Passages, to be asked besides.
 void add_passages(Question& question, const std::vector<Passage>& unknown, const JobBook& jobs);
 

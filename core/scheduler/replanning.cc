@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/jobs/phases.h"
+#include "core/scheduler/motion_questions.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -29,23 +30,6 @@ double speed_of(const Cell& cell, const Trajectory& motion) {
   return std::min(share, 1.0);
 }
 
-// Where all stand when what is admitted has run, and what comes before the job on its arm.
-Configuration beside(const State& state, const Job& job) {
-  Configuration at = state.arms.rest();
-  for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
-    for (JobId id : state.jobs.queues()[ArmId{arm}]) {
-      if (id == job.id) break;
-      const Job& other = state.jobs.at(id).job;
-      if (other.is_admitted() || ArmId{arm} == arm_of(job)) {
-        follow_to_end(at, *state.cell, ArmId{arm}, *other.trajectory);
-      } else {
-        break;
-      }
-    }
-  }
-  return at;
-}
-
 // A pose that others begin at is reached as it was planned; a straight line stays one.
 MotionGoal goal_of(const State& state, const Job& job, Configuration end) {
   const ArmId arm = arm_of(job);
@@ -59,7 +43,7 @@ MotionGoal goal_of(const State& state, const Job& job, Configuration end) {
 
 PlanQuestion question_about(const State& state, const Record& record) {
   const Job& job = record.job;
-  const Configuration at = beside(state, job);
+  const Configuration at = rest_after_admitted(state, &job);
   PlanQuestion question{.goal = goal_of(state, job, at),
                         .at = at,
                         .seed = job.id.value() + kSeedsOfOneTry * record.asking.plans};
@@ -82,7 +66,7 @@ bool fits(const State& state, const Record& record) {
   const AnotherWay& other = *record.job.another_way;
   const auto& joints = state.cell->arm(arm_of(record.job)).joints;
   const Eigen::VectorXd from = joints_of(other.beside, joints);
-  const Eigen::VectorXd stands = joints_of(beside(state, record.job), joints);
+  const Eigen::VectorXd stands = joints_of(rest_after_admitted(state, &record.job), joints);
   return other.asked_at >= state.recheck_epoch && is_same_place(state, from, stands);
 }
 
@@ -197,8 +181,9 @@ bool may_go_around(const State& state, const Record& record) {
   if (job.is_replanned_now()) return true;
   if (!job.is_waiting() && !job.pausing()) return false;
   if (!job.another_way) return true;
-  const bool is_as_tried = job.another_way->asked_at >= state.recheck_epoch &&
-                           is_same_place(state, job.another_way->beside, beside(state, job));
+  const bool is_as_tried =
+      job.another_way->asked_at >= state.recheck_epoch &&
+      is_same_place(state, job.another_way->beside, rest_after_admitted(state, &job));
   return job.another_way->tries < kReplansMax && !is_as_tried;
 }
 

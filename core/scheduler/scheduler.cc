@@ -152,7 +152,7 @@ void Scheduler::settle() {
 void Scheduler::ask_for_wake() {
   std::optional<TimePoint> next = next_deadline(state_);
   if (cycles_.is_one_to_settle()) {
-    const TimePoint soon = state_.now + Duration(1);  // a step of its own
+    const TimePoint soon = state_.now + kAfterRingWasTold;
     next = next ? std::min(*next, soon) : soon;
   }
   if (const auto weighs = weighs_next(state_)) next = next ? std::min(*next, *weighs) : weighs;

@@ -6,12 +6,6 @@
 #include "core/jobs/waits.h"
 
 namespace armloom {
-namespace {
-
-// What the scheduler puts off to a step of its own.
-constexpr Duration kAtOnce(1);
-
-}  // namespace
 
 Trial::Trial(Scheduler scheduler, Open open, const std::vector<Submit>& jobs, JobId asked,
              TimePoint now)
@@ -31,8 +25,8 @@ void Trial::step(const Input& input) {
   const Job* job = scheduler_.find(job_);
   if (job != nullptr && !job->waits_on.empty()) waits_ = job->waits_on;
   const auto wake = scheduler_.wakes_at();
-  if (!wake || *wake - now_ > kAtOnce) return;
-  now_ = *wake;  // a ring has been told, and is resolved at once
+  if (!wake || *wake - now_ > kAfterRingWasTold) return;
+  now_ = *wake;  // a ring has been told
   step(Wake{});
 }
 

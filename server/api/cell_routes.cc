@@ -1,3 +1,4 @@
+#include "core/executive/active_policy.h"
 #include "server/api/route.h"
 #include "server/messages/cell.h"
 #include "server/messages/mesh_address.h"
@@ -6,9 +7,12 @@ namespace armloom {
 namespace {
 
 void get_cell(Call call) {
-  const ApiParts& parts = call.parts;
-  const CellView cell = view_of(*parts.cell, *parts.policy, parts.loop.speed());
-  call.respond(answer(200, cell_view_format(), cell));
+  ask(
+      call.parts, [](Executive& executive) { return executive.policy().name(); },
+      [&parts = call.parts, respond = call.respond](const std::string& policy) {
+        const CellView cell = view_of(*parts.cell, policy, parts.loop.speed());
+        respond(answer(200, cell_view_format(), cell));
+      });
 }
 
 void put_policy(Call call) {
@@ -17,13 +21,12 @@ void put_policy(Call call) {
     ask(
         parts,
         [choice](Executive& executive) {
-          auto changed = executive.change_policy(choice.policy);
+          auto changed = executive.policy().change(choice.policy);
           if (changed) executive.alert({Alert::Level::info, "the policy is now " + choice.policy});
           return changed;
         },
-        [&parts, respond, choice](const Result<void>& changed) {
+        [respond, choice](const Result<void>& changed) {
           if (!changed) return respond(problem_response(changed.error()));
-          *parts.policy = choice.policy;
           respond(answer(200, policy_choice_format(), choice));
         });
   };

@@ -28,8 +28,7 @@ namespace armloom {
 struct ApiParts {
   CellPtr cell;
   std::string stream;
-  std::shared_ptr<std::string> policy;  // in force; the server's thread's
-  WallClock& clock;                     // the server's thread's
+  WallClock& clock;  // the server's thread's
   RealTimeLoop& loop;
   Hub& hub;
   Recording* recording;  // null: none

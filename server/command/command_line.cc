@@ -13,6 +13,14 @@ void add_cell(CLI::App& command, std::string& file) {
   command.add_option("--cell", file, "cell file (JSON)")->required();
 }
 
+void add_jobs(CLI::App& command, std::string& file) {
+  command.add_option("--jobs", file, "jobs file (JSON)")->required();
+}
+
+void add_policy(CLI::App& command, std::string& policy) {
+  command.add_option("--policy", policy, "instead of the cell's");
+}
+
 // The parser's own reading of an unsigned number takes -1 for the largest one.
 std::string not_a_seed(const std::string& text) {
   std::uint64_t seed = 0;
@@ -49,7 +57,7 @@ Command serve_command(CLI::App& app) {
   command->add_option("--speed", options->speed, "cell seconds per second")
       ->check(CLI::Range(0.001, 1000.0));
   command->add_option("--web", options->web, "folder of the dashboard's files");
-  command->add_option("--policy", options->policy, "instead of the cell's");
+  add_policy(*command, options->policy);
   command
       ->add_option("--allow-host", options->allowed_hosts,
                    "a name by which the server may be commanded, as behind a proxy")
@@ -142,8 +150,8 @@ Command check_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("check", "judge jobs against each other without running them");
   add_cell(*command, options->cell_file);
-  command->add_option("--jobs", options->jobs_file, "jobs file (JSON)")->required();
-  command->add_option("--policy", options->policy, "instead of the cell's");
+  add_jobs(*command, options->jobs_file);
+  add_policy(*command, options->policy);
   return {command, [options] { return check_jobs_file(*options); }};
 }
 
@@ -188,8 +196,8 @@ Command simulate_command(CLI::App& app) {
   const auto options = std::make_shared<SimulateOptions>();
   CLI::App* command = app.add_subcommand("simulate", "run jobs on simulated time");
   add_cell(*command, options->cell_file);
-  command->add_option("--jobs", options->jobs_file, "jobs file (JSON)")->required();
-  command->add_option("--policy", options->policy, "instead of the cell's");
+  add_jobs(*command, options->jobs_file);
+  add_policy(*command, options->policy);
   add_seed(*command, options->seed);
   command->add_option("--out", options->out, "folder for the recording");
   command->add_option("--faults", options->faults_file, "faults file (JSON)");
@@ -201,7 +209,7 @@ Command compare_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("compare", "run the same jobs under several policies: a table");
   add_cell(*command, options->cell_file);
-  command->add_option("--jobs", options->jobs_file, "jobs file (JSON)")->required();
+  add_jobs(*command, options->jobs_file);
   command->add_option("--policies", options->policies, "names, a comma between (all)");
   add_seed(*command, options->seed);
   command->add_option("--out", options->out, "folder for compare.csv and compare.svg");

@@ -38,7 +38,7 @@ void AlertBook::happened(const Event& event) {
     return;
   }
   alerts_.push_back(alert);
-  if (alerts_.size() > kMost) alerts_.pop_front();
+  if (alerts_.size() > kAlertsKept) alerts_.pop_front();
   if (keeper_ != nullptr) keeper_->store().keep(std::move(alert));
 }
 

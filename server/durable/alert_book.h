@@ -14,12 +14,10 @@
 
 namespace armloom {
 
-// Warnings and errors, each until somebody acknowledges it. With a keeper they outlive the process.
-// On the server's thread.
+// The last kAlertsKept warnings and errors, each until somebody acknowledges it. With a keeper they
+// outlive the process. On the server's thread.
 class AlertBook {
  public:
-  inline static constexpr std::size_t kMost = 1000;  // the latest; older ones are forgotten
-
   // `keeper`: null: they end with the server; it outlives this, as `clock` does.
   AlertBook(std::string stream, const WallClock& clock, JobKeeper* keeper);
 
@@ -33,8 +31,6 @@ class AlertBook {
                    std::function<void(std::optional<Refusal>)> then);
 
  private:
-  void add(StoredAlert alert);
-
   std::string stream_;
   const WallClock& clock_;
   JobKeeper* keeper_;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/executive/active_policy.h"
 #include "core/executive/batch.h"
 #include "core/executive/stepped_loop.h"
 #include "server/messages/fault.h"
@@ -173,7 +174,7 @@ const std::map<std::string, Replay::Impl::Verb>& Replay::Impl::verbs() {
       {"stop", [](Impl& my, Fields line) { my.executive().stop(my.arms(line), line.at("cause")); }},
       {"resume", [](Impl& my, Fields line) { my.executive().resume(my.arms(line)); }},
       {"change_policy",
-       [](Impl& my, Fields line) { (void)my.executive().change_policy(line.at("policy")); }},
+       [](Impl& my, Fields line) { (void)my.executive().policy().change(line.at("policy")); }},
       {"wind_down",
        [](Impl& my, Fields line) {
          using Waiting = Executive::Waiting;

@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::int64_t kCleanedAtOnce = 1000;
 constexpr std::int64_t kAuditKept = 100'000;
-constexpr std::int64_t kAlertsKept = 1'000;
 
 Database opened(const std::filesystem::path& file, const std::string& vfs) {
   Database database(file, Database::Access::write, vfs);
@@ -81,7 +80,7 @@ Leftover JobTables::leftover() const {
   Statement alerts = database_.prepare(
       "SELECT id, at_ms, level, text, who, acknowledged_ms FROM (SELECT * FROM alert ORDER BY "
       "number DESC LIMIT ?1) ORDER BY number");
-  alerts.bind_all(kAlertsKept);
+  alerts.bind_all(std::int64_t{kAlertsKept});
   while (alerts.step()) {
     StoredAlert& alert =
         left.alerts.emplace_back(alerts.text(0), alerts.number(1), alerts.text(2), alerts.text(3));
@@ -170,7 +169,7 @@ bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::
     deleted = std::max(deleted, database_.number("SELECT changes()"));
   };
   keep_last("audit", kAuditKept);
-  keep_last("alert", kAlertsKept);
+  keep_last("alert", std::int64_t{kAlertsKept});
   transaction.commit();
   return deleted == kCleanedAtOnce;
 }

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 
 namespace armloom {
+
+// So many are kept, the latest.
+inline constexpr std::size_t kAlertsKept = 1'000;
 
 // What somebody has to see to, until somebody has. Times are of wall time, since 1970.
 struct StoredAlert {

@@ -43,12 +43,14 @@ class LoadedServer:
             return answer.read().decode()
 
     def submit(self, count, prefix="j"):
+        """In batches of 1,000; their ids."""
         arms = ("left", "right")
         jobs = [swing(f"{prefix}{i}", arms[i % 2], 2, []) for i in range(count)]
         for job in jobs:
             job["backlog_timeout_s"] = 100000
         for i in range(0, count, 1000):
-            self.call("POST", API + "/batches", {"jobs": jobs[i:i + 1000]})
+            self.call("POST", API + "/batches", {"jobs": jobs[i:i + 1000], "atomic": True})
+        return [job["id"] for job in jobs]
 
     def metrics(self):
         figures = {}
@@ -67,15 +69,17 @@ class EmptyLoop:
     """A process that does nothing once in a millisecond: what the machine alone holds up."""
 
     def __init__(self):
-        code = ("import select, sys, time\nlast, gaps = time.monotonic(), 0\n"
+        code = ("import select, sys, time\nlast, gaps, longest = time.monotonic(), 0, 0\n"
                 "while not select.select([sys.stdin], [], [], 0.001)[0]:\n"
-                "  now = time.monotonic(); gaps += now - last > 0.005; last = now\nprint(gaps)")
+                "  now = time.monotonic(); gaps += now - last > 0.005; longest = max(longest, now - last); last = now\n"
+                "print(gaps, 1e3 * longest)")
         self.process = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE,
                                         stdout=subprocess.PIPE, text=True)
 
     def end(self):
-        """So many gaps of more than five periods."""
-        return int(self.process.communicate("end\n")[0])
+        """So many gaps of more than five periods, and the longest one in ms."""
+        gaps, longest_ms = self.process.communicate("end\n")[0].split()
+        return int(gaps), float(longest_ms)
 
 
 class Periods:
@@ -96,7 +100,7 @@ class Periods:
     def since(self):
         """p99 in ms (on a straight line within a step of the histogram), and in words overruns of how many."""
         edges, overruns = self.look()
-        gaps = self.empty.end()
+        gaps, _ = self.empty.end()
         counts = {edge: value - self.before[0][edge] for edge, value in edges.items()}
         wanted, low_edge, low = 0.99 * counts[float("inf")], 0.0, 0.0
         for edge, count in sorted(counts.items()):

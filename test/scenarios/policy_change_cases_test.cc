@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/executive/active_policy.h"
 #include "test/scenarios/crossing.h"
 
 namespace armloom {
@@ -10,14 +11,12 @@ namespace {
 using ::testing::HasSubstr;
 
 Problem refused(Crossing& cell, const std::string& policy) {
-  const auto changed = cell.simulation->executive().change_policy(policy);
+  const auto changed = cell.simulation->executive().policy().change(policy);
   EXPECT_FALSE(changed);
   return changed ? Problem{} : changed.error().front();
 }
 
-std::string policy_of(const Crossing& cell) {
-  return cell.simulation->executive().snapshot().queue.policy;
-}
+std::string policy_of(const Crossing& cell) { return cell.simulation->executive().policy().name(); }
 
 TEST(APolicyIsChanged, NotWhileAJobIsUnderWay) {
   Crossing cell(crossing_description(), "sequential");
@@ -28,7 +27,7 @@ TEST(APolicyIsChanged, NotWhileAJobIsUnderWay) {
   EXPECT_THAT(problem.detail, HasSubstr("a"));
   EXPECT_EQ(policy_of(cell), "sequential");
   cell.run_to_the_end();
-  EXPECT_TRUE(cell.simulation->executive().change_policy("coordinated"));
+  EXPECT_TRUE(cell.simulation->executive().policy().change("coordinated"));
   EXPECT_EQ(policy_of(cell), "coordinated");
 }
 
@@ -59,7 +58,7 @@ TEST(APolicyIsChanged, AndWhatWaitsGoesByIt) {
     cell.submit(slide("y", -1.0, -0.5, 2.0, "b"));
     cell.run_until(at(500ms));
     if (changes) {
-      ASSERT_TRUE(cell.simulation->executive().change_policy("certified"));
+      ASSERT_TRUE(cell.simulation->executive().policy().change("certified"));
     }
     resume_all(cell.simulation->executive());
     cell.run_to_the_end();

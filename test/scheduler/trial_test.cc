@@ -62,7 +62,7 @@ class Look {
 
   // What the scheduler puts off to a step of its own.
   void settle_rings() {
-    while (bench().wake_at && *bench().wake_at <= bench().now() + Duration(1)) {
+    while (bench().wake_at && *bench().wake_at <= bench().now() + kAfterRingWasTold) {
       bench().run_until(*bench().wake_at);
     }
   }

@@ -2,75 +2,19 @@
 // is permitted that the table does not say.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
-#include <stdexcept>
 
-#include "server/access/token_file.h"
-#include "server/api/route.h"
-#include "test/server/running_server.h"
+#include "test/server/token_server.h"
 
 namespace armloom {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Answered {
-  int status;
-  std::string head;
-};
-
-class Rights : public test::RunningServer {
- protected:
-  void SetUp() override {
-    const fs::path folder = fs::path(::testing::TempDir()) / "armloom-rights" /
-                            ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    file_ = folder / "tokens";
-    for (const char* name : {"viewer", "operator", "admin", "withdrawn"}) {
-      const auto role = role_named(name).value_or(Role::admin);
-      tokens_[name] = TokenFile(file_).add(name, role).value();
-    }
-    ASSERT_TRUE(TokenFile(file_).withdraw("withdrawn"));
-    options_.tokens = file_;
-    start(1);
-  }
-  static std::string bearer(const std::string& token) {
-    return "Authorization: Bearer " + token + "\r\n";
-  }
-  // Only the head of the answer: some never end.
-  Answered ask(const std::string& method, const std::string& path, const std::string& headers,
-               const std::string& body = "", const std::string& host = "127.0.0.1") {
-    test::Wire wire(port());
-    const bool socket = path.ends_with("/ws");
-    wire.send(method + " " + path + " HTTP/1.1\r\nHost: " + host + "\r\n" + headers +
-              (socket ? "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-                        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
-                      : "") +
-              (method == "GET" ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") +
-              "\r\n" + body);
-    std::string head = wire.take_until("\r\n\r\n");
-    return {std::stoi(head.substr(9, 3)), std::move(head)};
-  }
-  Answered ask(const Route& route, const std::string& headers,
-               const std::string& host = "127.0.0.1") {
-    std::string path = route.path;
-    for (const char* part : {"{id}", "{name}"}) {
-      if (const std::size_t at = path.find(part); at != path.npos) {
-        path.replace(at, std::string(part).size(), "nothing");
-      }
-    }
-    EXPECT_EQ(path.find('{'), path.npos) << path;
-    return ask(route.method, path, headers, "", host);
-  }
-
-  fs::path file_;
-  std::map<std::string, std::string> tokens_;
-};
+class Rights : public test::TokenServer {};
 
 TEST_F(Rights, AreThoseOfTheTableForEveryVerbAndRole) {
   std::size_t denied = 0, permitted = 0;
@@ -80,7 +24,7 @@ TEST_F(Rights, AreThoseOfTheTableForEveryVerbAndRole) {
       const std::string token = *nobody == '\0' ? "" : bearer(tokens_[nobody] + "x");
       const std::string shown =
           std::string(nobody) == "withdrawn" ? bearer(tokens_[nobody]) : token;
-      const Answered answer = ask(route, shown);
+      const test::Answered answer = ask(route, shown);
       EXPECT_EQ(answer.status == 401, route.role.has_value())
           << verb << " by nobody: " << answer.head;
       if (answer.status == 401) {
@@ -92,7 +36,7 @@ TEST_F(Rights, AreThoseOfTheTableForEveryVerbAndRole) {
       const bool may = !route.role || *role_named(name) >= *route.role;
       for (const std::string& header :
            {bearer(tokens_[name]), "Cookie: a=b; armloom_token=" + tokens_[name] + "; c=d\r\n"}) {
-        const Answered answer = ask(route, header);
+        const test::Answered answer = ask(route, header);
         EXPECT_NE(answer.status, 401) << verb << " by " << name;
         EXPECT_EQ(answer.status == 403, !may) << verb << " by " << name << ": " << answer.head;
         ++(may ? permitted : denied);
@@ -108,9 +52,9 @@ TEST_F(Rights, AreNoneForPagesOfOtherSitesAndOtherNamesWhateverTheyShow) {
   const std::string admin = bearer(tokens_["admin"]);
   for (const Route& route : all_routes()) {
     const std::string verb = route.method + " " + route.path;
-    const Answered page = ask(route, admin + "Origin: http://elsewhere.example\r\n");
+    const test::Answered page = ask(route, admin + "Origin: http://elsewhere.example\r\n");
     EXPECT_EQ(page.status == 403, route.who == Who::commander) << verb << ": " << page.head;
-    const Answered name = ask(route, admin, "elsewhere.example");
+    const test::Answered name = ask(route, admin, "elsewhere.example");
     EXPECT_EQ(name.status == 403, route.who != Who::anyone) << verb << ": " << name.head;
   }
 }
@@ -177,7 +121,7 @@ TEST_F(Rights, AWebSocketIsClosedWhenItsTokenIsWithdrawn) {
 }
 
 TEST_F(Rights, TheDashboardAsksPeopleToLogInAndKeepsTheTokenFromScripts) {
-  const Answered page = ask("GET", "/", "");
+  const test::Answered page = ask("GET", "/", "");
   EXPECT_EQ(page.status, 303);
   EXPECT_NE(page.head.find("Location: /login"), std::string::npos);
   EXPECT_EQ(ask("GET", "/login", "").status, 200);
@@ -195,94 +139,6 @@ TEST_F(Rights, TheDashboardAsksPeopleToLogInAndKeepsTheTokenFromScripts) {
   const auto left = test::request(port(), "DELETE", "/api/v1/session");
   EXPECT_EQ(left.status, 204);
   EXPECT_NE(left.headers.at("set-cookie").find("Max-Age=0"), std::string::npos);
-}
-
-// With a data folder.
-class Audit : public Rights {
- protected:
-  void SetUp() override {
-    options_.data = fs::path(::testing::TempDir()) / "armloom-audit" /
-                    ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(*options_.data);
-    Rights::SetUp();
-  }
-  nlohmann::json entries(const std::string& query, std::size_t fewest) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    for (;;) {
-      test::Wire wire(port());
-      wire.send("GET /api/v1/audit" + query + " HTTP/1.1\r\nHost: 127.0.0.1\r\n" +
-                bearer(tokens_["admin"]) + "\r\n");
-      const auto answer = test::read_answer(wire);
-      const auto page = answer.json();
-      if (answer.status != 200) throw std::runtime_error(answer.body);
-      if (page["entries"].size() >= fewest) return page;
-      if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error(answer.body);
-    }
-  }
-};
-
-TEST_F(Audit, KnowsWhoWasRefusedBeforeTheBodyWasRead) {
-  test::Wire wire(port());
-  wire.send(
-      "POST /api/v1/jobs HTTP/1.1\r\nHost: 127.0.0.1\r\nExpect: 100-continue\r\n"
-      "Content-Length: 100\r\n" +
-      bearer(tokens_["viewer"]) + "\r\n");
-  EXPECT_NE(wire.take_until("\r\n\r\n").find("403"), std::string::npos);
-  const auto entry = entries("", 1)["entries"][0];
-  EXPECT_EQ(entry["who"], "viewer");
-  EXPECT_EQ(entry["path"], "/api/v1/jobs");
-  EXPECT_EQ(entry["status"], 403);
-}
-
-TEST_F(Audit, AnAlertIsAcknowledgedByTheTokensNameWhateverTheClientSays) {
-  ASSERT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
-  test::Wire wire(port());
-  wire.send("GET /api/v1/alerts HTTP/1.1\r\nHost: 127.0.0.1\r\n" + bearer(tokens_["viewer"]) +
-            "\r\n");
-  const auto id = test::read_answer(wire).json()["alerts"][0]["id"].get<std::string>();
-  const std::string body = R"({"ids": [")" + id + R"("], "who": "the boss"})";
-  const auto acknowledge = [&](const char* role) {
-    test::Wire asking(port());
-    asking.send("POST /api/v1/alerts/acknowledge HTTP/1.1\r\nHost: 127.0.0.1\r\n" +
-                bearer(tokens_[role]) + "Content-Type: application/json\r\nContent-Length: " +
-                std::to_string(body.size()) + "\r\n\r\n" + body);
-    return test::read_answer(asking);
-  };
-  EXPECT_EQ(acknowledge("viewer").status, 403);
-  const auto seen = acknowledge("operator");
-  ASSERT_EQ(seen.status, 200) << seen.body;
-  EXPECT_EQ(seen.json()["alerts"][0]["acknowledged"]["who"], "operator");
-  const auto entry = entries("", 3)["entries"][0];
-  EXPECT_EQ(entry["who"], "operator");
-  EXPECT_EQ(entry["path"], "/api/v1/alerts/acknowledge");
-}
-
-TEST_F(Audit, SaysWhoDidWhatAndWhoWasNotLet) {
-  ASSERT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
-  ASSERT_EQ(ask("GET", "/api/v1/arms", bearer(tokens_["viewer"])).status, 200);
-  ASSERT_EQ(ask("POST", "/api/v1/resume", bearer(tokens_["viewer"])).status, 403);
-  ASSERT_EQ(ask("GET", "/api/v1/jobs", "").status, 401);
-  const auto page = entries("", 3);
-  ASSERT_EQ(page["entries"].size(), 3U) << "who only looks is not put down: " << page;
-  const auto is = [&](std::size_t i, const nlohmann::json& who, const char* verb, int status) {
-    const auto entry = page["entries"][i];
-    EXPECT_EQ(entry["who"], who) << entry;
-    EXPECT_EQ(entry["method"].get<std::string>() + " " + entry["path"].get<std::string>(), verb);
-    EXPECT_EQ(entry["status"], status);
-    EXPECT_EQ(entry["from"], "127.0.0.1");
-    EXPECT_TRUE(entry["at"].get<std::string>().ends_with("Z"));
-  };
-  is(0, nullptr, "GET /api/v1/jobs", 401);
-  is(1, "viewer", "POST /api/v1/resume", 403);
-  is(2, "operator", "POST /api/v1/stop", 202);
-  const auto first = entries("?limit=2", 2);
-  const auto rest = entries("?limit=2&cursor=" + first["next_cursor"].get<std::string>(), 1);
-  EXPECT_EQ(rest["entries"].size(), 1U);
-  EXPECT_EQ(rest["entries"][0], page["entries"][2]);
-  EXPECT_TRUE(rest["next_cursor"].is_null());
-  end();
-  start(1);
-  EXPECT_EQ(entries("", 3)["entries"], page["entries"]) << "kept";
 }
 
 TEST_F(Rights, TheFileHoldsNoToken) {

@@ -8,6 +8,9 @@
 
 namespace armloom {
 
+// What becomes of a ring is a matter of a step of its own, so long after it was told.
+inline constexpr Duration kAfterRingWasTold(1);
+
 // Jobs that wait for each other in a ring can never move: each is told its ring in the step that
 // finds it. Then an arm of the ring goes aside and comes back when the other has passed, if the
 // cell says so and there is such a way; else the job that was submitted last fails.

@@ -2,26 +2,9 @@
 
 #include <utility>
 
-#include "core/trajectory/set_joints.h"
+#include "core/scheduler/motion_questions.h"
 
 namespace armloom {
-namespace {
-
-// Where all stand when what is admitted has run.
-Configuration at_rest(const State& state) {
-  Configuration at = state.arms.rest();
-  for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
-    for (JobId id : state.jobs.queues()[ArmId{a}]) {
-      const Job& job = state.jobs.at(id).job;
-      if (!job.is_admitted()) break;
-      follow_to_end(at, *state.cell, ArmId{a}, *job.trajectory);
-    }
-  }
-  return at;
-}
-
-}  // namespace
-
 void ask_for_way_aside(State& state, const YieldTrial& move) {
   Record& record = state.jobs.at(move.blocked_job);
   YieldsTried& tried = record.yields[move.arm];
@@ -31,7 +14,7 @@ void ask_for_way_aside(State& state, const YieldTrial& move) {
   tried.planned = {.question = ++record.asking.plans};
   const Job& job = record.job;
   PlanQuestion question{.goal = {.arm = move.arm, .to = ClearOf{job.trajectory, job.progress}},
-                        .at = at_rest(state),
+                        .at = rest_after_admitted(state),
                         .seed = job.id.value()};
   state.decided.effects.push_back(PlanMotion{job.id, *tried.planned.question, std::move(question)});
 }

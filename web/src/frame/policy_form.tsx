@@ -1,19 +1,21 @@
 // Which policy decides, and another one while no job is admitted.
 
 import { useState } from 'preact/hooks';
+import type { Cell } from '../server/messages';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
 import { why_mute } from '../wording';
 
-export const kPolicies: readonly [string, string][] = [
-  ['sequential', 'one job at a time in the whole cell'],
-  ['lockstep', 'rounds of one job for each arm'],
-  ['reservation', 'a motion has all that it sweeps to itself'],
-  ['timed_discrete', "the paper's: equal instants compared; nothing is promised between them"],
-  ['certified', 'a start now that is proven to pass all others without a stop, or none'],
-  ['earliest_start', 'the earliest start that is proven to pass all others without a stop'],
-  ['coordinated', 'orders instead of times: arms pause on their way for each other'],
-];
+type Policy = Cell['scheduling']['policy'];
+const kPolicies: Record<Policy, string> = {
+  sequential: 'one job at a time in the whole cell',
+  lockstep: 'rounds of one job for each arm',
+  reservation: 'a motion has all that it sweeps to itself',
+  timed_discrete: "the paper's: equal instants compared; nothing is promised between them",
+  certified: 'a start now that is proven to pass all others without a stop, or none',
+  earliest_start: 'the earliest start that is proven to pass all others without a stop',
+  coordinated: 'orders instead of times: arms pause on their way for each other',
+};
 
 export function PolicyForm({ app }: { app: App }) {
   use_store(app.store);
@@ -31,7 +33,7 @@ export function PolicyForm({ app }: { app: App }) {
     >
       <fieldset class="choices stacked">
         <legend>Who passes first is decided by</legend>
-        {kPolicies.map(([name, what]) => (
+        {Object.entries(kPolicies).map(([name, what]) => (
           <label key={name}>
             <input type="radio" name="policy" value={name} checked={policy === name} onChange={() => set_chosen(name)} />
             <span><b>{name}</b>: {what}</span>

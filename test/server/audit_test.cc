@@ -1,0 +1,104 @@
+// What is put down of who did what, and who was not let.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <stdexcept>
+
+#include "test/server/token_server.h"
+
+namespace armloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+// With a data folder.
+class Audit : public test::TokenServer {
+ protected:
+  void SetUp() override {
+    options_.data = fs::path(::testing::TempDir()) / "armloom-audit" /
+                    ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(*options_.data);
+    TokenServer::SetUp();
+  }
+  nlohmann::json entries(const std::string& query, std::size_t fewest) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    for (;;) {
+      test::Wire wire(port());
+      wire.send("GET /api/v1/audit" + query + " HTTP/1.1\r\nHost: 127.0.0.1\r\n" +
+                bearer(tokens_["admin"]) + "\r\n");
+      const auto answer = test::read_answer(wire);
+      const auto page = answer.json();
+      if (answer.status != 200) throw std::runtime_error(answer.body);
+      if (page["entries"].size() >= fewest) return page;
+      if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error(answer.body);
+    }
+  }
+};
+
+TEST_F(Audit, KnowsWhoWasRefusedBeforeTheBodyWasRead) {
+  test::Wire wire(port());
+  wire.send(
+      "POST /api/v1/jobs HTTP/1.1\r\nHost: 127.0.0.1\r\nExpect: 100-continue\r\n"
+      "Content-Length: 100\r\n" +
+      bearer(tokens_["viewer"]) + "\r\n");
+  EXPECT_NE(wire.take_until("\r\n\r\n").find("403"), std::string::npos);
+  const auto entry = entries("", 1)["entries"][0];
+  EXPECT_EQ(entry["who"], "viewer");
+  EXPECT_EQ(entry["path"], "/api/v1/jobs");
+  EXPECT_EQ(entry["status"], 403);
+}
+
+TEST_F(Audit, AnAlertIsAcknowledgedByTheTokensNameWhateverTheClientSays) {
+  ASSERT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
+  test::Wire wire(port());
+  wire.send("GET /api/v1/alerts HTTP/1.1\r\nHost: 127.0.0.1\r\n" + bearer(tokens_["viewer"]) +
+            "\r\n");
+  const auto id = test::read_answer(wire).json()["alerts"][0]["id"].get<std::string>();
+  const std::string body = R"({"ids": [")" + id + R"("], "who": "the boss"})";
+  const auto acknowledge = [&](const char* role) {
+    test::Wire asking(port());
+    asking.send("POST /api/v1/alerts/acknowledge HTTP/1.1\r\nHost: 127.0.0.1\r\n" +
+                bearer(tokens_[role]) + "Content-Type: application/json\r\nContent-Length: " +
+                std::to_string(body.size()) + "\r\n\r\n" + body);
+    return test::read_answer(asking);
+  };
+  EXPECT_EQ(acknowledge("viewer").status, 403);
+  const auto seen = acknowledge("operator");
+  ASSERT_EQ(seen.status, 200) << seen.body;
+  EXPECT_EQ(seen.json()["alerts"][0]["acknowledged"]["who"], "operator");
+  const auto entry = entries("", 3)["entries"][0];
+  EXPECT_EQ(entry["who"], "operator");
+  EXPECT_EQ(entry["path"], "/api/v1/alerts/acknowledge");
+}
+
+TEST_F(Audit, SaysWhoDidWhatAndWhoWasNotLet) {
+  ASSERT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
+  ASSERT_EQ(ask("GET", "/api/v1/arms", bearer(tokens_["viewer"])).status, 200);
+  ASSERT_EQ(ask("POST", "/api/v1/resume", bearer(tokens_["viewer"])).status, 403);
+  ASSERT_EQ(ask("GET", "/api/v1/jobs", "").status, 401);
+  const auto page = entries("", 3);
+  ASSERT_EQ(page["entries"].size(), 3U) << "who only looks is not put down: " << page;
+  const auto is = [&](std::size_t i, const nlohmann::json& who, const char* verb, int status) {
+    const auto entry = page["entries"][i];
+    EXPECT_EQ(entry["who"], who) << entry;
+    EXPECT_EQ(entry["method"].get<std::string>() + " " + entry["path"].get<std::string>(), verb);
+    EXPECT_EQ(entry["status"], status);
+    EXPECT_EQ(entry["from"], "127.0.0.1");
+    EXPECT_TRUE(entry["at"].get<std::string>().ends_with("Z"));
+  };
+  is(0, nullptr, "GET /api/v1/jobs", 401);
+  is(1, "viewer", "POST /api/v1/resume", 403);
+  is(2, "operator", "POST /api/v1/stop", 202);
+  const auto first = entries("?limit=2", 2);
+  const auto rest = entries("?limit=2&cursor=" + first["next_cursor"].get<std::string>(), 1);
+  EXPECT_EQ(rest["entries"].size(), 1U);
+  EXPECT_EQ(rest["entries"][0], page["entries"][2]);
+  EXPECT_TRUE(rest["next_cursor"].is_null());
+  end();
+  start(1);
+  EXPECT_EQ(entries("", 3)["entries"], page["entries"]) << "kept";
+}
+
+}  // namespace
+}  // namespace armloom
