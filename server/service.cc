@@ -8,6 +8,7 @@
 #include "core/executive/worker.h"
 #include "server/api/api.h"
 #include "server/codec/stream_id.h"
+#include "server/comparison/comparison.h"
 #include "server/durable/restart.h"
 #include "server/http/http_server.h"
 #include "server/http/static_files.h"
@@ -75,10 +76,11 @@ class Service::Impl {
     if (!loop) return std::move(loop.error());
     loop_ = std::move(*loop);
     if (restart) go_on(std::move(*restart), cell);
+    comparison_ = std::make_unique<Comparison>(cell, post);
     api_ = std::make_unique<Api>(ApiParts{
         cell, stream_, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), *alerts_, post,
         guard_, [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_,
-        limits_});
+        limits_, *comparison_});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;
@@ -231,6 +233,7 @@ class Service::Impl {
   std::unique_ptr<Metrics> metrics_;
   std::unique_ptr<HttpServer> http_;
   std::unique_ptr<Broadcast> broadcast_;
+  std::unique_ptr<Comparison> comparison_;
   std::unique_ptr<Api> api_;
   std::unique_ptr<RealTimeLoop> loop_;
   Worker worker_;

@@ -135,7 +135,12 @@ Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options, Scenar
 
   SimulationResult result;
   auto next = order.begin();
-  while (!result.all_ended && !result.settled && (*simulation)->now() < time_limit) {
+  const auto gives_up = [&] {
+    result.given_up =
+        scenario.gives_up && scenario.gives_up((*simulation)->judging(), (*simulation)->planning());
+    return result.given_up;
+  };
+  while (!result.all_ended && !result.settled && (*simulation)->now() < time_limit && !gives_up()) {
     const TimePoint submitted = next == order.end() ? time_limit : jobs[*next].at;
     (*simulation)->pass_over_rest(std::min(submitted, time_limit));
     (*simulation)->tick();

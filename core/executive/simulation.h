@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -75,6 +76,9 @@ struct Scenario {
   std::vector<TimedJob> jobs;
   TimePoint time_limit;
   std::vector<FaultRequest> faults = {};
+  // Asked before each control cycle, with what deciding has taken so far: whether to end the run
+  // there. Null: nobody asks.
+  std::function<bool(const Judging&, const Planning&)> gives_up = {};
 };
 
 struct SimulationResult {
@@ -89,6 +93,7 @@ struct SimulationResult {
   std::vector<Refused> refused;  // at their time
   bool all_ended = false;        // false: nothing could happen any more, or `time_limit` came first
   bool settled = false;          // false: `time_limit` came first, if not all have ended
+  bool given_up = false;         // as the scenario's gives_up() said
   TimePoint ended_at{};
   Duration wall{};  // what it took the machine: differs from run to run
 };

@@ -12,6 +12,7 @@
 #include "server/api/answers.h"
 #include "server/api/guard.h"
 #include "server/codec/wall_clock.h"
+#include "server/comparison/jobs_at_hand.h"
 #include "server/durable/accepted_requests.h"
 #include "server/durable/alert_book.h"
 #include "server/durable/job_keeper.h"
@@ -21,6 +22,8 @@
 #include "server/recording/recording.h"
 
 namespace armloom {
+
+class Comparison;
 
 // What the verbs of one run of the server work with; everything in it outlives them. The verbs run
 // on the server's thread; what concerns the executive is posted to its strand and answered when it
@@ -40,12 +43,14 @@ struct ApiParts {
   std::function<void(std::function<void()>)> aside;
   Metrics& metrics;
   ClientLimits& limits;
+  Comparison& comparison;
   // Readers of events that wait for a snapshot: who comes while one is on its way shares it.
   struct Newcomer {
     bool gap;
     std::function<void(SubscriptionPtr)> then;
   };
   std::shared_ptr<AcceptedRequests> accepted = std::make_shared<AcceptedRequests>();
+  std::shared_ptr<JobsAtHand> at_hand = std::make_shared<JobsAtHand>();
   std::shared_ptr<std::vector<Newcomer>> newcomers = std::make_shared<std::vector<Newcomer>>();
 };
 

@@ -76,6 +76,7 @@ struct Route {
 [[nodiscard]] std::vector<Route> arm_routes();         // /arms, /stop, /resume
 [[nodiscard]] std::vector<Route> scene_routes();       // /scene
 [[nodiscard]] std::vector<Route> cell_routes();        // /cell and its meshes
+[[nodiscard]] std::vector<Route> comparison_routes();  // /comparison
 [[nodiscard]] std::vector<Route> simulation_routes();  // /sim
 [[nodiscard]] std::vector<Route> event_routes();       // /events, /ws
 [[nodiscard]] std::vector<Route> alert_routes();       // /alerts

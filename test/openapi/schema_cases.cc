@@ -12,6 +12,7 @@
 #include "server/codec/schema_names.h"
 #include "server/messages/alert.h"
 #include "server/messages/cell.h"
+#include "server/messages/comparison.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
@@ -68,7 +69,8 @@ std::vector<Incoming> all_incoming() {
           incoming("LogIn", *log_in_format()),
           incoming("JobAmendment", *job_amendment_format()),
           incoming("AlertsSeen", *alerts_seen_format()),
-          incoming("PolicyChoice", *policy_choice_format())};
+          incoming("PolicyChoice", *policy_choice_format()),
+          incoming("ComparisonRequest", *comparison_inquiry_format())};
 }
 
 // Every body of a route is among them.
