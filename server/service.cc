@@ -9,6 +9,7 @@
 #include "server/api/api.h"
 #include "server/codec/stream_id.h"
 #include "server/comparison/comparison.h"
+#include "server/control/control.h"
 #include "server/durable/restart.h"
 #include "server/http/http_server.h"
 #include "server/http/static_files.h"
@@ -27,7 +28,9 @@ class Service::Impl {
       : options_(std::move(options)),
         files_(options_.web, refusal_response),
         guard_(options_.tokens, options_.tls.has_value()),
-        limits_(options_.limits) {}
+        limits_(options_.limits) {
+    if (!options_.log) options_.log = [](const LogLine&) {};
+  }
 
   std::optional<Problems> start(const CellPtr& cell, const Recording::Source& source) {
     auto http = HttpServer::listen(options_.address, options_.port, options_.connections_max);
@@ -58,7 +61,7 @@ class Service::Impl {
     alerts_ = std::make_unique<AlertBook>(stream_, *clock_, keeper_.get());
     broadcast_ = std::make_unique<Broadcast>(
         Broadcast::Parts{cell, stream_, *clock_, hub_, recording_.get(), keeper_.get(), *alerts_,
-                         post, options_.alarm, *metrics_});
+                         post, options_.log, *metrics_});
     ExecutiveOptions executive_options;
     executive_options.policy = options_.policy;
     std::optional<Restart> restart;
@@ -76,11 +79,12 @@ class Service::Impl {
     if (!loop) return std::move(loop.error());
     loop_ = std::move(*loop);
     if (restart) go_on(std::move(*restart), cell);
+    keep_recordings();
     comparison_ = std::make_unique<Comparison>(cell, post);
     api_ = std::make_unique<Api>(ApiParts{
         cell, stream_, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), *alerts_, post,
         guard_, [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_,
-        limits_, *comparison_});
+        limits_, *comparison_, control_, options_.hold_lease});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;
@@ -152,7 +156,7 @@ class Service::Impl {
     const std::string& policy = options.policy.empty() ? cell->scheduling.policy : options.policy;
     auto inputs =
         InputFile::create(recording_->folder(), {policy, options.seed, options.first_job.value()},
-                          {cell, post, options_.alarm});
+                          {cell, post, [this](const std::string& what) { alarm(what); }});
     if (!inputs) return std::move(inputs.error());
     inputs_ = std::move(*inputs);
     options.inputs = inputs_.get();
@@ -164,7 +168,7 @@ class Service::Impl {
     const std::string text = fault != nullptr
                                  ? "jobs cannot be stored: " + fault->text
                                  : "jobs can be stored again; arms stay stopped until resumed";
-    if (options_.alarm) http_->post([this, text] { options_.alarm(text); });
+    alarm(text);
     if (fault == nullptr || !loop_is_there_) return;
     loop_->post_urgent([text](Executive& executive) { stop_all(executive, text); });
   }
@@ -177,27 +181,62 @@ class Service::Impl {
                            Executive& executive) { restart->go_on(executive, *cell, *keeper_); });
   }
 
+  void alarm(const std::string& what) { options_.log({LogLine::Level::error, what}); }
+
+  void keep_recordings() {
+    if (!recording_ || !options_.kept_recordings.is_any()) return;
+    constexpr std::chrono::minutes kPeriod{1};
+    const auto tell = [log = options_.log](const RemovedRecording& gone) {
+      const bool whole = gone.fault.empty();
+      LogLine line{
+          whole ? LogLine::Level::info : LogLine::Level::error,
+          whole ? "an old recording was removed" : "an old recording cannot be removed",
+          {{"folder", gone.folder.string()}, {"bytes", static_cast<std::int64_t>(gone.bytes)}}};
+      if (!whole) line.fields.emplace_back("fault", gone.fault);
+      log(line);
+    };
+    old_recordings_.emplace(OldRecordings::Place{*options_.data, recording_->folder()},
+                            options_.kept_recordings, kPeriod, tell);
+  }
+
+  // Told in the log, where that is wanted.
+  void log_request(const AuditEntry& entry, const std::string& id, bool only_looks,
+                   std::chrono::nanoseconds within) {
+    const auto wanted = options_.logged_requests;
+    if (wanted == LoggedRequests::none || (wanted == LoggedRequests::commands && only_looks)) {
+      return;
+    }
+    LogLine line{entry.status >= 500 ? LogLine::Level::warning : LogLine::Level::info, "request"};
+    line.fields = {{"request_id", id},   {"method", entry.method},
+                   {"path", entry.path}, {"status", std::int64_t{entry.status}},
+                   {"from", entry.peer}, {"ms", 1e-6 * static_cast<double>(within.count())}};
+    if (!entry.who.empty()) line.fields.emplace_back("who", entry.who);
+    options_.log(line);
+  }
+
   // Who did something, or was not let do it, is put down.
   Respond noting(const Request& request, Respond respond) {
-    if (!keeper_) return respond;
+    if (!keeper_ && options_.logged_requests == LoggedRequests::none) return respond;
     const auto caller = guard_.caller(request.token);
     AuditEntry entry{.who = caller ? caller->name : std::string(),
                      .peer = request.peer,
                      .method = request.method,
                      .path = request.target.path.substr(0, kAuditedPathMax)};
-    return
-        [this, entry = std::move(entry), respond = std::move(respond)](Response response) mutable {
-          const int status = response.status;
-          const bool only_looks = entry.method == "GET" || entry.method == "OPTIONS";
-          if (!only_looks || status == 401 || status == 403) {
-            using std::chrono::milliseconds;
-            const auto now = std::chrono::system_clock::now().time_since_epoch();
-            entry.at_ms = std::chrono::floor<milliseconds>(now).count();
-            entry.status = status;
-            keeper_->store().note(std::move(entry));
-          }
-          respond(std::move(response));
-        };
+    return [this, entry = std::move(entry), respond = std::move(respond), id = request.id,
+            asked = std::chrono::steady_clock::now()](Response response) mutable {
+      entry.status = response.status;
+      const bool is_refused = entry.status == 401 || entry.status == 403;
+      const bool only_looks = !is_refused && (entry.method == "GET" || entry.method == "OPTIONS" ||
+                                              response.is_routine);
+      log_request(entry, id, only_looks, std::chrono::steady_clock::now() - asked);
+      if (keeper_ && !only_looks) {
+        using std::chrono::milliseconds;
+        const auto now = std::chrono::system_clock::now().time_since_epoch();
+        entry.at_ms = std::chrono::floor<milliseconds>(now).count();
+        keeper_->store().note(std::move(entry));
+      }
+      respond(std::move(response));
+    };
   }
 
   std::optional<Refusal> one_too_many(const Request& request) {
@@ -221,6 +260,7 @@ class Service::Impl {
   StaticFiles files_;
   Guard guard_;
   ClientLimits limits_;
+  Control control_;
   const std::string stream_ = random_stream();
   std::optional<WallClock> clock_;
   Hub hub_;
@@ -229,6 +269,7 @@ class Service::Impl {
   std::atomic<bool> loop_is_there_{false};  // what the store's thread asks
   std::unique_ptr<AlertBook> alerts_;
   std::unique_ptr<Recording> recording_;
+  std::optional<OldRecordings> old_recordings_;
   std::unique_ptr<InputFile> inputs_;
   std::unique_ptr<Metrics> metrics_;
   std::unique_ptr<HttpServer> http_;

@@ -14,6 +14,8 @@
 #include "core/model/cell.h"
 #include "server/http/client_limits.h"
 #include "server/http/http_server.h"
+#include "server/log/log_line.h"
+#include "server/recording/old_recordings.h"
 #include "server/recording/recording.h"
 #include "server/store/job_store.h"
 
@@ -40,9 +42,12 @@ struct ServiceOptions {
   std::chrono::milliseconds send_time{30'000};   // for one event of /events, or message of /ws
   int send_buffer = 128 * 1024;                  // of the socket of a reader of those
   std::chrono::milliseconds read_time{10'000};   // for a request's header, and for its body
-  // Is told, on the server's thread, what goes wrong beside the answers: once that and when the
-  // recording is lost.
-  std::function<void(const std::string&)> alarm = {};
+  // What the server has to say beside the answers: what goes wrong, alerts, requests, recordings
+  // that are removed. From any thread; must not block. Null: nobody listens.
+  Log log = {};
+  LoggedRequests logged_requests = LoggedRequests::none;
+  RecordingBounds kept_recordings = {};             // in `data`
+  std::chrono::milliseconds hold_lease{500};        // ApiParts
   std::size_t memory_max = std::size_t{64} << 20U;  // as Site has it
 };
 

@@ -45,6 +45,10 @@ Result<JobView> Executive::cancel(const std::string& key) {
   impl_->note({ExecutiveInput::Canceled{key}});
   return impl_->cancel(key);
 }
+Result<JobView> Executive::hold(const std::string& key, TimePoint until) {
+  impl_->note({ExecutiveInput::Held{key, until}});
+  return impl_->hold(key, until);
+}
 Result<JobView> Executive::amend(const std::string& key, JobAmendment amendment) {
   impl_->note({ExecutiveInput::Amended{key, amendment}});
   return impl_->amend(key, std::move(amendment));

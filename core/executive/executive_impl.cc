@@ -144,6 +144,10 @@ void Executive::Impl::tick(TimePoint now) {
     clock_.quiet = false;
     step(Wake{});
   }
+  for (const std::string& job : held_.let_go(now)) {
+    clock_.quiet = false;
+    static_cast<void>(cancel(job));  // it may have ended
+  }
   for (const MotionReport& report : execution_.tick(now)) {
     clock_.quiet = false;
     if (!execution_.keeps_back(report)) step(report);
@@ -163,7 +167,8 @@ void Executive::Impl::tick(TimePoint now) {
 TimePoint Executive::Impl::settled_until() const {
   const bool settled =
       clock_.quiet && execution_.motions().all_settled() && !publisher_.is_behind();
-  return settled ? clock_.wake_at.value_or(TimePoint::max()) : clock_.now;
+  if (!settled) return clock_.now;
+  return std::min(clock_.wake_at.value_or(TimePoint::max()), held_.next());
 }
 
 void Executive::Impl::watch() {

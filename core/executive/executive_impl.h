@@ -9,6 +9,7 @@
 #include "core/executive/execution.h"
 #include "core/executive/executive.h"
 #include "core/executive/executive_input.h"
+#include "core/executive/hold_to_run.h"
 #include "core/executive/job_intake.h"
 #include "core/executive/job_register.h"
 #include "core/executive/live_scene.h"
@@ -41,6 +42,7 @@ class Executive::Impl {
 
   // job_commands.cc
   Result<JobView> cancel(const std::string& key);
+  Result<JobView> hold(const std::string& key, TimePoint until);
   Result<JobView> amend(const std::string& key, JobAmendment amendment);
   Result<JobView> replan(const std::string& key);
 
@@ -102,6 +104,7 @@ class Executive::Impl {
 
   JobIntake intake_;
   StateWatch watch_;
+  HoldToRun held_;
   std::optional<WindDown> wind_down_;
 };
 

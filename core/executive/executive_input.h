@@ -26,6 +26,10 @@ struct ExecutiveInput {
   struct Canceled {
     std::string job;
   };
+  struct Held {
+    std::string job;
+    TimePoint until;
+  };
   struct Amended {
     std::string job;
     JobAmendment amendment;
@@ -79,7 +83,7 @@ struct ExecutiveInput {
   struct StartWritten {
     JobId job;
   };
-  std::variant<Submitted, WentOn, Restored, Canceled, Amended, Replanned, Stopped, Resumed,
+  std::variant<Submitted, WentOn, Restored, Canceled, Held, Amended, Replanned, Stopped, Resumed,
                PolicyChanged, WoundDown, ObjectAdded, ObjectReplaced, ObjectRemoved, Injected,
                FaultRemoved, Alerted, Judged, Planned, StartWritten>
       what;

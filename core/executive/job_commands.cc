@@ -13,6 +13,13 @@ Result<JobView> Executive::Impl::cancel(const std::string& key) {
   return publisher_.view(*id);
 }
 
+Result<JobView> Executive::Impl::hold(const std::string& key, TimePoint until) {
+  const auto id = jobs_.not_ended(key);
+  if (!id) return failure(id.error());
+  held_.hold(key, until);
+  return publisher_.view(*id);
+}
+
 Result<JobView> Executive::Impl::amend(const std::string& key, JobAmendment amendment) {
   const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());

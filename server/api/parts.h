@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -24,6 +25,7 @@
 namespace armloom {
 
 class Comparison;
+class Control;
 
 // What the verbs of one run of the server work with; everything in it outlives them. The verbs run
 // on the server's thread; what concerns the executive is posted to its strand and answered when it
@@ -44,6 +46,8 @@ struct ApiParts {
   Metrics& metrics;
   ClientLimits& limits;
   Comparison& comparison;
+  Control& control;
+  std::chrono::milliseconds hold_lease;  // a move by hand goes on for so long without word
   // Readers of events that wait for a snapshot: who comes while one is on its way shares it.
   struct Newcomer {
     bool gap;

@@ -74,6 +74,7 @@ struct Route {
 [[nodiscard]] Route amend_route();
 [[nodiscard]] std::vector<Route> plan_routes();        // /plan
 [[nodiscard]] std::vector<Route> arm_routes();         // /arms, /stop, /resume
+[[nodiscard]] std::vector<Route> control_routes();     // /control, holding to run
 [[nodiscard]] std::vector<Route> scene_routes();       // /scene
 [[nodiscard]] std::vector<Route> cell_routes();        // /cell and its meshes
 [[nodiscard]] std::vector<Route> comparison_routes();  // /comparison

@@ -23,7 +23,14 @@ struct ServeOptions {
   std::string listen = "127.0.0.1:8080";
   std::string data;  // empty: nothing is recorded or stored
   std::size_t keep_jobs = 100'000;
-  std::size_t keep_days = 0;    // zero: for ever
+  std::size_t keep_days = 0;  // zero: for ever
+  // Of recordings in `data`, the running one included; zero: all.
+  std::size_t keep_recordings = 0;
+  std::size_t keep_recording_days = 0;
+  std::size_t keep_recording_mb = 0;
+  double hold_lease_s = 0.5;  // of wall time
+  std::string log_format = "text";
+  std::string log_requests = "none";
   std::string tokens;           // file; empty: everybody may everything
   std::string tls_certificate;  // both or neither
   std::string tls_key;

@@ -48,6 +48,34 @@ Command serve_command(CLI::App& app) {
       ->add_option("--keep-days", options->keep_days,
                    "with --data: those that have ended for so long at most (for ever)")
       ->check(CLI::Range(1, 36'500));
+  command
+      ->add_option("--keep-recordings", options->keep_recordings,
+                   "with --data: so many, the running one included; the oldest go first (all)")
+      ->check(CLI::Range(1, 1'000'000));
+  command
+      ->add_option("--keep-recording-days", options->keep_recording_days,
+                   "with --data: those that were written last so long ago at most (for ever)")
+      ->check(CLI::Range(1, 36'500));
+  command
+      ->add_option("--keep-recording-mb", options->keep_recording_mb,
+                   "with --data: as many as fit, the running one included (all)")
+      ->check(CLI::Range(1, 1'000'000'000));
+  command
+      ->add_option("--hold-lease", options->hold_lease_s,
+                   "seconds after which an arm that is moved by hand brakes, when nobody says that "
+                   "the button is still held")
+      ->check(CLI::Range(0.05, 10.0))
+      ->capture_default_str();
+  command
+      ->add_option("--log-format", options->log_format,
+                   "of what is said on stderr: lines for people, or JSON")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+  command
+      ->add_option("--log-requests", options->log_requests,
+                   "which of them stand in the log, with their X-Request-Id")
+      ->check(CLI::IsMember({"none", "commands", "all"}))
+      ->capture_default_str();
   command->add_option("--tokens", options->tokens,
                       "file of `armloom token`: only who shows one of them is served");
   command->add_option("--tls-certificate", options->tls_certificate,

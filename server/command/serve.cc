@@ -1,9 +1,12 @@
+#include <spdlog/async.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <iostream>
 
@@ -11,6 +14,7 @@
 #include "server/command/command.h"
 #include "server/http/framing.h"
 #include "server/http/http_server.h"
+#include "server/log/log_line.h"
 #include "server/service.h"
 
 namespace armloom {
@@ -118,10 +122,47 @@ Problems faults_of(const ServeOptions& options) {
   return problems;
 }
 
+// To stderr, by a thread of its own: who reads it slowly holds up nobody, and loses the oldest
+// lines.
+Log log_of(const std::string& format) {
+  constexpr std::size_t kLinesMax = 8192;
+  spdlog::init_thread_pool(kLinesMax, 1);
+  const auto logger = spdlog::create_async_nb<spdlog::sinks::stderr_color_sink_mt>("armloom");
+  spdlog::set_default_logger(logger);
+  const bool is_json = format == "json";
+  if (is_json) logger->set_pattern("%v");
+  return [logger, is_json](const LogLine& line) {
+    const auto level = line.level == LogLine::Level::error     ? spdlog::level::err
+                       : line.level == LogLine::Level::warning ? spdlog::level::warn
+                                                               : spdlog::level::info;
+    logger->log(level, "{}",
+                is_json ? json_of(line, std::chrono::system_clock::now()) : text_of(line));
+  };
+}
+
+LoggedRequests logged_requests(const std::string& which) {
+  if (which == "all") return LoggedRequests::all;
+  return which == "commands" ? LoggedRequests::commands : LoggedRequests::none;
+}
+
+RecordingBounds recording_bounds(const ServeOptions& options) {
+  RecordingBounds bounds;
+  if (options.keep_recordings > 0) bounds.count = options.keep_recordings;
+  if (options.keep_recording_days > 0) bounds.age = std::chrono::days(options.keep_recording_days);
+  if (options.keep_recording_mb > 0) bounds.bytes = options.keep_recording_mb * 1'000'000;
+  return bounds;
+}
+
+// The log is whole when the process ends.
+struct LogEnds {
+  ~LogEnds() { spdlog::shutdown(); }
+};
+
 }  // namespace
 
 int serve(const ServeOptions& options) {
-  spdlog::set_default_logger(spdlog::stderr_color_mt("armloom"));
+  const LogEnds log_ends;
+  const Log log = log_of(options.log_format);
   const auto loaded = load_cell(options.cell_file);
   if (!loaded) return kExitBadInput;
   ServiceOptions service_options;
@@ -153,7 +194,10 @@ int serve(const ServeOptions& options) {
   }
   service_options.connections_max = connections_within_descriptors(service_options.connections_max);
   limit_clients(options, service_options);
-  service_options.alarm = [](const std::string& what) { spdlog::error("{}", what); };
+  service_options.log = log;
+  service_options.hold_lease = std::chrono::milliseconds(std::lround(1e3 * options.hold_lease_s));
+  service_options.logged_requests = logged_requests(options.log_requests);
+  service_options.kept_recordings = recording_bounds(options);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // a file may not grow: said as any other that cannot be written
 
@@ -166,19 +210,23 @@ int serve(const ServeOptions& options) {
     complain(options.cell_file, problems);
     return kExitBadInput;
   }
-  spdlog::info(
-      "cell {}: {} arms, policy {}, speed {}", loaded->cell->name, loaded->cell->arms.size(),
-      options.policy.empty() ? loaded->cell->scheduling.policy : options.policy, options.speed);
-  if (const auto folder = (*service)->recorded_to())
-    spdlog::info("recorded to {}", folder->string());
+  log({LogLine::Level::info,
+       "serving",
+       {{"cell", loaded->cell->name},
+        {"arms", static_cast<std::int64_t>(loaded->cell->arms.size())},
+        {"policy", options.policy.empty() ? loaded->cell->scheduling.policy : options.policy},
+        {"speed", options.speed}}});
+  if (const auto folder = (*service)->recorded_to()) {
+    log({LogLine::Level::info, "recording", {{"folder", folder->string()}}});
+  }
   std::cout << "dashboard: "
             << dashboard_address(service_options.tls ? "https" : "http", service_options.address,
                                  (*service)->port())
             << std::endl;
   (*service)->run(true);
   const auto lost = (*service)->close();
-  if (lost) spdlog::error("not all is written: {}", *lost);
-  spdlog::info("stopped");
+  if (lost) log({LogLine::Level::error, "not all is written: " + *lost});
+  log({LogLine::Level::info, "stopped"});
   return lost ? kExitNotWritten : kExitDone;
 }
 

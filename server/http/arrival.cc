@@ -3,6 +3,7 @@
 #include <boost/beast/http.hpp>
 #include <utility>
 
+#include "server/http/request_id.h"
 #include "server/http/request_reader.h"
 
 namespace armloom {
@@ -38,13 +39,17 @@ asio::awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& conn
     return tl::unexpected<NotArrived>(none.refusal ? std::optional(site.refuse(*none.refusal))
                                                    : std::nullopt);
   };
+  connection.request_id = fresh_request_id();
   RequestParser parser;
   if (const auto none = co_await read_header(connection, parser, site.read_time)) {
     co_return none_for(*none);
   }
+  const auto own_id = parser.get()[kRequestIdField.data()];
+  if (is_request_id({own_id.data(), own_id.size()})) connection.request_id = std::string(own_id);
   auto request = head_of(parser, site);
   if (!request) co_return tl::unexpected<NotArrived>(std::move(request.error()));
   request->peer = connection.stream.peer();
+  request->id = connection.request_id;
   // Before the body, whose trailers are none of the header's fields.
   RequestHeader header = parser.get().base();
   const bool waits = waits_to_be_asked(parser);

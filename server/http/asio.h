@@ -17,11 +17,12 @@
 #include <boost/asio/this_coro.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
+#include "server/http/error_code.h"
+
 namespace armloom {
 
 namespace asio = boost::asio;
 using tcp = asio::ip::tcp;
-using ErrorCode = boost::system::error_code;
 
 // Completion token: the operation's error goes into `ec` instead of being thrown.
 inline auto into(ErrorCode& ec) { return asio::redirect_error(asio::use_awaitable, ec); }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "server/http/request_id.h"
 #include "server/http/security_headers.h"
 #include "server/http/session.h"
 
@@ -37,6 +38,7 @@ asio::awaitable<void> send(Connection& connection, Response response, Delivery d
   message.set(http::field::date, http_date());
   for (const auto& [name, value] : kSecurityHeaders) message.set(view(name), view(value));
   message.set("Content-Security-Policy", view(kNoPagePolicy));
+  if (!connection.request_id.empty()) message.set(view(kRequestIdField), connection.request_id);
   for (const auto& [name, value] : response.headers) message.set(name, value);
   if (!response.content_type.empty()) message.set(http::field::content_type, response.content_type);
   message.keep_alive(delivery.keep_alive);

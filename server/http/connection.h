@@ -1,6 +1,7 @@
 #pragma once
 
 #include <boost/beast/core/flat_buffer.hpp>
+#include <string>
 
 #include "server/http/asio.h"
 #include "server/http/memory_budget.h"
@@ -20,6 +21,7 @@ struct Connection {
   Transport stream;
   boost::beast::flat_buffer buffer{kBufferMax};
   MemoryBudget& memory;
+  std::string request_id = {};  // of the request that is read or answered
 };
 
 // How an answer stands on the wire, as the request wants it.

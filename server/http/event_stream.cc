@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "server/http/request_id.h"
 #include "server/http/security_headers.h"
 #include "server/http/stream_session.h"
 
@@ -25,6 +26,7 @@ std::string head(const Request& request) {
   };
   for (const auto& [name, value] : kSecurityHeaders) add(name, value);
   add("Content-Security-Policy", kNoPagePolicy);
+  add(kRequestIdField, request.id);
   Response across;
   answer_across_origins(request, across);
   for (const auto& [name, value] : across.headers) add(name, value);

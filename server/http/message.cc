@@ -118,7 +118,8 @@ Refusal refusal_of(int status, const Problem& problem) {
 void answer_across_origins(const Request& request, Response& response) {
   if (!request.cross_origin) return;
   response.headers.emplace_back("Access-Control-Allow-Origin", *request.cross_origin);
-  response.headers.emplace_back("Access-Control-Expose-Headers", "ETag, Location, Retry-After");
+  response.headers.emplace_back("Access-Control-Expose-Headers",
+                                "ETag, Location, Retry-After, X-Request-Id");
   const auto vary =
       std::ranges::find(response.headers, "Vary", &std::pair<std::string, std::string>::first);
   if (vary != response.headers.end()) {

@@ -59,6 +59,7 @@ struct Request {
   std::optional<std::string> if_match = {};
   std::optional<std::string> token = {};  // shown as Bearer, or in the cookie that a log-in sets
   std::string peer = {};                  // the address that it came from
+  std::string id = {};                    // told in X-Request-Id: the client's, or one of ours
   std::optional<std::string> idempotency_key = {};  // names the request, should it come again
   std::string accept_encoding = {};                 // all of it, commas between
   std::optional<Refusal> stranger = {};          // why whoever asks may not even read; absent: may
@@ -109,6 +110,7 @@ struct Response {
   std::vector<std::pair<std::string, std::string>> headers = {};
   std::optional<EventStream> events = {};
   std::shared_ptr<const std::string> shared = {};  // instead of `body`: many read the same bytes
+  bool is_routine = false;  // a command of which no trace is kept, as it comes ten times a second
 };
 
 // To be called exactly once, on the server's thread.

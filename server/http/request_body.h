@@ -1,11 +1,12 @@
 #pragma once
 
+#include <boost/asio/buffer.hpp>
 #include <boost/beast/http/error.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <cstdint>
 #include <string>
 
-#include "server/http/asio.h"
+#include "server/http/error_code.h"
 #include "server/http/memory_budget.h"
 
 namespace armloom {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "server/http/asio.h"
+#include "server/http/error_code.h"
 #include "server/http/message.h"
 
 namespace armloom {

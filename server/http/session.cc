@@ -6,6 +6,7 @@
 
 #include "server/http/arrival.h"
 #include "server/http/event_stream.h"
+#include "server/http/request_id.h"
 #include "server/http/websocket_session.h"
 
 namespace armloom {
@@ -76,7 +77,7 @@ asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
   const Request& request = arrived->request;
   Response response = co_await answer(site, request, connection.stream.socket());
   if (response.events && response.status == 101) {
-    co_await serve_websocket(std::move(connection.stream), std::move(arrived->header),
+    co_await serve_websocket(std::move(connection.stream), std::move(arrived->header), request.id,
                              std::move(*response.events), site);
     co_return false;
   }
@@ -108,6 +109,7 @@ asio::awaitable<void> serve_connection(Transport transport, const Site& site,
 
 asio::awaitable<void> refuse_connection(Transport transport, Response why, MemoryBudget& memory) {
   Connection connection(std::move(transport), memory);
+  connection.request_id = fresh_request_id();
   if (!co_await connection.stream.shake_hands(std::chrono::seconds(2))) co_return;
   co_await refuse(connection, std::move(why));
 }

@@ -26,19 +26,18 @@ class Session : public std::enable_shared_from_this<Session> {
   // The message under way may take so long.
   void begin_sending(std::chrono::milliseconds time) {
     sending_ = true;
-    cut_at(Clock::now() + time);
+    cut_at_ = Clock::now() + time;
+    watch_deadline();
   }
-  void end_sending() {
-    sending_ = false;
-    ++deadlines_;
-    deadline_.cancel();
-  }
+  void end_sending() { sending_ = false; }
   void look_at_news() {
     news.cancel();
     if (!sending_ || hurried_) return;
     const auto reason = subscription->close_reason();
     hurried_ = reason && reason->why == CloseReason::Why::too_slow;
-    if (hurried_) cut_at(std::min(deadline_.expiry(), Clock::now() + kLastMessage));
+    if (!hurried_) return;
+    cut_at_ = std::min(cut_at_, Clock::now() + kLastMessage);
+    watch_deadline();
   }
 
   std::shared_ptr<StreamCarrier> carrier;
@@ -47,17 +46,25 @@ class Session : public std::enable_shared_from_this<Session> {
   bool closed = false;
 
  private:
-  void cut_at(Clock::time_point time) {
-    deadline_.expires_at(time);
-    // A deadline that has passed in the same instant as the message was sent does not count.
-    deadline_.async_wait([self = weak_from_this(), number = ++deadlines_](ErrorCode ec) {
+  // The timer is left running while messages come and go: it looks at what is under way when it
+  // expires. With thousands of readers, setting it for each message cost more than sending that.
+  void watch_deadline() {
+    if (is_watched_ && deadline_.expiry() <= cut_at_) return;
+    is_watched_ = true;
+    deadline_.expires_at(cut_at_);
+    deadline_.async_wait([self = weak_from_this()](ErrorCode ec) {
       const auto session = self.lock();
-      if (!ec && session && session->deadlines_ == number) session->carrier->cut();
+      if (ec || !session) return;  // set anew, or gone
+      session->is_watched_ = false;
+      if (!session->sending_) return;
+      if (Clock::now() < session->cut_at_) return session->watch_deadline();
+      session->carrier->cut();
     });
   }
 
   asio::steady_timer deadline_;
-  std::uint64_t deadlines_ = 0;
+  Clock::time_point cut_at_{};  // of the message under way
+  bool is_watched_ = false;
   bool sending_ = false;
   bool hurried_ = false;
 };

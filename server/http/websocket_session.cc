@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "server/http/request_id.h"
 #include "server/http/stream_session.h"
 
 namespace armloom {
@@ -33,12 +34,17 @@ websocket::close_code code_of(CloseReason::Why why) {
 
 class WebSocket final : public StreamCarrier {
  public:
-  WebSocket(Transport stream, int send_buffer) : socket_(std::move(stream)) {
+  WebSocket(Transport stream, std::string request_id, int send_buffer)
+      : socket_(std::move(stream)) {
     ErrorCode ignored;
     beast::get_lowest_layer(socket_).expires_never();
     beast::get_lowest_layer(socket_).socket().set_option(
         asio::socket_base::send_buffer_size(send_buffer), ignored);
     socket_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), kIdle, true});
+    socket_.set_option(websocket::stream_base::decorator(
+        [id = std::move(request_id)](websocket::response_type& answer) {
+          answer.set(kRequestIdField.data(), id);
+        }));
     socket_.read_message_max(kMessageMax);
     socket_.auto_fragment(false);
     socket_.text(true);
@@ -76,9 +82,11 @@ class WebSocket final : public StreamCarrier {
 
 }  // namespace
 
-asio::awaitable<void> serve_websocket(Transport stream, RequestHeader upgrade, EventStream events,
+asio::awaitable<void> serve_websocket(Transport stream, RequestHeader upgrade,
+                                      std::string request_id, EventStream events,
                                       const Site& site) {
-  const auto carrier = std::make_shared<WebSocket>(std::move(stream), site.send_buffer);
+  const auto carrier =
+      std::make_shared<WebSocket>(std::move(stream), std::move(request_id), site.send_buffer);
   const beast::http::request<beast::http::empty_body> request(std::move(upgrade));
   ErrorCode ec;
   co_await carrier->accept(request, ec);

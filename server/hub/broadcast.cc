@@ -7,6 +7,20 @@
 
 namespace armloom {
 
+namespace {
+
+LogLine line_of(const Alert& alert, const Event& event) {
+  const auto level = alert.level == Alert::Level::error     ? LogLine::Level::error
+                     : alert.level == Alert::Level::warning ? LogLine::Level::warning
+                                                            : LogLine::Level::info;
+  return {level,
+          alert.text,
+          {{"seq", static_cast<std::int64_t>(event.seq)},
+           {"t_s", to_seconds(event.time.time_since_epoch())}}};
+}
+
+}  // namespace
+
 void Broadcast::on_event(const Event& event) {
   parts_.post([this, event = std::make_shared<const Event>(event)] {
     const auto text =
@@ -15,6 +29,7 @@ void Broadcast::on_event(const Event& event) {
     const auto* job = std::get_if<JobView>(&event->body);
     if (job != nullptr && parts_.keeper != nullptr) parts_.keeper->see(*job);
     parts_.alerts.happened(*event);
+    if (const auto* alert = std::get_if<Alert>(&event->body)) parts_.log(line_of(*alert, *event));
     parts_.hub.publish(event->seq, text);
     parts_.metrics.happened(*event);
   });
@@ -25,7 +40,7 @@ void Broadcast::watch_recording() {
   const auto fault = parts_.recording->fault();
   if (!fault) return;
   said_lost_ = true;
-  if (parts_.alarm) parts_.alarm("the recording is no longer whole: " + *fault);
+  parts_.log({LogLine::Level::error, "the recording is no longer whole: " + *fault});
 }
 
 void Broadcast::on_tick(TimePoint now, const Configuration& measured) {

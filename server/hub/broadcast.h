@@ -11,6 +11,7 @@
 #include "server/durable/alert_book.h"
 #include "server/durable/job_keeper.h"
 #include "server/hub/hub.h"
+#include "server/log/log_line.h"
 #include "server/metrics/metrics.h"
 #include "server/recording/recording.h"
 
@@ -33,8 +34,7 @@ class Broadcast final : public Observer {
     JobKeeper* keeper;     // null: jobs end with the server
     AlertBook& alerts;
     std::function<void(std::function<void()>)> post;  // to the server's thread, in order
-    // Is told once that the recording is lost, and why; empty: nobody.
-    std::function<void(const std::string&)> alarm;
+    Log log;                                          // alerts, and once that the recording is lost
     Metrics& metrics;
   };
   explicit Broadcast(Parts parts) : parts_(std::move(parts)) {}

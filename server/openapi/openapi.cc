@@ -111,9 +111,14 @@ Schema body_of(const Body& body) {
           {"content", {{"application/json", {{"schema", body.schema}, {"examples", examples}}}}}};
 }
 
+Schema headers_of_all() {
+  return {{"X-Request-Id", {{"$ref", "#/components/headers/RequestId"}}}};
+}
+
 Schema outcome_of(const Outcome& outcome) {
   Schema response{{"description", outcome.text}};
   for (const auto& [type, schema] : outcome.content) response["content"][type]["schema"] = schema;
+  response["headers"] = headers_of_all();
   if (outcome.has_location) {
     response["headers"]["Location"] = {{"description", "Where it can be read"},
                                        {"schema", {{"type", "string"}}}};
@@ -173,6 +178,7 @@ Schema refusals() {
   for (const auto& [status, refusal] : refusal_texts()) {
     responses[refusal.name] = {
         {"description", refusal.text},
+        {"headers", headers_of_all()},
         {"content",
          {{"application/problem+json", {{"schema", problem_format()->schema(Way::out)}}}}}};
   }
@@ -216,6 +222,11 @@ const Schema& openapi_document() {
     const Schema responses = refer_to_names(refusals(), kSchemas, schemas);
     add_discriminator(schemas["Message"]);
     whole["components"] = {{"schemas", std::move(schemas)}, {"responses", responses}};
+    whole["components"]["headers"]["RequestId"] = {
+        {"description",
+         "Names the request, in the server's log, too: the request's own X-Request-Id where it sends "
+         "one of 1 to 128 characters of [A-Za-z0-9._-]"},
+        {"schema", {{"type", "string"}}}};
     whole["components"]["securitySchemes"] = security_schemes();
     return whole;
   }();

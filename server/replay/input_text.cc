@@ -42,6 +42,10 @@ class InputWriter {
     out_.end_array();
   }
   void operator()(const ExecutiveInput::Canceled& input) { name("cancel").field("job", input.job); }
+  void operator()(const ExecutiveInput::Held& input) {
+    name("hold").field("job", input.job);
+    out_.field("until_ns", input.until.time_since_epoch().count());
+  }
   void operator()(const ExecutiveInput::Amended& input) {
     name("amend").field("job", input.job);
     out_.key("amendment").raw(text_of(*job_amendment_format(), input.amendment));

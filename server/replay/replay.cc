@@ -165,6 +165,11 @@ const std::map<std::string, Replay::Impl::Verb>& Replay::Impl::verbs() {
        }},
       {"restore", [](Impl& my, Fields line) { (void)my.executive().restore(restored_of(line)); }},
       {"cancel", [](Impl& my, Fields line) { (void)my.executive().cancel(line.at("job")); }},
+      {"hold",
+       [](Impl& my, Fields line) {
+         (void)my.executive().hold(line.at("job"),
+                                   TimePoint(Duration(line.at("until_ns").get<std::int64_t>())));
+       }},
       {"amend",
        [](Impl& my, Fields line) {
          (void)my.executive().amend(line.at("job"),

@@ -235,7 +235,7 @@ test('names never become HTML', { timeout: 60_000 }, async () => {
   await ask(page, 'DELETE', `/scene/objects/${encodeURIComponent('<b>crate')}`);
 });
 
-const kPages = ['#/', '#/new', '#/scene', '#/scene/table', '#/history', '#/settings', '#/alerts', '#/recovery', '#/recordings', '#/job/first', '#/arm/left', '#/pair/first/second', '#/nowhere'];
+const kPages = ['#/', '#/new', '#/scene', '#/scene/table', '#/history', '#/settings', '#/alerts', '#/recovery', '#/recordings', '#/policies', '#/job/first', '#/arm/left', '#/pair/first/second', '#/nowhere'];
 
 for (const theme of ['Dark', 'Light']) {
   test(`axe-core finds nothing on any page, ${theme.toLowerCase()}`, { timeout: 120_000 }, async () => {

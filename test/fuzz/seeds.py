@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the seed corpora of the fuzz targets, made small from config/ and models/.
 
-    seeds.py FOLDER      writes FOLDER/cell, FOLDER/job, FOLDER/robot
+    seeds.py FOLDER      writes FOLDER/cell, FOLDER/job, FOLDER/robot, FOLDER/http, FOLDER/store
 """
 
 import json
@@ -101,12 +101,36 @@ def robot_seeds():
         yield "\n".join([group, files[0], "=== SRDF", files[1]])
 
 
+def http_seeds():
+    ask = "GET /api/v1/jobs?state=running&limit=7 HTTP/1.1\r\nHost: localhost:8080\r\n"
+    yield " " + ask + "If-None-Match: W/\"a\", \"b\"\r\nCookie: x=1; armloom_token=armloom_0\r\nX-Request-Id: a-1\r\n\r\n"
+    yield " POST /api/v1/jobs HTTP/1.1\r\nHost: [::1]\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n{}" + ask + "\r\n"
+    yield (" POST /api/v1/stop HTTP/1.1\r\nHost: cell7.example\r\nOrigin: https://station.example\r\n"
+           "Transfer-Encoding: chunked\r\nTrailer: T\r\n\r\n2;e=\"f\"\r\n{}\r\n0\r\nT: 1\r\n\r\n")
+    yield " OPTIONS * HTTP/1.2\r\nHost: a\r\n\r\nGET http://b/%41%2f?a=b+c&a=d HTTP/1.0\r\nExpect: 100-continue\r\n\r\n"
+    yield (" " + ask + "Connection: keep-alive, Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")
+    # Frames, masked with zeros: a text in two parts with a ping between, a close with a reason.
+    mask = "\0\0\0\0"
+    yield "!\x01\x82" + mask + "he\x89\x80" + mask + "\x80\x83" + mask + "llo\x88\x84" + mask + "\x03\xe8by"
+    yield "!\x81\xfe\x01\x00" + mask + 256 * "a" + "\x82\xff" + 7 * "\0" + "\x05" + mask + "12345"
+
+
+def store_seeds():
+    yield ""
+    for place in (0, 18, 24, 40, 60, 100, 105, 4096, 4104, 8192, 12288, 16390):
+        yield "".join(map(chr, (place & 255, place >> 8, 0, 0, 255)))
+    yield "".join(map(chr, (0, 16, 0, 63, 0)))  # cut off after the first page
+
+
 def main():
-    for target, seeds in (("cell", cell_seeds()), ("job", map(json.dumps, job_seeds())), ("robot", robot_seeds())):
+    for target, seeds in (("cell", cell_seeds()), ("job", map(json.dumps, job_seeds())), ("robot", robot_seeds()),
+                          ("http", http_seeds()), ("store", store_seeds())):
         folder = pathlib.Path(sys.argv[1]) / target
         folder.mkdir(parents=True, exist_ok=True)
         for i, seed in enumerate(seeds):
-            (folder / f"seed-{i}").write_text(seed)
+            encoding = "latin-1" if target in ("http", "store") else "utf-8"
+            (folder / f"seed-{i}").write_bytes(seed.encode(encoding))
 
 
 if __name__ == "__main__":

@@ -66,7 +66,7 @@ const ended = (id) => until(`the end of ${id}`, async () => {
 before(async () => {
   folder = fs.mkdtempSync(path.join(os.tmpdir(), 'armloom-openapi-'));
   writeCell();
-  server = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', '10', '--web', path.join(folder, 'web')]);
+  server = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', '10', '--hold-lease', '5', '--web', path.join(folder, 'web')]);
   const {text} = await ask(server.port, 'GET', '/openapi.json');
   contract = new Contract(JSON.parse(text));
   example = (template, method, name) => structuredClone(contract.document.paths[template][method.toLowerCase()]
@@ -222,6 +222,43 @@ test('Jobs, good and bad', async () => {
     await call(400, 'POST', `${v1}/jobs`, {raw});
   }
   await call(413, 'POST', `${v1}/jobs`, {raw: '['.repeat(5000)});
+});
+
+test('What the others would have done', async () => {
+  for (const method of ['GET', 'DELETE']) await call(404, method, `${v1}/comparison`);
+  await call(409, 'POST', `${v1}/comparison`, {body: {since_s: 1e6}});
+  const two = example(`${v1}/comparison`, 'POST', 'two');
+  await call(202, 'POST', `${v1}/comparison`, {body: two});
+  const done = await until('the comparison', async () => {
+    const now = await call(200, 'GET', `${v1}/comparison`);
+    return now.state === 'running' ? null : now;
+  });
+  assert.deepEqual([done.state, done.runs.map((run) => run.policy)], ['done', two.policies]);
+  await call(200, 'DELETE', `${v1}/comparison`);
+  await call(422, 'POST', `${v1}/comparison`, {body: {policies: ['best']}});
+});
+
+test('Moves by hand', async () => {
+  const hold = `${v1}/arms/{name}/hold`;
+  const left = {args: {name: 'left'}};
+  await call(200, 'GET', `${v1}/control`);
+  const {key} = await call(200, 'POST', `${v1}/control`, {body: example(`${v1}/control`, 'POST', 'ada')});
+  await call(409, 'POST', `${v1}/control`, {body: {who: 'Bob'}});
+  await call(422, 'POST', `${v1}/control`, {body: {who: '\n'}});
+  const move = {...example(hold, 'POST', 'ready'), control: key};
+  await call(409, 'POST', hold, {...left, body: {...move, control: 'foreign'}});
+  await call(422, 'POST', hold, {...left, body: {...move, to: {named: 'nowhere'}}});
+  await call(404, 'POST', hold, {args: {name: 'third'}, body: move});
+  const {job} = await call(202, 'POST', hold, {...left, body: move});
+  await call(200, 'PUT', hold, {...left, body: {control: key}});
+  await call(409, 'PUT', hold, {...left, body: {control: 'foreign'}});
+  await call(404, 'PUT', hold, {args: {name: 'third'}, body: {control: key}});
+  await call(422, 'PUT', hold, {...left, body: {}});
+  await ended(job.id);
+  await call(409, 'PUT', hold, {...left, body: {control: key}});
+  await call(409, 'POST', `${v1}/control/release`, {body: {control: 'foreign'}});
+  await call(422, 'POST', `${v1}/control/release`, {body: {}});
+  await call(200, 'POST', `${v1}/control/release`, {body: {control: key}});
 });
 
 test('Batches, good and bad', async () => {

@@ -13,6 +13,7 @@
 #include "server/messages/alert.h"
 #include "server/messages/cell.h"
 #include "server/messages/comparison.h"
+#include "server/messages/control.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
@@ -70,7 +71,10 @@ std::vector<Incoming> all_incoming() {
           incoming("JobAmendment", *job_amendment_format()),
           incoming("AlertsSeen", *alerts_seen_format()),
           incoming("PolicyChoice", *policy_choice_format()),
-          incoming("ComparisonRequest", *comparison_inquiry_format())};
+          incoming("ComparisonRequest", *comparison_inquiry_format()),
+          incoming("ControlRequest", *control_request_format()),
+          incoming("ControlKey", *control_key_format()),
+          incoming("HoldRequest", *hold_request_format())};
 }
 
 // Every body of a route is among them.

@@ -151,7 +151,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
   }
 
   void act() {
-    switch (random_() % 24) {
+    switch (random_() % 26) {
       case 0:
         return executive_->stop({ArmId{static_cast<std::uint32_t>(random_() % 2)}},
                                 "\"operator\"\n");
@@ -192,6 +192,10 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
       case 14:
         return (void)executive_->submit(
             request({{"arm", arm()}, {"move_to", {{"named", "ready"}}}}));
+      case 24:
+      case 25:
+        return (void)executive_->hold(some_job(),
+                                      now_ + Duration(random_() % 800) * kControlPeriod.count());
       default:
         if (!batch_) (void)executive_->submit(request(swing(arm())));
     }

@@ -14,7 +14,7 @@ const kWeb = resolve(dirname(fileURLToPath(import.meta.url)), '..');
 const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kWeb, '../build/armloom'));
 const kHead = '// Written by `npm run contract`: change the descriptions in server/messages, not this file.\n';
 // What the page reads, with all that these refer to.
-const kRead = ['Message', 'Cell', 'Job', 'Diagram', 'Timeline', 'Problem', 'Verdict', 'JobMotion', 'Plan', 'AlertList', 'Session'];
+const kRead = ['Message', 'Cell', 'Job', 'Diagram', 'Timeline', 'Problem', 'Verdict', 'JobMotion', 'Plan', 'AlertList', 'Session', 'Comparison', 'Control', 'ControlTaken', 'Hold'];
 // What a schema says beyond the shape. A newer server may say more than this page knows.
 const kDropped = new Set(['description', 'additionalProperties', 'minimum', 'maximum', 'exclusiveMinimum', 'pattern', 'format', 'dependentRequired']);
 

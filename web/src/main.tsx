@@ -4,6 +4,7 @@ import { signal } from '@preact/signals';
 import { render } from 'preact';
 import { Arms } from './arms/arms';
 import { install_debug_hook, show_debug_view } from './debug';
+import { Hand } from './control/hand';
 import { Banner } from './frame/banner';
 import { Header } from './frame/header';
 import { Pane } from './frame/pane';
@@ -13,6 +14,7 @@ import { AlertList } from './alerts/alert_list';
 import { Notices } from './alerts/notices';
 import { Jobs } from './jobs/jobs';
 import { MotionBook } from './motion/motion_book';
+import { Comparing } from './policies/comparing';
 import { Player } from './recordings/player';
 import { place_in_words } from './route/address';
 import { address_bar_of, Router } from './route/router';
@@ -43,6 +45,7 @@ const timers: Timers = {
   clear: (id) => window.clearTimeout(id),
 };
 const alerts = new AlertList(api, timers);
+const hand = new Hand(api, timers);
 const session = signal<Session | null>(null);
 const connection = new Connection({
   url: `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${kBase}/ws`,
@@ -52,6 +55,7 @@ const connection = new Connection({
     const other_run = message.type !== 'state' && store.stream !== null && message.stream !== store.stream;
     store.take(message);
     if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
+    if (message.type === 'snapshot' || message.type === 'alert') void hand.look();  // a change of control is told
     if (other_run) {
       motions.clear();
       void load_cell();
@@ -67,7 +71,7 @@ const connection = new Connection({
 });
 const router = new Router(address_bar_of(window));
 const app: App = {
-  store, api, motions, alerts, session, covered_px: signal(0), ghost: signal(null), by_hand: signal(null),
+  store, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), ghost: signal(null), by_hand: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
   router, player: new Player(store, connection, router),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),

@@ -3,6 +3,7 @@
 
 import { useState } from 'preact/hooks';
 import { arm_of, states_of } from '../compose/goal';
+import { ByHand } from '../control/by_hand';
 import { Link } from '../route/link';
 import { Plot } from '../plot/plot';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
@@ -36,6 +37,7 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
         {job ? <>Executes <Link app={app} to={{ page: 'job', id: job.id }}>{job.name || short_id(job.id)}</Link></> : 'No job is under way.'}
       </p>
       <SendTo arm={arm} app={app} />
+      <ByHand arm={arm} app={app} />
       <h3>Joints</h3>
       <Joints arm={arm} app={app} />
       <h3>Measured, the last {kPlotted_s} s</h3>

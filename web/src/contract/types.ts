@@ -313,6 +313,41 @@ export interface components {
             /** @description null: may nothing but log in */
             role: ("viewer" | "operator" | "admin") | null;
         };
+        /** @description The same jobs under several policies, in simulation. */
+        Comparison: {
+            /** @enum {string} */
+            state: "running" | "done" | "canceled" | "failed";
+            /** @description That are compared */
+            jobs: number;
+            /** @description When the first of them was submitted */
+            first_s: number;
+            /** @description And the last */
+            last_s: number;
+            /** @description The policy, when the comparison was asked for */
+            in_force: string;
+            /** @description In the order of the runs */
+            policies: string[];
+            /** @description Those that are done */
+            runs: components["schemas"]["PolicyRun"][];
+            /** @description Why it failed; else empty */
+            detail: string;
+        };
+        /** @description Who may move arms by hand. */
+        Control: {
+            /** @description null: nobody */
+            holder: components["schemas"]["ControlHolder"] | null;
+        };
+        ControlTaken: {
+            holder: components["schemas"]["ControlHolder"] | null;
+            /** @description To be shown with every move by hand; told this once */
+            key?: string;
+        };
+        /** @description A move by hand, as it is now. */
+        Hold: {
+            job: components["schemas"]["Job"];
+            /** @description The arm brakes when it is not renewed for so long, in wall time */
+            lease_s: number;
+        };
         SnapshotEvent: {
             /**
              * Format: uuid
@@ -671,6 +706,44 @@ export interface components {
             text: string;
             /** @description null: by nobody yet */
             acknowledged: components["schemas"]["Acknowledgement"] | null;
+        };
+        /** @description What would have become of the jobs under this policy: simulated. */
+        PolicyRun: {
+            policy: string;
+            succeeded: number;
+            expired: number;
+            failed: number;
+            /** @description By the server: interrupted ones, too */
+            canceled: number;
+            /** @description When they came: they would not have begun where their arm would have stood */
+            refused: number;
+            /** @description When nothing could happen any more, or the run was given up */
+            unfinished: number;
+            /** @description Waited in the backlog, at least once */
+            backlogged: number;
+            /** @description From the first submission to the last end; null: not all ended, or none started */
+            makespan_s: number | null;
+            /** @description makespan_s, divided by that of `sequential`; null: not known */
+            of_sequential: number | null;
+            /** @description From submission to start */
+            wait_mean_s: number;
+            wait_max_s: number;
+            /** @description The smallest that the monitor saw; null: never near */
+            min_clearance_m: number | null;
+            monitor_stops: number;
+            /** @description Combined states looked at to decide */
+            evaluations: number;
+            /** @description It took more evaluations than one run may: figures are of what was done by then */
+            given_up: boolean;
+        };
+        ControlHolder: {
+            who: string;
+            /** @description RFC 3339, UTC */
+            since_at: string;
+            /** @description That they moved by hand last */
+            arm: string | null;
+            /** @description By this job */
+            job: components["schemas"]["JobId"] | null;
         };
         Snapshot: {
             cell: string;

@@ -37,7 +37,8 @@ export function Header({ app }: { app: App }) {
       </nav>
       <span class="spacer" />
       <OpenAlerts app={app} />
-      <span class="fact wide-only"><i>policy</i> {store.policy || '–'}</span>
+      <InControl app={app} />
+      <span class="fact wide-only"><i>policy</i> <Link app={app} to={{ page: 'policies' }} test="go-policies" title="Policies, and what the others would have done">{store.policy || '–'}</Link></span>
       {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
       <CellTime app={app} />
       <ConnectionState app={app} />
@@ -45,6 +46,18 @@ export function Header({ app }: { app: App }) {
         onClick={() => void app.actions.resume()}>Resume</button>
       <StopButton app={app} />
     </header>
+  );
+}
+
+/** Who moves arms by hand. */
+function InControl({ app }: { app: App }) {
+  const holder = app.hand.holder.value;
+  if (!holder) return null;
+  const who = app.hand.key.value === null ? holder.who : `you (${holder.who})`;
+  return (
+    <span class="fact" data-test="in-control" title={`Has control since ${new Date(holder.since_at).toLocaleString()}`}>
+      control: {holder.arm === null ? who : <Link app={app} to={{ page: 'arm', name: holder.arm }}>{who}</Link>}
+    </span>
   );
 }
 

@@ -9,13 +9,14 @@ import { DiagramPanel } from '../diagram/diagram';
 import { HistoryPage } from '../history/history_page';
 import { place_in_words, type Place } from '../route/address';
 import type { App } from '../state/app';
+import { PoliciesPage } from '../policies/policies_page';
 import { RecordingsPage } from '../recordings/recordings_page';
 import { RecoveryPage } from '../recovery/recovery_page';
 import { SettingsPage } from './settings_page';
 import { ScenePage } from '../scene/scene_page';
 import { JobPage } from '../jobs/job_page';
 
-const kWidths: Partial<Record<Place['page'], string>> = { pair: ' wide', job: ' wide', history: ' full', settings: ' full' };
+const kWidths: Partial<Record<Place['page'], string>> = { pair: ' wide', job: ' wide', history: ' full', settings: ' full', policies: ' full' };
 
 export function Pane({ app }: { app: App }) {
   const { place } = app.router.address.value;
@@ -48,6 +49,7 @@ function content_of(place: Place, app: App): ComponentChildren {
     case 'history': return <HistoryPage app={app} />;
     case 'alerts': return <AlertsPage app={app} />;
     case 'recovery': return <RecoveryPage app={app} />;
+    case 'policies': return <PoliciesPage app={app} />;
     case 'recordings': return <RecordingsPage app={app} />;
     case 'settings': return <SettingsPage app={app} />;
     case 'unknown': return <><h2>No such page</h2><p class="hint">There is nothing at {place.path}.</p></>;

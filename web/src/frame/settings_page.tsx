@@ -4,6 +4,7 @@ import type { App } from '../state/app';
 import type { Theme } from '../state/settings';
 import { use_store } from '../state/use_store';
 import { seconds } from '../wording';
+import { Link } from '../route/link';
 import { PolicyForm } from './policy_form';
 
 const kThemes: readonly [Theme, string][] = [['system', 'As the system'], ['dark', 'Dark'], ['light', 'Light']];
@@ -66,6 +67,7 @@ export function SettingsPage({ app }: { app: App }) {
           </dl>
           <h2>The policy</h2>
           <PolicyForm app={app} />
+          <p class="hint"><Link app={app} to={{ page: 'policies' }} test="compare-policies">What would the others have done with today's jobs?</Link></p>
           <p class="hint"><a class="link" href="/docs">The API, for programs</a></p>
         </section>
       )}

@@ -6,19 +6,19 @@
 //   #/pair/A/B              the coordination diagram of two jobs, A across and B up
 //   #/scene  #/scene/NAME   the objects, one of them chosen
 //   #/new                   compose a job
-//   #/history  #/settings  #/alerts  #/recovery  #/recordings
+//   #/history  #/settings  #/alerts  #/recovery  #/recordings  #/policies
 //   ?t=12.5                 the timeline held at this cell time, in seconds
 //   ?camera=x,y,z,x,y,z     where the camera stands and what it looks at, in metres
 
 export type Place =
   | { page: 'cell' } | { page: 'new' } | { page: 'history' } | { page: 'settings' }
-  | { page: 'alerts' } | { page: 'recovery' } | { page: 'recordings' }
+  | { page: 'alerts' } | { page: 'recovery' } | { page: 'recordings' } | { page: 'policies' }
   | { page: 'job'; id: string } | { page: 'arm'; name: string }
   | { page: 'pair'; a: string; b: string }
   | { page: 'scene'; name: string | null }
   | { page: 'unknown'; path: string };
 
-const kPlain = ['new', 'history', 'settings', 'alerts', 'recovery', 'recordings'] as const;
+const kPlain = ['new', 'history', 'settings', 'alerts', 'recovery', 'recordings', 'policies'] as const;
 
 /** Position, then target. */
 export type Camera = readonly [number, number, number, number, number, number];
@@ -101,6 +101,7 @@ export function place_in_words(place: Place): string {
     case 'alerts': return 'Alerts';
     case 'recovery': return 'Recovery';
     case 'recordings': return 'Recordings';
+    case 'policies': return 'Policies';
     case 'unknown': return 'No such page';
   }
 }

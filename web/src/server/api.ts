@@ -1,8 +1,8 @@
 // The HTTP calls that the page makes. Every answer is a value: what was asked for, or a Problem.
 
 import {
-  parse_alerts, parse_cell, parse_diagram, parse_forecast, parse_job, parse_job_motion, parse_plan, parse_problem, parse_session, parse_verdict,
-  type AlertList, type Cell, type Diagram, type Forecast, type Job, type JobAmendment, type JobMotion, type Parsed, type Plan, type Problem, type SceneObject, type Session, type Verdict,
+  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_hold, parse_forecast, parse_job, parse_job_motion, parse_plan, parse_problem, parse_session, parse_verdict,
+  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Forecast, type Hold, type Job, type JobAmendment, type JobMotion, type Parsed, type Plan, type Problem, type SceneObject, type Session, type Verdict,
 } from './messages';
 
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
@@ -79,6 +79,43 @@ export class Api {
   /** While no job is admitted. */
   change_policy(policy: string): Promise<Answer<unknown>> {
     return this.ask('PUT', '/policy', JSON.stringify({ policy }));
+  }
+
+  /** The jobs at hand under every policy; it has only begun. */
+  async compare(what: { since_s?: number }): Promise<Answer<Comparison>> {
+    return checked('comparison', await this.ask('POST', '/comparison', JSON.stringify(what)), parse_comparison);
+  }
+
+  async comparison(): Promise<Answer<Comparison>> {
+    return checked('comparison', await this.ask('GET', '/comparison'), parse_comparison);
+  }
+
+  async cancel_comparison(): Promise<Answer<Comparison>> {
+    return checked('comparison', await this.ask('DELETE', '/comparison'), parse_comparison);
+  }
+
+  async control(): Promise<Answer<Control>> {
+    return checked('control', await this.ask('GET', '/control'), parse_control);
+  }
+
+  /** Without a name: the server says where it came from. */
+  async take_control(who: string): Promise<Answer<ControlTaken>> {
+    const asked = who === '' ? { take: true } : { who, take: true };
+    return checked('control', await this.ask('POST', '/control', JSON.stringify(asked)), parse_control_taken);
+  }
+
+  async release_control(key: string): Promise<Answer<Control>> {
+    return checked('control', await this.ask('POST', '/control/release', JSON.stringify({ control: key })), parse_control);
+  }
+
+  /** Goes on only as long as it is renewed. */
+  async hold(arm: string, state: string, key: string): Promise<Answer<Hold>> {
+    const asked = { control: key, to: { named: state } };
+    return checked('move', await this.ask('POST', `/arms/${encodeURIComponent(arm)}/hold`, JSON.stringify(asked)), parse_hold);
+  }
+
+  async renew_hold(arm: string, key: string): Promise<Answer<Hold>> {
+    return checked('move', await this.ask('PUT', `/arms/${encodeURIComponent(arm)}/hold`, JSON.stringify({ control: key })), parse_hold);
   }
 
   stop(): Promise<Answer<unknown>> {

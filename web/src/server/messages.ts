@@ -44,6 +44,15 @@ export type KeptAlert = Schemas['KeptAlert'];
 export type AlertList = Schemas['AlertList'];
 /** Who asks, and what they may. */
 export type Session = Schemas['Session'];
+/** The same jobs under several policies, simulated. */
+export type Comparison = Schemas['Comparison'];
+export type PolicyRun = Schemas['PolicyRun'];
+/** Who may move arms by hand. */
+export type Control = Schemas['Control'];
+export type ControlTaken = Schemas['ControlTaken'];
+export type ControlHolder = Schemas['ControlHolder'];
+/** A move by hand. */
+export type Hold = Schemas['Hold'];
 export type QueueData = Schemas['QueueIds'];
 export type MonitorData = Schemas['MonitorFinding'];
 /** RFC 9457, with the place of the fault and the value found. */
@@ -124,5 +133,9 @@ export const parse_job_motion = (value: unknown): Parsed<JobMotion> => check('Jo
 export const parse_plan = (value: unknown): Parsed<Plan> => check('Plan', value);
 export const parse_alerts = (value: unknown): Parsed<AlertList> => check('AlertList', value);
 export const parse_session = (value: unknown): Parsed<Session> => check('Session', value);
+export const parse_comparison = (value: unknown): Parsed<Comparison> => check('Comparison', value);
+export const parse_control = (value: unknown): Parsed<Control> => check('Control', value);
+export const parse_control_taken = (value: unknown): Parsed<ControlTaken> => check('ControlTaken', value);
+export const parse_hold = (value: unknown): Parsed<Hold> => check('Hold', value);
 export const parse_verdict = (value: unknown): Parsed<Verdict> => check('Verdict', value);
 export const parse_problem = (value: unknown): Parsed<Problem> => check('Problem', value);

@@ -1,10 +1,12 @@
 // What every part of the page is given: what is known, what can be asked, where we are, how it looks.
 
 import type { Signal } from '@preact/signals';
+import type { Hand } from '../control/hand';
 import type { AlertList } from '../alerts/alert_list';
 import type { Api } from '../server/api';
 import type { Session } from '../server/messages';
 import type { MotionBook } from '../motion/motion_book';
+import type { Comparing } from '../policies/comparing';
 import type { Player } from '../recordings/player';
 import type { Router } from '../route/router';
 import type { Actions } from './actions';
@@ -20,6 +22,8 @@ export interface App {
   player: Player;
   settings: Settings;
   alerts: AlertList;
+  comparing: Comparing;
+  hand: Hand;
   /** Who uses this browser, where the server asks for tokens; null: not known yet. */
   session: Signal<Session | null>;
   /** Joints as they would stand, shown in the cell; null: nothing is previewed. */

@@ -1,0 +1,218 @@
+// Who may move arms by hand, and moves that go on only as long as a button is held.
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "server/api/route.h"
+#include "server/control/control.h"
+#include "server/messages/control.h"
+#include "server/messages/job_request.h"
+
+namespace armloom {
+namespace {
+
+ControlView view_of(const Control& control) {
+  ControlView view;
+  if (!control.holder()) return view;
+  const Control::Holder& holder = *control.holder();
+  ControlView::Holder told{holder.who, WallClock(holder.since, 1.0).at(TimePoint{}), {}, {}};
+  if (holder.move) {
+    told.arm = holder.move->arm;
+    told.job = holder.move->job;
+  }
+  view.holder = std::move(told);
+  return view;
+}
+
+void tell_all(const ApiParts& parts, const std::string& what) {
+  parts.loop.post([what](Executive& executive) { executive.alert({Alert::Level::info, what}); });
+}
+
+// What somebody held, who does not any more.
+void let_go(const ApiParts& parts, const std::optional<Control::Move>& move) {
+  if (!move) return;
+  parts.loop.post_urgent([job = move->job](Executive& executive) {
+    static_cast<void>(executive.cancel(job));  // it may have ended
+  });
+}
+
+void get_control(Call call) {
+  call.respond(answer(200, control_format(), view_of(call.parts.control)));
+}
+
+void post_control(Call call) {
+  const ApiParts& parts = call.parts;
+  const auto caller = parts.guard.asks() ? parts.guard.caller(call.request.token) : std::nullopt;
+  const auto take = [&parts, respond = call.respond, peer = call.request.peer,
+                     proven = caller ? caller->name : std::string()](const ControlRequest& asked) {
+    const std::string said = asked.who.value_or("").empty() ? peer : *asked.who;
+    const std::string who = proven.empty() ? said : proven;
+    auto taken = parts.control.take(who, asked.take);
+    if (!taken) return respond(problem_response(taken.error()));
+    let_go(parts, taken->interrupted);
+    tell_all(parts, who + " has control");
+    ControlView view = view_of(parts.control);
+    view.key = taken->key;
+    respond(answer(200, control_taken_format(), view));
+  };
+  read_body(parts, call.request, call.respond, read_control_request, take);
+}
+
+void release_control(Call call) {
+  const ApiParts& parts = call.parts;
+  const auto give_back = [&parts, respond = call.respond](const ControlKey& shown) {
+    const auto move = parts.control.give_back(shown.control);
+    if (!move) return respond(problem_response(move.error()));
+    let_go(parts, *move);
+    tell_all(parts, "nobody has control");
+    respond(answer(200, control_format(), view_of(parts.control)));
+  };
+  read_body(parts, call.request, call.respond, read_control_key, give_back);
+}
+
+// As the lease is renewed, in the cell's time: until then the job goes on.
+TimePoint lease_from(const Executive& executive, double lease_s, double speed) {
+  return executive.now() + from_seconds(lease_s * speed);
+}
+
+double lease_s(const ApiParts& parts) {
+  return std::chrono::duration<double>(parts.hold_lease).count();
+}
+
+Response hold_response(int status, const Result<JobView>& job, const ApiParts& parts) {
+  if (!job) return problem_response(job.error());
+  Response response = answer(status, hold_format(), HoldView{*job, lease_s(parts)}, &parts.clock);
+  response.is_routine = status == 200;
+  return response;
+}
+
+// The job that such a move is: as if it had come by POST /jobs.
+Result<JobRequest> job_of(const HoldRequest& hold, const std::string& arm) {
+  auto read = read_job_submission(job_text_of(hold, arm));
+  if (!read) return failure(std::move(read.error()));
+  read->request.body = std::make_shared<const std::string>(std::move(read->canonical));
+  return std::move(read->request);
+}
+
+Problems in_words_of_hold(Problems problems) {
+  static const std::string kGoal = "/move_to";
+  for (Problem& problem : problems) {
+    if (problem.pointer.starts_with(kGoal)) {
+      problem.pointer = "/to" + problem.pointer.substr(kGoal.size());
+    }
+  }
+  return problems;
+}
+
+// Submitted and held in one go: there is no instant at which it could move and nobody held it. It
+// is not kept for another run of the server.
+void begin_hold(Call call) {
+  const ApiParts& parts = call.parts;
+  const std::string arm = call.arguments.front();
+  const auto begin = [&parts, arm, respond = call.respond](const HoldRequest& hold) {
+    if (!parts.cell->find_arm(arm)) return respond(no_such("arm", arm));
+    if (const auto held = parts.control.check(hold.control); !held) {
+      return respond(problem_response(held.error()));
+    }
+    auto asked = job_of(hold, arm);
+    if (!asked) return respond(problem_response(in_words_of_hold(std::move(asked.error()))));
+    if (const auto& move = parts.control.holder()->move) let_go(parts, move);
+    ask(
+        parts,
+        [job = std::make_shared<JobRequest>(std::move(*asked)), speed = parts.loop.speed(),
+         lease = lease_s(parts)](Executive& executive) -> Result<JobView> {
+          auto accepted = executive.submit(std::move(*job));
+          if (!accepted) return failure(in_words_of_hold(std::move(accepted.error())));
+          return executive.hold(accepted->key, lease_from(executive, lease, speed));
+        },
+        [&parts, arm, respond, key = hold.control](const Result<JobView>& job) {
+          // Somebody else may have taken control meanwhile.
+          const bool is_still = parts.control.check(key).has_value();
+          if (job && is_still) parts.control.begin({arm, job->key});
+          if (job && !is_still) let_go(parts, Control::Move{arm, job->key});
+          respond(hold_response(202, job, parts));
+        });
+  };
+  read_body(parts, call.request, call.respond, read_hold_request, begin);
+}
+
+void renew_hold(Call call) {
+  const ApiParts& parts = call.parts;
+  const std::string arm = call.arguments.front();
+  const auto renew = [&parts, arm, respond = call.respond](const ControlKey& shown) {
+    if (!parts.cell->find_arm(arm)) return respond(no_such("arm", arm));
+    if (const auto held = parts.control.check(shown.control); !held) {
+      return respond(problem_response(held.error()));
+    }
+    const auto& move = parts.control.holder()->move;
+    if (!move || move->arm != arm) {
+      return respond(problem_response({Problem{ProblemKind::conflict, "not-held", "",
+                                               "arm " + arm + " is not moved by hand", arm}}));
+    }
+    ask_urgently(
+        parts,
+        [job = move->job, speed = parts.loop.speed(),
+         lease = lease_s(parts)](Executive& executive) {
+          return executive.hold(job, lease_from(executive, lease, speed));
+        },
+        [&parts, respond](const Result<JobView>& job) { respond(hold_response(200, job, parts)); });
+  };
+  read_body(parts, call.request, call.respond, read_control_key, renew);
+}
+
+Route command(const char* method, const char* path, const char* id, const char* summary) {
+  return {.method = method,
+          .path = api_path(path),
+          .id = id,
+          .tag = "arms",
+          .summary = summary,
+          .who = Who::commander,
+          .role = Role::operate};
+}
+
+}  // namespace
+
+std::vector<Route> control_routes() {
+  Route get{.method = "GET",
+            .path = api_path("/control"),
+            .id = "getControl",
+            .tag = "arms",
+            .summary = "Who may move arms by hand"};
+  get.outcomes = {outcome(200, "Who has control", control_format())};
+  get.run = get_control;
+  Route take = command("POST", "/control", "takeControl", "Take control, to move arms by hand");
+  take.text =
+      "One client at a time. 409 while somebody else has it, unless `take` says to take it from "
+      "them: what they hold brakes on its path. Jobs of programs need no control.";
+  take.reads = body(control_request_format(), {{"ada", R"({"who": "Ada", "take": true})"}});
+  take.outcomes = {outcome(200, "It is whose key this is", control_taken_format())};
+  take.refuses = {409, 422};
+  take.run = post_control;
+  Route release = command("POST", "/control/release", "releaseControl", "Give control back");
+  release.reads = body(control_key_format(), {{"key", R"({"control": "0f1e-2d3c"})"}});
+  release.outcomes = {outcome(200, "Nobody has it", control_format())};
+  release.refuses = {409, 422};
+  release.run = release_control;
+  Route begin = command("POST", "/arms/{name}/hold", "holdToRun", "Move an arm by hand");
+  begin.text =
+      "A job like any other, planned, judged beside all that moves, slow; but it goes on only as "
+      "long as PUT renews it within `lease_s`. Else it is cancelled, and the arm brakes on its "
+      "path: the control cycle sees to that itself. DELETE /jobs/{id} lets go at once. With --data "
+      "it is not kept for the next run of the server.";
+  begin.reads = body(
+      hold_request_format(),
+      {{"ready",
+        R"({"control": "0f1e-2d3c", "to": {"named": "ready"}, "velocity_scaling_factor": 0.1})"}});
+  begin.outcomes = {outcome(202, "It is held from now on", hold_format())};
+  begin.refuses = {404, 409, 422};
+  begin.run = begin_hold;
+  Route renew = command("PUT", "/arms/{name}/hold", "renewHold", "Go on moving an arm by hand");
+  renew.text = "409 when the move has ended, or who asks is not in control.";
+  renew.reads = body(control_key_format(), {{"key", R"({"control": "0f1e-2d3c"})"}});
+  renew.outcomes = {outcome(200, "It goes on", hold_format())};
+  renew.refuses = {404, 409, 422};
+  renew.run = renew_hold;
+  return {get, take, release, begin, renew};
+}
+
+}  // namespace armloom

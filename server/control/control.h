@@ -1,0 +1,44 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "core/base/problem.h"
+
+namespace armloom {
+
+// Who may move arms by hand: one client at a time, who shows a key that nobody else was told. It
+// may be given back, or taken by another. Jobs of programs need no control. On the server's thread.
+class Control {
+ public:
+  struct Move {
+    std::string arm;
+    std::string job;  // its key
+  };
+  struct Holder {
+    std::string who;  // for people
+    std::chrono::system_clock::time_point since;
+    std::optional<Move> move = {};  // the last that was begun by hand
+  };
+  struct Taken {
+    std::string key;                  // the secret
+    std::optional<Move> interrupted;  // the move of whoever held it before: to be cancelled
+  };
+  // Problem (conflict): somebody else holds it, and it is not to be taken `from_another`.
+  [[nodiscard]] Result<Taken> take(const std::string& who, bool from_another);
+  // The last move of who gives it back. Problem: that of check().
+  [[nodiscard]] Result<std::optional<Move>> give_back(const std::string& key);
+  // Problem (conflict): the key is not that of who holds it.
+  [[nodiscard]] Result<void> check(const std::string& key) const;
+  // Precondition: somebody holds it.
+  void begin(Move move) { holder_->move = std::move(move); }
+
+  [[nodiscard]] const std::optional<Holder>& holder() const { return holder_; }
+
+ private:
+  std::optional<Holder> holder_;
+  std::string key_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,105 @@
+// What the dashboard lets an operator do beside jobs: move an arm by hand, and ask what other policies would
+// have done.
+//
+//   node --test test/browser/operator.test.mjs      (after the server and web/dist were built; see harness.mjs)
+
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { ask, Browser, job_through, path_for, Server } from './harness.mjs';
+
+// A busy machine gets the time to say that a button is still held.
+const server = new Server('config/two_pandas.json', 'certified', ['--hold-lease', '3']);
+const chromium = new Browser();
+let page;
+
+before(async () => {
+  const url = await server.start();
+  page = await chromium.open({ colorScheme: 'dark' });
+  await chromium.visit(url);
+}, { timeout: 120_000 });
+
+after(async () => {
+  await chromium.close();
+  await server.end();
+}, { timeout: 30_000 });
+
+const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
+const speed = (value) => ask(page, 'PUT', '/sim/speed', { speed: value });
+const finished = (id) => page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
+
+test('an arm is moved by hand as long as a button is held, by pointer and by key', { timeout: 120_000 }, async () => {
+  await speed(1);
+  await go('#/arm/left');
+  await page.locator('[data-test=control-person]').fill('Ada');
+  await page.locator('[data-test=take-control]').click();
+  await page.locator('[data-test=in-control]', { hasText: 'you (Ada)' }).waitFor();
+  const by_hand = async () => (await ask(page, 'GET', '/jobs?arm=left&limit=100')).value.jobs.filter((job) => job.name === 'left by hand');
+  const canceled = async (count) => {
+    for (;;) {
+      const jobs = await by_hand();
+      if (jobs.length === count && jobs.every((job) => job.result !== null)) return jobs[0];
+      await page.waitForTimeout(50);
+    }
+  };
+  const button = page.locator('[data-test=hold-ready]');
+  await button.hover();
+  await page.mouse.down();
+  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor({ timeout: 60_000 });
+  assert.equal(await button.getAttribute('aria-pressed'), 'true');
+  await page.screenshot(path_for('by-hand-dark'));
+  await page.mouse.up();
+  const first = await canceled(1);
+  assert.ok(first.state === 'canceled' && first.progress < 1, `let go on its way: ${JSON.stringify(first.result)}`);
+  assert.equal(await button.getAttribute('aria-pressed'), 'false');
+
+  await button.focus();
+  await page.keyboard.down('Space');
+  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor({ timeout: 60_000 });
+  await page.keyboard.up('Space');
+  assert.equal((await canceled(2)).state, 'canceled');
+
+  // Somebody else takes control: what is held is let go, and the page says by whom.
+  await button.hover();
+  await page.mouse.down();
+  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor({ timeout: 60_000 });
+  await ask(page, 'POST', '/control', { who: 'Bob', take: true });
+  await page.locator('[data-test=take-control]', { hasText: 'Take control from Bob' }).waitFor();
+  await page.mouse.up();
+  assert.equal((await canceled(3)).state, 'canceled');
+  await page.locator('[data-test=in-control]', { hasText: 'Bob' }).waitFor();
+  await page.locator('[data-test=take-control]').click();
+  await page.locator('[data-test=release-control]').click();
+  await page.locator('[data-test=in-control]').waitFor({ state: 'detached' });
+  await ask(page, 'POST', '/jobs', { id: 'back-home', arm: 'left', move_to: { named: 'home' } });
+  await speed(10);
+  await finished('back-home');
+});
+
+test('what the other policies would have done is asked from the page, and one of them put in force', { timeout: 180_000 }, async () => {
+  const kHome = [0, -1.2, 0, -2.6, 0, 1.6, 0.785], kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
+  for (let i = 0; i < 3; i++) {
+    for (const arm of ['left', 'right']) {
+      const names = kHome.map((_, k) => `${arm}_panda_joint${k + 1}`);
+      const { status, value } = await ask(page, 'POST', '/jobs', job_through(`${arm}-${i}`, names, [kHome, kMiddle, kHome], 2));
+      assert.equal(status, 202, JSON.stringify(value));
+    }
+  }
+  await finished('right-2');
+  await finished('left-2');
+  await go('#/policies');
+  await page.locator('[data-test=compare]').click();
+  await page.locator('[data-test=comparison-state]', { hasText: /: done$/ }).waitFor({ timeout: 150_000 });
+  const rows = page.locator('[data-test=compared] tbody tr');
+  assert.equal(await rows.count(), 7);
+  assert.match(await page.locator('[data-test=compared-sequential]').innerText(), /\d+ of \d+.*100 %/s);
+  assert.equal(await page.locator('[data-test=compared-certified]').getByText('in force').count(), 1);
+  await page.screenshot(path_for('policies-dark'));
+  await page.locator('[data-test=use-coordinated]').click();
+  await page.locator('[data-test=compared-coordinated]').getByText('in force').waitFor();
+  await page.locator('[data-test=use-certified]').click();
+  await page.locator('[data-test=compared-certified]').getByText('in force').waitFor();
+});
+
+test('nothing so far was an error in the console', () => {
+  assert.deepEqual(chromium.errors.filter((text) => !/409 \(|404 \(/.test(text)), []);
+});

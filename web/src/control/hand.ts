@@ -1,0 +1,103 @@
+// Moves by hand: who has control, and an arm that goes on only as long as somebody holds a button. The server
+// brakes it when it has not heard of that for half a second; here it is told several times in that time, and
+// at once when the button is let go.
+
+import { signal } from '@preact/signals';
+import type { Answer, Api } from '../server/api';
+import type { Timers } from '../server/connection';
+import type { ControlHolder, Hold } from '../server/messages';
+
+const kBeats = 4;  // in the time of a lease
+const kFirst_ms = 100;
+
+type HandApi = Pick<Api, 'control' | 'take_control' | 'release_control' | 'hold' | 'renew_hold' | 'cancel_job'>;
+
+/** What is held: from when the button is pressed until it is let go, or the move has ended. */
+export interface Held { arm: string; state: string; job: string | null }
+
+export class Hand {
+  readonly holder = signal<ControlHolder | null>(null);
+  /** That of this page; null: it has no control. */
+  readonly key = signal<string | null>(null);
+  readonly held = signal<Held | null>(null);
+  readonly refusal = signal<string | null>(null);
+  private asked_ = 0;  // each press has a number, so that late answers are known
+
+  constructor(private readonly api_: HandApi, private readonly timers_: Timers) {}
+
+  async look(): Promise<void> {
+    const answer = await this.api_.control();
+    if (!answer.ok) return;
+    this.holder.value = answer.value.holder;
+    if (answer.value.holder === null) this.key.value = null;
+  }
+
+  /** From somebody else where there is one. */
+  async take(who: string): Promise<void> {
+    const answer = await this.api_.take_control(who);
+    if (!this.told(answer)) return;
+    this.holder.value = answer.value.holder;
+    this.key.value = answer.value.key ?? null;
+  }
+
+  async give_back(): Promise<void> {
+    this.let_go();
+    const key = this.key.value;
+    if (key === null) return;
+    this.key.value = null;
+    this.told(await this.api_.release_control(key));
+    await this.look();
+  }
+
+  async press(arm: string, state: string): Promise<void> {
+    const key = this.key.value;
+    if (key === null || this.held.value) return;
+    const asked = ++this.asked_;
+    this.held.value = { arm, state, job: null };
+    const answer = await this.api_.hold(arm, state, key);
+    const is_held = this.asked_ === asked && this.held.value !== null;
+    if (!this.told(answer)) {
+      if (is_held) this.held.value = null;
+      return this.lost(answer);
+    }
+    const { job, lease_s } = answer.value;
+    if (!is_held) return void this.api_.cancel_job(job.id);  // let go before the answer came
+    this.held.value = { arm, state, job: job.id };
+    this.beat(asked, lease_s);
+  }
+
+  let_go(): void {
+    const held = this.held.value;
+    if (!held) return;
+    ++this.asked_;
+    this.held.value = null;
+    if (held.job !== null) void this.api_.cancel_job(held.job);
+  }
+
+  private beat(asked: number, lease_s: number): void {
+    const every_ms = lease_s > 0 ? (1000 * lease_s) / kBeats : kFirst_ms;
+    this.timers_.set(() => {
+      const held = this.held.value;
+      const key = this.key.value;
+      if (!held || key === null || this.asked_ !== asked) return;
+      void this.api_.renew_hold(held.arm, key).then((answer) => {
+        if (answer.ok || this.asked_ !== asked) return;
+        this.held.value = null;  // it is there, or somebody else has taken control
+        this.lost(answer);
+      });
+      this.beat(asked, lease_s);
+    }, every_ms);
+  }
+
+  private lost(answer: Answer<Hold>): void {
+    if (answer.ok || !answer.problem.type.endsWith('not-in-control')) return;
+    this.key.value = null;
+    this.refusal.value = answer.problem.detail ?? answer.problem.title;
+    void this.look();
+  }
+
+  private told<T>(answer: Answer<T>): answer is { ok: true; value: T } {
+    this.refusal.value = answer.ok ? null : (answer.problem.detail ?? answer.problem.title);
+    return answer.ok;
+  }
+}

@@ -1,0 +1,52 @@
+// What today's jobs would have come to under the other policies: asked of the server, and looked at again
+// while it runs.
+
+import { signal } from '@preact/signals';
+import type { Api } from '../server/api';
+import type { Timers } from '../server/connection';
+import type { Comparison } from '../server/messages';
+
+const kAgain_ms = 400;
+
+export class Comparing {
+  /** The one under way, or the last one; null: none that is known of. */
+  readonly latest = signal<Comparison | null>(null);
+  readonly refusal = signal<string | null>(null);
+  private timer_: number | null = null;
+
+  constructor(
+    private readonly api_: Pick<Api, 'comparison' | 'compare' | 'cancel_comparison'>,
+    private readonly timers_: Timers,
+  ) {}
+
+  /** Of a comparison that another page has begun, too. */
+  async look(): Promise<void> {
+    const answer = await this.api_.comparison();
+    if (answer.ok) this.take(answer.value);
+    else if (answer.problem.status === 404) this.latest.value = null;
+    else if (this.latest.value?.state === 'running') this.again();  // the connection, perhaps
+  }
+
+  async start(since_s: number | null): Promise<void> {
+    const answer = await this.api_.compare(since_s === null ? {} : { since_s });
+    this.refusal.value = answer.ok ? null : (answer.problem.detail ?? answer.problem.title);
+    if (answer.ok) this.take(answer.value);
+  }
+
+  async cancel(): Promise<void> {
+    const answer = await this.api_.cancel_comparison();
+    if (answer.ok) this.take(answer.value);
+  }
+
+  private take(comparison: Comparison): void {
+    this.latest.value = comparison;
+    if (comparison.state === 'running') this.again();
+  }
+
+  private again(): void {
+    this.timer_ ??= this.timers_.set(() => {
+      this.timer_ = null;
+      void this.look();
+    }, kAgain_ms);
+  }
+}

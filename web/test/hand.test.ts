@@ -1,0 +1,84 @@
+import { describe, expect, it } from 'vitest';
+import { Hand } from '../src/control/hand';
+import type { Answer } from '../src/server/api';
+import type { Control, ControlTaken, Hold, Job } from '../src/server/messages';
+import { job_json } from './samples';
+
+const holder = (who: string) => ({ who, since_at: '2026-11-23T15:00:00Z', arm: null, job: null });
+const fine = <T>(value: T): Promise<Answer<T>> => Promise.resolve({ ok: true, value });
+const refused = (type: string): Promise<Answer<never>> =>
+  Promise.resolve({ ok: false, problem: { type: `urn:armloom:problem:${type}`, title: 'Refused', status: 409, detail: 'Bob has control' } });
+const job = job_json('h') as unknown as Job;
+const settled = () => new Promise((done) => setTimeout(done, 0));
+
+function bench() {
+  const said: string[] = [];
+  const timers: (() => void)[] = [];
+  const server = { renews: true, holder: holder('Ada') as Control['holder'] };
+  let answer_hold: (answer: Answer<Hold>) => void = () => undefined;
+  const hand = new Hand({
+    control: () => fine<Control>({ holder: server.holder }),
+    take_control: (who) => { said.push(`take ${who}`); return fine<ControlTaken>({ holder: holder(who), key: 'k' }); },
+    release_control: (key) => { said.push(`release ${key}`); server.holder = null; return fine<Control>({ holder: null }); },
+    hold: (arm, state, key) => { said.push(`hold ${arm} ${state} ${key}`); return new Promise((done) => { answer_hold = done; }); },
+    renew_hold: (arm) => { said.push(`renew ${arm}`); return server.renews ? fine<Hold>({ job, lease_s: 0.5 }) : refused('not-in-control'); },
+    cancel_job: (id) => { said.push(`cancel ${id}`); return fine(null); },
+  }, { set: (callback) => timers.push(callback), clear: () => undefined });
+  return { hand, said, timers, server, accept: () => answer_hold({ ok: true, value: { job, lease_s: 0.5 } }) };
+}
+
+describe('moves by hand', () => {
+  it('go on only as long as they are renewed, and end at once when the button is let go', async () => {
+    const { hand, said, timers, accept } = bench();
+    await hand.press('left', 'ready');
+    expect(said).toEqual([]);  // without control nothing is asked
+    await hand.take('Ada');
+    void hand.press('left', 'ready');
+    accept();
+    await settled();
+    timers.shift()?.();
+    await settled();
+    hand.let_go();
+    timers.shift()?.();
+    await settled();
+    expect(said).toEqual(['take Ada', 'hold left ready k', 'renew left', 'cancel h']);
+    expect(timers).toEqual([]);
+  });
+
+  it('that are let go before the server has answered are cancelled when it does', async () => {
+    const { hand, said, accept } = bench();
+    await hand.take('Ada');
+    void hand.press('left', 'ready');
+    hand.let_go();
+    expect(said).not.toContain('cancel h');
+    accept();
+    await settled();
+    expect(said.at(-1)).toBe('cancel h');
+    expect(hand.held.value).toBeNull();
+  });
+
+  it('end when somebody else takes control, and say so', async () => {
+    const { hand, timers, server, accept } = bench();
+    await hand.take('Ada');
+    void hand.press('left', 'ready');
+    accept();
+    await settled();
+    server.renews = false;
+    server.holder = holder('Bob');
+    timers.shift()?.();
+    await settled();
+    await settled();
+    expect([hand.held.value, hand.key.value, hand.refusal.value, hand.holder.value?.who]).toEqual([null, null, 'Bob has control', 'Bob']);
+  });
+
+  it('end when control is given back', async () => {
+    const { hand, said, accept } = bench();
+    await hand.take('Ada');
+    void hand.press('left', 'ready');
+    accept();
+    await settled();
+    await hand.give_back();
+    expect(said.slice(-2)).toEqual(['cancel h', 'release k']);
+    expect(hand.holder.value).toBeNull();
+  });
+});
