@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/scheduler/authority.h"
-#include "core/scheduler/goals.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/waiting/options.h"
+#include "core/scheduler/ways/goals.h"
 
 namespace armloom {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scheduler/goals.h"
+#include "core/scheduler/ways/goals.h"
 
 #include <algorithm>
 #include <string>
