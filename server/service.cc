@@ -32,7 +32,7 @@ class Service::Impl {
     if (!options_.log) options_.log = [](const LogLine&) {};
   }
 
-  std::optional<Problems> start(const CellPtr& cell, const Recording::Source& source) {
+  std::optional<Problems> start(const CellPtr& cell, const CellFile& source) {
     auto http = HttpServer::listen(options_.address, options_.port, options_.connections_max);
     if (!http) return std::move(http.error());
     http_ = std::move(*http);
@@ -280,7 +280,7 @@ class Service::Impl {
   Worker worker_;
 };
 
-Result<std::unique_ptr<Service>> Service::start(CellPtr cell, const Recording::Source& source,
+Result<std::unique_ptr<Service>> Service::start(CellPtr cell, const CellFile& source,
                                                 ServiceOptions options) {
   auto impl = std::make_unique<Impl>(std::move(options));
   if (auto problems = impl->start(cell, source)) return failure(std::move(*problems));
