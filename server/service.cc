@@ -79,7 +79,7 @@ class Service::Impl {
     if (!loop) return std::move(loop.error());
     loop_ = std::move(*loop);
     if (restart) go_on(std::move(*restart), cell);
-    keep_recordings();
+    keep_recordings(source.file.parent_path());
     comparison_ = std::make_unique<Comparison>(cell, post);
     api_ = std::make_unique<Api>(ApiParts{
         cell, stream_, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), *alerts_, post,
@@ -183,7 +183,7 @@ class Service::Impl {
 
   void alarm(const std::string& what) { options_.log({LogLine::Level::error, what}); }
 
-  void keep_recordings() {
+  void keep_recordings(const std::filesystem::path& cell_folder) {
     if (!recording_ || !options_.kept_recordings.is_any()) return;
     constexpr std::chrono::minutes kPeriod{1};
     const auto tell = [log = options_.log](const RemovedRecording& gone) {
@@ -195,8 +195,9 @@ class Service::Impl {
       if (!whole) line.fields.emplace_back("fault", gone.fault);
       log(line);
     };
-    old_recordings_.emplace(OldRecordings::Place{*options_.data, recording_->folder()},
-                            options_.kept_recordings, kPeriod, tell);
+    old_recordings_.emplace(
+        OldRecordings::Place{*options_.data, {recording_->folder(), cell_folder}},
+        options_.kept_recordings, kPeriod, tell);
   }
 
   // Told in the log, where that is wanted.

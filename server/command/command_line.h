@@ -12,6 +12,8 @@ struct Command {
   std::function<int()> run;
 };
 
+// `serve`, which has the most options.
+[[nodiscard]] Command serve_command(CLI::App& app);
 // All of them, with their options.
 [[nodiscard]] std::vector<Command> add_commands(CLI::App& app);
 

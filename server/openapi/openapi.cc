@@ -111,9 +111,7 @@ Schema body_of(const Body& body) {
           {"content", {{"application/json", {{"schema", body.schema}, {"examples", examples}}}}}};
 }
 
-Schema headers_of_all() {
-  return {{"X-Request-Id", {{"$ref", "#/components/headers/RequestId"}}}};
-}
+Schema headers_of_all() { return {{"X-Request-Id", {{"$ref", "#/components/headers/RequestId"}}}}; }
 
 Schema outcome_of(const Outcome& outcome) {
   Schema response{{"description", outcome.text}};
@@ -222,11 +220,11 @@ const Schema& openapi_document() {
     const Schema responses = refer_to_names(refusals(), kSchemas, schemas);
     add_discriminator(schemas["Message"]);
     whole["components"] = {{"schemas", std::move(schemas)}, {"responses", responses}};
-    whole["components"]["headers"]["RequestId"] = {
-        {"description",
-         "Names the request, in the server's log, too: the request's own X-Request-Id where it sends "
-         "one of 1 to 128 characters of [A-Za-z0-9._-]"},
-        {"schema", {{"type", "string"}}}};
+    whole["components"]["headers"]["RequestId"] = {{"description",
+                                                    "Names the request, in the server's log, too: "
+                                                    "the request's own X-Request-Id where it sends "
+                                                    "one of 1 to 128 characters of [A-Za-z0-9._-]"},
+                                                   {"schema", {{"type", "string"}}}};
     whole["components"]["securitySchemes"] = security_schemes();
     return whole;
   }();

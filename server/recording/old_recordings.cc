@@ -10,7 +10,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// All that a recording consists of.
+// All that a recording consists of, beside the copies in kCopies.
+constexpr const char* kCopies = "files";
 constexpr std::array kFiles = {"events.jsonl", "states.csv", "states_idle.csv",
                                "cell.json",    "jobs.json",  "inputs.jsonl"};
 
@@ -34,14 +35,27 @@ struct Found {
   std::uintmax_t bytes = 0;
 };
 
+// The events last: where the rest cannot be removed it still is a recording.
+std::vector<fs::path> files_of(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ec;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / kCopies, ec)) {
+    if (entry.symlink_status(ec).type() == fs::file_type::regular) files.push_back(entry.path());
+  }
+  for (auto name = kFiles.rbegin(); name != kFiles.rend(); ++name) {
+    const fs::path file = folder / *name;
+    if (fs::is_regular_file(fs::symlink_status(file, ec))) files.push_back(file);
+  }
+  return files;
+}
+
 Found look_at(const fs::path& folder, bool is_data_folder) {
   Found found{folder, is_data_folder};
   std::error_code ec;
-  for (const char* name : kFiles) {
-    const fs::path file = folder / name;
-    if (!fs::is_regular_file(fs::symlink_status(file, ec))) continue;
+  for (const fs::path& file : files_of(folder)) {
     const std::uintmax_t bytes = fs::file_size(file, ec);
     if (!ec) found.bytes += bytes;
+    if (file.parent_path() != folder) continue;  // a copy is as old as what it was made of
     const auto written = fs::last_write_time(file, ec);
     if (!ec) found.written = std::max(found.written, written);
   }
@@ -63,7 +77,6 @@ std::vector<Found> recordings_in(const fs::path& data) {
   return all;
 }
 
-// The events last: where the rest cannot be removed it still is a recording.
 std::string removed(const Found& found) {
   std::error_code ec;
   std::string fault;
@@ -71,10 +84,13 @@ std::string removed(const Found& found) {
     fs::remove(file, ec);
     if (ec && fault.empty()) fault = file.filename().string() + ": " + ec.message();
   };
-  for (auto name = kFiles.rbegin(); name != kFiles.rend(); ++name) remove(found.folder / *name);
-  if (!found.is_data_folder && fault.empty() && fs::is_empty(found.folder, ec)) {
-    remove(found.folder);
-  }
+  for (const fs::path& file : files_of(found.folder)) remove(file);
+  if (!fault.empty()) return fault;
+  const auto remove_empty = [&](const fs::path& folder) {
+    if (fs::is_directory(folder, ec) && fs::is_empty(folder, ec)) remove(folder);
+  };
+  remove_empty(found.folder / kCopies);
+  if (!found.is_data_folder) remove_empty(found.folder);
   return fault;
 }
 
@@ -82,23 +98,25 @@ std::string removed(const Found& found) {
 
 std::vector<RemovedRecording> remove_old_recordings(const fs::path& data,
                                                     const RecordingBounds& bounds,
-                                                    const fs::path& running,
+                                                    const std::vector<fs::path>& in_use,
                                                     fs::file_time_type now) {
   std::vector<RemovedRecording> gone;
   if (!bounds.is_any()) return gone;
   std::vector<Found> all = recordings_in(data);
   std::uintmax_t bytes = 0;
   for (const Found& found : all) bytes += found.bytes;
-  const auto is_running = [&](const Found& found) {
-    std::error_code ec;
-    return found.folder == running || fs::equivalent(found.folder, running, ec);
+  const auto is_in_use = [&](const Found& found) {
+    return std::ranges::any_of(in_use, [&](const fs::path& folder) {
+      std::error_code ec;
+      return found.folder == folder || fs::equivalent(found.folder, folder, ec);
+    });
   };
   std::size_t count = all.size();
   for (const Found& found : all) {
     const bool too_many = bounds.count && count > *bounds.count;
     const bool too_old = bounds.age && now - found.written > *bounds.age;
     const bool too_large = bounds.bytes && bytes > *bounds.bytes;
-    if (is_running(found) || !(too_many || too_old || too_large)) continue;
+    if (is_in_use(found) || !(too_many || too_old || too_large)) continue;
     gone.push_back({found.folder, found.bytes, removed(found)});
     if (!gone.back().fault.empty()) continue;
     --count;
@@ -113,7 +131,7 @@ OldRecordings::OldRecordings(Place place, RecordingBounds bounds, std::chrono::m
                tell = std::move(tell)](const std::stop_token& stop) {
         while (!stop.stop_requested()) {
           const auto now = fs::file_time_type::clock::now();
-          for (const auto& one : remove_old_recordings(place.data, bounds, place.running, now)) {
+          for (const auto& one : remove_old_recordings(place.data, bounds, place.in_use, now)) {
             tell(one);
           }
           std::unique_lock lock(mutex_);

@@ -25,8 +25,8 @@ struct RecordingBounds {
 };
 
 // Removes recordings of a data folder until its bounds hold, those first that were written longest
-// ago, and never `running`: of the folder itself the files that Recording makes, of folders in it
-// whole ones that bear Recording's kind of name. Everything else is left alone.
+// ago, and never one in a folder that is in use: of the data folder itself and of folders in it
+// that bear Recording's kind of name the files that Recording makes. Everything else is left alone.
 struct RemovedRecording {
   std::filesystem::path folder;
   std::uintmax_t bytes;
@@ -34,14 +34,14 @@ struct RemovedRecording {
 };
 [[nodiscard]] std::vector<RemovedRecording> remove_old_recordings(
     const std::filesystem::path& data, const RecordingBounds& bounds,
-    const std::filesystem::path& running, std::filesystem::file_time_type now);
+    const std::vector<std::filesystem::path>& in_use, std::filesystem::file_time_type now);
 
 // Does that again and again, on a thread of its own, from its making on.
 class OldRecordings {
  public:
   struct Place {
     std::filesystem::path data;
-    std::filesystem::path running;
+    std::vector<std::filesystem::path> in_use;  // folders: of the running one, of its cell file
   };
   OldRecordings(Place place, RecordingBounds bounds, std::chrono::milliseconds period,
                 std::function<void(const RemovedRecording&)> tell);  // on that thread

@@ -25,7 +25,8 @@ class OldRecording : public ::testing::Test {
   fs::path recording(const std::string& name, std::chrono::hours ago, std::size_t bytes = 100) {
     const fs::path folder = name.empty() ? data_ : data_ / name;
     fs::create_directories(folder);
-    for (const char* file : {"events.jsonl", "cell.json", "jobs.json", "inputs.jsonl"}) {
+    fs::create_directories(folder / "files");
+    for (const char* file : {"events.jsonl", "cell.json", "jobs.json", "files/arm.stl"}) {
       std::ofstream(folder / file) << std::string(bytes / 4, ' ');
       fs::last_write_time(folder / file, now_ - ago);
     }
@@ -33,7 +34,7 @@ class OldRecording : public ::testing::Test {
   }
   std::vector<std::string> removed(const RecordingBounds& bounds, const fs::path& running) {
     std::vector<std::string> names;
-    for (const auto& one : remove_old_recordings(data_, bounds, running, now_)) {
+    for (const auto& one : remove_old_recordings(data_, bounds, {running}, now_)) {
       EXPECT_EQ(one.fault, "");
       names.push_back(one.folder == data_ ? "" : one.folder.filename().string());
     }
@@ -56,7 +57,7 @@ TEST_F(OldRecording, TheOldestGoUntilTheCountHolds) {
   EXPECT_EQ(removed({.count = 4}, running), Names{});
   EXPECT_EQ(removed({.count = 2}, running), (Names{"", kFirst}));
   EXPECT_TRUE(fs::exists(data_ / "armloom.db")) << "of the data folder itself only the recording";
-  EXPECT_FALSE(fs::exists(data_ / "events.jsonl"));
+  EXPECT_FALSE(fs::exists(data_ / "events.jsonl") || fs::exists(data_ / "files"));
   EXPECT_FALSE(fs::exists(data_ / kFirst));
   EXPECT_TRUE(fs::exists(data_ / kSecond / "events.jsonl"));
 }
@@ -95,7 +96,7 @@ TEST_F(OldRecording, GoesByItselfWhileTheServerRuns) {
   const fs::path running = recording(kThird, 0h);
   recording(kFirst, 72h);
   std::promise<std::string> told;
-  const OldRecordings old({data_, running}, {.count = 1}, 10ms,
+  const OldRecordings old({data_, {running}}, {.count = 1}, 10ms,
                           [&](const RemovedRecording& gone) { told.set_value(gone.folder); });
   EXPECT_EQ(told.get_future().get(), (data_ / kFirst).string());
 }
