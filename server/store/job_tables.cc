@@ -82,8 +82,8 @@ Leftover JobTables::leftover() const {
       "number DESC LIMIT ?1) ORDER BY number");
   alerts.bind_all(std::int64_t{kAlertsKept});
   while (alerts.step()) {
-    StoredAlert& alert =
-        left.alerts.emplace_back(alerts.text(0), alerts.number(1), alerts.text(2), alerts.text(3));
+    left.alerts.push_back({alerts.text(0), alerts.number(1), alerts.text(2), alerts.text(3)});
+    StoredAlert& alert = left.alerts.back();
     if (!alerts.is_null(4)) alert.acknowledged = {alerts.text(4), alerts.number(5)};
   }
   return left;

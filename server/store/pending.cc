@@ -1,5 +1,6 @@
 #include "server/store/pending.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 

@@ -77,6 +77,9 @@ void bring_up_to_date(Database& database) {
   if (application != kApplication && !(is_empty && application == 0)) {
     throw std::runtime_error("it is another program's database");
   }
+  if (version < 0 || (version == 0 && !is_empty)) {
+    throw std::runtime_error("it is corrupt: tables of version " + std::to_string(version));
+  }
   if (version > kNewest) {
     throw std::runtime_error("it was written by a newer version of armloom (tables of version " +
                              std::to_string(version) + ", this one knows " +

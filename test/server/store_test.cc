@@ -82,6 +82,8 @@ TEST_F(Store, WhatIsNotOursOrNotWholeIsLeftAsItIs) {
   { const auto store = open(); }
   sql("PRAGMA user_version = 99");
   holds("newer version of armloom (tables of version 99");
+  sql("PRAGMA user_version = -5");
+  holds("it is corrupt: tables of version -5");
 }
 
 TEST_F(Store, ACorruptFileIsSaidToBeAndNotMended) {
