@@ -28,7 +28,7 @@ class Service::Impl {
         guard_(options_.tokens, options_.tls.has_value()),
         limits_(options_.limits) {}
 
-  std::optional<Problems> start(const CellPtr& cell, const Recording::Source& source) {
+  std::optional<Problems> start(const CellPtr& cell, const CellFile& source) {
     auto http = HttpServer::listen(options_.address, options_.port, options_.connections_max);
     if (!http) return std::move(http.error());
     http_ = std::move(*http);
@@ -236,7 +236,7 @@ class Service::Impl {
   Worker worker_;
 };
 
-Result<std::unique_ptr<Service>> Service::start(CellPtr cell, const Recording::Source& source,
+Result<std::unique_ptr<Service>> Service::start(CellPtr cell, const CellFile& source,
                                                 ServiceOptions options) {
   auto impl = std::make_unique<Impl>(std::move(options));
   if (auto problems = impl->start(cell, source)) return failure(std::move(*problems));

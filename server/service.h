@@ -52,8 +52,7 @@ class Service {
  public:
   // Listens and begins to run the executive. Problems: those of Executive::create, the port in use,
   // the data folder not writable.
-  [[nodiscard]] static Result<std::unique_ptr<Service>> start(CellPtr cell,
-                                                              const Recording::Source& source,
+  [[nodiscard]] static Result<std::unique_ptr<Service>> start(CellPtr cell, const CellFile& source,
                                                               ServiceOptions options);
   ~Service();
 

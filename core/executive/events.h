@@ -55,7 +55,7 @@ struct CheckView {
   std::optional<double> approach_s;     // from now until its arms are where it begins
   std::optional<JobResultView> result;  // it would end at once
 };
-// Other ways that were looked for, for a job (scheduler/replanning.h).
+// Other ways that were looked for, for a job (scheduler/ways/replanning.h).
 struct AnotherWayView {
   std::uint64_t done = 0;                               // so many times it was given one
   bool is_open = false;                                 // one is being looked for

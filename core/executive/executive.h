@@ -191,8 +191,8 @@ class Executive {
   // Counts at once (scheduler/amending.h). Problems: those of cancel().
   [[nodiscard]] Result<JobView> amend(const std::string& key, JobAmendment amendment);
   // Another way for the job, from where its arm stands to where its own way ends, given what else
-  // is there (scheduler/replanning.h). One in motion is brought to rest first. Problems: not_found;
-  // conflict when it has ended, or is such that it can be given no other way.
+  // is there (scheduler/ways/replanning.h). One in motion is brought to rest first. Problems:
+  // not_found; conflict when it has ended, or is such that it can be given no other way.
   [[nodiscard]] Result<JobView> replan(const std::string& key);
 
   // Told to everybody; changes nothing.

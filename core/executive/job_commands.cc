@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "core/executive/executive_impl.h"
-#include "core/scheduler/replanning.h"
+#include "core/scheduler/ways/replanning.h"
 
 namespace armloom {
 

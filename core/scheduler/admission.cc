@@ -6,16 +6,16 @@
 
 #include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
-#include "core/scheduler/detour.h"
 #include "core/scheduler/groups.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/putting_off.h"
-#include "core/scheduler/replanning.h"
 #include "core/scheduler/waiting/turns.h"
+#include "core/scheduler/ways/detour.h"
+#include "core/scheduler/ways/planned_aside.h"
+#include "core/scheduler/ways/replanning.h"
 #include "core/scheduler/weighing.h"
 #include "core/scheduler/yielding/making_way.h"
-#include "core/scheduler/yielding/planned_aside.h"
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/jobs/phases.h"
-#include "core/scheduler/replanning.h"
 #include "core/scheduler/waiting/gates.h"
+#include "core/scheduler/ways/replanning.h"
 
 namespace armloom {
 namespace {

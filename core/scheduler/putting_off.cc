@@ -7,7 +7,7 @@
 #include "core/coordination/effort.h"
 #include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
-#include "core/scheduler/detour.h"
+#include "core/scheduler/ways/detour.h"
 
 namespace armloom {
 namespace {

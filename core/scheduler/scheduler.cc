@@ -7,17 +7,17 @@
 
 #include "core/jobs/invariants.h"
 #include "core/jobs/pace.h"
-#include "core/scheduler/approach.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
-#include "core/scheduler/detour.h"
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/replanning.h"
 #include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
+#include "core/scheduler/ways/approach.h"
+#include "core/scheduler/ways/detour.h"
+#include "core/scheduler/ways/planned_aside.h"
+#include "core/scheduler/ways/replanning.h"
 #include "core/scheduler/weighing.h"
-#include "core/scheduler/yielding/planned_aside.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {

@@ -10,9 +10,9 @@
 #include "core/jobs/timeline.h"
 #include "core/scheduler/admission.h"
 #include "core/scheduler/amending.h"
-#include "core/scheduler/goals.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/waiting/wait_cycles.h"
+#include "core/scheduler/ways/goals.h"
 
 namespace armloom {
 

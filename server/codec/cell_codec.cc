@@ -38,13 +38,12 @@ CellDescription read_cell_text(std::string_view text, const fs::path& folder, Pr
   return cell;
 }
 
-std::string relocate_cell_text(std::string_view text, const fs::path& from, const fs::path& to) {
+std::string with_cell_paths(std::string_view text, const fs::path& folder,
+                            const std::function<std::string(const fs::path&)>& path_of) {
   auto file = parse_json(text, JsonComments::allowed);
   if (!file) return std::string(text);
-  const fs::path there = fs::weakly_canonical(to);
-  cell_format().map_paths(*file, [&](const std::string& path) {
-    return fs::weakly_canonical(resolved(path, from)).lexically_proximate(there).generic_string();
-  });
+  cell_format().map_paths(*file,
+                          [&](const std::string& path) { return path_of(resolved(path, folder)); });
   return file->dump(2) + "\n";
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -20,10 +21,10 @@ namespace armloom {
 [[nodiscard]] CellDescription read_cell_text(std::string_view text,
                                              const std::filesystem::path& folder, Problems& faults);
 
-// The same cell file for another place: every path in it made relative to `to`, comments lost.
-// Precondition: read_cell_text(text, from) succeeded.
-[[nodiscard]] std::string relocate_cell_text(std::string_view text,
-                                             const std::filesystem::path& from,
-                                             const std::filesystem::path& to);
+// The same cell file with other paths, comments lost: what `path_of` says of each, which is
+// resolved against `folder`. Precondition: read_cell_text(text, folder) succeeded.
+[[nodiscard]] std::string with_cell_paths(
+    std::string_view text, const std::filesystem::path& folder,
+    const std::function<std::string(const std::filesystem::path&)>& path_of);
 
 }  // namespace armloom

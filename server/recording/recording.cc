@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "server/codec/cell_codec.h"
 #include "server/codec/json_writer.h"
 
 namespace armloom {
@@ -27,7 +26,7 @@ fs::path Recording::unused_folder(const fs::path& folder) {
   return fresh;
 }
 
-Result<std::unique_ptr<Recording>> Recording::create(const fs::path& folder, const Source& source,
+Result<std::unique_ptr<Recording>> Recording::create(const fs::path& folder, const CellFile& source,
                                                      const Cell& cell, bool with_states) {
   std::error_code ec;
   fs::create_directories(folder, ec);
@@ -40,9 +39,10 @@ Result<std::unique_ptr<Recording>> Recording::create(const fs::path& folder, con
                            "the folder " + folder.string() + " cannot be written",
                            folder.string()});
   }
+  const auto cell_text = copy_cell(source, folder);
+  if (!cell_text) return failure(cell_text.error());
   errno = 0;
-  cell_copy << relocate_cell_text(source.cell_text, source.cell_file.parent_path(), folder)
-            << std::flush;
+  cell_copy << *cell_text << std::flush;
   if (!cell_copy) {
     return failure(Problem{ProblemKind::unavailable, "cannot-write", folder.string(),
                            "the folder " + folder.string() +

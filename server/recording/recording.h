@@ -10,28 +10,25 @@
 
 #include "core/base/problem.h"
 #include "core/base/time.h"
+#include "server/recording/cell_copy.h"
 #include "server/recording/states_csv.h"
 
 namespace armloom {
 
-// A recording folder being written: events.jsonl, states.csv (if asked for), cell.json with its
-// paths made relative to the folder, jobs.json. Files of an earlier recording are replaced.
+// A recording folder being written: events.jsonl, states.csv (if asked for), cell.json with a copy
+// of all that it names (cell_copy.h), jobs.json. Files of an earlier recording are replaced.
 // A disk that fills up does not stop the run; fault() says so, soon: events and jobs are given to
 // the system one by one. Not thread-safe, but states may be written from another thread than the
 // rest.
 class Recording {
  public:
-  struct Source {
-    std::filesystem::path cell_file;
-    std::string cell_text;
-  };
   // `folder`, or when that holds a recording already a new folder in it, named after the present
   // time ("2026-11-21T09-33-00Z"): a server that starts again loses nothing.
   [[nodiscard]] static std::filesystem::path unused_folder(const std::filesystem::path& folder);
 
   // Makes the folder. Problem (unavailable): it cannot be written.
   [[nodiscard]] static Result<std::unique_ptr<Recording>> create(
-      const std::filesystem::path& folder, const Source& source, const Cell& cell,
+      const std::filesystem::path& folder, const CellFile& source, const Cell& cell,
       bool with_states);
   ~Recording();
 

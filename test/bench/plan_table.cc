@@ -83,7 +83,10 @@ void add_postures(const Cell& cell, ArmId id, LineChecker& lines, Poses& free) {
           std::max(joint.lower, -2.9), std::min(joint.upper, 2.9))(random);
     }
     if (!lines.is_free(q, q)) continue;
-    free.emplace("posture " + std::to_string(++made), q);
+    static const Eigen::IOFormat kOneLine(3, 0, ", ", ", ", "", "", "[", "]");
+    std::ostringstream name;
+    name << "posture " << ++made << " " << q.transpose().format(kOneLine);
+    free.emplace(name.str(), q);
   }
 }
 

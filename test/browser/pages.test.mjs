@@ -147,10 +147,15 @@ test('objects are added, moved and taken away by form', { timeout: 60_000 }, asy
   await page.locator('[data-test=object-save]').click();
   await page.waitForFunction(() => window.armloom.objects().some((object) => object.name === 'can' && object.cylinder?.[0] === 0.08 && Math.abs(object.rpy[0] - Math.PI / 2) < 1e-6));
   await page.waitForURL(/#\/scene\/can/);
+  await page.getByRole('heading', { name: 'Change can' }).waitFor();
   await fill({ x: '0.3' });
   await page.locator('[data-test=object-save]').click();
   await page.waitForFunction(() => window.armloom.objects().some((object) => object.name === 'can' && object.xyz[0] === 0.3));
+  // What is typed while the object changes elsewhere stays; the other fields follow it.
   await fill({ length: '-1' });
+  await ask(page, 'PUT', '/scene/objects/can', { cylinder: [0.08, 0.3], xyz: [0.35, 0.9, 0.4], rpy: [Math.PI / 2, 0, 0] });
+  await page.waitForFunction(() => document.querySelector('[data-test=object-x]').value === '0.35');
+  assert.equal(await page.locator('[data-test=object-length]').inputValue(), '-1');
   await page.locator('[data-test=object-save]').click();
   assert.match(await page.locator('[data-test=problem]').innerText(), /cylinder|length|greater|positive|> 0/i);
   await page.screenshot(path_for('scene-dark'));

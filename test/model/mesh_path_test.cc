@@ -117,5 +117,17 @@ TEST_F(MeshPath, RefusesOtherSchemesAndWhatIsNoFile) {
   EXPECT_THAT(refusal(""), HasSubstr("leaves its folder"));
 }
 
+TEST(MeshNames, AreReplacedWhereThereIsAnotherOne) {
+  const std::string urdf = R"(<?xml version="1.0"?>
+<robot name="r"><!-- of the maker --><link name="a">
+  <visual><geometry><mesh filename="package://p/a.dae"/></geometry></visual>
+  <collision><geometry><mesh filename="package://p/a &amp; b.stl" scale="2 2 2"/></geometry></collision>
+</link></robot>)";
+  const std::string other = with_mesh_names(urdf, {{"package://p/a & b.stl", "b-2.stl"}});
+  EXPECT_THAT(other, HasSubstr("filename=\"b-2.stl\" scale=\"2 2 2\""));
+  EXPECT_THAT(other, HasSubstr("filename=\"package://p/a.dae\""));
+  EXPECT_EQ(with_mesh_names("<robot", {{"a", "b"}}), "<robot");
+}
+
 }  // namespace
 }  // namespace armloom

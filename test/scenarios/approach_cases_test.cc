@@ -1,5 +1,5 @@
 // Jobs whose arms are brought to where they begin ("approach": "plan").
-#include "core/scheduler/approach.h"
+#include "core/scheduler/ways/approach.h"
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {

@@ -142,17 +142,6 @@ TEST(CellCodec, TellsEveryFaultAtOnce) {
                                             "/monitor/rate_hz", "/objects/0/box"));
 }
 
-TEST(CellCodec, CopiesACellFileSoThatItLoadsElsewhere) {
-  const fs::path elsewhere = fs::path(::testing::TempDir()) / "armloom" / "copied";
-  fs::create_directories(elsewhere);
-  const std::string text = read_text_file(kConfig / "two_pandas.json").value();
-  const std::string copy = relocate_cell_text(text, kConfig, elsewhere);
-  const auto cell = read_cell_text(copy, elsewhere);
-  ASSERT_TRUE(cell);
-  EXPECT_TRUE(fs::exists(cell->robots.front().urdf)) << cell->robots.front().urdf;
-  EXPECT_TRUE(build_cell(*cell));
-}
-
 TEST(CellCodec, WritesTheCellAsTheDashboardNeedsIt) {
   const auto description = read_cell_text(two_pandas().dump(), kConfig);
   ASSERT_TRUE(description);

@@ -67,6 +67,39 @@ TEST_F(ReplayCommand, ComesToTheEventsThatAKilledServerHadTold) {
   EXPECT_NEAR(part.last_line()["ended_s"].get<double>(), 1.5, 0.01);
 }
 
+// Meshes and all: the cell's own files are not needed.
+TEST_F(ReplayCommand, WorksWhereverTheFolderIsMoved) {
+  namespace fs = std::filesystem;
+  const fs::path source = ARMLOOM_SOURCE_DIR, site = folder_ / "site";
+  fs::create_directories(site);
+  for (const char* part : {"config", "models"})
+    fs::copy(source / part, site / part, fs::copy_options::recursive);
+  const json jobs =
+      json::parse(read_text_file(source / "config/two_shuttles_jobs.json").value(), nullptr, true);
+  {
+    test::ServeProcess server(
+        {"--cell", (site / "config/two_shuttles.json").string(), "--data", data(), "--speed", "20"},
+        (folder_ / "log").string());
+    const json first = jobs.front()["job"];
+    const std::string id = "first";
+    json job = first;
+    job["id"] = id;
+    const auto accepted = test::request(server.port(), "POST", "/api/v1/jobs", job.dump());
+    ASSERT_EQ(accepted.status, 202) << accepted.body;
+    for (json state; state != "succeeded";) {
+      state = test::request(server.port(), "GET", "/api/v1/jobs/first", "").json()["state"];
+    }
+    server.signal(SIGKILL);
+    server.wait();
+  }
+  fs::remove_all(site);
+  fs::create_directories(folder_ / "elsewhere/deep");
+  fs::rename(data(), folder_ / "elsewhere/deep/report");
+  const auto replayed = run("replay --data " + (folder_ / "elsewhere/deep/report").string());
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+  EXPECT_EQ(replayed.last_line()["same"], true);
+}
+
 TEST_F(ReplayCommand, SaysWhatIsOtherwise) {
   live();
   const auto file_of = [&](const char* name) { return std::filesystem::path(data()) / name; };

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <set>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/geometry/mesh/mesh.h"
 
@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kFile = "file://";
+constexpr const char* kFileName = "filename";
 
 bool is_below(const fs::path& folder, const fs::path& file) {
   const auto differ = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
@@ -102,6 +103,21 @@ tl::expected<fs::path, std::string> resolve_absolute(
       line_of_package(package.filename().string(), package.string()));
 }
 
+// Every <mesh filename="...">, in the document's order.
+std::vector<tinyxml2::XMLElement*> named_meshes(tinyxml2::XMLDocument& document) {
+  struct Finder final : tinyxml2::XMLVisitor {
+    std::vector<tinyxml2::XMLElement*> meshes;
+    bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute*) override {
+      const bool is_mesh = std::string_view(element.Name()) == "mesh";
+      if (is_mesh && element.Attribute(kFileName) != nullptr)
+        meshes.push_back(const_cast<tinyxml2::XMLElement*>(&element));
+      return true;
+    }
+  } found;
+  document.Accept(&found);
+  return found.meshes;
+}
+
 // Where a package of this name may be: a folder of that name above the URDF, or beside one of
 // those.
 std::string likely_folder(const std::string& package, const fs::path& urdf_folder) {
@@ -171,25 +187,29 @@ tl::expected<fs::path, std::string> resolve_mesh(
 std::map<std::string, std::string> mesh_files(const std::string& urdf_text,
                                               const fs::path& urdf_folder,
                                               const std::map<std::string, std::string>& packages) {
-  // Calls for each element in the document's order.
-  struct MeshNames final : tinyxml2::XMLVisitor {
-    std::set<std::string> names;
-    bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute*) override {
-      const char* name = element.Attribute("filename");
-      if (std::string_view(element.Name()) == "mesh" && name != nullptr) names.insert(name);
-      return true;
-    }
-  } found;
   tinyxml2::XMLDocument document;
   document.Parse(urdf_text.data(), urdf_text.size());
-  document.Accept(&found);
   std::map<std::string, std::string> files;
-  for (const std::string& name : found.names) {
-    if (!is_mesh_name(name)) continue;
+  for (const tinyxml2::XMLElement* mesh : named_meshes(document)) {
+    const std::string name = mesh->Attribute(kFileName);
+    if (!is_mesh_name(name) || files.contains(name)) continue;
     if (const auto file = resolve_mesh(name, urdf_folder, packages))
       files.emplace(name, file->string());
   }
   return files;
+}
+
+std::string with_mesh_names(const std::string& urdf_text,
+                            const std::map<std::string, std::string>& names) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(urdf_text.data(), urdf_text.size()) != tinyxml2::XML_SUCCESS) return urdf_text;
+  for (tinyxml2::XMLElement* mesh : named_meshes(document)) {
+    const auto other = names.find(mesh->Attribute(kFileName));
+    if (other != names.end()) mesh->SetAttribute(kFileName, other->second.c_str());
+  }
+  tinyxml2::XMLPrinter out;
+  document.Print(&out);
+  return out.CStr();
 }
 
 }  // namespace armloom

@@ -26,4 +26,9 @@ namespace armloom {
     const std::string& urdf_text, const std::filesystem::path& urdf_folder,
     const std::map<std::string, std::string>& packages);
 
+// The URDF with other names for its meshes, by the names that it has; the others stay.
+// Precondition: as above, else the text.
+[[nodiscard]] std::string with_mesh_names(const std::string& urdf_text,
+                                          const std::map<std::string, std::string>& names);
+
 }  // namespace armloom

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/scheduler/authority.h"
-#include "core/scheduler/goals.h"
 #include "core/scheduler/policy.h"
 #include "core/scheduler/waiting/options.h"
+#include "core/scheduler/ways/goals.h"
 
 namespace armloom {
 namespace {
@@ -22,10 +22,11 @@ Closed order(JobId first, std::optional<ArmId> arm = {}) {
 // admitted. Of an admitted one all others would have to have ended.
 bool is_next(const State& state, const Record& record, ArmId arm) {
   const auto& queue = state.jobs.queues()[arm];
+  if (!queue.empty() && queue.front() == record.job.id) return true;
   const bool ahead = record.job.is_waiting() && state.lanes.follows_on(record.job.id);
   const std::size_t horizon = ahead ? state.policy->horizon() : 1;
   for (std::size_t place = 0; place < std::min(horizon, queue.size()); ++place) {
-    if (queue[place] == record.job.id) return place == 0 || !holds_one_ahead(state, record);
+    if (queue[place] == record.job.id) return !holds_one_ahead(state, record);
     if (!state.jobs.at(queue[place]).job.is_admitted()) return false;
   }
   return false;

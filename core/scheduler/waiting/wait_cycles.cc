@@ -7,8 +7,8 @@
 
 #include "core/jobs/phases.h"
 #include "core/scheduler/authority.h"
-#include "core/scheduler/replanning.h"
 #include "core/scheduler/waiting/gates.h"
+#include "core/scheduler/ways/replanning.h"
 
 namespace armloom {
 namespace {

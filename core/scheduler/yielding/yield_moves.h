@@ -13,7 +13,7 @@ namespace armloom {
 struct YieldTrial {
   JobId blocked_job;
   ArmId arm;
-  TrajectoryPtr way;                 // null: it has to be planned first (planned_aside.h)
+  TrajectoryPtr way;                 // null: it has to be planned first (ways/planned_aside.h)
   std::optional<JobId> before = {};  // YieldMove::before
   bool is_free = false;              // the way; else that is the question
   std::size_t index = 0;             // of the ways from where the arm rests

@@ -6,6 +6,8 @@ export type Kind = 'box' | 'cylinder' | 'sphere';
 export const kKinds: readonly Kind[] = ['box', 'cylinder', 'sphere'];
 
 export interface Form { name: string; kind: Kind; values: Record<string, string> }
+/** What was typed and is not saved yet; the rest of a form follows the object. */
+export type Edits = Partial<Form>;
 
 type Field = readonly [key: string, label: string, step: string];
 interface Fields { legend: string; keys: readonly Field[] }
@@ -39,6 +41,19 @@ export function form_of(object: SceneObject): Form {
   put(['x', 'y', 'z'], object.xyz);
   put(['roll', 'pitch', 'yaw'], object.rpy.map((angle) => (angle * 180) / Math.PI));
   return { ...form, name: object.name, kind: shape && shape.kind !== 'mesh' ? shape.kind : 'box' };
+}
+
+export function with_edits(form: Form, edits: Edits): Form {
+  return { ...form, ...edits, values: { ...form.values, ...edits.values } };
+}
+
+/** Of the edits those that came after `sent`, which is saved now. */
+export function edits_since(sent: Form, edits: Edits): Edits {
+  const later: Edits = { values: {} };
+  if (edits.name !== undefined && edits.name.trim() !== sent.name.trim()) later.name = edits.name;
+  if (edits.kind !== undefined && edits.kind !== sent.kind) later.kind = edits.kind;
+  for (const [key, text] of Object.entries(edits.values ?? {})) if (text !== sent.values[key]) later.values![key] = text;
+  return later;
 }
 
 function text_of(value: number): string {

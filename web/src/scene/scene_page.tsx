@@ -7,7 +7,7 @@ import { shape_of, type Problem, type SceneObject } from '../server/messages';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
 import { why_mute } from '../wording';
-import { blank_form, fields_of, form_of, kKinds, object_of, type Form, type Kind } from './object_form';
+import { blank_form, edits_since, fields_of, form_of, kKinds, object_of, with_edits, type Edits, type Kind } from './object_form';
 
 export function ScenePage({ name, app }: { name: string | null; app: App }) {
   use_store(app.store);
@@ -30,7 +30,7 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
       {chosen && <HandButton name={chosen.name} app={app} />}
       {chosen?.mesh !== undefined
         ? <p class="hint">A mesh: change it through the API.</p>
-        : <ObjectForm key={chosen ? JSON.stringify(chosen) : 'new'} chosen={chosen} app={app} />}
+        : <ObjectForm key={chosen?.name ?? 'new'} chosen={chosen} app={app} />}
     </div>
   );
 }
@@ -59,7 +59,9 @@ function size_in_words(object: SceneObject): string {
 }
 
 function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
-  const [form, set_form] = useState<Form>(chosen ? form_of(chosen) : blank_form());
+  const [edits, set_edits] = useState<Edits>({});
+  const edit = (more: Edits) => set_edits((now) => ({ ...now, ...more, values: { ...now.values, ...more.values } }));
+  const form = with_edits(chosen ? form_of(chosen) : blank_form(), edits);
   const [problem, set_problem] = useState<Problem | null>(null);
   const mute = why_mute(app.store.link);
   const submit = async (event: Event) => {
@@ -68,15 +70,17 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
     if ('fault' in object) return set_problem({ type: 'about:blank', title: 'Not complete', status: 0, detail: object.fault });
     const answer = await app.api.put_object(object);
     set_problem(answer.ok ? null : answer.problem);
-    if (answer.ok) app.router.go({ page: 'scene', name: object.name });
+    if (!answer.ok) return;
+    if (chosen) set_edits((now) => edits_since(form, now));
+    app.router.go({ page: 'scene', name: object.name });
   };
   return (
     <form class="object-form" data-test="object-form" onSubmit={(event) => void submit(event)}>
       <h3>{chosen ? `Change ${chosen.name}` : 'Add an object'}</h3>
       <div class="line wrap">
         <label>Name <input type="text" required maxLength={64} value={form.name} readOnly={chosen !== null} data-test="object-name"
-          onInput={(event) => set_form({ ...form, name: event.currentTarget.value })} /></label>
-        <label>Shape <select value={form.kind} data-test="object-kind" onChange={(event) => set_form({ ...form, kind: event.currentTarget.value as Kind })}>
+          onInput={(event) => edit({ name: event.currentTarget.value })} /></label>
+        <label>Shape <select value={form.kind} data-test="object-kind" onChange={(event) => edit({ kind: event.currentTarget.value as Kind })}>
           {kKinds.map((kind) => <option key={kind} value={kind}>{kind}</option>)}
         </select></label>
       </div>
@@ -85,7 +89,7 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
           <legend>{legend}</legend>
           {keys.map(([key, label, step]) => (
             <label key={key}>{label} <input type="number" required step={step} value={form.values[key] ?? ''} data-test={`object-${key}`}
-              onInput={(event) => set_form({ ...form, values: { ...form.values, [key]: event.currentTarget.value } })} /></label>
+              onInput={(event) => edit({ values: { [key]: event.currentTarget.value } })} /></label>
           ))}
         </fieldset>
       ))}

@@ -1,4 +1,4 @@
-#include "core/scheduler/yielding/planned_aside.h"
+#include "core/scheduler/ways/planned_aside.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "core/scheduler/goals.h"
+#include "core/scheduler/ways/goals.h"
 
 #include <algorithm>
 #include <string>
@@ -175,6 +175,7 @@ bool plan_goals(State& state) {
 
 std::optional<JobId> may_go_first(const State& state, const Record& record) {
   const Job& job = record.job;
+  if (state.jobs.undecided().empty()) return std::nullopt;
   if (job.goal || job.in<Queued>() == nullptr) return std::nullopt;
   const auto& arms = job.trajectory->arms();
   for (JobId id : state.jobs.undecided()) {

@@ -1,10 +1,10 @@
-#include "core/scheduler/approach.h"
+#include "core/scheduler/ways/approach.h"
 
 #include <utility>
 
 #include "core/jobs/phases.h"
-#include "core/scheduler/goals.h"
 #include "core/scheduler/waiting/options.h"
+#include "core/scheduler/ways/goals.h"
 #include "core/trajectory/joint_line.h"
 #include "core/trajectory/set_joints.h"
 

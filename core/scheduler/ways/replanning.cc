@@ -1,4 +1,4 @@
-#include "core/scheduler/replanning.h"
+#include "core/scheduler/ways/replanning.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "core/scheduler/detour.h"
+#include "core/scheduler/ways/detour.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,0 +1,27 @@
+import { describe, expect, it } from 'vitest';
+import { blank_form, edits_since, form_of, object_of, with_edits } from '../src/scene/object_form';
+import type { SceneObject } from '../src/server/messages';
+
+const kCan: SceneObject = { name: 'can', cylinder: [0.08, 0.3], xyz: [0.3, 0.9, 0.4], rpy: [Math.PI / 2, 0, 0] };
+
+describe('a form of an object', () => {
+  it('gives back what it was made of', () => {
+    expect(object_of(form_of(kCan))).toEqual(kCan);
+  });
+
+  it('keeps what was typed while the object changes, and follows it otherwise', () => {
+    const form = with_edits(form_of({ ...kCan, xyz: [0.35, 0.9, 0.4] }), { values: { length: '-1' } });
+    expect(form.values).toMatchObject({ length: '-1', x: '0.35', radius: '0.08' });
+    expect(form.name).toBe('can');
+  });
+
+  it('has after saving what was typed since', () => {
+    const sent = with_edits(blank_form(), { name: 'can ', kind: 'sphere', values: { x: '0.3', y: '1' } });
+    expect(edits_since(sent, { name: 'can', kind: 'sphere', values: { x: '0.3', y: '2' } })).toEqual({ values: { y: '2' } });
+    expect(edits_since(sent, { kind: 'box' })).toEqual({ kind: 'box', values: {} });
+  });
+
+  it('says which field is no number', () => {
+    expect(object_of(with_edits(form_of(kCan), { values: { x: 'wide' } }))).toEqual({ fault: 'x: "wide" is no number' });
+  });
+});
