@@ -1,7 +1,6 @@
 #include "core/precedence/order_search.h"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -16,14 +15,12 @@ constexpr double kLeast_s = 1e-3;  // what is nearer is as good
 OrderSearch::OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind)
     : open_(open), work_behind_(work_behind) {
   const auto& motions = open.motions();
-  std::set<int, std::greater<>> priorities;
+  std::set<int> priorities;
   for (const CoordinatedMotion& motion : motions) priorities.insert(motion.priority);
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    const int priority = open.leads(m) ? motions[m].priority : *priorities.rbegin();
-    const auto level = std::distance(priorities.begin(), priorities.find(priority));
-    level_.push_back(static_cast<std::size_t>(level));
+    const auto smaller = std::distance(priorities.begin(), priorities.find(motions[m].priority));
+    urgency_.push_back(open.leads(m) ? static_cast<double>(smaller) : 0.0);
   }
-  levels_ = priorities.size();
 }
 
 Prediction OrderSearch::run() {
@@ -82,38 +79,26 @@ std::vector<bool> OrderSearch::motions_concerned() const {
   return concerned;
 }
 
-OrderSearch::Cost OrderSearch::cost_of(const Prediction& prediction) const {
+double OrderSearch::cost_of(const Prediction& prediction) const {
   constexpr double kNever = -1.0;
-  const std::size_t arms = work_behind_.size();
-  std::vector<double> finish(levels_ * arms, kNever);
+  std::vector<double> finish(work_behind_.size(), kNever);  // by arm
+  double urgent = 0.0;
   for (std::size_t m = 0; m < open_.motions().size(); ++m) {
-    for (const ArmId arm : open_.motions()[m].arms) {
-      double& last = finish[level_[m] * arms + arm.index()];
-      last = std::max(last, to_seconds(prediction.ends[m]));
-    }
+    const double end = to_seconds(prediction.ends[m]);
+    for (const ArmId arm : open_.motions()[m].arms)
+      finish[arm.index()] = std::max(finish[arm.index()], end);
+    urgent += urgency_[m] * end;
   }
-  Cost cost(levels_);
-  for (std::size_t level = 0; level < levels_; ++level) {
-    double last = 0.0, sum = 0.0;
-    for (std::size_t arm = 0; arm < arms; ++arm) {
-      const double end = finish[level * arms + arm];
-      if (end == kNever) continue;
-      last = std::max(last, end + to_seconds(work_behind_[arm]));
-      sum += end;
-    }
-    cost[level] = last + kWeightOfSum * sum;
+  double last = 0.0, sum = 0.0;
+  for (std::size_t arm = 0; arm < finish.size(); ++arm) {
+    if (finish[arm] == kNever) continue;
+    last = std::max(last, finish[arm] + to_seconds(work_behind_[arm]));
+    sum += finish[arm];
   }
-  return cost;
+  return last + kWeightOfSum * sum + kWeightOfPriority * urgent;
 }
 
-bool OrderSearch::is_better(const Cost& cost) const {
-  if (!best_) return true;
-  for (std::size_t i = 0; i < cost.size(); ++i) {
-    if (cost[i] < best_->cost[i] - kLeast_s) return true;
-    if (cost[i] > best_->cost[i] + kLeast_s) return false;
-  }
-  return false;
-}
+bool OrderSearch::is_better(double cost) const { return !best_ || cost < best_->cost - kLeast_s; }
 
 void OrderSearch::set(const std::vector<Side>& sides) {
   for (std::size_t c = 0; c < sides.size(); ++c) {
@@ -129,8 +114,8 @@ void OrderSearch::set(const std::vector<Side>& sides) {
 OrderSearch::Node OrderSearch::made(std::vector<Side> sides) {
   set(sides);
   Prediction prediction = open_.predicted();
-  Cost cost = cost_of(prediction);
-  return {std::move(sides), std::move(prediction), std::move(cost), made_++};
+  const double cost = cost_of(prediction);
+  return {std::move(sides), std::move(prediction), cost, made_++};
 }
 
 // The open choice of which first neither side holds by itself.

@@ -17,11 +17,13 @@ namespace armloom {
 // A budget of predictions bounds it; what is best by then counts. Deterministic.
 //
 // Cost: when the last arm has done its work, what waits behind included, and kWeightOfSum times the
-// sum of the arms' ends; of motions of larger priority first, once they are the first of their
-// arms.
+// sum of the arms' ends; and for a motion that is the first of its arms kWeightOfPriority times its
+// end for each smaller priority that another one has. So of two that meet alike the urgent one
+// passes first, but not at any price.
 class OrderSearch {
  public:
   inline static constexpr double kWeightOfSum = 0.3;
+  inline static constexpr double kWeightOfPriority = 1.2;
   inline static constexpr std::size_t kPredictionsMax = 300;
 
   // `work_behind` by ArmId: of jobs that are not among the motions.
@@ -32,8 +34,6 @@ class OrderSearch {
   [[nodiscard]] Prediction run();
 
  private:
-  // Smaller is better, entry by entry.
-  using Cost = std::vector<double>;
   // One of OrderChoice::options, or none yet; who passes second waits on its way or at its start.
   struct Side {
     enum : signed char { open, first, other } side = open;
@@ -42,14 +42,14 @@ class OrderSearch {
   struct Node {
     std::vector<Side> sides;  // by choice
     Prediction prediction;
-    Cost cost;
+    double cost;         // s
     std::size_t number;  // in order of making
   };
 
   [[nodiscard]] static bool is_later(const Node& a, const Node& b);
   [[nodiscard]] std::vector<bool> motions_concerned() const;
-  [[nodiscard]] Cost cost_of(const Prediction& prediction) const;
-  [[nodiscard]] bool is_better(const Cost& cost) const;
+  [[nodiscard]] double cost_of(const Prediction& prediction) const;
+  [[nodiscard]] bool is_better(double cost) const;
   [[nodiscard]] Node made(std::vector<Side> sides);
   [[nodiscard]] Node cheaper_way(const Node& node, std::size_t choice, bool first);
   void wait_where_it_is_cheaper();
@@ -60,9 +60,8 @@ class OrderSearch {
 
   OpenOrders& open_;
   const std::vector<Duration>& work_behind_;
-  std::vector<std::size_t> level_;  // by motion: of its priority, the largest first
-  std::size_t levels_ = 0;
-  std::vector<Node> waiting_;  // a heap
+  std::vector<double> urgency_;  // by motion: smaller priorities, while it is the first of its arms
+  std::vector<Node> waiting_;    // a heap
   std::optional<Node> best_;
   std::size_t made_ = 0;
 };

@@ -104,5 +104,28 @@ TEST(OrderSearch, FindsNothingDearerThanTheCheapestOfAllAssignments) {
   EXPECT_GT(better_than_first, 50u);
 }
 
+// Two arms that meet in one place, each alone on its lane: the second waits until the first has
+// left.
+bool urgent_passes_first(Duration urgent_from, Duration urgent_to, Duration other_from,
+                         Duration other_to) {
+  const std::vector<CoordinatedMotion> motions = {
+      {.job = JobId(1), .arms = {ArmId(0)}, .duration = 10s, .priority = 1},
+      {.job = JobId(2), .arms = {ArmId(1)}, .duration = 10s}};
+  const std::vector<CoordinatedMotion> nobody;
+  const std::vector<Precedence> none;
+  const std::vector<PairRegions> regions = {
+      {JobId(1), JobId(2), {region(ProgressBox{urgent_from, urgent_to, other_from, other_to})}}};
+  const std::vector<Duration> work(2);
+  OpenOrders open({nobody, none, motions, regions, work});
+  EXPECT_TRUE(OrderSearch(open, work).run().stuck.empty());
+  return open.orders().front().a_first;
+}
+
+TEST(OrderSearch, LetsTheUrgentOnePassFirstButNotAtAnyPrice) {
+  EXPECT_TRUE(urgent_passes_first(4s, 6s, 4s, 6s)) << "alike";
+  EXPECT_TRUE(urgent_passes_first(4200ms, 6200ms, 4s, 6s)) << "though the other is there before it";
+  EXPECT_FALSE(urgent_passes_first(4s, 8s, 4s, 5s)) << "4 s of the other one for 1 s of its own";
+}
+
 }  // namespace
 }  // namespace armloom
