@@ -13,7 +13,10 @@ constexpr double kLeast_s = 1e-3;  // what is nearer is as good
 }  // namespace
 
 OrderSearch::OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind)
-    : open_(open), work_behind_(work_behind) {
+    : open_(open),
+      work_behind_(work_behind),
+      made_max_(std::clamp(kOrdersFollowedMax / std::max<std::size_t>(open.orders().size(), 1),
+                           kPredictionsLeast, kPredictionsMax)) {
   const auto& motions = open.motions();
   std::set<int> priorities;
   for (const CoordinatedMotion& motion : motions) priorities.insert(motion.priority);
@@ -39,7 +42,7 @@ Prediction OrderSearch::run() {
   Prediction otherwise = now.prediction;
   if (now.prediction.stuck.empty()) note(now);
   dive(made(std::move(sides)));
-  while (!waiting_.empty() && made_ < kPredictionsMax) {
+  while (!waiting_.empty() && made_ < made_max_) {
     std::ranges::pop_heap(waiting_, is_later);
     Node next = std::move(waiting_.back());
     waiting_.pop_back();
@@ -142,7 +145,7 @@ void OrderSearch::dive(Node node) {
     if (!node.prediction.stuck.empty() || !is_better(node.cost)) return;
     const auto choice = first_broken(node);
     if (!choice) return note(node);
-    if (made_ >= 2 * kPredictionsMax) return;
+    if (made_ >= 2 * made_max_) return;
     Node one = cheaper_way(node, *choice, true), other = cheaper_way(node, *choice, false);
     const bool one_ends = one.prediction.stuck.empty(), other_ends = other.prediction.stuck.empty();
     const bool takes_one = one_ends && (!other_ends || one.cost <= other.cost);
@@ -167,7 +170,7 @@ OrderSearch::Node OrderSearch::cheaper_way(const Node& node, std::size_t choice,
 }
 
 void OrderSearch::wait_where_it_is_cheaper() {
-  for (std::size_t c = 0; c < best_->sides.size(); ++c) {
+  for (std::size_t c = 0; c < best_->sides.size() && made_ < 3 * made_max_; ++c) {
     std::vector<Side> sides = best_->sides;
     sides[c].at_start = !sides[c].at_start;
     Node turned = made(std::move(sides));

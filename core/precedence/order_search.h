@@ -25,6 +25,10 @@ class OrderSearch {
   inline static constexpr double kWeightOfSum = 0.3;
   inline static constexpr double kWeightOfPriority = 1.2;
   inline static constexpr std::size_t kPredictionsMax = 300;
+  // So many orders are followed in all of them together: a prediction takes as long as there are
+  // orders, and of long horizons there are thousands.
+  inline static constexpr std::size_t kOrdersFollowedMax = 100'000;
+  inline static constexpr std::size_t kPredictionsLeast = 20;
 
   // `work_behind` by ArmId: of jobs that are not among the motions.
   OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind);
@@ -64,6 +68,7 @@ class OrderSearch {
   std::vector<Node> waiting_;    // a heap
   std::optional<Node> best_;
   std::size_t made_ = 0;
+  std::size_t made_max_;
 };
 
 }  // namespace armloom
