@@ -166,6 +166,8 @@ struct Detour {
   bool is_weighed = false;       // the job has another way for a while, to be judged by it
   TrajectoryPtr best = nullptr;  // of the ways that were weighed, its own among them, ...
   TimePoint arrives{};           // ... and when it arrives by that, as it was predicted
+  bool is_taken = false;         // that is another one than the shortest
+  Duration saves{};              // so much sooner; zero: the shortest could not go as things stood
   TimePoint soon_enough{};       // what arrives by then is taken
 };
 struct JobGoal {
@@ -221,6 +223,11 @@ struct Job {
   [[nodiscard]] JobState state() const;
   // Its way has to be planned (again) before it can be judged.
   [[nodiscard]] bool is_unplanned() const { return goal && !goal->is_planned; }
+  // Where it leads is known, though perhaps not by which way: joints that one arm is to have.
+  [[nodiscard]] bool knows_its_end() const {
+    if (!is_unplanned()) return true;
+    return !has_open_arm() && std::holds_alternative<Eigen::VectorXd>(goal->way().goal.to);
+  }
   // It has a way, and another one is being looked for that may be sooner.
   [[nodiscard]] bool is_detour_asked() const {
     return goal && goal->detour && goal->detour->question;

@@ -75,6 +75,7 @@ void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg, std
   explain_with_next(job);
   queues_.erase(job);
   job.trajectory = std::move(trajectory);
+  leg.motion = record.leg.motion + 1;
   record.leg = std::move(leg);
   queues_.insert_at(job, place);
   explain_with_next(job);
@@ -84,6 +85,7 @@ void JobBook::set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg le
   Job& job = record.job;
   queues_.remove_work(job);
   job.trajectory = std::move(trajectory);
+  leg.motion = record.leg.motion + 1;
   record.leg = std::move(leg);
   record.asking.effort = 1;
   record.asking.raised = 0;

@@ -7,9 +7,10 @@ namespace armloom {
 
 void Lanes::add(const Record& record) {
   if (record.errand.before) is_stale_ = true;
-  if (is_stale_ || record.job.is_unplanned()) return;
+  if (is_stale_ || !record.job.knows_its_end()) return;
   WaitingLeg leg = record.leg;
   leg.after = record.job.terms.after;
+  leg.is_estimate = record.job.is_unplanned();
   sequence_.append(std::move(leg));
 }
 
@@ -32,7 +33,7 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
     for (JobId id : book.queues()[ArmId{arm}]) {
       const Record& record = book.at(id);
       if (record.job.in<Queued>() != nullptr) {
-        if (!record.job.is_unplanned()) waiting.insert(id);
+        if (record.job.knows_its_end()) waiting.insert(id);
         continue;
       }
       for (std::size_t i = 0; i < record.leg.arms.size(); ++i) {
@@ -45,6 +46,7 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
     const Record& record = book.at(id);
     WaitingLeg& leg = legs.emplace_back(record.leg);
     leg.after = record.job.terms.after;
+    leg.is_estimate = record.job.is_unplanned();
     if (record.errand.lets_pass && book.is_active(*record.errand.lets_pass)) {
       leg.after.push_back(*record.errand.lets_pass);
     }
@@ -75,7 +77,7 @@ void Lanes::learn(const std::vector<Passage>& asked, const Verdict& verdict, con
 void Lanes::learn_in_the_way(JobId job, ArmId arm, const JobBook& book, const ArmRests& arms) {
   const auto& queue = book.queues()[ArmId{arm}];
   const bool rests = queue.empty() || book.at(queue.front()).job.in<Queued>() != nullptr;
-  if (rests && !is_stale_) sequence_.learn({job, arms.place(arm)}, false);
+  if (rests && !is_stale_) sequence_.learn({job, arms.place(arm), book.at(job).leg.motion}, false);
 }
 
 }  // namespace armloom

@@ -216,7 +216,6 @@ void set_out_anew(State& state, Record& record, TrajectoryPtr way) {
 void go_by(State& state, Record& record, TrajectoryPtr way) {
   WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.id, *way);
   state.jobs.set_motion(record, std::move(way), std::move(leg));
-  state.lanes.forget_passages();
   state.lanes.renew_later();
   ++state.version;
 }

@@ -24,7 +24,7 @@ SafeSequence::SafeSequence(const SafeSequence& other)
   for (const Leg* leg : other.found_) found_.push_back(&*index_.at(leg->job));
 }
 
-void SafeSequence::move(State& state, const Leg& leg) {
+void SafeSequence::move(State& state, const WaitingLeg& leg) {
   for (std::size_t i = 0; i < leg.arms.size(); ++i) state[leg.arms[i].index()] = leg.to[i];
 }
 
@@ -39,9 +39,24 @@ bool SafeSequence::follows(const Leg& leg) const {
 }
 
 void SafeSequence::append(WaitingLeg waiting) {
+  const JobId job = waiting.job;
+  const bool is_estimate = waiting.is_estimate;
+  const State past = is_estimate ? ends_ : State{};
+  add(std::move(waiting));
+  if (is_estimate) assume(*index_.at(job), past);
+}
+
+void SafeSequence::assume(Leg& leg, const State& past) {
+  for (const PlacePtr& place : past) {
+    if (std::ranges::find(leg.arms, place->arm) == leg.arms.end()) leg.free[place->id] = true;
+  }
+}
+
+void SafeSequence::add(WaitingLeg waiting) {
   Leg leg{std::move(waiting)};
   for (std::size_t i = 0; i < leg.arms.size(); ++i) {
     PlacePtr& end = ends_[leg.arms[i].index()];
+    if (leg.is_estimate) leg.from[i] = end;
     const bool near =
         leg.from[i] == end || (leg.from[i]->q - end->q).cwiseAbs().maxCoeff() <= tolerance_;
     leg.cut = leg.cut || !near;
@@ -93,6 +108,12 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
   ends_ = stands_ = std::move(stands);
   asked_.clear();
   found_.clear();
+  std::unordered_map<JobId, State> past;  // of those that are not planned yet
+  State in_turn = stands_;
+  for (const WaitingLeg& leg : legs) {
+    if (leg.is_estimate) past.emplace(leg.job, in_turn);
+    move(in_turn, leg);
+  }
   // By the old order; a new one before the first old one that follows it.
   std::unordered_map<JobId, const WaitingLeg*> given;
   for (const WaitingLeg& leg : legs) given.emplace(leg.job, &leg);
@@ -120,12 +141,14 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
   std::set<JobId> to_be_added;
   for (const WaitingLeg* leg : order) to_be_added.insert(leg->job);
   for (const WaitingLeg* leg : order) {
-    append(*leg);
+    add(*leg);
     to_be_added.erase(leg->job);
     Leg& added = *index_.at(leg->job);
     const auto before = known.find(leg->job);
-    const bool is_same = before != known.end() && before->second->arms == added.arms;
+    const bool is_same = before != known.end() && before->second->arms == added.arms &&
+                         before->second->motion == added.motion;
     if (is_same) added.free = std::move(before->second->free);
+    if (added.is_estimate) assume(added, past.at(leg->job));
     const bool too_early =
         std::ranges::any_of(leg->after, [&](JobId job) { return to_be_added.contains(job); });
     if (too_early && added.placed) take_out(added);
@@ -141,7 +164,7 @@ bool SafeSequence::follows_on(JobId job) const {
 
 void SafeSequence::learn(const Passage& passage, bool free) {
   const auto known = index_.find(passage.leg);
-  if (known == index_.end()) return;
+  if (known == index_.end() || known->second->motion != passage.motion) return;
   bool& is_free = known->second->free.try_emplace(passage.place->id, !free).first->second;
   if (is_free == free) return;
   is_free = free;
@@ -169,7 +192,7 @@ SafeSequence::Passes SafeSequence::passes(Leg& leg, const State& state,
     const auto found = leg.free.find(state[arm]->id);
     if (found == leg.free.end()) {
       known = false;
-      if (unknown != nullptr) unknown->push_back({leg.job, state[arm]});
+      if (unknown != nullptr) unknown->push_back({leg.job, state[arm], leg.motion});
     } else if (!found->second) {
       return Passes::blocked;
     }

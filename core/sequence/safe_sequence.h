@@ -20,12 +20,19 @@ struct WaitingLeg {
   std::vector<PlacePtr> from;  // by arm, as in `arms`
   std::vector<PlacePtr> to;
   std::vector<JobId> after = {};  // it does not begin before these, as long as they wait
+  // Of the job's motions, which one: what was answered about another one is not known of it.
+  std::uint64_t motion = 0;
+  // Its way is still to be planned, from wherever its arm will stand and past where all others will
+  // when the legs given before it are done: these it is taken to pass. Of other places an estimate
+  // of its way is asked.
+  bool is_estimate = false;
 };
 
 // Does this leg find its way free while an arm that it does not move rests there?
 struct Passage {
   JobId leg;
   PlacePtr place;
+  std::uint64_t motion = 0;  // WaitingLeg::motion
 };
 
 // The banker's question (Dijkstra 1965) with places in the way instead of money: when all that is
@@ -106,7 +113,9 @@ class SafeSequence {
   };
   class Search;
 
-  static void move(State& state, const Leg& leg);
+  static void move(State& state, const WaitingLeg& leg);
+  void add(WaitingLeg leg);
+  static void assume(Leg& leg, const State& past);
   [[nodiscard]] bool follows(const Leg& leg) const;
   Passes passes(Leg& leg, const State& state, std::vector<Passage>* unknown);
   Walk walk(State state, std::span<Leg* const> order);

@@ -67,6 +67,42 @@ TEST(Chains, SucceedOneByOneInTheOrderOfSubmission) {
   }
 }
 
+// Every second job says only where it goes: until its way is planned, what comes after it in the
+// order of submission must not make it, or what it lets pass, impossible.
+std::vector<TimedJob> with_goals(std::vector<TimedJob> jobs) {
+  for (std::size_t i = 0; i < jobs.size(); i += 2) {
+    JobRequest& job = jobs[i].job;
+    const std::string& joint = job.trajectory.joint_names.front();
+    job.arm = joint.substr(0, joint.find('_'));
+    job.move_to =
+        PlanGoal{.joints = job.trajectory.points.back().positions, .named = {}, .pose = {}};
+    job.trajectory = {};
+  }
+  return jobs;
+}
+
+class GoalChainsUnder : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(GoalChainsUnder, AllSucceedAndNeverTouch) {
+  std::size_t jobs = 0;
+  for (std::uint64_t seed = 1; seed <= seed_count(kLoads); ++seed) {
+    const CrowdedWorkload load = make_chain(2 + seed % 3, 8 + seed * 7 % 17, seed % 2 == 0, seed);
+    Closest closest;
+    const auto result = simulate(cell_of(load, OnIdleBlocker::report),
+                                 ExecutiveOptions{.policy = GetParam(), .waiting_max = 1000},
+                                 {with_goals(load.jobs()), at(2000s)}, closest);
+    ASSERT_TRUE(result);
+    for (const JobView& job : result->jobs)
+      EXPECT_EQ(job.state, JobState::succeeded) << "seed " << seed << ": " << told(job);
+    EXPECT_GT(closest.smallest_m, 0.0) << "seed " << seed;
+    jobs += result->jobs.size();
+  }
+  std::cout << jobs << " jobs" << std::endl;
+}
+INSTANTIATE_TEST_SUITE_P(Policies, GoalChainsUnder,
+                         ::testing::Values("sequential", "lockstep", "reservation", "certified",
+                                           "earliest_start", "coordinated"));
+
 struct Way {
   std::string policy;
   OnIdleBlocker on_idle_blocker;

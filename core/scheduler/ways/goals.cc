@@ -48,7 +48,7 @@ PlanQuestion question_about(const State& state, const Record& record, const Goal
     question.may_move.push_back(arm);
     for (JobId id : state.jobs.queues()[arm]) {
       const Record& other = state.jobs.at(id);
-      if (other.turn < turn && !other.job.is_unplanned() && !other.job.has_open_arm()) {
+      if (other.turn < turn && other.job.knows_its_end() && !other.job.has_open_arm()) {
         follow_to_end(at, *state.cell, arm, *other.job.trajectory);
       }
     }
@@ -59,7 +59,6 @@ PlanQuestion question_about(const State& state, const Record& record, const Goal
 
 void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
   if (std::exchange(record.job.goal->is_planned, false)) {
-    state.lanes.forget_passages();
     state.lanes.renew_later();
     ++state.version;
   }
