@@ -62,6 +62,12 @@ struct AnotherWayView {
   AnotherWay::Cause cause = AnotherWay::Cause::client;  // of the last time
   std::optional<std::string> refusal;                   // why it kept its own, the last time
 };
+// Ways around the places that others hold (scheduler/ways/detour.h).
+struct DetourView {
+  std::uint64_t weighed = 0;      // so many
+  bool is_taken = false;          // it goes by one of them
+  std::optional<double> saves_s;  // nothing: none is taken, or the shortest way could not go
+};
 struct JobView {
   JobId id{0};
   std::string key;   // the "id" that clients use
@@ -86,6 +92,7 @@ struct JobView {
   std::vector<std::string> alternatives;  // names of arms of which one does it
   bool any_order = false;
   std::optional<AnotherWayView> another_way;
+  std::optional<DetourView> detour;
   std::optional<ChoiceView> choice;
   std::vector<std::string> ring;  // keys: the deadlock that it is part of, itself first
   std::optional<Reason> reason;   // when ended

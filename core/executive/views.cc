@@ -115,6 +115,14 @@ ChoiceView view_of(const Job& job, const Choice& choice, const Cell& cell, const
   return view;
 }
 
+DetourView view_of(const Detour& detour) {
+  DetourView view{.weighed = static_cast<std::uint64_t>(detour.tries),
+                  .is_taken = detour.is_taken,
+                  .saves_s = {}};
+  if (detour.saves > Duration{}) view.saves_s = to_seconds(detour.saves);
+  return view;
+}
+
 }  // namespace
 
 JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
@@ -155,6 +163,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   if (const auto& other = job.another_way) {
     view.another_way = AnotherWayView{other->done, other->is_open, other->cause, other->refusal};
   }
+  if (job.goal && job.goal->detour) view.detour = view_of(*job.goal->detour);
   if (job.choice) view.choice = view_of(job, *job.choice, cell, names);
   for (JobId on_it : job.ring) view.ring.push_back(names.key(on_it));
   if (job.reason() == Reason::deadlock) view.detail = deadlock_text(view.ring, cell);

@@ -52,7 +52,8 @@ FormatPtr<SchedulingSettings> scheduling_format() {
       field(
           "horizon_legs", &Scheduling::horizon_legs, integer(1, 32),
           "Of each arm so many jobs are admitted together, the one under way included; who passes "
-          "first is chosen for all of them (coordinated only)."),
+          "first is chosen for all of them (coordinated only). Decisions take longer with the "
+          "square of it: above 12 tens of milliseconds."),
       field("on_restart", &Scheduling::on_restart,
             choice<OnRestart>({OnRestart::ask, OnRestart::continue_}, to_string),
             "What a server with `--data` that is started again does with jobs that had not ended: "

@@ -60,6 +60,15 @@ FormatPtr<AnotherWayView> another_way_format() {
       told("refused", &View::refusal, nullable(text()), "Why it kept its own, the last time"),
   });
 }
+FormatPtr<DetourView> detour_format() {
+  return object<DetourView>({
+      told("weighed", &DetourView::weighed, count(), "So many ways around"),
+      told("taken", &DetourView::is_taken, flag(), "It goes by one of them"),
+      told("saves_s", &DetourView::saves_s, nullable(number(kPositive)),
+           "By so much sooner it arrives by that, as it was predicted; null: none is taken, or the "
+           "shortest way could not go as things stood"),
+  });
+}
 std::optional<Duration> backlog_timeout_of(const JobView& job) { return job.backlog_timeout; }
 std::optional<OnTimeout> on_timeout_of(const JobView& job) {
   return job.replans_on_timeout ? OnTimeout::replan : OnTimeout::abort;
@@ -178,6 +187,8 @@ FormatPtr<JobView> job_format() {
                   "Arms of which one does it; `arms` is that one, or the likeliest while it waits"),
           told_if("replan", &View::another_way, another_way_format(),
                   "Other ways that were looked for, to where its own ends"),
+          told_if("detour", &View::detour, detour_format(),
+                  "Of a goal whose shortest way would have to wait: ways around what others hold"),
           told_if("choice", &View::choice, choice_format(),
                   "Why it was taken before others, or by this arm"),
           told("ring", &View::ring, list(text()),

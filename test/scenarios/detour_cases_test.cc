@@ -49,11 +49,19 @@ INSTANTIATE_TEST_SUITE_P(Policies, Detours,
 TEST_P(Detours, WhereWaitingIsDearItGoesAnotherWayRound) {
   EXPECT_LT(arrives_s(move_to("a", {0.6, 0.0}, "a"), 30.0), 20.0);
   EXPECT_GT(cell->farthest_off_m(), 0.2);
+  const auto detour = cell->job("a").detour;
+  ASSERT_TRUE(detour);
+  EXPECT_GE(detour->weighed, 1U);
+  EXPECT_TRUE(detour->is_taken);
+  // With a start now, or none, there is nothing that it saves against.
+  if (GetParam() != "certified")
+    EXPECT_GT(detour->saves_s.value_or(0.0), 10.0) << "b stays for 30 s";
 }
 
 TEST_P(Detours, WhereWaitingIsCheapItTakesTheShortestWay) {
   (void)arrives_s(move_to("a", {0.6, 0.0}, "a"), 0.0, at(2500ms));
   EXPECT_LT(cell->farthest_off_m(), 0.01);
+  EXPECT_FALSE(cell->job("a").detour && cell->job("a").detour->is_taken);
 }
 
 // What a client gives a trajectory for goes by that.

@@ -132,3 +132,22 @@ export function monitor_in_words(event: MonitorData): string {
   if (event.kind === 'contact') return `${a} touches ${b}${stopped}`;
   return `${a} and ${b} ${millimetres(event.clearance_m)} apart (limit ${millimetres(event.limit_m)})${stopped}`;
 }
+
+/** How its way came to be another one than its client's, or it came to be taken: a sentence each. */
+export function ways_in_words(job: Job): string[] {
+  const said: string[] = [];
+  const { choice, detour, replan } = job;
+  if (choice) said.push(choice.among.length > 1 ? `${choice.taken} was taken of ${choice.among.join(', ')}: ${choice.detail}` : `${choice.taken} was taken: ${choice.detail}`);
+  if (detour) {
+    const ways = detour.weighed === 1 ? 'one way around what others hold was weighed' : `${detour.weighed} ways around what others hold were weighed`;
+    const gain = detour.saves_s === null ? 'the shortest one could not go' : `by this one it arrives ${seconds(detour.saves_s)} sooner`;
+    said.push(detour.taken ? `goes around: ${ways}, ${gain}` : `${ways}; the shortest one is as good`);
+  }
+  if (replan) {
+    const why = { client: 'as a client asked', timeout: 'when its time in the backlog was over', blocked: 'past what rested in its way' }[replan.cause];
+    if (replan.done > 0) said.push(`was given another way ${replan.done === 1 ? 'once' : `${replan.done} times`}, the last time ${why}`);
+    if (replan.planning) said.push('another way is being looked for');
+    else if (replan.refused !== null) said.push(`another way was looked for ${why}, in vain: ${replan.refused}`);
+  }
+  return said;
+}

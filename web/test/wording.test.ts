@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { parse_message, type Job, type MonitorData, type WaitsOn } from '../src/server/messages';
 import {
   clearance_in_words, clock, conflict_in_words, figure_in_words, found_in_words, millimetres, monitor_in_words, reason_in_words,
-  result_in_words, seconds, short_id, why_mute,
+  result_in_words, seconds, short_id, ways_in_words, why_mute,
 } from '../src/wording';
 import { envelope, job_json, wait_json } from './samples';
 
@@ -126,5 +126,21 @@ describe('a conflict that was only asked about', () => {
     expect(conflict_in_words(wait_json({ kind: 'object', id: 'post' }) as never)).toBe(
       'beside post, left_panda_hand would come within 12 mm of right_panda_link6, 1.24 s into its motion');
     expect(conflict_in_words(wait_json({ kind: 'arm', id: null, arm: 'left', links: [] }) as never)).toBe('beside arm left');
+  });
+});
+
+describe('how a job came by its way', () => {
+  it('says who was taken, what goes around, and who was given another way', () => {
+    expect(ways_in_words(job({}))).toEqual([]);
+    expect(ways_in_words(job({ choice: { among: ['left', 'right'], taken: 'right', saves_s: 1.2, detail: 'it arrives 1.20 s sooner than left' } })))
+      .toEqual(['right was taken of left, right: it arrives 1.20 s sooner than left']);
+    expect(ways_in_words(job({ detour: { weighed: 2, taken: true, saves_s: 3.04 } })))
+      .toEqual(['goes around: 2 ways around what others hold were weighed, by this one it arrives 3.0 s sooner']);
+    expect(ways_in_words(job({ detour: { weighed: 1, taken: false, saves_s: null } })))
+      .toEqual(['one way around what others hold was weighed; the shortest one is as good']);
+    expect(ways_in_words(job({ replan: { done: 2, planning: false, cause: 'timeout', refused: 'no way was found' } }))).toEqual([
+      'was given another way 2 times, the last time when its time in the backlog was over',
+      'another way was looked for when its time in the backlog was over, in vain: no way was found',
+    ]);
   });
 });

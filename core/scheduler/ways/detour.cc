@@ -94,6 +94,8 @@ bool rate(State& state, Record& record, TimePoint arrives) {
   Detour& detour = *record.job.goal->detour;
   if (arrives != kNever && arrives + Choosing::kWorthwhile < detour.arrives) {
     detour.best = record.job.trajectory;
+    detour.is_taken = true;
+    if (detour.arrives != kNever) detour.saves += detour.arrives - arrives;
     detour.arrives = arrives;
   }
   if (detour.arrives > detour.soon_enough && detour.tries < kDetoursMax) {

@@ -49,7 +49,7 @@ export interface components {
                  * @enum {string}
                  */
                 on_idle_blocker: "report" | "park" | "replan";
-                /** @description Of each arm so many jobs are admitted together, the one under way included; who passes first is chosen for all of them (coordinated only). */
+                /** @description Of each arm so many jobs are admitted together, the one under way included; who passes first is chosen for all of them (coordinated only). Decisions take longer with the square of it: above 12 tens of milliseconds. */
                 horizon_legs: number;
                 /**
                  * @description What a server with `--data` that is started again does with jobs that had not ended: ask stops all arms until they are resumed, continue goes on with those that had not begun.
@@ -155,6 +155,15 @@ export interface components {
                 cause: "client" | "timeout" | "blocked";
                 /** @description Why it kept its own, the last time */
                 refused: string | null;
+            };
+            /** @description Of a goal whose shortest way would have to wait: ways around what others hold */
+            detour?: {
+                /** @description So many ways around */
+                weighed: number;
+                /** @description It goes by one of them */
+                taken: boolean;
+                /** @description By so much sooner it arrives by that, as it was predicted; null: none is taken, or the shortest way could not go as things stood */
+                saves_s: number | null;
             };
             /** @description Why it was taken before others, or by this arm */
             choice?: {

@@ -11,7 +11,7 @@ import type { App } from '../state/app';
 import { is_terminal } from '../state/job_book';
 import { arm_colour } from '../state/palette';
 import { use_store } from '../state/use_store';
-import { clock, millimetres, reason_in_words, result_in_words, short_id, wait_in_words, why_mute } from '../wording';
+import { clock, millimetres, reason_in_words, result_in_words, short_id, wait_in_words, ways_in_words, why_mute } from '../wording';
 import { Copy } from './copy';
 import { curl_of, python_of } from './snippets';
 import { states_of } from './states';
@@ -37,6 +37,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
       </p>
       {words !== '' && <p class="words">{words}</p>}
       <States job={job} app={app} />
+      {ways_in_words(job).map((words) => <p key={words} class="hint" data-test="way">{words}</p>)}
       {job.waits_on.length > 0 && <Evidence job={job} app={app} />}
       <Beside job={job} app={app} />
       {kCanReplan && goes_on && job.arms.length === 1 && <AnotherWay job={job} app={app} />}
