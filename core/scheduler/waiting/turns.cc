@@ -32,6 +32,11 @@ bool waits_beyond_turns(const State& state, const Record& record) {
   });
 }
 
+// It is to be judged by another way (ways/detour.h), and may go by its own.
+bool has_way_for_a_while(const Job& job) {
+  return job.goal && job.goal->detour && job.goal->detour->is_weighed;
+}
+
 // Of jobs that other arms could do so many are looked at, though others come before them.
 constexpr std::size_t kUndecidedMax = 16;
 
@@ -116,6 +121,8 @@ std::optional<JobId> Turns::next() const {
   const Record* best = nullptr;
   const std::map<JobId, int> urgency = urgencies();
   const auto goes_before = [&](const Record& a, const Record& b) {
+    if (has_way_for_a_while(a.job) != has_way_for_a_while(b.job))
+      return has_way_for_a_while(a.job);  // lest others count on a way that it may not go
     if (a.asking.effort != b.asking.effort)
       return a.asking.effort < b.asking.effort;  // what takes long keeps nobody waiting
     const bool a_held = a.job.in<Held>() != nullptr;

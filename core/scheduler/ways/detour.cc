@@ -98,11 +98,11 @@ bool rate(State& state, Record& record, TimePoint arrives) {
     if (detour.arrives != kNever) detour.saves += detour.arrives - arrives;
     detour.arrives = arrives;
   }
-  if (detour.arrives > detour.soon_enough && detour.tries < kDetoursMax) {
-    ask(state, record);
-    return true;
-  }
-  return gives_detour_up(state, record);
+  const bool goes_on = detour.arrives > detour.soon_enough && detour.tries < kDetoursMax;
+  // Meanwhile it has the best of them: what others leave it has to be a way that it may go.
+  const bool is_another = gives_detour_up(state, record);
+  if (goes_on) ask(state, record);
+  return goes_on || is_another;
 }
 
 }  // namespace
