@@ -29,14 +29,19 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::demand((count == 0) == problems.empty());
   if (!problems.empty()) fuzz::demand_readable(problems);
 
-  const std::string moved = relocate_cell_text(text, "/nowhere/config", "/nowhere/recording");
+  const std::string moved =
+      with_cell_paths(text, "/nowhere/config",
+                      [](const std::filesystem::path& path) { return "copies" + path.string(); });
+  const auto copy_of = [](const std::string& path) {
+    return path.empty() ? path : "/nowhere/recording/copies" + path;
+  };
   const auto again = read_cell_text(moved, "/nowhere/recording");
   fuzz::demand(again.has_value());
   fuzz::demand(again->robots.size() == cell->robots.size());
   for (std::size_t r = 0; r < cell->robots.size(); ++r) {
-    fuzz::demand(again->robots[r].urdf == cell->robots[r].urdf);
-    fuzz::demand(again->robots[r].srdf == cell->robots[r].srdf);
-    fuzz::demand(again->robots[r].joint_limits == cell->robots[r].joint_limits);
+    fuzz::demand(again->robots[r].urdf == copy_of(cell->robots[r].urdf));
+    fuzz::demand(again->robots[r].srdf == copy_of(cell->robots[r].srdf));
+    fuzz::demand(again->robots[r].joint_limits == copy_of(cell->robots[r].joint_limits));
   }
   return 0;
 }
