@@ -6,6 +6,7 @@
 
 #include "core/jobs/phases.h"
 #include "core/scheduler/waiting/choosing.h"
+#include "core/scheduler/ways/goals.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -88,6 +89,15 @@ void ask(State& state, Record& record) {
   state.decided.effects.push_back(PlanMotion{job.id, *detour.question, std::move(question)});
 }
 
+// Of the ways that were weighed. Whether it had another one.
+bool has_best(State& state, Record& record) {
+  Detour& detour = *record.job.goal->detour;
+  detour.is_weighed = false;
+  if (!detour.best || record.job.trajectory == detour.best) return false;
+  go_by(state, record, detour.best);
+  return true;
+}
+
 // It has been judged by another way. Whether it is to be judged once more: by a further one, or by
 // the best of them.
 bool rate(State& state, Record& record, TimePoint arrives) {
@@ -100,7 +110,7 @@ bool rate(State& state, Record& record, TimePoint arrives) {
   }
   const bool goes_on = detour.arrives > detour.soon_enough && detour.tries < kDetoursMax;
   // Meanwhile it has the best of them: what others leave it has to be a way that it may go.
-  const bool is_another = gives_detour_up(state, record);
+  const bool is_another = has_best(state, record);
   if (goes_on) ask(state, record);
   return goes_on || is_another;
 }
@@ -131,9 +141,11 @@ bool weighs_detour(State& state, Record& record, const std::vector<PairRegions>&
 bool gives_detour_up(State& state, Record& record) {
   if (!may_go_round(record) || !record.job.goal->detour) return false;
   Detour& detour = *record.job.goal->detour;
+  if (!std::exchange(detour.is_taken, false)) return has_best(state, record);
+  detour.best = nullptr;
   detour.is_weighed = false;
-  if (!detour.best || record.job.trajectory == detour.best) return false;
-  go_by(state, record, detour.best);
+  detour.saves = {};
+  forget_plan(state, record);
   return true;
 }
 
@@ -145,10 +157,11 @@ void take_detour(State& state, const PlanMade& answer) {
   detour.question.reset();
   state.jobs.explain(*record);
   if (!may_go_round(*record)) return;
-  const bool is_of_use = answer.trajectory && detour.asked_at >= state.recheck_epoch &&
+  const bool is_of_use = answer.trajectory && detour.best &&
+                         detour.asked_at >= state.recheck_epoch &&
                          state.now + answer.trajectory->duration() < detour.arrives &&
                          answer.trajectory->start().isApprox(detour.best->start());
-  if (!is_of_use) return (void)gives_detour_up(state, *record);
+  if (!is_of_use) return (void)has_best(state, *record);
   detour.is_weighed = true;
   go_by(state, *record, answer.trajectory);
 }

@@ -21,8 +21,8 @@ inline constexpr int kDetoursMax = 4;                   // of one job
 [[nodiscard]] bool weighs_detour(State& state, Record& record,
                                  const std::vector<PairRegions>& regions,
                                  const PassingOrders& orders);
-// It would have to be put off by the way that is weighed: it has its own again, and is judged by
-// it.
+// It would have to be put off: it has its own way again, and is judged by that. One around what
+// others hold is for going at once; later it may be in the way of others, or they in its.
 [[nodiscard]] bool gives_detour_up(State& state, Record& record);
 // The answer to a PlanMotion, if it is one of these.
 void take_detour(State& state, const PlanMade& answer);

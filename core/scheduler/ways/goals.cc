@@ -62,7 +62,6 @@ void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
     state.lanes.renew_later();
     ++state.version;
   }
-  record.job.goal->detour.reset();
   way.is_planned = false;
   way.refusal.reset();
   ++way.tries;
@@ -85,6 +84,7 @@ Answered answer_of(State& state, Record& record, GoalWay& way) {
     return way.is_planned ? Answered::planned : Answered::refused;
   }
   if (way.tries < kPlansMax) {
+    if (way.from.size() != 0 && way.is_planned) record.job.goal->detour.reset();
     ask(state, record, way, *at);
     return Answered::not_yet;
   }
@@ -186,6 +186,16 @@ std::optional<JobId> may_go_first(const State& state, const Record& record) {
     if (shares && state.arms.begins_elsewhere(*state.cell, *job.trajectory)) return id;
   }
   return std::nullopt;
+}
+
+void forget_plan(State& state, Record& record) {
+  GoalWay& way = record.job.goal->way();
+  way.is_planned = false;
+  way.from = {};  // fits nowhere
+  record.job.goal->is_planned = false;
+  state.lanes.renew_later();
+  state.jobs.explain(record);
+  ++state.version;
 }
 
 void take_plan(State& state, const PlanMade& answer) {

@@ -25,6 +25,9 @@ inline constexpr std::size_t kPlannedAhead = 16;
 // arms stand, but may where that one would leave them.
 [[nodiscard]] std::optional<JobId> may_go_first(const State& state, const Record& record);
 
+// It is to be planned anew, though what was planned would do.
+void forget_plan(State& state, Record& record);
+
 // An answer. One that no longer fits is left to plan_goals().
 void take_plan(State& state, const PlanMade& answer);
 
