@@ -89,8 +89,8 @@ void ask(State& state, Record& record) {
   state.decided.effects.push_back(PlanMotion{job.id, *detour.question, std::move(question)});
 }
 
-// Of the ways that were weighed. Whether it had another one.
-bool has_best(State& state, Record& record) {
+// Of those that were weighed. Whether that is another one than it had.
+bool go_by_best(State& state, Record& record) {
   Detour& detour = *record.job.goal->detour;
   detour.is_weighed = false;
   if (!detour.best || record.job.trajectory == detour.best) return false;
@@ -110,7 +110,7 @@ bool rate(State& state, Record& record, TimePoint arrives) {
   }
   const bool goes_on = detour.arrives > detour.soon_enough && detour.tries < kDetoursMax;
   // Meanwhile it has the best of them: what others leave it has to be a way that it may go.
-  const bool is_another = has_best(state, record);
+  const bool is_another = go_by_best(state, record);
   if (goes_on) ask(state, record);
   return goes_on || is_another;
 }
@@ -141,7 +141,7 @@ bool weighs_detour(State& state, Record& record, const std::vector<PairRegions>&
 bool gives_detour_up(State& state, Record& record) {
   if (!may_go_round(record) || !record.job.goal->detour) return false;
   Detour& detour = *record.job.goal->detour;
-  if (!std::exchange(detour.is_taken, false)) return has_best(state, record);
+  if (!std::exchange(detour.is_taken, false)) return go_by_best(state, record);
   detour.best = nullptr;
   detour.is_weighed = false;
   detour.saves = {};
@@ -161,7 +161,7 @@ void take_detour(State& state, const PlanMade& answer) {
                          detour.asked_at >= state.recheck_epoch &&
                          state.now + answer.trajectory->duration() < detour.arrives &&
                          answer.trajectory->start().isApprox(detour.best->start());
-  if (!is_of_use) return (void)has_best(state, *record);
+  if (!is_of_use) return (void)go_by_best(state, *record);
   detour.is_weighed = true;
   go_by(state, *record, answer.trajectory);
 }
