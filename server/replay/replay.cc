@@ -1,5 +1,6 @@
 #include "server/replay/replay.h"
 
+#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -19,6 +20,10 @@ namespace armloom {
 namespace {
 
 using Json = nlohmann::json;
+
+// A line further away is a damaged one: to go there would take an hour, or for ever.
+constexpr std::uint64_t kLongestPause = std::chrono::days(31) / kControlPeriod;
+constexpr std::uint64_t kCyclesMax = TimePoint::max().time_since_epoch() / kControlPeriod;
 
 Problem unreadable(const std::string& what) {
   return {ProblemKind::invalid, "bad-input-log", "", what};
@@ -108,7 +113,11 @@ class Replay::Impl final : public InputLog {
 
   Result<void> take(const std::string& text) {
     const Json line = Json::parse(text);
-    while (loop_->ticks() < line.at("ticks").get<std::uint64_t>()) loop_->tick();
+    const std::uint64_t ticks = cycles_before(line);
+    if (ticks > loop_->ticks() + kLongestPause) {
+      return failure(unreadable("the line lies more than 31 days behind the one before it"));
+    }
+    while (loop_->ticks() < ticks) loop_->tick();
     echo_.clear();
     const std::string input = line.at("input");
     const auto found = verbs().find(input);
@@ -126,6 +135,12 @@ class Replay::Impl final : public InputLog {
 
  private:
   using Verb = void (*)(Impl&, const Json&);
+
+  static std::uint64_t cycles_before(const Json& line) {
+    const Json& ticks = line.at("ticks");
+    if (!ticks.is_number_unsigned()) throw std::invalid_argument("ticks are no number of cycles");
+    return ticks.get<std::uint64_t>();
+  }
 
   [[nodiscard]] std::vector<ArmId> arms(const Json& line) const {
     std::vector<ArmId> arms;
@@ -212,7 +227,8 @@ const std::map<std::string, Replay::Impl::Verb>& Replay::Impl::verbs() {
 Result<std::unique_ptr<Replay>> Replay::begin(CellPtr cell, std::string_view head,
                                               Observer& observer) {
   const Json line = Json::parse(head, nullptr, false);
-  const bool is_one = line.is_object() && line.value("armloom_inputs", 0) == InputLogHead::kVersion;
+  const bool is_one = line.is_object() && line.contains("armloom_inputs") &&
+                      line["armloom_inputs"] == InputLogHead::kVersion;
   if (!is_one) return failure(unreadable("this is no log of inputs of this version of armloom"));
   auto impl = std::make_unique<Impl>(std::move(cell));
   try {
@@ -241,7 +257,9 @@ const Executive& Replay::executive() const { return impl_->executive(); }
 
 std::optional<TimePoint> Replay::time_of(std::string_view text) {
   const Json line = Json::parse(text, nullptr, false);
-  if (!line.is_object() || !line.contains("ticks")) return std::nullopt;
+  const bool is_one =
+      line.is_object() && line.contains("ticks") && line["ticks"].is_number_unsigned();
+  if (!is_one || line["ticks"] > kCyclesMax) return std::nullopt;
   return TimePoint(line["ticks"].get<std::int64_t>() * kControlPeriod);
 }
 

@@ -1,0 +1,214 @@
+#pragma once
+
+// Random runs of an executive on two Pandas, with the log of its inputs and what it told: verdicts,
+// plans and words from the disk come when they like, as on a busy machine.
+
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/collision/check/motion_checker.h"
+#include "core/executive/batch.h"
+#include "core/executive/validated.h"
+#include "core/model/cell/build_cell.h"
+#include "server/codec/cell_codec.h"
+#include "server/messages/events.h"
+#include "server/messages/job_request.h"
+#include "server/recording/recording.h"
+#include "server/replay/input_text.h"
+#include "test/server/panda_jobs.h"
+
+namespace armloom::test {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+inline CellPtr two_pandas() {
+  static const CellPtr cell = [] {
+    const auto file = std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
+    const auto text = read_text_file(file);
+    return *build_cell(*read_cell_text(*text, file.parent_path()));
+  }();
+  return cell;
+}
+
+class Told : public Observer {
+ public:
+  void on_event(const Event& event) override {
+    events.push_back(event_json(event, "stream", nullptr));
+    if (const auto* job = std::get_if<JobView>(&event.body)) ++ended[to_string(job->state)];
+  }
+  void on_tick(TimePoint, const Configuration&) override {}
+  void on_state(const StateFrame&) override {}
+  std::vector<std::string> events;
+  std::map<std::string, int> ended;
+};
+
+class LiveRun final : public JudgementService, public StartLog, public InputLog, public Told {
+ public:
+  LiveRun(std::uint64_t seed, const std::string& policy) : random_(seed) {
+    ExecutiveOptions options;
+    options.policy = policy;
+    options.seed = seed;
+    options.starts = this;
+    options.inputs = this;
+    log.push_back(head_text({policy, seed, 1}));
+    executive_ = std::move(*Executive::create(two_pandas(), std::move(options), *this, *this));
+  }
+
+  void run(int ticks) {
+    restore();
+    for (int i = 0; i < ticks; ++i) {
+      deliver();
+      if (random_() % 100 == 0) act();
+      if (batch_ && random_() % 2 == 0 && batch_->go_on()) batch_.reset();
+      executive_->tick(now_);
+      now_ += kControlPeriod;
+    }
+    executive_->wind_down("the run ends", Executive::Waiting::is_kept, [] {});
+    for (int i = 0; i < 300; ++i, now_ += kControlPeriod) executive_->tick(now_);
+  }
+
+  void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
+    if (!checker_) checker_.emplace(scene);
+    checker_->look_at(std::move(scene));
+    later([verdict = checker_->judge(question), done = std::move(done)] { done(verdict); });
+  }
+  bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
+  bool draft(PlanTask) override { return false; }
+  void plan(PlanTask task) override {
+    planned_by_ = std::max(planned_by_, now_) + Duration(random_() % 40) * kControlPeriod.count();
+    pending_.emplace(planned_by_, [task = std::move(task)] { task.done(answer_of(task)); });
+  }
+  void about_to_move(JobId, std::function<void()> written) override { later(std::move(written)); }
+  void came(std::uint64_t ticks, const ExecutiveInput& input) override {
+    log.push_back(input_text(ticks, input, *two_pandas()));
+  }
+
+  [[nodiscard]] TimePoint ended_at() const { return now_ - kControlPeriod; }
+  [[nodiscard]] const Executive& executive() const { return *executive_; }
+  std::vector<std::string> log;
+
+ private:
+  void later(std::function<void()> answer) {
+    pending_.emplace(now_ + Duration(random_() % 12) * kControlPeriod.count(), std::move(answer));
+  }
+  void deliver() {
+    while (!pending_.empty() && pending_.begin()->first <= now_) {
+      const auto node = pending_.extract(pending_.begin());
+      node.mapped()();
+    }
+  }
+
+  void restore() {
+    if (random_() % 2 == 0) return;
+    std::vector<RestoredJob> jobs;
+    jobs.push_back({JobId{1}, request(swing("left")), TimePoint(-3s)});
+    jobs.back().request.key = "former";
+    jobs.back().request.priority = 3;
+    stop_all(*executive_, "started again");
+    (void)executive_->restore(std::move(jobs));
+    resume_all(*executive_);
+  }
+  JobRequest request(json body) {
+    JobRequest job = read_job(body).value();
+    job.body = std::make_shared<const std::string>(body.dump());
+    if (random_() % 2 == 0) validate_ahead(job, *two_pandas());
+    return job;
+  }
+  std::string arm() { return random_() % 2 == 0 ? "left" : "right"; }
+  // From home and back.
+  json swing(const std::string& arm) {
+    test::Pose there = random_() % 3 == 0 ? test::kMiddle : test::kHome;
+    there[0] += 0.1 * static_cast<double>(random_() % 5);
+    json job = test::move(arm, test::kHome, there, 1.5, 3);
+    const json back = test::move(arm, there, test::kHome, 1.5, 3);
+    for (std::size_t i = 1; i < 3; ++i) {
+      json point = back["trajectory"]["points"][i];
+      point["time_from_start"] = point["time_from_start"].get<double>() + 1.5;
+      job["trajectory"]["points"].push_back(point);
+    }
+    job["priority"] = random_() % 3;
+    job["backlog_timeout_s"] = 0.5 + 0.25 * static_cast<double>(random_() % 8);
+    if (random_() % 3 == 0) job["approach"] = "plan";
+    if (random_() % 4 == 0) job["order"] = "any";
+    if (random_() % 4 == 0) job["on_timeout"] = "replan";
+    return job;
+  }
+  std::string some_job() {
+    const Snapshot now = executive_->snapshot();
+    return now.jobs.empty() ? "nobody" : now.jobs[random_() % now.jobs.size()].key;
+  }
+  CollisionObject object() {
+    const double x = 0.3 * static_cast<double>(random_() % 7) - 0.9;
+    CollisionObject object{"crate", Box{{0.1, 0.2, 0.3}}, Eigen::Isometry3d::Identity()};
+    object.X_WO.translate(Eigen::Vector3d(x, 0.55, 0.7))
+        .rotate(Eigen::AngleAxisd(0.1 * x + 0.3, Eigen::Vector3d(1, 2, 3).normalized()));
+    return object;
+  }
+
+  void act() {
+    switch (random_() % 26) {
+      case 0:
+        return executive_->stop({ArmId{static_cast<std::uint32_t>(random_() % 2)}},
+                                "\"operator\"\n");
+      case 1:
+      case 2:
+      case 15:
+      case 16:
+        return resume_all(*executive_);
+      case 3:
+        return (void)executive_->cancel(some_job());
+      case 4:
+        return (void)executive_->amend(
+            some_job(), {.name = "named", .priority = 7, .backlog_timeout = 1234567ns});
+      case 5:
+        return (void)executive_->replan(some_job());
+      case 6:
+        return (void)executive_->scene().add(object());
+      case 7:
+        return (void)executive_->scene().replace(object());
+      case 8:
+        return (void)executive_->scene().remove("crate");
+      case 9:
+        return (void)executive_->faults().inject(
+            {.arm = arm(), .kind = ArmFault::Kind::slow, .lasting = 300ms, .value = 0.3});
+      case 10:
+        return (void)executive_->faults().inject({.arm = arm(), .kind = ArmFault::Kind::stall});
+      case 11:
+        return (void)executive_->faults().remove(1 + random_() % 4);
+      case 12: {
+        if (batch_) return;
+        std::vector<JobRequest> jobs;
+        for (int i = 0; i < 4; ++i) jobs.push_back(request(swing(arm())));
+        batch_ = executive_->open_batch(std::move(jobs), random_() % 2 == 0);
+        return;
+      }
+      case 13:
+        return executive_->alert({Alert::Level::warning, "late by 0.3 s"});
+      case 14:
+        return (void)executive_->submit(
+            request({{"arm", arm()}, {"move_to", {{"named", "ready"}}}}));
+      case 24:
+      case 25:
+        return (void)executive_->cancel(some_job(),
+                                        now_ + Duration(random_() % 800) * kControlPeriod.count());
+      default:
+        if (!batch_) (void)executive_->submit(request(swing(arm())));
+    }
+  }
+
+  std::mt19937_64 random_;
+  std::unique_ptr<Executive> executive_;
+  std::optional<MotionChecker> checker_;
+  std::multimap<TimePoint, std::function<void()>> pending_;
+  TimePoint planned_by_{};
+  std::shared_ptr<Executive::Batch> batch_;
+  TimePoint now_{};
+};
+
+}  // namespace armloom::test
