@@ -8,7 +8,7 @@ by one, while another client stops and resumes all arms without a pause. Gaps ar
 figures of its control period (/metrics); beside them the longest gap of an empty loop.
 """
 import argparse
-import threading
+import multiprocessing
 import time
 
 from loaded_server import API, EmptyLoop, LoadedServer, quantiles
@@ -20,22 +20,24 @@ def worst_ms(server):
     return 1e3 * server.metrics()['armloom_period_worst_seconds{loop="control"}']
 
 
-def stop_and_resume(server, took_s, done):
+def stop_and_resume(server, done, answer):
+    """In a process of its own: in a thread it would wait for the one that writes batches, not for the server."""
+    took_s = []
     while not done.is_set():
         begun = time.time()
         server.call("POST", API + "/stop")
         took_s.append(time.time() - begun)
         server.call("POST", API + "/resume")
         time.sleep(0.01)
+    answer.put(took_s)
 
 
 def measure(server, waiting, batches):
     begun = time.time()
     server.submit(waiting)
     print(f"{waiting} jobs in {time.time() - begun:.2f} s, worst control period {worst_ms(server):.1f} ms")
-    took_s, done, empty = [], threading.Event(), EmptyLoop()
-    stops = threading.Thread(target=stop_and_resume, args=(server, took_s, done), daemon=True)
-    stops.start()
+    done, answer, empty = multiprocessing.Event(), multiprocessing.Queue(), EmptyLoop()
+    multiprocessing.Process(target=stop_and_resume, args=(server, done, answer), daemon=True).start()
     for n in range(batches):
         begun = time.time()
         ids = server.submit(BATCH, f"more{n}-")
@@ -43,8 +45,7 @@ def measure(server, waiting, batches):
         for job in reversed(ids):
             server.call("DELETE", f"{API}/jobs/{job}")
     done.set()
-    stops.join()
-    print(f"stops: {quantiles(took_s)}; worst control period {worst_ms(server):.1f} ms, "
+    print(f"stops: {quantiles(answer.get())}; worst control period {worst_ms(server):.1f} ms, "
           f"of an empty loop {empty.end()[1]:.1f} ms")
 
 
