@@ -85,18 +85,22 @@ void admit(State& state, const std::vector<JobId>& jobs, std::vector<Coordinated
 
 // ---- What is asked ----
 
-bool Admission::ask_next(State& state, const WaitCycles& cycles) {
+bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cycles) {
   if (open_) return false;
   bool put_off = false;
   if (const auto recheck = next_recheck(state)) {
     ask(state, {*recheck}, Purpose::recheck);
     return put_off;
   }
+  std::optional<JobId> turn;
   if (auto opens = cycles.next_yield(state)) {
     ask_yield(state, std::move(*opens));
     if (open_) return put_off;
+    turn = Turns(state).next();
+  } else {
+    turn = turns.next();
   }
-  while (const auto turn = Turns(state).next()) {
+  for (; turn; turn = Turns(state).next()) {
     const bool is_choice = choosing_.begin(state, *turn);
     if (!waits_for_sequence(state, choosing_.job())) {
       ask(state, {choosing_.job()}, is_choice ? Purpose::option : Purpose::start);

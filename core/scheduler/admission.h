@@ -5,6 +5,7 @@
 
 #include "core/jobs/state.h"
 #include "core/scheduler/waiting/choosing.h"
+#include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/waiting/wait_cycles.h"
 #include "core/scheduler/yielding/yield_moves.h"
 
@@ -16,8 +17,8 @@ class Admission {
  public:
   // The next question, if none is open: motions that another scene may endanger first, then arms
   // that could open a ring, jobs whose turn it is, arms that could go aside. Whether jobs have been
-  // put off on the way: then who waits for whom is another.
-  [[nodiscard]] bool ask_next(State& state, const WaitCycles& cycles);
+  // put off on the way: then who waits for whom is another. `turns`: as they are.
+  [[nodiscard]] bool ask_next(State& state, const Turns& turns, const WaitCycles& cycles);
   // The answer to the open question. One on an older version is void and asked again.
   void on(const Judged& input, State& state, WaitCycles& cycles);
 

@@ -142,9 +142,9 @@ void Scheduler::settle() {
   while (put_off) {  // until a question is open, or nothing is left to be asked
     state_.lanes.renew(state_.jobs, state_.arms);
     state_.round = state_.policy->next_round(state_);
-    explain_waits(state_);
+    const Turns turns = explain_waits(state_);
     cycles_.name(state_);
-    put_off = admission_.ask_next(state_, cycles_);
+    put_off = admission_.ask_next(state_, turns, cycles_);
   }
   ask_for_wake();
 }

@@ -117,6 +117,11 @@ std::map<JobId, int> Turns::urgencies() const {
   return effective_priorities(waits_for(state_), std::move(jobs));
 }
 
+bool Turns::is_closed(const Record& record) const {
+  const auto known = std::ranges::find(found_, record.job.id, &std::pair<JobId, bool>::first);
+  return known != found_.end() ? known->second : closed_gate(*this, record).has_value();
+}
+
 std::optional<JobId> Turns::next() const {
   const Record* best = nullptr;
   const std::map<JobId, int> urgency = urgencies();
@@ -135,7 +140,7 @@ std::optional<JobId> Turns::next() const {
   };
   const auto consider = [&](JobId job) {
     const Record& record = state_.jobs.at(job);
-    if (closed_gate(*this, record)) return;
+    if (is_closed(record)) return;
     if (best == nullptr || goes_before(record, *best)) best = &record;
   };
   for (const auto& queue : state_.jobs.queues()) {
@@ -146,13 +151,14 @@ std::optional<JobId> Turns::next() const {
 }
 
 // What is not the first of an arm waits for the one before it, as long as that is the same.
-void explain_waits(State& state) {
-  const Turns turns(state);
+Turns explain_waits(State& state) {
+  Turns turns(state);
   for (JobId id : to_explain(state)) {
     Record& record = state.jobs.at(id);
     const bool waits = record.job.is_waiting();
     if (!waits && record.job.in<Admitted>() == nullptr) continue;
     const auto closed = closed_gate(turns, record);
+    turns.has_found(id, closed.has_value());
     if (!waits) {  // it is admitted: only what is before it on its arms counts
       if (closed && closed->kind == GateKind::behind) {
         state.jobs.set_waits(record, closed->waits.all());
@@ -168,6 +174,7 @@ void explain_waits(State& state) {
       state.jobs.set_waits(record, {});  // nothing stands against it but that it is not judged yet
     }
   }
+  return turns;
 }
 
 }  // namespace armloom

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/jobs/state.h"
@@ -24,6 +25,8 @@ class Turns {
   [[nodiscard]] std::optional<JobId> next() const;
   // The aged job that comes first.
   [[nodiscard]] std::optional<JobId> held_back_by(const Record& record) const;
+  // Nobody looks for its first closed gate again.
+  void has_found(JobId job, bool is_closed) { found_.emplace_back(job, is_closed); }
 
  private:
   // A job that has waited for longer than scheduling.aging, and all that have to go before it.
@@ -33,12 +36,15 @@ class Turns {
   };
   [[nodiscard]] std::vector<Aged> aged_jobs() const;  // the oldest first
   [[nodiscard]] std::map<JobId, int> urgencies() const;
+  [[nodiscard]] bool is_closed(const Record& record) const;
 
   const State& state_;
   std::vector<Aged> aged_;  // that hold others back
+  std::vector<std::pair<JobId, bool>> found_;
 };
 
-// Tells each job what it waits for: the first gate that is closed for it.
-void explain_waits(State& state);
+// Tells each job what it waits for: the first gate that is closed for it. Answers the turns as they
+// are, which count until something changes.
+Turns explain_waits(State& state);
 
 }  // namespace armloom
