@@ -12,14 +12,17 @@ import type { Camera } from '../route/address';
 import { ink } from '../state/palette';
 import { renders_in_software, wants_fine_picture } from './drawing_power';
 import { distance_for, type Opening } from './framing';
-import { kLevels, Pace, type Level } from './pace';
-import { add_lights, floor, kShadows, light_up } from './scenery';
+import { show_finish } from './finish';
+import { kFirstInSoftware, kLevels, Pace, type Level } from './pace';
+import { add_lights, floor, light_up } from './scenery';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
 // A drawing is waited for so long before the next one is asked for: on a busy machine drawings that are
 // asked for before the last one is done pile up, and the page answers no click until all are drawn.
 const kLongestFrame_ms = 10_000;
+const kLook_ms = 3;
+const kLate_ms = 20;
 const kRest_ms = 900;
 const kMargin = 1.06;
 const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
@@ -46,7 +49,8 @@ export class Stage {
   private drawn_at_ms_ = 0;
   private next_at_ms_ = 0;
   private fence_: WebGLSync | null = null;
-  private readonly pace_ = new Pace();
+  private fence_timer_: number | null = null;
+  private readonly pace_: Pace;
   private readonly full_ratio_: number;
   private readonly key_light_: THREE.DirectionalLight;
   private pictures_ = 0;
@@ -57,7 +61,9 @@ export class Stage {
   private at_rest_ = false;
 
   constructor(private readonly host_: HTMLElement) {
-    const fine = wants_fine_picture() || !renders_in_software();
+    const software = renders_in_software();
+    const fine = wants_fine_picture() || !software;
+    this.pace_ = new Pace(software ? kFirstInSoftware : 0);
     this.renderer_ = new THREE.WebGLRenderer({ antialias: fine, alpha: true, powerPreference: 'low-power' });
     this.full_ratio_ = fine ? Math.min(2, window.devicePixelRatio) : 1;
     this.renderer_.setPixelRatio(this.full_ratio_);
@@ -132,7 +138,7 @@ export class Stage {
   /** Lets the graphics card have its memory back. */
   close(): void {
     if (this.frame_ !== null) cancelAnimationFrame(this.frame_);
-    if (this.rest_timer_ !== null) clearTimeout(this.rest_timer_);
+    for (const timer of [this.rest_timer_, this.fence_timer_]) if (timer !== null) clearTimeout(timer);
     this.controls_.dispose();
     this.renderer_.dispose();
     this.renderer_.domElement.remove();
@@ -155,7 +161,7 @@ export class Stage {
         return;
       }
       this.frame_ = null;
-      this.draw(now_ms);
+      this.draw();
     };
     this.frame_ = requestAnimationFrame(draw);
   }
@@ -190,34 +196,44 @@ export class Stage {
   }
 
   private may_draw(now_ms: number): boolean {
-    if (this.fence_) {
-      const gl = this.renderer_.getContext() as WebGL2RenderingContext;
-      const took_ms = now_ms - this.drawn_at_ms_;
-      const done = gl.getSyncParameter(this.fence_, gl.SYNC_STATUS) === gl.SIGNALED;
-      if (!done && took_ms < kLongestFrame_ms) return false;
-      gl.deleteSync(this.fence_);
-      this.fence_ = null;
-      this.next_at_ms_ = this.drawn_at_ms_ + this.pace_.took(took_ms);
-    }
-    return now_ms >= this.next_at_ms_;
+    return this.fence_ === null && now_ms >= this.next_at_ms_;
   }
 
-  private draw(now_ms: number): void {
-    this.drawn_at_ms_ = now_ms;
+  private draw(): void {
+    this.drawn_at_ms_ = performance.now();
     this.pictures_ += 1;
-    this.show_level(this.waiting_.length > 0 || this.at_rest_ ? kLevels[0] : this.pace_.level);
+    const paced = this.waiting_.length === 0 && !this.at_rest_;
+    this.show_level(paced ? this.pace_.level : kLevels[0]);
     this.at_rest_ = false;
     this.refine_later();
-    if (this.shapes_moved_ && this.shown_?.shadows) {
+    if (this.shapes_moved_ && this.shown_?.fine) {
       this.renderer_.shadowMap.needsUpdate = true;
       this.shapes_moved_ = false;
     }
+    show_finish(this.scene, this.shown_?.fine ?? true);
     this.renderer_.render(this.scene, this.camera);
     this.after_draw();
     const gl = this.renderer_.getContext() as WebGL2RenderingContext;
     this.fence_ = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
+    this.look_at_fence(paced);
     for (const tell of this.waiting_.splice(0)) tell();
+  }
+
+  /** Until what was drawn is there. By a timer: animation frames come too seldom to tell how long it took. */
+  private look_at_fence(paced: boolean): void {
+    this.fence_timer_ = window.setTimeout(() => {
+      if (!this.fence_) return;
+      const gl = this.renderer_.getContext() as WebGL2RenderingContext;
+      const took_ms = performance.now() - this.drawn_at_ms_;
+      const done = gl.getSyncParameter(this.fence_, gl.SYNC_STATUS) === gl.SIGNALED;
+      if (!done && took_ms < kLongestFrame_ms) return this.look_at_fence(paced);
+      gl.deleteSync(this.fence_);
+      this.fence_ = null;
+      // A little late is made up for, as animation frames never come at the very instant.
+      const due_ms = Math.max(this.next_at_ms_, this.drawn_at_ms_ - kLate_ms);
+      this.next_at_ms_ = due_ms + (paced ? this.pace_.took(took_ms) : took_ms);
+    }, kLook_ms);
   }
 
   /** What stands still is drawn once more, with nothing left out. */
@@ -235,8 +251,6 @@ export class Stage {
     if (!level || level === this.shown_) return;
     this.shown_ = level;
     this.renderer_.setPixelRatio(this.full_ratio_ * level.resolution);
-    // Left as they are, and not shown: to take them out would compile every material again.
-    this.key_light_.shadow.intensity = level.shadows ? kShadows : 0;
     this.on_level(level);
   }
 
