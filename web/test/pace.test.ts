@@ -56,7 +56,7 @@ describe('the pace of the 3D view', () => {
     let fine = 0;
     for (let i = 0; i < 20_000; i++) {
       if (pace.level.fine) fine += 1;
-      pace.took(pace.level.fine ? 150 : 12);
+      pace.took(pace.level.fine ? 150 : 10);
     }
     expect(fine).toBeGreaterThan(0);
     expect(fine).toBeLessThan(60);

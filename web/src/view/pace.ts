@@ -14,6 +14,8 @@ export const kLevels: readonly [Level, ...Level[]] = [
 ];
 // A level whose drawings take longer for a while is left for the next.
 const kMost_ms = [28, 28, 45, 120, Infinity];
+// One whose drawings take less is left for the one before: that may take twice as long, with ghosts half more.
+const kLeast_ms = [0, 12, 20, 20, 40];
 /** Where software draws: fine pictures are for what stands still. */
 export const kFirstInSoftware = 1;
 
@@ -31,8 +33,6 @@ const kVeryLong_ms = 120;
 const kVeryLongInARow = 2;
 const kQuickInARow = 90;
 const kMostQuickInARow = 16 * kQuickInARow;
-// A level is tried again when the one below takes but a part of what it may take.
-const kPart = 0.45;
 
 export class Pace {
   private long_ = 0;
@@ -50,10 +50,9 @@ export class Pace {
   /** A drawing took so long; answers how long after its beginning the next one may begin. */
   took(took_ms: number): number {
     const most_ms = kMost_ms[this.level_] ?? Infinity;
-    const before_ms = kMost_ms[this.level_ - 1] ?? 0;
     this.long_ = took_ms > most_ms ? this.long_ + 1 : 0;
     this.very_long_ = took_ms > Math.max(kVeryLong_ms, most_ms) ? this.very_long_ + 1 : 0;
-    this.quick_ = took_ms < kPart * before_ms ? this.quick_ + 1 : 0;
+    this.quick_ = took_ms < (kLeast_ms[this.level_] ?? 0) ? this.quick_ + 1 : 0;
     this.since_rise_ += 1;
     if (this.long_ >= kLongInARow || this.very_long_ >= kVeryLongInARow) this.fall();
     else if (this.quick_ >= this.wanted_) this.rise();
