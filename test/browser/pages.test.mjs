@@ -277,6 +277,25 @@ test('targets measure 24 px, and the focus is seen', { timeout: 30_000 }, async 
   assert.equal(outline, 'solid');
 });
 
+test('the header holds all there is in one line, at the wall and on a tablet', { timeout: 60_000 }, async () => {
+  await go('#/');
+  await ask(page, 'POST', '/stop');
+  await page.locator('[data-test=open-alerts]').waitFor();
+  const before = page.viewportSize();
+  for (const width of [1024, 1280, 1366, 1440, 1920]) {
+    await page.setViewportSize({ width, height: 800 });
+    const { policy, nav, stop } = await page.evaluate(() => {
+      const [nav, policy] = [document.querySelector('nav'), document.querySelector('[data-test=go-policies]')];
+      return { policy: policy.checkVisibility() && policy.innerText, nav: nav.scrollWidth - nav.clientWidth, stop: document.querySelector('.stop').getBoundingClientRect().right };
+    });
+    assert.equal(policy, 'coordinated', `${width} px`);
+    assert.equal(nav, 0, `pages are hidden at ${width} px`);
+    assert.ok(stop <= width && stop > width - 24, `Stop ends at ${stop} of ${width} px`);
+  }
+  await page.setViewportSize(before);
+  await ask(page, 'POST', '/resume');
+});
+
 test('nothing so far was an error in the console', () => {
   assert.deepEqual(chromium.errors.filter((text) => !/404 \(Not Found\)|422 \(|inline event handler violates/.test(text)), []);
 });
