@@ -12,16 +12,13 @@ import type { Camera } from '../route/address';
 import { ink } from '../state/palette';
 import { renders_in_software, wants_fine_picture } from './drawing_power';
 import { distance_for, type Opening } from './framing';
+import { Fence } from './fence';
 import { show_finish } from './finish';
 import { kFirstInSoftware, kLevels, Pace, type Level } from './pace';
 import { add_lights, floor, light_up } from './scenery';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
-// A drawing is waited for so long before the next one is asked for: on a busy machine drawings that are
-// asked for before the last one is done pile up, and the page answers no click until all are drawn.
-const kLongestFrame_ms = 10_000;
-const kLook_ms = 3;
 const kLate_ms = 20;
 const kRest_ms = 900;
 const kMargin = 1.06;
@@ -48,8 +45,7 @@ export class Stage {
   private frame_: number | null = null;
   private drawn_at_ms_ = 0;
   private next_at_ms_ = 0;
-  private fence_: WebGLSync | null = null;
-  private fence_timer_: number | null = null;
+  private readonly fence_: Fence;
   private readonly pace_: Pace;
   private readonly full_ratio_: number;
   private readonly key_light_: THREE.DirectionalLight;
@@ -59,6 +55,7 @@ export class Stage {
   private readonly waiting_: (() => void)[] = [];
   private rest_timer_: number | null = null;
   private at_rest_ = false;
+  private whole_ = false;
 
   constructor(private readonly host_: HTMLElement) {
     const software = renders_in_software();
@@ -72,6 +69,7 @@ export class Stage {
     this.renderer_.shadowMap.enabled = true;
     this.renderer_.shadowMap.type = THREE.PCFShadowMap;
     this.renderer_.shadowMap.autoUpdate = false;
+    this.fence_ = new Fence(this.renderer_.getContext() as WebGL2RenderingContext);
     host_.prepend(this.renderer_.domElement);
 
     this.scene.fog = this.fog_;
@@ -90,6 +88,7 @@ export class Stage {
     });
     this.controls_.addEventListener('change', () => {
       this.fit_depth();
+      this.whole_ = false;
       this.invalidate();
     });
     new ResizeObserver(() => this.resize()).observe(host_);
@@ -138,7 +137,8 @@ export class Stage {
   /** Lets the graphics card have its memory back. */
   close(): void {
     if (this.frame_ !== null) cancelAnimationFrame(this.frame_);
-    for (const timer of [this.rest_timer_, this.fence_timer_]) if (timer !== null) clearTimeout(timer);
+    if (this.rest_timer_ !== null) clearTimeout(this.rest_timer_);
+    this.fence_.close();
     this.controls_.dispose();
     this.renderer_.dispose();
     this.renderer_.domElement.remove();
@@ -154,6 +154,7 @@ export class Stage {
   /** Asks for a drawing; `shapes_moved` also renews the shadows. */
   invalidate(shapes_moved = false): void {
     this.shapes_moved_ ||= shapes_moved;
+    if (shapes_moved) this.whole_ = false;
     if (this.frame_ !== null) return;
     const draw = (now_ms: number) => {
       if (!this.may_draw(now_ms)) {
@@ -171,8 +172,9 @@ export class Stage {
     this.controls_.enabled = yes;
   }
 
-  /** Kept after the next drawing, which it asks for; that one leaves nothing out. */
+  /** Kept after the next drawing, which it asks for; that one leaves nothing out, nor do others until something moves. */
   drawn(): Promise<void> {
+    this.whole_ = true;
     return new Promise((done) => {
       this.waiting_.push(done);
       this.invalidate();
@@ -196,13 +198,13 @@ export class Stage {
   }
 
   private may_draw(now_ms: number): boolean {
-    return this.fence_ === null && now_ms >= this.next_at_ms_;
+    return !this.fence_.is_up && now_ms >= this.next_at_ms_;
   }
 
   private draw(): void {
     this.drawn_at_ms_ = performance.now();
     this.pictures_ += 1;
-    const paced = this.waiting_.length === 0 && !this.at_rest_;
+    const paced = this.waiting_.length === 0 && !this.at_rest_ && !this.whole_;
     this.show_level(paced ? this.pace_.level : kLevels[0]);
     this.at_rest_ = false;
     this.refine_later();
@@ -213,27 +215,12 @@ export class Stage {
     show_finish(this.scene, this.shown_?.fine ?? true);
     this.renderer_.render(this.scene, this.camera);
     this.after_draw();
-    const gl = this.renderer_.getContext() as WebGL2RenderingContext;
-    this.fence_ = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    gl.flush();
-    this.look_at_fence(paced);
-    for (const tell of this.waiting_.splice(0)) tell();
-  }
-
-  /** Until what was drawn is there. By a timer: animation frames come too seldom to tell how long it took. */
-  private look_at_fence(paced: boolean): void {
-    this.fence_timer_ = window.setTimeout(() => {
-      if (!this.fence_) return;
-      const gl = this.renderer_.getContext() as WebGL2RenderingContext;
-      const took_ms = performance.now() - this.drawn_at_ms_;
-      const done = gl.getSyncParameter(this.fence_, gl.SYNC_STATUS) === gl.SIGNALED;
-      if (!done && took_ms < kLongestFrame_ms) return this.look_at_fence(paced);
-      gl.deleteSync(this.fence_);
-      this.fence_ = null;
+    this.fence_.put(this.drawn_at_ms_, (took_ms) => {
       // A little late is made up for, as animation frames never come at the very instant.
       const due_ms = Math.max(this.next_at_ms_, this.drawn_at_ms_ - kLate_ms);
       this.next_at_ms_ = due_ms + (paced ? this.pace_.took(took_ms) : took_ms);
-    }, kLook_ms);
+    });
+    for (const tell of this.waiting_.splice(0)) tell();
   }
 
   /** What stands still is drawn once more, with nothing left out. */
