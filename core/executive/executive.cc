@@ -41,13 +41,10 @@ void Executive::diagram(const std::string& key_a, const std::string& key_b,
   impl_->questions_.drawings().draw({key_a, key_b, impl_->scene_.now(), impl_->clock_.now},
                                     std::move(done));
 }
-Result<JobView> Executive::cancel(const std::string& key) {
-  impl_->note({ExecutiveInput::Canceled{key}});
-  return impl_->cancel(key);
-}
-Result<JobView> Executive::hold(const std::string& key, TimePoint until) {
-  impl_->note({ExecutiveInput::Held{key, until}});
-  return impl_->hold(key, until);
+Result<JobView> Executive::cancel(const std::string& key, std::optional<TimePoint> at) {
+  impl_->note(at ? ExecutiveInput{ExecutiveInput::Held{key, *at}}
+                 : ExecutiveInput{ExecutiveInput::Canceled{key}});
+  return impl_->cancel(key, at);
 }
 Result<JobView> Executive::amend(const std::string& key, JobAmendment amendment) {
   impl_->note({ExecutiveInput::Amended{key, amendment}});

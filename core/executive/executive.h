@@ -186,11 +186,9 @@ class Executive {
   // different arms are in it; unavailable: too many are being drawn. Pointers: "?with" for B.
   void diagram(const std::string& key_a, const std::string& key_b,
                std::function<void(Result<DiagramView>)> done);
-  // Problems: not_found; conflict when it has ended.
-  [[nodiscard]] Result<JobView> cancel(const std::string& key);
-  // From now on the job is held: unless this is called again before `until`, it is cancelled then,
-  // by the control cycle itself. Problems: those of cancel().
-  [[nodiscard]] Result<JobView> hold(const std::string& key, TimePoint until);
+  // Now, or at `at` by the control cycle itself, unless this is called again before with another
+  // instant (hold_to_run.h). Problems: not_found; conflict when it has ended.
+  [[nodiscard]] Result<JobView> cancel(const std::string& key, std::optional<TimePoint> at = {});
   // Counts at once (scheduler/amending.h). Problems: those of cancel().
   [[nodiscard]] Result<JobView> amend(const std::string& key, JobAmendment amendment);
   // Another way for the job, from where its arm stands to where its own way ends, given what else

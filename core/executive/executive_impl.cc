@@ -144,9 +144,9 @@ void Executive::Impl::tick(TimePoint now) {
     clock_.quiet = false;
     step(Wake{});
   }
-  for (const std::string& job : held_.let_go(now)) {
+  for (const std::string& job : clock_.held.let_go(now)) {
     clock_.quiet = false;
-    static_cast<void>(cancel(job));  // it may have ended
+    static_cast<void>(cancel(job, {}));  // it may have ended
   }
   for (const MotionReport& report : execution_.tick(now)) {
     clock_.quiet = false;
@@ -168,7 +168,7 @@ TimePoint Executive::Impl::settled_until() const {
   const bool settled =
       clock_.quiet && execution_.motions().all_settled() && !publisher_.is_behind();
   if (!settled) return clock_.now;
-  return std::min(clock_.wake_at.value_or(TimePoint::max()), held_.next());
+  return std::min(clock_.wake_at.value_or(TimePoint::max()), clock_.held.next());
 }
 
 void Executive::Impl::watch() {

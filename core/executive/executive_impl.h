@@ -41,8 +41,7 @@ class Executive::Impl {
   std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
 
   // job_commands.cc
-  Result<JobView> cancel(const std::string& key);
-  Result<JobView> hold(const std::string& key, TimePoint until);
+  Result<JobView> cancel(const std::string& key, std::optional<TimePoint> at);
   Result<JobView> amend(const std::string& key, JobAmendment amendment);
   Result<JobView> replan(const std::string& key);
 
@@ -65,6 +64,7 @@ class Executive::Impl {
   struct Clock {
     TimePoint now{};
     std::optional<TimePoint> wake_at = {};  // asked for by the scheduler
+    HoldToRun held = {};                    // jobs that end when nobody holds them any more
     bool quiet = false;  // the last cycle found all arms settled, and nothing to report
     std::optional<TimePoint> dies_at = {};  // ExecutiveOptions
     std::uint64_t ticks = 0;                // so many cycles have begun
@@ -104,7 +104,6 @@ class Executive::Impl {
 
   JobIntake intake_;
   StateWatch watch_;
-  HoldToRun held_;
   std::optional<WindDown> wind_down_;
 };
 

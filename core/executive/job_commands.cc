@@ -6,17 +6,14 @@
 
 namespace armloom {
 
-Result<JobView> Executive::Impl::cancel(const std::string& key) {
+Result<JobView> Executive::Impl::cancel(const std::string& key, std::optional<TimePoint> at) {
   const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
-  step(Cancel{*id});
-  return publisher_.view(*id);
-}
-
-Result<JobView> Executive::Impl::hold(const std::string& key, TimePoint until) {
-  const auto id = jobs_.not_ended(key);
-  if (!id) return failure(id.error());
-  held_.hold(key, until);
+  if (at) {
+    clock_.held.hold(key, *at);
+  } else {
+    step(Cancel{*id});
+  }
   return publisher_.view(*id);
 }
 

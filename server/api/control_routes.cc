@@ -123,7 +123,7 @@ void begin_hold(Call call) {
          lease = lease_s(parts)](Executive& executive) -> Result<JobView> {
           auto accepted = executive.submit(std::move(*job));
           if (!accepted) return failure(in_words_of_hold(std::move(accepted.error())));
-          return executive.hold(accepted->key, lease_from(executive, lease, speed));
+          return executive.cancel(accepted->key, lease_from(executive, lease, speed));
         },
         [&parts, arm, respond, key = hold.control](const Result<JobView>& job) {
           // Somebody else may have taken control meanwhile.
@@ -153,7 +153,7 @@ void renew_hold(Call call) {
         parts,
         [job = move->job, speed = parts.loop.speed(),
          lease = lease_s(parts)](Executive& executive) {
-          return executive.hold(job, lease_from(executive, lease, speed));
+          return executive.cancel(job, lease_from(executive, lease, speed));
         },
         [&parts, respond](const Result<JobView>& job) { respond(hold_response(200, job, parts)); });
   };

@@ -66,12 +66,13 @@ void get_job(Call call) {
       });
 }
 
-// What becomes of a command to one job that has not ended.
-void command_job(Call call, Result<JobView> (Executive::*command)(const std::string&)) {
+// What becomes of a command to one job that has not ended: `command(executive, key)`.
+template <class Command>
+void command_job(Call call, Command command) {
   const ApiParts& parts = call.parts;
   const std::string& key = call.arguments.front();
   ask(
-      parts, [key, command](Executive& executive) { return (executive.*command)(key); },
+      parts, [key, command](Executive& executive) { return command(executive, key); },
       [&parts, respond = call.respond, key](const Result<JobView>& job) {
         if (!job) return respond(refused_command(parts, key, job.error()));
         // Who commands may rely on it, whatever happens to the server.
@@ -84,8 +85,14 @@ void command_job(Call call, Result<JobView> (Executive::*command)(const std::str
       });
 }
 
-void cancel_job(Call call) { command_job(std::move(call), &Executive::cancel); }
-void replan_job(Call call) { command_job(std::move(call), &Executive::replan); }
+void cancel_job(Call call) {
+  command_job(std::move(call),
+              [](Executive& it, const std::string& key) { return it.cancel(key); });
+}
+void replan_job(Call call) {
+  command_job(std::move(call),
+              [](Executive& it, const std::string& key) { return it.replan(key); });
+}
 
 struct DiagramQuery {
   std::string with;  // the other job's id

@@ -45,15 +45,15 @@ void describe_count(Schema& object, HowMany how_many, const std::vector<std::str
   }
 }
 
-void check_companion(const JsonNode& object, const std::string& key, const std::string& companion) {
+void check_companion(const JsonNode& object, std::string_view key, const std::string& companion) {
   if (!object.has(key) || object.has(companion)) return;
   object.optional(key, [&](const JsonNode& node) {
-    node.invalid("without-companion", "only a " + companion + " has a " + key);
+    node.invalid("without-companion", "only a " + companion + " has a " + std::string(key));
   });
 }
 
-void describe_companion(Schema& object, const std::string& key, const std::string& companion) {
-  object["dependentRequired"][key] = Schema::array({companion});
+void describe_companion(Schema& object, std::string_view key, const std::string& companion) {
+  object["dependentRequired"][std::string(key)] = Schema::array({companion});
 }
 
 void describe_unless(Schema& object, const std::string& key, const Schema& before) {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,8 +16,8 @@ namespace armloom::formats {
 enum class HowMany { exactly_one, at_most_one };
 void check_count(const JsonNode& object, HowMany how_many, const std::vector<std::string>& keys);
 void describe_count(Schema& object, HowMany how_many, const std::vector<std::string>& keys);
-void check_companion(const JsonNode& object, const std::string& key, const std::string& companion);
-void describe_companion(Schema& object, const std::string& key, const std::string& companion);
+void check_companion(const JsonNode& object, std::string_view key, const std::string& companion);
+void describe_companion(Schema& object, std::string_view key, const std::string& companion);
 
 template <class T>
 class CountRule final : public Part<T> {
@@ -41,26 +42,40 @@ template <class T>
   return std::make_shared<CountRule<T>>(HowMany::at_most_one, std::move(keys));
 }
 
-// `key` has no meaning without `companion`.
-template <class T>
-class CompanionRule final : public Part<T> {
+// The part, which has no meaning without the member `companion`, and is not written without it.
+template <class T, class M>
+class CompanionPart final : public Part<T> {
  public:
-  CompanionRule(std::string key, std::string companion)
-      : key_(std::move(key)), companion_(std::move(companion)) {}
-  void read(const JsonNode& object, T&) const override {
-    check_companion(object, key_, companion_);
+  CompanionPart(std::string companion, std::optional<M> T::*where, PartPtr<T> part)
+      : companion_(std::move(companion)), where_(where), part_(std::move(part)) {
+    part_->list_keys(keys_);
   }
-  void describe(Schema& object, const T&, Way) const override {
-    describe_companion(object, key_, companion_);
+  void list_keys(std::vector<std::string_view>& keys) const override { part_->list_keys(keys); }
+  void read(const JsonNode& object, T& out) const override {
+    for (const std::string_view key : keys_) check_companion(object, key, companion_);
+    part_->read(object, out);
+  }
+  void write(JsonWriter& out, const T& value) const override {
+    if (value.*where_) part_->write(out, value);
+  }
+  void describe(Schema& object, const T& defaults, Way way) const override {
+    part_->describe(object, defaults, way);
+    for (const std::string_view key : keys_) describe_companion(object, key, companion_);
+  }
+  void map_paths(nlohmann::json& object, const PathMap& map) const override {
+    part_->map_paths(object, map);
   }
 
  private:
-  std::string key_;
   std::string companion_;
+  std::optional<M> T::*where_;
+  PartPtr<T> part_;
+  std::vector<std::string_view> keys_;
 };
-template <class T>
-[[nodiscard]] PartPtr<T> only_with(std::string companion, std::string key) {
-  return std::make_shared<CompanionRule<T>>(std::move(key), std::move(companion));
+template <class T, class M>
+[[nodiscard]] PartPtr<T> only_with(std::string companion, std::optional<M> T::*where,
+                                   PartPtr<T> part) {
+  return std::make_shared<CompanionPart<T, M>>(std::move(companion), where, std::move(part));
 }
 
 // What `object` demands beyond `before`, its description without the part, it demands only without

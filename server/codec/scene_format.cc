@@ -60,10 +60,10 @@ PartPtr<Shape> shape_part() {
       parts.end(),
       {field("mesh", &ShapeWords::mesh, path(),
              "A mesh (STL, OBJ, DAE): a file. All that it encloses counts as solid, cavities too."),
-       field("scale", &ShapeWords::scale, vector3(kAnyNumber),
-             "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1}),
-       exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"}),
-       only_with<ShapeWords>("mesh", "scale")});
+       only_with("mesh", &ShapeWords::mesh,
+                 field("scale", &ShapeWords::scale, vector3(kAnyNumber),
+                       "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1})),
+       exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"})});
   return std::make_shared<SpeltPart<Shape, ShapeWords>>(std::move(parts), shape_in_words,
                                                         shape_of_words);
 }

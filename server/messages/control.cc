@@ -99,10 +99,8 @@ Result<HoldRequest> read_hold_request(std::string_view text) {
 }
 
 std::string job_text_of(const HoldRequest& hold, const std::string& arm) {
-  auto goal = nlohmann::json::parse(text_of(*plan_goal_format(), hold.to));
-  if (!hold.to.cartesian) goal.erase("cartesian");  // only a pose may say so
   return nlohmann::json{{"arm", arm},
-                        {"move_to", goal},
+                        {"move_to", nlohmann::json::parse(text_of(*plan_goal_format(), hold.to))},
                         {"velocity_scaling_factor", hold.speed},
                         {"name", arm + " by hand"}}
       .dump();

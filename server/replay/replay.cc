@@ -167,8 +167,8 @@ const std::map<std::string, Replay::Impl::Verb>& Replay::Impl::verbs() {
       {"cancel", [](Impl& my, Fields line) { (void)my.executive().cancel(line.at("job")); }},
       {"hold",
        [](Impl& my, Fields line) {
-         (void)my.executive().hold(line.at("job"),
-                                   TimePoint(Duration(line.at("until_ns").get<std::int64_t>())));
+         (void)my.executive().cancel(line.at("job"),
+                                     TimePoint(Duration(line.at("until_ns").get<std::int64_t>())));
        }},
       {"amend",
        [](Impl& my, Fields line) {

@@ -187,11 +187,11 @@ TEST(HoldToRun, ALapsedLeaseBringsTheArmToRestWithinItsAuthority) {
   request.speed = 0.1;
   const auto accepted = executive.submit(request);
   ASSERT_TRUE(accepted) << accepted.error().front().detail;
-  ASSERT_FALSE(executive.hold("nobody", at(1s)));
+  ASSERT_FALSE(executive.cancel("nobody", at(1s)));
   TimePoint until = at(100ms);
   while (executive.job("by-hand")->progress < 0.2) {
     until = simulation->now() + 500ms;
-    ASSERT_TRUE(executive.hold("by-hand", until));
+    ASSERT_TRUE(executive.cancel("by-hand", until));
     simulation->run_until(simulation->now() + 100ms);
     ASSERT_LT(simulation->now(), at(60s));
   }

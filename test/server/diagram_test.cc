@@ -150,7 +150,8 @@ TEST_F(DiagramOverHttp, KnowsWhereBothAreAndThatOneHasNotBegun) {
 }
 
 TEST_F(DiagramOverHttp, IsDrawnForJobsThatHaveEnded) {
-  start(2.0);  // l goes aside for r, which is to be canceled before it moves
+  on_idle_blocker_ = OnIdleBlocker::report;  // l stays in the way, so that r never moves
+  start(5.0);
   test::Listener listener(port());
   submit_two_that_cross();
   until(listener, "l", "succeeded");

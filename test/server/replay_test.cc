@@ -194,8 +194,8 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
             request({{"arm", arm()}, {"move_to", {{"named", "ready"}}}}));
       case 24:
       case 25:
-        return (void)executive_->hold(some_job(),
-                                      now_ + Duration(random_() % 800) * kControlPeriod.count());
+        return (void)executive_->cancel(some_job(),
+                                        now_ + Duration(random_() % 800) * kControlPeriod.count());
       default:
         if (!batch_) (void)executive_->submit(request(swing(arm())));
     }
