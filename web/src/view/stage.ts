@@ -20,6 +20,8 @@ import { add_lights, floor, light_up } from './scenery';
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
 const kLate_ms = 20;
+// A whole picture, as asked for or at rest, is followed by as long a pause as it took.
+const kShareOfWhole = 2;
 const kRest_ms = 900;
 const kMargin = 1.06;
 const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
@@ -204,7 +206,7 @@ export class Stage {
   private draw(): void {
     this.drawn_at_ms_ = performance.now();
     this.pictures_ += 1;
-    const paced = this.waiting_.length === 0 && !this.at_rest_ && !this.whole_;
+    const paced = this.waiting_.length === 0 && !this.at_rest_ && !this.whole_ && !wants_fine_picture();
     this.show_level(paced ? this.pace_.level : kLevels[0]);
     this.at_rest_ = false;
     this.refine_later();
@@ -218,7 +220,7 @@ export class Stage {
     this.fence_.put(this.drawn_at_ms_, (took_ms) => {
       // A little late is made up for, as animation frames never come at the very instant.
       const due_ms = Math.max(this.next_at_ms_, this.drawn_at_ms_ - kLate_ms);
-      this.next_at_ms_ = due_ms + (paced ? this.pace_.took(took_ms) : took_ms);
+      this.next_at_ms_ = due_ms + (paced ? this.pace_.took(took_ms) : kShareOfWhole * took_ms);
     });
     for (const tell of this.waiting_.splice(0)) tell();
   }
