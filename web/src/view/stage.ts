@@ -58,6 +58,7 @@ export class Stage {
   private rest_timer_: number | null = null;
   private at_rest_ = false;
   private whole_ = false;
+  private resized_ = false;
 
   constructor(private readonly host_: HTMLElement) {
     const software = renders_in_software();
@@ -97,13 +98,8 @@ export class Stage {
     this.resize();
   }
 
-  get pictures(): number {
-    return this.pictures_;
-  }
-  get level(): Level {
-    return this.pace_.level;
-  }
-
+  get pictures(): number { return this.pictures_; }
+  get level(): Level { return this.pace_.level; }
   get canvas(): HTMLCanvasElement {
     return this.renderer_.domElement;
   }
@@ -206,6 +202,9 @@ export class Stage {
   private draw(): void {
     this.drawn_at_ms_ = performance.now();
     this.pictures_ += 1;
+    // Not before: a canvas of another size is empty until it is drawn on, and that may be a while.
+    if (this.resized_) this.renderer_.setSize(this.host_.clientWidth, this.host_.clientHeight);
+    this.resized_ = false;
     const paced = this.waiting_.length === 0 && !this.at_rest_ && !this.whole_ && !wants_fine_picture();
     this.show_level(paced ? this.pace_.level : kLevels[0]);
     this.at_rest_ = false;
@@ -246,7 +245,7 @@ export class Stage {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.host_;
     if (width === 0 || height === 0) return;
-    this.renderer_.setSize(width, height);
+    this.resized_ = true;
     this.camera.aspect = width / height;
     // The camera stays where it is, so that an address means the same with a pane and without.
     this.camera.zoom = this.distance_through(0) / this.distance_through(this.covered_px_);
