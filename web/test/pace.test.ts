@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { kLevels, Pace } from '../src/view/pace';
+import { kFirstInSoftware, kLevels, Pace } from '../src/view/pace';
 
 function after(...took_ms: number[]): Pace {
   const pace = new Pace();
@@ -9,24 +9,29 @@ function after(...took_ms: number[]): Pace {
 const times = (count: number, ms: number) => Array<number>(count).fill(ms);
 
 describe('the pace of the 3D view', () => {
-  it('is thirty whole pictures a second while they are quick', () => {
-    const pace = after(...times(100, 5));
-    expect(pace.level).toEqual({ resolution: 1, shadows: true, ghosts: true });
-    expect(pace.took(5)).toBeCloseTo(1000 / 31 - 1);
+  it('is thirty whole pictures a second and more while they are quick, sixty where they cost nothing', () => {
+    const pace = after(...times(100, 12));
+    expect(pace.level).toEqual({ resolution: 1, fine: true, ghosts: true });
+    expect(1000 / pace.took(12)).toBeGreaterThan(33);
+    expect(1000 / pace.took(26)).toBeGreaterThan(33);
+    expect(1000 / pace.took(3)).toBeGreaterThan(60);
   });
-  it('leaves half of the time to the page', () => {
-    expect(new Pace().took(80)).toBe(160);
+  it('leaves the page the more time the longer one takes', () => {
+    expect(new Pace().took(30)).toBeCloseTo(30);
+    expect(new Pace().took(60)).toBeCloseTo(120);
+    expect(new Pace().took(300)).toBeCloseTo(1200);
   });
   it('does not change for one that took long', () => {
     expect(after(500, 20, 500, 20).level).toBe(kLevels[0]);
   });
-  it('leaves out shadows, then points, and rests longer, while they take long', () => {
-    const pace = after(300, 300);
-    expect(pace.level).toEqual({ resolution: 1, shadows: false, ghosts: true });
-    pace.took(300);
-    pace.took(300);
-    expect(pace.level.resolution).toBeLessThan(1);
-    expect(pace.took(300)).toBe(1200);
+  it('does not stay where thirty a second are not reached', () => {
+    expect(after(...times(9, 40)).level).toBe(kLevels[0]);
+    expect(after(...times(10, 40)).level).toEqual({ resolution: 1, fine: false, ghosts: true });
+    expect(after(...times(20, 40)).level).toEqual({ resolution: 1, fine: false, ghosts: false });
+  });
+  it('keeps its points while a picture is but somewhat slow', () => {
+    expect(after(...times(500, 40)).level.resolution).toBe(1);
+    expect(after(...times(500, 100)).level.resolution).toBe(0.6);
   });
   it('has a last level, and a longest pause', () => {
     const pace = after(...times(50, 5_000));
@@ -40,5 +45,20 @@ describe('the pace of the 3D view', () => {
     expect(pace.level).toBe(kLevels[1]);
     for (const ms of times(90, 5)) pace.took(ms);
     expect(pace.level).toBe(kLevels[0]);
+  });
+  it('comes back from the last level once the machine is idle again', () => {
+    const pace = after(...times(20, 2_000), ...times(1_000, 8));
+    expect(pace.level).toBe(kLevels[0]);
+  });
+  it('tries what was in vain ever more seldom', () => {
+    const pace = new Pace(kFirstInSoftware);
+    // As software draws: a fine picture takes long, any other does not.
+    let fine = 0;
+    for (let i = 0; i < 20_000; i++) {
+      if (pace.level.fine) fine += 1;
+      pace.took(pace.level.fine ? 150 : 10);
+    }
+    expect(fine).toBeGreaterThan(0);
+    expect(fine).toBeLessThan(60);
   });
 });

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { Forecast, Job } from '../src/server/messages';
-import { lanes_of, mark_at, type Lane } from '../src/timeline/lanes';
+import { drawn_of, lanes_of, mark_at, type Lane } from '../src/timeline/lanes';
 import { around, begin_of, kFollowing, kNowAt, moved, tick_of, zoomed } from '../src/timeline/span';
 import { lane_in_words } from '../src/timeline/told';
 import { job_json, wait_json } from './samples';
@@ -91,5 +91,23 @@ describe('the span of the timeline', () => {
     expect(tick_of(60, 8)).toBe(10);
     expect(tick_of(600, 8)).toBe(120);
     expect(tick_of(4, 8)).toBe(0.5);
+  });
+});
+
+describe('what is drawn of a lane', () => {
+  const many = Array.from({ length: 10_000 }, (_, i) =>
+    job(`j${i}`, { state: i % 1000 === 500 ? 'failed' : 'succeeded', submitted_s: 0.3 * i, started_s: 0.3 * i, ended_s: 0.3 * i + 0.2 }));
+  const { marks } = known(many, null, 3000);
+  it('is no more than there are pixels, and whatever failed', () => {
+    expect(marks.length).toBeGreaterThanOrEqual(10_000);
+    const drawn = drawn_of(marks, 0, 3000, 3);
+    expect(drawn.length).toBeLessThan(1100);
+    expect(drawn.filter(({ state }) => state === 'failed')).toHaveLength(10);
+    // Every pixel that something is at has something.
+    for (let s = 0; s < 2990; s += 3) expect(drawn.some(({ from_s }) => from_s >= s - 3 && from_s < s + 3)).toBe(true);
+  });
+  it('is all of it where there is room, and nothing beside it', () => {
+    const drawn = drawn_of(marks, 300, 330, 0.05);
+    expect(drawn.length).toBe(marks.filter(({ from_s, to_s }) => to_s >= 300 && from_s <= 330).length);
   });
 });

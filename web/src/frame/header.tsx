@@ -38,7 +38,7 @@ export function Header({ app }: { app: App }) {
       <span class="spacer" />
       <OpenAlerts app={app} />
       <InControl app={app} />
-      <span class="fact wide-only"><i>policy</i> <Link app={app} to={{ page: 'policies' }} test="go-policies" title="Policies, and what the others would have done">{store.policy || '–'}</Link></span>
+      <span class="fact"><i>policy</i> <Link app={app} to={{ page: 'policies' }} test="go-policies" title="Policies, and what the others would have done">{store.policy || '–'}</Link></span>
       {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
       <CellTime app={app} />
       <ConnectionState app={app} />

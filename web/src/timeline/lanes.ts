@@ -95,6 +95,22 @@ function future_of(leg: ForecastLeg, now_s: number): Mark[] {
   return marks;
 }
 
+/**
+ * What is to be drawn of a lane between two times, where `least_s` is what a pixel shows: of motions that
+ * follow each other within one pixel the first stands for all. What failed, and what is to come, is never left out.
+ */
+export function drawn_of(marks: readonly Mark[], from_s: number, to_s: number, least_s: number): Mark[] {
+  const filled_to_s = new Map<Mark['kind'], number>();
+  return marks.filter((mark) => {
+    if (mark.to_s < from_s || mark.from_s > to_s) return false;
+    if (mark.expected || mark.to_s - mark.from_s >= least_s || kAlways.has(mark.state)) return true;
+    if (mark.to_s < (filled_to_s.get(mark.kind) ?? -Infinity)) return false;
+    filled_to_s.set(mark.kind, mark.from_s + least_s);
+    return true;
+  });
+}
+const kAlways: ReadonlySet<Mark['state']> = new Set(['failed', 'interrupted', 'expired', 'running', 'holding']);
+
 /** The mark on top at a time. */
 export function mark_at(lane: Lane, t_s: number): Mark | null {
   const there = lane.marks.filter((mark) => mark.from_s <= t_s && t_s <= mark.to_s);

@@ -2,7 +2,7 @@
 
 import { arm_colour, ink } from '../state/palette';
 import { short_id } from '../wording';
-import type { Lane, Mark } from './lanes';
+import { drawn_of, type Lane, type Mark } from './lanes';
 import { kAxis_px, kLeft_px, kRight_px, lane_height, type Sheet } from './sheet';
 import { tick_of } from './span';
 
@@ -11,6 +11,8 @@ export interface Lit { jobs: readonly string[]; arms: readonly string[]; held_s:
 
 const kFont = '"Inter Variable", system-ui, sans-serif';
 const kHatch_px = 5;
+// A bar is no narrower.
+const kLeast_px = 2;
 
 interface Row { top: number; height: number; colour: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number }
 
@@ -25,7 +27,7 @@ export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly
   g.clip();
   lanes.forEach((lane, i) => {
     const row = rows[i];
-    if (row) for (const mark of lane.marks) draw_mark(g, sheet, row, mark, is_dim(mark, lane.arm, lit), mark === hover);
+    if (row) for (const mark of drawn_of(lane.marks, sheet.from_s, sheet.from_s + sheet.length_s, sheet.t_s(kLeast_px) - sheet.t_s(0))) draw_mark(g, sheet, row, mark, is_dim(mark, lane.arm, lit), mark === hover);
   });
   lanes.forEach((lane, i) => draw_threads(g, sheet, lane, i, rows, arms, hover));
   draw_now(g, sheet);
@@ -146,7 +148,7 @@ function draw_pause(g: CanvasRenderingContext2D, row: Row, left: number, width: 
 }
 
 function bar(g: CanvasRenderingContext2D, left: number, top: number, width: number, height: number): void {
-  const wide = Math.max(2, width);
+  const wide = Math.max(kLeast_px, width);
   g.beginPath();
   g.roundRect(left, top, wide, height, Math.min(3, wide / 2));
 }

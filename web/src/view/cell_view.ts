@@ -91,7 +91,7 @@ export class CellView {
     if (!this.cell_) return;
     const names = [...this.store_.arms.keys()];
     this.ghosts_.show(q, this.store_.q, this.cell_, this.surfaces_, (arm) => ink(arm_colour(names, arm)));
-    this.stage_.invalidate();
+    this.stage_.invalidate(true);
   }
 
   /** As an address has it; null leaves it as it is. */

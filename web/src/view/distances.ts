@@ -5,6 +5,7 @@ import * as THREE from 'three';
 import type { Clearance } from '../server/messages';
 import { ink } from '../state/palette';
 import { millimetres } from '../wording';
+import { FinishedMesh } from './finish';
 import { closest_points, corners_of, type Surface } from './closest';
 
 const kShown_m = 0.4;
@@ -82,10 +83,12 @@ export class Distances {
   private surface(body: string): Surface | null {
     const mesh = this.find_(body);
     if (!mesh) return null;
-    let corners = this.corners_.get(mesh.geometry);
+    // One line, however finely the mesh is drawn now.
+    const geometry = mesh instanceof FinishedMesh ? mesh.fine.geometry : mesh.geometry;
+    let corners = this.corners_.get(geometry);
     if (!corners) {
-      corners = corners_of(mesh.geometry);
-      this.corners_.set(mesh.geometry, corners);
+      corners = corners_of(geometry);
+      this.corners_.set(geometry, corners);
     }
     mesh.updateWorldMatrix(true, false);
     return { corners, X_W: mesh.matrixWorld };

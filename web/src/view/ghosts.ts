@@ -2,6 +2,7 @@
 
 import * as THREE from 'three';
 import type { Cell } from '../server/messages';
+import { FinishedMesh, quick_material } from './finish';
 import { dispose } from './shapes';
 import { RobotModel } from './robot';
 import type { Surfaces } from './surfaces';
@@ -43,11 +44,11 @@ export class Ghosts {
 
 function paint(root: THREE.Object3D, colour: string, opacity: number): void {
   const skin = new THREE.MeshStandardMaterial({ color: colour, transparent: true, opacity, depthWrite: false, roughness: 0.6, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 4 });
+  const quick_skin = quick_material(skin);
   root.traverse((node) => {
     if (!(node instanceof THREE.Mesh)) return;
     if (node.geometry instanceof THREE.RingGeometry) node.visible = false;
-    (node.material as THREE.Material).dispose();
-    node.material = skin;
+    if (node instanceof FinishedMesh) node.paint(skin, quick_skin);
     node.castShadow = false;
     node.receiveShadow = false;
   });

@@ -8,6 +8,7 @@ import * as THREE from 'three';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
 import type { ArmState, CellArm, CellRobot } from '../server/messages';
 import { ink, kStateColours } from '../state/palette';
+import { FinishedMesh } from './finish';
 import type { Surfaces } from './surfaces';
 import { tool_of } from './kinematics';
 import { mark_geometry, place } from './shapes';
@@ -81,7 +82,7 @@ export class RobotModel {
   /** What is drawn of a link, by its name in the cell. */
   skin_of(link: string): THREE.Mesh | null {
     const known = link.startsWith(this.prefix_) ? this.root.links[link.slice(this.prefix_.length)] : undefined;
-    return known?.children.find((child): child is THREE.Mesh => child instanceof THREE.Mesh && child.material === this.skin_) ?? null;
+    return known?.children.find((child): child is FinishedMesh => child instanceof FinishedMesh) ?? null;
   }
 
   /** The arm that a drawn thing belongs to; the robot's only one for what no joint moves. */

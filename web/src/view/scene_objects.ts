@@ -3,6 +3,7 @@
 import * as THREE from 'three';
 import type { SceneObject } from '../server/messages';
 import { ink } from '../state/palette';
+import { FinishedMesh } from './finish';
 import { dispose, object_mesh } from './shapes';
 import type { SurfaceShelf, Surfaces } from './surfaces';
 
@@ -64,7 +65,7 @@ export class SceneObjects {
   repaint(): void {
     const [ground, light] = [new THREE.Color(ink('--object')), new THREE.Color(ink('--blue'))];
     for (const object of this.group.children) {
-      const material = object instanceof THREE.Mesh ? (object.material as THREE.Material) : null;
+      const material = object instanceof FinishedMesh ? object.fine.material : null;
       if (!(material instanceof THREE.MeshStandardMaterial)) continue;
       material.color.copy(ground);
       material.emissive.copy(light).multiplyScalar(object.name === this.lit_ ? kLit : 0);

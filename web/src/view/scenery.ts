@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 import { ink } from '../state/palette';
 
-export const kShadows = 0.7;
+const kShadows = 0.7;
 
 /** Answers the one that throws shadows. */
 export function add_lights(scene: THREE.Scene): THREE.DirectionalLight {

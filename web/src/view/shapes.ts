@@ -2,6 +2,7 @@
 // yaw about the fixed axes x, y, z.
 
 import * as THREE from 'three';
+import { FinishedMesh, quick_material } from './finish';
 import { shape_of, type SceneObject, type Shape } from '../server/messages';
 
 export function place(object: THREE.Object3D, xyz: readonly number[], rpy: readonly number[]): void {
@@ -21,7 +22,7 @@ export function object_mesh(object: SceneObject, surface: THREE.BufferGeometry |
     ? scaled(surface ?? mark_geometry(), surface ? shape.scale : [1, 1, 1])
     : shape_geometry(shape);
   const material = new THREE.MeshStandardMaterial({ roughness: 0.85, metalness: 0 });
-  const mesh = new THREE.Mesh(geometry, material);
+  const mesh = new FinishedMesh({ geometry, material }, { geometry, material: quick_material(material) });
   mesh.name = object.name;
   mesh.castShadow = true;
   mesh.receiveShadow = true;
@@ -72,6 +73,7 @@ function shape_geometry(shape: Exclude<Shape, { kind: 'mesh' }>): THREE.BufferGe
 
 export function dispose(root: THREE.Object3D): void {
   root.traverse((node) => {
+    if (node instanceof FinishedMesh) return node.dispose();
     if (!(node instanceof THREE.Mesh || node instanceof THREE.LineSegments)) return;
     (node.geometry as THREE.BufferGeometry).dispose();
     const materials = [node.material].flat() as THREE.Material[];

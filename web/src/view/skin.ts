@@ -2,32 +2,58 @@
 //
 // A Panda is eighty primitives; drawn one by one, with shadows, they cost more than anything else
 // on the page, above all without a graphics card. Colours go into the vertices, so that a link is
-// one draw call, and curved primitives get no more triangles than their size on the screen needs.
+// one draw call, and curved primitives get no more triangles than their size on the screen needs,
+// and none where another primitive hides them.
 
 import * as THREE from 'three';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
 import type { URDFRobot } from 'urdf-loader';
+import { FinishedMesh, quick_material } from './finish';
+import { inside_box, inside_cylinder, inside_sphere, without_hidden, type Solid } from './hidden';
 import { turned_inside_out } from './shapes';
 
 // urdf-loader builds every sphere and cylinder with unit size and scales the mesh.
-const kSphere = new THREE.SphereGeometry(1, 20, 12);
-const kCylinder = new THREE.CylinderGeometry(1, 1, 1, 24);
+interface Rounds { sphere: THREE.SphereGeometry; cylinder: THREE.CylinderGeometry }
+const kFine: Rounds = { sphere: new THREE.SphereGeometry(1, 20, 12), cylinder: new THREE.CylinderGeometry(1, 1, 1, 24) };
+const kQuick: Rounds = { sphere: new THREE.SphereGeometry(1, 12, 8), cylinder: new THREE.CylinderGeometry(1, 1, 1, 14) };
 
 /** Replaces the primitives of each link by one mesh; answers the skin that all of them share. */
 export function merge_links(robot: URDFRobot): THREE.MeshStandardMaterial {
   const skin = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.5, metalness: 0.05 });
+  const quick_skin = quick_material(skin);
   robot.updateMatrixWorld(true);
   for (const link of Object.values(robot.links)) {
     const parts = meshes_of(link);
-    const merged = parts.length ? mergeGeometries(alike(parts.map((part) => painted(part, link)))) : null;
-    if (!merged) continue;
+    const [fine, quick] = [merged(parts, link, kFine), merged(parts, link, kQuick)];
+    if (!fine || !quick) continue;
     for (const part of parts) part.removeFromParent();
-    const mesh = new THREE.Mesh(merged, skin);
+    const mesh = new FinishedMesh({ geometry: fine, material: skin }, { geometry: quick, material: quick_skin });
     mesh.castShadow = true;
     mesh.receiveShadow = true;
     link.add(mesh);
   }
   return skin;
+}
+
+/** What can be seen of the parts, in the link's frame. */
+function merged(parts: readonly THREE.Mesh[], link: THREE.Object3D, rounds: Rounds): THREE.BufferGeometry | null {
+  if (parts.length === 0) return null;
+  const solids = parts.map((part) => solid_of(part, link, rounds));
+  return mergeGeometries(alike(parts.map((part, i) =>
+    without_hidden(painted(part, link, rounds), solids.flatMap((solid, k) => (solid && k !== i ? [solid] : []))))));
+}
+
+/** Null: it may not fill what is within its surface. */
+function solid_of(part: THREE.Mesh, link: THREE.Object3D, { sphere, cylinder }: Rounds): Solid | null {
+  const inside = part.geometry instanceof THREE.SphereGeometry ? inside_sphere(filled(sphere.parameters.heightSegments) * filled(sphere.parameters.widthSegments / 2))
+    : part.geometry instanceof THREE.CylinderGeometry ? inside_cylinder(filled(cylinder.parameters.radialSegments / 2))
+    : part.geometry instanceof THREE.BoxGeometry ? inside_box : null;
+  return inside && { X_SL: part.matrixWorld.clone().invert().multiply(link.matrixWorld), inside };
+}
+
+/** How much of its radius a round one fills that so many flat pieces make half a turn of. */
+function filled(pieces: number): number {
+  return Math.cos(Math.PI / 2 / pieces);
 }
 
 /** The meshes that are rigid with a link: below it, but not beyond one of its joints. */
@@ -42,9 +68,9 @@ function meshes_of(link: THREE.Object3D): THREE.Mesh[] {
 }
 
 /** A copy of the mesh's shape in the link's frame, with the mesh's colour in every vertex. */
-function painted(mesh: THREE.Mesh, link: THREE.Object3D): THREE.BufferGeometry {
+function painted(mesh: THREE.Mesh, link: THREE.Object3D, rounds: Rounds): THREE.BufferGeometry {
   const X_LM = link.matrixWorld.clone().invert().multiply(mesh.matrixWorld);
-  const geometry = simpler(mesh.geometry).clone().applyMatrix4(X_LM);
+  const geometry = simpler(mesh.geometry, rounds).clone().applyMatrix4(X_LM);
   if (!geometry.hasAttribute('normal')) geometry.computeVertexNormals();
   for (const name of Object.keys(geometry.attributes)) {
     if (name !== 'position' && name !== 'normal') geometry.deleteAttribute(name);
@@ -64,8 +90,8 @@ function alike(geometries: THREE.BufferGeometry[]): THREE.BufferGeometry[] {
   return geometries.map((geometry) => (geometry.index ? geometry.toNonIndexed() : geometry));
 }
 
-function simpler(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
-  if (geometry instanceof THREE.SphereGeometry) return kSphere;
-  if (geometry instanceof THREE.CylinderGeometry) return kCylinder;
+function simpler(geometry: THREE.BufferGeometry, { sphere, cylinder }: Rounds): THREE.BufferGeometry {
+  if (geometry instanceof THREE.SphereGeometry) return sphere;
+  if (geometry instanceof THREE.CylinderGeometry) return cylinder;
   return geometry;
 }

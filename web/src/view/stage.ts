@@ -12,14 +12,16 @@ import type { Camera } from '../route/address';
 import { ink } from '../state/palette';
 import { renders_in_software, wants_fine_picture } from './drawing_power';
 import { distance_for, type Opening } from './framing';
-import { kLevels, Pace, type Level } from './pace';
-import { add_lights, floor, kShadows, light_up } from './scenery';
+import { Fence } from './fence';
+import { show_finish } from './finish';
+import { kFirstInSoftware, kLevels, Pace, type Level } from './pace';
+import { add_lights, floor, light_up } from './scenery';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
-// A drawing is waited for so long before the next one is asked for: on a busy machine drawings that are
-// asked for before the last one is done pile up, and the page answers no click until all are drawn.
-const kLongestFrame_ms = 10_000;
+const kLate_ms = 20;
+// A whole picture, as asked for or at rest, is followed by as long a pause as it took.
+const kShareOfWhole = 2;
 const kRest_ms = 900;
 const kMargin = 1.06;
 const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
@@ -45,8 +47,8 @@ export class Stage {
   private frame_: number | null = null;
   private drawn_at_ms_ = 0;
   private next_at_ms_ = 0;
-  private fence_: WebGLSync | null = null;
-  private readonly pace_ = new Pace();
+  private readonly fence_: Fence;
+  private readonly pace_: Pace;
   private readonly full_ratio_: number;
   private readonly key_light_: THREE.DirectionalLight;
   private pictures_ = 0;
@@ -55,9 +57,13 @@ export class Stage {
   private readonly waiting_: (() => void)[] = [];
   private rest_timer_: number | null = null;
   private at_rest_ = false;
+  private whole_ = false;
+  private resized_ = false;
 
   constructor(private readonly host_: HTMLElement) {
-    const fine = wants_fine_picture() || !renders_in_software();
+    const software = renders_in_software();
+    const fine = wants_fine_picture() || !software;
+    this.pace_ = new Pace(software ? kFirstInSoftware : 0);
     this.renderer_ = new THREE.WebGLRenderer({ antialias: fine, alpha: true, powerPreference: 'low-power' });
     this.full_ratio_ = fine ? Math.min(2, window.devicePixelRatio) : 1;
     this.renderer_.setPixelRatio(this.full_ratio_);
@@ -66,6 +72,7 @@ export class Stage {
     this.renderer_.shadowMap.enabled = true;
     this.renderer_.shadowMap.type = THREE.PCFShadowMap;
     this.renderer_.shadowMap.autoUpdate = false;
+    this.fence_ = new Fence(this.renderer_.getContext() as WebGL2RenderingContext);
     host_.prepend(this.renderer_.domElement);
 
     this.scene.fog = this.fog_;
@@ -84,19 +91,15 @@ export class Stage {
     });
     this.controls_.addEventListener('change', () => {
       this.fit_depth();
+      this.whole_ = false;
       this.invalidate();
     });
     new ResizeObserver(() => this.resize()).observe(host_);
     this.resize();
   }
 
-  get pictures(): number {
-    return this.pictures_;
-  }
-  get level(): Level {
-    return this.pace_.level;
-  }
-
+  get pictures(): number { return this.pictures_; }
+  get level(): Level { return this.pace_.level; }
   get canvas(): HTMLCanvasElement {
     return this.renderer_.domElement;
   }
@@ -133,6 +136,7 @@ export class Stage {
   close(): void {
     if (this.frame_ !== null) cancelAnimationFrame(this.frame_);
     if (this.rest_timer_ !== null) clearTimeout(this.rest_timer_);
+    this.fence_.close();
     this.controls_.dispose();
     this.renderer_.dispose();
     this.renderer_.domElement.remove();
@@ -148,6 +152,7 @@ export class Stage {
   /** Asks for a drawing; `shapes_moved` also renews the shadows. */
   invalidate(shapes_moved = false): void {
     this.shapes_moved_ ||= shapes_moved;
+    if (shapes_moved) this.whole_ = false;
     if (this.frame_ !== null) return;
     const draw = (now_ms: number) => {
       if (!this.may_draw(now_ms)) {
@@ -155,7 +160,7 @@ export class Stage {
         return;
       }
       this.frame_ = null;
-      this.draw(now_ms);
+      this.draw();
     };
     this.frame_ = requestAnimationFrame(draw);
   }
@@ -165,8 +170,9 @@ export class Stage {
     this.controls_.enabled = yes;
   }
 
-  /** Kept after the next drawing, which it asks for; that one leaves nothing out. */
+  /** Kept after the next drawing, which it asks for; that one leaves nothing out, nor do others until something moves. */
   drawn(): Promise<void> {
+    this.whole_ = true;
     return new Promise((done) => {
       this.waiting_.push(done);
       this.invalidate();
@@ -190,33 +196,31 @@ export class Stage {
   }
 
   private may_draw(now_ms: number): boolean {
-    if (this.fence_) {
-      const gl = this.renderer_.getContext() as WebGL2RenderingContext;
-      const took_ms = now_ms - this.drawn_at_ms_;
-      const done = gl.getSyncParameter(this.fence_, gl.SYNC_STATUS) === gl.SIGNALED;
-      if (!done && took_ms < kLongestFrame_ms) return false;
-      gl.deleteSync(this.fence_);
-      this.fence_ = null;
-      this.next_at_ms_ = this.drawn_at_ms_ + this.pace_.took(took_ms);
-    }
-    return now_ms >= this.next_at_ms_;
+    return !this.fence_.is_up && now_ms >= this.next_at_ms_;
   }
 
-  private draw(now_ms: number): void {
-    this.drawn_at_ms_ = now_ms;
+  private draw(): void {
+    this.drawn_at_ms_ = performance.now();
     this.pictures_ += 1;
-    this.show_level(this.waiting_.length > 0 || this.at_rest_ ? kLevels[0] : this.pace_.level);
+    // Not before: a canvas of another size is empty until it is drawn on, and that may be a while.
+    if (this.resized_) this.renderer_.setSize(this.host_.clientWidth, this.host_.clientHeight);
+    this.resized_ = false;
+    const paced = this.waiting_.length === 0 && !this.at_rest_ && !this.whole_ && !wants_fine_picture();
+    this.show_level(paced ? this.pace_.level : kLevels[0]);
     this.at_rest_ = false;
     this.refine_later();
-    if (this.shapes_moved_ && this.shown_?.shadows) {
+    if (this.shapes_moved_ && this.shown_?.fine) {
       this.renderer_.shadowMap.needsUpdate = true;
       this.shapes_moved_ = false;
     }
+    show_finish(this.scene, this.shown_?.fine ?? true);
     this.renderer_.render(this.scene, this.camera);
     this.after_draw();
-    const gl = this.renderer_.getContext() as WebGL2RenderingContext;
-    this.fence_ = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    gl.flush();
+    this.fence_.put(this.drawn_at_ms_, (took_ms) => {
+      // A little late is made up for, as animation frames never come at the very instant.
+      const due_ms = Math.max(this.next_at_ms_, this.drawn_at_ms_ - kLate_ms);
+      this.next_at_ms_ = due_ms + (paced ? this.pace_.took(took_ms) : kShareOfWhole * took_ms);
+    });
     for (const tell of this.waiting_.splice(0)) tell();
   }
 
@@ -235,15 +239,13 @@ export class Stage {
     if (!level || level === this.shown_) return;
     this.shown_ = level;
     this.renderer_.setPixelRatio(this.full_ratio_ * level.resolution);
-    // Left as they are, and not shown: to take them out would compile every material again.
-    this.key_light_.shadow.intensity = level.shadows ? kShadows : 0;
     this.on_level(level);
   }
 
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.host_;
     if (width === 0 || height === 0) return;
-    this.renderer_.setSize(width, height);
+    this.resized_ = true;
     this.camera.aspect = width / height;
     // The camera stays where it is, so that an address means the same with a pane and without.
     this.camera.zoom = this.distance_through(0) / this.distance_through(this.covered_px_);
