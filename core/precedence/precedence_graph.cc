@@ -197,6 +197,7 @@ void PrecedenceGraph::abandon(JobId job, Duration rests_at, Duration farthest) {
     if (arms.empty()) continue;
     std::erase_if(stand, [&](ArmId arm) { return std::ranges::find(arms, arm) != arms.end(); });
     block_others(before, {arms, before.duration, before.duration});
+    block_others(*found, {arms, Duration{}, Duration{}, &before});
   }
   if (!stand.empty()) block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});
   erase(job);
@@ -204,12 +205,13 @@ void PrecedenceGraph::abandon(JobId job, Duration rests_at, Duration farthest) {
 
 // Whether it rests there now or will.
 void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& rest) {
-  const auto [arms, at, farthest] = rest;
+  const auto [arms, at, farthest, brought_by] = rest;
   const bool is_there = motion.progress >= at;
   for (const Precedence& precedence : precedences_) {
     const bool first = precedence.first() == motion.job;
     if (!first && (precedence.second() != motion.job || !is_there)) continue;
     const JobId other = first ? precedence.second() : precedence.first();
+    if (brought_by != nullptr && !share_an_arm(*brought_by, *find(other))) continue;
     const ConflictRegion& region = precedence.region();
     const Duration passed = find(other)->progress;
     std::optional<Blockade> blockade;
@@ -234,7 +236,9 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& 
                          first ? region.time_a : region.time_b};
         const auto named = evidence.proximity.arm_b;
         if (named && std::ranges::find(arms, *named) != arms.end()) evidence.arm = named;
-        const auto goal_of = is_there ? std::nullopt : std::optional(motion.job);
+        std::optional<JobId> goal_of;
+        if (brought_by != nullptr) goal_of = brought_by->job;
+        if (!is_there) goal_of = motion.job;
         blockade = Blockade{arms, goal_of, other, own_from, own_to, evidence};
       }
       blockade->limit = std::min(blockade->limit, std::max(Duration{}, own_from - kShortOf));

@@ -77,6 +77,9 @@ class PrecedenceGraph {
   struct Rest {
     std::vector<ArmId> arms;
     Duration at, farthest;  // arms of one motion may rest apart on it
+    // Where it begins, when this one has brought them there. It has no regions with what comes
+    // after it on another arm of its own; for that the regions with what was to leave count.
+    const CoordinatedMotion* brought_by = nullptr;
   };
   [[nodiscard]] const Blockade* nearest_blockade(const CoordinatedMotion& motion) const;
   void block_others(const CoordinatedMotion& motion, const Rest& rest);

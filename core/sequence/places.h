@@ -12,9 +12,10 @@
 namespace armloom {
 
 // Where an arm rests. While one is held, whoever else asks for the same place is given that one:
-// compare pointers. Ids are never given again.
+// compare pointers. What is known of a place is kept by its id, which is the same whenever somebody
+// asks for it: who holds one for how long, as a dry run does, changes nothing for others.
 struct Place {
-  std::uint64_t id;
+  std::uint64_t id;  // of arm and rounded q; two places share one with a probability of 2^-64
   ArmId arm;
   Eigen::VectorXd q;  // of the arm's joints, in its order (rad, m)
 };
@@ -33,7 +34,6 @@ class Places {
 
   std::map<Key, std::weak_ptr<const Place>> known_;
   std::size_t dropped_at_ = 64;  // when there are so many
-  std::uint64_t last_ = 0;
 };
 
 }  // namespace armloom

@@ -231,6 +231,20 @@ TEST_F(Graph, WhoIsAbandonedBlocksOnlyThePlacesThatItWasToLeave) {
   }
 }
 
+// A brings both arms of a team to where B and Next go on, each with one of them: there is no region
+// of A and B, which come one after the other.
+TEST_F(Graph, AnArmThatATeamLeavesInTheWayOfItsOwnOtherArmBlocksIt) {
+  CoordinatedMotion team = motion(kA, 0, 5s);
+  team.arms.push_back(ArmId{1});
+  admit({team}, {});
+  admit({motion(kNext, 1, 5s), motion(kB, 0, 5s)}, {{kNext, kB, {region({{0s, 1s, 2s, 3s}})}}});
+  graph.abandon(kNext, 0s);
+  graph.progress(kA, 5s);
+  graph.finish(kA);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+  EXPECT_EQ(graph.held_back(kB)->arm, ArmId{1});
+}
+
 // B was to pass when kC has left its start, where Next was to bring the arm: neither comes there.
 TEST_F(Graph, WhoIsAbandonedWithWhatComesBeforeItIsInNobodysWayWhereItWouldHaveBegun) {
   admit({motion(kA, 0, 5s)}, {});

@@ -152,7 +152,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
   }
 
   void act() {
-    switch (random_() % 26) {
+    switch (random_() % 30) {
       case 0:
         return executive_->stop({ArmId{static_cast<std::uint32_t>(random_() % 2)}},
                                 "\"operator\"\n");
@@ -197,6 +197,9 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
       case 25:
         return (void)executive_->cancel(some_job(),
                                         now_ + Duration(random_() % 800) * kControlPeriod.count());
+      case 26:  // what only asks is not logged, and changes nothing, however long it takes
+      case 27:
+        return executive_->check(request(swing(arm())), [](const auto&) {});
       default:
         if (!batch_) (void)executive_->submit(request(swing(arm())));
     }
