@@ -161,7 +161,8 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
     }
   }
   if (const auto& other = job.another_way) {
-    view.another_way = AnotherWayView{other->done, other->is_open, other->cause, other->refusal};
+    view.another_way = AnotherWayView{other->done, other->is_open && !job.has_ended(), other->cause,
+                                      other->refusal};
   }
   if (job.goal && job.goal->detour) view.detour = view_of(*job.goal->detour);
   if (job.choice) view.choice = view_of(job, *job.choice, cell, names);

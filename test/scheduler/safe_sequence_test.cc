@@ -83,7 +83,7 @@ class Lanes {
 
  private:
   PlacePtr place(std::uint32_t arm, double at) {
-    return kept_.emplace_back(places_.of(ArmId{arm}, Eigen::VectorXd::Constant(1, at)));
+    return places_.of(ArmId{arm}, Eigen::VectorXd::Constant(1, at));
   }
   [[nodiscard]] const WaitingLeg& of(JobId job) const {
     return *std::ranges::find(legs_, job, &WaitingLeg::job);
@@ -104,7 +104,6 @@ class Lanes {
   }
 
   Places places_;
-  std::vector<PlacePtr> kept_;  // so that places keep their ids
   std::vector<double> stands_, ends_;
   std::vector<WaitingLeg> legs_;
   std::set<std::pair<JobId, std::uint64_t>> blocked_, known_;
@@ -113,6 +112,21 @@ class Lanes {
 };
 
 constexpr std::uint32_t kA = 0, kB = 1, kC = 2;
+
+// Else it would be known for as long as a dry run, say, looks at the same place.
+TEST(Places, WhatIsKnownOfOneIsKnownWhoeverHoldsIt) {
+  Places places;
+  const auto id = [&](std::uint32_t arm, double at) {
+    return places.of(ArmId{arm}, Eigen::VectorXd::Constant(2, at))->id;  // nobody holds it
+  };
+  std::set<std::uint64_t> ids;
+  for (int i = 0; i < 1000; ++i) {
+    const double at = 0.01 * i - 5.0;
+    EXPECT_EQ(id(0, at), id(0, at));
+    ids.insert({id(0, at), id(1, at)});
+  }
+  EXPECT_EQ(ids.size(), 2000U);
+}
 
 TEST(SafeSequence, AnyLegMayGoWhereNobodyRestsInTheWay) {
   Lanes lanes(2);

@@ -74,9 +74,12 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
   }
 
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
-    if (!checker_) checker_.emplace(scene);
-    checker_->look_at(std::move(scene));
-    later([verdict = checker_->judge(question), done = std::move(done)] { done(verdict); });
+    answer(checker_, question, std::move(scene), std::move(done));
+  }
+  bool consider(Question question, PlanningScenePtr scene,
+                std::function<void(Verdict)> done) override {
+    answer(clients_checker_, question, std::move(scene), std::move(done));
+    return true;
   }
   bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
   bool draft(PlanTask) override { return false; }
@@ -94,6 +97,12 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
   std::vector<std::string> log;
 
  private:
+  void answer(std::optional<MotionChecker>& checker, const Question& question,
+              PlanningScenePtr scene, std::function<void(Verdict)> done) {
+    if (!checker) checker.emplace(scene);
+    checker->look_at(std::move(scene));
+    later([verdict = checker->judge(question), done = std::move(done)] { done(verdict); });
+  }
   void later(std::function<void()> answer) {
     pending_.emplace(now_ + Duration(random_() % 12) * kControlPeriod.count(), std::move(answer));
   }
@@ -207,7 +216,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
 
   std::mt19937_64 random_;
   std::unique_ptr<Executive> executive_;
-  std::optional<MotionChecker> checker_;
+  std::optional<MotionChecker> checker_, clients_checker_;
   std::multimap<TimePoint, std::function<void()>> pending_;
   TimePoint planned_by_{};
   std::shared_ptr<Executive::Batch> batch_;

@@ -20,8 +20,17 @@ Points without_repetitions(const Points& points) {
     }
     if (kept.empty() || (point - kept.back()).norm() > kStepMin) kept.push_back(point);
   }
+  const auto repeats_the_last_but_one = [&] {
+    return kept.size() > 1 && (points.back() - kept[kept.size() - 2]).norm() <= kStepMin;
+  };
+  while (repeats_the_last_but_one()) kept.pop_back();
+  if (!kept.empty()) kept.back() = points.back();
+  return kept;
+}
+
+Points corners_of(const Points& points) {
+  Points kept = without_repetitions(points);
   if (kept.size() < 2) throw std::invalid_argument("JointPath: it goes nowhere");
-  kept.back() = points.back();
   return kept;
 }
 
@@ -57,7 +66,7 @@ void JointPath::add(double length, const Piece& piece) {
 }
 
 JointPath JointPath::spline_through(const Points& points) {
-  const Points q = without_repetitions(points);
+  const Points q = corners_of(points);
   std::vector<double> h;
   for (std::size_t i = 0; i + 1 < q.size(); ++i) h.push_back((q[i + 1] - q[i]).norm());
   const Eigen::MatrixXd m = second_derivatives(q, h);
@@ -75,7 +84,7 @@ JointPath JointPath::spline_through(const Points& points) {
 }
 
 JointPath JointPath::rounded(const Points& points, double within) {
-  const Points q = without_repetitions(points);
+  const Points q = corners_of(points);
   JointPath path(q.back());
   Piece piece = Piece::Zero(q.front().size(), 4);
   const auto chord = [&](std::size_t i) { return (q[i + 1] - q[i]).norm(); };
@@ -120,6 +129,10 @@ Eigen::VectorXd JointPath::position(double s) const {
     q[static_cast<Eigen::Index>(j)] = of[0] + x * (of[1] + x * (of[2] + x * of[3]));
   }
   return q;
+}
+
+bool JointPath::leads_somewhere(const std::vector<Eigen::VectorXd>& points) {
+  return without_repetitions(points).size() > 1;
 }
 
 }  // namespace armloom

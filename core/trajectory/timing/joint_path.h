@@ -24,6 +24,10 @@ class JointPath {
   // with Bounded Acceleration and Velocity", RSS 2012, cut by arcs instead.
   [[nodiscard]] static JointPath rounded(const std::vector<Eigen::VectorXd>& points, double within);
 
+  // Whether there are two points that are not one: else there is no path, and the makers above
+  // throw std::invalid_argument.
+  [[nodiscard]] static bool leads_somewhere(const std::vector<Eigen::VectorXd>& points);
+
   [[nodiscard]] std::size_t joints() const { return joints_; }
   [[nodiscard]] double length() const { return ends_.back(); }
 

@@ -25,7 +25,7 @@ std::vector<Eigen::VectorXd> way_of(const TrajectoryRequest& request) {
   for (const WaypointRequest& point : request.points) {
     const Eigen::Map<const Eigen::VectorXd> at(point.positions.data(),
                                                static_cast<Eigen::Index>(point.positions.size()));
-    if (way.empty() || way.back() != at) way.emplace_back(at);
+    way.emplace_back(at);
   }
   return way;
 }
@@ -47,7 +47,7 @@ Result<TrajectoryPtr> retimed(const TrajectoryRequest& request, const Cell& cell
     }
   }
   const std::vector<Eigen::VectorXd> way = way_of(request);
-  if (way.size() < 2) {
+  if (problems.empty() && !JointPath::leads_somewhere(way)) {
     problems.add({ProblemKind::invalid,
                   "no-way",
                   "/points",

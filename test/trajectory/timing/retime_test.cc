@@ -108,6 +108,12 @@ TEST(Retime, SaysWhatIsWrongWithTheWaypointsOfTheClient) {
   Way still(2);
   still.request.points[1] = still.request.points[0];
   EXPECT_THAT(told(still), HasSubstr("no-way /points"));
+  for (const double step : {1e-16, 1e-11, 1e-10}) {  // as measured twice
+    Way nearly(3);
+    nearly.request.points[2] = nearly.request.points[1] = nearly.request.points[0];
+    nearly.request.points[1].positions[0] += step;
+    EXPECT_THAT(told(nearly), HasSubstr("no-way /points")) << step;
+  }
   Way lone(1);
   EXPECT_THAT(told(lone), HasSubstr("too-few-points /points"));
   Way unknown(2);
