@@ -236,9 +236,8 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& 
                          first ? region.time_a : region.time_b};
         const auto named = evidence.proximity.arm_b;
         if (named && std::ranges::find(arms, *named) != arms.end()) evidence.arm = named;
-        std::optional<JobId> goal_of;
-        if (brought_by != nullptr) goal_of = brought_by->job;
-        if (!is_there) goal_of = motion.job;
+        const CoordinatedMotion* brings = is_there ? brought_by : &motion;
+        const auto goal_of = brings != nullptr ? std::optional(brings->job) : std::nullopt;
         blockade = Blockade{arms, goal_of, other, own_from, own_to, evidence};
       }
       blockade->limit = std::min(blockade->limit, std::max(Duration{}, own_from - kShortOf));

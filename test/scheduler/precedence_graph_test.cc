@@ -1,0 +1,257 @@
+// Passing orders as plain data: who may go how far, whom orders and what rests hold.
+#include <gtest/gtest.h>
+
+#include "test/scheduler/passing_words.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+using test::kA;
+using test::kB;
+using test::kC;
+using test::kNext;
+using test::motion;
+using test::region;
+
+struct Graph : ::testing::Test {
+  PrecedenceGraph graph{3};
+  PassingOrders admit(const std::vector<CoordinatedMotion>& candidates,
+                      const std::vector<PairRegions>& regions) {
+    PassingOrders orders = cheapest_orders(graph.question(candidates, regions));
+    if (orders.blockers.empty()) graph.admit(candidates, orders);
+    return orders;
+  }
+  // B meets A at A's goal, and passes there when Next has taken the arm away.
+  void let_b_wait_until_next_has_left() {
+    admit({motion(kA, 0, 5s)}, {});
+    graph.granted(kA, 5s);
+    admit({motion(kB, 1, 5s), motion(kNext, 0, 4s)},
+          {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 1s}})}}});
+  }
+};
+
+TEST_F(Graph, ACandidatePassesFirstWhereThatCostsLess) {
+  admit({motion(kA, 0, 10s)}, {});
+  // B is through before A comes near: to wait for A would cost 7 s.
+  admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
+  EXPECT_EQ(graph.limit(kB), 3s);
+  EXPECT_EQ(graph.limit(kA), 6s - kShortOf);
+  graph.progress(kB, 2s);
+  EXPECT_EQ(graph.limit(kA), 10s);
+}
+
+TEST_F(Graph, NobodyIsPassedWhereItHasAuthority) {
+  admit({motion(kA, 0, 10s)}, {});
+  graph.granted(kA, 7s);
+  admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
+  EXPECT_EQ(graph.limit(kA), 10s);
+  EXPECT_EQ(graph.limit(kB), 0s) << "that costs less than a stop on its way";
+  EXPECT_EQ(graph.held_back(kB)->other, kA);
+  EXPECT_EQ(graph.held_back(kB)->proximity.body_a, "a");
+}
+
+TEST_F(Graph, AGoalInTheOthersWayIsPassedBeforeItIsReached) {
+  admit({motion(kA, 0, 5s)}, {});
+  const auto orders = admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}});
+  ASSERT_TRUE(orders.blockers.empty());
+  EXPECT_EQ(graph.limit(kA), 4s - kShortOf);
+  EXPECT_EQ(graph.limit(kB), 5s);
+}
+
+TEST_F(Graph, AnArmAtRestInTheWayIsAnObstacle) {
+  const auto orders = admit({motion(kA, 0, 5s)}, {{kA, ArmId{2}, {region({{2s, 3s, 0s, 0s}})}}});
+  ASSERT_EQ(orders.blockers.size(), 1U);
+  EXPECT_EQ(orders.blockers[0].arm, ArmId{2});
+  EXPECT_EQ(orders.in_the_way, std::vector<ArmId>{ArmId{2}});
+}
+
+// A ends where B starts and B ends where A starts.
+const std::vector<PairRegions> kSwap{
+    {kA, kB, {region({{4s, 5s, 0s, 2s}}), region({{0s, 1s, 3s, 5s}})}}};
+
+TEST_F(Graph, ASwapSucceedsWhereThereIsRoomToPass) {
+  const auto orders = admit({motion(kA, 0, 5s), motion(kB, 1, 5s)}, kSwap);
+  ASSERT_TRUE(orders.blockers.empty());
+  EXPECT_EQ(graph.limit(kA), 4s - kShortOf);
+  EXPECT_EQ(graph.limit(kB), 3s - kShortOf);
+}
+
+TEST_F(Graph, ASwapWithoutRoomIsARing) {
+  const auto orders = admit({motion(kA, 0, 5s), motion(kB, 1, 5s)},
+                            {{kA, kB, {region({{2s, 5s, 0s, 3s}}), region({{0s, 3s, 2s, 5s}})}}});
+  ASSERT_FALSE(orders.blockers.empty());
+  EXPECT_EQ(orders.blockers[0].blocked, kA);
+  EXPECT_EQ(orders.blockers[0].other, kB);
+}
+
+// A's first motion comes to rest in B's way and its next one leaves.
+TEST_F(Graph, WhoLetsTheFirstMotionComeToRestLetsTheNextOneLeave) {
+  admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 5s);
+  EXPECT_FALSE(
+      admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}}).blockers.empty());
+  const auto orders =
+      admit({motion(kB, 1, 5s), motion(kNext, 0, 4s)},
+            {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 1s}})}}});
+  ASSERT_TRUE(orders.blockers.empty());
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+  graph.progress(kA, 5s);
+  graph.finish(kA);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf) << "the arm still rests there";
+  graph.progress(kNext, 1s);
+  EXPECT_EQ(graph.limit(kB), 5s);
+}
+
+TEST_F(Graph, AnAbandonedMotionBlocksWhatWouldPassItsRestAndNothingElse) {
+  admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 2s);
+  admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 1s, 4s}})}}});
+  admit({motion(kC, 2, 5s)}, {{kC, kA, {region({{2s, 3s, 3s, 4s}})}}});
+  graph.progress(kA, 2s);
+  graph.abandon(kA, 2s);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+  EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0});
+  EXPECT_EQ(graph.limit(kC), 5s);
+  admit({motion(kNext, 0, 1s)}, {{kNext, kB, {region({{0s, 500ms, 2s, 3s}})}}});
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+  graph.progress(kNext, 500ms);
+  EXPECT_EQ(graph.limit(kB), 5s);
+}
+
+TEST_F(Graph, CancellingTheNextMotionKeepsTheGoalBeforeItBlocked) {
+  let_b_wait_until_next_has_left();
+  graph.abandon(kNext, 0s);
+  graph.progress(kA, 5s);
+  graph.finish(kA);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+  EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0});
+}
+
+// B was to wait for Next at the goal to which A would have brought the arm: A never comes there.
+TEST_F(Graph, AGoalIsInNobodysWayWhenWhoWasToComeThereIsAbandonedToo) {
+  let_b_wait_until_next_has_left();
+  graph.progress(kA, 2s);
+  graph.abandon(kNext, 0s);
+  ASSERT_EQ(graph.limit(kB), 2s - kShortOf);
+  graph.abandon(kA, 3s);
+  EXPECT_EQ(graph.limit(kB), 5s);
+}
+
+TEST_F(Graph, LargerPriorityPassesFirstWhateverItCostsOthers) {
+  admit({motion(kA, 0, 3s)}, {});
+  CoordinatedMotion urgent = motion(kB, 1, 9s);
+  urgent.priority = 1;
+  admit({urgent}, {{kB, kA, {region({{5s, 8s, 1s, 2s}})}}});
+  EXPECT_EQ(graph.limit(kA), 3s) << "it is through long before";
+  CoordinatedMotion more = motion(kC, 2, 3s);
+  more.priority = 2;
+  admit({more}, {{kC, kB, {region({{1s, 2s, 500ms, 9s}})}}});
+  EXPECT_EQ(graph.limit(kB), 0s) << "that costs less than a stop on its way";
+}
+
+TEST_F(Graph, WhoKeepsItsPlaceIsNotOvertaken) {
+  admit({motion(kA, 0, 10s)}, {});
+  graph.set_outlook(kA, {.keeps_its_place = true});
+  admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
+  EXPECT_EQ(graph.limit(kA), 10s);
+  EXPECT_EQ(graph.limit(kB), 0s) << "that costs less than a stop on its way";
+}
+
+// B was to wait until Next has taken the arm from A's goal. What comes after that is no matter.
+TEST_F(Graph, WhoIsAbandonedBlocksOnlyThePlacesThatItWasToLeave) {
+  const std::vector<PairRegions> regions = {{kA, kB, {region({{4s, 5s, 2s, 3s}})}},
+                                            {kNext, kB, {region({{0s, 1s, 2s, 3s}})}}};
+  for (const JobId abandoned : {kC, kNext}) {
+    graph = PrecedenceGraph(3);
+    admit({motion(kA, 0, 5s)}, {});
+    graph.granted(kA, 5s);
+    admit({motion(kB, 1, 5s), motion(kNext, 0, 5s), motion(kC, 0, 5s)}, regions);
+    graph.abandon(kC, 0s);
+    if (abandoned == kNext) graph.abandon(kNext, 0s);
+    graph.progress(kA, 5s);
+    graph.finish(kA);
+    graph.progress(kNext, 2s);
+    EXPECT_EQ(graph.limit(kB), abandoned == kC ? 5s : 2s - kShortOf);
+  }
+}
+
+// A brings both arms of a team to where B and Next go on, each with one of them: there is no region
+// of A and B, which come one after the other.
+TEST_F(Graph, AnArmThatATeamLeavesInTheWayOfItsOwnOtherArmBlocksIt) {
+  CoordinatedMotion team = motion(kA, 0, 5s);
+  team.arms.push_back(ArmId{1});
+  admit({team}, {});
+  admit({motion(kNext, 1, 5s), motion(kB, 0, 5s)}, {{kNext, kB, {region({{0s, 1s, 2s, 3s}})}}});
+  graph.abandon(kNext, 0s);
+  graph.progress(kA, 5s);
+  graph.finish(kA);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+  EXPECT_EQ(graph.held_back(kB)->arm, ArmId{1});
+}
+
+// B was to pass when kC has left its start, where Next was to bring the arm: neither comes there.
+TEST_F(Graph, WhoIsAbandonedWithWhatComesBeforeItIsInNobodysWayWhereItWouldHaveBegun) {
+  admit({motion(kA, 0, 5s)}, {});
+  admit({motion(kB, 1, 5s), motion(kNext, 0, 5s), motion(kC, 0, 5s)},
+        {{kB, kNext, {region({{2s, 3s, 4s, 5s}})}}, {kB, kC, {region({{2s, 3s, 0s, 1s}})}}});
+  graph.progress(kB, 1s);
+  graph.granted(kNext, 0s);
+  graph.abandon(kC, 0s);
+  graph.abandon(kNext, 0s);
+  EXPECT_EQ(graph.limit(kB), 5s);
+}
+
+// Nor is it one for who passes before the other comes there at all.
+TEST_F(Graph, WhoPassesFirstIsNotBlockedByAGoalThatTheOtherHasNotReached) {
+  admit({motion(kA, 0, 20s)}, {});
+  admit({motion(kB, 1, 5s), motion(kNext, 0, 5s)}, {{kB, kA, {region({{2s, 3s, 18s, 20s}})}}});
+  ASSERT_EQ(graph.limit(kA), 18s - kShortOf);
+  graph.abandon(kNext, 0s);
+  EXPECT_EQ(graph.limit(kB), 5s);
+  EXPECT_EQ(graph.limit(kA), 18s - kShortOf);
+}
+
+// ---- Motions of several arms ----
+
+CoordinatedMotion of_both(JobId job, Duration duration) {
+  return {.job = job, .arms = {ArmId{0}, ArmId{1}}, .duration = duration};
+}
+
+// One arm rests before the region, the other one, which got ahead, in it.
+TEST_F(Graph, AnArmThatRestsFartherThanItsSiblingIsInTheWayToo) {
+  admit({of_both(kA, 5s)}, {});
+  graph.granted(kA, 5s);
+  admit({motion(kB, 2, 5s)}, {{kB, kA, {region({{2s, 3s, 2s, 3s}})}}});
+  graph.progress(kA, 1980ms);
+  graph.abandon(kA, 1980ms, 2040ms);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+}
+
+// A ends in B's way, and what takes its arm away takes B's too: after B.
+TEST(PassingOrders, NobodyWaitsForADepartureThatFollowsItself) {
+  PrecedenceGraph graph(2);
+  graph.admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 5s);
+  const std::vector<CoordinatedMotion> candidates = {motion(kB, 1, 5s), of_both(kNext, 2s)};
+  const std::vector<PairRegions> regions = {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}};
+  const auto orders = cheapest_orders(graph.question(candidates, regions));
+  ASSERT_EQ(orders.blockers.size(), 1u);
+  EXPECT_EQ(orders.blockers[0].blocked, kB);
+  EXPECT_EQ(orders.blockers[0].other, kA);
+}
+
+// A brings both arms to where B begins, in C's way; C begins when A has ended.
+TEST(PassingOrders, NobodyPassesAStartAtWhichTheOtherStandsByThen) {
+  PrecedenceGraph graph(2);
+  graph.admit({of_both(kA, 5s)}, {});
+  const std::vector<CoordinatedMotion> candidates = {motion(kB, 0, 50s), motion(kC, 1, 5s)};
+  const std::vector<PairRegions> regions = {{kB, kC, {region({{0s, 40s, 2s, 3s}})}}};
+  const auto orders = cheapest_orders(graph.question(candidates, regions));
+  EXPECT_TRUE(orders.blockers.empty());
+  ASSERT_EQ(orders.precedences.size(), 1u);
+  EXPECT_EQ(orders.precedences[0].first(), kB);
+}
+
+}  // namespace
+}  // namespace armloom
