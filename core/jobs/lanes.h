@@ -28,6 +28,10 @@ class Lanes {
   // are on their paths: they are admitted already.
   [[nodiscard]] SafeSequence::Outlook after(const std::vector<JobId>& jobs, const JobBook& book,
                                             const ArmRests& arms);
+  // Of the sequence that after() goes by (SafeSequence::revision()), or will.
+  [[nodiscard]] std::uint64_t revision() const {
+    return sequence_.revision() + (is_stale_ ? 1 : 0);
+  }
   // Where they are as they were when asked last.
   [[nodiscard]] bool follows_on(JobId job) const { return sequence_.follows_on(job); }
   void renew(const JobBook& book, const ArmRests& arms);

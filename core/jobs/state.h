@@ -50,6 +50,13 @@ struct State {
         arms(*cell, std::move(rest)),
         lanes(cell->execution.start_tolerance_rad),
         graph(cell->arms.size()) {}
+
+  // What was found of a job that waits still holds. Precondition: it waits.
+  [[nodiscard]] bool is_judged(const Job& job) const {
+    const Judgement& found = job.judgement();
+    const bool is_its_turn_known = !found.sequence || *found.sequence == lanes.revision();
+    return found.at == version && is_its_turn_known;
+  }
 };
 
 }  // namespace armloom

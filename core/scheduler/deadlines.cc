@@ -43,7 +43,7 @@ void see_whether_in_vain(const State& state, Record& record) {
   if (pause == nullptr) return;
   if (state.arms.stop_of(record.job)) return pause->in_vain_since.reset();
   const bool held = record.job.in<Held>() != nullptr;
-  if (held && record.job.judgement().at != state.version) return;  // not known yet
+  if (held && !state.is_judged(record.job)) return;  // not known yet
   const FoundWaits waits = found_in_the_way(state, record);
   const bool in_vain = std::ranges::any_of(waits.all(), [&](const Wait& wait) {
     return wait.kind == Wait::Kind::object ||

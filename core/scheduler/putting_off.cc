@@ -76,7 +76,8 @@ void wait_in_turn(State& state, Record& record, JobId first) {
     record.job.times.backlogged_at.reset();
     state.jobs.changed(record);
   }
-  judgement_of(record) = {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}};
+  judgement_of(record) = {
+      state.version, {Wait{.kind = Wait::Kind::order, .job = first}}, state.lanes.revision()};
   if (!record.ages_from && is_at_head(state.jobs, record)) record.ages_from = state.now;
   state.jobs.set_waits(record, record.job.judgement().found);
 }

@@ -17,6 +17,7 @@ SafeSequence::SafeSequence(const SafeSequence& other)
       unplaced_legs_(other.unplaced_legs_),
       apart_(other.apart_),
       tried_(other.tried_),
+      revision_(other.revision_),
       asked_(other.asked_) {
   for (Legs* legs : {&sequence_, &unplaced_}) {
     for (auto leg = legs->begin(); leg != legs->end(); ++leg) index_.emplace(leg->job, leg);
@@ -108,6 +109,7 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
   ends_ = stands_ = std::move(stands);
   asked_.clear();
   found_.clear();
+  ++revision_;
   std::unordered_map<JobId, State> past;  // of those that are not planned yet
   State in_turn = stands_;
   for (const WaitingLeg& leg : legs) {

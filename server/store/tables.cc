@@ -95,7 +95,7 @@ void bring_up_to_date(Database& database) {
 }
 
 void check_whole(const Database& database) {
-  const std::string found = database.text("PRAGMA quick_check(1)");
+  const std::string found = database.text("PRAGMA integrity_check(1)");
   if (found != "ok") throw std::runtime_error("it is corrupt: " + found);
 }
 

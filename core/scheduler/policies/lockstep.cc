@@ -11,8 +11,8 @@ namespace {
 
 // Waits for something else of the round, or for an arm that has no job in it.
 bool stands_in_vain(const State& state, const Record& record) {
-  const bool tried = record.job.is_waiting() && (record.job.judgement().at == state.version ||
-                                                 !is_at_head(state.jobs, record));
+  const bool tried =
+      record.job.is_waiting() && (state.is_judged(record.job) || !is_at_head(state.jobs, record));
   return tried || held_where_it_stands(state, record).has_value();
 }
 

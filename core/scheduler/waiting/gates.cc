@@ -100,9 +100,8 @@ Closed place(const Turns& turns, const Record& record) {
 
 Closed conflict(const Turns& turns, const Record& record) {
   if (!record.job.is_waiting()) return std::nullopt;
-  const Judgement& judgement = record.job.judgement();
-  if (judgement.at != turns.state().version) return std::nullopt;
-  return FoundWaits(judgement.found);
+  if (!turns.state().is_judged(record.job)) return std::nullopt;
+  return FoundWaits(record.job.judgement().found);
 }
 
 void add_conflict(const State& state, const Record& record, Edges& edges) {
@@ -122,7 +121,7 @@ void add_conflict(const State& state, const Record& record, Edges& edges) {
 Closed aging(const Turns& turns, const Record& record) {
   const auto old = turns.held_back_by(record);
   if (!old) return std::nullopt;
-  const bool is_judged = turns.state().jobs.at(*old).job.judgement().at == turns.state().version;
+  const bool is_judged = turns.state().is_judged(turns.state().jobs.at(*old).job);
   return is_judged ? order(*old) : FoundWaits();  // else it may be about to go
 }
 
@@ -173,8 +172,7 @@ WaitsFor waits_for(const State& state) {
 
 FoundWaits found_in_the_way(const State& state, const Record& record) {
   if (record.job.is_waiting()) {
-    const Judgement& judgement = record.job.judgement();
-    return judgement.at == state.version ? FoundWaits(judgement.found) : FoundWaits();
+    return state.is_judged(record.job) ? FoundWaits(record.job.judgement().found) : FoundWaits();
   }
   auto held = held_where_it_stands(state, record);
   return held ? FoundWaits(std::move(*held)) : FoundWaits();

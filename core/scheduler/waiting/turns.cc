@@ -23,7 +23,7 @@ bool is_aged(const State& state, const Record& record) {
 bool waits_beyond_turns(const State& state, const Record& record) {
   if (!is_at_head(state.jobs, record)) return false;
   if (state.arms.stop_of(record.job)) return true;
-  if (!record.job.is_waiting() || record.job.judgement().at != state.version) return false;
+  if (!record.job.is_waiting() || !state.is_judged(record.job)) return false;
   return std::ranges::any_of(record.job.judgement().found, [&](const Wait& wait) {
     if (wait.kind != Wait::Kind::arm) return wait.kind == Wait::Kind::object;
     const auto& queue = state.jobs.queues()[*wait.arm];

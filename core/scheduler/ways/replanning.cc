@@ -98,7 +98,7 @@ bool is_idle_arm(const State& state, const Wait& wait) {
 // As it was found when it was judged last, or where it stands.
 const std::vector<Wait>* waits_of(const State& state, const Job& job) {
   if (job.pausing()) return &job.waits_on;
-  const bool is_put_off = job.is_waiting() && job.judgement().at == state.version;
+  const bool is_put_off = job.is_waiting() && state.is_judged(job);
   return is_put_off ? &job.judgement().found : nullptr;
 }
 

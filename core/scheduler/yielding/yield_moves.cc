@@ -84,7 +84,7 @@ std::optional<YieldTrial> next_yield(const State& state) {
   for (JobId id : state.jobs.past_queue()) {
     const Record& record = state.jobs.at(id);
     const Job& job = record.job;
-    const bool put_off = job.is_waiting() && job.judgement().at == state.version;
+    const bool put_off = job.is_waiting() && state.is_judged(job);
     if (!put_off && !job.pausing()) continue;
     if (job.is_replanned_now()) continue;  // perhaps it passes
     for (const Wait& wait : waits_of(job)) {
