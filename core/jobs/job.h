@@ -68,7 +68,7 @@ enum class Reason {
 struct Judgement {
   Version at = 0;  // zero: not yet
   std::vector<Wait> found = {};
-  std::optional<std::uint64_t> sequence = {};  // it waits in turn: Lanes::revision() then
+  std::optional<JobId> in_turn_after = {};  // while that one goes before it in the sequence
 };
 // At rest on its way until others have passed.
 struct Pause {

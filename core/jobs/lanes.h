@@ -28,9 +28,9 @@ class Lanes {
   // are on their paths: they are admitted already.
   [[nodiscard]] SafeSequence::Outlook after(const std::vector<JobId>& jobs, const JobBook& book,
                                             const ArmRests& arms);
-  // Of the sequence that after() goes by (SafeSequence::revision()), or will.
-  [[nodiscard]] std::uint64_t revision() const {
-    return sequence_.revision() + (is_stale_ ? 1 : 0);
+  // In the sequence that after() went by last; where that is to be renewed, nothing speaks against.
+  [[nodiscard]] bool goes_before(JobId first, JobId other) const {
+    return is_stale_ || sequence_.goes_before(first, other);
   }
   // Where they are as they were when asked last.
   [[nodiscard]] bool follows_on(JobId job) const { return sequence_.follows_on(job); }

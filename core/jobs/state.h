@@ -54,8 +54,8 @@ struct State {
   // What was found of a job that waits still holds. Precondition: it waits.
   [[nodiscard]] bool is_judged(const Job& job) const {
     const Judgement& found = job.judgement();
-    const bool is_its_turn_known = !found.sequence || *found.sequence == lanes.revision();
-    return found.at == version && is_its_turn_known;
+    if (found.at != version) return false;
+    return !found.in_turn_after || lanes.goes_before(*found.in_turn_after, job.id);
   }
 };
 

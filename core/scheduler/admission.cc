@@ -183,7 +183,7 @@ void Admission::answer_option(State& state, Verdict verdict) {
   const auto best = choosing_.decide(state);
   if (best) return answer_start(state, *best, {choosing_.job()});
   Record& record = state.jobs.at(choosing_.job());
-  wait_in_turn(state, record, *state.jobs.queues().before(record.job, record.leg.arms.front()));
+  wait_behind(state, record, *state.jobs.queues().before(record.job, record.leg.arms.front()));
 }
 
 void Admission::answer_start(State& state, const Verdict& verdict, const std::vector<JobId>& jobs) {

@@ -68,7 +68,7 @@ void put_off(State& state, Record& record, std::vector<Wait> waits) {
   }
 }
 
-void wait_in_turn(State& state, Record& record, JobId first) {
+void wait_behind(State& state, Record& record, JobId first) {
   if (gives_detour_up(state, record)) return;
   const auto* queued = record.job.in<Queued>();
   if (queued != nullptr && queued->in_backlog) {
@@ -76,10 +76,14 @@ void wait_in_turn(State& state, Record& record, JobId first) {
     record.job.times.backlogged_at.reset();
     state.jobs.changed(record);
   }
-  judgement_of(record) = {
-      state.version, {Wait{.kind = Wait::Kind::order, .job = first}}, state.lanes.revision()};
+  judgement_of(record) = {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}};
   if (!record.ages_from && is_at_head(state.jobs, record)) record.ages_from = state.now;
   state.jobs.set_waits(record, record.job.judgement().found);
+}
+
+void wait_in_turn(State& state, Record& record, JobId first) {
+  wait_behind(state, record, first);
+  judgement_of(record).in_turn_after = first;
 }
 
 void refuse(State& state, Record& record, const Verdict& verdict) {

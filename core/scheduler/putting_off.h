@@ -13,6 +13,8 @@ void note_found(Record& record, std::vector<Wait> waits);
 // Into the backlog, until what holds it back is another.
 void put_off(State& state, Record& record, std::vector<Wait> waits);
 // Not the backlog: it could go, or soon could, but for those that have to come before it.
+void wait_behind(State& state, Record& record, JobId first);
+// So it is in the sequence; when that is another one, it is judged again.
 void wait_in_turn(State& state, Record& record, JobId first);
 // For what the verdict found; it fails where its arm would hit itself.
 void refuse(State& state, Record& record, const Verdict& verdict);

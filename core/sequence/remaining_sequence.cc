@@ -248,8 +248,6 @@ void SafeSequence::place_behind(std::vector<Passage>& unknown) {
 }
 
 void SafeSequence::put_in_order(const Order& order) {
-  const auto is_it = [](const Leg* leg, const Leg& placed) { return leg == &placed; };
-  if (std::ranges::mismatch(order, sequence_, is_it).in1 != order.end()) ++revision_;
   for (auto leg = order.rbegin(); leg != order.rend(); ++leg) {
     const auto here = index_.at((*leg)->job);
     if (!here->placed) {
@@ -281,7 +279,6 @@ void SafeSequence::take_out(Leg& leg) {
   }
   unplaced_.splice(unplaced_.begin(), out);
   tried_ = false;
-  ++revision_;
 }
 
 }  // namespace armloom

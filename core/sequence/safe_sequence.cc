@@ -17,7 +17,6 @@ SafeSequence::SafeSequence(const SafeSequence& other)
       unplaced_legs_(other.unplaced_legs_),
       apart_(other.apart_),
       tried_(other.tried_),
-      revision_(other.revision_),
       asked_(other.asked_) {
   for (Legs* legs : {&sequence_, &unplaced_}) {
     for (auto leg = legs->begin(); leg != legs->end(); ++leg) index_.emplace(leg->job, leg);
@@ -109,7 +108,6 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
   ends_ = stands_ = std::move(stands);
   asked_.clear();
   found_.clear();
-  ++revision_;
   std::unordered_map<JobId, State> past;  // of those that are not planned yet
   State in_turn = stands_;
   for (const WaitingLeg& leg : legs) {
@@ -160,6 +158,13 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
 bool SafeSequence::follows_on(JobId job) const {
   const auto known = index_.find(job);
   return known == index_.end() || !known->second->cut;
+}
+
+bool SafeSequence::goes_before(JobId first, JobId other) const {
+  const auto known = index_.find(first);
+  if (known == index_.end() || !known->second->placed) return false;
+  const auto is_either = [&](const Leg& leg) { return leg.job == first || leg.job == other; };
+  return std::ranges::find_if(sequence_, is_either)->job == first;
 }
 
 // ---- What is known ----

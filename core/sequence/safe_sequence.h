@@ -79,9 +79,9 @@ class SafeSequence {
   }
   void forget_passages();
 
-  // Raised whenever the sequence is another one than by what comes behind it and what is admitted:
-  // who waits for its turn in it asks again.
-  [[nodiscard]] std::uint64_t revision() const { return revision_; }
+  // Of two legs, as the sequence is now; one that is in none comes after all. False: the first one
+  // is in none. Linear in its place.
+  [[nodiscard]] bool goes_before(JobId first, JobId other) const;
   // It begins where the legs before it will leave its arms.
   [[nodiscard]] bool follows_on(JobId job) const;
 
@@ -140,9 +140,8 @@ class SafeSequence {
   std::unordered_map<JobId, Legs::iterator> index_;
   std::vector<std::vector<bool>> apart_;  // by ArmId, ArmId
   bool tried_ = false;                    // in vain to place more, as things are
-  std::uint64_t revision_ = 0;
-  std::vector<JobId> asked_;  // after() was asked last about these
-  Order found_;               // what to begin the sequence with then
+  std::vector<JobId> asked_;              // after() was asked last about these
+  Order found_;                           // what to begin the sequence with then
 };
 
 }  // namespace armloom
