@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <utility>
 
-#include "test/scheduler/bench_cell.h"
+#include "core/scheduler/policy.h"
+#include "test/scheduler/ideal_arms.h"
 
 namespace armloom {
 namespace {
@@ -172,6 +174,35 @@ TEST(Blockades, ATeamThatRestsInTheWayIsThereUntilAllOfItsArmsHaveLeft) {
   admit({.job = next, .arms = {ArmId{0}}, .duration = 5s}, {});
   EXPECT_LE(graph.limit(b), 2s) << "arm 1 has not moved";
 }
+
+// Arm a's `in` leaves b no way on, b's `half` leaves a none: at first only `in` is in a sequence.
+// Then `on` comes, which takes b away from where it is in the way of `in`: now b goes first, though
+// `half` was told to wait for `in`.
+class InTurn : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(InTurn, WhoWaitsIsJudgedAgainWhenTheSequenceIsAnotherOne) {
+  constexpr ArmId a{0}, b{1};
+  const Crossings table(
+      {{a, 0.4, 0.6, b, 0.45, 0.55}, {a, 0.95, 1.05, b, 0.2, 0.3}, {a, 0.95, 1.05, b, 0.7, 0.8}});
+  const auto cell = std::make_shared<Cell>(*one_joint_arms(2));
+  cell->scheduling.aging = 3s;  // `half` is asked about first
+  IdealArms arms(cell, std::move(*make_policy(GetParam(), *cell)), table,
+                 [](JobId) { return Habits{}; });
+  const JobId out = arms.submit({JobId{0}, visit(0, 0, -0.5, 2s), {.backlog_timeout = 100s}});
+  const JobId away = arms.submit({JobId{0}, visit(0, 0, -0.5, 10s), {.backlog_timeout = 100s}});
+  const JobId in = arms.submit({JobId{0}, move({0}, 0, 1, 2s), {.backlog_timeout = 100s}});
+  const JobId half = arms.submit({JobId{0}, move({1}, 0, 0.5, 2s), {.backlog_timeout = 100s}});
+  arms.run_until(at(5s));
+  const JobId on = arms.submit({JobId{0}, move({1}, 0.5, 1, 2s), {.backlog_timeout = 100s}});
+  arms.run();
+  for (const JobId job : {out, away, in, half, on}) {
+    EXPECT_EQ(arms.state(job), JobState::succeeded) << "job " << job.value();
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Policies, InTurn,
+                         ::testing::Values("sequential", "lockstep", "reservation", "certified",
+                                           "earliest_start"),
+                         [](const auto& policy) { return policy.param; });
 
 }  // namespace
 }  // namespace armloom
