@@ -26,7 +26,7 @@ Result<std::vector<PlanQuestion>> questions_of(const Cell& cell, const PlanInqui
   if (!goals) return failure(std::move(goals.error()));
   std::vector<PlanQuestion> questions;
   for (MotionGoal& goal : *goals) {
-    goal.speed = inquiry.speed;
+    goal.speed = inquiry.speed.value_or(goal.speed);
     const ArmId arm = goal.arm;
     questions.push_back({.goal = std::move(goal), .at = at, .seed = inquiry.seed});
     if (!inquiry.from) continue;

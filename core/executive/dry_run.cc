@@ -103,11 +103,11 @@ class Plan {
 
   // From where the jobs before it leave all arms, as the server asks; by the arm that is there
   // first.
-  void plan(std::vector<MotionGoal>& goals, double speed, Planned& job) {
+  void plan(std::vector<MotionGoal>& goals, std::optional<double> speed, Planned& job) {
     std::string why;
     TimePoint arrives = TimePoint::max();
     for (MotionGoal& goal : goals) {
-      goal.speed = speed;
+      goal.speed = speed.value_or(goal.speed);
       PlanQuestion question{.goal = goal, .at = rest_, .seed = job.place + 1};
       for (ArmId arm : all_arms(cell_)) {
         if (arm != goal.arm) question.may_move.push_back(arm);

@@ -53,7 +53,7 @@ std::vector<MotionGoal> JobIntake::read_goals(const JobRequest& request, Problem
     return {};
   }
   for (MotionGoal& goal : *goals) {
-    goal.speed = request.speed;
+    goal.speed = request.speed.value_or(goal.speed);
     find_outside_limits(*cell_, goal, problems);
   }
   return *std::move(goals);

@@ -34,11 +34,11 @@ struct JobRequest {
   // it begins. None, or at least two.
   std::vector<TrajectoryRequest> alternatives = {};
   // Instead: where this arm is to go, or whichever of these arrives first, and at which share of
-  // its speed.
+  // its speed (absent: the cell's).
   std::optional<PlanGoal> move_to = {};
   std::string arm = {};
   std::vector<std::string> arms = {};
-  double speed = 1.0;
+  std::optional<double> speed = {};
   JobOrder order = JobOrder::as_given;
   OnTimeout on_timeout = OnTimeout::abort;
   Approach approach = Approach::none;

@@ -37,7 +37,7 @@ struct PlanInquiry {
   PlanGoal to;
   std::optional<PlanGoal> from;  // absent: where the arm will be when what is admitted has run
   std::uint64_t seed = 1;
-  double speed = 1.0;  // MotionGoal::speed
+  std::optional<double> speed = {};  // MotionGoal::speed; absent: the cell's
 };
 
 // What became of an arm that could have gone there instead.

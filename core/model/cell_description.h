@@ -105,10 +105,15 @@ struct MonitorSettings {
   Duration reaction = std::chrono::milliseconds(20);
   double stop_clearance_m = 0.01;
 };
+inline constexpr double kVelocityScalingMin = 1e-3;
+
 struct ExecutionSettings {  // MoveIt's defaults
   double start_tolerance_rad = 0.01;
   double duration_scaling = 1.1;
   Duration duration_margin = std::chrono::milliseconds(500);
+  // Of motions whose times are made here, where nobody says another one: a share of the joints'
+  // speeds in (0, 1].
+  double velocity_scaling_factor = 1.0;
 };
 
 struct CellDescription {

@@ -110,11 +110,15 @@ Result<MotionGoal> goal_of(const Cell& cell, ArmId arm, const PlanGoal& said) {
   if (said.pose) {
     auto target = target_of(cell, cell.arm(arm), *said.pose);
     if (!target) return failure(std::move(target.error()));
-    return MotionGoal{.arm = arm, .to = *std::move(target), .straight = said.cartesian};
+    return MotionGoal{.arm = arm,
+                      .to = *std::move(target),
+                      .speed = cell.execution.velocity_scaling_factor,
+                      .straight = said.cartesian};
   }
   auto q = joints_of(cell, arm, said);
   if (!q) return failure(std::move(q.error()));
-  return MotionGoal{.arm = arm, .to = *std::move(q)};
+  return MotionGoal{
+      .arm = arm, .to = *std::move(q), .speed = cell.execution.velocity_scaling_factor};
 }
 
 Result<std::vector<MotionGoal>> goals_of(const Cell& cell, const GoalArms& who,

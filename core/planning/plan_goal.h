@@ -32,7 +32,8 @@ struct GoalArms {
 // Problems: pointer "".
 [[nodiscard]] Result<ArmId> find_arm(const Cell& cell, const std::string& name);
 // The same in the cell's terms. Problems: a state or link that there is not, another number of
-// joints; pointers are below the goal ("/named"). Limits are the planner's to look at.
+// joints; pointers are below the goal ("/named"). Limits are the planner's to look at. As fast as
+// the cell has it.
 [[nodiscard]] Result<MotionGoal> goal_of(const Cell& cell, ArmId arm, const PlanGoal& said);
 // For each of the arms. Problems: as above, those of the goal below `place` ("/move_to"), those of
 // arms at "/arm", "/arms" or "/arms/1": unknown, named twice, one that does not move the link.

@@ -52,6 +52,7 @@ Result<TrajectoryPtr> joint_line(const Cell& cell, const std::vector<JointId>& j
     request.joint_names.push_back(joint.name);
     duration_s = std::max(duration_s, least_duration_s(joint, std::abs(to[j] - from[j])));
   }
+  duration_s /= cell.execution.velocity_scaling_factor;
   // Times are whole nanoseconds: never one too few.
   duration_s = std::min(std::ceil(duration_s * 1e9) / 1e9, 2 * kDurationMax_s);
   request.points = {at_rest(from, 0.0), at_rest(to, duration_s)};

@@ -18,8 +18,8 @@ inline constexpr Duration kLineMin = std::chrono::milliseconds(10);
 //   s(x) = 10 x^3 - 15 x^4 + 6 x^5   (minimum jerk: Flash and Hogan 1985).
 // Its derivatives peak at 15/8 (x = 1/2), 10/sqrt(3) (x = (3 - sqrt 3)/6) and 60 (x = 0), so that T
 // is the least duration for which each joint keeps its velocity, acceleration and jerk limits as
-// the cell gives them, without tolerance:
-//   T = max over joints of  15/8 d/v_max,  sqrt(10/sqrt(3) d/a_max),  cbrt(60 d/j_max).
+// the cell gives them, without tolerance, stretched by the cell's velocity_scaling_factor f:
+//   T = max over joints of  15/8 d/v_max,  sqrt(10/sqrt(3) d/a_max),  cbrt(60 d/j_max),  over f.
 // rad or m; `from` and `to` have one row for each of `joints` (throws std::invalid_argument).
 // Problems: as validate() (core/trajectory/validate.h), through which the line goes: a position
 // outside its limits, a joint of the arm that is missing. Pure and thread-safe.

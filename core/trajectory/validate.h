@@ -7,7 +7,6 @@
 
 #include "core/base/problem.h"
 #include "core/model/cell.h"
-#include "core/trajectory/timing/joint_rates.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
@@ -23,9 +22,11 @@ struct WaypointRequest {
 struct TrajectoryRequest {
   std::vector<std::string> joint_names;  // in any order; Trajectory::joints() keeps it
   std::vector<WaypointRequest> points;
-  // Times, velocities and accelerations are made, within these shares of the limits (retime.h);
-  // absent: as given.
-  std::optional<RateShares> retime = {};
+  // Times, velocities and accelerations are made (retime.h); absent: as given.
+  struct Retime {
+    std::optional<double> velocity;  // share of the joints' speeds; absent: the cell's
+  };
+  std::optional<Retime> retime = {};
 };
 
 // More waypoints than this are refused as too large before anything is computed.

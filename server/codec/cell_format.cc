@@ -84,6 +84,12 @@ FormatPtr<ExecutionSettings> execution_format() {
             "margin, and has not moved for 10 s."),
       field("duration_margin_s", &Execution::duration_margin, seconds(kTime),
             "The margin of that; larger where arms may stall for longer."),
+      field("velocity_scaling_factor", &Execution::velocity_scaling_factor,
+            number({kVelocityScalingMin, 1.0}),
+            "As MoveIt's default: the share of the joints' speeds of every motion whose times the "
+            "server makes: goals, paths to be timed, other ways, ways aside. A request's own "
+            "velocity_scaling_factor takes its place. Trajectories with times are run as they are "
+            "given."),
   });
 }
 

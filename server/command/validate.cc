@@ -94,7 +94,8 @@ void print_settings(const Cell& cell) {
             << cell.monitor.stop_clearance_m << " m\n"
             << "execution: start tolerance " << cell.execution.start_tolerance_rad
             << " rad, duration " << cell.execution.duration_scaling << " x + "
-            << to_seconds(cell.execution.duration_margin) << " s\n";
+            << to_seconds(cell.execution.duration_margin) << " s, motions timed here at "
+            << cell.execution.velocity_scaling_factor << " of the joints' speeds\n";
 }
 
 void print_cell(const Cell& cell) {

@@ -118,7 +118,7 @@ PartPtr<JobRequest> retime_part() {
       flag(), [](const Request&) { return std::optional<bool>(); },
       [](Request& request, bool retime) {
         for (TrajectoryRequest* motion : motions_of(request)) {
-          motion->retime = retime ? std::optional(RateShares{}) : std::nullopt;
+          motion->retime = retime ? std::optional(TrajectoryRequest::Retime{}) : std::nullopt;
         }
       });
 }
@@ -128,9 +128,12 @@ PartPtr<JobRequest> velocity_scaling_part() {
   return std::make_shared<MemberPart<Request, double>>(
       MemberText{"velocity_scaling_factor",
                  "As MoveIt's: the share of its speed at which the trajectory is run. It is "
-                 "stretched in time before anything is checked",
-                 Need::optional, Schema(1)},
-      number({0.001, 1.0}), [](const Request&) { return std::optional<double>(); },
+                 "stretched in time before anything is checked. Absent: as it is given; of what "
+                 "the server times (move_to, retime) the cell's "
+                 "execution.velocity_scaling_factor",
+                 Need::optional,
+                 {}},
+      number({kVelocityScalingMin, 1.0}), [](const Request&) { return std::optional<double>(); },
       [](Request& request, double factor) {
         request.speed = factor;
         for (TrajectoryRequest* motion : motions_of(request)) slow_down(*motion, factor);

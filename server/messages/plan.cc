@@ -30,8 +30,8 @@ FormatPtr<PlanInquiry> plan_inquiry_format() {
                 "Where it begins, as joints or a named state; absent: where it will be when all "
                 "jobs that are accepted have run"),
           field("seed", &Inquiry::seed, count(), "Of the search: the same one repeats the plan"),
-          field("velocity_scaling_factor", &Inquiry::speed, number({0.001, 1.0}),
-                "The share of its speed at which it goes"),
+          field("velocity_scaling_factor", &Inquiry::speed, number({kVelocityScalingMin, 1.0}),
+                "The share of its speed at which it goes; absent: the cell's"),
       }));
   return format;
 }

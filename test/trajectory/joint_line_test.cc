@@ -54,6 +54,18 @@ double share_of(const Cell& cell, const Trajectory& line) {
   return share;
 }
 
+TEST(JointLine, TakesAsMuchLongerAsTheCellIsSlower) {
+  Cell cell = strict_cell();
+  const auto& joints = cell.arms[0].joints;
+  std::mt19937_64 random(5);
+  const Eigen::VectorXd from = random_place(random, cell, joints);
+  const Eigen::VectorXd to = random_place(random, cell, joints);
+  const Duration fast = (*joint_line(cell, joints, from, to))->duration();
+  cell.execution.velocity_scaling_factor = 0.25;
+  const Duration slow = (*joint_line(cell, joints, from, to))->duration();
+  EXPECT_NEAR(to_seconds(slow), 4 * to_seconds(fast), 1e-6);
+}
+
 TEST(JointLine, KeepsEveryLimitAndTakesNoLongerThanOneOfThemNeeds) {
   std::mt19937_64 random(11);
   for (int i = 0; i < 60; ++i) {

@@ -161,6 +161,9 @@ void check_settings(const CellDescription& d, Diagnostics& diagnostics) {
   require(execution.duration_scaling >= 1.0, execution.duration_scaling,
           "/execution/duration_scaling", "1 or more", diagnostics);
   not_negative(to_seconds(execution.duration_margin), "/execution/duration_margin_s");
+  const double factor = execution.velocity_scaling_factor;
+  require(factor >= kVelocityScalingMin && factor <= 1.0, factor,
+          "/execution/velocity_scaling_factor", "at least 0.001 and at most 1", diagnostics);
 
   for (std::size_t r = 0; r < d.robots.size(); ++r) {
     const ControllerDescription& controller = d.robots[r].controller;

@@ -1,5 +1,6 @@
 #include "core/scheduler/ways/approach.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/jobs/phases.h"
@@ -25,6 +26,7 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
   const Eigen::VectorXd to = joints_of(at, state.cell->arm(arm).joints);
   TrajectoryPtr way = estimate(state, arm, to);
   if (!way) return false;
+  const double speed = std::min(kApproachSpeed, state.cell->execution.velocity_scaling_factor);
   Record record =
       record_of(state, {.job = state.jobs.next_id(),
                         .trajectory = std::move(way),
@@ -32,7 +34,7 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
                                   .backlog_timeout = head.job.terms.backlog_timeout,
                                   .system_job = true,
                                   .replans_on_timeout = head.job.terms.replans_on_timeout},
-                        .goals = {{.arm = arm, .to = to, .speed = kApproachSpeed}}});
+                        .goals = {{.arm = arm, .to = to, .speed = speed}}});
   record.errand.on_behalf_of = head.errand.on_behalf_of;
   record.errand.before = head.job.id;
   const JobId id = record.job.id;

@@ -56,7 +56,8 @@ Result<TrajectoryPtr> retimed(const TrajectoryRequest& request, const Cell& cell
   }
   if (!problems.empty()) return failure(std::move(problems).take());
   auto timed = time_path(cell, names.joints, JointPath::rounded(way, kRetimeWithin),
-                         {.shares = *request.retime});
+                         {.shares = {.velocity = request.retime->velocity.value_or(
+                                         cell.execution.velocity_scaling_factor)}});
   if (timed) return std::move(timed->trajectory);
   for (Problem& problem : timed.error()) {
     problem.pointer = "/points";

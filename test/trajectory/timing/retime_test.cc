@@ -27,7 +27,7 @@ struct Way {
       const Eigen::VectorXd at = random_posture(random, cell, cell.arms[0].joints);
       request.points.push_back({.positions = {at.begin(), at.end()}});
     }
-    request.retime = RateShares{};
+    request.retime = TrajectoryRequest::Retime{};
   }
   [[nodiscard]] Result<TrajectoryPtr> read() const { return validate(request, cell); }
 
@@ -85,6 +85,15 @@ TEST(Retime, TakesLongerWithASmallerShareAndReadsOverWhatTheWaypointsHave) {
     point.time_from_start_s = -3.0;
   }
   way.request.points.insert(way.request.points.begin() + 1, way.request.points[0]);
+  EXPECT_EQ((*way.read())->duration(), fast);
+}
+
+TEST(Retime, IsAsFastAsTheCellHasItUnlessTheRequestSaysAnotherSpeed) {
+  Way way(3);
+  const Duration fast = (*way.read())->duration();
+  way.cell.execution.velocity_scaling_factor = 0.1;
+  EXPECT_GT((*way.read())->duration(), 2 * fast);
+  way.request.retime->velocity = 1.0;
   EXPECT_EQ((*way.read())->duration(), fast);
 }
 

@@ -74,6 +74,8 @@ export interface components {
                 duration_scaling: number;
                 /** @description The margin of that; larger where arms may stall for longer. */
                 duration_margin_s: number;
+                /** @description As MoveIt's default: the share of the joints' speeds of every motion whose times the server makes: goals, paths to be timed, other ways, ways aside. A request's own velocity_scaling_factor takes its place. Trajectories with times are run as they are given. */
+                velocity_scaling_factor: number;
             };
         };
         /** @description A job as the server gives it. */
