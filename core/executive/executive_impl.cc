@@ -41,8 +41,10 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       count_(cell_->arms.size()),
       clock_{.dies_at = options.dies_at, .inputs = options.inputs},
       publisher_({*cell_, scheduler_, execution_.motions(), jobs_, execution_.starts()}, observer),
-      intake_(cell_, scheduler_, jobs_, {options.waiting_max, options.first_job}),
-      watch_(scene_.scene()) {}
+      intake_(cell_, scheduler_, jobs_, options.waiting_max),
+      watch_(scene_.scene()) {
+  scheduler_.begin_ids_at(options.first_job);
+}
 
 void Executive::Impl::note(ExecutiveInput input) const {
   if (clock_.inputs != nullptr) clock_.inputs->came(clock_.ticks, input);

@@ -59,10 +59,10 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
     return failure(Problem{ProblemKind::unavailable, "server-ends", "",
                            "the server is ending and accepts no job"});
   }
-  if (jobs_.active() + ahead.keys.size() >= bounds_.waiting_max) {
-    return failure(Problem{
-        ProblemKind::unavailable, "queue-full", "",
-        "the queue is full: " + std::to_string(bounds_.waiting_max) + " jobs have not ended"});
+  if (jobs_.active() + ahead.keys.size() >= waiting_max_) {
+    return failure(
+        Problem{ProblemKind::unavailable, "queue-full", "",
+                "the queue is full: " + std::to_string(waiting_max_) + " jobs have not ended"});
   }
   Problems problems;
   std::vector<TrajectoryPtr> returns;

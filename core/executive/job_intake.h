@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -32,19 +31,10 @@ struct PreparedJob {
 // but what it knows of ways back.
 class JobIntake {
  public:
-  // As of ExecutiveOptions.
-  struct Bounds {
-    std::size_t waiting_max;
-    JobId first_job;
-  };
-  // Both outlive it.
-  JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs, const Bounds& bounds)
-      : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), bounds_(bounds) {}
-
-  // The id of the next job.
-  [[nodiscard]] JobId next_job() const {
-    return std::max(scheduler_.next_job(), bounds_.first_job);
-  }
+  // Both outlive it. `waiting_max`: as of ExecutiveOptions.
+  JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs,
+            std::size_t waiting_max)
+      : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), waiting_max_(waiting_max) {}
 
   // Where joints will stand, and which keys are taken, when the jobs before it are accepted.
   struct Ahead {
@@ -88,7 +78,7 @@ class JobIntake {
   CellPtr cell_;
   const Scheduler& scheduler_;
   const JobRegister& jobs_;
-  Bounds bounds_;
+  std::size_t waiting_max_;
   std::map<ArmId, TrajectoryPtr> ways_back_;
   bool is_closed_ = false;
 };

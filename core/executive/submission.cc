@@ -53,10 +53,10 @@ JobView Executive::Impl::accept(PreparedJob prepared) {
   for (TrajectoryPtr& back : prepared.returns) {
     std::string name = cell_->arm(back->arms().front()).name + " returns to where it was left";
     Submit way = intake_.return_of(std::move(back), prepared.priority);
-    way.job = intake_.next_job();
+    way.job = scheduler_.next_job();
     enter(std::move(way), {jobs_.own_key(OwnJob::aside), std::move(name)});
   }
-  const JobId id = intake_.next_job();
+  const JobId id = scheduler_.next_job();
   JobLabel label{std::move(prepared.key), std::move(prepared.name)};
   if (label.key.empty()) label.key = jobs_.free_key(id);
   Submit submitted = intake_.submission(std::move(prepared));

@@ -31,8 +31,9 @@ bool leads_to(const JobPhase& from, const JobPhase& to) {
 
 Record& JobBook::add(Record record) {
   const Job& job = record.job;
-  if (job.id < next_id()) throw std::invalid_argument("Submit: ids must grow");
-  last_id_ = job.id.value();
+  std::uint64_t& last = job.id.value() < first_id_ ? last_former_id_ : last_id_;
+  if (job.id.value() <= last) throw std::invalid_argument("Submit: ids must grow");
+  last = job.id.value();
   queues_.insert(job, record.errand.before);
   queues_.add_work(job);
   active_.insert(job.id);

@@ -69,8 +69,13 @@ class JobBook {
  public:
   explicit JobBook(std::size_t arms) : queues_(arms) {}
 
-  // Ids grow (throws std::invalid_argument). It comes to the end of its arms' queues, or before
-  // record.errand.before where that stands.
+  // The ids below are those of former runs, and given to no job of this one.
+  void begin_ids_at(JobId first) {
+    first_id_ = first.value();
+    last_id_ = first_id_ - 1;
+  }
+  // Ids grow, those of former runs by themselves (throws std::invalid_argument). It comes to the
+  // end of its arms' queues, or before record.errand.before where that stands.
   Record& add(Record record);
   [[nodiscard]] JobId next_id() const { return JobId{last_id_ + 1}; }
   // Precondition: it has ended.
@@ -126,7 +131,9 @@ class JobBook {
   void explain_with_next(const Job& job);
 
   std::unordered_map<JobId, Record> records_;
+  std::uint64_t first_id_ = 1;
   std::uint64_t last_id_ = 0;
+  std::uint64_t last_former_id_ = 0;  // below first_id_
   std::set<JobId> active_;
   std::set<JobId> past_queue_;
   std::set<JobId> undecided_;

@@ -54,6 +54,9 @@ class Scheduler {
   // Arms of which that is an estimate: the last goal is a pose, and not planned yet.
   [[nodiscard]] std::vector<ArmId> open_ends() const;
 
+  // Jobs of former runs have the ids below, and may come with them; the next job has this one.
+  // Precondition: no job has come yet.
+  void begin_ids_at(JobId first) { state_.jobs.begin_ids_at(first); }
   // What the next job is to be called: not what an effect has called one of the scheduler's own.
   [[nodiscard]] JobId next_job() const { return state_.jobs.next_id(); }
   // The last WakeAt.

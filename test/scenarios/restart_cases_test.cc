@@ -177,6 +177,23 @@ TEST(Restore, OneThatBeginsElsewhereFailsWhenItIsResumedAndNotBefore) {
   EXPECT_EQ(cell.job("next").state, JobState::succeeded);
 }
 
+// Arms are not stopped, so the first one is given a job of the scheduler's own at once.
+TEST(Restore, JobsOfTheServersOwnTakeNoNumberOfAFormerRun) {
+  Restarted cell(nullptr, "earliest_start", JobId{20});
+  std::vector<RestoredJob> jobs;
+  jobs.push_back({JobId{7}, slide("x", 0.2, -1, 2, "elsewhere"), at(-2s)});
+  jobs.back().request.approach = Approach::plan;
+  jobs.push_back({JobId{8}, slide("y", -1, 0, 2, "next"), at(-1s)});
+  jobs.back().request.after = {"elsewhere"};
+  for (const auto& answer : cell.executive().restore(std::move(jobs))) ASSERT_TRUE(answer);
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("approach-1").id, JobId{20});
+  EXPECT_EQ(cell.job("elsewhere").id, JobId{7});
+  EXPECT_EQ(cell.job("elsewhere").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("next").id, JobId{8});
+  EXPECT_EQ(cell.job("next").state, JobState::succeeded);
+}
+
 TEST(Restore, OneThatTheCellNoLongerFitsIsNamedAndTheOthersAreThere) {
   Restarted cell(nullptr);
   auto jobs = two_of_x();
