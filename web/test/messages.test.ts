@@ -77,7 +77,7 @@ describe('the cell', () => {
     checking: { time_step_s: 0.05, tracking_error_rad: 0.001, delay_s: 0.1, limit_tolerance: 0.05 },
     scheduling: { policy: 'sequential', backlog_timeout_s: 60, aging_s: 30, horizon_legs: 6, on_restart: 'ask', on_idle_blocker: 'park' },
     monitor: { rate_hz: 100, reaction_s: 0.02, stop_clearance_m: 0.01 },
-    execution: { start_tolerance_rad: 0.01, duration_scaling: 1.1, duration_margin_s: 0.5 },
+    execution: { start_tolerance_rad: 0.01, duration_scaling: 1.1, duration_margin_s: 0.5, velocity_scaling_factor: 1 },
     robots: [{
       name: 'left', prefix: 'left_', base: { xyz: [-0.4, 0, 0.1], rpy: [0, 0, 0] }, urdf: '<robot/>', srdf: '', meshes: {},
       arms: [{ name: 'left', group: 'panda_arm', joints: ['left_panda_joint1'], gripper_joints: [], home: [0], named_states: {} }],
