@@ -1,4 +1,5 @@
 // A data folder is a bug report: what happened on a server is run again from it.
+#include <chrono>
 #include <csignal>
 #include <fstream>
 
@@ -10,6 +11,16 @@ namespace armloom {
 namespace {
 
 using nlohmann::json;
+
+// The job when it has ended, or as it is after a minute.
+json ended(std::uint16_t port, const std::string& id) {
+  const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  json job;
+  do {
+    job = test::request(port, "GET", "/api/v1/jobs/" + id, "").json();
+  } while (job["result"].is_null() && std::chrono::steady_clock::now() < until);
+  return job;
+}
 
 class ReplayCommand : public test::CommandFixture {
  protected:
@@ -44,9 +55,8 @@ class ReplayCommand : public test::CommandFixture {
     call("POST", "/stop", nullptr);
     call("POST", "/resume", nullptr);
     call("PUT", "/sim/speed", {{"speed", 20}});
-    for (json state; state != "succeeded";) {
-      state = call("GET", "/jobs/goal", nullptr).json()["state"];
-    }
+    const json goal = ended(server.port(), "goal");
+    EXPECT_EQ(goal["state"], "succeeded") << goal.dump();
     server.signal(SIGKILL);
     server.wait();
   }
@@ -86,9 +96,8 @@ TEST_F(ReplayCommand, WorksWhereverTheFolderIsMoved) {
     job["id"] = id;
     const auto accepted = test::request(server.port(), "POST", "/api/v1/jobs", job.dump());
     ASSERT_EQ(accepted.status, 202) << accepted.body;
-    for (json state; state != "succeeded";) {
-      state = test::request(server.port(), "GET", "/api/v1/jobs/first", "").json()["state"];
-    }
+    const json left = ended(server.port(), "first");
+    EXPECT_EQ(left["state"], "succeeded") << left.dump();
     server.signal(SIGKILL);
     server.wait();
   }
@@ -104,9 +113,9 @@ TEST_F(ReplayCommand, SaysWhatIsOtherwise) {
   live();
   const auto file_of = [&](const char* name) { return std::filesystem::path(data()) / name; };
   std::string events = read_text_file(file_of("events.jsonl")).value();
-  const std::size_t at = events.find("\"backlogged\"");
+  const std::size_t at = events.find("\"running\"");
   ASSERT_NE(at, std::string::npos);
-  std::ofstream(file_of("events.jsonl")) << events.replace(at, 12, "\"scheduled\"");
+  std::ofstream(file_of("events.jsonl")) << events.replace(at, 9, "\"holding\"");
   const auto replayed = run("replay --data " + data());
   EXPECT_EQ(replayed.exit_code, 1);
   EXPECT_EQ(replayed.last_line()["same"], false);
