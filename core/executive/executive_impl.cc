@@ -26,7 +26,7 @@ MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
 Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementService& judges,
                       Observer& observer)
     : cell_(checked.cell),
-      scheduler_(cell_, std::move(checked.policy), cell_->home()),
+      scheduler_(cell_, std::move(checked.policy), cell_->home(), options.first_job),
       jobs_(scheduler_, options.ended_kept),
       scene_(std::move(checked.scene),
              [this]() -> const Configuration& { return execution_.motions().measured(); },
@@ -42,9 +42,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       clock_{.dies_at = options.dies_at, .inputs = options.inputs},
       publisher_({*cell_, scheduler_, execution_.motions(), jobs_, execution_.starts()}, observer),
       intake_(cell_, scheduler_, jobs_, options.waiting_max),
-      watch_(scene_.scene()) {
-  scheduler_.begin_ids_at(options.first_job);
-}
+      watch_(scene_.scene()) {}
 
 void Executive::Impl::note(ExecutiveInput input) const {
   if (clock_.inputs != nullptr) clock_.inputs->came(clock_.ticks, input);

@@ -21,7 +21,8 @@ class Policy;
 
 // ---- Inputs: everything that can happen to the scheduler. Time comes beside them, in step(). ----
 
-// A valid job arrives. Its id is larger than any before (Scheduler::next_job()).
+// A valid job arrives. Its id is larger than any before (Scheduler::next_job()), or that of a
+// former run.
 struct Submit {
   JobId job;
   TrajectoryPtr trajectory;

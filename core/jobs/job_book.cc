@@ -29,11 +29,15 @@ bool leads_to(const JobPhase& from, const JobPhase& to) {
 
 }  // namespace
 
+void JobIds::take(JobId id) {
+  std::uint64_t& last = id.value() < first_ ? last_former_ : last_;
+  if (id.value() <= last) throw std::invalid_argument("Submit: ids must grow");
+  last = id.value();
+}
+
 Record& JobBook::add(Record record) {
   const Job& job = record.job;
-  std::uint64_t& last = job.id.value() < first_id_ ? last_former_id_ : last_id_;
-  if (job.id.value() <= last) throw std::invalid_argument("Submit: ids must grow");
-  last = job.id.value();
+  ids_.take(job.id);
   queues_.insert(job, record.errand.before);
   queues_.add_work(job);
   active_.insert(job.id);

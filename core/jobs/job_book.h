@@ -64,20 +64,29 @@ struct Record {
   Approaches approaches = {};
 };
 
+// Which ids jobs may come with: they grow, from `first` on; the ones below are those of former
+// runs, whose jobs may come too, at any time, and grow by themselves.
+class JobIds {
+ public:
+  explicit JobIds(JobId first) : first_(first.value()), last_(first_ - 1) {}
+  // Throws std::invalid_argument.
+  void take(JobId id);
+  [[nodiscard]] JobId next() const { return JobId{last_ + 1}; }
+
+ private:
+  std::uint64_t first_, last_;
+  std::uint64_t last_former_ = 0;
+};
+
 // All jobs, and their places in the queues of their arms. Changes of what clients see are noted.
 class JobBook {
  public:
-  explicit JobBook(std::size_t arms) : queues_(arms) {}
+  JobBook(std::size_t arms, JobId first) : ids_(first), queues_(arms) {}
 
-  // The ids below are those of former runs, and given to no job of this one.
-  void begin_ids_at(JobId first) {
-    first_id_ = first.value();
-    last_id_ = first_id_ - 1;
-  }
-  // Ids grow, those of former runs by themselves (throws std::invalid_argument). It comes to the
-  // end of its arms' queues, or before record.errand.before where that stands.
+  // Throws as JobIds::take(). It comes to the end of its arms' queues, or before
+  // record.errand.before where that stands.
   Record& add(Record record);
-  [[nodiscard]] JobId next_id() const { return JobId{last_id_ + 1}; }
+  [[nodiscard]] JobId next_id() const { return ids_.next(); }
   // Precondition: it has ended.
   void forget(JobId job);
 
@@ -131,9 +140,7 @@ class JobBook {
   void explain_with_next(const Job& job);
 
   std::unordered_map<JobId, Record> records_;
-  std::uint64_t first_id_ = 1;
-  std::uint64_t last_id_ = 0;
-  std::uint64_t last_former_id_ = 0;  // below first_id_
+  JobIds ids_;
   std::set<JobId> active_;
   std::set<JobId> past_queue_;
   std::set<JobId> undecided_;

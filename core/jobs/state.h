@@ -43,10 +43,10 @@ struct State {
   TimePoint now{};            // of the present step
   Decided decided = {};       // in the present step
 
-  State(CellPtr description, std::shared_ptr<const Policy> chosen, Configuration rest)
+  State(CellPtr description, std::shared_ptr<const Policy> chosen, Configuration rest, JobId first)
       : cell(std::move(description)),
         policy(std::move(chosen)),
-        jobs(cell->arms.size()),
+        jobs(cell->arms.size(), first),
         arms(*cell, std::move(rest)),
         lanes(cell->execution.start_tolerance_rad),
         graph(cell->arms.size()) {}

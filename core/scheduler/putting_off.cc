@@ -47,6 +47,20 @@ Judgement& judgement_of(Record& record) {
   return held != nullptr ? held->judgement : std::get<Queued>(record.job.phase).judgement;
 }
 
+// Out of the backlog, where it is there.
+void stay_queued(State& state, Record& record, Judgement found) {
+  if (gives_detour_up(state, record)) return;
+  const auto* queued = record.job.in<Queued>();
+  if (queued != nullptr && queued->in_backlog) {
+    enter(state, record, Queued{});
+    record.job.times.backlogged_at.reset();
+    state.jobs.changed(record);
+  }
+  judgement_of(record) = std::move(found);
+  if (!record.ages_from && is_at_head(state.jobs, record)) record.ages_from = state.now;
+  state.jobs.set_waits(record, record.job.judgement().found);
+}
+
 }  // namespace
 
 void note_found(Record& record, std::vector<Wait> waits) {
@@ -69,21 +83,12 @@ void put_off(State& state, Record& record, std::vector<Wait> waits) {
 }
 
 void wait_behind(State& state, Record& record, JobId first) {
-  if (gives_detour_up(state, record)) return;
-  const auto* queued = record.job.in<Queued>();
-  if (queued != nullptr && queued->in_backlog) {
-    enter(state, record, Queued{});
-    record.job.times.backlogged_at.reset();
-    state.jobs.changed(record);
-  }
-  judgement_of(record) = {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}};
-  if (!record.ages_from && is_at_head(state.jobs, record)) record.ages_from = state.now;
-  state.jobs.set_waits(record, record.job.judgement().found);
+  stay_queued(state, record, {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}});
 }
 
 void wait_in_turn(State& state, Record& record, JobId first) {
-  wait_behind(state, record, first);
-  judgement_of(record).in_turn_after = first;
+  stay_queued(state, record,
+              {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}, first});
 }
 
 void refuse(State& state, Record& record, const Verdict& verdict) {

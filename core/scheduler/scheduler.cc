@@ -87,8 +87,9 @@ std::vector<Effect> taken_effects(State& state) {
 
 }  // namespace
 
-Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest)
-    : state_(std::move(cell), std::move(policy), std::move(rest)) {
+Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
+                     JobId first)
+    : state_(std::move(cell), std::move(policy), std::move(rest), first) {
   if (!state_.policy) throw std::invalid_argument("Scheduler: no policy");
 }
 

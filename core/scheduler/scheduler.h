@@ -33,8 +33,10 @@ namespace armloom {
 // judged again, and those in conflict are held until the way is free.
 class Scheduler {
  public:
-  // `rest` is where every joint stands at the beginning. The policy is not null.
-  Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest);
+  // `rest` is where every joint stands at the beginning. The policy is not null. Jobs of former
+  // runs have the ids below `first`, and may come with them.
+  Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
+            JobId first = JobId{1});
   // As it would be at `now` amid motions that are under way, each at its progress, nothing having
   // been decided between them: for questions about what else could go (Trial). At most one of an
   // arm; their ids grow. `rest` is where these set out.
@@ -54,9 +56,6 @@ class Scheduler {
   // Arms of which that is an estimate: the last goal is a pose, and not planned yet.
   [[nodiscard]] std::vector<ArmId> open_ends() const;
 
-  // Jobs of former runs have the ids below, and may come with them; the next job has this one.
-  // Precondition: no job has come yet.
-  void begin_ids_at(JobId first) { state_.jobs.begin_ids_at(first); }
   // What the next job is to be called: not what an effect has called one of the scheduler's own.
   [[nodiscard]] JobId next_job() const { return state_.jobs.next_id(); }
   // The last WakeAt.

@@ -96,8 +96,8 @@ TEST_F(ReplayCommand, WorksWhereverTheFolderIsMoved) {
     job["id"] = id;
     const auto accepted = test::request(server.port(), "POST", "/api/v1/jobs", job.dump());
     ASSERT_EQ(accepted.status, 202) << accepted.body;
-    const json left = ended(server.port(), "first");
-    EXPECT_EQ(left["state"], "succeeded") << left.dump();
+    const json done = ended(server.port(), "first");
+    EXPECT_EQ(done["state"], "succeeded") << done.dump();
     server.signal(SIGKILL);
     server.wait();
   }

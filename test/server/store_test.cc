@@ -102,6 +102,18 @@ TEST_F(Store, ACorruptFileIsSaidToBeAndNotMended) {
   EXPECT_EQ(fs::file_size(file()), size);
 }
 
+// Jobs would come in the index's order, or not at all.
+TEST_F(Store, AnIndexThatIsNotTheTablesIsSaidToBeCorrupt) {
+  {
+    const auto store = open();
+    for (std::uint64_t number = 1; number <= 3; ++number) accept(*store, number).get();
+  }
+  EXPECT_EQ(why_not(), "");
+  sql("PRAGMA writable_schema = ON; UPDATE sqlite_schema SET sql = "
+      "'CREATE INDEX job_left ON job(number) WHERE has_ended = 1' WHERE name = 'job_left'");
+  EXPECT_NE(why_not().find("it is corrupt: "), std::string::npos) << why_not();
+}
+
 // Of an old version: its jobs are kept.
 TEST_F(Store, TablesAreBroughtUpToDateWhole) {
   fs::create_directories(folder_);

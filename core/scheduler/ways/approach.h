@@ -11,8 +11,8 @@ namespace armloom {
 // (goals.h), slowly, each in front of that job. Where one comes to an end elsewhere (it was
 // stopped, has failed), another one follows, so many in all.
 inline constexpr int kApproachesMax = 3;
-inline constexpr double kApproachSpeed =
-    0.25;  // share of the joints' speeds; the cell's where that is less
+// Share of the joints' speeds; the cell's where that is less.
+inline constexpr double kApproachSpeed = 0.25;
 
 // A job at the head of its arms that cannot begin where they stand, and where they are not brought,
 // will never be able to: ends those that wait there.
