@@ -46,6 +46,9 @@ struct Asking {
 
 // How often arms were sent to where a job begins (approach.h), and why there is no way there.
 struct Approaches {
+  // Whether the job could run at all from there: is to be asked; it could.
+  bool is_in_question = false;
+  bool is_worthwhile = false;
   int tries = 0;
   std::optional<std::string> refusal = {};
 };

@@ -11,6 +11,7 @@
 #include "core/scheduler/policy.h"
 #include "core/scheduler/putting_off.h"
 #include "core/scheduler/waiting/turns.h"
+#include "core/scheduler/ways/approach.h"
 #include "core/scheduler/ways/detour.h"
 #include "core/scheduler/ways/planned_aside.h"
 #include "core/scheduler/ways/replanning.h"
@@ -92,6 +93,10 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
     ask(state, {*recheck}, Purpose::recheck);
     return put_off;
   }
+  if (const auto job = next_in_question(state)) {
+    ask_about_itself(state, *job);
+    return put_off;
+  }
   std::optional<JobId> turn;
   if (auto opens = cycles.next_yield(state)) {
     ask_yield(state, std::move(*opens));
@@ -128,6 +133,11 @@ void Admission::ask(State& state, std::vector<JobId> jobs, Purpose purpose) {
   state.decided.effects.push_back(Judge{std::move(question)});
 }
 
+void Admission::ask_about_itself(State& state, JobId job) {
+  open_ = OpenQuestion{state.version, {job}, Purpose::itself};
+  state.decided.effects.push_back(Judge{question_by_itself(state, state.jobs.at(job).job)});
+}
+
 void Admission::ask_yield(State& state, YieldTrial move) {
   if (!move.way) return ask_for_way_aside(state, move);
   Question question = question_about(state, move);
@@ -146,6 +156,15 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
   switch (question.purpose) {
     case Purpose::yield:
       return answer_yield(state, input.verdict, std::move(*question.yield), cycles);
+    case Purpose::itself: {
+      Record& record = state.jobs.at(question.jobs.front());
+      record.approaches.is_in_question = false;
+      record.approaches.is_worthwhile = true;
+      if (input.verdict.kind == Verdict::Kind::conflict) {
+        (void)fails_by_itself(state, record, input.verdict);
+      }
+      return;
+    }
     case Purpose::recheck: {
       Record& record = state.jobs.at(question.jobs.front());
       record.asking.found_free_at = state.version;

@@ -15,9 +15,10 @@ namespace armloom {
 // orders; or more is asked; or they wait. Admission and the orders that it makes are one step.
 class Admission {
  public:
-  // The next question, if none is open: motions that another scene may endanger first, then arms
-  // that could open a ring, jobs whose turn it is, arms that could go aside. Whether jobs have been
-  // put off on the way: then who waits for whom is another. `turns`: as they are.
+  // The next question, if none is open: motions that another scene may endanger first, then jobs to
+  // whose start arms are to be brought (whether they could run from there), arms that could open a
+  // ring, jobs whose turn it is, arms that could go aside. Whether jobs have been put off on the
+  // way: then who waits for whom is another. `turns`: as they are.
   [[nodiscard]] bool ask_next(State& state, const Turns& turns, const WaitCycles& cycles);
   // The answer to the open question. One on an older version is void and asked again.
   void on(const Judged& input, State& state, WaitCycles& cycles);
@@ -26,6 +27,7 @@ class Admission {
   enum class Purpose {
     start,    // of a job that waits
     option,   // the same, of one of several that could take a turn
+    itself,   // of a job alone, from where it begins, though its arms are elsewhere
     recheck,  // of a motion that is under way or scheduled
     yield,    // whether an arm could go aside, and the job then pass
   };
@@ -44,6 +46,7 @@ class Admission {
   };
 
   void ask(State& state, std::vector<JobId> jobs, Purpose purpose);
+  void ask_about_itself(State& state, JobId job);
   void ask_yield(State& state, YieldTrial move);
   void answer_yield(State& state, const Verdict& verdict, YieldTrial move, WaitCycles& cycles);
   void answer_option(State& state, Verdict verdict);

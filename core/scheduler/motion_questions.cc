@@ -34,6 +34,18 @@ Question question_now(const State& state, const std::vector<JobId>& candidates) 
   return question;
 }
 
+Question question_by_itself(const State& state, const Job& job) {
+  Question question{.version = state.version,
+                    .start_at = state.now,
+                    .candidates = {Motion{.job = job.id, .trajectory = job.trajectory}},
+                    .others = {},
+                    .rest = state.arms.rest(),
+                    .method = state.policy->method(),
+                    .may_part = false};
+  set_joints(question.rest, *job.trajectory, job.trajectory->start());
+  return question;
+}
+
 CoordinatedMotion as_candidate(const Job& job) {
   return {.job = job.id,
           .arms = job.trajectory->arms(),

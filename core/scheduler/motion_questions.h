@@ -10,6 +10,8 @@ namespace armloom {
 // What geometry is asked, from where things stand now: about these jobs, beside everything else
 // that is admitted.
 [[nodiscard]] Question question_now(const State& state, const std::vector<JobId>& candidates);
+// About this job alone, its arms being where it begins.
+[[nodiscard]] Question question_by_itself(const State& state, const Job& job);
 // A job's motion, to be ordered beside what is admitted.
 [[nodiscard]] CoordinatedMotion as_candidate(const Job& job);
 // Where all stand when what is admitted has run; and what comes before that job on its arm, if

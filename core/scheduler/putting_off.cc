@@ -1,5 +1,6 @@
 #include "core/scheduler/putting_off.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -18,20 +19,19 @@ constexpr const char* kUndecided = "undecided within the budget of evaluations";
 constexpr int kRaisedMax = 12;
 
 std::string hits_itself(const Conflict& conflict) {
-  char text[128];
-  std::snprintf(text, sizeof text, " come within %.4g m of each other at %.3f s of the trajectory",
-                conflict.proximity.clearance_m, to_seconds(conflict.own_time));
-  return conflict.proximity.body_a + " and " + conflict.proximity.body_b + text;
+  const double apart = conflict.proximity.clearance_m;
+  char how[64] = " touch each other";
+  if (apart > 0.0) std::snprintf(how, sizeof how, " come within %.4g m of each other", apart);
+  char when[64];
+  std::snprintf(when, sizeof when, " at %.3f s of the trajectory", to_seconds(conflict.own_time));
+  return conflict.proximity.body_a + " and " + conflict.proximity.body_b + how + when;
 }
 
 // Nothing: it hits itself, and has not begun.
 std::optional<std::vector<Wait>> waits_for(State& state, Record& record, const Verdict& verdict) {
+  if (fails_by_itself(state, record, verdict)) return std::nullopt;
   std::vector<Wait> waits;
   for (const Conflict& conflict : verdict.conflicts) {
-    if (conflict.with == Conflict::With::self && !record.job.has_started()) {
-      end(state, record, JobState::failed, Reason::self_collision, hits_itself(conflict));
-      return std::nullopt;
-    }
     if (conflict.with == Conflict::With::rest && conflict.proximity.arm_b) {
       state.lanes.learn_in_the_way(record.job.id, *conflict.proximity.arm_b, state.jobs,
                                    state.arms);
@@ -62,6 +62,13 @@ void stay_queued(State& state, Record& record, Judgement found) {
 }
 
 }  // namespace
+
+bool fails_by_itself(State& state, Record& record, const Verdict& verdict) {
+  const auto self = std::ranges::find(verdict.conflicts, Conflict::With::self, &Conflict::with);
+  if (self == verdict.conflicts.end() || record.job.has_started()) return false;
+  end(state, record, JobState::failed, Reason::self_collision, hits_itself(*self));
+  return true;
+}
 
 void note_found(Record& record, std::vector<Wait> waits) {
   judgement_of(record).found = std::move(waits);

@@ -16,7 +16,9 @@ void put_off(State& state, Record& record, std::vector<Wait> waits);
 void wait_behind(State& state, Record& record, JobId first);
 // So it is in the sequence; when that is another one, it is judged again.
 void wait_in_turn(State& state, Record& record, JobId first);
-// For what the verdict found; it fails where its arm would hit itself.
+// Whether its arms would hit themselves or each other: then it has failed, unless it has begun.
+[[nodiscard]] bool fails_by_itself(State& state, Record& record, const Verdict& verdict);
+// For what the verdict found; or it fails by itself.
 void refuse(State& state, Record& record, const Verdict& verdict);
 // An admitted one, that another scene endangers: it is stopped.
 void hold_back(State& state, Record& record, const Verdict& verdict);

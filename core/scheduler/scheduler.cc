@@ -18,6 +18,7 @@
 #include "core/scheduler/ways/planned_aside.h"
 #include "core/scheduler/ways/replanning.h"
 #include "core/scheduler/weighing.h"
+#include "core/scheduler/yielding/errands.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -132,6 +133,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 
 void Scheduler::settle() {
   expire_and_overrun(state_);
+  pass_errands_on(state_);
   cycles_.settle(state_);
   plan_other_ways(state_);
   weigh_again(state_);

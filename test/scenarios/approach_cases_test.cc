@@ -142,5 +142,24 @@ TEST_P(Approaches, AGoalHasNone) {
   EXPECT_EQ(refused.error().front().pointer, "/approach");
 }
 
+// Where they begin too close they do not part: they are not there yet.
+TEST_P(Approaches, NothingMovesForAJobOfWhichTheArmsWouldHitEachOther) {
+  for (const double b_x_m : {0.1, 0.21}) {
+    cell.emplace(gantries(OnIdleBlocker::park), GetParam());
+    JobRequest both = approached(go("a", {0, 1}, {-1, 1}, 6, "both"));
+    both.trajectory.joint_names = {"a_x", "a_y", "b_x", "b_y"};
+    const std::vector<double> zero(4, 0.0);
+    both.trajectory.points = {{{0, 1, b_x_m, 1}, zero, zero, 0.0},
+                              {{-1, 1, 1, 1}, zero, zero, 6.0}};
+    cell->submit(both);
+    cell->run_to_the_end();
+    EXPECT_EQ(cell->job("both").reason, Reason::self_collision) << cell->job("both").detail;
+    EXPECT_LE(cell->job("both").ended_at, at(100ms));
+    EXPECT_FALSE(cell->executive().job("approach-1"));
+    cell->expect_at("a", {-1, 0});
+    cell->expect_at("b", {1, 0});
+  }
+}
+
 }  // namespace
 }  // namespace armloom

@@ -61,6 +61,7 @@ class TwoGantries {
   }
 
   Executive& executive() { return simulation_->executive(); }
+  [[nodiscard]] TimePoint now() const { return simulation_->now(); }
   JobView submit(JobRequest request) {
     auto view = executive().submit(std::move(request));
     if (!view) throw std::runtime_error(view.error().front().detail);

@@ -157,6 +157,12 @@ void CertifiedCheck::check_in_step(const ArmMotion& own, const ArmMotion& other)
       own, &other);
 }
 
+OrientedDiagram CertifiedCheck::parting_of(const OrientedDiagram& diagram,
+                                           const ProgressBand& band) const {
+  if (!question_.may_part) return {};
+  return diagram.parting_at(from_seconds(band.progress_a), from_seconds(band.progress_b));
+}
+
 void CertifiedCheck::ask(const OrientedDiagram& diagram, const ProgressBand& band,
                          const ArmMotion& own, const ArmMotion* other) {
   if (!diagram) return;
@@ -165,9 +171,7 @@ void CertifiedCheck::ask(const OrientedDiagram& diagram, const ProgressBand& ban
   CoordinationDiagram::Answer answer = diagram.ask(band, budget);
   verdict_.evaluations += answer.evaluations;
   if (answer.free) return;
-  const auto parting =
-      diagram.parting_at(from_seconds(band.progress_a), from_seconds(band.progress_b));
-  if (parting) {
+  if (const auto parting = parting_of(diagram, band)) {
     answer = parting.ask(band, budget);
     verdict_.evaluations += answer.evaluations;
     if (answer.free) {  // pairs that are held to less: that is what is proven

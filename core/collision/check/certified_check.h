@@ -27,6 +27,8 @@ class CertifiedCheck {
   void check_alone(const ArmMotion& own);
   void check_swept(const ArmMotion& own, const ArmMotion& other);
   void check_in_step(const ArmMotion& own, const ArmMotion& other);
+  [[nodiscard]] OrientedDiagram parting_of(const OrientedDiagram& diagram,
+                                           const ProgressBand& band) const;
   void ask(const OrientedDiagram& diagram, const ProgressBand& band, const ArmMotion& own,
            const ArmMotion* other);
   void report(const CoordinationDiagram::Answer& answer, const OrientedDiagram& diagram,

@@ -29,7 +29,7 @@ namespace armloom {
 //
 // Pairs that are too close at the question's beginning may part: they are held to
 // OrientedDiagram::kPartingShare of the distance that they have there, and are no conflict while
-// they keep that.
+// they keep that; unless the question does not let them (may_part).
 //
 // Holds the scratch: one per worker thread, not thread-safe. Deterministic: the same questions in
 // the same order have the same answers, evaluations included.

@@ -108,7 +108,7 @@ class Judgement {
 
   void look(bool first, std::vector<Conflict>& conflicts) {
     query_.near_pairs(q_, of_candidates_, moved_, near_);
-    if (first) {
+    if (first && question_.may_part) {
       for (const NearPair& near : near_) {
         parting_.push_back({near.pair, near.clearance_m, true});
       }

@@ -17,7 +17,7 @@ namespace armloom {
 // A pair that is already too close at the first instant may part: it is no conflict as long as it
 // never comes closer than it was then, until it has cleared. Where the depth of a contact is
 // unknown (flat cylinders, box against box) it counts as zero, so that such a pair may stay in
-// contact.
+// contact. Where the question does not let them (may_part), that is a conflict.
 //
 // Counterparts are another job, an arm at rest, an object or a static link (With::scene), and the
 // candidate's own links (With::self; also the other arms of the same synchronous motion). Stops at

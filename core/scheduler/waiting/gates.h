@@ -16,7 +16,7 @@ enum class GateKind {
   behind,     // another job of its arm comes before it
   open_arm,   // one that any of several arms may do could leave it where this begins
   after,      // a job that it comes after has not ended
-  plan,       // its way is not planned yet, or another one is looked for
+  plan,       // its way, or that to its start, is not planned yet, or another one is looked for
   lets_pass,  // an arm that is aside lets another one pass
   stop,       // an arm of it is stopped
   place,      // the policy has no place for it

@@ -44,11 +44,17 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
   return true;
 }
 
-// Whether its arms are. It is the first of these, waits, and does not begin where they stand.
+// Whether its arms are, or may be. It is the first of these, waits, and does not begin where they
+// stand.
 bool goes_to_start(State& state, Record& head) {
   if (!head.job.terms.approaches || head.approaches.refusal ||
       head.approaches.tries >= kApproachesMax)
     return false;
+  if (!head.approaches.is_worthwhile) {
+    head.approaches.is_in_question = true;
+    state.jobs.explain(head);
+    return true;
+  }
   ++head.approaches.tries;
   const std::vector<ArmId> arms = head.job.trajectory->arms();
   bool goes = false;
@@ -60,6 +66,15 @@ bool goes_to_start(State& state, Record& head) {
 }
 
 }  // namespace
+
+std::optional<JobId> next_in_question(const State& state) {
+  for (const auto& queue : state.jobs.queues()) {
+    if (queue.empty()) continue;
+    const Record& head = state.jobs.at(queue.front());
+    if (head.approaches.is_in_question && is_at_head(state.jobs, head)) return head.job.id;
+  }
+  return std::nullopt;
+}
 
 std::vector<JobId> approaches_of(const State& state, const Record& record) {
   std::vector<JobId> approaches;
@@ -85,7 +100,7 @@ void fail_impossible_starts(State& state) {
     const Job& job = head.job;
     if (!job.is_waiting() || job.has_started() || !is_at_head(state.jobs, head)) continue;
     if (job.goal) continue;  // its way begins where the arm stands
-    if (may_go_first(state, head)) continue;
+    if (head.approaches.is_in_question || may_go_first(state, head)) continue;
     if (job.terms.is_held_over && state.arms.stop_of(job)) continue;
     auto mismatch = state.arms.start_mismatch(*state.cell, *job.trajectory);
     if (!mismatch) continue;

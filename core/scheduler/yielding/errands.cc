@@ -1,0 +1,52 @@
+#include "core/scheduler/yielding/errands.h"
+
+#include <algorithm>
+#include <deque>
+#include <vector>
+
+#include "core/jobs/phases.h"
+#include "core/scheduler/yielding/yield_moves.h"
+
+namespace armloom {
+namespace {
+
+bool helps_somebody(const State& state, const Record& own) {
+  const JobId helped = own.errand.on_behalf_of;
+  return helped != own.job.id && state.jobs.is_active(helped);
+}
+
+// Of the first jobs of an arm, while all that is before them is over: where the arm will be when a
+// move that stays is done is not where it stands now, so what follows that stays too.
+void pass_on(State& state, const std::deque<JobId>& queue, std::vector<JobId>& needless) {
+  const auto waits_for_help = [&](JobId id) { return !state.jobs.at(id).job.terms.system_job; };
+  const auto next = std::ranges::find_if(queue, waits_for_help);
+  if (next == queue.end()) return;
+  bool all_end = true;
+  for (auto id = queue.begin(); id != next; ++id) {
+    Record& own = state.jobs.at(*id);
+    if (own.job.in<Queued>() == nullptr) return;
+    if (!helps_somebody(state, own)) {
+      if (all_end && !is_counted_on(state, own)) {
+        needless.push_back(*id);
+        continue;
+      }
+      own.errand.on_behalf_of = *next;
+    }
+    all_end = false;
+  }
+}
+
+}  // namespace
+
+void pass_errands_on(State& state) {
+  std::vector<JobId> needless;
+  for (const auto& queue : state.jobs.queues()) pass_on(state, queue, needless);
+  for (JobId id : needless) {
+    Record& own = state.jobs.at(id);
+    if (own.job.has_ended()) continue;  // with one that it came after
+    end(state, own, JobState::canceled, Reason::canceled_by_client,
+        "the job that it was to help has ended");
+  }
+}
+
+}  // namespace armloom
