@@ -15,8 +15,13 @@ bool helps_somebody(const State& state, const Record& own) {
   return helped != own.job.id && state.jobs.is_active(helped);
 }
 
+bool returns_from(const Record& own, const std::vector<JobId>& moves) {
+  return std::ranges::find_first_of(own.job.terms.after, moves) != own.job.terms.after.end();
+}
+
 // Of the first jobs of an arm, while all that is before them is over: where the arm will be when a
-// move that stays is done is not where it stands now, so what follows that stays too.
+// move that stays is done is not where it stands now, so what follows that stays too. Needless ones
+// as they are to end: who does not go does not return.
 void pass_on(State& state, const std::deque<JobId>& queue, std::vector<JobId>& needless) {
   const auto waits_for_help = [&](JobId id) { return !state.jobs.at(id).job.terms.system_job; };
   const auto next = std::ranges::find_if(queue, waits_for_help);
@@ -25,6 +30,10 @@ void pass_on(State& state, const std::deque<JobId>& queue, std::vector<JobId>& n
   for (auto id = queue.begin(); id != next; ++id) {
     Record& own = state.jobs.at(*id);
     if (own.job.in<Queued>() == nullptr) return;
+    if (returns_from(own, needless)) {
+      needless.insert(needless.begin(), *id);
+      continue;
+    }
     if (!helps_somebody(state, own)) {
       if (all_end && !is_counted_on(state, own)) {
         needless.push_back(*id);
@@ -43,7 +52,6 @@ void pass_errands_on(State& state) {
   for (const auto& queue : state.jobs.queues()) pass_on(state, queue, needless);
   for (JobId id : needless) {
     Record& own = state.jobs.at(id);
-    if (own.job.has_ended()) continue;  // with one that it came after
     end(state, own, JobState::canceled, Reason::canceled_by_client,
         "the job that it was to help has ended");
   }
