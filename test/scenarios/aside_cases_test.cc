@@ -269,8 +269,9 @@ TEST_P(InARing, TheArmReturnsThoughTheOneThatWasToPassIsCanceled) {
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.submit(slide("b", -1, 1, 4, "two"));
   while (!cell.simulation->executive().job("aside-1")) cell.simulation->tick();
-  while (cell.job("aside-1").state != JobState::running) cell.simulation->tick();
+  while (cell.job("aside-1").state < JobState::scheduled) cell.simulation->tick();
   ASSERT_TRUE(cell.simulation->executive().cancel("one"));
+  while (!is_terminal(cell.job("one").state)) cell.simulation->tick();
   cell.submit(slide("a", -1, -2, 3, "leaves"));
   cell.run_to_the_end(at(60s));
   EXPECT_EQ(cell.job("aside-2").state, JobState::succeeded);
