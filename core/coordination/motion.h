@@ -60,7 +60,7 @@ struct Question {
   std::vector<PassageQuestion> passages = {};  // asked besides, whatever becomes of the candidates
   // How many times the usual budget of evaluations an answer may cost (not for TimedDiscrete).
   std::uint64_t effort = 1;
-  // Pairs that are too close at the question's instant may part. Not where nothing stands there
+  // Pairs that are too close at the question's instant may part: not where nothing stands there
   // yet.
   bool may_part = true;
 };

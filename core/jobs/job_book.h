@@ -46,11 +46,13 @@ struct Asking {
 
 // How often arms were sent to where a job begins (approach.h), and why there is no way there.
 struct Approaches {
-  // Whether the job could run at all from there: is to be asked; it could.
-  bool is_in_question = false;
-  bool is_worthwhile = false;
+  // Whether the job could run at all from there, which is asked before anything moves for it.
+  enum class Feasibility { unknown, in_question, given };
+  Feasibility feasibility = Feasibility::unknown;
   int tries = 0;
   std::optional<std::string> refusal = {};
+
+  [[nodiscard]] bool are_in_question() const { return feasibility == Feasibility::in_question; }
 };
 
 // A job, and what only the scheduler knows of it.

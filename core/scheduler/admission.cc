@@ -158,8 +158,7 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
       return answer_yield(state, input.verdict, std::move(*question.yield), cycles);
     case Purpose::itself: {
       Record& record = state.jobs.at(question.jobs.front());
-      record.approaches.is_in_question = false;
-      record.approaches.is_worthwhile = true;
+      record.approaches.feasibility = Approaches::Feasibility::given;
       if (input.verdict.kind == Verdict::Kind::conflict) {
         (void)fails_by_itself(state, record, input.verdict);
       }

@@ -35,13 +35,10 @@ Question question_now(const State& state, const std::vector<JobId>& candidates) 
 }
 
 Question question_by_itself(const State& state, const Job& job) {
-  Question question{.version = state.version,
-                    .start_at = state.now,
-                    .candidates = {Motion{.job = job.id, .trajectory = job.trajectory}},
-                    .others = {},
-                    .rest = state.arms.rest(),
-                    .method = state.policy->method(),
-                    .may_part = false};
+  Question question = question_now(state, {});
+  question.others.clear();
+  question.candidates = {Motion{job.id, job.trajectory, Duration{}}};
+  question.may_part = false;
   set_joints(question.rest, *job.trajectory, job.trajectory->start());
   return question;
 }

@@ -145,6 +145,7 @@ TEST_P(Approaches, AGoalHasNone) {
 // Where they begin too close they do not part: they are not there yet.
 TEST_P(Approaches, NothingMovesForAJobOfWhichTheArmsWouldHitEachOther) {
   for (const double b_x_m : {0.1, 0.21}) {
+    SCOPED_TRACE("b at " + std::to_string(b_x_m));
     cell.emplace(gantries(OnIdleBlocker::park), GetParam());
     JobRequest both = approached(go("a", {0, 1}, {-1, 1}, 6, "both"));
     both.trajectory.joint_names = {"a_x", "a_y", "b_x", "b_y"};

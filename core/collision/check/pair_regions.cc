@@ -134,7 +134,7 @@ OrientedDiagram PairRegionSearch::outlined(const Side& a, const Side& b, Oriente
     evaluations_ += cells.refine_outline(a.now(), b.now(), kResolution, budget);
   };
   refine(layer);
-  if (a.to_come() || b.to_come()) return layer;
+  if (!question_.may_part || a.to_come() || b.to_come()) return layer;
   const auto leaves = layer.blocked(a.now(), b.now());
   const bool stand_so =
       std::ranges::any_of(leaves, [&](const auto& leaf) { return holds(leaf, a.now(), b.now()); });

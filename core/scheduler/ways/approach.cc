@@ -50,8 +50,8 @@ bool goes_to_start(State& state, Record& head) {
   if (!head.job.terms.approaches || head.approaches.refusal ||
       head.approaches.tries >= kApproachesMax)
     return false;
-  if (!head.approaches.is_worthwhile) {
-    head.approaches.is_in_question = true;
+  if (head.approaches.feasibility == Approaches::Feasibility::unknown) {
+    head.approaches.feasibility = Approaches::Feasibility::in_question;
     state.jobs.explain(head);
     return true;
   }
@@ -71,7 +71,7 @@ std::optional<JobId> next_in_question(const State& state) {
   for (const auto& queue : state.jobs.queues()) {
     if (queue.empty()) continue;
     const Record& head = state.jobs.at(queue.front());
-    if (head.approaches.is_in_question && is_at_head(state.jobs, head)) return head.job.id;
+    if (head.approaches.are_in_question() && is_at_head(state.jobs, head)) return head.job.id;
   }
   return std::nullopt;
 }
@@ -100,7 +100,7 @@ void fail_impossible_starts(State& state) {
     const Job& job = head.job;
     if (!job.is_waiting() || job.has_started() || !is_at_head(state.jobs, head)) continue;
     if (job.goal) continue;  // its way begins where the arm stands
-    if (head.approaches.is_in_question || may_go_first(state, head)) continue;
+    if (head.approaches.are_in_question() || may_go_first(state, head)) continue;
     if (job.terms.is_held_over && state.arms.stop_of(job)) continue;
     auto mismatch = state.arms.start_mismatch(*state.cell, *job.trajectory);
     if (!mismatch) continue;

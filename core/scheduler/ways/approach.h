@@ -19,7 +19,7 @@ inline constexpr double kApproachSpeed = 0.25;
 // A job at the head of its arms that cannot begin where they stand, and where they are not brought,
 // will never be able to: ends those that wait there.
 void fail_impossible_starts(State& state);
-// Of which that is to be asked: the first of its arms.
+// The first of its arms of which that is to be asked.
 [[nodiscard]] std::optional<JobId> next_in_question(const State& state);
 // Those that have not ended.
 [[nodiscard]] std::vector<JobId> approaches_of(const State& state, const Record& record);

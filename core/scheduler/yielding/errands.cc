@@ -23,8 +23,8 @@ bool returns_from(const Record& own, const std::vector<JobId>& moves) {
 // move that stays is done is not where it stands now, so what follows that stays too. Needless ones
 // as they are to end: who does not go does not return.
 void pass_on(State& state, const std::deque<JobId>& queue, std::vector<JobId>& needless) {
-  const auto waits_for_help = [&](JobId id) { return !state.jobs.at(id).job.terms.system_job; };
-  const auto next = std::ranges::find_if(queue, waits_for_help);
+  const auto is_of_a_client = [&](JobId id) { return !state.jobs.at(id).job.terms.system_job; };
+  const auto next = std::ranges::find_if(queue, is_of_a_client);
   if (next == queue.end()) return;
   bool all_end = true;
   for (auto id = queue.begin(); id != next; ++id) {

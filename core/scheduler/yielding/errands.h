@@ -4,8 +4,8 @@
 
 namespace armloom {
 
-// Moves of the scheduler's own that still wait when the client's job has ended that they were to
-// help: they help the next one of their arm that counts on them, so that others make way for them
+// Moves of the scheduler's own that still wait when the client's job that they were to help has
+// ended: they help the next one of their arm that counts on them, so that others make way for them
 // on its behalf; where that one does not, they end, so that nobody waits for them.
 void pass_errands_on(State& state);
 

@@ -1,0 +1,122 @@
+// Arms with jobs that wait for each other in a ring: one goes aside and back (on_idle_blocker).
+#include <set>
+
+#include "test/scenarios/polygon.h"
+
+namespace armloom {
+namespace {
+
+// Every arm has a pose "back", 1 m behind its corner.
+CellDescription parking_polygon(int corners) {
+  CellDescription cell = polygon(corners);
+  cell.scheduling.on_idle_blocker = OnIdleBlocker::park;
+  for (RobotDescription& robot : cell.robots) {
+    robot.srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider_with_back.srdf";
+  }
+  return cell;
+}
+
+class InARing : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, InARing, ::testing::ValuesIn(known_policies()));
+
+// Both stand on one line, each at the other's goal: b backs out, a passes to where b stood, and
+// makes way in its turn for b to return and go.
+TEST_P(InARing, OneOfTwoThatSwapTheirPlacesMovesAsideAndComesBack) {
+  Crossing cell(parking_polygon(2), GetParam());
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.submit(slide("b", -1, 1, 4, "two"));
+  cell.run_until(at(100ms));
+  EXPECT_TRUE(deadlock_of(cell, "one")) << "it is told all the same";
+  cell.run_to_the_end(at(60s));
+  EXPECT_EQ(cell.job("one").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("two").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("aside-1").name, "b moves aside for one");
+  EXPECT_EQ(cell.job("aside-2").name, "b returns to where it stood");
+  EXPECT_EQ(cell.job("aside-1").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("aside-2").state, JobState::succeeded);
+  EXPECT_LT(*cell.job("one").started_at, *cell.job("aside-2").started_at) << "b lets it pass";
+  EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
+}
+
+TEST_P(InARing, OneOfThreeMovesAsideAndComesBack) {
+  Crossing cell(parking_polygon(3), GetParam());
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.submit(slide("b", -1, 1, 4, "two"));
+  cell.submit(slide("c", -1, 1, 4, "three"));
+  cell.run_to_the_end(at(100s));
+  for (const char* key : {"one", "two", "three"}) {
+    EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key;
+  }
+  EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
+}
+
+// Whoever follows the events knows every job before another one is told to wait for it.
+TEST_P(InARing, EveryJobIsToldBeforeOthersWaitForIt) {
+  Crossing cell(parking_polygon(2), GetParam());
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.submit(slide("b", -1, 1, 4, "two"));
+  cell.run_to_the_end(at(60s));
+  std::set<std::string> told;
+  for (const Event& event : cell.log.events) {
+    const auto* job = std::get_if<JobView>(&event.body);
+    if (job == nullptr) continue;
+    for (const WaitView& wait : job->waits_on) {
+      EXPECT_TRUE(wait.job.empty() || told.contains(wait.job)) << job->key << ": " << wait.job;
+    }
+    told.insert(job->key);
+  }
+  EXPECT_TRUE(told.contains("aside-2"));
+}
+
+TEST_P(InARing, ClientsMaySendWhatComesNextWhileAnArmIsAside) {
+  Crossing cell(parking_polygon(2), GetParam());
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.submit(slide("b", -1, 1, 4, "two"));
+  cell.run_until(at(2s));
+  ASSERT_TRUE(cell.simulation->executive().job("aside-1"));
+  cell.submit(slide("b", 1, 1.5, 2, "three"));
+  cell.run_to_the_end(at(60s));
+  EXPECT_EQ(cell.job("three").state, JobState::succeeded);
+}
+
+TEST_P(InARing, TheArmReturnsThoughTheOneThatWasToPassIsCanceled) {
+  Crossing cell(parking_polygon(2), GetParam());
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.submit(slide("b", -1, 1, 4, "two"));
+  while (!cell.simulation->executive().job("aside-1")) cell.simulation->tick();
+  while (cell.job("aside-1").state < JobState::scheduled) cell.simulation->tick();
+  ASSERT_TRUE(cell.simulation->executive().cancel("one"));
+  while (!is_terminal(cell.job("one").state)) cell.simulation->tick();
+  cell.submit(slide("a", -1, -2, 3, "leaves"));
+  cell.run_to_the_end(at(60s));
+  EXPECT_EQ(cell.job("aside-2").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("two").state, JobState::succeeded);
+}
+
+TEST_P(InARing, NoArmGoesAsideForOneThatIsCanceledBefore) {
+  Crossing cell(parking_polygon(2), GetParam());
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.submit(slide("b", -1, 1, 4, "two"));
+  while (!cell.simulation->executive().job("aside-1")) cell.simulation->tick();
+  ASSERT_TRUE(cell.simulation->executive().cancel("one"));
+  cell.submit(slide("a", -1, -2, 3, "leaves"));
+  cell.run_to_the_end(at(60s));
+  EXPECT_EQ(cell.job("aside-1").state, JobState::canceled);
+  EXPECT_EQ(cell.job("aside-2").state, JobState::canceled);
+  EXPECT_EQ(cell.job("two").state, JobState::succeeded);
+}
+
+TEST_P(InARing, WithNowhereToGoTheLastJobFailsAtOnce) {
+  CellDescription description = polygon(2);
+  description.scheduling.on_idle_blocker = OnIdleBlocker::park;  // home is where they stand
+  Crossing cell(description, GetParam());
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.submit(slide("b", -1, 1, 4, "two"));
+  cell.run_until(at(100ms));
+  EXPECT_EQ(cell.job("two").reason, Reason::deadlock);
+  EXPECT_NE(cell.job("two").detail.find("or a free way aside for one"), std::string::npos);
+  EXPECT_FALSE(cell.simulation->executive().job("aside-1"));
+}
+
+}  // namespace
+}  // namespace armloom
