@@ -11,11 +11,27 @@
 namespace armloom {
 namespace {
 
+// The arm is where it was, or was to be, when the question was asked.
+bool is_as_asked(const State& state, const GoalWay& way, const Configuration& at, ArmId arm) {
+  const auto& joints = state.cell->arm(arm).joints;
+  return (joints_of(way.beside, joints) - joints_of(at, joints)).cwiseAbs().maxCoeff() <=
+         state.cell->execution.start_tolerance_rad;
+}
+
 // It was asked for, or made, for where the arm will be and for the scene as it is.
-bool fits(const State& state, const GoalWay& way, const Eigen::VectorXd& stands) {
-  if (way.from.size() != stands.size() || way.asked_at < state.recheck_epoch) return false;
-  const double off = (way.from - stands).cwiseAbs().maxCoeff();
-  return off <= state.cell->execution.start_tolerance_rad;
+bool fits(const State& state, const GoalWay& way, const Configuration& at) {
+  const bool is_asked = way.beside.size() != 0 && way.asked_at >= state.recheck_epoch;
+  return is_asked && is_as_asked(state, way, at, way.goal.arm);
+}
+
+// It waits for an arm that no job moves, and that it was not planned beside: a move aside of our
+// own, say, has taken that one elsewhere since.
+bool is_in_the_way_of_another(const State& state, const Job& job, const GoalWay& way) {
+  if (!job.is_waiting() || !state.is_judged(job)) return false;
+  return std::ranges::any_of(job.judgement().found, [&](const Wait& wait) {
+    if (wait.kind != Wait::Kind::arm || !state.jobs.queues()[*wait.arm].empty()) return false;
+    return !is_as_asked(state, way, state.arms.rest(), *wait.arm);
+  });
 }
 
 // Where the arm of this way will be when the job's turn comes; nothing: that is not known yet. What
@@ -67,9 +83,9 @@ void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
   ++way.tries;
   way.question = ++record.asking.plans;
   way.asked_at = state.version;
-  way.from = joints_of(at, state.cell->arm(way.goal.arm).joints);
-  state.decided.effects.push_back(
-      PlanMotion{record.job.id, *way.question, question_about(state, record, way, at)});
+  PlanQuestion question = question_about(state, record, way, at);
+  way.beside = question.at;
+  state.decided.effects.push_back(PlanMotion{record.job.id, *way.question, std::move(question)});
 }
 
 enum class Answered { planned, refused, not_yet };
@@ -79,12 +95,16 @@ Answered answer_of(State& state, Record& record, GoalWay& way) {
   if (way.question) return Answered::not_yet;
   const auto at = at_its_turn(state, record, way);
   if (!at) return Answered::not_yet;
-  if (fits(state, way, joints_of(*at, state.cell->arm(way.goal.arm).joints))) {
-    if (way.is_planned) way.tries = 0;
-    return way.is_planned ? Answered::planned : Answered::refused;
+  if (fits(state, way, *at)) {
+    if (!way.is_planned) return Answered::refused;
+    way.tries = 0;
+    const bool asks_anew =
+        way.times_others_left < kPlansMax && is_in_the_way_of_another(state, record.job, way);
+    if (!asks_anew) return Answered::planned;
+    ++way.times_others_left;
   }
   if (way.tries < kPlansMax) {
-    if (way.from.size() != 0 && way.is_planned) record.job.goal->detour.reset();
+    if (way.beside.size() != 0 && way.is_planned) record.job.goal->detour.reset();
     ask(state, record, way, *at);
     return Answered::not_yet;
   }
@@ -191,7 +211,7 @@ std::optional<JobId> may_go_first(const State& state, const Record& record) {
 void forget_plan(State& state, Record& record) {
   GoalWay& way = record.job.goal->way();
   way.is_planned = false;
-  way.from = {};  // fits nowhere
+  way.beside = {};  // fits nowhere
   record.job.goal->is_planned = false;
   state.lanes.renew_later();
   state.jobs.explain(record);

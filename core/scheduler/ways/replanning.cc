@@ -162,7 +162,7 @@ bool take_other_way(State& state, const PlanMade& answer) {
     set_out_anew(state, *record, answer.trajectory);
     if (record->job.goal) {  // it is the plan to its goal from now on
       GoalWay& way = record->job.goal->way();
-      way.from = joints_of(other.beside, state.cell->arm(way.goal.arm).joints);
+      way.beside = other.beside;
       way.asked_at = other.asked_at;
       record->job.goal->detour.reset();
     }
