@@ -9,6 +9,7 @@
 
 #include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
+#include "test/source_dir.h"
 
 namespace armloom::bench {
 namespace {
@@ -26,7 +27,7 @@ T value_of(Result<T> result) {
 }
 
 CellDescription two_pandas_description() {
-  const std::string folder = ARMLOOM_SOURCE_DIR "/config";
+  const std::string folder = source_dir() + "/config";
   std::ifstream file(folder + "/two_pandas.json");
   std::ostringstream text;
   text << file.rdbuf();

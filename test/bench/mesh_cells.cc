@@ -13,6 +13,7 @@
 #include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
 #include "test/geometry/small_meshes.h"
+#include "test/source_dir.h"
 
 namespace armloom::bench {
 namespace {
@@ -117,7 +118,7 @@ CellPtr cell_of_file(const fs::path& path) {
   return cell_of(text.str(), path.parent_path().string());
 }
 
-CellPtr two_shuttles() { return cell_of_file(ARMLOOM_SOURCE_DIR "/config/two_shuttles.json"); }
+CellPtr two_shuttles() { return cell_of_file(source_dir() + "/config/two_shuttles.json"); }
 
 CellPtr two_channel_arms() {
   const fs::path folder =

@@ -12,6 +12,7 @@
 #include "test/experiments/short_beside_long.h"
 #include "test/experiments/shuttles.h"
 #include "test/experiments/table_work.h"
+#include "test/source_dir.h"
 
 namespace armloom::experiments {
 namespace {
@@ -23,7 +24,7 @@ T value_of(Result<T> result) {
 }
 
 CellPtr config(const std::string& name) {
-  const std::filesystem::path folder = ARMLOOM_SOURCE_DIR "/config";
+  const std::filesystem::path folder = source_dir() + "/config";
   const std::string text = value_of(read_text_file(folder / (name + ".json"), "/", "cell"));
   return value_of(build_cell(value_of(read_cell_text(text, folder))));
 }

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "test/source_dir.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -118,7 +120,7 @@ std::vector<std::string> breaches_in(const std::string& path, const std::string&
 }
 
 TEST(Floors, AreKeptByEveryFile) {
-  const fs::path root = ARMLOOM_SOURCE_DIR;
+  const fs::path root = source_dir();
   std::size_t files = 0;
   for (const char* top : {"core", "server"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {

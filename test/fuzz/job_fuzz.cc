@@ -9,6 +9,7 @@
 #include "server/messages/fault.h"
 #include "server/messages/job_request.h"
 #include "test/fuzz/problems.h"
+#include "test/source_dir.h"
 
 // The bodies of POST /jobs, /batches, /sim/faults and a jobs file: shape, then validate() of each
 // job on the two-Panda cell.
@@ -17,7 +18,7 @@ namespace armloom::fuzz {
 namespace {
 
 CellPtr two_pandas() {
-  const std::filesystem::path folder = std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config";
+  const std::filesystem::path folder = std::filesystem::path(source_dir()) / "config";
   std::ifstream in(folder / "two_pandas.json");
   const std::string text(std::istreambuf_iterator<char>(in), {});
   const auto description = read_cell_text(text, folder);

@@ -14,12 +14,14 @@
 #include <regex>
 #include <sstream>
 
+#include "test/source_dir.h"
+
 namespace armloom {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kModels = fs::path(ARMLOOM_SOURCE_DIR) / "models";
+const fs::path kModels = fs::path(source_dir()) / "models";
 
 using Surface = std::map<std::string, std::vector<Eigen::Vector3d>>;  // by link, in its frame
 

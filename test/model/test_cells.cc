@@ -10,6 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "test/source_dir.h"
+
 namespace armloom {
 namespace {
 
@@ -32,12 +34,8 @@ RobotDescription panda(const std::string& name, double x, double yaw) {
 
 }  // namespace
 
-std::string data_file(const std::string& name) {
-  return std::string(ARMLOOM_SOURCE_DIR "/test/model/data/") + name;
-}
-std::string model_file(const std::string& name) {
-  return std::string(ARMLOOM_SOURCE_DIR "/models/") + name;
-}
+std::string data_file(const std::string& name) { return source_dir() + "/test/model/data/" + name; }
+std::string model_file(const std::string& name) { return source_dir() + "/models/" + name; }
 
 CellDescription two_arms_description() {
   RobotDescription robot;

@@ -16,6 +16,7 @@
 #include "test/scenarios/chain_workloads.h"
 #include "test/scenarios/random_faults.h"
 #include "test/scenarios/seeds.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -216,10 +217,10 @@ TEST_P(Checks, OfDiscsSayWhatThenHappens) {
 
 // Random poses around home, from one to the next.
 TEST_P(Checks, OfPandasSayWhatThenHappens) {
-  std::ifstream file(ARMLOOM_SOURCE_DIR "/config/two_pandas.json");
+  std::ifstream file(source_dir() + "/config/two_pandas.json");
   std::ostringstream text;
   text << file.rdbuf();
-  CellDescription description = *read_cell_text(text.str(), ARMLOOM_SOURCE_DIR "/config");
+  CellDescription description = *read_cell_text(text.str(), source_dir() + "/config");
   description.scheduling.horizon_legs = 1;  // so that some wait
   const CellPtr cell = *build_cell(description);
   for (std::uint64_t seed = 1; seed <= seed_count(1); ++seed) {

@@ -10,6 +10,7 @@
 #include "core/executive/known_policies.h"
 #include "core/executive/simulation.h"
 #include "core/model/cell/build_cell.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 
@@ -18,8 +19,8 @@ using namespace std::chrono_literals;
 // A ball of 10 cm radius on a linear axis along x, at -1 m (home).
 inline RobotDescription slider(const std::string& name) {
   RobotDescription robot{.name = name,
-                         .urdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.urdf",
-                         .srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider.srdf",
+                         .urdf = source_dir() + "/test/scenarios/data/slider.urdf",
+                         .srdf = source_dir() + "/test/scenarios/data/slider.srdf",
                          .prefix = name + "_"};
   ArmDescription arm{.name = name, .group = "axis", .home = {-1.0}, .limits = {}};
   arm.limits["slide"].acceleration = 20.0;

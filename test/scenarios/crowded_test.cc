@@ -13,6 +13,7 @@
 #include "test/scenarios/crowded_workloads.h"
 #include "test/scenarios/random_faults.h"
 #include "test/scenarios/seeds.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -169,8 +170,7 @@ void run(const Way& way, Crowd crowd, std::uint64_t seed, Tally& tally) {
   CellDescription description = world.cell();
   description.scheduling.on_idle_blocker = OnIdleBlocker::park;
   for (RobotDescription& robot : description.robots) {
-    if (way.corners)
-      robot.srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/gantry_with_corners.srdf";
+    if (way.corners) robot.srdf = source_dir() + "/test/scenarios/data/gantry_with_corners.srdf";
   }
   auto cell = build_cell(description);
   ASSERT_TRUE(cell) << name;

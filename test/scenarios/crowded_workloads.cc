@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "test/scenarios/disc_room.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -220,8 +221,8 @@ CellDescription CrowdedWorkload::cell() const {
   CellDescription cell{.name = "crowd"};
   for (std::size_t i = 0; i < homes.size(); ++i) {
     RobotDescription robot{.name = disc_name(i),
-                           .urdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/gantry.urdf",
-                           .srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/gantry.srdf",
+                           .urdf = source_dir() + "/test/scenarios/data/gantry.urdf",
+                           .srdf = source_dir() + "/test/scenarios/data/gantry.srdf",
                            .prefix = disc_name(i) + "_"};
     ArmDescription arm{
         .name = robot.name, .group = "axes", .home = {homes[i].x(), homes[i].y()}, .limits = {}};

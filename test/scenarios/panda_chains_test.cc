@@ -13,6 +13,7 @@
 #include "server/codec/cell_codec.h"
 #include "test/scenarios/random_faults.h"
 #include "test/scenarios/seeds.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -23,10 +24,10 @@ constexpr std::uint64_t kSeeds = 1;
 constexpr std::size_t kJobs = 20;
 
 CellPtr pandas(const std::string& name) {
-  std::ifstream file(ARMLOOM_SOURCE_DIR "/config/" + name + ".json");
+  std::ifstream file(source_dir() + "/config/" + name + ".json");
   std::ostringstream text;
   text << file.rdbuf();
-  CellDescription description = *read_cell_text(text.str(), ARMLOOM_SOURCE_DIR "/config");
+  CellDescription description = *read_cell_text(text.str(), source_dir() + "/config");
   description.scheduling.backlog_timeout = 100000s;
   description.scheduling.on_idle_blocker = OnIdleBlocker::report;
   return *build_cell(description);

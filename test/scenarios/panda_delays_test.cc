@@ -12,6 +12,7 @@
 #include "server/messages/job_request.h"
 #include "test/scenarios/random_faults.h"
 #include "test/scenarios/seeds.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -23,7 +24,7 @@ constexpr Duration kRecorded = 5ms;  // between recorded states
 constexpr Duration kAudited = 2ms;   // step of the audit
 
 std::string text_of(const std::string& name) {
-  std::ifstream file(ARMLOOM_SOURCE_DIR "/config/" + name);
+  std::ifstream file(source_dir() + "/config/" + name);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
@@ -46,8 +47,7 @@ struct Stock {
 };
 
 Stock stock(const std::string& name) {
-  CellDescription description =
-      *read_cell_text(text_of(name + ".json"), ARMLOOM_SOURCE_DIR "/config");
+  CellDescription description = *read_cell_text(text_of(name + ".json"), source_dir() + "/config");
   description.scheduling.backlog_timeout = 300s;
   Stock read{*build_cell(description), {}};
   std::map<std::string, std::vector<JobRequest>> chains;

@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "test/scenarios/seeds.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -38,7 +39,7 @@ World line_world() {
   world.description.robots.pop_back();
   world.description.scheduling.on_idle_blocker = OnIdleBlocker::park;
   for (RobotDescription& robot : world.description.robots) {
-    robot.srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider_with_back.srdf";
+    robot.srdf = source_dir() + "/test/scenarios/data/slider_with_back.srdf";
   }
   return world;
 }

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "test/scenarios/polygon.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -11,7 +12,7 @@ CellDescription parking_polygon(int corners) {
   CellDescription cell = polygon(corners);
   cell.scheduling.on_idle_blocker = OnIdleBlocker::park;
   for (RobotDescription& robot : cell.robots) {
-    robot.srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider_with_back.srdf";
+    robot.srdf = source_dir() + "/test/scenarios/data/slider_with_back.srdf";
   }
   return cell;
 }

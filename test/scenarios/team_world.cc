@@ -5,6 +5,7 @@
 
 #include "test/scenarios/polygon.h"
 #include "test/scenarios/star.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -42,7 +43,7 @@ CellDescription team_cell(Random& random) {
   if (random.chance(0.5)) {
     cell.scheduling.on_idle_blocker = OnIdleBlocker::park;
     for (RobotDescription& robot : cell.robots) {
-      robot.srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/slider_with_back.srdf";
+      robot.srdf = source_dir() + "/test/scenarios/data/slider_with_back.srdf";
     }
   }
   cell.scheduling.backlog_timeout = from_seconds(random.uniform(5.0, 40.0));

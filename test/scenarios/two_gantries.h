@@ -11,6 +11,7 @@
 #include "core/executive/known_policies.h"
 #include "core/executive/simulation.h"
 #include "core/model/cell/build_cell.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 
@@ -21,8 +22,8 @@ inline CellDescription gantries(OnIdleBlocker on_idle_blocker) {
   CellDescription cell{.name = "two gantries"};
   for (const std::string name : {"a", "b"}) {
     RobotDescription robot{.name = name,
-                           .urdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/gantry.urdf",
-                           .srdf = ARMLOOM_SOURCE_DIR "/test/scenarios/data/gantry.srdf",
+                           .urdf = source_dir() + "/test/scenarios/data/gantry.urdf",
+                           .srdf = source_dir() + "/test/scenarios/data/gantry.srdf",
                            .prefix = name + "_"};
     const double x_m = name == "a" ? -1.0 : 1.0;
     ArmDescription arm{.name = name, .group = "axes", .home = {x_m, 0.0}, .limits = {}};

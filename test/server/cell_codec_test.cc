@@ -9,6 +9,7 @@
 #include "server/codec/read_text.h"
 #include "server/messages/cell.h"
 #include "server/recording/recording.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-const fs::path kConfig = fs::path(ARMLOOM_SOURCE_DIR) / "config";
+const fs::path kConfig = fs::path(source_dir()) / "config";
 
 json two_pandas() {
   return json::parse(read_text_file(kConfig / "two_pandas.json").value(), nullptr, true, true);

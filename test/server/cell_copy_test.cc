@@ -10,6 +10,7 @@
 #include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
 #include "server/recording/recording.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -41,9 +42,9 @@ class CellCopy : public ::testing::Test {
 CellFile cell_file(const fs::path& file) { return {file, read_text_file(file).value()}; }
 
 TEST_F(CellCopy, HoldsEachFileOnceAndLoads) {
-  const fs::path shuttle = fs::path(ARMLOOM_SOURCE_DIR) / "models/shuttle";
+  const fs::path shuttle = fs::path(source_dir()) / "models/shuttle";
   const auto copy =
-      copy_cell(cell_file(fs::path(ARMLOOM_SOURCE_DIR) / "config/two_shuttles.json"), folder_);
+      copy_cell(cell_file(fs::path(source_dir()) / "config/two_shuttles.json"), folder_);
   ASSERT_TRUE(copy);
   std::size_t meshes = 0;
   for (const auto& entry : fs::directory_iterator(shuttle / "meshes"))
@@ -58,7 +59,7 @@ TEST_F(CellCopy, HoldsEachFileOnceAndLoads) {
 
 TEST_F(CellCopy, OfACopyInItsPlaceIsTheSame) {
   const auto copy =
-      copy_cell(cell_file(fs::path(ARMLOOM_SOURCE_DIR) / "config/two_shuttles.json"), folder_);
+      copy_cell(cell_file(fs::path(source_dir()) / "config/two_shuttles.json"), folder_);
   ASSERT_TRUE(copy);
   const auto before = files();
   const auto again = copy_cell({folder_ / "cell.json", *copy}, folder_);
@@ -91,7 +92,7 @@ TEST_F(CellCopy, KeepsFilesOfOneNameApart) {
 TEST_F(CellCopy, SaysWhatCannotBeCopied) {
   write("files", "in the way");
   const auto copy =
-      copy_cell(cell_file(fs::path(ARMLOOM_SOURCE_DIR) / "config/two_shuttles.json"), folder_);
+      copy_cell(cell_file(fs::path(source_dir()) / "config/two_shuttles.json"), folder_);
   ASSERT_FALSE(copy);
   EXPECT_EQ(copy.error().front().kind, ProblemKind::unavailable);
   EXPECT_THAT(copy.error().front().detail, ::testing::HasSubstr((folder_ / "files").string()));

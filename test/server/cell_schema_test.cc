@@ -11,6 +11,7 @@
 #include "server/codec/json_text.h"
 #include "server/codec/schema_reference.h"
 #include "server/recording/recording.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const fs::path kConfig = fs::path(ARMLOOM_SOURCE_DIR) / "config";
+const fs::path kConfig = fs::path(source_dir()) / "config";
 
 Schema written(const CellDescription& cell) { return as_json(cell_format(), cell); }
 

@@ -11,10 +11,11 @@
 
 #include "server/recording/recording.h"
 #include "test/server/panda_jobs.h"
+#include "test/source_dir.h"
 
 namespace armloom::test {
 
-inline const std::filesystem::path kSource(ARMLOOM_SOURCE_DIR);
+inline const std::filesystem::path kSource = source_dir();
 inline const std::string kCell = (kSource / "config/two_pandas.json").string();
 
 struct Outcome {

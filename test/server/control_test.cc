@@ -8,6 +8,7 @@
 #include "core/executive/simulation.h"
 #include "test/server/panda_jobs.h"
 #include "test/server/running_server.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -172,7 +173,7 @@ class Watching final : public Observer {
 };
 
 TEST(HoldToRun, ALapsedLeaseBringsTheArmToRestWithinItsAuthority) {
-  const auto file = std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
+  const auto file = std::filesystem::path(source_dir()) / "config/two_pandas.json";
   const auto text = read_text_file(file);
   const auto cell = build_cell(*read_cell_text(*text, file.parent_path())).value();
   Watching watching;

@@ -8,6 +8,7 @@
 #include "test/server/failing_disk.h"
 #include "test/server/panda_jobs.h"
 #include "test/server/running_server.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -259,12 +260,11 @@ TEST_F(Durable, AJobThatTheCellNoLongerFitsIsInterruptedAndSaysWhy) {
   submit("after", "left", {{"after", {"gone"}}});
   submit("stays", "left");
   end();
-  json cell = json::parse(
-      read_text_file(std::string(ARMLOOM_SOURCE_DIR) + "/config/two_pandas.json").value(), nullptr,
-      true, true);
+  json cell = json::parse(read_text_file(source_dir() + "/config/two_pandas.json").value(), nullptr,
+                          true, true);
   for (json& robot : cell["robots"]) {
     for (const char* key : {"urdf", "srdf"}) {
-      robot[key] = std::string(ARMLOOM_SOURCE_DIR) + "/config/" + robot[key].get<std::string>();
+      robot[key] = source_dir() + "/config/" + robot[key].get<std::string>();
     }
   }
   cell["robots"].erase(cell["robots"][0]["name"] == "right" ? 0 : 1);

@@ -11,6 +11,7 @@
 #include "server/import/packages.h"
 #include "server/import/placement.h"
 #include "server/recording/recording.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -90,7 +91,7 @@ TEST(Placement, IsRefusedWithWhatIsWrong) {
 // ---- Homes ----
 
 CellDescription facing_pandas(double apart_m) {
-  const fs::path folder = fs::path(ARMLOOM_SOURCE_DIR) / "config";
+  const fs::path folder = fs::path(source_dir()) / "config";
   CellDescription cell =
       read_cell_text(read_text_file(folder / "two_pandas.json").value(), folder).value();
   cell.objects.clear();

@@ -21,6 +21,7 @@
 #include "server/recording/recording.h"
 #include "server/replay/input_text.h"
 #include "test/server/panda_jobs.h"
+#include "test/source_dir.h"
 
 namespace armloom::test {
 
@@ -29,7 +30,7 @@ using nlohmann::json;
 
 inline CellPtr two_pandas() {
   static const CellPtr cell = [] {
-    const auto file = std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
+    const auto file = std::filesystem::path(source_dir()) / "config/two_pandas.json";
     const auto text = read_text_file(file);
     return *build_cell(*read_cell_text(*text, file.parent_path()));
   }();

@@ -6,6 +6,7 @@
 
 #include "test/server/panda_jobs.h"
 #include "test/server/running_server.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -115,7 +116,7 @@ TEST_F(MetricsRoute, HaveEverythingThatTheGrafanaDashboardAsksFor) {
   (void)get("/healthz");
   const std::string body = get("/metrics").body;
   const auto text =
-      read_text_file(std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/grafana/armloom.json");
+      read_text_file(std::filesystem::path(source_dir()) / "config/grafana/armloom.json");
   ASSERT_TRUE(text);
   const json dashboard = json::parse(*text);
   const std::regex name("armloom_[a-z_]+");

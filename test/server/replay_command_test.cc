@@ -6,6 +6,7 @@
 #include "test/server/command_fixture.h"
 #include "test/server/serve_process.h"
 #include "test/server/wire.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -80,7 +81,7 @@ TEST_F(ReplayCommand, ComesToTheEventsThatAKilledServerHadTold) {
 // Meshes and all: the cell's own files are not needed.
 TEST_F(ReplayCommand, WorksWhereverTheFolderIsMoved) {
   namespace fs = std::filesystem;
-  const fs::path source = ARMLOOM_SOURCE_DIR, site = folder_ / "site";
+  const fs::path source = source_dir(), site = folder_ / "site";
   fs::create_directories(site);
   for (const char* part : {"config", "models"})
     fs::copy(source / part, site / part, fs::copy_options::recursive);

@@ -12,6 +12,7 @@
 #include "server/recording/recording.h"
 #include "server/service.h"
 #include "test/server/wire.h"
+#include "test/source_dir.h"
 
 namespace armloom::test {
 
@@ -20,7 +21,7 @@ namespace armloom::test {
 class RunningServer : public ::testing::Test {
  protected:
   void start(double speed, std::filesystem::path web = {}, std::filesystem::path file = {}) {
-    if (file.empty()) file = std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
+    if (file.empty()) file = std::filesystem::path(source_dir()) / "config/two_pandas.json";
     const auto text = read_text_file(file);
     ASSERT_TRUE(text);
     auto description = read_cell_text(*text, file.parent_path());

@@ -7,6 +7,7 @@
 #include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
 #include "server/recording/recording.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 CellPtr two_pandas() {
-  const fs::path file = fs::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
+  const fs::path file = fs::path(source_dir()) / "config/two_pandas.json";
   return build_cell(read_cell_text(read_text_file(file).value(), file.parent_path()).value())
       .value();
 }
@@ -232,7 +233,7 @@ TEST(StatesCsv, MissingAndEmptyFilesAreSaid) {
 TEST(Recording, HoldsEverythingThatARerunNeeds) {
   const CellPtr cell = two_pandas();
   const fs::path folder = folder_of_test() / "made" / "on the way";
-  const fs::path cell_file = fs::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
+  const fs::path cell_file = fs::path(source_dir()) / "config/two_pandas.json";
   {
     auto recording =
         Recording::create(folder, {cell_file, read_text_file(cell_file).value()}, *cell, true);

@@ -12,6 +12,7 @@
 #include "server/messages/job_request.h"
 #include "server/recording/recording.h"
 #include "test/server/panda_jobs.h"
+#include "test/source_dir.h"
 
 namespace armloom {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 
 CellPtr two_pandas() {
-  const auto file = std::filesystem::path(ARMLOOM_SOURCE_DIR) / "config/two_pandas.json";
+  const auto file = std::filesystem::path(source_dir()) / "config/two_pandas.json";
   return *build_cell(*read_cell_text(*read_text_file(file), file.parent_path()));
 }
 

@@ -16,6 +16,7 @@
 #include "server/codec/cell_codec.h"
 #include "test/soundness/pairs.h"
 #include "test/soundness/plain_fcl.h"
+#include "test/source_dir.h"
 
 namespace armloom::soundness {
 namespace {
@@ -207,7 +208,7 @@ FilterReport check_filter(const CellPtr& cell, std::size_t states, std::uint64_t
 }
 
 CellPtr cell_of_file(const std::string& name) {
-  const std::string folder = ARMLOOM_SOURCE_DIR "/config";
+  const std::string folder = source_dir() + "/config";
   std::ifstream file(folder + "/" + name);
   std::ostringstream text;
   text << file.rdbuf();
