@@ -39,6 +39,12 @@ struct Coordinated {  // no times at all: in which states of each pair it is not
   double tracking_error;
 };
 using CheckMethod = std::variant<TimedDiscrete, Swept, Coordinated>;
+// Of each joint against its path (rad, m); zero where none is looked at.
+[[nodiscard]] inline double tracking_error_of(const CheckMethod& method) {
+  if (const auto* swept = std::get_if<Swept>(&method)) return swept->tracking_error;
+  const auto* coordinated = std::get_if<Coordinated>(&method);
+  return coordinated != nullptr ? coordinated->tracking_error : 0.0;
+}
 
 // Does this motion find its way free, from its progress on, while an arm that it does not move
 // rests there?

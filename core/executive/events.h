@@ -68,35 +68,46 @@ struct DetourView {
   bool is_taken = false;          // it goes by one of them
   std::optional<double> saves_s;  // nothing: none is taken, or the shortest way could not go
 };
-struct JobView {
-  JobId id{0};
-  std::string key;   // the "id" that clients use
-  std::string name;  // may be empty
-  JobState state = JobState::queued;
-  std::vector<std::string> arms;
-  int priority = 0;
-  Duration backlog_timeout{};
-  bool replans_on_timeout = false;
-  bool system_job = false;  // the server's: a move aside
+// What was left open of a job, and how that came out.
+struct JobWaysView {
+  std::vector<std::string> alternatives;  // names of arms of which one does it
+  std::optional<ChoiceView> choice;
+  std::optional<DetourView> detour;
+  std::optional<AnotherWayView> another_way;
+};
+struct JobTimesView {
   TimePoint submitted_at{};
   std::optional<TimePoint> backlogged_at;  // the first time
   std::optional<TimePoint> expires_at;     // while it waits in the backlog, or in vain on its path
   std::optional<TimePoint> scheduled_at;
   std::optional<TimePoint> started_at;
   std::optional<TimePoint> ended_at;
-  double progress = 0.0;  // 0..1
+};
+// Its trajectory, and how far it has come.
+struct JobMotionView {
   Duration duration{};
   std::optional<bool> planned;  // of a goal: else the duration is an estimate
+  double progress = 0.0;        // 0..1
   bool stopping = false;
+};
+struct JobView {
+  JobId id{0};
+  std::string key;   // the "id" that clients use
+  std::string name;  // may be empty
+  JobState state = JobState::queued;
+  std::vector<std::string> arms;
+  JobTerms terms = {};
+  JobTimesView times = {};
+  JobMotionView motion = {};
+  JobWaysView ways = {};
   std::vector<WaitView> waits_on;
-  std::vector<std::string> alternatives;  // names of arms of which one does it
-  bool any_order = false;
-  std::optional<AnotherWayView> another_way;
-  std::optional<DetourView> detour;
-  std::optional<ChoiceView> choice;
-  std::vector<std::string> ring;  // keys: the deadlock that it is part of, itself first
-  std::optional<Reason> reason;   // when ended
-  std::string detail;
+  std::vector<std::string> ring;        // keys: the deadlock that it is part of, itself first
+  std::optional<JobResultView> result;  // when ended
+
+  [[nodiscard]] std::optional<Reason> reason() const {
+    return result ? std::optional(result->reason) : std::nullopt;
+  }
+  [[nodiscard]] std::string detail() const { return result ? result->detail : ""; }
 };
 
 enum class ArmState { idle, moving, holding, stopped, fault };

@@ -119,7 +119,7 @@ void Executive::Impl::note_aside(const YieldMove& aside) {
 void Executive::Impl::job_changed(JobId id) {
   JobView view = publisher_.view(id);
   if (is_terminal(view.state)) {
-    count_.end_of_a_job(*view.ended_at);
+    count_.end_of_a_job(*view.times.ended_at);
     questions_.plans().give_up(id);
     execution_.forget(id);
     for (JobId oldest : jobs_.end(id)) scheduler_.forget(oldest);

@@ -46,7 +46,7 @@ class Search {
       const Proximity proximity = query_.describe(pair);
       const auto stands = [&](const std::optional<ArmId>& id) { return !id || id->index() <= arm; };
       if (!stands(proximity.arm_a) || !stands(proximity.arm_b)) return false;
-      return !query_.is_self(pair.pair) || pair.clearance_m < cell_.self_clearance_m;
+      return !query_.is_self(pair.pair) || pair.clearance_m < cell_.clearances.self_clearance_m;
     });
   }
 

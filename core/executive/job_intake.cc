@@ -78,11 +78,11 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                         "an arm is named with move_to; a trajectory's joints say which arms move",
                         request.arm.empty() ? request.arms.front() : request.arm});
   }
-  if (request.approach == Approach::plan && (request.move_to || request.motions().size() > 1)) {
+  if (request.terms.approach == Approach::plan && (request.move_to || request.motions().size() > 1)) {
     problems.push_back({ProblemKind::invalid, "not-served", "/approach",
                         "a goal's way begins where the arm stands, and alternatives end where they "
                         "begin: neither has an approach",
-                        to_string(request.approach)});
+                        to_string(request.terms.approach)});
   }
   if (request.move_to) {
     goals = read_goals(request, problems);
@@ -98,11 +98,11 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                      std::move(request.name),
                      std::move(motions),
                      std::move(goals),
-                     request.order,
-                     request.on_timeout,
-                     request.approach,
-                     request.priority,
-                     request.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
+                     request.terms.order,
+                     request.terms.on_timeout,
+                     request.terms.approach,
+                     request.terms.priority,
+                     request.terms.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
                      std::move(request.after),
                      std::move(returns)};
 }
@@ -115,13 +115,13 @@ std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ah
   const auto asked_for = request.motions();
   for (std::size_t i = 0; i < asked_for.size(); ++i) {
     const auto& [place, asked] = asked_for[i];
-    const bool is_known = i < request.validated.size();
-    auto motion = is_known ? request.validated[i] : validate(asked, *cell_);
+    const bool is_known = i < request.known.validated.size();
+    auto motion = is_known ? request.known.validated[i] : validate(asked, *cell_);
     Problems found = motion ? Problems{} : std::move(motion.error());
     if (motion) {
       begin_where_open(**motion, ahead);
       for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
-      const bool begins_anywhere = ahead.begins_anywhere || request.approach == Approach::plan;
+      const bool begins_anywhere = ahead.begins_anywhere || request.terms.approach == Approach::plan;
       if (!begins_anywhere) find_start_elsewhere(*cell_, **motion, ahead.rest, found);
       motions.push_back(std::move(*motion));
     }
@@ -151,7 +151,7 @@ void JobIntake::find_bad_after(const JobRequest& request, const Ahead& ahead,
     const std::string& key = request.after[i];
     const std::string pointer = "/after/" + std::to_string(i);
     if (!key.empty() && std::ranges::find(ahead.keys, key) != ahead.keys.end()) continue;
-    if (std::ranges::find(request.succeeded, key) != request.succeeded.end()) continue;
+    if (std::ranges::find(request.known.succeeded, key) != request.known.succeeded.end()) continue;
     if (key == request.key) {
       problems.push_back({ProblemKind::invalid, "after-itself", pointer,
                           "job \"" + key + "\" cannot come after itself", key});

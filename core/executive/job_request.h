@@ -25,6 +25,15 @@ enum class OnTimeout { abort, replan };
 enum class Approach { none, plan };
 [[nodiscard]] const char* to_string(Approach how);
 
+// What its turn goes by, as its client has it.
+struct RequestedTerms {
+  int priority = 0;
+  std::optional<Duration> backlog_timeout = {};  // absent: the cell's
+  OnTimeout on_timeout = OnTimeout::abort;
+  JobOrder order = JobOrder::as_given;
+  Approach approach = Approach::none;
+};
+
 // A job as a client asks for it, its JSON already read.
 struct JobRequest {
   std::string key;  // the client's id; empty: one is given ("job-17")
@@ -39,17 +48,16 @@ struct JobRequest {
   std::string arm = {};
   std::vector<std::string> arms = {};
   std::optional<double> speed = {};
-  JobOrder order = JobOrder::as_given;
-  OnTimeout on_timeout = OnTimeout::abort;
-  Approach approach = Approach::none;
-  int priority = 0;
-  std::optional<Duration> backlog_timeout;  // absent: the cell's
-  std::vector<std::string> after;           // keys of jobs that have to succeed first
-  // Of those, the ones that are known to have succeeded, in a former run or long ago.
-  std::vector<std::string> succeeded = {};
-  // What validate() makes of each of motions(), where somebody has asked it before (validated.h):
-  // it takes time that the strand has not. Empty: nobody has.
-  std::vector<Result<TrajectoryPtr>> validated = {};
+  RequestedTerms terms = {};
+  std::vector<std::string> after;  // keys of jobs that have to succeed first
+  // What was found out before the strand has it.
+  struct Known {
+    // Of `after`, those that have succeeded, in a former run or long ago.
+    std::vector<std::string> succeeded = {};
+    // What validate() makes of each of motions() (validated.h): it takes time that the strand has
+    // not. Empty: nobody has asked.
+    std::vector<Result<TrajectoryPtr>> validated = {};
+  } known = {};
   // As it came, for who writes down what did. Null: nobody does.
   std::shared_ptr<const std::string> body = {};
 

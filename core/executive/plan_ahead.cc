@@ -6,12 +6,13 @@
 namespace armloom {
 namespace {
 
-struct Place {
+struct DiagramPlace {
   double a_s, b_s;
 };
 
 // The share (0..1) of a stretch at which it enters the closed rectangle; nothing when it passes by.
-std::optional<double> entry(const Place& from, const Place& to, const DiagramCell& cell) {
+std::optional<double> entry(const DiagramPlace& from, const DiagramPlace& to,
+                            const DiagramCell& cell) {
   double enters = 0.0;
   double leaves = 1.0;
   const auto clip = [&](double start, double end, Duration low, Duration high) {
@@ -28,11 +29,11 @@ std::optional<double> entry(const Place& from, const Place& to, const DiagramCel
 
 std::optional<DiagramMeeting> first_of(DiagramCell::State state,
                                        const std::vector<DiagramCell>& cells,
-                                       const std::array<Place, 3>& way) {
+                                       const std::array<DiagramPlace, 3>& way) {
   double passed_s = 0.0;
   for (std::size_t i = 1; i < way.size(); ++i) {
-    const Place& from = way[i - 1];
-    const Place& to = way[i];
+    const DiagramPlace& from = way[i - 1];
+    const DiagramPlace& to = way[i];
     std::optional<double> first;
     for (const DiagramCell& cell : cells) {
       if (cell.state != state) continue;
@@ -55,9 +56,9 @@ std::optional<DiagramMeeting> first_of(DiagramCell::State state,
 std::optional<DiagramMeeting> first_met(const std::vector<DiagramCell>& cells, Duration at_a,
                                         Duration at_b, Duration end_a, Duration end_b) {
   const Duration together = std::min(end_a - at_a, end_b - at_b);
-  const std::array<Place, 3> way{{{to_seconds(at_a), to_seconds(at_b)},
-                                  {to_seconds(at_a + together), to_seconds(at_b + together)},
-                                  {to_seconds(end_a), to_seconds(end_b)}}};
+  const std::array<DiagramPlace, 3> way{{{to_seconds(at_a), to_seconds(at_b)},
+                                         {to_seconds(at_a + together), to_seconds(at_b + together)},
+                                         {to_seconds(end_a), to_seconds(end_b)}}};
   const auto conflict = first_of(DiagramCell::State::conflict, cells, way);
   return conflict ? conflict : first_of(DiagramCell::State::undecided, cells, way);
 }

@@ -23,7 +23,7 @@ void Publisher::tell_job(JobView view, TimePoint now) {
   if (view.state == JobState::failed || view.state == JobState::expired) {
     alert = Alert{Alert::Level::warning,
                   "job " + view.key + " " + to_string(view.state) + ": " +
-                      (view.detail.empty() ? to_string(*view.reason) : view.detail)};
+                      (view.detail().empty() ? to_string(*view.reason()) : view.detail())};
   }
   tell(std::move(view), now);
   if (alert) tell(std::move(*alert), now);
@@ -94,7 +94,7 @@ std::vector<ArmAuthority> Publisher::authorities() const {
 JobView Publisher::view(JobId id) const {
   JobView view = view_of(*shown_.scheduler.find(id), shown_.cell, shown_.jobs);
   const JobLabel* label = shown_.jobs.label(id);
-  if (label != nullptr && label->submitted_at) view.submitted_at = *label->submitted_at;
+  if (label != nullptr && label->submitted_at) view.times.submitted_at = *label->submitted_at;
   return view;
 }
 

@@ -4,9 +4,9 @@ namespace armloom {
 
 void validate_ahead(JobRequest& request, const Cell& cell) {
   if (request.move_to) return;
-  request.validated.clear();
+  request.known.validated.clear();
   for (const auto& [place, motion] : request.motions()) {
-    request.validated.push_back(validate(motion, cell));
+    request.known.validated.push_back(validate(motion, cell));
   }
 }
 

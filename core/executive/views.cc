@@ -123,6 +123,54 @@ DetourView view_of(const Detour& detour) {
   return view;
 }
 
+JobTimesView times_of(const Job& job) {
+  return {.submitted_at = job.times.submitted_at,
+          .backlogged_at = job.times.backlogged_at,
+          .expires_at = expiry_of(job),
+          .scheduled_at = job.times.scheduled_at,
+          .started_at = job.times.started_at,
+          .ended_at = job.ended_at()};
+}
+
+JobMotionView motion_of(const Job& job) {
+  const Duration duration = job.trajectory->duration();
+  return {.duration = duration,
+          .planned = job.goal ? std::optional(!job.is_unplanned()) : std::nullopt,
+          .progress = to_seconds(job.progress) / to_seconds(duration),
+          .stopping = job.stopping()};
+}
+
+JobWaysView ways_of(const Job& job, const Cell& cell, const JobNames& names) {
+  JobWaysView ways;
+  for (const TrajectoryPtr& other : job.alternatives) {
+    ways.alternatives.push_back(cell.arm(other->arms().front()).name);
+  }
+  if (job.goal && job.goal->ways.size() > 1 && ways.alternatives.empty()) {
+    for (const GoalWay& way : job.goal->ways) {
+      ways.alternatives.push_back(cell.arm(way.goal.arm).name);
+    }
+  }
+  if (job.choice) ways.choice = view_of(job, *job.choice, cell, names);
+  if (job.goal && job.goal->detour) ways.detour = view_of(*job.goal->detour);
+  if (const auto& other = job.another_way) {
+    ways.another_way = AnotherWayView{other->done, other->is_open && !job.has_ended(), other->cause,
+                                      other->refusal};
+  }
+  return ways;
+}
+
+// `view`: its waits and its ring, as they are told.
+JobResultView result_of(const Job& job, const JobView& view, const Cell& cell) {
+  JobResultView result{*job.reason(), job.detail()};
+  if (result.reason == Reason::deadlock) result.detail = deadlock_text(view.ring, cell);
+  if (result.reason != Reason::backlog_timeout) return result;
+  for (const WaitView& wait : view.waits_on) {
+    if (wait.kind != Wait::Kind::arm && wait.kind != Wait::Kind::object) continue;
+    if (result.detail.find(wait.detail) == result.detail.npos) result.detail += "; " + wait.detail;
+  }
+  return result;
+}
+
 }  // namespace
 
 JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
@@ -130,50 +178,17 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .key = names.key(job.id),
                .name = names.name(job.id),
                .state = job.pausing() ? JobState::holding : job.state(),
-               .priority = job.terms.priority,
-               .backlog_timeout = job.terms.backlog_timeout,
-               .replans_on_timeout = job.terms.replans_on_timeout,
-               .system_job = job.terms.system_job,
-               .submitted_at = job.times.submitted_at,
-               .backlogged_at = job.times.backlogged_at,
-               .expires_at = expiry_of(job),
-               .scheduled_at = job.times.scheduled_at,
-               .started_at = job.times.started_at,
-               .ended_at = job.ended_at(),
-               .duration = job.trajectory->duration(),
-               .planned = job.goal ? std::optional(!job.is_unplanned()) : std::nullopt,
-               .stopping = job.stopping(),
-               .any_order = job.terms.any_order,
-               .reason = job.reason(),
-               .detail = job.detail()};
-  view.progress = to_seconds(job.progress) / to_seconds(job.trajectory->duration());
+               .terms = job.terms,
+               .times = times_of(job),
+               .motion = motion_of(job),
+               .ways = ways_of(job, cell, names)};
   for (ArmId arm : job.trajectory->arms()) view.arms.push_back(cell.arm(arm).name);
   const bool in_vain = job.reason() == Reason::backlog_timeout;
   for (const Wait& wait : job.waits_on) {
     view.waits_on.push_back(view_of(wait, cell, names, in_vain));
   }
-  for (const TrajectoryPtr& other : job.alternatives) {
-    view.alternatives.push_back(cell.arm(other->arms().front()).name);
-  }
-  if (job.goal && job.goal->ways.size() > 1 && view.alternatives.empty()) {
-    for (const GoalWay& way : job.goal->ways) {
-      view.alternatives.push_back(cell.arm(way.goal.arm).name);
-    }
-  }
-  if (const auto& other = job.another_way) {
-    view.another_way = AnotherWayView{other->done, other->is_open && !job.has_ended(), other->cause,
-                                      other->refusal};
-  }
-  if (job.goal && job.goal->detour) view.detour = view_of(*job.goal->detour);
-  if (job.choice) view.choice = view_of(job, *job.choice, cell, names);
   for (JobId on_it : job.ring) view.ring.push_back(names.key(on_it));
-  if (job.reason() == Reason::deadlock) view.detail = deadlock_text(view.ring, cell);
-  if (in_vain) {
-    for (const WaitView& wait : view.waits_on) {
-      if (wait.kind != Wait::Kind::arm && wait.kind != Wait::Kind::object) continue;
-      if (view.detail.find(wait.detail) == view.detail.npos) view.detail += "; " + wait.detail;
-    }
-  }
+  if (job.reason()) view.result = result_of(job, view, cell);
   return view;
 }
 

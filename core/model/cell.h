@@ -88,12 +88,34 @@ struct Robot {
   // Meshes as the URDF names them (package://..., of visuals too) and their files, where they
   // exist.
   std::map<std::string, std::string> mesh_files;
+  // Joints that have no value of their own, by their names with prefix: why not, as "follows
+  // left_finger" says it.
+  std::map<std::string, std::string> joints_without_value;
 };
 
 struct CollisionObject {
   std::string name;
   Shape shape;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+};
+
+// What may touch.
+struct AllowedCollisions {
+  // Pairs of links that need no check (SRDF, same rigid body), smaller id first.
+  std::set<std::pair<LinkId, LinkId>> link_pairs;
+  // Pairs (link, object name), from the cell file.
+  std::set<std::pair<LinkId, std::string>> link_objects;
+};
+// What is kept from what may not be touched.
+struct Clearances {
+  double clearance_m = 0.02;
+  double self_clearance_m = 0.005;          // of what Cell::is_own(); at most clearance_m
+  std::optional<double> mount_clearance_m;  // of an arm from its mount; absent: clearance_m
+  // What an arm keeps from its mount: never more than from the scene.
+  [[nodiscard]] double mount_limit_m() const {
+    const double limit_m = mount_clearance_m.value_or(clearance_m);
+    return limit_m < clearance_m ? limit_m : clearance_m;
+  }
 };
 
 // The robots, arms, joints and links of a cell and its settings: immutable, shared by all threads.
@@ -106,18 +128,8 @@ struct Cell {
   std::vector<Link> links;               // LinkId; parents before children
   std::vector<CollisionObject> objects;  // the scene at start
 
-  // Joints of the robots that have no value of their own, by their names with prefix: why not, as
-  // "follows left_finger" says it.
-  std::map<std::string, std::string> joints_without_value;
-
-  // Pairs of links that need no check (SRDF, same rigid body), smaller id first.
-  std::set<std::pair<LinkId, LinkId>> allowed_link_pairs;
-  // Pairs (link, object name) that may touch, from the cell file.
-  std::set<std::pair<LinkId, std::string>> allowed_link_objects;
-
-  double clearance_m = 0.02;
-  double self_clearance_m = 0.005;          // of what is_own(); at most clearance_m
-  std::optional<double> mount_clearance_m;  // of an arm from its mount; absent: clearance_m
+  AllowedCollisions allowed;
+  Clearances clearances;
   CheckingSettings checking;
   SchedulingSettings scheduling;
   MonitorSettings monitor;
@@ -139,12 +151,6 @@ struct Cell {
   [[nodiscard]] bool is_mount(LinkId link, ArmId arm) const;
   // Two links of one arm: they pass each other closely by design and keep self_clearance_m.
   [[nodiscard]] bool is_own(LinkId a, LinkId b) const;
-
-  // What an arm keeps from its mount: never more than from the scene.
-  [[nodiscard]] double mount_limit_m() const {
-    const double limit_m = mount_clearance_m.value_or(clearance_m);
-    return limit_m < clearance_m ? limit_m : clearance_m;
-  }
 
   // Every arm at its home; joints of no arm and gripper joints at zero, clamped to their limits.
   [[nodiscard]] Configuration home() const;

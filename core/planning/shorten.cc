@@ -20,12 +20,6 @@ void leave_out(Points& points, const Shortening& by) {
   points = std::move(kept);
 }
 
-double length_of(const Points& points) {
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) length += (points[i + 1] - points[i]).norm();
-  return length;
-}
-
 struct Place {
   std::size_t segment;
   Eigen::VectorXd q;
@@ -43,6 +37,12 @@ Place place_at(const Points& points, double length) {
 }
 
 }  // namespace
+
+double length_of(const std::vector<Eigen::VectorXd>& points) {
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) length += (points[i + 1] - points[i]).norm();
+  return length;
+}
 
 void shorten(Points& points, const Shortening& by) {
   leave_out(points, by);

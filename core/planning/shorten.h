@@ -17,6 +17,7 @@ struct Shortening {
 // A way whose lines are free, shorter: points that are not needed are left out, then random places
 // of it are joined by straight lines (Geraerts and Overmars, "Creating High-quality Paths for
 // Motion Planning", 2007, 3.2), in turn. Ends stay.
+[[nodiscard]] double length_of(const std::vector<Eigen::VectorXd>& points);  // Euclidean
 void shorten(std::vector<Eigen::VectorXd>& points, const Shortening& by);
 
 }  // namespace armloom

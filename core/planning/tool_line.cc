@@ -7,6 +7,7 @@
 
 #include "core/collision/check/motion_checker.h"
 #include "core/planning/pose_descent.h"
+#include "core/planning/shorten.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -154,12 +155,6 @@ class ToolLine {
   double angle_ = 0.0;
   double length_ = 0.0;
 };
-
-double length_of(const std::vector<Eigen::VectorXd>& points) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
-  return length;
-}
 
 }  // namespace
 

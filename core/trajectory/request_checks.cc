@@ -20,6 +20,15 @@ void check_complete(const Cell& cell, const std::vector<ArmId>& arms,
   }
 }
 
+std::string why_it_does_not_move(const std::string& joint, const Cell& cell) {
+  for (const Robot& robot : cell.robots) {
+    const auto still = robot.joints_without_value.find(joint);
+    if (still == robot.joints_without_value.end()) continue;
+    return still->second + ", and has no value of its own: leave it out";
+  }
+  return "is not a movable joint of the cell";
+}
+
 }  // namespace
 
 std::string pointer_to(std::size_t waypoint) { return "/points/" + std::to_string(waypoint); }
@@ -40,11 +49,8 @@ Names resolve_names(const TrajectoryRequest& request, const Cell& cell, ProblemL
                     "joint " + name + " " + why, name});
     };
     const std::optional<JointId> id = cell.find_joint(name);
-    const auto still = cell.joints_without_value.find(name);
-    if (!id && still != cell.joints_without_value.end()) {
-      refuse("unknown-joint", still->second + ", and has no value of its own: leave it out");
-    } else if (!id) {
-      refuse("unknown-joint", "is not a movable joint of the cell");
+    if (!id) {
+      refuse("unknown-joint", why_it_does_not_move(name, cell));
     } else if (!cell.joint(*id).arm) {
       refuse(
           "joint-of-no-arm",

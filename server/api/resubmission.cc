@@ -147,12 +147,12 @@ RequestOrigin origin_of(const SentRequest& sent, std::size_t place) {
 void acknowledge(const ApiParts& parts, std::vector<JobKeeper::AcceptedJob> jobs,
                  const Respond& respond, std::function<Response()> answer) {
   for (const auto& accepted : jobs) {
-    parts.at_hand->note({accepted.job.key, accepted.job.submitted_at,
+    parts.at_hand->note({accepted.job.key, accepted.job.times.submitted_at,
                          std::make_shared<const std::string>(accepted.body)});
   }
   if (parts.recording != nullptr) {
     for (const auto& accepted : jobs) {
-      parts.recording->job(accepted.job.submitted_at, accepted.body);
+      parts.recording->job(accepted.job.times.submitted_at, accepted.body);
     }
   }
   if (parts.keeper == nullptr || jobs.empty()) return respond(answer());

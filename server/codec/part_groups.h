@@ -34,6 +34,11 @@ class Parts final : public Part<T> {
   std::vector<PartPtr<T>> parts_;
 };
 
+template <class T>
+[[nodiscard]] PartPtr<T> parts(std::vector<PartPtr<T>> of_it) {
+  return std::make_shared<Parts<T>>(std::move(of_it));
+}
+
 // Members that spell a T in other words: those of a Words, made of the T and back.
 template <class T, class Words>
 class SpeltPart final : public Part<T> {

@@ -116,7 +116,7 @@ PartPtr<ArmDescription> home_part() {
       });
 }
 
-FormatPtr<ArmDescription> arm_format() {
+FormatPtr<ArmDescription> arm_description_format() {
   return object<ArmDescription>({
       required("name", &ArmDescription::name, name(), "The arm's name; unique in the cell."),
       required("group", &ArmDescription::group, name(),
@@ -162,7 +162,8 @@ FormatPtr<RobotDescription> robot_format() {
       field("fixed", &Robot::fixed, dictionary(number(kHeld)),
             "Joints that are held at a value (rad, m), as a torso under two arms: without the "
             "prefix. No job moves them."),
-      required("arms", &Robot::arms, list(arm_format(), {.fewest = 1}), "The robot's arms."),
+      required("arms", &Robot::arms, list(arm_description_format(), {.fewest = 1}),
+               "The robot's arms."),
       field("controller", &Robot::controller, controller_format(), "What moves the robot."),
   });
 }

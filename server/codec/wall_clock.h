@@ -2,12 +2,18 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <string>
 
 #include "core/base/time.h"
 
 namespace armloom {
+
+// Whole milliseconds since 1970, as they are stored.
+[[nodiscard]] inline std::int64_t since_1970_ms(std::chrono::system_clock::time_point wall) {
+  return std::chrono::floor<std::chrono::milliseconds>(wall).time_since_epoch().count();
+}
 
 // Turns cell time into wall time by anchors: at each, both times are known, and from there cell
 // time runs `speed` times as fast as the wall. A new anchor says nothing about the time before it:

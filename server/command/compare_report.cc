@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <functional>
 
+#include "server/command/xml_escaped.h"
+
 namespace armloom {
 namespace {
 
@@ -160,30 +162,6 @@ Row csv_row(const ComparedRun& run, const Comparison& comparison) {
 
 // ---- SVG ----
 
-// XML 1.0 has no way to write control characters.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
-    }
-  }
-  return out;
-}
-
 struct Picture {
   static constexpr double kBars_x = 150.0;  // where they begin
   static constexpr double kBars_w = 420.0;  // of the longest
@@ -195,7 +173,7 @@ struct Picture {
 
   void word(double x, double y, const char* anchor, const std::string& content) {
     text += "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" text-anchor=\"" + anchor +
-            "\">" + escaped(content) + "</text>\n";
+            "\">" + xml_escaped(content) + "</text>\n";
   }
 };
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "server/command/xml_escaped.h"
+
 namespace armloom {
 namespace {
 
@@ -20,14 +22,6 @@ const char* colour_of(std::size_t arm) { return kColours[arm % std::size(kColour
 std::string text_of(const char* format, double a, double b = 0.0, double c = 0.0, double d = 0.0) {
   char text[256];
   std::snprintf(text, sizeof text, format, a, b, c, d);
-  return text;
-}
-
-std::string escaped(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  }
   return text;
 }
 
@@ -166,7 +160,8 @@ std::string reach_picture(const ToolReach& reach, const Cell& cell) {
   for (std::size_t arm = 0; arm < reach.arms.size(); ++arm) {
     const std::string& name = cell.arm(reach.arms[arm].arm).name;
     svg += text_of("<circle cx=\"%.1f\" cy=\"20\" r=\"6\" fill=\"", x + 6) + colour_of(arm) +
-           "\"/>\n" + text_of("<text x=\"%.1f\" y=\"24\">", x + 18) + escaped(name) + "</text>\n";
+           "\"/>\n" + text_of("<text x=\"%.1f\" y=\"24\">", x + 18) + xml_escaped(name) +
+           "</text>\n";
     x += 34 + 8.0 * static_cast<double>(name.size());
   }
   svg += text_of(

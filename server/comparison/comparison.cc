@@ -41,7 +41,7 @@ std::vector<TimedJob> timed_jobs(const std::vector<JobsAtHand::Job>& jobs, const
     validate_ahead(*request, cell);
     request->key = job.key;
     for (const std::string& before : request->after) {
-      if (!keys.contains(before)) request->succeeded.push_back(before);
+      if (!keys.contains(before)) request->known.succeeded.push_back(before);
     }
     keys.insert(job.key);
     timed.push_back(
@@ -59,7 +59,7 @@ CellPtr cell_of(const Cell& cell, const Comparison::Question& question,
   if (question.taken.whole) return as_found;
   std::set<std::size_t> placed;
   for (const TimedJob& timed : jobs) {
-    for (const Result<TrajectoryPtr>& motion : timed.job.validated) {
+    for (const Result<TrajectoryPtr>& motion : timed.job.known.validated) {
       if (!motion) continue;
       for (const ArmId arm : (*motion)->arms()) {
         if (!placed.insert(arm.index()).second) continue;
@@ -86,9 +86,9 @@ PolicyRun run_of(const SimulationResult& result) {
   run.canceled = count("canceled") + count("interrupted");
   run.refused = count("refused");
   for (const JobView& job : result.jobs) {
-    if (job.system_job) continue;
+    if (job.terms.system_job) continue;
     if (!is_terminal(job.state)) ++run.unfinished;
-    if (job.backlogged_at) ++run.backlogged;
+    if (job.times.backlogged_at) ++run.backlogged;
   }
   if (result.all_ended && summary.makespan > Duration{}) run.makespan = summary.makespan;
   run.wait_mean = summary.wait_mean;

@@ -17,7 +17,7 @@ TimePoint time_limit(const std::vector<TimedJob>& jobs, const std::vector<FaultR
       if (motion.points.empty()) continue;
       duration_s = std::max(duration_s, motion.points.back().time_from_start_s);
     }
-    limit_s += to_seconds(timed.job.backlog_timeout.value_or(cell.scheduling.backlog_timeout)) +
+    limit_s += to_seconds(timed.job.terms.backlog_timeout.value_or(cell.scheduling.backlog_timeout)) +
                duration_s * cell.execution.duration_scaling +
                to_seconds(cell.execution.duration_margin);
     last_s = std::max(last_s, to_seconds(timed.at));
@@ -35,10 +35,10 @@ RunSummary summarise(const SimulationResult& result, TimePoint first_submit) {
   std::int64_t started = 0;
   Duration wait_sum{};
   for (const JobView& job : result.jobs) {
-    if (job.system_job) continue;
+    if (job.terms.system_job) continue;
     ++summary.jobs[to_string(job.state)];
-    if (!job.started_at) continue;
-    const Duration wait = *job.started_at - job.submitted_at;
+    if (!job.times.started_at) continue;
+    const Duration wait = *job.times.started_at - job.times.submitted_at;
     ++started;
     wait_sum += wait;
     summary.wait_max = std::max(summary.wait_max, wait);

@@ -8,15 +8,6 @@
 #include "core/executive/state_watch.h"
 
 namespace armloom {
-namespace {
-
-std::int64_t since_1970_ms(WallClock::Wall wall) {
-  using std::chrono::milliseconds;
-  return std::chrono::floor<milliseconds>(wall.time_since_epoch()).count();
-}
-
-}  // namespace
-
 AlertBook::AlertBook(std::string stream, const WallClock& clock, JobKeeper* keeper)
     : stream_(std::move(stream)), clock_(clock), keeper_(keeper) {
   if (keeper_ == nullptr) return;

@@ -8,14 +8,6 @@
 #include "server/messages/job_amendment.h"
 
 namespace armloom {
-namespace {
-
-std::int64_t since_1970_ms(WallClock::Wall wall) {
-  return std::chrono::floor<std::chrono::milliseconds>(wall).time_since_epoch().count();
-}
-
-}  // namespace
-
 Result<std::unique_ptr<JobKeeper>> JobKeeper::open(const std::filesystem::path& folder,
                                                    StoreOptions options) {
   auto store = JobStore::open(folder, std::move(options));
@@ -43,7 +35,7 @@ Result<void> JobKeeper::look_up(JobRequest& job) const {
     const auto found = history_->find(before);
     if (!found) return failure(found.error());
     if (*found && (*found)->state == to_string(JobState::succeeded))
-      job.succeeded.push_back(before);
+      job.known.succeeded.push_back(before);
   }
   return {};
 }
@@ -53,10 +45,10 @@ StoredJob JobKeeper::stored(const JobView& job) const {
                    .id = job.key,
                    .state = to_string(job.state),
                    .has_ended = is_terminal(job.state),
-                   .submitted_ms = since_1970_ms(clock_->wall_at(job.submitted_at)),
+                   .submitted_ms = since_1970_ms(clock_->wall_at(job.times.submitted_at)),
                    .arms = JsonWriter().value(job.arms).take(),
                    .view = text_of(*job_format(), job, clock_)};
-  if (job.ended_at) stored.ended_ms = since_1970_ms(clock_->wall_at(*job.ended_at));
+  if (job.times.ended_at) stored.ended_ms = since_1970_ms(clock_->wall_at(*job.times.ended_at));
   return stored;
 }
 

@@ -100,7 +100,7 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
       return write_off(job, JobState::failed, Reason::predecessor_failed,
                        "a job that it comes after did not succeed");
     }
-    request->succeeded.push_back(before);
+    request->known.succeeded.push_back(before);
   }
   waiting_.push_back({JobId{job.number}, std::move(*request), submitted_at(job, keeper.clock())});
   stored_.push_back(job);

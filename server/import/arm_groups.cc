@@ -222,9 +222,9 @@ std::set<std::size_t> joints_above_arms(const RobotTree& tree, const RobotSemant
   for (const std::size_t joint : of_arms) {
     for (auto link = tree.links[joint].parent; link; link = tree.links[*link].parent) {
       // A mimic joint moves with the joint that it follows.
-      const auto& mimic = tree.links[*link].mimic;
+      const auto& mimic = tree.links[*link].joint.mimic;
       const std::size_t driver = mimic ? mimic->driver : *link;
-      if (tree.links[driver].is_independent() && !of_arms.contains(driver)) above.insert(driver);
+      if (tree.links[driver].joint.is_independent() && !of_arms.contains(driver)) above.insert(driver);
     }
   }
   return above;

@@ -86,7 +86,7 @@ Result<Homes> choose_homes(const CellPtr& cell) {
     for (const HomeCandidate& candidate : candidates.back()) {
       const bool made_up = candidate.kind == HomeCandidate::Kind::made_up;
       of_arm.push_back(
-          {candidate.q, std::max(cell->clearance_m, made_up ? kMadeUpClearance_m : 0.0)});
+          {candidate.q, std::max(cell->clearances.clearance_m, made_up ? kMadeUpClearance_m : 0.0)});
     }
   }
   const auto found = find_free_homes(cell, places);

@@ -25,16 +25,16 @@ std::string name_in(const std::string& urdf_text) {
 // Where the states of the SRDF have a joint; those whose names speak of home come first.
 HeldJoint hold(const RobotTree& tree, const RobotSemantics& semantics, std::size_t joint) {
   const TreeLink& link = tree.links[joint];
-  double nearest_to_zero = std::max(0.0, link.limits.lower.value_or(0.0));
-  if (link.limits.upper) nearest_to_zero = std::min(nearest_to_zero, *link.limits.upper);
-  HeldJoint held{link.joint, nearest_to_zero, {}};
+  double nearest_to_zero = std::max(0.0, link.joint.limits.lower.value_or(0.0));
+  if (link.joint.limits.upper) nearest_to_zero = std::min(nearest_to_zero, *link.joint.limits.upper);
+  HeldJoint held{link.joint.name, nearest_to_zero, {}};
   std::size_t best = 0;
   for (const auto& [group, states] : semantics.states) {
     for (const auto& [name, state] : states) {
       const auto value = state.values.find(joint);
       if (value == state.values.end()) continue;
       if (!held.state.empty() && home_rank(name) >= best) continue;
-      held = {link.joint, value->second, name};
+      held = {link.joint.name, value->second, name};
       best = home_rank(name);
     }
   }

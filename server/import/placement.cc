@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-tl::unexpected<Problems> refused(const std::string& text, const std::string& faults) {
+tl::unexpected<Problems> bad_robot(const std::string& text, const std::string& faults) {
   return failure(Problem{ProblemKind::invalid,
                          "bad-robot",
                          "--robot",
@@ -69,7 +69,7 @@ Result<Placement> read_placement(const std::string& text) {
     const std::string fault = read_member(one, placement.base);
     if (!fault.empty()) faults += (faults.empty() ? "" : "; ") + fault;
   }
-  if (!faults.empty()) return refused(text, faults);
+  if (!faults.empty()) return bad_robot(text, faults);
   return placement;
 }
 

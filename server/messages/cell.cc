@@ -139,9 +139,9 @@ CellView view_of(const Cell& cell, std::string policy, double speed) {
   for (const Joint& joint : cell.joints) {
     view.joints.push_back({&joint, joint.arm ? cell.arm(*joint.arm).name : ""});
   }
-  view.settings.clearance_m = cell.clearance_m;
-  view.settings.self_clearance_m = cell.self_clearance_m;
-  view.settings.mount_clearance_m = cell.mount_limit_m();
+  view.settings.clearance_m = cell.clearances.clearance_m;
+  view.settings.self_clearance_m = cell.clearances.self_clearance_m;
+  view.settings.mount_clearance_m = cell.clearances.mount_limit_m();
   view.settings.checking = cell.checking;
   view.settings.scheduling = cell.scheduling;
   view.settings.monitor = cell.monitor;

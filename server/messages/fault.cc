@@ -17,31 +17,34 @@ using namespace formats;
 
 namespace {
 
-using Kind = ArmFault::Kind;
+using FaultKind = ArmFault::Kind;
 
-constexpr double kTimeMax_s = 1e6;
+constexpr double kFaultTimeMax_s = 1e6;
 constexpr std::size_t kFaultsFileMax = 10'000;
 
 // The one table of kinds: what they are called, and the highest value that they may have.
 struct KindRule {
-  Kind kind;
+  FaultKind kind;
   const char* name;
   double value_max;  // zero: it has no value
   bool lasts;        // and may have a duration
 };
-constexpr std::array<KindRule, 5> kKinds{{{Kind::stall, "stall", 0.0, true},
-                                          {Kind::slow, "slow", 1.0, true},
-                                          {Kind::late_start, "late_start", kTimeMax_s, true},
-                                          {Kind::drop_feedback, "drop_feedback", 0.0, true},
-                                          {Kind::fault, "fault", 0.0, false}}};
+constexpr std::array<KindRule, 5> kKinds{
+    {{FaultKind::stall, "stall", 0.0, true},
+     {FaultKind::slow, "slow", 1.0, true},
+     {FaultKind::late_start, "late_start", kFaultTimeMax_s, true},
+     {FaultKind::drop_feedback, "drop_feedback", 0.0, true},
+     {FaultKind::fault, "fault", 0.0, false}}};
 constexpr std::array<const char*, 6> kKindsToCome{"freeze_feedback", "drift",       "reject",
                                                   "runaway",         "ignore_stop", "noise"};
 
-const KindRule& rule_of(Kind kind) { return *std::ranges::find(kKinds, kind, &KindRule::kind); }
+const KindRule& rule_of(FaultKind kind) {
+  return *std::ranges::find(kKinds, kind, &KindRule::kind);
+}
 
-class KindFormat final : public Format<Kind> {
+class KindFormat final : public Format<FaultKind> {
  public:
-  void read(const JsonNode& node, Kind& kind) const override {
+  void read(const JsonNode& node, FaultKind& kind) const override {
     std::string name;
     if (!node.read(name)) return;
     for (const KindRule& rule : kKinds) {
@@ -58,7 +61,9 @@ class KindFormat final : public Format<Kind> {
       node.invalid("unknown-fault", "no fault is called \"" + name + "\"; known are " + known);
     }
   }
-  void write(JsonWriter& out, const Kind& kind) const override { out.value(rule_of(kind).name); }
+  void write(JsonWriter& out, const FaultKind& kind) const override {
+    out.value(rule_of(kind).name);
+  }
   Schema schema(Way) const override {
     Schema schema{{"type", "string"}, {"enum", Schema::array()}};
     for (const KindRule& rule : kKinds) schema["enum"].push_back(rule.name);
@@ -66,7 +71,7 @@ class KindFormat final : public Format<Kind> {
   }
 };
 
-FormatPtr<Kind> kind_format() { return std::make_shared<KindFormat>(); }
+FormatPtr<FaultKind> kind_format() { return std::make_shared<KindFormat>(); }
 
 bool has_known_kind(const JsonNode& fault) {
   if (!fault.has("kind") || !fault.raw()["kind"].is_string()) return false;
@@ -84,7 +89,7 @@ class KindsOwn final : public Part<FaultRequest> {
     if (!has_known_kind(object)) return;
     const KindRule& rule = rule_of(fault.kind);
     object.optional("for_s", [&](const JsonNode& node) {
-      if (rule.lasts) return seconds({0.0, kTimeMax_s})->read(node, fault.lasting.emplace());
+      if (rule.lasts) return seconds({0.0, kFaultTimeMax_s})->read(node, fault.lasting.emplace());
       node.invalid("no-duration", "a fault strikes once and has no duration");
     });
     if (rule.value_max > 0.0) {
@@ -101,14 +106,14 @@ class KindsOwn final : public Part<FaultRequest> {
     describe_member(
         object,
         {"for_s", "Default: until removed. Not with fault, which strikes once", Need::optional, {}},
-        seconds({0.0, kTimeMax_s})->schema(way), std::nullopt, way);
+        seconds({0.0, kFaultTimeMax_s})->schema(way), std::nullopt, way);
     describe_member(object,
                     {"value",
                      "slow: share of the speed, 0..1; late_start: seconds; not with the "
                      "others",
                      Need::optional,
                      {}},
-                    number({0.0, kTimeMax_s})->schema(way), std::nullopt, way);
+                    number({0.0, kFaultTimeMax_s})->schema(way), std::nullopt, way);
     for (const KindRule& rule : kKinds) {
       Schema then = Schema::object();
       if (!rule.lasts) then["properties"]["for_s"] = false;
@@ -130,7 +135,7 @@ FormatPtr<FaultRequest> make_request_format(Need time_needed) {
       required("arm", &Fault::arm, text(), "Whose"),
       required("kind", &Fault::kind, kind_format(), "What goes wrong"),
       member({"at_s", "Cell time; default: now", time_needed, {}}, &Fault::at,
-             cell_time(kTimeMax_s)),
+             cell_time(kFaultTimeMax_s)),
       std::make_shared<KindsOwn>(),
   });
 }

@@ -26,10 +26,6 @@ FormatPtr<Reason> reason_format() {
                      to_string));
 }
 
-std::optional<JobResultView> result_of(const JobView& job) {
-  if (!job.reason) return std::nullopt;
-  return JobResultView{*job.reason, job.detail};
-}
 FormatPtr<JobResultView> result_format() {
   return object<JobResultView>({
       told("reason", &JobResultView::reason, reason_format()),
@@ -69,15 +65,15 @@ FormatPtr<DetourView> detour_format() {
            "shortest way could not go as things stood"),
   });
 }
-std::optional<Duration> backlog_timeout_of(const JobView& job) { return job.backlog_timeout; }
-std::optional<OnTimeout> on_timeout_of(const JobView& job) {
-  return job.replans_on_timeout ? OnTimeout::replan : OnTimeout::abort;
+std::optional<Duration> backlog_timeout_of(const JobTerms& terms) { return terms.backlog_timeout; }
+std::optional<OnTimeout> on_timeout_of(const JobTerms& terms) {
+  return terms.replans_on_timeout ? OnTimeout::replan : OnTimeout::abort;
 }
 std::optional<JobOrder> order_of(const JobView& job) {
-  return job.any_order ? std::optional(JobOrder::any) : std::nullopt;
+  return job.terms.any_order ? std::optional(JobOrder::any) : std::nullopt;
 }
-std::optional<std::vector<std::string>> alternatives_of(const JobView& job) {
-  return job.alternatives.empty() ? std::nullopt : std::optional(job.alternatives);
+std::optional<std::vector<std::string>> alternatives_of(const JobWaysView& ways) {
+  return ways.alternatives.empty() ? std::nullopt : std::optional(ways.alternatives);
 }
 
 std::optional<std::string> detail_of(const WaitView& wait) {
@@ -111,6 +107,58 @@ PartPtr<CheckView> make_verdict_part() {
               "The verdict is of that motion; where it would not be admitted together with it, the "
               "job is judged again when it is there"),
       told_if("result", &View::result, result_format(), "It would end at once, without moving"),
+  });
+}
+
+PartPtr<JobTerms> terms_part() {
+  return parts<JobTerms>({
+      told("priority", &JobTerms::priority, priority_format(), "Larger goes first"),
+      told_if("backlog_timeout_s", backlog_timeout_of, backlog_timeout_format(),
+              "How long it may wait in the backlog. Absent: an older version of "
+              "the program "
+              "stored the job"),
+      told_if("on_timeout", on_timeout_of, on_timeout_format(),
+              "What becomes of it then. Absent as above"),
+  });
+}
+
+PartPtr<JobTimesView> times_part() {
+  return parts<JobTimesView>({
+      told_times("submitted", &JobTimesView::submitted_at, "When it was accepted"),
+      told_if("backlogged_s", &JobTimesView::backlogged_at, cell_time(),
+              "When it first was found in conflict, in cell time; absent: never"),
+      told_if("expires_s", &JobTimesView::expires_at, cell_time(),
+              "When it is given up if nothing changes, in cell time: while it waits in the "
+              "backlog, or on its path for what no job moves"),
+      told_times("scheduled", &JobTimesView::scheduled_at, "When it starts; null: not planned"),
+      told_times("started", &JobTimesView::started_at, "When it began to move; null: not yet"),
+      told_times("ended", &JobTimesView::ended_at, "When it ended; null: not yet"),
+  });
+}
+
+PartPtr<JobMotionView> motion_part() {
+  return parts<JobMotionView>({
+      told("progress", &JobMotionView::progress, number(kShare), "Share of the trajectory's time"),
+      told("duration_s", &JobMotionView::duration, seconds(kPositive), "Of the trajectory"),
+      told_if("planned", &JobMotionView::planned, flag(),
+              "Of a goal: whether its way is planned; until then duration_s is an "
+              "estimate"),
+      told("stopping", &JobMotionView::stopping, flag(), "Brakes on its path"),
+  });
+}
+
+PartPtr<JobWaysView> ways_part() {
+  return parts<JobWaysView>({
+      told_if("alternatives", alternatives_of, list(text()),
+              "Arms of which one does it; `arms` is that one, or the likeliest "
+              "while it waits"),
+      told_if("replan", &JobWaysView::another_way, another_way_format(),
+              "Other ways that were looked for, to where its own ends"),
+      told_if("detour", &JobWaysView::detour, detour_format(),
+              "Of a goal whose shortest way would have to wait: ways around what "
+              "others hold"),
+      told_if("choice", &JobWaysView::choice, choice_format(),
+              "Why it was taken before others, or by this arm"),
   });
 }
 
@@ -160,41 +208,17 @@ FormatPtr<JobView> job_format() {
           told("name", &View::name, text(), "For people; may be empty"),
           told("state", &View::state, job_state_format()),
           told("arms", &View::arms, list(text()), "That it moves"),
-          told("priority", &View::priority, priority_format(), "Larger goes first"),
-          told_if("backlog_timeout_s", backlog_timeout_of, backlog_timeout_format(),
-                  "How long it may wait in the backlog. Absent: an older version of the program "
-                  "stored the job"),
-          told_if("on_timeout", on_timeout_of, on_timeout_format(),
-                  "What becomes of it then. Absent as above"),
-          told_times("submitted", &View::submitted_at, "When it was accepted"),
-          told_if("backlogged_s", &View::backlogged_at, cell_time(),
-                  "When it first was found in conflict, in cell time; absent: never"),
-          told_if("expires_s", &View::expires_at, cell_time(),
-                  "When it is given up if nothing changes, in cell time: while it waits in the "
-                  "backlog, or on its path for what no job moves"),
-          told_times("scheduled", &View::scheduled_at, "When it starts; null: not planned"),
-          told_times("started", &View::started_at, "When it began to move; null: not yet"),
-          told_times("ended", &View::ended_at, "When it ended; null: not yet"),
-          told("progress", &View::progress, number(kShare), "Share of the trajectory's time"),
-          told("duration_s", &View::duration, seconds(kPositive), "Of the trajectory"),
-          told_if("planned", &View::planned, flag(),
-                  "Of a goal: whether its way is planned; until then duration_s is an estimate"),
-          told("stopping", &View::stopping, flag(), "Brakes on its path"),
+          inlined(&View::terms, terms_part()),
+          inlined(&View::times, times_part()),
+          inlined(&View::motion, motion_part()),
           told("waits_on", &View::waits_on, list(wait_format()), "Empty when it does not wait"),
           told_if("order", order_of, choice<JobOrder>({JobOrder::any}, to_string),
                   "It may change places with others of its arm that say so"),
-          told_if("alternatives", alternatives_of, list(text()),
-                  "Arms of which one does it; `arms` is that one, or the likeliest while it waits"),
-          told_if("replan", &View::another_way, another_way_format(),
-                  "Other ways that were looked for, to where its own ends"),
-          told_if("detour", &View::detour, detour_format(),
-                  "Of a goal whose shortest way would have to wait: ways around what others hold"),
-          told_if("choice", &View::choice, choice_format(),
-                  "Why it was taken before others, or by this arm"),
+          inlined(&View::ways, ways_part()),
           told("ring", &View::ring, list(text()),
                "The deadlock that it is part of, itself first: each waits for the next one, the "
                "last for the first. Else empty"),
-          told("result", result_of, nullable(result_format()), "null until terminal"),
+          told("result", &View::result, nullable(result_format()), "null until terminal"),
       }));
   return format;
 }

@@ -29,15 +29,15 @@ Result<JobAmendment> read_job_amendment(std::string_view text) {
 }
 
 JobAmendment amendable_of(const JobView& job) {
-  return {job.name, job.priority, job.backlog_timeout,
-          job.replans_on_timeout ? OnTimeout::replan : OnTimeout::abort};
+  return {job.name, job.terms.priority, job.terms.backlog_timeout,
+          job.terms.replans_on_timeout ? OnTimeout::replan : OnTimeout::abort};
 }
 
 void apply(const JobAmendment& amendment, JobRequest& request) {
   if (amendment.name) request.name = *amendment.name;
-  if (amendment.priority) request.priority = *amendment.priority;
-  if (amendment.backlog_timeout) request.backlog_timeout = amendment.backlog_timeout;
-  if (amendment.on_timeout) request.on_timeout = *amendment.on_timeout;
+  if (amendment.priority) request.terms.priority = *amendment.priority;
+  if (amendment.backlog_timeout) request.terms.backlog_timeout = amendment.backlog_timeout;
+  if (amendment.on_timeout) request.terms.on_timeout = *amendment.on_timeout;
 }
 
 }  // namespace armloom

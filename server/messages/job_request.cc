@@ -80,7 +80,7 @@ class BatchJobs final : public Part<BatchRequest> {
     if (!batch.atomic) return {read_job(body), std::move(text)};
     JobRequest job;
     job_request_format()->read(node, job);
-    if (adds_order) job.order = batch.order;
+    if (adds_order) job.terms.order = batch.order;
     return {std::move(job), std::move(text)};
   }
 
@@ -140,6 +140,32 @@ PartPtr<JobRequest> velocity_scaling_part() {
       });
 }
 
+PartPtr<RequestedTerms> requested_terms_part() {
+  using Terms = RequestedTerms;
+  return parts<Terms>({
+      field("priority", &Terms::priority, priority_format(), "Larger goes first"),
+      field("backlog_timeout_s", &Terms::backlog_timeout, backlog_timeout_format(),
+            "Default: the cell's"),
+      field("on_timeout", &Terms::on_timeout, on_timeout_format(),
+            "What becomes of it then. \"replan\": another way is planned to where "
+            "it ends, from "
+            "where its arm stands and past what rests there; it expires when there "
+            "is none, "
+            "and after the third"),
+      field("approach", &Terms::approach,
+            choice<Approach>({Approach::none, Approach::plan}, to_string),
+            "\"plan\": its arms need not stand where it begins; each that stands "
+            "elsewhere at "
+            "its turn is brought there first, slowly, by a planned motion of the "
+            "server's own"),
+      field("order", &Terms::order,
+            choice<JobOrder>({JobOrder::as_given, JobOrder::any}, to_string),
+            "\"any\": jobs of one arm that begin and end at one place, and say so, "
+            "may be taken "
+            "in another order"),
+  });
+}
+
 }  // namespace
 
 FormatPtr<std::string> job_id_format() {
@@ -175,29 +201,13 @@ FormatPtr<JobRequest> job_request_format() {
           field("id", &Request::key, job_id_format(), "Absent: the server gives one"),
           field("name", &Request::name, job_name_format(),
                 "For people; without control characters"),
-          field("priority", &Request::priority, priority_format(), "Larger goes first"),
-          field("backlog_timeout_s", &Request::backlog_timeout, backlog_timeout_format(),
-                "Default: the cell's"),
+          inlined(&Request::terms, requested_terms_part()),
           field("after", &Request::after,
                 list(job_id_format(), {.most = kAfterMax, .noun = "ids", .what = "predecessors"}),
                 "Jobs that have to succeed first"),
-          field(
-              "on_timeout", &Request::on_timeout, on_timeout_format(),
-              "What becomes of it then. \"replan\": another way is planned to where it ends, from "
-              "where its arm stands and past what rests there; it expires when there is none, "
-              "and after the third"),
-          field("approach", &Request::approach,
-                choice<Approach>({Approach::none, Approach::plan}, to_string),
-                "\"plan\": its arms need not stand where it begins; each that stands elsewhere at "
-                "its turn is brought there first, slowly, by a planned motion of the server's own"),
           not_served<Request>(
               {"steps", "not-served",
                "\"steps\" are not served by this version; give one \"trajectory\""}),
-          field(
-              "order", &Request::order,
-              choice<JobOrder>({JobOrder::as_given, JobOrder::any}, to_string),
-              "\"any\": jobs of one arm that begin and end at one place, and say so, may be taken "
-              "in another order"),
           unless("steps",
                  unless("alternatives",
                         unless("move_to", required("trajectory", &Request::trajectory,

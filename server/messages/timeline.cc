@@ -19,6 +19,8 @@ auto of_job(M JobView::*member) {
   return [member](const TimelineView::Leg& leg) { return leg.job.*member; };
 }
 
+double progress_of(const TimelineView::Leg& leg) { return leg.job.motion.progress; }
+
 FormatPtr<TimelineView::Pause> pause_format() {
   using Pause = TimelineView::Pause;
   return named("TimelinePause", "A leg stands, at its start or on its way.",
@@ -43,7 +45,7 @@ FormatPtr<TimelineView::Leg> leg_format() {
           told("name", of_job(&JobView::name), text(), "For people; may be empty"),
           told("arms", of_job(&JobView::arms), list(text()), "That it moves, each in its lane"),
           told("state", of_job(&JobView::state), job_state_format()),
-          told("progress", of_job(&JobView::progress), number({0.0, 1.0}),
+          told("progress", progress_of, number({0.0, 1.0}),
                "Share of the trajectory's time, at now_s"),
           told("starts_s", &Leg::starts, nullable(cell_time()),
                "Leaves its start, or has left it; null: never, as things are"),

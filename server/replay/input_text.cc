@@ -35,7 +35,7 @@ class InputWriter {
       const JobRequest& now = job.request;
       out_.key("amended").raw(
           text_of(*job_amendment_format(),
-                  JobAmendment{now.name, now.priority, now.backlog_timeout, now.on_timeout}));
+                  JobAmendment{now.name, now.terms.priority, now.terms.backlog_timeout, now.terms.on_timeout}));
       asked_for(now);
       out_.end_object();
     }
@@ -101,7 +101,7 @@ class InputWriter {
   JsonWriter& name(const char* name) { return out_.field("input", name); }
   // In the client's words, as everything is validated anew.
   void asked_for(const JobRequest& job) {
-    if (!job.succeeded.empty()) out_.field("succeeded", job.succeeded);
+    if (!job.known.succeeded.empty()) out_.field("succeeded", job.known.succeeded);
     out_.key("body").raw(job.body ? *job.body : "null");
   }
   [[nodiscard]] std::vector<std::string> names(const std::vector<ArmId>& arms) const {

@@ -44,7 +44,7 @@ JobRequest request_of(const Json& logged) {
   if (logged.at("body").is_null()) throw std::invalid_argument("the body of a job is not logged");
   JobRequest job = value_of(read_job_text(logged.at("body").dump()));
   job.body = std::make_shared<const std::string>(logged.at("body").dump());
-  job.succeeded = logged.value("succeeded", std::vector<std::string>());
+  job.known.succeeded = logged.value("succeeded", std::vector<std::string>());
   return job;
 }
 

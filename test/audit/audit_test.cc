@@ -95,11 +95,11 @@ TEST(Audit, LeavesAllowedPairsOutAndStaticOnesAlone) {
   Cell cell = pair_of_arms();
   cell.objects.push_back({"block", Box{{0.2, 0.2, 0.2}}, small::at_xyz(0, 0, 0)});
   cell.objects.push_back({"plate", Box{{0.2, 0.2, 0.3}}, small::at_xyz(0, 0, 0)});
-  cell.allowed_link_objects.insert({LinkId{1}, "block"});
-  cell.allowed_link_objects.insert({LinkId{1}, "plate"});
+  cell.allowed.link_objects.insert({LinkId{1}, "block"});
+  cell.allowed.link_objects.insert({LinkId{1}, "plate"});
   const auto states = turn({kUp, kUp}, {2 * kUp, kUp}, 100ms, 10ms);
   EXPECT_FALSE(report_of(cell, states, 10ms).first_contact.has_value());
-  cell.allowed_link_objects.erase({LinkId{1}, "plate"});
+  cell.allowed.link_objects.erase({LinkId{1}, "plate"});
   const AuditReport report = report_of(cell, states, 10ms);
   ASSERT_TRUE(report.first_contact.has_value());
   EXPECT_EQ(report.first_contact->time, at(0ms));

@@ -164,7 +164,7 @@ void register_states(const Workloads& workloads) {
         return open;
       });
     });
-    decided("decided_clearance", {scene->cell().clearance_m, scene->cell().self_clearance_m});
+    decided("decided_clearance", {scene->cell().clearances.clearance_m, scene->cell().clearances.self_clearance_m});
   }
 }
 

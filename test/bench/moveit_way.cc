@@ -128,13 +128,13 @@ struct MoveItWay::Scene {
     for (std::size_t i = 0; i < count; ++i) {
       const bool still = !cell->link(links[i]).arm;
       for (std::size_t j = 0; j < count; ++j) {
-        if (cell->allowed_link_pairs.contains(std::minmax(links[i], links[j])) ||
+        if (cell->allowed.link_pairs.contains(std::minmax(links[i], links[j])) ||
             (still && !cell->link(links[j]).arm)) {
           set(i, j);
         }
       }
       for (std::size_t k = 0; k < things.size(); ++k) {
-        if (still || cell->allowed_link_objects.contains({links[i], cell->objects[k].name})) {
+        if (still || cell->allowed.link_objects.contains({links[i], cell->objects[k].name})) {
           set(i, count + k);
         }
       }

@@ -40,8 +40,8 @@ double smallest(ExactScene& exact, const Configuration& q, double horizon_m, dou
       const CollisionBody& b = bodies.bodies[bodies.pairs[i].b];
       const Eigen::Isometry3d X_WA = a.pose(exact.X_WL);
       const Eigen::Isometry3d X_WB = b.pose(exact.X_WL);
-      const double centers_m = (X_WA * a.p_PC - X_WB * b.p_PC).norm();
-      if (centers_m - a.radius_m - b.radius_m >= smallest_m) continue;
+      const double centers_m = (X_WA * a.sphere.p_PC - X_WB * b.sphere.p_PC).norm();
+      if (centers_m - a.sphere.radius_m - b.sphere.radius_m >= smallest_m) continue;
       smallest_m =
           std::min(smallest_m, body_distance(bodies.shapes, {a, X_WA}, {b, X_WB}, smallest_m));
     }

@@ -26,7 +26,7 @@ struct ExactScene {
   // other: the share self_clearance_m / Cell::clearance_m of it.
   [[nodiscard]] bool self_too_close(const Configuration& q, double clearance_m);
   [[nodiscard]] bool self_too_close(const Configuration& q) {
-    return self_too_close(q, cell().clearance_m);
+    return self_too_close(q, cell().clearances.clearance_m);
   }
   // Whether anything that the scene looks at touches, an arm's own links included.
   [[nodiscard]] bool in_contact(const Configuration& q);

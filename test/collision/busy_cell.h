@@ -15,7 +15,7 @@ inline const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 // left robot, a flat cylinder and a box on the right one's last link.
 inline Cell busy_cell() {
   Cell cell;
-  cell.clearance_m = 0.02;
+  cell.clearances.clearance_m = 0.02;
   small::add_robot(cell, "left", small::at_xyz(-0.3, 0, 0.4), {kZ, kY, kY, kX}, {0.2, 0.05});
   Eigen::Isometry3d facing = small::at_xyz(0.3, 0, 0.4);
   facing.rotate(Eigen::AngleAxisd(small::kHalfTurn, kZ));
@@ -32,7 +32,7 @@ inline Cell busy_cell() {
   cell.objects.push_back({"rod", Cylinder{0.015, 0.5}, leaning});
   cell.objects.push_back({"crate", Box{{0.2, 0.3, 0.2}}, small::at_xyz(0.1, -0.4, 0.1)});
   cell.objects.push_back({"ball", Sphere{0.1}, small::at_xyz(-0.2, 0.5, 0.5)});
-  cell.allowed_link_objects.insert({LinkId{1}, "table"});
+  cell.allowed.link_objects.insert({LinkId{1}, "table"});
   return cell;
 }
 

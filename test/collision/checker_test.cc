@@ -19,10 +19,10 @@ using NamePair = std::pair<std::string, std::string>;
 NamePair names(const std::string& a, const std::string& b) { return std::minmax(a, b); }
 
 double limit_for(const Cell& cell, const NamePair& pair) {
-  if (pair.first == "left_post" || pair.second == "left_post") return cell.clearance_m;
+  if (pair.first == "left_post" || pair.second == "left_post") return cell.clearances.clearance_m;
   const bool self = (pair.first.starts_with("left") && pair.second.starts_with("left")) ||
                     (pair.first.starts_with("right") && pair.second.starts_with("right"));
-  return self ? cell.self_clearance_m : cell.clearance_m;
+  return self ? cell.clearances.self_clearance_m : cell.clearances.clearance_m;
 }
 
 reference::Convex placed(const PlacedShape& shape, const Eigen::Isometry3d& X_WP) {
@@ -64,8 +64,8 @@ std::map<NamePair, reference::Bracket> brute_force(const Cell& cell, const Confi
       if (&a >= &b || a.object || (!a.arm && !b.arm)) continue;
       const LinkId id_a{static_cast<std::uint32_t>(a.index)};
       const LinkId id_b{static_cast<std::uint32_t>(b.index)};
-      if (b.object ? cell.allowed_link_objects.contains({id_a, b.name})
-                   : cell.allowed_link_pairs.contains({id_a, id_b})) {
+      if (b.object ? cell.allowed.link_objects.contains({id_a, b.name})
+                   : cell.allowed.link_pairs.contains({id_a, id_b})) {
         continue;
       }
       reference::Bracket smallest{1e9, 1e9};
@@ -105,7 +105,7 @@ TEST(ClearanceQuery, HidesNoPairThatBruteForceFinds) {
   std::size_t found = 0, open = 0;
   for (int i = 0; i < 2500; ++i) {
     const Configuration q = random_configuration(*cell, random);
-    near = checker.near(q, cell->clearance_m);
+    near = checker.near(q, cell->clearances.clearance_m);
     std::map<NamePair, double> seen;
     for (const NearPair& pair : near) {
       const Proximity p = checker.describe(pair);
@@ -209,14 +209,14 @@ TEST(ClearanceQuery, AllNamesTheClosestOfEachCounterpart) {
 
 TEST(ClearanceQuery, HoldsAnArmsOwnLinksToTheirOwnClearance) {
   Cell cell;
-  cell.clearance_m = 0.02;
-  cell.self_clearance_m = 0.005;
+  cell.clearances.clearance_m = 0.02;
+  cell.clearances.self_clearance_m = 0.005;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.05});
   Configuration q(3);
   q << 0.0, small::kHalfTurn - std::asin(0.11 / 0.3), 0.0;  // link3 begins 0.11 m beside link1
   small::ScaledQuery checker(scene_of(small::shared(cell)));
   EXPECT_TRUE(checker.all_closer_than(q, 0.02).empty());
-  cell.self_clearance_m = 0.012;
+  cell.clearances.self_clearance_m = 0.012;
   small::ScaledQuery stricter(scene_of(small::shared(cell)));
   const auto found = stricter.all_closer_than(q, 0.02);
   ASSERT_EQ(found.size(), 1U);
@@ -226,8 +226,8 @@ TEST(ClearanceQuery, HoldsAnArmsOwnLinksToTheirOwnClearance) {
 
 TEST(ClearanceQuery, ForbidsContactEvenWhereNoClearanceIsAsked) {
   Cell cell = busy_cell();
-  cell.clearance_m = 0.0;
-  cell.self_clearance_m = 0.0;
+  cell.clearances.clearance_m = 0.0;
+  cell.clearances.self_clearance_m = 0.0;
   const CellPtr shared = small::shared(cell);
   small::ScaledQuery checker(scene_of(shared));
   std::mt19937_64 random(3);

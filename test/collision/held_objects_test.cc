@@ -42,7 +42,7 @@ Attachment rod_at(const Cell& cell, const std::string& name, const std::string& 
 // zero a's points to b, at pi b's to a.
 Cell two_arms(double apart_m) {
   Cell cell;
-  cell.clearance_m = 0.02;
+  cell.clearances.clearance_m = 0.02;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
   small::add_robot(cell, "b", small::at_xyz(apart_m, 0, 0), {kZ}, {0.4, 0.03});
   return cell;
@@ -85,7 +85,7 @@ void expect_only_held_conflicts(const PlanningScenePtr& bare, const PlanningScen
     EXPECT_EQ(found.proximity.object_b, expected.object_b);
     EXPECT_EQ(found.proximity.held_a, expected.held_a);
     EXPECT_EQ(found.proximity.held_b, expected.held_b);
-    EXPECT_LT(found.proximity.clearance_m, bare->cell().clearance_m);
+    EXPECT_LT(found.proximity.clearance_m, bare->cell().clearances.clearance_m);
     motion_checker.look_at(bare);
     EXPECT_EQ(motion_checker.judge(question).kind, Verdict::Kind::free);
   }
@@ -141,7 +141,7 @@ TEST(HeldObject, StrikesTheScene) {
 struct Folding {
   CellPtr cell = [] {
     Cell made;
-    made.clearance_m = 0.02;
+    made.clearances.clearance_m = 0.02;
     small::add_robot(made, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.03});
     return small::shared(std::move(made));
   }();

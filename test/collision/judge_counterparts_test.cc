@@ -65,7 +65,7 @@ TEST(Judge, NamesTheStaticLinkOfAnotherRobotAsScene) {
 
 TEST(Judge, KnowsTheSceneAndTheCandidatesOwnLinks) {
   Cell cell;
-  cell.clearance_m = 0.02;
+  cell.clearances.clearance_m = 0.02;
   const ArmId arm = small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.03});
   Judged judged(cell);
   judged.question.candidates = {

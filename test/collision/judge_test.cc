@@ -81,7 +81,7 @@ TEST(Judge, FindsTheRestBeforeAMotionThatIsStillToStart) {
 // What the discrete check promises, and what it does not: the defect T4.
 TEST(Judge, MissesAThinRodBetweenCoarseStepsAndFindsItWithFineOnes) {
   Cell cell = row();
-  cell.clearance_m = 0.001;
+  cell.clearances.clearance_m = 0.001;
   cell.links[1].shapes = small::capsule_along_x(0.0, 0.4, 0.005);
   cell.objects.push_back(
       {"rod", Cylinder{0.004, 0.5}, small::at_xyz(0.3 * std::cos(0.7), 0.3 * std::sin(0.7), 0)});

@@ -112,7 +112,7 @@ TEST(LineChecker, JudgesAStateWithItsTrackingError) {
   low[1] = 1.7;  // into the table
   const auto answer = checker.state(low);
   EXPECT_EQ(answer.kind, LineChecker::Kind::conflict);
-  EXPECT_LT(answer.proximity->clearance_m, lines.cell->clearance_m);
+  EXPECT_LT(answer.proximity->clearance_m, lines.cell->clearances.clearance_m);
   // An arm that may be anywhere is nowhere free.
   LineChecker loose(lines.scene, left, rest, 3.0);
   EXPECT_NE(loose.state(lines.cell->arm(left).home).kind, LineChecker::Kind::free);

@@ -155,7 +155,7 @@ TEST(TwoPandas, AuditConfirmsWhatIsJudged) {
     if (verdict.kind == Verdict::Kind::conflict) {
       ++conflicts;
       const Proximity& seen = verdict.conflicts[0].proximity;
-      EXPECT_LT(seen.clearance_m, pandas.cell->clearance_m);
+      EXPECT_LT(seen.clearance_m, pandas.cell->clearances.clearance_m);
       if (verdict.conflicts[0].with == Conflict::With::self) continue;
       const auto report = audit(*pandas.cell, {states.back()}, 20ms);
       EXPECT_LE(report->smallest_clearance->distance_m, std::max(0.0, seen.clearance_m) + 1e-6);

@@ -24,7 +24,7 @@ TEST(PlanningScene, RefusesMeshesThatWereNotLoadedAndNamesThemAll) {
 TEST(PlanningScene, RefusesANameUsedTwiceAndAnAllowedNameThatIsNone) {
   Cell cell = busy_cell();
   cell.objects.push_back({"rod", Sphere{0.1}});
-  cell.allowed_link_objects.insert({LinkId{1}, "tabel"});
+  cell.allowed.link_objects.insert({LinkId{1}, "tabel"});
   const auto scene = PlanningScene::build(small::shared(cell));
   ASSERT_FALSE(scene.has_value());
   ASSERT_EQ(scene.error().size(), 2U);
@@ -34,11 +34,11 @@ TEST(PlanningScene, RefusesANameUsedTwiceAndAnAllowedNameThatIsNone) {
 
 TEST(CheckHome, IsQuietWhenHomesAreFreeAndNamesEveryPairThatIsNot) {
   Cell cell;
-  cell.clearance_m = 0.02;
+  cell.clearances.clearance_m = 0.02;
   small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ}, {0.3, 0.05});
   small::add_robot(cell, "right", small::at_xyz(0, 0.13, 0), {kZ}, {0.3, 0.05});
   EXPECT_TRUE(check_home(scene_of(small::shared(cell))).empty());
-  cell.clearance_m = 0.031;
+  cell.clearances.clearance_m = 0.031;
   cell.objects.push_back({"shelf", Box{{1, 1, 0.1}}, small::at_xyz(0, 0, -0.12)});
   const Problems problems = check_home(scene_of(small::shared(cell)));
   ASSERT_EQ(problems.size(), 3U);

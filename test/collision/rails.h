@@ -39,7 +39,7 @@ inline const ArmId kSecond{2};  // along x at y = 1
 struct Rails {
   Rails() {
     Cell made;
-    made.clearance_m = kClearance_m;
+    made.clearances.clearance_m = kClearance_m;
     add_rail(made, "x", small::at_xyz(0, 0, 0), Eigen::Vector3d::UnitX());
     add_rail(made, "y", small::at_xyz(0, 0, 0), Eigen::Vector3d::UnitY());
     add_rail(made, "second", small::at_xyz(0, 1, 0), Eigen::Vector3d::UnitX());

@@ -14,7 +14,7 @@ inline const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 // other overlap; one that points there while the other points up (pi/2) does not.
 inline Cell row() {
   Cell cell;
-  cell.clearance_m = 0.02;
+  cell.clearances.clearance_m = 0.02;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
   small::add_robot(cell, "b", small::at_xyz(0.7, 0, 0), {kZ}, {0.4, 0.03});
   small::add_robot(cell, "c", small::at_xyz(1.4, 0, 0), {kZ}, {0.4, 0.03});

@@ -116,9 +116,9 @@ TEST(SceneLinks, GetTheClearanceOfTheScene) {
     for (const double gap_m : {0.0094, 0.0199, 0.0201}) {
       const Configuration q = tip_from_wall(*cell, gap_m);
       const Configuration* state[] = {&q};
-      const bool too_close = gap_m < cell->clearance_m;
+      const bool too_close = gap_m < cell->clearances.clearance_m;
       EXPECT_EQ(states.too_close(state) != 0, too_close) << gap_m;
-      EXPECT_EQ(checker.first_closer_than(q, cell->clearance_m, {true, true}).has_value(),
+      EXPECT_EQ(checker.first_closer_than(q, cell->clearances.clearance_m, {true, true}).has_value(),
                 too_close)
           << gap_m;
       const auto stops = checker.all_closer_than(q, 0.01);
@@ -183,7 +183,7 @@ TEST(SceneLinks, AreAnArmsMountAndNoneOfItsOwn) {
 // What robots need that fold on their own base; then nothing claims more.
 TEST(SceneLinks, OfAMountMayBeGivenAClearanceOfTheirOwn) {
   Cell closer = *walled(As::mount);
-  closer.mount_clearance_m = 0.008;
+  closer.clearances.mount_clearance_m = 0.008;
   const CellPtr cell = small::shared(closer);
   const PlanningScenePtr scene = scene_of(cell);
   small::ScaledQuery checker(scene);
@@ -192,7 +192,7 @@ TEST(SceneLinks, OfAMountMayBeGivenAClearanceOfTheirOwn) {
     const Configuration q = tip_from_wall(*cell, gap_m);
     const Configuration* state[] = {&q};
     EXPECT_EQ(states.too_close(state) != 0, gap_m < 0.008) << gap_m;
-    const auto found = checker.first_closer_than(q, cell->clearance_m, {true, true});
+    const auto found = checker.first_closer_than(q, cell->clearances.clearance_m, {true, true});
     ASSERT_EQ(found.has_value(), gap_m < 0.008) << gap_m;
     EXPECT_NEAR(found ? found->limit_m : 0.008, 0.008, 1e-12);
     // The monitor stops at the same share of its own limit.
@@ -217,7 +217,7 @@ TEST(SceneLinks, OfAMountMayBeGivenAClearanceOfTheirOwn) {
 // base frame -> wall: what the frame is fixed to carries the arm, until the frame has a shape.
 TEST(SceneLinks, AMountingFrameWithoutAShapeHandsItsRoleDown) {
   Cell cell = *walled(As::link);
-  cell.mount_clearance_m = 0.008;
+  cell.clearances.mount_clearance_m = 0.008;
   const LinkId frame = *cell.find_link("a_base");
   const LinkId wall = *cell.find_link("wall");
   Link& base = cell.links[frame.index()];

@@ -69,7 +69,7 @@ inline ArmId add_robot(Cell& cell, const std::string& name, const Eigen::Isometr
     link.axis = axes[i];
     link.shapes = capsule_along_x(0.0, size.length_m, size.radius_m);
     const LinkId id = add_link(cell, link);
-    if (i > 0) cell.allowed_link_pairs.insert({parent, id});
+    if (i > 0) cell.allowed.link_pairs.insert({parent, id});
     arm.joints.push_back(joint);
     arm.links.push_back(id);
     parent = id;

@@ -65,7 +65,7 @@ small::Surface notch(double inner_m) {
 // One arm that turns about z in the notch, gap_m from its wall all around.
 struct InNotch {
   explicit InNotch(double gap_m, bool open = false) {
-    cell.clearance_m = 0.008;
+    cell.clearances.clearance_m = 0.008;
     small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {Eigen::Vector3d::UnitZ()}, {0.2, 0.03});
     small::Surface surface = notch((kReach_m + gap_m) / std::cos(kPi / 2 / kFacets));
     if (open) surface.triangles.pop_back();
@@ -75,7 +75,7 @@ struct InNotch {
   }
   Configuration q(double angle) const { return Configuration::Constant(1, angle); }
   std::optional<Proximity> closer(double angle) {
-    return small::ScaledQuery(scene).first_closer_than(q(angle), cell.clearance_m, {true});
+    return small::ScaledQuery(scene).first_closer_than(q(angle), cell.clearances.clearance_m, {true});
   }
   Verdict sweep() {
     Question question;
@@ -116,7 +116,7 @@ TEST(Surface, LeavesFreeWhatOnlyPiecesCallTooClose) {
       least = distance_below(bodies.shapes[arm.shapes_begin], at_arm, bodies.shapes[i], at_piece,
                              least);
     }
-    by_pieces += least < passes.cell.clearance_m ? 1 : 0;
+    by_pieces += least < passes.cell.clearances.clearance_m ? 1 : 0;
   }
   EXPECT_GT(by_pieces, 20);  // else nothing is shown
 }

@@ -11,8 +11,8 @@ enum class As { object, link, mount };
 inline CellPtr walled(As as) {
   Cell cell;
   const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
-  cell.clearance_m = 0.02;
-  cell.self_clearance_m = 0.005;
+  cell.clearances.clearance_m = 0.02;
+  cell.clearances.self_clearance_m = 0.005;
   const Eigen::Isometry3d X_WT = at_xyz(0, 0.45, 0);
   const Box wall{{2.5, 0.1, 0.4}};
   if (as == As::link) {

@@ -87,20 +87,20 @@ void note_jobs(const SimulationResult& result, const std::vector<PlannedJob>& pl
     if (job.state != JobState::succeeded) {
       ++run.row.not_succeeded;
       std::cerr << run.row.workload << ", seed " << run.row.seed << ", " << run.row.policy << ": "
-                << job.key << " is " << to_string(job.state) << ' ' << job.detail << '\n';
+                << job.key << " is " << to_string(job.state) << ' ' << job.detail() << '\n';
     }
     const PlannedJob& known = *index.at(job.key);
-    if (!job.started_at || !job.ended_at) continue;
+    if (!job.times.started_at || !job.times.ended_at) continue;
     const auto before = free_at.find(known.arm.index());
     const TimePoint ready =
-        before == free_at.end() ? job.submitted_at : std::max(job.submitted_at, before->second);
-    free_at[known.arm.index()] = *job.ended_at;
-    const double wait_s = to_seconds(*job.started_at - ready);
+        before == free_at.end() ? job.times.submitted_at : std::max(job.times.submitted_at, before->second);
+    free_at[known.arm.index()] = *job.times.ended_at;
+    const double wait_s = to_seconds(*job.times.started_at - ready);
     run.row.wait_mean_s += wait_s;
     run.row.wait_max_s = std::max(run.row.wait_max_s, wait_s);
-    run.row.held_mean_s += to_seconds(*job.ended_at - *job.started_at - job.duration);
+    run.row.held_mean_s += to_seconds(*job.times.ended_at - *job.times.started_at - job.motion.duration);
     run.timeline.jobs.push_back(
-        {known.arm.index(), to_seconds(*job.started_at), to_seconds(*job.ended_at), known.kind});
+        {known.arm.index(), to_seconds(*job.times.started_at), to_seconds(*job.times.ended_at), known.kind});
     ++started;
   }
   run.row.wait_mean_s /= static_cast<double>(std::max<std::size_t>(started, 1));

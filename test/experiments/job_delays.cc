@@ -30,7 +30,7 @@ class Delays final : public Observer {
   void catch_up(Executive& executive) {
     for (const JobView& view : std::exchange(heard_, {})) {
       const auto [job, next] = by_key_.at(view.key);
-      if (view.started_at && !job->has_started) {
+      if (view.times.started_at && !job->has_started) {
         job->has_started = true;
         lift(executive, job->late);
         if (job->job->delay) {
@@ -38,7 +38,7 @@ class Delays final : public Observer {
         }
         if (next != nullptr) make_late(executive, *next);
       }
-      if (view.ended_at) lift(executive, job->slow);
+      if (view.times.ended_at) lift(executive, job->slow);
     }
   }
 

@@ -42,8 +42,8 @@ std::vector<PlannedJob> JobMaker::drafted(ArmId arm, TimePoint at,
     job.key = cell_->arm(arm).name + "-" + std::to_string(before.size() + jobs.size() + 1) + "-" +
               draft.kind;
     job.trajectory = std::move(request);
-    job.priority = draft.priority;
-    job.backlog_timeout = kPatience;
+    job.terms.priority = draft.priority;
+    job.terms.backlog_timeout = kPatience;
     jobs.push_back({arm, draft.kind, {at, std::move(job)}, *trajectory});
     start = draft.legs.back().q;
   }

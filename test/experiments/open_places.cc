@@ -14,8 +14,8 @@ constexpr Duration kStep = std::chrono::milliseconds(10);
 ClearanceQuery check_of(const CellPtr& cell) {
   auto scene = PlanningScene::build(cell);
   if (!scene) throw std::runtime_error(scene.error().front().detail);
-  return ClearanceQuery(*scene, {cell->clearance_m + OpenPlaces::kMargin_m,
-                                 cell->self_clearance_m + OpenPlaces::kSelfMargin_m});
+  return ClearanceQuery(*scene, {cell->clearances.clearance_m + OpenPlaces::kMargin_m,
+                                 cell->clearances.self_clearance_m + OpenPlaces::kSelfMargin_m});
 }
 
 }  // namespace

@@ -189,7 +189,7 @@ Workload of_two_pandas(std::uint64_t seed) {
 
 Workload visits_in_any_order(std::uint64_t seed) {
   Workload workload = of_two_pandas<visits>(seed);
-  for (PlannedJob& job : workload.jobs) job.timed.job.order = JobOrder::any;
+  for (PlannedJob& job : workload.jobs) job.timed.job.terms.order = JobOrder::any;
   return workload;
 }
 

@@ -120,7 +120,7 @@ std::vector<std::string> breaches_in(const std::string& path, const std::string&
 }
 
 TEST(Floors, AreKeptByEveryFile) {
-  const fs::path root = source_dir();
+  const fs::path root = armloom::source_dir();
   std::size_t files = 0;
   for (const char* top : {"core", "server"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {

@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const Cell& cell, const std::vector<LinkId>& l
 }
 
 bool allows(const Cell& cell, const std::string& a, const std::string& b) {
-  return cell.allowed_link_pairs.contains(std::minmax(*cell.find_link(a), *cell.find_link(b)));
+  return cell.allowed.link_pairs.contains(std::minmax(*cell.find_link(a), *cell.find_link(b)));
 }
 
 TEST(Arms, HoldTheirGroupsIndependentJointsFromBaseToTip) {

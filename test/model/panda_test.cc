@@ -61,10 +61,10 @@ TEST(Panda, StandsWithItsFlangeWhereTheDataSheetSaysAtZero) {
 
 TEST(Panda, AllowsTheTableToTouchBothBases) {
   const CellPtr cell = build_or_fail(two_pandas_description());
-  EXPECT_TRUE(cell->allowed_link_objects.contains({*cell->find_link("left_panda_link0"), "table"}));
+  EXPECT_TRUE(cell->allowed.link_objects.contains({*cell->find_link("left_panda_link0"), "table"}));
   EXPECT_TRUE(
-      cell->allowed_link_objects.contains({*cell->find_link("right_panda_link0"), "table"}));
-  EXPECT_EQ(cell->allowed_link_objects.size(), 2u);
+      cell->allowed.link_objects.contains({*cell->find_link("right_panda_link0"), "table"}));
+  EXPECT_EQ(cell->allowed.link_objects.size(), 2u);
 }
 
 TEST(Panda, IsBuiltTwiceInUnderFiftyMilliseconds) {

@@ -84,7 +84,7 @@ std::string warnings_of(const CellDescription& description) {
 }
 
 ScratchFolder::ScratchFolder() {
-  std::string name = testing::TempDir() + "armloom_model_XXXXXX";
+  std::string name = ::testing::TempDir() + "armloom_model_XXXXXX";
   if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder");
   path_ = name;
 }

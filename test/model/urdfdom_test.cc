@@ -41,20 +41,20 @@ void expect_same_joint(const urdf::Joint& joint, const RobotTree& tree) {
   const TreeLink& link = tree.links[tree.by_joint.at(joint.name)];
   EXPECT_EQ(link.name, joint.child_link_name);
   EXPECT_EQ(tree.links.at(link.parent.value()).name, joint.parent_link_name);
-  EXPECT_TRUE(link.X_PJ.isApprox(pose_of(joint.parent_to_joint_origin_transform), 1e-15))
+  EXPECT_TRUE(link.joint.X_PJ.isApprox(pose_of(joint.parent_to_joint_origin_transform), 1e-15))
       << joint.name;
-  ASSERT_EQ(link.motion.has_value(), joint.type != urdf::Joint::FIXED) << joint.name;
-  if (!link.motion) return;
-  EXPECT_EQ(*link.motion == JointKind::prismatic, joint.type == urdf::Joint::PRISMATIC);
-  EXPECT_EQ(*link.motion == JointKind::continuous, joint.type == urdf::Joint::CONTINUOUS);
+  ASSERT_EQ(link.joint.motion.has_value(), joint.type != urdf::Joint::FIXED) << joint.name;
+  if (!link.joint.motion) return;
+  EXPECT_EQ(*link.joint.motion == JointKind::prismatic, joint.type == urdf::Joint::PRISMATIC);
+  EXPECT_EQ(*link.joint.motion == JointKind::continuous, joint.type == urdf::Joint::CONTINUOUS);
   const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
-  EXPECT_TRUE(link.axis.isApprox(axis.normalized(), 1e-15)) << joint.name;
-  expect_same_limits(joint, link.limits);
-  ASSERT_EQ(link.mimic.has_value(), joint.mimic != nullptr) << joint.name;
-  if (!link.mimic) return;
-  EXPECT_EQ(tree.links[link.mimic->driver].joint, joint.mimic->joint_name);
-  EXPECT_EQ(link.mimic->multiplier, joint.mimic->multiplier);
-  EXPECT_EQ(link.mimic->offset, joint.mimic->offset);
+  EXPECT_TRUE(link.joint.axis.isApprox(axis.normalized(), 1e-15)) << joint.name;
+  expect_same_limits(joint, link.joint.limits);
+  ASSERT_EQ(link.joint.mimic.has_value(), joint.mimic != nullptr) << joint.name;
+  if (!link.joint.mimic) return;
+  EXPECT_EQ(tree.links[link.joint.mimic->driver].joint.name, joint.mimic->joint_name);
+  EXPECT_EQ(link.joint.mimic->multiplier, joint.mimic->multiplier);
+  EXPECT_EQ(link.joint.mimic->offset, joint.mimic->offset);
 }
 
 // The numbers of a shape, in one order for both.
@@ -147,17 +147,17 @@ TEST(Urdfdom, IsGivenWhatItCanRead) {
   EXPECT_THAT(numbers_of(tree.links[0].shapes[0].shape), testing::ElementsAre(1, 2, 3));
   EXPECT_THAT(numbers_of(tree.links[0].shapes[1].shape), testing::ElementsAre(0.5));
   const TreeLink& turned = tree.links[tree.by_joint.at("turn")];
-  EXPECT_EQ(turned.limits.lower, -1.0);
-  EXPECT_EQ(turned.limits.upper, std::nullopt);
-  EXPECT_EQ(turned.limits.velocity, std::nullopt);
-  EXPECT_EQ(turned.limits.faults.count(), 1u);
+  EXPECT_EQ(turned.joint.limits.lower, -1.0);
+  EXPECT_EQ(turned.joint.limits.upper, std::nullopt);
+  EXPECT_EQ(turned.joint.limits.velocity, std::nullopt);
+  EXPECT_EQ(turned.joint.limits.faults.count(), 1u);
   const TreeLink& spun = tree.links[tree.by_joint.at("spin")];
-  EXPECT_EQ(spun.motion, JointKind::continuous);
-  EXPECT_EQ(spun.axis, Eigen::Vector3d(0, 0.6, 0.8));
-  EXPECT_EQ(spun.limits.lower, std::nullopt);
-  EXPECT_EQ(spun.limits.velocity, 2.0);
+  EXPECT_EQ(spun.joint.motion, JointKind::continuous);
+  EXPECT_EQ(spun.joint.axis, Eigen::Vector3d(0, 0.6, 0.8));
+  EXPECT_EQ(spun.joint.limits.lower, std::nullopt);
+  EXPECT_EQ(spun.joint.limits.velocity, 2.0);
   const TreeLink& floating = tree.links[tree.by_joint.at("float")];
-  EXPECT_TRUE(floating.many_values && floating.is_rigid());
+  EXPECT_TRUE(floating.joint.many_values && floating.is_rigid());
 }
 
 TEST(Urdfdom, ThatRefusesOrDropsWhatWasCheckedIsToldWithItsWords) {

@@ -139,7 +139,7 @@ TEST(PlanMotion, KeepsTheClearanceAsTheAuditSeesIt) {
     const auto report = audit(*wall.cell, states, 1ms);
     ASSERT_TRUE(report);
     EXPECT_FALSE(report->first_contact);
-    EXPECT_GE(report->smallest_clearance->distance_m, wall.cell->clearance_m - 1e-6);
+    EXPECT_GE(report->smallest_clearance->distance_m, wall.cell->clearances.clearance_m - 1e-6);
   }
 }
 

@@ -23,7 +23,7 @@ TEST(T1, OfTwoConflictingJobsOfTheSameInstantOneRunsAndOneWaits) {
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("first").state, JobState::succeeded);
   EXPECT_EQ(cell.job("second").state, JobState::succeeded);
-  EXPECT_GE(*cell.job("second").started_at, *cell.job("first").ended_at);
+  EXPECT_GE(*cell.job("second").times.started_at, *cell.job("first").times.ended_at);
   EXPECT_GT(cell.log.closest_m, 0.02);
 }
 
@@ -113,12 +113,12 @@ TEST(T11, TheOrderOfAnArmIsKept) {
   Crossing cell;
   cell.submit(slide("x", -1, 1, 4, "out"));
   JobRequest back = slide("x", 1, -1, 4, "back");
-  back.priority = 10;
+  back.terms.priority = 10;
   cell.submit(std::move(back));
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("out").state, JobState::succeeded);
   EXPECT_EQ(cell.job("back").state, JobState::succeeded);
-  EXPECT_GE(*cell.job("back").started_at, *cell.job("out").ended_at);
+  EXPECT_GE(*cell.job("back").times.started_at, *cell.job("out").times.ended_at);
 }
 
 TEST(T11, WhatFollowsACanceledJobFailsWithTheReasonAndNeverHangs) {
@@ -130,7 +130,7 @@ TEST(T11, WhatFollowsACanceledJobFailsWithTheReasonAndNeverHangs) {
   cell.run_until(at(2s));
   EXPECT_EQ(cell.job("out").state, JobState::canceled);
   EXPECT_EQ(cell.job("back").state, JobState::failed);
-  EXPECT_EQ(cell.job("back").reason, Reason::start_mismatch);
+  EXPECT_EQ(cell.job("back").reason(), Reason::start_mismatch);
   EXPECT_TRUE(cell.simulation->executive().all_ended());
 }
 
@@ -142,8 +142,8 @@ TEST(Backlog, ExpiresAndSaysSo) {
   cell.submit(slide("x", -1, 1, 4, "blocked"));
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("blocked").state, JobState::expired);
-  EXPECT_EQ(cell.job("blocked").reason, Reason::backlog_timeout);
-  EXPECT_NEAR(to_seconds(*cell.job("blocked").ended_at), 2.0, 0.01);
+  EXPECT_EQ(cell.job("blocked").reason(), Reason::backlog_timeout);
+  EXPECT_NEAR(to_seconds(*cell.job("blocked").times.ended_at), 2.0, 0.01);
 }
 
 TEST(Policies, SequentialTakesAsLongAsAllJobsOneAfterTheOther) {

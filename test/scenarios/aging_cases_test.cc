@@ -35,7 +35,7 @@ struct Stream {
   void next() {
     const double from = count % 2 == 0 ? -1 : 1;
     JobRequest job = slide("x", from, -from, 2);
-    job.priority = 10;
+    job.terms.priority = 10;
     cell.submit(std::move(job));
     ++count;
   }
@@ -50,8 +50,8 @@ TEST_P(T9, AWaitingJobStartsWithinItsBound) {
   Stream stream(GetParam(), kAging);
   stream.run_until(at(20s));
   const JobView waits = stream.cell.job("waits");
-  ASSERT_TRUE(waits.started_at);
-  EXPECT_LT(*waits.started_at, at(200ms) + kAging + 2s + 100ms);
+  ASSERT_TRUE(waits.times.started_at);
+  EXPECT_LT(*waits.times.started_at, at(200ms) + kAging + 2s + 100ms);
   EXPECT_EQ(waits.state, JobState::succeeded);
   EXPECT_GT(stream.cell.log.closest_m, 0.0);
   EXPECT_GT(stream.count, 8) << "the stream went on";
@@ -61,7 +61,7 @@ TEST(T9, WithoutAgingItWouldStarve) {
   for (const char* policy : {"certified", "reservation"}) {
     Stream stream(policy, 600s);
     stream.run_until(at(60s));
-    EXPECT_FALSE(stream.cell.job("waits").started_at) << policy;
+    EXPECT_FALSE(stream.cell.job("waits").times.started_at) << policy;
   }
 }
 

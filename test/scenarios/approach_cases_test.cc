@@ -6,7 +6,7 @@ namespace armloom {
 namespace {
 
 JobRequest approached(JobRequest request) {
-  request.approach = Approach::plan;
+  request.terms.approach = Approach::plan;
   return request;
 }
 
@@ -14,7 +14,7 @@ class Approaches : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { cell.emplace(gantries(OnIdleBlocker::report), GetParam()); }
   void expect_succeeded(const std::string& key) {
-    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << key << ": " << cell->job(key).detail;
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << key << ": " << cell->job(key).detail();
   }
   std::optional<TwoGantries> cell;
 };
@@ -30,7 +30,7 @@ TEST_P(Approaches, TheArmGoesToTheStartFirstAndSlowly) {
   cell->run_to_the_end();
   expect_succeeded("approach-1");
   expect_succeeded("far");
-  EXPECT_LE(cell->job("approach-1").ended_at, cell->job("far").started_at);
+  EXPECT_LE(cell->job("approach-1").times.ended_at, cell->job("far").times.started_at);
   cell->expect_at("a", {-2, 2});
   EXPECT_GT(cell->fastest_m_s(), 0.1);
   EXPECT_LT(cell->fastest_m_s(), 2.0 * kApproachSpeed + 0.05);
@@ -63,9 +63,9 @@ TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
   ASSERT_TRUE(cell->executive().cancel("where b stands"));
   cell->run_to_the_end();
   const JobView failed = cell->job("in the post");
-  EXPECT_EQ(failed.reason, Reason::start_mismatch);
-  EXPECT_NE(failed.detail.find("no way to where it begins: "), std::string::npos) << failed.detail;
-  EXPECT_NE(failed.detail.find("post"), std::string::npos) << failed.detail;
+  EXPECT_EQ(failed.reason(), Reason::start_mismatch);
+  EXPECT_NE(failed.detail().find("no way to where it begins: "), std::string::npos) << failed.detail();
+  EXPECT_NE(failed.detail().find("post"), std::string::npos) << failed.detail();
   cell->expect_at("a", {-1, 0});
 }
 
@@ -116,7 +116,7 @@ TEST_P(Approaches, AfterAFaultAnotherOneFollows) {
   ASSERT_TRUE(cell->executive().faults().inject(
       {.arm = "a", .kind = ArmFault::Kind::fault, .at = at(2s), .lasting = {}}));
   cell->run_until(at(5s));
-  EXPECT_EQ(cell->job("approach-1").reason, Reason::arm_fault);
+  EXPECT_EQ(cell->job("approach-1").reason(), Reason::arm_fault);
   EXPECT_EQ(cell->job("job").state, JobState::queued);
   resume_all(cell->executive());
   cell->run_to_the_end();
@@ -154,8 +154,8 @@ TEST_P(Approaches, NothingMovesForAJobOfWhichTheArmsWouldHitEachOther) {
                               {{-1, 1, 1, 1}, zero, zero, 6.0}};
     cell->submit(both);
     cell->run_to_the_end();
-    EXPECT_EQ(cell->job("both").reason, Reason::self_collision) << cell->job("both").detail;
-    EXPECT_LE(cell->job("both").ended_at, at(100ms));
+    EXPECT_EQ(cell->job("both").reason(), Reason::self_collision) << cell->job("both").detail();
+    EXPECT_LE(cell->job("both").times.ended_at, at(100ms));
     EXPECT_FALSE(cell->executive().job("approach-1"));
     cell->expect_at("a", {-1, 0});
     cell->expect_at("b", {1, 0});

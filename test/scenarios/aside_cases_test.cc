@@ -43,9 +43,9 @@ TEST_P(Aside, WhatWouldHaveOpenedTheWayStandsInTheReasonWhenItExpires) {
   start(OnIdleBlocker::report);
   cell->run_to_the_end(at(80s));
   const JobView expired = cell->job("passes");
-  ASSERT_EQ(expired.reason, Reason::backlog_timeout);
-  EXPECT_EQ(expired.detail.rfind("waited 60 s in the backlog; arm x has no job: ", 0), 0u)
-      << expired.detail;
+  ASSERT_EQ(expired.reason(), Reason::backlog_timeout);
+  EXPECT_EQ(expired.detail().rfind("waited 60 s in the backlog; arm x has no job: ", 0), 0u)
+      << expired.detail();
 }
 
 // x is canceled in the middle, where y is to end; then both are to go on together from where x has
@@ -63,7 +63,7 @@ TEST_P(Aside, NobodyReturnsForAJobThatDoesNotBeginThere) {
   cell->run_until(at(100s));
   if (GetParam() != "timed_discrete") {  // there the monitor stops y where x is canceled
     EXPECT_EQ(cell->job("into").state, JobState::succeeded);
-    EXPECT_EQ(cell->job("both").reason, Reason::start_mismatch);
+    EXPECT_EQ(cell->job("both").reason(), Reason::start_mismatch);
   }
   std::set<std::string> asides;
   for (const JobView& job : cell->simulation->executive().snapshot().jobs) {
@@ -129,11 +129,11 @@ TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
             "one");
   cell->run_to_the_end(at(600s));
   const JobView expired = cell->job("passes");
-  EXPECT_EQ(expired.reason, Reason::backlog_timeout);
-  EXPECT_TRUE(expired.detail.ends_with(
+  EXPECT_EQ(expired.reason(), Reason::backlog_timeout);
+  EXPECT_TRUE(expired.detail().ends_with(
       "; arm x has no job: no free way aside was found (back along its last motion, home, or to a "
       "named pose of its group); one that moves it away would have opened this one"))
-      << expired.detail;
+      << expired.detail();
 }
 
 // What does not move cannot go aside: the reason says what opens the way, and that does.

@@ -137,8 +137,8 @@ TEST_P(ChainsUnder, AllSucceedAndNeverTouch) {
       if (well) ++ended_well;
       if (!well && first_other.empty()) first_other = told(job);
       if (std::getenv("ARMLOOM_TOLD") != nullptr) {
-        std::cout << (job.started_at ? to_seconds(*job.started_at) : -1.0) << ".."
-                  << (job.ended_at ? to_seconds(*job.ended_at) : -1.0) << " " << told(job) << "\n";
+        std::cout << (job.times.started_at ? to_seconds(*job.times.started_at) : -1.0) << ".."
+                  << (job.times.ended_at ? to_seconds(*job.times.ended_at) : -1.0) << " " << told(job) << "\n";
       }
     }
     EXPECT_TRUE(result->all_ended) << "seed " << seed << ": jobs hang";

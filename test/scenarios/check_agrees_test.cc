@@ -161,7 +161,7 @@ class Asked {
     const std::string what = told(job) + "; said: " + text(says.waits_on);
     ASSERT_EQ(says.kind == Verdict::Kind::free, is_free) << what;
     if (is_free) {
-      const Duration until = *job.scheduled_at - executive_->now();
+      const Duration until = *job.times.scheduled_at - executive_->now();
       ASSERT_TRUE(says.earliest_start_s);
       ASSERT_NEAR(*says.earliest_start_s, std::max(0.0, to_seconds(until)), 1e-9) << what;
       ASSERT_EQ(text(says.waits_on), text(job.waits_on)) << what;
@@ -207,7 +207,7 @@ TEST_P(Checks, OfDiscsSayWhatThenHappens) {
         seed % 4 < 2 ? OnIdleBlocker::park : OnIdleBlocker::report;
     Asked asked(*build_cell(description), GetParam(), seed, seen);
     for (TimedJob& timed : load.jobs()) {
-      timed.job.priority = static_cast<int>(asked.random().index(3));
+      timed.job.terms.priority = static_cast<int>(asked.random().index(3));
       asked.compare(timed.job);
       if (HasFatalFailure()) return;
       asked.go_on();

@@ -17,7 +17,7 @@ JobRequest move_to(const std::string& arm, double to_m, std::string key) {
 
 JobRequest from_elsewhere(const std::string& arm, double from_m, double to_m, std::string key) {
   JobRequest request = slide(arm, from_m, to_m, 1.0, std::move(key));
-  request.approach = Approach::plan;
+  request.terms.approach = Approach::plan;
   return request;
 }
 
@@ -92,8 +92,8 @@ TEST_P(CheckedGoals, AnApproachIsPlannedAndItsTimeTold) {
   cell->submit(job);
   cell->run_to_the_end();
   const JobView done = cell->job("job");
-  EXPECT_EQ(done.state, JobState::succeeded) << done.detail;
-  EXPECT_NEAR(to_seconds(*done.started_at - submitted), *said.approach_s, 0.5);
+  EXPECT_EQ(done.state, JobState::succeeded) << done.detail();
+  EXPECT_NEAR(to_seconds(*done.times.started_at - submitted), *said.approach_s, 0.5);
 }
 
 TEST_P(CheckedGoals, AnApproachThatHasNoWaySaysSo) {

@@ -38,7 +38,7 @@ struct OneInTheWay {
   explicit OneInTheWay(JobOrder order) {
     JobRequest through = visit_job("x", -1, 1, 4, "through");
     JobRequest beside = visit_job("x", -1, -0.6, 4, "beside");
-    through.order = beside.order = order;
+    through.terms.order = beside.terms.order = order;
     JobRequest stays = visit_job("y", -1, 0, 4, "stays");
     auto& points = stays.trajectory.points;
     points.insert(points.begin() + 2, points[1]);
@@ -57,19 +57,19 @@ TEST(FreeOrder, TakesTheOneThatCanGoBesideWhatMoves) {
   const JobView beside = free.cell.job("beside"), through = free.cell.job("through");
   EXPECT_EQ(beside.state, JobState::succeeded);
   EXPECT_EQ(through.state, JobState::succeeded);
-  EXPECT_LT(beside.ended_at, through.started_at);
-  EXPECT_TRUE(beside.any_order);
-  ASSERT_TRUE(beside.choice);
-  EXPECT_THAT(beside.choice->among, ElementsAre("through", "beside"));
-  EXPECT_EQ(beside.choice->taken, "beside");
-  EXPECT_THAT(beside.choice->detail, HasSubstr("through"));
+  EXPECT_LT(beside.times.ended_at, through.times.started_at);
+  EXPECT_TRUE(beside.terms.any_order);
+  ASSERT_TRUE(beside.ways.choice);
+  EXPECT_THAT(beside.ways.choice->among, ElementsAre("through", "beside"));
+  EXPECT_EQ(beside.ways.choice->taken, "beside");
+  EXPECT_THAT(beside.ways.choice->detail, HasSubstr("through"));
   EXPECT_EQ(free.cell.simulation->executive().figures().monitor_stops, 0U);
 }
 
 TEST(FreeOrder, IsKeptWhereTheClientDoesNotFreeIt) {
   OneInTheWay given(JobOrder::as_given);
-  EXPECT_LT(given.cell.job("through").ended_at, given.cell.job("beside").started_at);
-  EXPECT_FALSE(given.cell.job("beside").choice);
+  EXPECT_LT(given.cell.job("through").times.ended_at, given.cell.job("beside").times.started_at);
+  EXPECT_FALSE(given.cell.job("beside").ways.choice);
 }
 
 TEST(Alternatives, AreSharedByTheArms) {
@@ -79,10 +79,10 @@ TEST(Alternatives, AreSharedByTheArms) {
   cell.run_to_the_end();
   const JobView one = cell.job("one"), two = cell.job("two");
   EXPECT_NE(one.arms, two.arms);
-  EXPECT_LT(two.started_at, one.ended_at);
-  EXPECT_THAT(two.alternatives, ElementsAre("x", "y"));
-  ASSERT_TRUE(two.choice);
-  EXPECT_EQ(two.choice->taken, two.arms.front());
+  EXPECT_LT(two.times.started_at, one.times.ended_at);
+  EXPECT_THAT(two.ways.alternatives, ElementsAre("x", "y"));
+  ASSERT_TRUE(two.ways.choice);
+  EXPECT_EQ(two.ways.choice->taken, two.arms.front());
 }
 
 TEST(Alternatives, OfAStoppedArmAreDoneByTheOther) {

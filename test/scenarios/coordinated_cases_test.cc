@@ -28,8 +28,9 @@ TEST(CoordinatedLate, GoesAsFarAsItMayAndPausesThere) {
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("first").state, JobState::succeeded);
   EXPECT_EQ(cell.job("second").state, JobState::succeeded);
-  EXPECT_LT(to_seconds(*cell.job("first").ended_at), 7.5) << "nobody delays it further";
-  EXPECT_LT(to_seconds(*cell.job("second").ended_at), 8.5) << "it is near when the way is free";
+  EXPECT_LT(to_seconds(*cell.job("first").times.ended_at), 7.5) << "nobody delays it further";
+  EXPECT_LT(to_seconds(*cell.job("second").times.ended_at), 8.5)
+      << "it is near when the way is free";
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
@@ -38,8 +39,8 @@ TEST_F(Coordinated, LetsAShortOnePassBeforeALongOneThatIsStillFar) {
   cell.run_until(at(500ms));
   cell.submit(slide("y", -1, 1, 3, "short"));
   cell.run_to_the_end();
-  EXPECT_LT(to_seconds(*cell.job("short").ended_at), 3.7);
-  EXPECT_LT(to_seconds(*cell.job("long").ended_at), 12.1);
+  EXPECT_LT(to_seconds(*cell.job("short").times.ended_at), 3.7);
+  EXPECT_LT(to_seconds(*cell.job("long").times.ended_at), 12.1);
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
@@ -53,7 +54,7 @@ TEST(CoordinatedLate, WaitsForALeaderThatStalls) {
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("stalls").state, JobState::succeeded);
   EXPECT_EQ(cell.job("follows").state, JobState::succeeded);
-  EXPECT_GT(to_seconds(*cell.job("follows").ended_at), 8.0);
+  EXPECT_GT(to_seconds(*cell.job("follows").times.ended_at), 8.0);
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
@@ -83,7 +84,7 @@ TEST_F(Coordinated, StaysBeforeAnArmThatWasCanceledInTheWayUntilItMovesOn) {
 TEST_F(Coordinated, GivesUpOnItsPathWhenNothingMovesTheArmAway) {
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   JobRequest follows = slide("y", -1, 1, 4, "follows");
-  follows.backlog_timeout = 20s;
+  follows.terms.backlog_timeout = 20s;
   cell.submit(follows);
   cell.run_until(at(1950ms));
   ASSERT_TRUE(cell.simulation->executive().cancel("canceled"));
@@ -92,8 +93,8 @@ TEST_F(Coordinated, GivesUpOnItsPathWhenNothingMovesTheArmAway) {
   cell.run_to_the_end(at(25s));
   const JobView gave_up = cell.job("follows");
   EXPECT_EQ(gave_up.state, JobState::expired);
-  EXPECT_EQ(gave_up.reason, Reason::backlog_timeout);
-  EXPECT_EQ(gave_up.detail,
+  EXPECT_EQ(gave_up.reason(), Reason::backlog_timeout);
+  EXPECT_EQ(gave_up.detail(),
             "waited 20 s on its path; arm x has no job: one that moves it away would open the way, "
             "or \"on_idle_blocker\": \"park\" in the cell's scheduling, which sends it aside");
   ASSERT_EQ(gave_up.waits_on.size(), 1U);

@@ -84,7 +84,7 @@ TEST(CoordinatedTeams, ArmsOfOneMotionMayCrossEachOthersWaysUnderEveryPolicy) {
     cell.submit(together({{"x", -0.5, 1}, {"y", -1, 0.5}}, 4, "team"));
     cell.run_to_the_end();
     const auto team = cell.simulation->executive().job("team");
-    EXPECT_EQ(team->state, JobState::succeeded) << policy << ": " << team->detail;
+    EXPECT_EQ(team->state, JobState::succeeded) << policy << ": " << team->detail();
     EXPECT_GT(cell.log.closest_m, 0.1) << policy;
   }
 }
@@ -102,7 +102,7 @@ TEST(CoordinatedTeams, AMotionThatPausesBeforeAnArmIsInARingWithTheJobsBehindIt)
   cell.submit(together({{"x", cell.log.last[0], -1}, {"y", 0.8, 1}}, 2, "both"));
   cell.run_until(at(6s));
   EXPECT_EQ(cell.job("both").state, JobState::failed);
-  EXPECT_EQ(cell.job("both").reason, Reason::deadlock);
+  EXPECT_EQ(cell.job("both").reason(), Reason::deadlock);
   EXPECT_EQ(cell.job("pauses").state, JobState::holding);
   cell.submit(slide("x", cell.log.last[0], -1, 3, "makes way"));
   cell.run_to_the_end();
@@ -125,7 +125,7 @@ TEST(CoordinatedTeams, AMotionThatWasStoppedWhileItPausedIsInItsRingAgain) {
   resume_all(cell.simulation->executive());
   cell.run_until(at(7s));
   EXPECT_EQ(cell.job("pauses").state, JobState::holding);
-  EXPECT_EQ(cell.job("both").reason, Reason::deadlock);
+  EXPECT_EQ(cell.job("both").reason(), Reason::deadlock);
 }
 
 // x is to leave the crossing together with z; y pauses before x, w before y's way, and there it is
@@ -149,7 +149,7 @@ TEST(CoordinatedTeams, AStopBeforeTheyMoveKeepsTheirPlace) {
   cell.submit(slide("y", -1, 1, 3, "follows"));
   cell.run_until(at(3s));
   ASSERT_EQ(cell.job("in the middle").state, JobState::succeeded);
-  ASSERT_FALSE(cell.job("leaves").started_at);
+  ASSERT_FALSE(cell.job("leaves").times.started_at);
   executive.stop({ArmId{2}}, "operator");
   cell.submit(slide("w", -1, 1, 12, "last"));
   cell.run_until(at(10s));

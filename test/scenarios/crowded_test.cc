@@ -79,11 +79,11 @@ void count(const SimulationResult& result, Tally& tally) {
       continue;
     }
     bool& before = failed[job.arms.front()];
-    if (job.reason == Reason::deadlock && job.ring.size() >= 2) {
+    if (job.reason() == Reason::deadlock && job.ring.size() >= 2) {
       ++tally.deadlocks;
-    } else if (job.reason == Reason::backlog_timeout && !job.waits_on.empty()) {
+    } else if (job.reason() == Reason::backlog_timeout && !job.waits_on.empty()) {
       ++tally.waits;
-    } else if (job.reason == Reason::start_mismatch && before) {
+    } else if (job.reason() == Reason::start_mismatch && before) {
       ++tally.consequences;
     } else {
       ++tally.silent;
@@ -118,15 +118,15 @@ std::string went_wrong(const CrowdedWorkload& world, const SimulationResult& res
   std::vector<const JobView*> begun;
   TimePoint first_end = TimePoint::max();  // of a job that did not succeed
   for (const JobView& job : result.jobs) {
-    if (job.started_at && is_of_a_client(job)) begun.push_back(&job);
-    if (job.state != JobState::succeeded && job.ended_at) {
-      first_end = std::min(first_end, *job.ended_at);
+    if (job.times.started_at && is_of_a_client(job)) begun.push_back(&job);
+    if (job.state != JobState::succeeded && job.times.ended_at) {
+      first_end = std::min(first_end, *job.times.ended_at);
     }
   }
-  std::ranges::sort(begun, {}, [](const JobView* job) { return *job->started_at; });
+  std::ranges::sort(begun, {}, [](const JobView* job) { return *job->times.started_at; });
   std::string last_bad;
   for (const JobView* job : begun) {
-    if (*job->started_at >= first_end) break;
+    if (*job->times.started_at >= first_end) break;
     ++done[static_cast<std::size_t>(job->arms.front()[0] - 'a')];
     if (oracle.solvable(done)) {
       last_bad.clear();
@@ -151,9 +151,9 @@ void tell(const CrowdedWorkload& world, const SimulationResult& result, const st
   }
   std::cout << "\n";
   for (const JobView& job : result.jobs) {
-    std::cout << "  " << to_seconds(job.submitted_at) << " -> "
-              << (job.started_at ? to_seconds(*job.started_at) : -1.0) << ".."
-              << (job.ended_at ? to_seconds(*job.ended_at) : -1.0) << " " << told(job) << "\n";
+    std::cout << "  " << to_seconds(job.times.submitted_at) << " -> "
+              << (job.times.started_at ? to_seconds(*job.times.started_at) : -1.0) << ".."
+              << (job.times.ended_at ? to_seconds(*job.times.ended_at) : -1.0) << " " << told(job) << "\n";
   }
 }
 

@@ -23,9 +23,9 @@ TEST_P(T10, ASwapOfTwoGoalsIsNamedAtOnceAndTheLastJobGivesWay) {
 
   const JobView failed = cell.job("two");
   EXPECT_EQ(failed.state, JobState::failed);
-  EXPECT_EQ(failed.reason, Reason::deadlock);
+  EXPECT_EQ(failed.reason(), Reason::deadlock);
   EXPECT_EQ(
-      failed.detail,
+      failed.detail(),
       "two -> one -> two: none of them can move before the next one does; a job before them that "
       "moves an arm out of the others' way would open the ring, or \"on_idle_blocker\": "
       "\"park\" in the cell's scheduling, which sends one aside");
@@ -58,7 +58,7 @@ TEST_P(T10, ARingOfThreeIsNamedAtOnceAndOpensWhenOneArmMovesAway) {
   ASSERT_TRUE(one && three);
   EXPECT_EQ(one->ring, (Keys{"one", "two", "three"}));
   EXPECT_EQ(three->ring, (Keys{"three", "one", "two"}));
-  EXPECT_EQ(cell.job("three").reason, Reason::deadlock);
+  EXPECT_EQ(cell.job("three").reason(), Reason::deadlock);
   EXPECT_EQ(cell.job("one").state, JobState::backlogged);
   EXPECT_EQ(cell.job("two").state, JobState::backlogged);
 
@@ -84,10 +84,10 @@ TEST_P(T10, ARingThatArisesWhileArmsMoveIsNamedWhenTheLastOfThemStands) {
   const auto told = deadlock_of(cell, "b2");
   ASSERT_TRUE(told);
   EXPECT_EQ(told->ring, (Keys{"b2", "a2"}));
-  const TimePoint stood = std::max(*cell.job("a1").ended_at, *cell.job("b1").ended_at);
+  const TimePoint stood = std::max(*cell.job("a1").times.ended_at, *cell.job("b1").times.ended_at);
   EXPECT_GE(told->when, stood);
   EXPECT_LE(told->when, stood + 100ms);
-  EXPECT_EQ(cell.job("b2").reason, Reason::deadlock);
+  EXPECT_EQ(cell.job("b2").reason(), Reason::deadlock);
 }
 
 TEST(T10, AnIdleArmInTheWayIsNoDeadlock) {

@@ -36,10 +36,10 @@ class Detours : public ::testing::TestWithParam<std::string> {
     cell->submit(of_a);
     cell->run_to_the_end(at(200s));
     const JobView job = cell->job(of_a.key);
-    EXPECT_EQ(job.state, JobState::succeeded) << job.detail;
+    EXPECT_EQ(job.state, JobState::succeeded) << job.detail();
     EXPECT_GT(cell->closest_m(), 0.019);
     cell->expect_at("a", {0.6, 0.0});
-    return to_seconds(*job.ended_at);
+    return to_seconds(*job.times.ended_at);
   }
   std::optional<TwoGantries> cell;
 };
@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Policies, Detours,
 TEST_P(Detours, WhereWaitingIsDearItGoesAnotherWayRound) {
   EXPECT_LT(arrives_s(move_to("a", {0.6, 0.0}, "a"), 30.0), 20.0);
   EXPECT_GT(cell->farthest_off_m(), 0.2);
-  const auto detour = cell->job("a").detour;
+  const auto detour = cell->job("a").ways.detour;
   ASSERT_TRUE(detour);
   EXPECT_GE(detour->weighed, 1U);
   EXPECT_TRUE(detour->is_taken);
@@ -61,7 +61,7 @@ TEST_P(Detours, WhereWaitingIsDearItGoesAnotherWayRound) {
 TEST_P(Detours, WhereWaitingIsCheapItTakesTheShortestWay) {
   (void)arrives_s(move_to("a", {0.6, 0.0}, "a"), 0.0, at(2500ms));
   EXPECT_LT(cell->farthest_off_m(), 0.01);
-  EXPECT_FALSE(cell->job("a").detour && cell->job("a").detour->is_taken);
+  EXPECT_FALSE(cell->job("a").ways.detour && cell->job("a").ways.detour->is_taken);
 }
 
 // What a client gives a trajectory for goes by that.

@@ -20,7 +20,7 @@ TEST(EarliestStart, CrossingJobsEndSoonerThanWhenOneWaitsForTheOthersEnd) {
     EXPECT_EQ(cell.job("first").state, JobState::succeeded);
     EXPECT_EQ(cell.job("second").state, JobState::succeeded);
     return Run{to_seconds(cell.simulation->executive().figures().last_end),
-               seconds(cell.job("second").started_at), cell.log.closest_m};
+               seconds(cell.job("second").times.started_at), cell.log.closest_m};
   };
   const Run certified = run("certified"), earliest = run("earliest_start");
   EXPECT_GE(certified.start_s, 4.0);
@@ -36,11 +36,11 @@ TEST(EarliestStart, IsShownBeforeItComesAndKept) {
   cell.run_until(at(100ms));
   const JobView told = cell.job("second");
   EXPECT_EQ(told.state, JobState::scheduled);
-  ASSERT_TRUE(told.scheduled_at);
+  ASSERT_TRUE(told.times.scheduled_at);
   ASSERT_EQ(told.waits_on.size(), 1u);
   EXPECT_EQ(told.waits_on.front().job, "first");
   cell.run_to_the_end();
-  EXPECT_NEAR(seconds(cell.job("second").started_at), seconds(told.scheduled_at), 0.02);
+  EXPECT_NEAR(seconds(cell.job("second").times.started_at), seconds(told.times.scheduled_at), 0.02);
 }
 
 TEST(EarliestStart, OfWhatWaitsForACanceledJobMovesForward) {
@@ -50,7 +50,7 @@ TEST(EarliestStart, OfWhatWaitsForACanceledJobMovesForward) {
   cell.run_until(at(300ms));
   const JobView before = cell.job("second");
   ASSERT_EQ(before.state, JobState::scheduled);
-  ASSERT_GT(seconds(before.scheduled_at), 0.8);
+  ASSERT_GT(seconds(before.times.scheduled_at), 0.8);
   ASSERT_TRUE(cell.simulation->executive().cancel("first"));
   cell.run_until(at(700ms));
   EXPECT_EQ(cell.job("second").state, JobState::running);
@@ -92,7 +92,7 @@ TEST(T9, AnEndlessStreamOfShortJobsDoesNotStarveAnother) {
     int count = 0;
     const auto next = [&] {
       JobRequest job = slide("x", count % 2 == 0 ? -1 : 1, count % 2 == 0 ? 1 : -1, 2);
-      job.priority = priority;
+      job.terms.priority = priority;
       cell.submit(std::move(job));
       ++count;
     };
@@ -104,8 +104,8 @@ TEST(T9, AnEndlessStreamOfShortJobsDoesNotStarveAnother) {
       if (cell.simulation->executive().snapshot().queue.queued.size() < 2) next();
     }
     EXPECT_EQ(cell.job("waits").state, JobState::succeeded) << "priority " << priority;
-    ASSERT_TRUE(cell.job("waits").started_at);
-    EXPECT_LT(seconds(cell.job("waits").started_at), 4.5) << "after two others at most";
+    ASSERT_TRUE(cell.job("waits").times.started_at);
+    EXPECT_LT(seconds(cell.job("waits").times.started_at), 4.5) << "after two others at most";
     EXPECT_GE(cell.log.closest_m, 0.02);
     EXPECT_GT(count, 8) << "the stream went on";
   }

@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Policies, Errands, ::testing::ValuesIn(known_policies()
 TEST_P(Errands, ArmsMakeWayForAReturnOnWhichTheNextJobCounts) {
   cell->submit(go("b", {0, 1}, {1, 1}, 2, "next"));
   cell->run_to_the_end(at(45s));
-  EXPECT_EQ(cell->job("next").state, JobState::succeeded) << cell->job("next").detail;
+  EXPECT_EQ(cell->job("next").state, JobState::succeeded) << cell->job("next").detail();
   cell->expect_at("b", {1, 1});
 }
 
@@ -41,8 +41,8 @@ TEST_P(Errands, NobodyWaitsForAReturnOnWhichTheNextJobDoesNotCount) {
   goal.move_to = PlanGoal{.joints = std::vector{1.0, -1.0}, .named = {}, .pose = {}};
   cell->submit(goal);
   cell->run_to_the_end(at(45s));
-  EXPECT_EQ(cell->job("next").state, JobState::succeeded) << cell->job("next").detail;
-  EXPECT_EQ(cell->job("aside-2").state, JobState::canceled) << cell->job("aside-2").detail;
+  EXPECT_EQ(cell->job("next").state, JobState::succeeded) << cell->job("next").detail();
+  EXPECT_EQ(cell->job("aside-2").state, JobState::canceled) << cell->job("aside-2").detail();
   cell->expect_at("b", {1, -1});
 }
 

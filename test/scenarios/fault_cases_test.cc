@@ -40,7 +40,7 @@ TEST(T6, AStalledArmStopsOnlyThoseItEndangers) {
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("stalls").state, JobState::succeeded);
   EXPECT_EQ(cell.job("endangered").state, JobState::succeeded) << "it goes on by itself";
-  EXPECT_NEAR(to_seconds(*cell.job("unconcerned").ended_at), 8.7, 0.3) << "undisturbed";
+  EXPECT_NEAR(to_seconds(*cell.job("unconcerned").times.ended_at), 8.7, 0.3) << "undisturbed";
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
 }
 
@@ -54,7 +54,7 @@ TEST(T6, AFaultFailsItsJobAndStopsOnlyThoseItEndangers) {
   inject(cell, {.arm = "x", .kind = ArmFault::Kind::fault});
   cell.run_until(at(20s));
   EXPECT_EQ(cell.job("faults").state, JobState::failed);
-  EXPECT_EQ(cell.job("faults").reason, Reason::arm_fault);
+  EXPECT_EQ(cell.job("faults").reason(), Reason::arm_fault);
   EXPECT_EQ(cell.job("endangered").state, JobState::holding);
   EXPECT_EQ(cell.job("endangered").waits_on.front().arm, "x");
   EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
@@ -81,9 +81,9 @@ TEST(T6, AFaultStrikesWheneverItComes) {
     const JobView first = cell.job("first"), second = cell.job("second");
     const JobView& struck = first.state == JobState::failed ? first : second;
     ASSERT_EQ(struck.state, JobState::failed) << to_seconds(from);
-    EXPECT_EQ(struck.reason, Reason::arm_fault);
-    EXPECT_GE(*struck.ended_at, at(from));
-    EXPECT_LE(*struck.scheduled_at, *struck.ended_at) << to_seconds(from);
+    EXPECT_EQ(struck.reason(), Reason::arm_fault);
+    EXPECT_GE(*struck.times.ended_at, at(from));
+    EXPECT_LE(*struck.times.scheduled_at, *struck.times.ended_at) << to_seconds(from);
   }
 }
 
@@ -94,9 +94,9 @@ TEST(T6, AnArmThatMovesNoMoreEndsItsJobAndLeavesTheOthersAlone) {
   inject(cell, {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1s), .lasting = 1000s});
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("overruns").state, JobState::failed);
-  EXPECT_EQ(cell.job("overruns").reason, Reason::overrun);
-  EXPECT_GE(*cell.job("overruns").ended_at, at(11s));
-  EXPECT_LE(*cell.job("overruns").ended_at, at(11500ms)) << "and the way to rest";
+  EXPECT_EQ(cell.job("overruns").reason(), Reason::overrun);
+  EXPECT_GE(*cell.job("overruns").times.ended_at, at(11s));
+  EXPECT_LE(*cell.job("overruns").times.ended_at, at(11500ms)) << "and the way to rest";
   EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
 }
 
@@ -132,7 +132,7 @@ TEST(T7, ACanceledJobBrakesAndItsReservationShrinksToWhereItStands) {
   cell.run_until(at(800ms));
   ASSERT_EQ(cell.job("waits").state, JobState::backlogged);
   ASSERT_TRUE(cell.simulation->executive().cancel("canceled"));
-  EXPECT_TRUE(cell.job("canceled").stopping);
+  EXPECT_TRUE(cell.job("canceled").motion.stopping);
   cell.run_until(at(1500ms));
   EXPECT_EQ(cell.job("canceled").state, JobState::canceled);
   EXPECT_LT(cell.log.last[0], -0.5) << "short of the crossing";
@@ -140,7 +140,7 @@ TEST(T7, ACanceledJobBrakesAndItsReservationShrinksToWhereItStands) {
   EXPECT_EQ(cell.job("other").state, JobState::running);
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("waits").state, JobState::succeeded);
-  EXPECT_NEAR(to_seconds(*cell.job("other").ended_at), 4.0, 0.3) << "undisturbed";
+  EXPECT_NEAR(to_seconds(*cell.job("other").times.ended_at), 4.0, 0.3) << "undisturbed";
 }
 
 TEST(Fault, OfAnUnknownArmOrAnUnknownFaultIsAProblem) {

@@ -30,12 +30,12 @@ INSTANTIATE_TEST_SUITE_P(Policies, Goals, ::testing::ValuesIn(known_policies()))
 
 TEST_P(Goals, AJobWaitsForItsPlanAndThenGoesThere) {
   const JobView accepted = cell->submit(move_to("x", 0.5, "there"));
-  EXPECT_EQ(accepted.planned, false);
+  EXPECT_EQ(accepted.motion.planned, false);
   EXPECT_EQ(accepted.arms, std::vector<std::string>{"x"});
   EXPECT_EQ(cell->job("there").waits_on.at(0).kind, Wait::Kind::plan);
   cell->run_to_the_end(at(10s));
   EXPECT_EQ(cell->job("there").state, JobState::succeeded);
-  EXPECT_EQ(cell->job("there").planned, true);
+  EXPECT_EQ(cell->job("there").motion.planned, true);
   expect_at(0.5, -1.0);
 }
 
@@ -61,8 +61,8 @@ TEST_P(Goals, OneThatIsBehindAnObjectFailsWithThePlannersReason) {
   cell->submit(move_to("x", 0.5, "into it"));
   cell->run_to_the_end(at(10s));
   const JobView failed = cell->job("into it");
-  EXPECT_EQ(failed.reason, Reason::no_plan);
-  EXPECT_NE(failed.detail.find("post"), std::string::npos) << failed.detail;
+  EXPECT_EQ(failed.reason(), Reason::no_plan);
+  EXPECT_NE(failed.detail().find("post"), std::string::npos) << failed.detail();
   expect_at(-1.0, -1.0);
 }
 
@@ -71,7 +71,7 @@ TEST_P(Goals, APlanOfAnotherSceneIsMadeAgain) {
   cell->submit(move_to("x", 0.5, "late"));
   ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("post", 0.5, 0.0)));
   cell->run_to_the_end(at(10s));
-  EXPECT_EQ(cell->job("late").reason, Reason::no_plan);
+  EXPECT_EQ(cell->job("late").reason(), Reason::no_plan);
   expect_at(-1.0, -1.0);
 }
 
@@ -82,7 +82,7 @@ TEST_P(Goals, APlanFromElsewhereIsMadeAgain) {
   ASSERT_TRUE(cell->simulation->executive().cancel("first"));
   cell->run_to_the_end(at(20s));
   EXPECT_EQ(cell->job("first").state, JobState::canceled);
-  EXPECT_EQ(cell->job("then").state, JobState::succeeded) << cell->job("then").detail;
+  EXPECT_EQ(cell->job("then").state, JobState::succeeded) << cell->job("then").detail();
   expect_at(0.5, -1.0);
 }
 
@@ -92,8 +92,8 @@ TEST_P(Goals, WhatIsBehindOneThatFailsIsToldAtOnce) {
   cell->submit(slide("x", 0.5, 0.0, 1.0, "cannot begin"));
   cell->submit(move_to("x", 0.0, "begins anywhere"));
   cell->run_to_the_end(at(10s));
-  EXPECT_EQ(cell->job("fails").reason, Reason::no_plan);
-  EXPECT_EQ(cell->job("cannot begin").reason, Reason::start_mismatch);
+  EXPECT_EQ(cell->job("fails").reason(), Reason::no_plan);
+  EXPECT_EQ(cell->job("cannot begin").reason(), Reason::start_mismatch);
   EXPECT_EQ(cell->job("begins anywhere").state, JobState::succeeded);
   expect_at(0.0, -1.0);
 }
@@ -106,13 +106,13 @@ TEST_P(Goals, ASceneThatNeverStaysEndsTheTries) {
     ASSERT_TRUE(cell->simulation->executive().scene().add(box_at(name, 3.0, 3.0 + i)));
     cell->run_until(cell->simulation->now() + kSimulatedPlanning);
   }
-  EXPECT_EQ(cell->job("restless").reason, Reason::no_plan);
+  EXPECT_EQ(cell->job("restless").reason(), Reason::no_plan);
 }
 
 TEST_P(Goals, OneThatIsReachedAlreadyIsDone) {
   cell->submit(move_to("x", -1.0, "here"));
   cell->run_to_the_end(at(10s));
-  EXPECT_EQ(cell->job("here").state, JobState::succeeded) << cell->job("here").detail;
+  EXPECT_EQ(cell->job("here").state, JobState::succeeded) << cell->job("here").detail();
 }
 
 TEST_P(Goals, OneThatIsCanceledBeforeItsPlanIsThereStaysCanceled) {
@@ -130,7 +130,7 @@ TEST_P(Goals, WhereAnotherArmStandsItWaitsForThatOne) {
   cell->submit(move_to("x", 0.5, "passes"));
   cell->run_until(at(6s));
   const JobView waits = cell->job("passes");
-  EXPECT_EQ(waits.state, JobState::backlogged) << waits.detail;
+  EXPECT_EQ(waits.state, JobState::backlogged) << waits.detail();
   ASSERT_FALSE(waits.waits_on.empty());
   EXPECT_EQ(waits.waits_on[0].arm, "y");
   cell->submit(move_to("y", 1.0, "leaves"));
@@ -149,7 +149,7 @@ TEST_P(Goals, APoseIsReachedAndTheNextJobMayBeginThere) {
   cell->submit(slide("x", 0.5, 0.0, 1.0, "and back"));
   cell->run_to_the_end(at(20s));
   for (const char* key : {"pose", "on", "and back"}) {
-    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail;
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail();
   }
   expect_at(0.0, -1.0);
 }
@@ -181,7 +181,7 @@ TEST_P(Goals, WhatCanNeverBeIsRefusedAtOnce) {
   named.move_to = PlanGoal{.joints = {}, .named = "nowhere", .pose = {}};
   refused(named, "/move_to/named");
   JobRequest any = move_to("x", 0.0, "d");
-  any.order = JobOrder::any;
+  any.terms.order = JobOrder::any;
   refused(any, "/order");
   JobRequest both = slide("x", -1, 0, 2, "e");
   both.arm = "x";

@@ -40,17 +40,17 @@ TEST_P(OpenArms, TheNearerOneGoes) {
   cell->submit(slide("y", -1.0, -0.6, 1.0));
   cell->run_until(at(2s));
   const JobView accepted = cell->submit(either(-0.5, "job"));
-  EXPECT_EQ(accepted.planned, false);
-  EXPECT_THAT(accepted.alternatives, ElementsAre("x", "y"));
+  EXPECT_EQ(accepted.motion.planned, false);
+  EXPECT_THAT(accepted.ways.alternatives, ElementsAre("x", "y"));
   cell->run_to_the_end();
   const JobView job = cell->job("job");
-  EXPECT_EQ(job.state, JobState::succeeded) << job.detail;
+  EXPECT_EQ(job.state, JobState::succeeded) << job.detail();
   EXPECT_THAT(job.arms, ElementsAre("y"));
-  EXPECT_THAT(job.alternatives, ElementsAre("x", "y"));
-  ASSERT_TRUE(job.choice);
-  EXPECT_EQ(job.choice->taken, "y");
-  EXPECT_THAT(job.choice->detail, HasSubstr("sooner than x"));
-  EXPECT_GT(job.choice->saves_s.value_or(0.0), 0.1);
+  EXPECT_THAT(job.ways.alternatives, ElementsAre("x", "y"));
+  ASSERT_TRUE(job.ways.choice);
+  EXPECT_EQ(job.ways.choice->taken, "y");
+  EXPECT_THAT(job.ways.choice->detail, HasSubstr("sooner than x"));
+  EXPECT_GT(job.ways.choice->saves_s.value_or(0.0), 0.1);
   EXPECT_NEAR(cell->log.last[0], -1.0, 1e-3);
   EXPECT_NEAR(cell->log.last[1], -0.5, 1e-3);
 }
@@ -60,7 +60,7 @@ TEST_P(OpenArms, OneThatIsBusyIsNotWaitedFor) {
   cell->run_until(at(300ms));
   cell->submit(either(-0.9, "job"));
   cell->run_to_the_end();
-  EXPECT_EQ(cell->job("job").state, JobState::succeeded) << cell->job("job").detail;
+  EXPECT_EQ(cell->job("job").state, JobState::succeeded) << cell->job("job").detail();
   EXPECT_THAT(cell->job("job").arms, ElementsAre("y"));
 }
 
@@ -68,9 +68,9 @@ TEST_P(OpenArms, OneThatIsStoppedIsNotWaitedFor) {
   executive().stop({ArmId{0}}, "maintenance");
   cell->submit(either(-0.5, "job"));
   cell->run_until(at(10s));
-  EXPECT_EQ(cell->job("job").state, JobState::succeeded) << cell->job("job").detail;
+  EXPECT_EQ(cell->job("job").state, JobState::succeeded) << cell->job("job").detail();
   EXPECT_THAT(cell->job("job").arms, ElementsAre("y"));
-  EXPECT_THAT(cell->job("job").choice->detail, HasSubstr("x cannot: it is stopped"));
+  EXPECT_THAT(cell->job("job").ways.choice->detail, HasSubstr("x cannot: it is stopped"));
 }
 
 TEST_P(OpenArms, OneThatHasNoWayIsNamedWithTheReason) {
@@ -80,10 +80,10 @@ TEST_P(OpenArms, OneThatHasNoWayIsNamedWithTheReason) {
   cell->submit(either(-0.4, "job"));
   cell->run_to_the_end();
   const JobView job = cell->job("job");
-  EXPECT_EQ(job.state, JobState::succeeded) << job.detail;
+  EXPECT_EQ(job.state, JobState::succeeded) << job.detail();
   EXPECT_THAT(job.arms, ElementsAre("y"));
-  ASSERT_TRUE(job.choice);
-  EXPECT_THAT(job.choice->detail, HasSubstr("x cannot: no plan"));
+  ASSERT_TRUE(job.ways.choice);
+  EXPECT_THAT(job.ways.choice->detail, HasSubstr("x cannot: no plan"));
 }
 
 TEST_P(OpenArms, WhereNoneHasAWayEachSaysWhy) {
@@ -96,9 +96,9 @@ TEST_P(OpenArms, WhereNoneHasAWayEachSaysWhy) {
   cell->submit(either(-0.5, "next"));
   cell->run_to_the_end();
   const JobView job = cell->job("job");
-  EXPECT_EQ(job.reason, Reason::no_plan);
-  EXPECT_THAT(job.detail, HasSubstr("x: no plan"));
-  EXPECT_THAT(job.detail, HasSubstr("; y: no plan"));
+  EXPECT_EQ(job.reason(), Reason::no_plan);
+  EXPECT_THAT(job.detail(), HasSubstr("x: no plan"));
+  EXPECT_THAT(job.detail(), HasSubstr("; y: no plan"));
   EXPECT_EQ(cell->job("next").state, JobState::succeeded);
 }
 
@@ -112,12 +112,12 @@ TEST_P(OpenArms, SeveralAreSharedAndAllAreDone) {
   cell->run_to_the_end(at(120s));
   std::set<std::string> arms;
   for (const char* key : {"a", "b", "c", "d"}) {
-    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail;
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail();
     arms.insert(cell->job(key).arms.at(0));
   }
   EXPECT_EQ(arms.size(), 2U) << "one arm does it all";
   for (const char* key : {"then x", "then y"}) {
-    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail;
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail();
   }
 }
 
@@ -130,7 +130,7 @@ TEST_P(OpenArms, ATrajectoryBehindOneMayBeginWhereItEnds) {
   cell->submit(slide("x", -1.0, -0.8, 1.0, "other"));
   cell->run_to_the_end();
   for (const char* key : {"job", "back", "other"}) {
-    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << key << cell->job(key).detail;
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << key << cell->job(key).detail();
   }
 }
 
@@ -178,7 +178,7 @@ TEST_P(OpenArms, APoseIsOfEachArmsOwnLink) {
     cell->submit(request);
     cell->run_to_the_end();
     const JobView job = cell->job(request.key);
-    EXPECT_EQ(job.state, JobState::succeeded) << job.detail;
+    EXPECT_EQ(job.state, JobState::succeeded) << job.detail();
     EXPECT_THAT(job.arms, ElementsAre("y"));
     cell->submit(one("y", -0.8, ""));
     cell->run_to_the_end();

@@ -99,8 +99,8 @@ PandasRun run(const Stock& stock, std::uint64_t seed, const std::string& policy)
   if (std::getenv("ARMLOOM_TOLD") != nullptr) {
     for (const std::string& key : keys) {
       const JobView job = *executive.job(key);
-      std::cout << seed << " " << job.name << " submitted " << to_seconds(job.submitted_at)
-                << " began " << (job.started_at ? to_seconds(*job.started_at) : -1.0) << " "
+      std::cout << seed << " " << job.name << " submitted " << to_seconds(job.times.submitted_at)
+                << " began " << (job.times.started_at ? to_seconds(*job.times.started_at) : -1.0) << " "
                 << told(job) << "\n";
     }
   }

@@ -62,7 +62,7 @@ TEST(APolicyIsChanged, AndWhatWaitsGoesByIt) {
     }
     resume_all(cell.simulation->executive());
     cell.run_to_the_end();
-    const TimePoint ended = *cell.job("a").ended_at, begun = *cell.job("b").started_at;
+    const TimePoint ended = *cell.job("a").times.ended_at, begun = *cell.job("b").times.started_at;
     EXPECT_EQ(begun < ended, changes);
     EXPECT_EQ(cell.job("b").state, JobState::succeeded);
   }

@@ -75,7 +75,7 @@ class RandomCommands {
     }
     const std::vector<double> zero(from.size(), 0.0);
     request.trajectory.points = {{from, zero, zero, 0.0}, {to, zero, zero, 0.5 * pick(2, 8)}};
-    request.priority = pick(-1, 1);
+    request.terms.priority = pick(-1, 1);
     if (!now.jobs.empty() && pick(0, 4) == 0) {
       request.after = {
           now.jobs[static_cast<std::size_t>(pick(0, static_cast<int>(now.jobs.size()) - 1))].key};
@@ -226,7 +226,7 @@ class RandomCommands {
     for (const JobView& job : now.jobs) {
       ASSERT_TRUE(told_.contains(job.key)) << "no event tells of " << job.key;
       EXPECT_EQ(told_[job.key].state, job.state) << job.key;
-      EXPECT_EQ(told_[job.key].stopping, job.stopping) << job.key;
+      EXPECT_EQ(told_[job.key].motion.stopping, job.motion.stopping) << job.key;
       EXPECT_EQ(place.contains(job.key), !is_terminal(job.state)) << job.key;
     }
     for (const ArmView& arm : now.arms) {

@@ -62,7 +62,7 @@ inline void delay_at_random(Executive& executive, const std::string& arm, double
 // One line: how a job ended and what it waited for last.
 inline std::string told(const JobView& job) {
   std::string line = job.key + " of " + job.arms.front() + " " + to_string(job.state) + " (" +
-                     (job.reason ? to_string(*job.reason) : "-") + ") " + job.detail;
+                     (job.reason() ? to_string(*job.reason()) : "-") + ") " + job.detail();
   for (const WaitView& wait : job.waits_on) {
     line += std::string("; waits on ") + to_string(wait.kind) + " " + wait.job + " " + wait.arm;
     if (wait.own_time_s) line += " at " + std::to_string(*wait.own_time_s);

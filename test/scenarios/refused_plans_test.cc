@@ -32,7 +32,7 @@ class RefusedGoals : public ::testing::Test {
     const std::uint64_t before = cell.planning().evaluations;
     cell.submit(move_to({-1, 2}, key));
     cell.run_to_the_end(cell.executive().now() + 50s);
-    EXPECT_EQ(cell.job(key).reason, Reason::no_plan) << key;
+    EXPECT_EQ(cell.job(key).reason(), Reason::no_plan) << key;
     return cell.planning().evaluations - before;
   }
   TwoGantries cell;
@@ -41,9 +41,9 @@ class RefusedGoals : public ::testing::Test {
 TEST_F(RefusedGoals, CostNothingTheSecondTime) {
   shut_in(cell, {-1, 2});
   EXPECT_GT(fails("first"), 100'000U);
-  const std::string why = cell.job("first").detail;
+  const std::string why = cell.job("first").detail();
   EXPECT_EQ(fails("second"), 0U);
-  EXPECT_EQ(cell.job("second").detail, why);
+  EXPECT_EQ(cell.job("second").detail(), why);
 }
 
 // The other arm was as good as gone: where it stands now changes nothing.
@@ -67,7 +67,7 @@ TEST_F(RefusedGoals, AreTriedAgainFromElsewhereAndInAnotherScene) {
   }
   cell.submit(move_to({-1, 2}, "open"));
   cell.run_to_the_end(cell.executive().now() + 50s);
-  EXPECT_EQ(cell.job("open").state, JobState::succeeded) << cell.job("open").detail;
+  EXPECT_EQ(cell.job("open").state, JobState::succeeded) << cell.job("open").detail();
 }
 
 // It has its way; what it is to go on by is not planned once more.
@@ -79,7 +79,7 @@ TEST_F(RefusedGoals, AnotherWayOfAGoalIsPlannedOnce) {
   ASSERT_TRUE(cell.executive().replan("goal"));
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("goal").state, JobState::succeeded);
-  EXPECT_EQ(cell.job("goal").another_way->done, 1U);
+  EXPECT_EQ(cell.job("goal").ways.another_way->done, 1U);
   EXPECT_EQ(cell.planning().plans, 2U);
 }
 

@@ -8,7 +8,7 @@ class Replans : public ::testing::TestWithParam<std::string> {
  protected:
   void start(OnIdleBlocker on_idle_blocker) { cell.emplace(gantries(on_idle_blocker), GetParam()); }
   void expect_succeeded(const std::string& key) {
-    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << key << ": " << cell->job(key).detail;
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << key << ": " << cell->job(key).detail();
   }
   void expect_apart() const {
     const bool is_sampled = GetParam() == "timed_discrete";
@@ -23,7 +23,7 @@ TEST_P(Replans, OneThatAnIdleArmBlocksGoesAroundIt) {
   cell->submit(go("a", {-1, 0}, {2, 0}, 6, "past b"));
   cell->run_to_the_end();
   expect_succeeded("past b");
-  const auto other = cell->job("past b").another_way;
+  const auto other = cell->job("past b").ways.another_way;
   ASSERT_TRUE(other);
   EXPECT_EQ(other->done, 1U);
   EXPECT_EQ(other->cause, AnotherWay::Cause::blocked);
@@ -41,7 +41,7 @@ TEST_P(Replans, WhereThereIsNoWayAroundTheArmGoesAside) {
   cell->run_to_the_end();
   expect_succeeded("into its place");
   expect_succeeded("aside-1");
-  const auto other = cell->job("into its place").another_way;
+  const auto other = cell->job("into its place").ways.another_way;
   ASSERT_TRUE(other && other->refusal);
   EXPECT_EQ(other->done, 0U);
   EXPECT_NE(other->refusal->find("b_ball"), std::string::npos) << *other->refusal;
@@ -53,7 +53,7 @@ TEST_P(Replans, WhereThereIsNoStraightWayAsideOneIsPlanned) {
   for (const auto how : {OnIdleBlocker::park, OnIdleBlocker::replan}) {
     start(how);
     JobRequest job = go("a", {-1, 0}, {1, 0}, 6, "into its home");
-    job.backlog_timeout = 5s;
+    job.terms.backlog_timeout = 5s;
     cell->submit(std::move(job));
     cell->run_to_the_end();
     if (how == OnIdleBlocker::park) {
@@ -76,7 +76,7 @@ TEST_P(Replans, ARingOpensByAWayAround) {
     cell->submit(go("b", {1, 0}, {-2, 0}, 6, "b"));
     cell->run_to_the_end(at(200s));
     if (how == OnIdleBlocker::report) {
-      EXPECT_EQ(cell->job("b").reason, Reason::deadlock);
+      EXPECT_EQ(cell->job("b").reason(), Reason::deadlock);
       continue;
     }
     expect_succeeded("a");
@@ -90,31 +90,31 @@ TEST_P(Replans, ARingOpensByAWayAround) {
 TEST_P(Replans, OneThatHasWaitedTooLongGoesAnotherWayInsteadOfExpiring) {
   start(OnIdleBlocker::report);
   JobRequest job = go("a", {-1, 0}, {2, 0}, 6, "late");
-  job.on_timeout = OnTimeout::replan;
-  job.backlog_timeout = 5s;
+  job.terms.on_timeout = OnTimeout::replan;
+  job.terms.backlog_timeout = 5s;
   cell->submit(std::move(job));
   cell->run_until(at(4s));
   EXPECT_EQ(cell->job("late").state, JobState::backlogged);
-  EXPECT_FALSE(cell->job("late").another_way);
+  EXPECT_FALSE(cell->job("late").ways.another_way);
   cell->run_to_the_end();
   expect_succeeded("late");
-  EXPECT_EQ(cell->job("late").another_way->cause, AnotherWay::Cause::timeout);
-  EXPECT_GE(cell->job("late").started_at, at(5s));
+  EXPECT_EQ(cell->job("late").ways.another_way->cause, AnotherWay::Cause::timeout);
+  EXPECT_GE(cell->job("late").times.started_at, at(5s));
   expect_apart();
 }
 
 TEST_P(Replans, WhereThereIsNoneItExpiresAndSaysSo) {
   start(OnIdleBlocker::report);
   JobRequest job = go("a", {-1, 0}, {1, 0}, 6, "into b");
-  job.on_timeout = OnTimeout::replan;
-  job.backlog_timeout = 5s;
+  job.terms.on_timeout = OnTimeout::replan;
+  job.terms.backlog_timeout = 5s;
   cell->submit(std::move(job));
   cell->run_to_the_end(at(20s));
   const JobView expired = cell->job("into b");
   EXPECT_EQ(expired.state, JobState::expired);
-  EXPECT_EQ(expired.reason, Reason::backlog_timeout);
-  EXPECT_EQ(expired.detail.rfind("waited 5 s in the backlog; no other way: ", 0), 0U)
-      << expired.detail;
+  EXPECT_EQ(expired.reason(), Reason::backlog_timeout);
+  EXPECT_EQ(expired.detail().rfind("waited 5 s in the backlog; no other way: ", 0), 0U)
+      << expired.detail();
   cell->expect_at("a", {-1, 0});
 }
 
@@ -128,13 +128,13 @@ TEST_P(Replans, AMovingJobBrakesAndGoesOnFromThere) {
   ASSERT_EQ(before.state, JobState::running);
   const auto asked = cell->executive().replan("moves");
   ASSERT_TRUE(asked);
-  EXPECT_TRUE(asked->another_way->is_open);
+  EXPECT_TRUE(asked->ways.another_way->is_open);
   EXPECT_EQ(asked->id, before.id);
   cell->run_to_the_end();
   expect_succeeded("moves");
   expect_succeeded("then");
-  EXPECT_EQ(cell->job("moves").another_way->done, 1U);
-  EXPECT_EQ(cell->job("moves").started_at, before.started_at) << "it has begun once";
+  EXPECT_EQ(cell->job("moves").ways.another_way->done, 1U);
+  EXPECT_EQ(cell->job("moves").times.started_at, before.times.started_at) << "it has begun once";
   cell->expect_at("a", {-1, 2});
 }
 
@@ -147,7 +147,7 @@ TEST_P(Replans, WhatWaitsDoesNotStartOnItsOldWay) {
   EXPECT_EQ(asked.waits_on.front().kind, Wait::Kind::plan);
   cell->run_to_the_end();
   expect_succeeded("waits");
-  EXPECT_EQ(cell->job("waits").another_way->done, 1U);
+  EXPECT_EQ(cell->job("waits").ways.another_way->done, 1U);
   cell->expect_at("a", {0, 2});
 }
 
@@ -177,7 +177,7 @@ TEST_P(Replans, AStoppedJobGoesOnWhenItIsResumed) {
   ASSERT_TRUE(cell->executive().replan("stopped"));
   cell->run_until(at(6s));
   EXPECT_FALSE(is_terminal(cell->job("stopped").state));
-  EXPECT_EQ(cell->job("stopped").another_way->done, 1U);
+  EXPECT_EQ(cell->job("stopped").ways.another_way->done, 1U);
   resume_all(cell->executive());
   cell->run_to_the_end();
   expect_succeeded("stopped");
@@ -191,7 +191,7 @@ TEST_P(Replans, WhereThereIsNoOtherWayItKeepsItsOwn) {
   cell->run_until(at(2s));
   const JobView waits = cell->job("into b");
   EXPECT_EQ(waits.state, JobState::backlogged);
-  EXPECT_TRUE(waits.another_way->refusal);
+  EXPECT_TRUE(waits.ways.another_way->refusal);
   cell->submit(go("b", {1, 0}, {1, 1}, 2, "leaves"));
   cell->run_to_the_end();
   expect_succeeded("into b");

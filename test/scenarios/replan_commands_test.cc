@@ -62,10 +62,10 @@ class Client {
       request.move_to =
           PlanGoal{.joints = std::vector{to.first, to.second}, .named = {}, .pose = {}};
     } else {
-      request.approach = Approach::plan;
+      request.terms.approach = Approach::plan;
     }
-    request.backlog_timeout = 4s;
-    if (below(2) == 0) request.on_timeout = OnTimeout::replan;
+    request.terms.backlog_timeout = 4s;
+    if (below(2) == 0) request.terms.on_timeout = OnTimeout::replan;
     if (cell_.executive().submit(std::move(request))) keys_.push_back(key);
   }
   void change_scene() {

@@ -86,8 +86,8 @@ class WorkloadMaker {
 struct Closest final : Observer {
   void on_event(const Event& event) override {
     const auto* job = std::get_if<JobView>(&event.body);
-    if (job != nullptr && is_terminal(job->state) && job->another_way) {
-      replanned += job->another_way->done;
+    if (job != nullptr && is_terminal(job->state) && job->ways.another_way) {
+      replanned += job->ways.another_way->done;
     }
   }
   void on_tick(TimePoint, const Configuration& q) override {
@@ -130,8 +130,8 @@ Outcome run(Workload load, Way way) {
                                                   : OnIdleBlocker::replan;
   scheduling.backlog_timeout = 15s;
   for (TimedJob& job : load.jobs) {
-    if (way == Way::replan) job.job.on_timeout = OnTimeout::replan;
-    job.job.approach = Approach::plan;
+    if (way == Way::replan) job.job.terms.on_timeout = OnTimeout::replan;
+    job.job.terms.approach = Approach::plan;
   }
   Closest seen;
   const std::size_t count = load.jobs.size();
@@ -144,14 +144,14 @@ Outcome run(Workload load, Way way) {
   EXPECT_GT(seen.closest_m, 0.019) << kNames[static_cast<int>(way)];
   std::size_t of_clients = 0;
   for (const JobView& job : result->jobs) {
-    if (job.system_job) continue;
+    if (job.terms.system_job) continue;
     ++of_clients;
     if (job.state != JobState::succeeded) {
-      outcome.undone[job.key] = std::string(to_string(*job.reason)) + ", " + job.detail;
+      outcome.undone[job.key] = std::string(to_string(*job.reason())) + ", " + job.detail();
       continue;
     }
     ++outcome.done;
-    outcome.makespan_s = std::max(outcome.makespan_s, to_seconds(*job.ended_at));
+    outcome.makespan_s = std::max(outcome.makespan_s, to_seconds(*job.times.ended_at));
   }
   EXPECT_EQ(of_clients + result->refused.size(), count);
   outcome.replanned = seen.replanned;

@@ -47,7 +47,7 @@ TEST(StartLog, NoArmMovesBeforeItsJobIsPutDown) {
     ASSERT_EQ(starts.open.size(), 1U) << policy;
     EXPECT_EQ(cell.x(), -1.0) << policy;
     EXPECT_EQ(cell.job("go").state, JobState::scheduled) << policy;
-    EXPECT_FALSE(cell.job("go").started_at) << policy;
+    EXPECT_FALSE(cell.job("go").times.started_at) << policy;
     starts.write_all();
     cell.run_to_the_end();
     EXPECT_EQ(cell.job("go").state, JobState::succeeded) << policy;
@@ -141,7 +141,7 @@ std::vector<RestoredJob> two_of_x() {
   jobs.push_back({JobId{7}, slide("x", -1, 0.5, 2, "first"), at(-10s)});
   jobs.push_back({JobId{12}, slide("x", 0.5, -1, 2, "second"), at(-5s)});
   jobs.back().request.after = {"first", "long-ago"};
-  jobs.back().request.succeeded = {"long-ago"};
+  jobs.back().request.known.succeeded = {"long-ago"};
   return jobs;
 }
 
@@ -153,13 +153,13 @@ TEST(Restore, JobsHaveTheirIdsTheirOrderAndTheirConditions) {
   cell.run_until(at(3s));
   EXPECT_EQ(cell.job("first").id, JobId{7});
   EXPECT_EQ(cell.job("second").id, JobId{12});
-  EXPECT_EQ(cell.job("second").submitted_at, at(-5s));
+  EXPECT_EQ(cell.job("second").times.submitted_at, at(-5s));
   EXPECT_EQ(cell.job("first").state, JobState::queued);
   EXPECT_EQ(cell.submit(slide("y", -1, 0, 2)).key, "job-20") << "numbers are never given again";
   resume_all(cell.executive());
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("second").state, JobState::succeeded);
-  EXPECT_LE(*cell.job("first").ended_at, *cell.job("second").started_at);
+  EXPECT_LE(*cell.job("first").times.ended_at, *cell.job("second").times.started_at);
 }
 
 TEST(Restore, OneThatBeginsElsewhereFailsWhenItIsResumedAndNotBefore) {
@@ -173,7 +173,7 @@ TEST(Restore, OneThatBeginsElsewhereFailsWhenItIsResumedAndNotBefore) {
   EXPECT_EQ(cell.job("elsewhere").state, JobState::queued);
   resume_all(cell.executive());
   cell.run_to_the_end();
-  EXPECT_EQ(cell.job("elsewhere").reason, Reason::start_mismatch);
+  EXPECT_EQ(cell.job("elsewhere").reason(), Reason::start_mismatch);
   EXPECT_EQ(cell.job("next").state, JobState::succeeded);
 }
 
@@ -182,7 +182,7 @@ TEST(Restore, JobsOfTheServersOwnTakeNoNumberOfAFormerRun) {
   Restarted cell(nullptr, "earliest_start", JobId{20});
   std::vector<RestoredJob> jobs;
   jobs.push_back({JobId{7}, slide("x", 0.2, -1, 2, "elsewhere"), at(-2s)});
-  jobs.back().request.approach = Approach::plan;
+  jobs.back().request.terms.approach = Approach::plan;
   jobs.push_back({JobId{8}, slide("y", -1, 0, 2, "next"), at(-1s)});
   jobs.back().request.after = {"elsewhere"};
   for (const auto& answer : cell.executive().restore(std::move(jobs))) ASSERT_TRUE(answer);

@@ -35,7 +35,7 @@ TEST_P(InARing, OneOfTwoThatSwapTheirPlacesMovesAsideAndComesBack) {
   EXPECT_EQ(cell.job("aside-2").name, "b returns to where it stood");
   EXPECT_EQ(cell.job("aside-1").state, JobState::succeeded);
   EXPECT_EQ(cell.job("aside-2").state, JobState::succeeded);
-  EXPECT_LT(*cell.job("one").started_at, *cell.job("aside-2").started_at) << "b lets it pass";
+  EXPECT_LT(*cell.job("one").times.started_at, *cell.job("aside-2").times.started_at) << "b lets it pass";
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
 }
 
@@ -114,8 +114,8 @@ TEST_P(InARing, WithNowhereToGoTheLastJobFailsAtOnce) {
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.submit(slide("b", -1, 1, 4, "two"));
   cell.run_until(at(100ms));
-  EXPECT_EQ(cell.job("two").reason, Reason::deadlock);
-  EXPECT_NE(cell.job("two").detail.find("or a free way aside for one"), std::string::npos);
+  EXPECT_EQ(cell.job("two").reason(), Reason::deadlock);
+  EXPECT_NE(cell.job("two").detail().find("or a free way aside for one"), std::string::npos);
   EXPECT_FALSE(cell.simulation->executive().job("aside-1"));
 }
 

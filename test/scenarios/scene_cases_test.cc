@@ -69,7 +69,7 @@ TEST(After, AJobWaitsForTheOnesItNames) {
   EXPECT_EQ(cell.job("second").waits_on.front().job, "first");
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("second").state, JobState::succeeded);
-  EXPECT_GE(*cell.job("second").started_at, *cell.job("first").ended_at);
+  EXPECT_GE(*cell.job("second").times.started_at, *cell.job("first").times.ended_at);
 }
 
 TEST(After, AChainFailsWithItsFirstJob) {
@@ -83,8 +83,8 @@ TEST(After, AChainFailsWithItsFirstJob) {
   cell.submit(third);
   ASSERT_TRUE(cell.simulation->executive().cancel("first"));
   cell.run_to_the_end();
-  EXPECT_EQ(cell.job("second").reason, Reason::predecessor_failed);
-  EXPECT_EQ(cell.job("third").reason, Reason::predecessor_failed);
+  EXPECT_EQ(cell.job("second").reason(), Reason::predecessor_failed);
+  EXPECT_EQ(cell.job("third").reason(), Reason::predecessor_failed);
 }
 
 TEST(After, RefusesWhatIsUnknownItselfOrHasFailed) {
@@ -231,7 +231,7 @@ TEST(Synchronous, AFaultOfOneArmStopsItsSibling) {
   ASSERT_TRUE(
       cell.simulation->executive().faults().inject({.arm = "x", .kind = ArmFault::Kind::fault}));
   cell.run_to_the_end();
-  EXPECT_EQ(cell.job("both").reason, Reason::arm_fault);
+  EXPECT_EQ(cell.job("both").reason(), Reason::arm_fault);
   EXPECT_LT(cell.log.last[1], 0.5) << "the sibling stopped, too";
 }
 
@@ -268,7 +268,7 @@ TEST(Synchronous, ArmsThatWouldTouchIfOneFellBehindDoNotGoTogether) {
     Crossing cell(crossing_from_behind(), policy);
     cell.submit(one_after_the_other(2));
     cell.run_to_the_end();
-    EXPECT_EQ(cell.job("both").reason, Reason::self_collision) << policy;
+    EXPECT_EQ(cell.job("both").reason(), Reason::self_collision) << policy;
   }
 }
 

@@ -117,7 +117,7 @@ TEST_P(Settled, ALongWaitOfABlockedJobIsPassedOver) {
   const auto result = simulate(build_cell(description).value(), {.policy = GetParam()},
                                {std::move(jobs), at(2'000'000s)}, cycles);
   ASSERT_TRUE(result && result->all_ended);
-  EXPECT_EQ(result->jobs.back().reason, Reason::backlog_timeout);
+  EXPECT_EQ(result->jobs.back().reason(), Reason::backlog_timeout);
   EXPECT_GE(result->ended_at, at(1'000'000s));
   EXPECT_LT(cycles.count, 20'000);
 }

@@ -14,7 +14,7 @@ TEST(Stop, HoldsAllMotionsAndResumeFinishesThem) {
   stop_all(cell.simulation->executive(), "operator");
   cell.run_until(at(3s));
   EXPECT_EQ(cell.job("one").state, JobState::holding);
-  EXPECT_FALSE(cell.job("one").stopping);
+  EXPECT_FALSE(cell.job("one").motion.stopping);
   EXPECT_EQ(cell.job("one").waits_on.front().kind, Wait::Kind::stop);
   const Configuration stands = cell.log.last;
   cell.run_until(at(10s));
@@ -31,12 +31,12 @@ TEST(Cancel, BrakesOnThePathAndOthersGoOn) {
   cell.submit(slide("y", -1, -0.4, 4, "other"));
   cell.run_until(at(2s));
   ASSERT_TRUE(cell.simulation->executive().cancel("canceled"));
-  EXPECT_TRUE(cell.job("canceled").stopping);
+  EXPECT_TRUE(cell.job("canceled").motion.stopping);
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("canceled").state, JobState::canceled);
   EXPECT_LT(cell.log.last[0], -0.5) << "it stands where it braked";
   EXPECT_EQ(cell.job("other").state, JobState::succeeded);
-  EXPECT_NEAR(to_seconds(*cell.job("other").ended_at), 4.0, 0.3) << "undisturbed";
+  EXPECT_NEAR(to_seconds(*cell.job("other").times.ended_at), 4.0, 0.3) << "undisturbed";
 }
 
 // Admitted because "x" would have left; then "x" is canceled and stays in the way.

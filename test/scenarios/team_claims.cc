@@ -93,7 +93,7 @@ void TeamsRun::tell() {
     const double time_s = to_seconds(event.time);
     if (const auto* job = std::get_if<JobView>(&event.body)) {
       std::cout << time_s << " s: " << armloom::told(*job) << " at "
-                << job->progress * to_seconds(job->duration) << "\n";
+                << job->motion.progress * to_seconds(job->motion.duration) << "\n";
     } else if (const auto* alert = std::get_if<Alert>(&event.body)) {
       std::cout << time_s << " s: " << alert->text << "\n";
     } else if (const auto* found = std::get_if<MonitorEvent>(&event.body)) {

@@ -72,7 +72,7 @@ JobRequest TeamsRun::random_job() {
   const std::vector<double> zero(from.size(), 0.0);
   const double duration_s = std::max(random_.uniform(0.8, 5.0), farthest_m * 1.05);
   request.trajectory.points = {{from, zero, zero, 0.0}, {to, zero, zero, duration_s}};
-  if (random_.chance(0.4)) request.priority = static_cast<int>(random_.index(3)) - 1;
+  if (random_.chance(0.4)) request.terms.priority = static_cast<int>(random_.index(3)) - 1;
   if (!now.jobs.empty() && random_.chance(0.12)) {
     request.after = {now.jobs[random_.index(now.jobs.size())].key};
   }
@@ -103,7 +103,7 @@ void TeamsRun::remember(const Result<JobView>& accepted, const JobRequest& reque
   }
   if (!told()) return;
   std::cout << to_seconds(simulation_->now()) << " s: " << accepted->key << ", priority "
-            << request.priority;
+            << request.terms.priority;
   for (const std::string& key : request.after) std::cout << ", after " << key;
   for (std::size_t j = 0; j < request.trajectory.joint_names.size(); ++j) {
     std::cout << "; " << request.trajectory.joint_names[j] << " "

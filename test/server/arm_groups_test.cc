@@ -77,7 +77,7 @@ TEST_F(ArmGroups, MayBothBeginAtTheBaseOfATorsoThatIsHeldThen) {
   EXPECT_EQ(why("r"), "an arm");
   const auto above = joints_above_arms(*tree_, *semantics_, choices_);
   ASSERT_EQ(above.size(), 1U);
-  EXPECT_EQ(tree_->links[*above.begin()].joint, "torso_lift");
+  EXPECT_EQ(tree_->links[*above.begin()].joint.name, "torso_lift");
 }
 
 // Upper arm and forearm in groups of their own, put together by name or by a chain.
@@ -157,7 +157,7 @@ TEST_F(ArmGroups, DoNotTakeTheTorsoOfTwo) {
 TEST_F(ArmGroups, LeaveTheTorsoAboveThemToBeHeld) {
   const auto above = joints_above_arms(*tree_, *semantics_, choices_);
   ASSERT_EQ(above.size(), 1U);
-  EXPECT_EQ(tree_->links[*above.begin()].joint, "torso_lift");
+  EXPECT_EQ(tree_->links[*above.begin()].joint.name, "torso_lift");
 }
 
 // ---- Packages ----

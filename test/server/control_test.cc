@@ -190,18 +190,19 @@ TEST(HoldToRun, ALapsedLeaseBringsTheArmToRestWithinItsAuthority) {
   ASSERT_TRUE(accepted) << accepted.error().front().detail;
   ASSERT_FALSE(executive.cancel("nobody", at(1s)));
   TimePoint until = at(100ms);
-  while (executive.job("by-hand")->progress < 0.2) {
+  while (executive.job("by-hand")->motion.progress < 0.2) {
     until = simulation->now() + 500ms;
     ASSERT_TRUE(executive.cancel("by-hand", until));
     simulation->run_until(simulation->now() + 100ms);
     ASSERT_LT(simulation->now(), at(60s));
   }
   simulation->run_until(until - kControlPeriod);
-  EXPECT_FALSE(executive.job("by-hand")->stopping) << "the lease lasts to its last cycle";
+  EXPECT_FALSE(executive.job("by-hand")->motion.stopping) << "the lease lasts to its last cycle";
   EXPECT_FALSE(is_terminal(executive.job("by-hand")->state));
   const Duration allowed = watching.furthest;
   simulation->run_until(until);
-  EXPECT_TRUE(executive.job("by-hand")->stopping) << "given up in the cycle in which it is over";
+  EXPECT_TRUE(executive.job("by-hand")->motion.stopping)
+      << "given up in the cycle in which it is over";
   simulation->run_until(until + 1s);
   const JobView over = *executive.job("by-hand");
   EXPECT_EQ(over.state, JobState::canceled);

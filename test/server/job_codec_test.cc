@@ -23,8 +23,8 @@ TEST(JobCodec, ReadsWhatBecomesOfOneThatWaitsTooLongOrBeginsElsewhere) {
           "trajectory": {"joint_names": ["a"], "points": [
             {"positions": [1], "velocities": [0], "time_from_start": 0}]}})");
   ASSERT_TRUE(job) << job.error().front().detail;
-  EXPECT_EQ(job->on_timeout, OnTimeout::replan);
-  EXPECT_EQ(job->approach, Approach::plan);
+  EXPECT_EQ(job->terms.on_timeout, OnTimeout::replan);
+  EXPECT_EQ(job->terms.approach, Approach::plan);
   const auto bad =
       read_job_text(R"({"on_timeout": "retry", "arm": "a", "move_to": {"named": "b"}})");
   ASSERT_FALSE(bad);
@@ -48,8 +48,8 @@ TEST(JobCodec, ReadsWhatTheContractShows) {
   ASSERT_TRUE(job) << job.error().front().detail;
   EXPECT_EQ(job->key, "pick-7");
   EXPECT_EQ(job->name, "pick 7");
-  EXPECT_EQ(job->priority, -3);
-  EXPECT_EQ(job->backlog_timeout, std::chrono::milliseconds(1500));
+  EXPECT_EQ(job->terms.priority, -3);
+  EXPECT_EQ(job->terms.backlog_timeout, std::chrono::milliseconds(1500));
   EXPECT_EQ(job->trajectory.joint_names, (std::vector<std::string>{"a", "b"}));
   ASSERT_EQ(job->trajectory.points.size(), 4U);
   EXPECT_EQ(job->trajectory.points[1].time_from_start_s, 2.25);
@@ -197,8 +197,8 @@ TEST(BatchCodec, GivesItsOrderToTheJobsThatDoNotSayTheirs) {
     const json body = {{"jobs", {free, given}}, {"order", "any"}, {"atomic", atomic}};
     const auto batch = read_batch_text(body.dump());
     ASSERT_TRUE(batch) << batch.error().front().detail;
-    EXPECT_EQ(batch->jobs[0].job->order, JobOrder::any);
-    EXPECT_EQ(batch->jobs[1].job->order, JobOrder::as_given);
+    EXPECT_EQ(batch->jobs[0].job->terms.order, JobOrder::any);
+    EXPECT_EQ(batch->jobs[1].job->terms.order, JobOrder::as_given);
     EXPECT_EQ(json::parse(batch->jobs[0].text)["order"], "any") << "as it is recorded";
   }
   json wrong = free;

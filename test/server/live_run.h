@@ -119,7 +119,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
     std::vector<RestoredJob> jobs;
     jobs.push_back({JobId{1}, request(swing("left")), TimePoint(-3s)});
     jobs.back().request.key = "former";
-    jobs.back().request.priority = 3;
+    jobs.back().request.terms.priority = 3;
     stop_all(*executive_, "started again");
     (void)executive_->restore(std::move(jobs));
     resume_all(*executive_);

@@ -20,8 +20,8 @@ JobView waiting_job() {
   job.key = "b";
   job.state = JobState::backlogged;
   job.arms = {"right"};
-  job.submitted_at = at(milliseconds(1500));
-  job.duration = milliseconds(3000);
+  job.times.submitted_at = at(milliseconds(1500));
+  job.motion.duration = milliseconds(3000);
   job.waits_on.push_back(
       WaitView{Wait::Kind::job, "a", "left", {"r7", "l7"}, 1.25, 0.5, 0.004, ""});
   return job;
@@ -84,8 +84,7 @@ TEST(Views, AnEndedJobSaysWhy) {
   JobView job = waiting_job();
   job.waits_on.clear();
   job.state = JobState::expired;
-  job.reason = Reason::backlog_timeout;
-  job.detail = "waited 60 s";
+  job.result = {Reason::backlog_timeout, "waited 60 s"};
   const json result = json::parse(text_of(*job_format(), job));
   EXPECT_EQ(result["result"], json({{"reason", "backlog_timeout"}, {"detail", "waited 60 s"}}));
   EXPECT_FALSE(result.contains("submitted_at"));

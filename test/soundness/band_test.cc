@@ -36,7 +36,7 @@ Scenery& scenery() {
 
 TEST(HardlyFree, PairsKeepTheClearanceAtEverySampledInstant) {
   Scenery& s = scenery();
-  const double clearance_m = s.exact.cell().clearance_m;
+  const double clearance_m = s.exact.cell().clearances.clearance_m;
   TruthSampler sampler(s.exact);
   std::size_t found = 0;
   std::size_t tight = 0;
@@ -67,14 +67,14 @@ TEST(Swept, MotionsKeepTheClearanceInAnyCombinationOfPlaces) {
     for (int again = 0; again < 4; ++again) {
       const Attack found = attack(s.exact, pair, kTracking_rad, kHorizonOfAttack_m, random);
       closest_m = std::min(closest_m, found.distance_m);
-      EXPECT_GE(found.distance_m, cell.clearance_m - kRounding_m)
+      EXPECT_GE(found.distance_m, cell.clearances.clearance_m - kRounding_m)
           << "at " << found.candidate_s << " and " << found.other_s << " s";
     }
   }
   std::cout << free << " free, closest " << closest_m << " m\n";
   EXPECT_GE(free, 40U);
   // An attack that never comes close would prove nothing.
-  EXPECT_LE(closest_m, cell.clearance_m + 0.004);
+  EXPECT_LE(closest_m, cell.clearances.clearance_m + 0.004);
 }
 
 }  // namespace

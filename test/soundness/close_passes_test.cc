@@ -15,7 +15,7 @@ namespace {
 // joints that are off their paths: open_pairs_test.cc.
 TEST(ClosePasses, AreDecidedWhenTheBudgetIsRaised) {
   Cell cell = *bench::two_pandas();
-  cell.clearance_m = 0.001;
+  cell.clearances.clearance_m = 0.001;
   const auto shared = std::make_shared<const Cell>(std::move(cell));
   bench::ExactScene exact(shared);
   const Pool pool(exact, 16, 77);

@@ -27,7 +27,7 @@ void add_rail(Cell& cell, const std::string& name, const Eigen::Vector3d& along)
 
 CellPtr two_rails() {
   Cell cell;
-  cell.clearance_m = kClearance_m;
+  cell.clearances.clearance_m = kClearance_m;
   add_rail(cell, "x", Eigen::Vector3d::UnitX());
   add_rail(cell, "y", Eigen::Vector3d::UnitY());
   return small::shared(std::move(cell));

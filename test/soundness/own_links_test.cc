@@ -17,8 +17,8 @@ constexpr std::size_t kJoints = 4;
 
 CellPtr folding_arm() {
   Cell cell;
-  cell.clearance_m = 0.02;
-  cell.self_clearance_m = 0.02;
+  cell.clearances.clearance_m = 0.02;
+  cell.clearances.self_clearance_m = 0.02;
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   small::add_robot(cell, "arm", small::at_xyz(0, 0, 0), {up, up, Eigen::Vector3d::UnitY(), up},
                    {0.3, 0.03});

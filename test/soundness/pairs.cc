@@ -63,7 +63,7 @@ Wave random_wave(const Joint& joint, double duration_s, double turn_rad, std::mt
 }
 
 bool keeps_clear(bench::ExactScene& exact, const Trajectory& motion) {
-  const double margin_m = exact.cell().clearance_m + 0.002;
+  const double margin_m = exact.cell().clearances.clearance_m + 0.002;
   Configuration q = exact.cell().home();
   Eigen::VectorXd position;
   for (Duration t{}; t <= motion.duration(); t += std::chrono::milliseconds(20)) {
@@ -163,7 +163,7 @@ std::vector<MovingPair> random_pairs(bench::ExactScene& exact, const Pool& pool,
   std::mt19937_64 random(seed);
   std::vector<MovingPair> pairs;
   Configuration q = exact.cell().home();
-  const double least_m = exact.cell().clearance_m + 0.001;
+  const double least_m = exact.cell().clearances.clearance_m + 0.001;
   while (pairs.size() < count) {
     const std::size_t arm = random() % 2;
     // They face each other: turned the same way, they turn away from each other.

@@ -108,7 +108,7 @@ class Attack {
       return to_seconds(time - motion.progress);
     };
     pair.state_at(0.0, ahead(pair.candidate, a), ahead(pair.other, b), q_);
-    const double clearance_m = exact_.cell().clearance_m;
+    const double clearance_m = exact_.cell().clearances.clearance_m;
     if (held) {
       ++tally_.inside;
       const double loose_m = clearance_m + kLoose_m;
@@ -162,7 +162,7 @@ TEST(Regions, LeaveNoStateOutsideThatComesCloserThanTheClearance) {
   EXPECT_GE(tally().outside, 80'000U);
   // An attack that never comes close would prove nothing.
   RecordProperty("closest_um", static_cast<int>(1e6 * tally().closest_m));
-  EXPECT_LE(tally().closest_m, bench::two_pandas()->clearance_m + 0.010);
+  EXPECT_LE(tally().closest_m, bench::two_pandas()->clearances.clearance_m + 0.010);
 }
 
 TEST(Regions, HoldLittleThatIsWellClear) {

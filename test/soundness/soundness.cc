@@ -22,8 +22,8 @@ std::string milli(double value) {
 
 PlanningScenePtr scene_without_clearance(const Cell& like) {
   Cell cell = like;
-  cell.clearance_m = 0.0;
-  cell.self_clearance_m = 0.0;
+  cell.clearances.clearance_m = 0.0;
+  cell.clearances.self_clearance_m = 0.0;
   return PlanningScene::build(std::make_shared<const Cell>(std::move(cell))).value();
 }
 
@@ -135,7 +135,7 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
     Question alone = pair.question(cell, kExactly);
     alone.others.clear();
     static_cast<void>(checker.judge(alone));
-    measure_certified(pair, truth, checker.judge(pair.question(cell, kExactly)), cell.clearance_m,
+    measure_certified(pair, truth, checker.judge(pair.question(cell, kExactly)), cell.clearances.clearance_m,
                       report);
     if (truth.smallest_m > 0.0) continue;
     if (!first_in_regions_s(checker_without.judge(pair.question(cell, kExactly)), pair)) {

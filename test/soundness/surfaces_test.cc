@@ -165,8 +165,8 @@ TEST(Surfaces, DecideWholeStatesAsTheirDistancesDo) {
   std::size_t clear = 0;
   for (int i = 0; i < 10; ++i) {
     Cell made;
-    made.clearance_m = 0.02;
-    made.self_clearance_m = 0.005;
+    made.clearances.clearance_m = 0.02;
+    made.clearances.self_clearance_m = 0.005;
     const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
     small::add_robot(made, "a", small::at_xyz(0, 0, 0), {z, Eigen::Vector3d::UnitY(), z},
                      {0.3, 0.03});
@@ -192,7 +192,8 @@ TEST(Surfaces, DecideWholeStatesAsTheirDistancesDo) {
       const unsigned too_close = check.too_close(eight);
       for (std::size_t lane = 0; lane < states.size(); ++lane) {
         const bool by_pairs =
-            checker.first_closer_than(states[lane], cell->clearance_m, {true, true}).has_value();
+            checker.first_closer_than(states[lane], cell->clearances.clearance_m, {true, true})
+                .has_value();
         ASSERT_EQ((too_close >> lane & 1U) != 0, by_pairs) << "cell " << i << ", states " << k;
         if (lane == 0) expect_the_closest(checker, states[lane]);
         ++(by_pairs ? close : clear);

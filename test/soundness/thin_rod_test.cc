@@ -12,8 +12,8 @@ using namespace std::chrono_literals;
 
 CellPtr two_rods() {
   Cell cell;
-  cell.clearance_m = 0.001;
-  cell.self_clearance_m = 0.0;
+  cell.clearances.clearance_m = 0.001;
+  cell.clearances.self_clearance_m = 0.0;
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {up}, {0.5, 0.003});
   small::add_robot(cell, "right", small::at_xyz(0.9, 0, 0), {up}, {0.5, 0.003});
@@ -43,7 +43,7 @@ TEST(ThinRod, CrossedBetweenTwoSamplesIsFoundByCertifiedChecksOnly) {
   ASSERT_EQ(verdict.regions.size(), 1U);
   ASSERT_EQ(verdict.regions[0].regions.size(), 1U);
   const ConflictRegion& region = verdict.regions[0].regions[0];
-  EXPECT_LT(region.proximity.clearance_m, cell->clearance_m);
+  EXPECT_LT(region.proximity.clearance_m, cell->clearances.clearance_m);
   EXPECT_LE(region.boxes.front().from_a, 222ms);
   EXPECT_GE(region.boxes.back().to_a, 222ms);
   EXPECT_EQ(checker.judge(crossing(*cell, offset, Swept{0.0})).kind, Verdict::Kind::conflict);

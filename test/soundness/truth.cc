@@ -64,7 +64,7 @@ std::vector<double> longest_levers(const PlanningScene& scene) {
   const Cell& cell = scene.cell();
   std::vector<double> reach(cell.links.size(), 0.0);  // beyond the link's origin
   for (const CollisionBody& part : scene.bodies().bodies) {
-    if (part.link) reach[part.link->index()] = part.p_PC.norm() + part.radius_m;
+    if (part.link) reach[part.link->index()] = part.sphere.p_PC.norm() + part.sphere.radius_m;
   }
   std::vector<double> levers(cell.joints.size(), 0.0);
   for (std::size_t l = cell.links.size(); l-- > 0;) {  // parents come before children
@@ -93,7 +93,7 @@ double TruthSampler::at(const MovingPair& pair, double t_s, double horizon_m) {
 }
 
 Truth TruthSampler::of(const MovingPair& pair) {
-  const double clearance_m = exact_.cell().clearance_m;
+  const double clearance_m = exact_.cell().clearances.clearance_m;
   const Odometer one(pair.candidate, levers_);
   const Odometer two(pair.other, levers_);
   const auto travelled = [&](std::size_t k) {
@@ -136,7 +136,7 @@ Truth TruthSampler::of_every_sample(const MovingPair& pair) {
   Truth truth{kHorizon_m, 0.0, std::nullopt};
   for (std::size_t k = 0; k <= samples(pair); ++k, ++truth.looked_at) {
     const double t_s = static_cast<double>(k) * kSample_s;
-    note(truth, at(pair, t_s, kHorizon_m), t_s, exact_.cell().clearance_m);
+    note(truth, at(pair, t_s, kHorizon_m), t_s, exact_.cell().clearances.clearance_m);
   }
   return truth;
 }

@@ -13,11 +13,6 @@ namespace {
 constexpr int kThrows = 8;
 constexpr double kFar_m = 0.05;
 
-double tracking_error_of(const CheckMethod& method) {
-  if (const auto* swept = std::get_if<Swept>(&method)) return swept->tracking_error;
-  return std::get<Coordinated>(method).tracking_error;
-}
-
 std::vector<PlaceOfPair> open_places(const Verdict& verdict) {
   std::vector<PlaceOfPair> places;
   for (const PairRegions& pair : verdict.regions) {
@@ -39,7 +34,7 @@ std::vector<PlaceOfPair> open_places(const Verdict& verdict) {
 
 OpenPairs find_open(std::size_t count, std::uint64_t seed, const CheckMethod& method) {
   Cell cell = *bench::two_pandas();
-  cell.clearance_m = kCloseClearance_m;
+  cell.clearances.clearance_m = kCloseClearance_m;
   const auto shared = std::make_shared<const Cell>(std::move(cell));
   bench::ExactScene exact(shared);
   const Pool pool(exact, std::clamp<std::size_t>(count / 30, 16, 40), seed);

@@ -12,11 +12,6 @@
 namespace armloom {
 namespace {
 
-double tracking_error_of(const CheckMethod& method) {
-  const auto* swept = std::get_if<Swept>(&method);
-  return swept != nullptr ? swept->tracking_error : std::get<Coordinated>(method).tracking_error;
-}
-
 // Of every pair of a candidate, before any is let part.
 ClearanceBound least_asked(const PlanningScene::Bodies& bodies, const Question& question) {
   const PairLimits limits = PairLimits::of(*bodies.cell);

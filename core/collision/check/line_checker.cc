@@ -12,7 +12,7 @@ namespace {
 constexpr int kFirstLevels = 3;
 // Pairs move towards each other at least this share of what they may move in all directions,
 // mostly: where more than that would have to be nothing, it is not asked.
-constexpr double kTowardsShare = 0.25;
+constexpr double kLineTowardsShare = 0.25;
 // Times along a line are no times: its whole length takes this.
 constexpr Duration kLength = std::chrono::seconds(1);
 
@@ -84,7 +84,7 @@ LineChecker::Stretch LineChecker::look(TubePair& pair, TubePair::Nodes at,
   std::ranges::sort(undecided, {}, [&](const Undecided& u) { return room(u) - u.moves_m(); });
   for (const Undecided& u : undecided) {
     const NarrowPair& narrow = pair.narrow(u.narrow, u.box);
-    const bool hopeless = room(u) < kTowardsShare * u.moves_m();
+    const bool hopeless = room(u) < kLineTowardsShare * u.moves_m();
     if (hopeless) {  // no distance would do: whether it is a conflict is soon found out
       const bool may_be = room(u) < 0.0;
       return may_be && pair.distance(narrow, at, u.limit_m) < u.limit_m ? Stretch::conflict
@@ -94,7 +94,7 @@ LineChecker::Stretch LineChecker::look(TubePair& pair, TubePair::Nodes at,
     const double distance_m = pair.distance(narrow, at, enough_m);
     if (distance_m < u.limit_m) return Stretch::conflict;
     if (distance_m >= enough_m) continue;
-    if (distance_m - u.limit_m > kTowardsShare * u.moves_m() &&
+    if (distance_m - u.limit_m > kLineTowardsShare * u.moves_m() &&
         pair.keeps_apart(narrow, at, u.limit_m, enough_m)) {
       continue;
     }

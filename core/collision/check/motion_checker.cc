@@ -7,12 +7,6 @@
 namespace armloom {
 namespace {
 
-double tracking_error_of(const CheckMethod& method) {
-  if (const auto* swept = std::get_if<Swept>(&method)) return swept->tracking_error;
-  const auto* coordinated = std::get_if<Coordinated>(&method);
-  return coordinated != nullptr ? coordinated->tracking_error : 0.0;
-}
-
 DiagramCell::State told(CoordinationDiagram::CellState state) {
   using From = CoordinationDiagram::CellState;
   return state == From::free       ? DiagramCell::State::free

@@ -144,7 +144,7 @@ bool MotionStore::out_of_reach(ArmId a, ArmId b) const {
   // Tracking errors and rounding are far below this.
   constexpr double kSlack_m = 0.05;
   return (one.root() - other.root()).norm() >
-         one.reach_m() + other.reach_m() + scene_->cell().clearance_m + kSlack_m;
+         one.reach_m() + other.reach_m() + scene_->cell().clearances.clearance_m + kSlack_m;
 }
 
 }  // namespace armloom

@@ -9,7 +9,7 @@
 namespace armloom {
 namespace {
 
-constexpr int kLanes = filter::kLanes;
+using filter::kLanes;
 // Rounding of positions and times: far above what it can be, far below what matters.
 constexpr double kRounding = 1e-8;
 

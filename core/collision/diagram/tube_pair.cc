@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-constexpr int kLanes = filter::kLanes;
+using filter::kLanes;
 using Block = MotionTube::Block;
 
 }  // namespace

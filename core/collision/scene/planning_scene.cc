@@ -23,12 +23,12 @@ void bound(const std::vector<ConvexShape>& shapes, CollisionBody& body) {
     box.extend(p - half);
     box.extend(p + half);
   }
-  body.p_PC = box.center();
+  body.sphere.p_PC = box.center();
   for (std::size_t i = body.shapes_begin; i < body.shapes_end; ++i) {
-    const Eigen::Vector3d p = shapes[i].X_PS.translation() - body.p_PC;
+    const Eigen::Vector3d p = shapes[i].X_PS.translation() - body.sphere.p_PC;
     const Eigen::Vector3d half = shapes[i].X_PS.linear().col(2) * shapes[i].half_length_m;
     const double ends = std::max((p + half).norm(), (p - half).norm());
-    body.radius_m = std::max(body.radius_m, ends + shapes[i].radius_m);
+    body.sphere.radius_m = std::max(body.sphere.radius_m, ends + shapes[i].radius_m);
   }
 }
 
@@ -81,7 +81,7 @@ bool held_allowed(const PlanningScene::Bodies& scene, std::size_t held,
   if (hand_of(*scene.cell, attachment.link)[other.carrier->index()]) return true;
   if (!other.link) return false;
   return std::ranges::find(attachment.touch, *other.link) != attachment.touch.end() ||
-         scene.cell->allowed_link_objects.contains({*other.link, attachment.object.name});
+         scene.cell->allowed.link_objects.contains({*other.link, attachment.object.name});
 }
 
 bool allowed(const PlanningScene::Bodies& scene, std::size_t index_a, std::size_t index_b) {
@@ -89,8 +89,8 @@ bool allowed(const PlanningScene::Bodies& scene, std::size_t index_a, std::size_
   const CollisionBody& b = scene.bodies[index_b];
   if (a.held()) return held_allowed(scene, index_a, b);
   if (b.held()) return held_allowed(scene, index_b, a);
-  if (!b.link) return scene.cell->allowed_link_objects.contains({*a.link, b.name});
-  return scene.cell->allowed_link_pairs.contains(std::minmax(*a.link, *b.link));
+  if (!b.link) return scene.cell->allowed.link_objects.contains({*a.link, b.name});
+  return scene.cell->allowed.link_pairs.contains(std::minmax(*a.link, *b.link));
 }
 
 // Adds the pairs of the arm's bodies with all bodies that `wanted` names, as one group.

@@ -34,10 +34,12 @@ struct CollisionBody {
   Eigen::Isometry3d X_CP = Eigen::Isometry3d::Identity();
   std::size_t shapes_begin = 0;  // range in Bodies::shapes
   std::size_t shapes_end = 0;
-  Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // centre and radius of its bounding sphere
-  double radius_m = 0.0;
-  bool has_pieces = false;            // of a closed mesh, among its shapes
-  bool lone_box = false;              // its only shape is a box: a sphere says little about a table
+  struct BoundingSphere {
+    Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // its centre
+    double radius_m = 0.0;
+  } sphere = {};
+  bool has_pieces = false;  // of a closed mesh, among its shapes
+  bool lone_box = false;    // its only shape is a box: a sphere says little about a table
   std::vector<LinkCapsule> capsules;  // one or two, in P; each shape lies in one (link_capsules.h)
   double capsule_overestimate_m = 0.0;  // how far they stand off the shapes
 

@@ -61,7 +61,7 @@ void find_object_problems(const std::vector<CollisionObject>& objects,
 void find_unknown_allowed(const Cell& cell, Problems& problems) {
   std::set<std::string> names;
   for (const CollisionObject& object : cell.objects) names.insert(object.name);
-  for (const auto& [link, object] : cell.allowed_link_objects) {
+  for (const auto& [link, object] : cell.allowed.link_objects) {
     if (names.contains(object)) continue;
     problems.push_back(
         {ProblemKind::invalid, "unknown-name", "/allowed_collisions",

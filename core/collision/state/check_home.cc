@@ -28,7 +28,7 @@ Problems check_home(const PlanningScenePtr& scene) {
   for (const NearPair& pair : query.near_pairs(cell.home())) {
     const Proximity proximity = query.describe(pair);
     const bool self = query.is_self(pair.pair);
-    const bool mount = query.is_mount(pair.pair) && cell.mount_clearance_m;
+    const bool mount = query.is_mount(pair.pair) && cell.clearances.mount_clearance_m;
     char figures[120];
     std::snprintf(figures, sizeof figures, ": %.4f m apart at home, %s is %.4f",
                   proximity.clearance_m,

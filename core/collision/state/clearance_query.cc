@@ -10,8 +10,6 @@
 namespace armloom {
 namespace {
 
-constexpr auto kLanes = static_cast<std::size_t>(filter::kLanes);
-
 bool includes(const PairGroup& group, const std::vector<bool>& arms) {
   return arms[group.arm.index()] || (group.other && arms[group.other->index()]);
 }
@@ -56,7 +54,7 @@ struct ClearanceQuery::Scratch {
                    const std::vector<NarrowPair>& narrow, unsigned& close) {
     for (const filter::Hit& hit : found) {
       const NarrowPair& pair = narrow[static_cast<std::size_t>(hit.pair)];
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      for (std::size_t lane = 0; lane < kStatesAtOnce; ++lane) {
         const unsigned bit = 1U << lane;
         if ((hit.lanes & ~close & bit) == 0) continue;
         const Open o{placed.body(c.a, pair.body_a, lane), placed.body(c.b, pair.body_b, lane),

@@ -5,19 +5,15 @@
 #include <utility>
 
 namespace armloom {
-namespace {
-
-constexpr auto kLanes = static_cast<std::size_t>(filter::kLanes);
-
-}  // namespace
+namespace {}  // namespace
 
 PlacedCell::Side::Side(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm)
     : kinematics(bodies, arm),
-      q(kinematics.joints().size() * kLanes),
-      frames(kinematics.frames().size() * 12 * kLanes),
-      axes(kinematics.frames().size() * 6 * kLanes),
-      capsules(kinematics.capsules().size() * 6 * kLanes),
-      ball(4 * kLanes) {
+      q(kinematics.joints().size() * kStatesAtOnce),
+      frames(kinematics.frames().size() * 12 * kStatesAtOnce),
+      axes(kinematics.frames().size() * 6 * kStatesAtOnce),
+      capsules(kinematics.capsules().size() * 6 * kStatesAtOnce),
+      ball(4 * kStatesAtOnce) {
   if (!arm) place();
 }
 
@@ -56,15 +52,15 @@ void PlacedCell::set_limits(const PairLimits& limits) {
 }
 
 void PlacedCell::place(std::span<const Configuration* const> states) {
-  if (states.empty() || states.size() > kLanes) {
+  if (states.empty() || states.size() > kStatesAtOnce) {
     throw std::invalid_argument("ClearanceQuery: one to eight states");
   }
   for (Side& arm : std::span(arms_).first(arms_.size() - 1)) {
     const std::vector<JointId>& joints = arm.kinematics.joints();
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (std::size_t lane = 0; lane < kStatesAtOnce; ++lane) {
       const Configuration& q = *states[std::min(lane, states.size() - 1)];
       for (std::size_t row = 0; row < joints.size(); ++row) {
-        arm.q[row * kLanes + lane] = q[static_cast<Eigen::Index>(joints[row].index())];
+        arm.q[row * kStatesAtOnce + lane] = q[static_cast<Eigen::Index>(joints[row].index())];
       }
     }
     arm.place();

@@ -9,6 +9,9 @@
 
 namespace armloom {
 
+// So many states are looked at in one go.
+inline constexpr auto kStatesAtOnce = static_cast<std::size_t>(filter::kLanes);
+
 // Up to eight configurations of a whole cell as the filter's kernels place them, and all pairs that
 // the scene looks at, with limits of one's own. Not thread-safe.
 class PlacedCell {

@@ -15,10 +15,10 @@ std::string span_text(const Joint& joint) {
 void warn_if_held_elsewhere(const RobotBuild& robot, const ArmBuild& build, std::size_t index,
                             double value, Diagnostics& diagnostics) {
   const TreeLink& link = robot.tree.links[index];
-  if (!link.held || std::abs(*link.held - value) <= 1e-6) return;
+  if (!link.joint.held || std::abs(*link.joint.held - value) <= 1e-6) return;
   diagnostics.warn({ProblemKind::invalid, "held-joint", build.pointer + "/home",
-                    "arm " + build.description->name + ": home has joint " + link.joint + " at " +
-                        text_of(value) + ", and \"fixed\" holds it at " + text_of(*link.held) +
+                    "arm " + build.description->name + ": home has joint " + link.joint.name + " at " +
+                        text_of(value) + ", and \"fixed\" holds it at " + text_of(*link.joint.held) +
                         ", which counts",
                     value});
 }
@@ -41,7 +41,7 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
       continue;
     }
     const Joint& joint = cell.joint(*robot.joints[index]);
-    const std::string& plain = robot.tree.links[index].joint;
+    const std::string& plain = robot.tree.links[index].joint.name;
     const auto value = state.values.find(index);
     values[row++] = value == state.values.end() ? 0.0 : value->second;
     if (value == state.values.end()) {
@@ -151,7 +151,7 @@ std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBui
   } else {
     std::string names;
     for (const std::size_t joint : build.group) {
-      if (robot.joints[joint]) names += (names.empty() ? "" : ", ") + robot.tree.links[joint].joint;
+      if (robot.joints[joint]) names += (names.empty() ? "" : ", ") + robot.tree.links[joint].joint.name;
     }
     diagnostics.in_cell("wrong-size", build.pointer + "/home",
                         "arm " + arm.name + ": home has " + std::to_string(home.size()) +

@@ -99,24 +99,25 @@ RobotBuild read_robot(const RobotDescription& description, std::size_t index, Me
 }
 
 std::string why_no_value(const RobotBuild& robot, const TreeLink& link) {
-  if (link.held) return "is held at " + text_of(*link.held);
-  if (!link.mimic) return "is fixed";
-  return "follows " + robot.description->prefix + robot.tree.links[link.mimic->driver].joint;
+  if (link.joint.held) return "is held at " + text_of(*link.joint.held);
+  if (!link.joint.mimic) return "is fixed";
+  return "follows " + robot.description->prefix + robot.tree.links[link.joint.mimic->driver].joint.name;
 }
 
 void add_joints(RobotBuild& robot, Cell& cell) {
+  Robot& added = cell.robots[robot.id.index()];
   for (const TreeLink& link : robot.tree.links) {
-    if (!link.is_independent()) {
-      const std::string name = robot.description->prefix + link.joint;
-      if (!link.joint.empty()) cell.joints_without_value[name] = why_no_value(robot, link);
+    if (!link.joint.is_independent()) {
+      const std::string name = robot.description->prefix + link.joint.name;
+      if (!link.joint.name.empty()) added.joints_without_value[name] = why_no_value(robot, link);
       robot.joints.push_back(std::nullopt);
       continue;
     }
     robot.joints.push_back(JointId(static_cast<std::uint32_t>(cell.joints.size())));
-    cell.joints.push_back({.name = robot.description->prefix + link.joint,
+    cell.joints.push_back({.name = robot.description->prefix + link.joint.name,
                            .robot = robot.id,
                            .arm = std::nullopt,
-                           .kind = *link.motion,
+                           .kind = *link.joint.motion,
                            .lower = 0.0,  // these until settle_limits
                            .upper = 0.0,
                            .velocity_max = kDefaultVelocity,
@@ -134,10 +135,10 @@ void add_links(RobotBuild& robot, Cell& cell) {
               .robot = robot.id,
               .arm = std::nullopt,
               .parent = std::nullopt,
-              .X_PJ = source.X_PJ,
+              .X_PJ = source.joint.X_PJ,
               .driver = robot.joints[i],
               .motion = JointKind::revolute,
-              .axis = source.axis,
+              .axis = source.joint.axis,
               .multiplier = 1.0,
               .offset = 0.0,
               .shapes = std::move(source.shapes)};
@@ -145,11 +146,11 @@ void add_links(RobotBuild& robot, Cell& cell) {
       link.parent = robot.links[*source.parent];
     else
       link.X_PJ = robot.description->X_WB;
-    if (source.motion) link.motion = *source.motion;
-    if (source.mimic) {
-      link.driver = robot.joints[source.mimic->driver];
-      link.multiplier = source.mimic->multiplier;
-      link.offset = source.mimic->offset;
+    if (source.joint.motion) link.motion = *source.joint.motion;
+    if (source.joint.mimic) {
+      link.driver = robot.joints[source.joint.mimic->driver];
+      link.multiplier = source.joint.mimic->multiplier;
+      link.offset = source.joint.mimic->offset;
     }
     robot.links.push_back(LinkId(static_cast<std::uint32_t>(cell.links.size())));
     cell.links.push_back(std::move(link));
@@ -219,9 +220,9 @@ void add_robot(RobotBuild robot, Cell& cell, Diagnostics& diagnostics) {
 
 void copy_settings(const CellDescription& description, Cell& cell) {
   cell.name = description.name;
-  cell.clearance_m = description.clearance_m;
-  cell.self_clearance_m = std::min(description.self_clearance_m, description.clearance_m);
-  cell.mount_clearance_m = description.mount_clearance_m;
+  cell.clearances.clearance_m = description.clearance_m;
+  cell.clearances.self_clearance_m = std::min(description.self_clearance_m, description.clearance_m);
+  cell.clearances.mount_clearance_m = description.mount_clearance_m;
   cell.checking = description.checking;
   cell.scheduling = description.scheduling;
   cell.monitor = description.monitor;

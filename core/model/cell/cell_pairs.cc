@@ -58,7 +58,7 @@ void warn_of_pairs(const RobotBuild& robot, const Cell& cell, const DoubtfulPair
 
 void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
   const auto allow = [&](std::size_t a, std::size_t b) {
-    cell.allowed_link_pairs.insert(std::minmax(robot.links[a], robot.links[b]));
+    cell.allowed.link_pairs.insert(std::minmax(robot.links[a], robot.links[b]));
   };
   std::map<std::size_t, std::vector<std::size_t>>
       bodies;  // first link of a rigid body -> its links
@@ -111,11 +111,11 @@ void allow_pairs_of_cell(const CellDescription& description, Cell& cell, Diagnos
       diagnostics.in_cell("same-link", pointer, "allowed collision: " + first + " is named twice",
                           first);
     } else if (a && b) {
-      cell.allowed_link_pairs.insert(std::minmax(*a, *b));
+      cell.allowed.link_pairs.insert(std::minmax(*a, *b));
     } else if (a && b_object) {
-      cell.allowed_link_objects.emplace(*a, second);
+      cell.allowed.link_objects.emplace(*a, second);
     } else if (b && a_object) {
-      cell.allowed_link_objects.emplace(*b, first);
+      cell.allowed.link_objects.emplace(*b, first);
     }
   }
 }

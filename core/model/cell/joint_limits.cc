@@ -17,9 +17,9 @@ const ArmBuild* arm_of(const RobotBuild& robot, const Joint& joint) {
 std::string joints_of(const RobotTree& tree) {
   std::string names;
   for (const TreeLink& link : tree.links) {
-    if (!link.is_independent()) continue;
+    if (!link.joint.is_independent()) continue;
     if (names.size() > 200) return names + ", ...";
-    names += (names.empty() ? "" : ", ") + link.joint;
+    names += (names.empty() ? "" : ", ") + link.joint.name;
   }
   return names;
 }
@@ -42,7 +42,7 @@ void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
   for (const auto& [name, given] : arm.description->limits) {
     const std::string pointer = arm.pointer + "/limits/" + pointer_token(name);
     const auto link = robot.tree.by_joint.find(name);
-    if (link != robot.tree.by_joint.end() && robot.tree.links[link->second].held) {
+    if (link != robot.tree.by_joint.end() && robot.tree.links[link->second].joint.held) {
       diagnostics.warn({ProblemKind::invalid, "held-joint", pointer,
                         "arm " + arm.description->name + ": the limits of " + name +
                             " say nothing, as \"fixed\" holds it",
@@ -105,20 +105,20 @@ void tell_limits_without_joint(RobotBuild& robot, Diagnostics& diagnostics) {
 void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
   constexpr double kRounding = 2e-3;  // rad or m: two limits that were meant to fit
   for (const TreeLink& link : robot.tree.links) {
-    if (!link.mimic) continue;
-    const auto driver = robot.joints[link.mimic->driver];
+    if (!link.joint.mimic) continue;
+    const auto driver = robot.joints[link.joint.mimic->driver];
     if (!driver) continue;
     const Joint& followed = cell.joint(*driver);
-    double from = link.mimic->multiplier * followed.lower + link.mimic->offset;
-    double to = link.mimic->multiplier * followed.upper + link.mimic->offset;
+    double from = link.joint.mimic->multiplier * followed.lower + link.joint.mimic->offset;
+    double to = link.joint.mimic->multiplier * followed.upper + link.joint.mimic->offset;
     if (from > to) std::swap(from, to);
-    const UrdfLimits& own = link.limits;
+    const UrdfLimits& own = link.joint.limits;
     const bool below = own.lower && from < *own.lower - kRounding;
     const bool above = own.upper && to > *own.upper + kRounding;
-    if (link.motion == JointKind::continuous || !(below || above)) continue;
+    if (link.joint.motion == JointKind::continuous || !(below || above)) continue;
     const std::string place = robot.tree.place_of_joint(link);
     diagnostics.warn({ProblemKind::invalid, "mimic-beyond-limits", place,
-                      place + ": it follows " + robot.tree.links[link.mimic->driver].joint +
+                      place + ": it follows " + robot.tree.links[link.joint.mimic->driver].joint.name +
                           " from " + text_of(from) + " to " + text_of(to) +
                           ", beyond its own limits [" + (own.lower ? text_of(*own.lower) : "-inf") +
                           ", " + (own.upper ? text_of(*own.upper) : "inf") +
@@ -146,7 +146,7 @@ void settle_limits(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
     TreeLink& link = robot.tree.links[i];
     if (!robot.joints[i]) {
-      diagnostics.merge_as_warnings(std::move(link.limits.faults));
+      diagnostics.merge_as_warnings(std::move(link.joint.limits.faults));
       continue;
     }
     Joint& joint = cell.joints[robot.joints[i]->index()];
@@ -157,7 +157,7 @@ void settle_limits(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
         arm != nullptr && std::find(arm->group.begin(), arm->group.end(), i) != arm->group.end();
     LimitsFile::Joint* filed = nullptr;
     if (robot.limits_file) {
-      const auto found = robot.limits_file->joints.find(link.joint);
+      const auto found = robot.limits_file->joints.find(link.joint.name);
       if (found != robot.limits_file->joints.end()) filed = &found->second;
     }
     LimitsOfJoint(robot, link, joint, {arm, own}, diagnostics).settle(filed, needs[arm]);

@@ -39,9 +39,9 @@ LimitsOfJoint::LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joi
       own_(owner.own),
       diagnostics_(diagnostics) {
   if (arm_ != nullptr) {
-    const auto given = arm_->description->limits.find(link.joint);
+    const auto given = arm_->description->limits.find(link.joint.name);
     if (given != arm_->description->limits.end()) cell_ = given->second;
-    pointer_ = arm_->pointer + "/limits/" + pointer_token(link.joint);
+    pointer_ = arm_->pointer + "/limits/" + pointer_token(link.joint.name);
   }
 }
 
@@ -61,12 +61,12 @@ void LimitsOfJoint::settle(LimitsFile::Joint* filed, Needs& needs) {
   warn_of_units();
   // A faulty limit that another file replaces, or nobody needs, is only odd.
   if (own_ && !missing_.empty()) {
-    needs.faulty = needs.faulty || link_.limits.faults.count() > 0;
-    diagnostics_.merge(std::move(link_.limits.faults));
-    append_item(needs.names, ", ", words_ + " of " + link_.joint);
-    append_item(needs.members, ", ", json_member(link_.joint, "{" + missing_ + "}"));
+    needs.faulty = needs.faulty || link_.joint.limits.faults.count() > 0;
+    diagnostics_.merge(std::move(link_.joint.limits.faults));
+    append_item(needs.names, ", ", words_ + " of " + link_.joint.name);
+    append_item(needs.members, ", ", json_member(link_.joint.name, "{" + missing_ + "}"));
   } else {
-    diagnostics_.merge_as_warnings(std::move(link_.limits.faults));
+    diagnostics_.merge_as_warnings(std::move(link_.joint.limits.faults));
   }
 }
 
@@ -85,7 +85,7 @@ void LimitsOfJoint::check_units() {
     rest += ": give ";
     rest += right;
     diagnostics_.in_cell("wrong-unit", pointer_ + "/" + key,
-                         "joint " + link_.joint + ": " + key + rest);
+                         "joint " + link_.joint.name + ": " + key + rest);
   }
 }
 
@@ -119,7 +119,7 @@ std::optional<double> LimitsOfJoint::from_cell(const std::optional<double>& valu
 
 void LimitsOfJoint::refuse(const char* slug, const std::string& name, const std::string& rest,
                            double value) {
-  diagnostics_.in_cell(slug, pointer_ + "/" + name, "joint " + link_.joint + ": " + name + rest,
+  diagnostics_.in_cell(slug, pointer_ + "/" + name, "joint " + link_.joint.name + ": " + name + rest,
                        value);
 }
 
@@ -136,7 +136,7 @@ std::optional<double> LimitsOfJoint::from_file(const std::optional<double>& valu
 }
 
 void LimitsOfJoint::settle_velocity() {
-  const auto& urdf = link_.limits.velocity;
+  const auto& urdf = link_.joint.limits.velocity;
   const std::string name = key("velocity", "_rad_s", "_m_s");
   std::optional<double> velocity;
   if (cell_.velocity && *cell_.velocity <= 0.0)
@@ -155,7 +155,7 @@ void LimitsOfJoint::settle_velocity() {
   if (own_) return need("velocity", limit);
   warn("missing", place_in_urdf(),
        "there is no limit of velocity; for the gripper's joint 1 is taken. Else add to arm " +
-           arm_->description->name + " \"limits\": {\"" + link_.joint + "\": {" + limit + "}}",
+           arm_->description->name + " \"limits\": {\"" + link_.joint.name + "\": {" + limit + "}}",
        kDefaultVelocity);
 }
 

@@ -11,7 +11,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void LimitsOfJoint::settle_positions() {
   const bool endless = joint_.kind == JointKind::continuous;
-  UrdfLimits& urdf = link_.limits;
+  UrdfLimits& urdf = link_.joint.limits;
   if (!endless && urdf.faults.count() == 0 && urdf.lower.has_value() != urdf.upper.has_value())
     take_zero_for_the_other(urdf);
   const auto lower = from_cell(cell_.lower, key("lower", "_rad", "_m"), urdf.lower,
@@ -56,7 +56,7 @@ void LimitsOfJoint::say_nothing_more() {
 }
 
 void LimitsOfJoint::refuse_crossed() {
-  const std::string sentence = "joint " + link_.joint + ": the limits leave nothing, from " +
+  const std::string sentence = "joint " + link_.joint.name + ": the limits leave nothing, from " +
                                text_of(joint_.lower) + " to " + text_of(joint_.upper);
   if (cell_.lower || cell_.upper)
     return diagnostics_.in_cell("limits-crossed", pointer_, sentence, joint_.lower);
@@ -73,7 +73,7 @@ void LimitsOfJoint::need_positions(bool lower, bool upper) {
   if (own_) return need("position", members);
   warn("missing", place_in_urdf(),
        "there are no limits of position; the gripper's joint stays at " + text_of(joint_.lower) +
-           ". Else add to arm " + arm_->description->name + " \"limits\": {\"" + link_.joint +
+           ". Else add to arm " + arm_->description->name + " \"limits\": {\"" + link_.joint.name +
            "\": {" + members + "}}",
        joint_.lower);
 }

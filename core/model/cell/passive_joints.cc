@@ -11,7 +11,7 @@ void warn_of_passive_joints(const RobotBuild& robot, const Cell& cell, Diagnosti
       const bool in_group =
           std::find(build.group.begin(), build.group.end(), index) != build.group.end();
       if (!in_group || !robot.joints[index]) continue;  // or held
-      const std::string& joint = robot.tree.links[index].joint;
+      const std::string& joint = robot.tree.links[index].joint.name;
       diagnostics.warn(
           {ProblemKind::invalid, "passive-joint", place,
            place + ": joint " + joint + " is passive, so the robot has no motor for it, " +

@@ -42,7 +42,7 @@ std::string line_to_hold(const RobotBuild& robot, const Cell& cell,
   std::string members;
   for (const JointId id : joints) {
     const auto& limits =
-        robot.tree.links[robot.tree.by_joint.at(plain_name(robot, cell, id))].limits;
+        robot.tree.links[robot.tree.by_joint.at(plain_name(robot, cell, id))].joint.limits;
     double value = 0.0;
     if (limits.lower) value = std::max(value, *limits.lower);
     if (limits.upper) value = std::min(value, *limits.upper);

@@ -84,7 +84,7 @@ class StandingJoints {
           const auto& joint = robot_.joints[*above];
           const bool in_group = std::ranges::find(build.group, *above) != build.group.end();
           if (joint && !in_group && cell_.joint(*joint).arm == build.id)
-            skipped.insert(robot_.tree.links[*above].joint);
+            skipped.insert(robot_.tree.links[*above].joint.name);
         }
       }
       for (const std::string& name : skipped) {

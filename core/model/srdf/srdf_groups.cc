@@ -101,11 +101,11 @@ class GroupReader {
 
   void add(std::size_t joint, const XmlPlace& place, Group& group) const {
     const TreeLink& link = tree_.links[joint];
-    if (link.many_values) {
+    if (link.joint.many_values) {
       place.report("unsupported-joint",
-                   "joint " + link.joint + " is floating or planar, which no arm can hold",
-                   link.joint, ProblemKind::unsupported);
-    } else if (link.is_independent() || link.held) {
+                   "joint " + link.joint.name + " is floating or planar, which no arm can hold",
+                   link.joint.name, ProblemKind::unsupported);
+    } else if (link.joint.is_independent() || link.joint.held) {
       group.joints.insert(joint);
     }
   }

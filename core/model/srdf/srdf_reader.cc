@@ -159,7 +159,7 @@ class SrdfReader {
                        name);
     }
     const TreeLink& link = tree_.links[found->second];
-    if (!link.is_independent() && !link.held) return;  // it has no value of its own
+    if (!link.joint.is_independent() && !link.joint.held) return;  // it has no value of its own
     const auto value = line.of("joint " + name).number(element, "value", Presence::required);
     if (!value) {
       state.unread.insert(found->second);

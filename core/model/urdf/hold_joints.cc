@@ -37,16 +37,18 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
     return meant ? holdable(*meant, value, pointer, of, unsaid) : std::nullopt;
   }
   const TreeLink& link = tree.links[found->second];
-  if (link.mimic) {
+  if (link.joint.mimic) {
     return refuse("held-mimic", "joint " + name + " follows joint " +
-                                    tree.links[link.mimic->driver].joint + ": hold that one");
+                                    tree.links[link.joint.mimic->driver].joint.name +
+                                    ": hold that one");
   }
-  if (link.many_values)
+  if (link.joint.many_values)
     return refuse("unsupported-joint", "joint " + name + " is floating or planar: it has no value");
-  if (!link.motion) return refuse("held-fixed", "joint " + name + " is fixed in " + tree.file);
+  if (!link.joint.motion)
+    return refuse("held-fixed", "joint " + name + " is fixed in " + tree.file);
   if (!std::isfinite(value))
     return refuse("not-a-number", "joint " + name + " is held at " + text_of(value));
-  const UrdfLimits& limits = link.limits;
+  const UrdfLimits& limits = link.joint.limits;
   if ((limits.lower && value < *limits.lower) || (limits.upper && value > *limits.upper)) {
     static_cast<void>(
         refuse("limit-exceeded", "joint " + name + " is held at " + text_of(value) + ", outside [" +
@@ -60,17 +62,17 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
 }
 
 void hold(TreeLink& link, double value) {
-  if (*link.motion == JointKind::prismatic)
-    link.X_PJ = link.X_PJ * Eigen::Translation3d(link.axis * value);
+  if (*link.joint.motion == JointKind::prismatic)
+    link.joint.X_PJ = link.joint.X_PJ * Eigen::Translation3d(link.joint.axis * value);
   else
-    link.X_PJ = link.X_PJ * Eigen::AngleAxisd(value, link.axis);
-  link.motion = std::nullopt;
-  link.mimic = std::nullopt;
-  link.held = value;
+    link.joint.X_PJ = link.joint.X_PJ * Eigen::AngleAxisd(value, link.joint.axis);
+  link.joint.motion = std::nullopt;
+  link.joint.mimic = std::nullopt;
+  link.joint.held = value;
 }
 
-std::string text_of(const Eigen::Vector3d& v) {
-  return armloom::text_of(v.x()) + " " + armloom::text_of(v.y()) + " " + armloom::text_of(v.z());
+std::string text_of_vector(const Eigen::Vector3d& v) {
+  return text_of(v.x()) + " " + text_of(v.y()) + " " + text_of(v.z());
 }
 
 // Fixed-axis roll, pitch, yaw; where only their sum is known, yaw is 0.
@@ -87,8 +89,9 @@ void fix_in_text(const TreeLink& link, tinyxml2::XMLElement& joint) {
     while (auto* element = joint.FirstChildElement(child)) joint.DeleteChild(element);
   }
   auto* origin = joint.GetDocument()->NewElement("origin");
-  origin->SetAttribute("xyz", text_of(Eigen::Vector3d(link.X_PJ.translation())).c_str());
-  origin->SetAttribute("rpy", text_of(rpy_of(link.X_PJ.linear())).c_str());
+  origin->SetAttribute("xyz",
+                       text_of_vector(Eigen::Vector3d(link.joint.X_PJ.translation())).c_str());
+  origin->SetAttribute("rpy", text_of_vector(rpy_of(link.joint.X_PJ.linear())).c_str());
   joint.InsertFirstChild(origin);
 }
 
@@ -101,7 +104,7 @@ void fix_in_text(RobotTree& tree) {
        joint = joint->NextSiblingElement("joint")) {
     const char* name = joint->Attribute("name");
     const auto found = tree.by_joint.find(name == nullptr ? "" : name);
-    if (found != tree.by_joint.end() && tree.links[found->second].held)
+    if (found != tree.by_joint.end() && tree.links[found->second].joint.held)
       fix_in_text(tree.links[found->second], *joint);
   }
   tinyxml2::XMLPrinter printer;
@@ -113,10 +116,11 @@ void fix_in_text(RobotTree& tree) {
 std::optional<double> value_held_at(const TreeLink& link, std::size_t index,
                                     const std::map<std::size_t, double>& held) {
   // Whatever it follows moves, it does not.
-  if (link.mimic && link.mimic->multiplier == 0.0) return link.mimic->offset;
-  const auto own = held.find(link.mimic ? link.mimic->driver : index);
+  if (link.joint.mimic && link.joint.mimic->multiplier == 0.0) return link.joint.mimic->offset;
+  const auto own = held.find(link.joint.mimic ? link.joint.mimic->driver : index);
   if (own == held.end()) return std::nullopt;
-  return link.mimic ? link.mimic->multiplier * own->second + link.mimic->offset : own->second;
+  return link.joint.mimic ? link.joint.mimic->multiplier * own->second + link.joint.mimic->offset
+                          : own->second;
 }
 
 }  // namespace
@@ -132,7 +136,7 @@ void hold_joints(const std::map<std::string, double>& fixed, const std::string& 
   bool any = false;
   for (std::size_t i = 0; i < tree.links.size(); ++i) {
     TreeLink& link = tree.links[i];
-    if (!link.motion) continue;
+    if (!link.joint.motion) continue;
     const std::optional<double> value = value_held_at(link, i, held);
     if (!value) continue;
     hold(link, *value);

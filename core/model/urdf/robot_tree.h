@@ -24,33 +24,37 @@ struct UrdfLimits {
 
 // One robot as its URDF describes it: plain data between the reader and the cell. Names are without
 // prefix. A joint is known by the index of the link that it moves.
-struct TreeLink {
+struct TreeJoint {
   struct Mimic {
     std::size_t driver;  // link whose joint is followed; that joint is movable and no mimic itself
     double multiplier;
     double offset;
   };
 
-  std::string name;
-  std::optional<std::size_t> parent;  // smaller than the own index; none: root
-  std::string joint;                  // name of the joint above; empty for the root
-  std::optional<JointKind> motion;    // none: fixed, or root
-  bool many_values = false;           // of a floating or planar joint: fixed at its origin
+  std::string name;                 // empty: of the root
+  std::optional<JointKind> motion;  // none: fixed, or of the root
+  bool many_values = false;         // floating or planar: fixed at its origin
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // unit
   std::optional<Mimic> mimic;
   UrdfLimits limits;
   // By the cell file's "fixed", or as a mimic of multiplier 0: rad or m, which X_PJ then contains.
   std::optional<double> held;
+  int line = 0;  // in the file
+
+  // With a value of its own: it becomes a Joint of the cell.
+  [[nodiscard]] bool is_independent() const { return motion.has_value() && !mimic.has_value(); }
+};
+struct TreeLink {
+  std::string name;
+  std::optional<std::size_t> parent;  // smaller than the own index; none: root
+  TreeJoint joint;                    // the one above
   std::vector<PlacedShape> shapes;
   bool seen = false;   // it has a <visual>
   bool solid = false;  // it has a <collision>, which may be faulty
   int line = 0;        // in the file
-  int line_of_joint = 0;
 
-  // A joint with a value of its own: it becomes a Joint of the cell.
-  [[nodiscard]] bool is_independent() const { return motion.has_value() && !mimic.has_value(); }
-  [[nodiscard]] bool is_rigid() const { return !motion.has_value(); }  // to its parent
+  [[nodiscard]] bool is_rigid() const { return !joint.motion.has_value(); }  // to its parent
 };
 
 struct RobotTree {
@@ -71,7 +75,7 @@ struct RobotTree {
     return file + ":" + std::to_string(link.line) + ": link " + link.name;
   }
   [[nodiscard]] std::string place_of_joint(const TreeLink& link) const {
-    return file + ":" + std::to_string(link.line_of_joint) + ": joint " + link.joint;
+    return file + ":" + std::to_string(link.joint.line) + ": joint " + link.joint.name;
   }
 };
 

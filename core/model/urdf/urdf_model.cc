@@ -75,28 +75,28 @@ Shape shape_of(const urdf::Geometry& geometry, const UrdfNotes& notes) {
   return Mesh{notes.meshes.at(mesh.filename), vector_of(mesh.scale)};
 }
 
-void take_joint(const urdf::Joint& joint, UrdfNotes::Joint notes, TreeLink& link) {
-  link.joint = joint.name;
-  link.X_PJ = pose_of(joint.parent_to_joint_origin_transform);
-  link.many_values = notes.many_values;
+void take_joint(const urdf::Joint& joint, UrdfNotes::Joint notes, TreeJoint& taken) {
+  taken.name = joint.name;
+  taken.X_PJ = pose_of(joint.parent_to_joint_origin_transform);
+  taken.many_values = notes.many_values;
   if (joint.type == urdf::Joint::FIXED) return;
-  link.motion = joint.type == urdf::Joint::PRISMATIC    ? JointKind::prismatic
+  taken.motion = joint.type == urdf::Joint::PRISMATIC    ? JointKind::prismatic
                 : joint.type == urdf::Joint::CONTINUOUS ? JointKind::continuous
                                                         : JointKind::revolute;
-  link.axis = vector_of(joint.axis).normalized();
-  if (notes.lower) link.limits.lower = joint.limits->lower;
-  if (notes.upper) link.limits.upper = joint.limits->upper;
-  if (notes.velocity) link.limits.velocity = joint.limits->velocity;
-  link.limits.faults = std::move(notes.faults);
+  taken.axis = vector_of(joint.axis).normalized();
+  if (notes.lower) taken.limits.lower = joint.limits->lower;
+  if (notes.upper) taken.limits.upper = joint.limits->upper;
+  if (notes.velocity) taken.limits.velocity = joint.limits->velocity;
+  taken.limits.faults = std::move(notes.faults);
 }
 
 // Through all the mimics that it follows, which do not go in a ring (urdf_check.h).
-TreeLink::Mimic mimic_of(const urdf::Joint& joint, const urdf::ModelInterface& model,
+TreeJoint::Mimic mimic_of(const urdf::Joint& joint, const urdf::ModelInterface& model,
                          const RobotTree& tree) {
   const urdf::JointMimic& own = *joint.mimic;
   const urdf::Joint& followed = *model.joints_.at(own.joint_name);
   if (!followed.mimic) return {tree.by_joint.at(own.joint_name), own.multiplier, own.offset};
-  const TreeLink::Mimic far = mimic_of(followed, model, tree);
+  const TreeJoint::Mimic far = mimic_of(followed, model, tree);
   return {far.driver, own.multiplier * far.multiplier, own.multiplier * far.offset + own.offset};
 }
 
@@ -117,8 +117,8 @@ RobotTree tree_of(const urdf::ModelInterface& model, UrdfNotes notes) {
       link.parent = parent;
       const urdf::Joint* joint = source->parent_joint.get();
       if (joint != nullptr && !notes.made.contains(joint->name)) {
-        take_joint(*joint, std::move(notes.joints.at(joint->name)), link);
-        link.line_of_joint = notes.lines.at("joint").at(joint->name);
+        take_joint(*joint, std::move(notes.joints.at(joint->name)), link.joint);
+        link.joint.line = notes.lines.at("joint").at(joint->name);
         tree.by_joint.emplace(joint->name, *index);
       }
       for (const auto& collision : source->collision_array)
@@ -135,7 +135,7 @@ RobotTree tree_of(const urdf::ModelInterface& model, UrdfNotes notes) {
       open.emplace_back(child->get(), index);
   }
   for (const auto& [name, joint] : model.joints_) {
-    if (joint->mimic) tree.links[tree.by_joint.at(name)].mimic = mimic_of(*joint, model, tree);
+    if (joint->mimic) tree.links[tree.by_joint.at(name)].joint.mimic = mimic_of(*joint, model, tree);
   }
   return tree;
 }

@@ -50,10 +50,10 @@ std::optional<YieldTrial> untried(const State& state, const Record& record, ArmI
     return std::nullopt;
   }
   if (!state.jobs.is_active(record.errand.on_behalf_of)) return std::nullopt;
-  static const YieldsTried kNone;
+  static const YieldsTried kUntried;
   const auto tried_for = [arm](const Record& job) -> const YieldsTried& {
     const auto found = job.yields.find(arm);
-    return found == job.yields.end() ? kNone : found->second;
+    return found == job.yields.end() ? kUntried : found->second;
   };
   const YieldsTried& tried = tried_for(record);
   const YieldsTried& of_all = tried_for(state.jobs.at(record.errand.on_behalf_of));
