@@ -159,12 +159,22 @@ JobWaysView ways_of(const Job& job, const Cell& cell, const JobNames& names) {
   return ways;
 }
 
-// `view`: its waits and its ring, as they are told.
-JobResultView result_of(const Job& job, const JobView& view, const Cell& cell) {
+std::vector<std::string> ring_of(const Job& job, const JobNames& names) {
+  std::vector<std::string> ring;
+  for (JobId on_it : job.ring) {
+    const std::string key = names.key(on_it);
+    ring.push_back(key.empty() ? "this job" : key);  // that is only asked about
+  }
+  return ring;
+}
+
+// Of one that has ended. `waits`: as they are told.
+JobResultView result_of(const Job& job, const std::vector<WaitView>& waits, const Cell& cell,
+                        const JobNames& names) {
   JobResultView result{*job.reason(), job.detail()};
-  if (result.reason == Reason::deadlock) result.detail = deadlock_text(view.ring, cell);
+  if (result.reason == Reason::deadlock) result.detail = deadlock_text(ring_of(job, names), cell);
   if (result.reason != Reason::backlog_timeout) return result;
-  for (const WaitView& wait : view.waits_on) {
+  for (const WaitView& wait : waits) {
     if (wait.kind != Wait::Kind::arm && wait.kind != Wait::Kind::object) continue;
     if (result.detail.find(wait.detail) == result.detail.npos) result.detail += "; " + wait.detail;
   }
@@ -187,8 +197,8 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   for (const Wait& wait : job.waits_on) {
     view.waits_on.push_back(view_of(wait, cell, names, in_vain));
   }
-  for (JobId on_it : job.ring) view.ring.push_back(names.key(on_it));
-  if (job.reason()) view.result = result_of(job, view, cell);
+  view.ring = ring_of(job, names);
+  if (job.reason()) view.result = result_of(job, view.waits_on, cell, names);
   return view;
 }
 
@@ -213,7 +223,6 @@ CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobName
   if (outcome.approach) view.approach_s = to_seconds(*outcome.approach);
   const Job& job = outcome.job;
   if (job.goal && job.choice) view.choice = view_of(job, *job.choice, cell, names);
-  if (const auto reason = job.reason()) view.result = JobResultView{*reason, job.detail()};
   if (outcome.starts_in) view.earliest_start_s = to_seconds(*outcome.starts_in);
   if (outcome.clearance_bound) {
     view.clearance_bound_m = outcome.clearance_bound->apart_m;
@@ -222,6 +231,7 @@ CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobName
   view.evaluations = outcome.evaluations;
   for (const Wait& wait : outcome.waits) view.waits_on.push_back(view_of(wait, cell, names));
   if (view.kind != Verdict::Kind::free) view.conflicts = view.waits_on;
+  if (job.has_ended()) view.result = result_of(job, view.waits_on, cell, names);
   return view;
 }
 

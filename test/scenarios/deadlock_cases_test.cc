@@ -40,6 +40,20 @@ TEST_P(T10, ASwapOfTwoGoalsIsNamedAtOnceAndTheLastJobGivesWay) {
   EXPECT_EQ(cell.job("one").state, JobState::expired) << "nothing ever moved arm b away";
 }
 
+TEST_P(T10, ACheckSaysWhichRingTheJobWouldCloseAndHowItWouldEnd) {
+  Crossing cell(polygon(2), GetParam());
+  cell.submit(slide("a", -1, 1, 4, "one"));
+  cell.run_until(at(100ms));
+  std::optional<CheckView> said;
+  cell.simulation->executive().check(slide("b", -1, 1, 4, "two"),
+                                     [&](Result<CheckView> answer) { said = answer.value(); });
+  while (!said && cell.simulation->now() < at(5s)) cell.simulation->tick();
+  ASSERT_TRUE(said && said->result);
+  EXPECT_EQ(said->result->reason, Reason::deadlock);
+  EXPECT_EQ(said->result->detail.rfind("this job -> one -> this job: none of them can move", 0), 0U)
+      << said->result->detail;
+}
+
 TEST_P(T10, ARingOfThreeIsNamedAtOnceAndOpensWhenOneArmMovesAway) {
   Crossing cell(polygon(3), GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));
