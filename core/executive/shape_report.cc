@@ -17,12 +17,12 @@ Result<std::vector<ShapeReport>> report_shapes(CellPtr cell) {
     if (i > 0 && i < bodies.links_end && part.link == bodies.bodies[i - 1].link) {
       ShapeReport& link = report.back();
       link.convex_shapes += part.shapes_end - part.shapes_begin;
-      link.capsules += part.capsules.size();
-      link.excess_m = std::max(link.excess_m, part.capsule_overestimate_m);
+      link.capsules += part.fitted.capsules.size();
+      link.excess_m = std::max(link.excess_m, part.fitted.overestimate_m);
       continue;
     }
-    report.push_back({part.name, part.shapes_end - part.shapes_begin, part.capsules.size(),
-                      part.capsule_overestimate_m});
+    report.push_back({part.name, part.shapes_end - part.shapes_begin, part.fitted.capsules.size(),
+                      part.fitted.overestimate_m});
   }
   return report;
 }

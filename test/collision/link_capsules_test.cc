@@ -242,15 +242,15 @@ TEST(LinkCapsules, OfThePandasStandOffAFewCentimetres) {
   const PlanningScene::Bodies& bodies = (*scene)->bodies();
   for (std::size_t i = 0; i < bodies.links_end; ++i) {
     const CollisionBody& part = bodies.bodies[i];
-    ASSERT_FALSE(part.capsules.empty()) << part.name;
+    ASSERT_FALSE(part.fitted.capsules.empty()) << part.name;
     for (std::size_t b = part.shapes_begin; b < part.shapes_end; ++b) {
-      EXPECT_TRUE(std::any_of(part.capsules.begin(), part.capsules.end(), [&](const auto& c) {
-        return contains(c, bodies.shapes[b]);
-      })) << part.name;
+      EXPECT_TRUE(std::any_of(part.fitted.capsules.begin(), part.fitted.capsules.end(),
+                              [&](const auto& c) { return contains(c, bodies.shapes[b]); }))
+          << part.name;
     }
-    RecordProperty(part.name, std::to_string(part.capsules.size()) + " capsules, " +
-                                  std::to_string(part.capsule_overestimate_m) + " m");
-    EXPECT_LE(part.capsule_overestimate_m, 0.05) << part.name;
+    RecordProperty(part.name, std::to_string(part.fitted.capsules.size()) + " capsules, " +
+                                  std::to_string(part.fitted.overestimate_m) + " m");
+    EXPECT_LE(part.fitted.overestimate_m, 0.05) << part.name;
   }
 }
 

@@ -75,7 +75,8 @@ struct InNotch {
   }
   Configuration q(double angle) const { return Configuration::Constant(1, angle); }
   std::optional<Proximity> closer(double angle) {
-    return small::ScaledQuery(scene).first_closer_than(q(angle), cell.clearances.clearance_m, {true});
+    return small::ScaledQuery(scene).first_closer_than(q(angle), cell.clearances.clearance_m,
+                                                       {true});
   }
   Verdict sweep() {
     Question question;
@@ -167,7 +168,7 @@ TEST(Surface, FindsAnArmInsideOfTheBody) {
 TEST(Surface, SaysHowFarCapsulesStandOffIt) {
   const InNotch passes(0.012);
   const CollisionBody& body = passes.scene->bodies().bodies[1];
-  EXPECT_GT(body.capsule_overestimate_m, 0.05);  // the notch is part of that
+  EXPECT_GT(body.fitted.overestimate_m, 0.05);  // the notch is part of that
 }
 
 }  // namespace

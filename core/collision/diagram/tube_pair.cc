@@ -153,8 +153,8 @@ std::vector<TubePair::Undecided>& TubePair::undecided(std::size_t lane) {
   const auto add = [&](int entry, bool box, double distance_m, double moves_a_m, double moves_m) {
     const NarrowPair& pair = narrow(entry, box);
     const BodyPair& bodies = setting_.bodies->pairs[pair.pair.index()];
-    const double slack_m = setting_.bodies->bodies[bodies.a].capsule_overestimate_m +
-                           setting_.bodies->bodies[bodies.b].capsule_overestimate_m;
+    const double slack_m = setting_.bodies->bodies[bodies.a].fitted.overestimate_m +
+                           setting_.bodies->bodies[bodies.b].fitted.overestimate_m;
     s.undecided.push_back(
         {entry, box, distance_m, moves_a_m, moves_m - moves_a_m, pair.limit_m, slack_m});
   };

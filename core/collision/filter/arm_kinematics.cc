@@ -122,7 +122,7 @@ void ArmKinematics::add_body(const PlanningScene::Bodies& bodies, std::size_t in
                       .X_FP = body.held() ? carried.X_FL * body.X_CP : carried.X_FL,
                       .capsules_begin = static_cast<int>(capsules_.size()),
                       .capsules_end = 0};
-  for (const LinkCapsule& capsule : body.capsules) {
+  for (const LinkCapsule& capsule : body.fitted.capsules) {
     filter::Capsule c = kernel_capsule(added.X_FP, capsule.p_PA, capsule.p_PB, capsule.radius_m);
     c.frame = carried.frame;
     capsules_.push_back(c);

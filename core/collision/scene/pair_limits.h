@@ -14,7 +14,8 @@ struct PairLimits {
   double mount_clearance_m = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] static PairLimits of(const Cell& cell) {
-    return {cell.clearances.clearance_m, cell.clearances.self_clearance_m, cell.clearances.mount_limit_m()};
+    return {cell.clearances.clearance_m, cell.clearances.self_clearance_m,
+            cell.clearances.mount_limit_m()};
   }
   // Where `clearance_m` takes the place of the cell's, an arm keeps the same shares of it from
   // itself and its mount as in the cell.

@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/collision/scene/link_capsules.h"
 #include "core/collision/scene/scene_bodies.h"
 #include "core/collision/scene/scene_problems.h"
 
@@ -38,9 +37,7 @@ void add_body(PlanningScene::Bodies& scene, CollisionBody body,
   body.shapes_begin = scene.shapes.size();
   std::vector<ConvexShape> convex = make_convex_shapes(shapes);
   body.has_pieces = std::ranges::any_of(convex, &ConvexShape::is_piece);
-  LinkCapsules fitted = fit_capsules(convex);
-  body.capsules = std::move(fitted.capsules);
-  body.capsule_overestimate_m = fitted.overestimate_m;
+  body.fitted = fit_capsules(convex);
   scene.shapes.insert(scene.shapes.end(), std::make_move_iterator(convex.begin()),
                       std::make_move_iterator(convex.end()));
   body.shapes_end = scene.shapes.size();

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "core/base/ids.h"
+#include "core/collision/scene/link_capsules.h"
 #include "core/collision/scene/pair_limits.h"
 #include "core/collision/scene/planning_scene.h"
 #include "core/coordination/proximity.h"
 #include "core/coordination/verdict.h"
-#include "core/geometry/capsule/capsule_fit.h"
 #include "core/geometry/convex/convex_shape.h"
 #include "core/model/attachment.h"
 #include "core/model/cell.h"
@@ -40,8 +40,7 @@ struct CollisionBody {
   } sphere = {};
   bool has_pieces = false;  // of a closed mesh, among its shapes
   bool lone_box = false;    // its only shape is a box: a sphere says little about a table
-  std::vector<LinkCapsule> capsules;  // one or two, in P; each shape lies in one (link_capsules.h)
-  double capsule_overestimate_m = 0.0;  // how far they stand off the shapes
+  LinkCapsules fitted;      // in P
 
   [[nodiscard]] bool held() const { return carrier && !link; }
   // `X_WL`: of all links.
