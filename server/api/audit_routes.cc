@@ -19,7 +19,7 @@ struct AuditQuery {
 };
 
 template <class Number>
-bool read_number(const std::string& text, Number& number) {
+bool read_whole(const std::string& text, Number& number) {
   const char* end = text.data() + text.size();
   const auto [stop, ec] = std::from_chars(text.data(), end, number);
   return ec == std::errc{} && stop == end;
@@ -28,13 +28,13 @@ bool read_number(const std::string& text, Number& number) {
 Result<AuditQuery> read_query(const Target& target) {
   AuditQuery query;
   if (const auto limit = target.parameter("limit")) {
-    if (!read_number(*limit, query.limit) || query.limit < 1 || query.limit > kPageMax) {
+    if (!read_whole(*limit, query.limit) || query.limit < 1 || query.limit > kPageMax) {
       return failure(Problem{ProblemKind::invalid, "bad-parameter", "?limit",
                              "limit is an integer within 1..1000", *limit});
     }
   }
   if (const auto cursor = target.parameter("cursor")) {
-    if (!read_number(*cursor, query.before.emplace())) {
+    if (!read_whole(*cursor, query.before.emplace())) {
       return failure(Problem{ProblemKind::invalid, "bad-parameter", "?cursor",
                              "this is no cursor that the server gave", *cursor});
     }

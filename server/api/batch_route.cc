@@ -68,7 +68,7 @@ std::optional<Response> refused_by_store(const ApiParts& parts, Batch& batch) {
 }
 
 // All were accepted before.
-void answer_again(const ApiParts& parts, const KnownJobs& known, const Respond& respond) {
+void answer_known_batch(const ApiParts& parts, const KnownJobs& known, const Respond& respond) {
   look_at(parts, known, [&parts, respond](const Results& results) {
     std::vector<ListedJob> jobs;
     for (const Result<ListedJob>& result : results) {
@@ -153,7 +153,8 @@ void submit_batch(const ApiParts& parts, const std::shared_ptr<Batch>& batch,
   const KnownJobs& known = batch->known;
   const auto first = std::ranges::find_if(known, [](const auto& id) { return !id.empty(); });
   if (batch->request.atomic && first != known.end()) {
-    if (std::ranges::find(known, "") == known.end()) return answer_again(parts, known, respond);
+    if (std::ranges::find(known, "") == known.end())
+      return answer_known_batch(parts, known, respond);
     return respond(problem_response({partly_known(first - known.begin(), *first)}));
   }
   if (auto refused = refused_by_store(parts, *batch)) return respond(std::move(*refused));

@@ -20,7 +20,7 @@ bool known_state(const std::string& name) {
 }
 
 template <class Number>
-bool read_number(const std::string& text, Number lowest, Number highest, Number& out) {
+bool read_between(const std::string& text, Number lowest, Number highest, Number& out) {
   Number number{};
   const auto [stop, ec] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (ec != std::errc{} || stop != text.data() + text.size() || text.empty()) return false;
@@ -46,12 +46,12 @@ Result<JobFilter> read_job_filter(const Target& target, const Cell& cell) {
       filter.arm = value;
       if (!cell.find_arm(value)) refuse(name, value, "the cell has no arm \"" + value + "\"");
     } else if (name == "limit") {
-      if (!read_number<std::size_t>(value, 1, JobFilter::kLimitMax, filter.limit)) {
+      if (!read_between<std::size_t>(value, 1, JobFilter::kLimitMax, filter.limit)) {
         refuse(name, value, "limit is an integer within 1..1000, found \"" + value + "\"");
       }
     } else if (name == "cursor") {
       std::uint64_t before = 0;
-      if (read_number<std::uint64_t>(value, 0, ~std::uint64_t{0}, before)) {
+      if (read_between<std::uint64_t>(value, 0, ~std::uint64_t{0}, before)) {
         filter.before = before;
       } else {
         refuse(name, value, "this is no cursor that the server gave: \"" + value + "\"");

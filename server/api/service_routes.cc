@@ -9,7 +9,7 @@ namespace armloom {
 namespace {
 
 // One that is built in: `bytes` are made once.
-Response page(const Request& request, const char* content_type, const ServedBytes& bytes) {
+Response fresh(const Request& request, const char* content_type, const ServedBytes& bytes) {
   Response response = answer_bytes(request, bytes, content_type);
   response.headers.emplace_back("Cache-Control", "no-cache");
   return response;
@@ -50,29 +50,29 @@ void get_metrics(Call call) {
 
 void get_openapi(Call call) {
   static const ServedBytes bytes = served_text(openapi_text());
-  call.respond(page(call.request, "application/json", bytes));
+  call.respond(fresh(call.request, "application/json", bytes));
 }
 
 void get_cell_schema(Call call) {
   static const ServedBytes bytes = served_text(cell_schema_text());
-  call.respond(page(call.request, "application/schema+json", bytes));
+  call.respond(fresh(call.request, "application/schema+json", bytes));
 }
 
 void get_docs(Call call) {
   static const ServedBytes bytes = served_text(docs_html());
-  Response response = page(call.request, "text/html; charset=utf-8", bytes);
+  Response response = fresh(call.request, "text/html; charset=utf-8", bytes);
   response.headers.emplace_back("Content-Security-Policy", std::string(kPagePolicy));
   call.respond(std::move(response));
 }
 
 void get_docs_style(Call call) {
   static const ServedBytes bytes = served_text(docs_css());
-  call.respond(page(call.request, "text/css; charset=utf-8", bytes));
+  call.respond(fresh(call.request, "text/css; charset=utf-8", bytes));
 }
 
 void get_docs_script(Call call) {
   static const ServedBytes bytes = served_text(docs_js());
-  call.respond(page(call.request, "text/javascript; charset=utf-8", bytes));
+  call.respond(fresh(call.request, "text/javascript; charset=utf-8", bytes));
 }
 
 Route of_server(const char* path, const char* id, const char* summary, Outcome outcome,

@@ -57,7 +57,7 @@ void log_out(Call call) {
   call.respond(std::move(response));
 }
 
-Response page(const Request& request, const char* content_type, const ServedBytes& bytes) {
+Response login_page(const Request& request, const char* content_type, const ServedBytes& bytes) {
   Response response = answer_bytes(request, bytes, content_type);
   response.headers.emplace_back("Cache-Control", "no-cache");
   response.headers.emplace_back("Content-Security-Policy", std::string(kPagePolicy));
@@ -66,12 +66,12 @@ Response page(const Request& request, const char* content_type, const ServedByte
 
 void get_login(Call call) {
   static const ServedBytes bytes = served(std::string(login_html()), true);
-  call.respond(page(call.request, "text/html; charset=utf-8", bytes));
+  call.respond(login_page(call.request, "text/html; charset=utf-8", bytes));
 }
 
 void get_login_script(Call call) {
   static const ServedBytes bytes = served(std::string(login_js()), true);
-  call.respond(page(call.request, "text/javascript; charset=utf-8", bytes));
+  call.respond(login_page(call.request, "text/javascript; charset=utf-8", bytes));
 }
 
 Route of_session(const char* method, const char* path, const char* id, const char* summary,

@@ -20,7 +20,7 @@ std::optional<Response> refused_by_store(const ApiParts& parts, JobRequest& job)
 }
 
 // It was accepted before: as it is now.
-void answer_again(const ApiParts& parts, const KnownJobs& known, const Respond& respond) {
+void answer_known_job(const ApiParts& parts, const KnownJobs& known, const Respond& respond) {
   look_at(parts, known, [&parts, known, respond](const std::vector<Result<ListedJob>>& jobs) {
     if (!jobs.front()) return respond(problem_response(jobs.front().error()));
     respond(located(answer(200, listed_job_format(), *jobs.front(), &parts.clock),
@@ -60,7 +60,7 @@ void post_job(Call call) {
     const auto job = std::make_shared<JobRequest>(std::move(read.request));
     recall(parts, sent, respond,
            [&parts, sent, job, body](const KnownJobs& known, const Respond& ending) {
-             if (!known.front().empty()) return answer_again(parts, known, ending);
+             if (!known.front().empty()) return answer_known_job(parts, known, ending);
              submit_job(parts, sent, std::move(*job), body, ending);
            });
   };

@@ -14,8 +14,8 @@ using namespace formats;
 namespace {
 
 constexpr Range kHeld{-1000.0, 1000.0};  // rad or m
-constexpr Range kTime{0.0, 1e6};         // s
-constexpr Range kZeroToOne{0.0, 1.0};
+constexpr Range kLag{0.0, 1e6};          // s
+constexpr Range kNoise{0.0, 1.0};
 
 struct LimitText {
   std::string name;   // without its unit
@@ -135,9 +135,9 @@ FormatPtr<ControllerDescription> controller_format() {
   using Controller = ControllerDescription;
   return object<Controller>({
       field("type", &Controller::type, one_of({"sim"}), "What moves the arms: simulated ones."),
-      field("lag_s", &Controller::lag, seconds(kTime),
+      field("lag_s", &Controller::lag, seconds(kLag),
             "How far a measured position is behind the commanded one, along the path."),
-      field("noise_rad", &Controller::noise_rad, number(kZeroToOne),
+      field("noise_rad", &Controller::noise_rad, number(kNoise),
             "Standard deviation of measured positions."),
   });
 }

@@ -19,7 +19,8 @@ constexpr double kHead = 64.0;
 
 const char* colour_of(std::size_t arm) { return kColours[arm % std::size(kColours)]; }
 
-std::string text_of(const char* format, double a, double b = 0.0, double c = 0.0, double d = 0.0) {
+std::string formatted(const char* format, double a, double b = 0.0, double c = 0.0,
+                      double d = 0.0) {
   char text[256];
   std::snprintf(text, sizeof text, format, a, b, c, d);
   return text;
@@ -36,10 +37,10 @@ class View {
 
   void draw(std::string& svg) const {
     const char* title = up_ == 1 ? "from above" : "from the side";
-    svg += text_of("<text x=\"%.1f\" y=\"%.1f\" font-weight=\"bold\">", left_, kHead - 12) + title +
-           "</text>\n";
-    svg += text_of("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" ", left_, kHead,
-                   width(), height()) +
+    svg += formatted("<text x=\"%.1f\" y=\"%.1f\" font-weight=\"bold\">", left_, kHead - 12) +
+           title + "</text>\n";
+    svg += formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" ", left_, kHead,
+                     width(), height()) +
            "fill=\"none\" stroke=\"#999\"/>\n";
     for (std::size_t arm = 0; arm < reach_.arms.size(); ++arm) draw_arm(svg, arm);
     draw_shared(svg);
@@ -75,8 +76,8 @@ class View {
     const auto nx = static_cast<std::size_t>(grid_.count[0]);
     const double x = left_ + size * static_cast<double>(column % nx);
     const double y = kHead + height() - size * static_cast<double>(column / nx + 1);
-    return text_of("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" ", x + inset,
-                   y + inset, size - 2 * inset, size - 2 * inset);
+    return formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" ", x + inset,
+                     y + inset, size - 2 * inset, size - 2 * inset);
   }
 
   void draw_arm(std::string& svg, std::size_t arm) const {
@@ -87,7 +88,7 @@ class View {
     for (std::size_t c = 0; c < columns(); ++c) {
       if (counts[c] == 0) continue;
       const double share = static_cast<double>(counts[c]) / most;
-      svg += square(c, 0.0) + text_of("fill-opacity=\"%.2f\"/>\n", 0.15 + 0.4 * share);
+      svg += square(c, 0.0) + formatted("fill-opacity=\"%.2f\"/>\n", 0.15 + 0.4 * share);
     }
     svg += "</g>\n";
   }
@@ -112,8 +113,8 @@ class View {
   }
   void draw_base(std::string& svg, std::size_t arm) const {
     const Eigen::Vector3d& base = reach_.arms[arm].base;
-    svg += text_of("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"6\" ", pixel_x(base.x()),
-                   pixel_up(base[static_cast<Eigen::Index>(up_)])) +
+    svg += formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"6\" ", pixel_x(base.x()),
+                     pixel_up(base[static_cast<Eigen::Index>(up_)])) +
            "fill=\"" + colour_of(arm) + "\" stroke=\"#fff\" stroke-width=\"2\"/>\n";
   }
   // Every half metre.
@@ -123,17 +124,17 @@ class View {
       return grid_.first[static_cast<Eigen::Index>(axis)] + grid_.step_m * (grid_.count[axis] - 1);
     };
     for (double x = std::ceil(2 * grid_.first[0]) / 2; x <= last(0) + 1e-9; x += 0.5) {
-      svg += text_of("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%.1f</text>\n", pixel_x(x),
-                     kHead + height() + 16, x + 0.0);
+      svg += formatted("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%.1f</text>\n",
+                       pixel_x(x), kHead + height() + 16, x + 0.0);
     }
     const double lowest = grid_.first[static_cast<Eigen::Index>(up_)];
     for (double u = std::ceil(2 * lowest) / 2; u <= last(up_) + 1e-9; u += 0.5) {
-      svg += text_of("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%.1f</text>\n", left_ - 6,
-                     pixel_up(u) + 4, u + 0.0);
+      svg += formatted("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%.1f</text>\n", left_ - 6,
+                       pixel_up(u) + 4, u + 0.0);
     }
-    svg += text_of("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">x, m</text>\n", left_ + width(),
-                   kHead + height() + 32);
-    svg += text_of("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">", left_ - 6, kHead - 4) +
+    svg += formatted("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">x, m</text>\n",
+                     left_ + width(), kHead + height() + 32);
+    svg += formatted("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">", left_ - 6, kHead - 4) +
            (up_ == 1 ? "y, m" : "z, m") + "</text>\n</g>\n";
   }
 
@@ -151,7 +152,7 @@ std::string reach_picture(const ToolReach& reach, const Cell& cell) {
   const View side(reach, 2, kMargin + above.width() + kGap);
   const double width = std::max(kMargin + above.width() + kGap + side.width() + 16, 480.0);
   const double height = kHead + std::max(above.height(), side.height()) + 44;
-  std::string svg = text_of(
+  std::string svg = formatted(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" "
       "height=\"%.0f\" font-family=\"sans-serif\" font-size=\"12\">\n",
       width, height);
@@ -159,12 +160,12 @@ std::string reach_picture(const ToolReach& reach, const Cell& cell) {
   double x = kMargin;
   for (std::size_t arm = 0; arm < reach.arms.size(); ++arm) {
     const std::string& name = cell.arm(reach.arms[arm].arm).name;
-    svg += text_of("<circle cx=\"%.1f\" cy=\"20\" r=\"6\" fill=\"", x + 6) + colour_of(arm) +
-           "\"/>\n" + text_of("<text x=\"%.1f\" y=\"24\">", x + 18) + xml_escaped(name) +
+    svg += formatted("<circle cx=\"%.1f\" cy=\"20\" r=\"6\" fill=\"", x + 6) + colour_of(arm) +
+           "\"/>\n" + formatted("<text x=\"%.1f\" y=\"24\">", x + 18) + xml_escaped(name) +
            "</text>\n";
     x += 34 + 8.0 * static_cast<double>(name.size());
   }
-  svg += text_of(
+  svg += formatted(
       "<rect x=\"%.1f\" y=\"14\" width=\"12\" height=\"12\" fill=\"none\" "
       "stroke=\"#222\"/>\n<text x=\"%.1f\" y=\"24\">reached by several</text>\n",
       x, x + 18);

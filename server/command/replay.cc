@@ -56,9 +56,9 @@ std::vector<std::string> whole_lines(const fs::path& file) {
 }
 
 // Compares what is told with what was, event by event.
-class Comparison final : public Observer {
+class EventComparison final : public Observer {
  public:
-  Comparison(std::vector<std::string> recorded, const std::string& out)
+  EventComparison(std::vector<std::string> recorded, const std::string& out)
       : recorded_(std::move(recorded)) {
     if (out.empty()) return;
     fs::create_directories(out);
@@ -132,7 +132,7 @@ Result<Run> run(Replay& replay, const std::vector<std::string>& lines,
   return done;
 }
 
-int tell(const fs::path& folder, const Run& done, const Comparison& comparison) {
+int tell(const fs::path& folder, const Run& done, const EventComparison& comparison) {
   const auto& difference = comparison.difference();
   if (difference) {
     std::cerr << "armloom: recorded: " << difference->recorded << '\n'
@@ -161,7 +161,7 @@ int replay_recording(const ReplayOptions& options) {
   }
   const auto loaded = load_cell((*folder / "cell.json").string());
   if (!loaded) return kExitBadInput;
-  Comparison comparison(whole_lines(*folder / "events.jsonl"), options.out);
+  EventComparison comparison(whole_lines(*folder / "events.jsonl"), options.out);
   auto replay = Replay::begin(loaded->cell, lines.front(), comparison);
   if (!replay) return refuse((*folder / InputFile::kName).string(), replay.error());
   std::optional<TimePoint> until;

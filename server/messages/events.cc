@@ -19,7 +19,7 @@ using namespace formats;
 
 namespace {
 
-FormatPtr<MonitorEvent> monitor_format() {
+FormatPtr<MonitorEvent> monitor_event_format() {
   using Kind = MonitorFinding::Kind;
   using Told = MonitorEvent;
   const auto links = [](const Told& event) {
@@ -141,7 +141,7 @@ struct Kinds {
   EventKind<ArmView> arm = event_kind("arm", "ArmEvent", arm_format());
   EventKind<QueueView> queue = event_kind("queue", "QueueEvent", queue_ids_format());
   EventKind<SceneView> scene = event_kind("scene", "SceneEvent", scene_format());
-  EventKind<MonitorEvent> monitor = event_kind("monitor", "MonitorEvent", monitor_format());
+  EventKind<MonitorEvent> monitor = event_kind("monitor", "MonitorEvent", monitor_event_format());
   EventKind<Alert> alert = event_kind("alert", "AlertEvent", alert_format());
 
   template <class Each>

@@ -129,7 +129,7 @@ class KindsOwn final : public Part<FaultRequest> {
   }
 };
 
-FormatPtr<FaultRequest> make_request_format(Need time_needed) {
+FormatPtr<FaultRequest> make_fault_format(Need time_needed) {
   using Fault = FaultRequest;
   return object<Fault>({
       required("arm", &Fault::arm, text(), "Whose"),
@@ -149,7 +149,7 @@ FormatPtr<FaultRequest> fault_request_format() {
       "a share of its speed; late_start: each motion begins late; drop_feedback: what it told last "
       "is told again; fault: the controller gives up, once, from at_s on: in the motion that moves "
       "then, else as soon as the next one moves.",
-      make_request_format(Need::optional));
+      make_fault_format(Need::optional));
   return format;
 }
 
@@ -164,7 +164,7 @@ Result<std::vector<FaultRequest>> read_faults_text(std::string_view text, const 
   std::vector<FaultRequest> read;
   const JsonNode root(*file, "", faults);
   const ListSize size{.most = kFaultsFileMax, .noun = "faults"};
-  list(make_request_format(Need::required), size)->read(root, read);
+  list(make_fault_format(Need::required), size)->read(root, read);
   auto fault = read.begin();
   if (!read.empty()) {
     root.each([&](const JsonNode& node) {

@@ -29,7 +29,7 @@ FormatPtr<std::string> object_name_format() {
                         {"not", {{"enum", {".", ".."}}}}}});
 }
 
-FormatPtr<ObjectDescription> make_request_format(Need name) {
+FormatPtr<ObjectDescription> make_object_format(Need name) {
   return object<ObjectDescription>({
       member(
           {"name",
@@ -64,7 +64,7 @@ FormatPtr<ObjectDescription> object_request_format() {
   static const auto format =
       named("ObjectRequest",
             "As in the cell file; exactly one shape, no mesh over HTTP. Pose: default zero.",
-            make_request_format(Need::required));
+            make_object_format(Need::required));
   return format;
 }
 
@@ -72,7 +72,7 @@ FormatPtr<ObjectDescription> named_object_request_format() {
   static const auto format =
       named("NamedObjectRequest",
             "As ObjectRequest; the name stands in the path and may be repeated here.",
-            make_request_format(Need::optional));
+            make_object_format(Need::optional));
   return format;
 }
 

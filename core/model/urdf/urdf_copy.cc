@@ -11,12 +11,12 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr double kFar_m = 10.0;  // robots end before; millimetres read as metres do not
+constexpr double kRobotEnds_m = 10.0;  // robots end before; millimetres read as metres do not
 
 }  // namespace
 
 void warn_if_far(double length_m, const std::string& what, const XmlPlace& place) {
-  if (length_m <= kFar_m) return;
+  if (length_m <= kRobotEnds_m) return;
   place.warn("far-away",
              what + " is " + text_of(length_m) +
                  " m, hardly meant (millimetres?); what hangs there is checked that far away",

@@ -13,9 +13,7 @@
 namespace armloom {
 namespace {
 
-bool contains(const WaitCycle& ring, JobId job) {
-  return std::ranges::find(ring, job) != ring.end();
-}
+bool is_on(const WaitCycle& ring, JobId job) { return std::ranges::find(ring, job) != ring.end(); }
 
 // Orders alone make no ring: all follow one sequence. And only the first job of an arm is judged.
 bool one_is_in_the_way(const State& state) {
@@ -55,7 +53,7 @@ void untell(State& state, const WaitCycle& ring) {
 void resolve(State& state, const WaitCycle& ring) {
   for (JobId id : ring) {
     Record& record = state.jobs.at(id);
-    if (lets_another_pass(state.jobs, record) && contains(ring, *record.errand.lets_pass)) {
+    if (lets_another_pass(state.jobs, record) && is_on(ring, *record.errand.lets_pass)) {
       record.errand.lets_pass.reset();
       state.lanes.renew_later();
       return;
@@ -136,7 +134,7 @@ std::optional<YieldTrial> WaitCycles::next_yield(const State& state) const {
 
 void WaitCycles::has_opened(State& state, JobId before) {
   std::erase_if(named_, [&](const Named& named) {
-    const bool opened = contains(named.ring, before);
+    const bool opened = is_on(named.ring, before);
     if (opened) untell(state, named.ring);
     return opened;
   });
