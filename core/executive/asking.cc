@@ -28,7 +28,8 @@ Result<std::vector<PlanQuestion>> questions_of(const Cell& cell, const PlanInqui
   for (MotionGoal& goal : *goals) {
     goal.speed = inquiry.speed.value_or(goal.speed);
     const ArmId arm = goal.arm;
-    questions.push_back({.goal = std::move(goal), .at = at, .seed = inquiry.seed});
+    questions.push_back(
+        {.goal = std::move(goal), .at = at, .seed = inquiry.seed, .budget = inquiry.budget});
     if (!inquiry.from) continue;
     auto start = joints_of(cell, arm, *inquiry.from);
     if (!start) add_below("/start", std::move(start.error()), problems);
@@ -53,23 +54,57 @@ std::string why_another(const std::optional<double>& arrives, const PlanView& be
   return text;
 }
 
-// Of one arm its own; of several each one's, with the kind of the first.
-PlanRefusal refusal_of(const std::vector<std::pair<std::string, PlanRefusal>>& all) {
-  PlanRefusal refusal = all.front().second;
-  if (all.size() == 1) return refusal;
-  refusal.detail.clear();
-  refusal.evaluations = 0;
-  for (const auto& [arm, one] : all) {
-    refusal.detail += (refusal.detail.empty() ? "" : "; ") + arm + ": " + one.detail;
-    refusal.evaluations += one.evaluations;
+using RefusedArms = std::vector<std::pair<std::string, PlanRefusal>>;
+
+// Joints or a state as they were said; else the whole pose.
+void point_at(const std::string& place, const PlanGoal& said, RefusedInquiry& refused) {
+  if (said.named) {
+    refused.pointer = place + "/named";
+    refused.value = *said.named;
+  } else if (said.joints && refused.why.outside) {
+    refused.pointer = place + "/joints/" + std::to_string(refused.why.outside->joint);
+    refused.value = refused.why.outside->position;
+  } else {
+    refused.pointer = place + (said.joints ? "/joints" : "/pose");
   }
-  return refusal;
+}
+
+// What of the inquiry is at fault. Where the arm stands is nothing that it says.
+RefusedInquiry placed(const PlanInquiry& inquiry, const std::string& arm, PlanRefusal why) {
+  using Reason = PlanRefusal::Reason;
+  RefusedInquiry refused{std::move(why)};
+  if (refused.why.reason == Reason::not_found || refused.why.reason == Reason::cancelled) {
+    return refused;
+  }
+  if (!refused.why.is_of_start()) {
+    point_at("/to", inquiry.to, refused);
+  } else if (inquiry.from) {
+    point_at("/start", *inquiry.from, refused);
+  } else {
+    const auto which = std::ranges::find(inquiry.arms, arm) - inquiry.arms.begin();
+    refused.pointer = inquiry.arms.empty() ? "/arm" : "/arms/" + std::to_string(which);
+    refused.value = arm;
+  }
+  return refused;
+}
+
+// Of one arm its own; of several each one's, with the kind of the first.
+RefusedInquiry refusal_of(const PlanInquiry& inquiry, const RefusedArms& all) {
+  RefusedInquiry refused = placed(inquiry, all.front().first, all.front().second);
+  if (all.size() == 1) return refused;
+  refused.why.detail.clear();
+  refused.why.evaluations = 0;
+  for (const auto& [arm, one] : all) {
+    refused.why.detail += (refused.why.detail.empty() ? "" : "; ") + arm + ": " + one.detail;
+    refused.why.evaluations += one.evaluations;
+  }
+  return refused;
 }
 
 // What is known when each arm has been asked about.
-PlanOutcome first_of(std::vector<PlanView> plans,
-                     const std::vector<std::pair<std::string, PlanRefusal>>& refused) {
-  if (plans.empty()) return tl::unexpected(refusal_of(refused));
+PlanOutcome first_of(const PlanInquiry& inquiry, std::vector<PlanView> plans,
+                     const RefusedArms& refused) {
+  if (plans.empty()) return tl::unexpected(refusal_of(inquiry, refused));
   const auto when = [](const PlanView& plan) {
     return arrives_s(plan).value_or(std::numeric_limits<double>::infinity());
   };
@@ -135,12 +170,13 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
 }
 
 struct Executive::Impl::OpenInquiry {
+  PlanInquiry inquiry;
   std::vector<PlanQuestion> questions;
   std::shared_ptr<std::atomic<bool>> cancelled;
   std::function<void(Result<PlanOutcome>)> done;
   std::size_t next = 0;  // of the questions
   std::vector<PlanView> plans = {};
-  std::vector<std::pair<std::string, PlanRefusal>> refused = {};
+  RefusedArms refused = {};
 };
 
 void Executive::Impl::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
@@ -152,14 +188,14 @@ void Executive::Impl::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool
       if (arm != question.goal.arm && jobs_.has_job(arm)) question.may_move.push_back(arm);
     }
   }
-  plan_next(std::make_shared<OpenInquiry>(
-      OpenInquiry{*std::move(questions), std::move(cancelled), std::move(done)}));
+  plan_next(std::make_shared<OpenInquiry>(OpenInquiry{std::move(inquiry), *std::move(questions),
+                                                      std::move(cancelled), std::move(done)}));
 }
 
 // One arm after the other.
 void Executive::Impl::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
   if (inquiry->next == inquiry->questions.size()) {
-    return inquiry->done(first_of(std::move(inquiry->plans), inquiry->refused));
+    return inquiry->done(first_of(inquiry->inquiry, std::move(inquiry->plans), inquiry->refused));
   }
   PlanQuestion question = inquiry->questions[inquiry->next++];
   const std::string arm = cell_->arm(question.goal.arm).name;

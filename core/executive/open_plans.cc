@@ -1,15 +1,35 @@
 #include "core/executive/open_plans.h"
 
+#include <cstdio>
 #include <utility>
 
 namespace armloom {
+namespace {
+
+// Joint positions, as a goal takes them.
+std::string nearest_text(const PlanRefusal& refusal) {
+  if (!refusal.nearest) return "";
+  std::string text;
+  for (const double position : *refusal.nearest) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%s%.4f", text.empty() ? "" : ", ", position);
+    text += number;
+  }
+  return "; the nearest that was found: [" + text + "]";
+}
+
+}  // namespace
 
 PlanMade made_of(const PlanMotion& asked, PlanAnswer answer) {
   PlanMade made{.job = asked.job, .question = asked.number, .trajectory = nullptr};
   if (answer) {
     made.trajectory = answer->timed.trajectory;
   } else {
-    made.why = "no plan: " + answer.error().detail;
+    const PlanRefusal& refusal = answer.error();
+    made.why = "no plan: " + refusal.detail + nearest_text(refusal);
+    const bool is_at_start = refusal.reason == PlanRefusal::Reason::start_in_collision;
+    const bool no_job_moves_it = refusal.proximity && !refusal.proximity->arm_b;
+    if (is_at_start && no_job_moves_it) made.stands_in = refusal.proximity;
   }
   return made;
 }

@@ -38,7 +38,10 @@ struct PlanInquiry {
   std::optional<PlanGoal> from;  // absent: where the arm will be when what is admitted has run
   std::uint64_t seed = 1;
   std::optional<double> speed = {};  // MotionGoal::speed; absent: the cell's
+  std::optional<int> budget = {};    // PlanQuestion::budget, from 1 to kPlanBudgetMax
 };
+// More would keep a worker for minutes.
+inline constexpr int kPlanBudgetMax = 10 * static_cast<int>(PlanRequest::kDefaultBudget);
 
 // What became of an arm that could have gone there instead.
 struct OtherArm {
@@ -58,7 +61,13 @@ struct PlanView {
   Result<CheckView> verdict;
 };
 
-// The plan, or why there is none.
-using PlanOutcome = tl::expected<PlanView, PlanRefusal>;
+// Why there is none, and what of the inquiry is at fault: of several arms with the kind and place
+// of the first.
+struct RefusedInquiry {
+  PlanRefusal why;
+  std::string pointer = {};  // JSON pointer into it; empty: nothing that it says
+  decltype(Problem::value) value = {};
+};
+using PlanOutcome = tl::expected<PlanView, RefusedInquiry>;
 
 }  // namespace armloom

@@ -11,6 +11,7 @@
 #include "core/base/time.h"
 #include "core/coordination/motion.h"
 #include "core/coordination/plan_question.h"
+#include "core/coordination/proximity.h"
 #include "core/coordination/verdict.h"
 #include "core/jobs/job_terms.h"
 #include "core/trajectory/trajectory.h"
@@ -60,6 +61,8 @@ struct PlanMade {
   std::uint64_t question;
   TrajectoryPtr trajectory;  // from question.at to the goal; null: there is none
   std::string why = {};      // there is none: one sentence
+  // There is none because the arm stands too close to this, which no job moves.
+  std::optional<Proximity> stands_in = {};
 };
 // What a controller measured of a job's motion. Sent for every job in motion at every tick that
 // matters; `kind` says what has changed.

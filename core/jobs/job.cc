@@ -111,6 +111,18 @@ bool Job::pausing() const {
   return braking != nullptr && braking->paused;
 }
 
+const GoalWay* Job::stands_in() const {
+  if (!is_unplanned()) return nullptr;
+  const GoalWay* first = nullptr;
+  for (std::size_t k = 0; k < goal->ways.size(); ++k) {
+    const GoalWay& way = goal->ways[k];
+    if (!has_open_arm() && k != goal->taken) continue;
+    if (way.question || way.is_planned) return nullptr;
+    if (way.stands_in && first == nullptr) first = &way;
+  }
+  return first;
+}
+
 const Judgement& Job::judgement() const {
   const auto* held = in<Held>();
   return held != nullptr ? held->judgement : std::get<Queued>(phase).judgement;

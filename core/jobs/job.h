@@ -158,6 +158,7 @@ struct GoalWay {
   Configuration beside = {};                   // the last question: where all would stand, ...
   Version asked_at = 0;                        // ... and when it was asked
   std::optional<std::string> refusal = {};     // the answer to it, where there is no plan
+  std::optional<Proximity> stands_in = {};     // ... as the arm stands too close to this
 };
 // Another way to a goal, around the places that others hold (detour.h).
 struct Detour {
@@ -225,6 +226,9 @@ struct Job {
   [[nodiscard]] JobState state() const;
   // Its way has to be planned (again) before it can be judged.
   [[nodiscard]] bool is_unplanned() const { return goal && !goal->is_planned; }
+  // Nobody can say yet how it gets there, as its arm stands too close to something that no job
+  // moves: it waits for that as a trajectory would. Of several arms that of the first; null: none.
+  [[nodiscard]] const GoalWay* stands_in() const;
   // Where it leads is known, though perhaps not by which way: joints that one arm is to have.
   [[nodiscard]] bool knows_its_end() const {
     if (!is_unplanned()) return true;

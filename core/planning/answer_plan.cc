@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "core/planning/clear_places.h"
+#include "core/planning/nearest_free.h"
 #include "core/planning/pose_goal.h"
 #include "core/planning/tool_line.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
@@ -31,6 +33,22 @@ Goals joint_goals(const PlanningScenePtr& scene, const PlanQuestion& question) {
   const auto& target = std::get<LinkTarget>(goal.to);
   return reach_pose(scene->cell(), {goal.arm, target.link, target.X_WL}, question.at)
       .map([](std::vector<Eigen::VectorXd> q) { return JointGoals{std::move(q)}; });
+}
+
+// With the nearest joint positions that would do, where those that were asked for would not.
+PlanRefusal with_nearest(const PlanningScenePtr& scene, const PlanRequest& request,
+                         PlanRefusal refusal) {
+  using Reason = PlanRefusal::Reason;
+  const bool is_of_end = refusal.is_of_start() || refusal.reason == Reason::goal_in_collision ||
+                         refusal.reason == Reason::outside_limits;
+  if (refusal.nearest || !is_of_end) return refusal;
+  const Eigen::VectorXd wanted = refusal.is_of_start()
+                                     ? joints_of(request.at, scene->cell().arm(request.arm).joints)
+                                     : request.goals.front();
+  NearestFree nearest = nearest_free(scene, request, wanted);
+  refusal.nearest = std::move(nearest.q);
+  refusal.evaluations += nearest.evaluations;
+  return refusal;
 }
 
 // One try of each kind of goal.
@@ -78,7 +96,10 @@ PlanAnswer answer_plan(const PlanningScenePtr& scene, const PlanQuestion& questi
   std::optional<PlanRefusal> not_past;
   if (question.may_move.empty() || !question.has_no_way_past) {
     auto beside = with_spent(answer.to(request));
-    if (beside || question.may_move.empty()) return beside;
+    if (beside) return beside;
+    if (question.may_move.empty()) {
+      return tl::unexpected(with_nearest(scene, request, std::move(beside.error())));
+    }
     if (beside.error().reason == PlanRefusal::Reason::cancelled) return beside;
     spent = beside.error().evaluations;
     not_past = std::move(beside.error());
@@ -86,7 +107,8 @@ PlanAnswer answer_plan(const PlanningScenePtr& scene, const PlanQuestion& questi
   request.left_out = question.may_move;
   request.budget = budget;
   auto alone = with_spent(answer.to(request));
-  if (alone) alone->not_past = std::move(not_past);
+  if (!alone) return tl::unexpected(with_nearest(scene, request, std::move(alone.error())));
+  alone->not_past = std::move(not_past);
   return alone;
 }
 

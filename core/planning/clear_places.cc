@@ -1,33 +1,14 @@
 #include "core/planning/clear_places.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "core/collision/check/line_checker.h"
 #include "core/collision/check/motion_checker.h"
-#include "core/planning/halton.h"
+#include "core/planning/places_around.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
-
-// Beyond where it stands, of joints without limits.
-constexpr double kFarthest = std::numbers::pi;
-
-// The i-th of those that are looked at: in a box around where the arm stands that grows with i.
-Eigen::VectorXd place(const Cell& cell, const Arm& arm, const Eigen::VectorXd& stands, int i) {
-  const double reach = static_cast<double>(i) / kPlacesLookedAt;
-  Eigen::VectorXd q = halton(i, stands.size());
-  for (Eigen::Index j = 0; j < q.size(); ++j) {
-    const Joint& joint = cell.joint(arm.joints[static_cast<std::size_t>(j)]);
-    const bool ranged = std::isfinite(joint.lower) && std::isfinite(joint.upper);
-    const double far = ranged ? joint.upper - joint.lower : kFarthest;
-    q[j] = stands[j] + reach * far * (2.0 * q[j] - 1.0);
-    if (ranged) q[j] = std::clamp(q[j], joint.lower, joint.upper);
-  }
-  return q;
-}
 
 class Clearing {
  public:
@@ -80,7 +61,7 @@ tl::expected<ClearPlaces, PlanRefusal> places_clear_of(const PlanningScenePtr& s
   Clearing clearing(scene, way, at);
   std::vector<Eigen::VectorXd> found;
   for (int i = 1; i <= kPlacesLookedAt && found.size() < kClearPlacesMax; ++i) {
-    Eigen::VectorXd q = place(cell, arm, stands, i);
+    Eigen::VectorXd q = place_around(cell, arm, stands, i);
     if (clearing.is_clear(q)) found.push_back(std::move(q));
   }
   if (found.empty()) {

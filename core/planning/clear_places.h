@@ -4,6 +4,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "core/planning/places_around.h"
 #include "core/planning/planner.h"
 #include "core/trajectory/trajectory.h"
 
@@ -27,7 +28,6 @@ struct ClearPlaces {
 [[nodiscard]] tl::expected<ClearPlaces, PlanRefusal> places_clear_of(const PlanningScenePtr& scene,
                                                                      const InTheWay& way,
                                                                      const Configuration& at);
-inline constexpr int kPlacesLookedAt = 256;
 inline constexpr std::size_t kClearPlacesMax = 4;
 
 }  // namespace armloom

@@ -1,6 +1,7 @@
 #include "core/planning/plan_goal.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "core/base/add_below.h"
@@ -12,6 +13,12 @@ namespace {
 tl::unexpected<Problems> fault(const char* slug, std::string pointer, std::string detail,
                                const std::string& value) {
   return failure(Problem{ProblemKind::invalid, slug, std::move(pointer), std::move(detail), value});
+}
+
+std::string names_of_arms(const Cell& cell) {
+  std::string names;
+  for (const Arm& arm : cell.arms) names += (names.empty() ? "" : ", ") + arm.name;
+  return names;
 }
 
 Result<Eigen::VectorXd> named_state(const Arm& arm, const std::string& name) {
@@ -29,12 +36,34 @@ Result<Eigen::VectorXd> named_state(const Arm& arm, const std::string& name) {
                name);
 }
 
+// "left_link1, left_link2".
+std::string links_of(const Cell& cell, const Arm& arm) {
+  std::string links;
+  for (const LinkId link : arm.links) links += (links.empty() ? "" : ", ") + cell.link(link).name;
+  return links;
+}
+
+// With the robot's prefix and without.
+std::map<std::string, LinkId> names_of_links(const Cell& cell, const Arm& arm) {
+  std::map<std::string, LinkId> names;
+  for (const LinkId link : arm.links) {
+    const std::string& name = cell.link(link).name;
+    names.emplace(name, link);
+    names.emplace(name.substr(cell.robots[arm.robot.index()].prefix.size()), link);
+  }
+  return names;
+}
+
 Result<LinkTarget> target_of(const Cell& cell, const Arm& arm, const PlanPose& pose) {
   if (pose.link) {
     if (const auto link = cell.find_link(*pose.link)) return LinkTarget{*link, pose.X_WL};
     const auto own = cell.find_link(cell.robots[arm.robot.index()].prefix + *pose.link);
     if (own) return LinkTarget{*own, pose.X_WL};
-    return fault("unknown-link", "/pose/link", "the cell has no link " + *pose.link, *pose.link);
+    return fault("unknown-link", "/pose/link",
+                 "the cell has no link " + *pose.link +
+                     did_you_mean(*pose.link, names_of_links(cell, arm)) + "; arm " + arm.name +
+                     " moves " + links_of(cell, arm),
+                 *pose.link);
   }
   const auto last = std::ranges::find_if(
       arm.links, [&](LinkId id) { return cell.link(id).driver == arm.joints.back(); });
@@ -53,6 +82,16 @@ std::vector<std::pair<std::string, ArmId>> arms_of(const Cell& cell, const GoalA
     problems.push_back({ProblemKind::invalid, "arm-twice", std::move(place),
                         "arm " + name + " is named twice", name});
   };
+  if (who.arms.empty() && who.arm.empty()) {
+    problems.push_back({ProblemKind::invalid,
+                        "no-arm",
+                        "/arm",
+                        "who is to go there is not said: arm names one, arms several of which one "
+                        "goes; the cell has " +
+                            names_of_arms(cell),
+                        {}});
+    return arms;
+  }
   if (who.arms.empty()) {
     add("/arm", who.arm);
     return arms;
@@ -65,27 +104,27 @@ std::vector<std::pair<std::string, ArmId>> arms_of(const Cell& cell, const GoalA
   return arms;
 }
 
-// Of several arms none is named in vain.
+// Of several arms none is named in vain: then the arm is at fault, else the link.
 void find_link_of_another(const Cell& cell, const MotionGoal& goal, const std::string& place,
                           Problems& problems) {
   const auto* target = std::get_if<LinkTarget>(&goal.to);
   const Arm& arm = cell.arm(goal.arm);
   if (target == nullptr || std::ranges::find(arm.links, target->link) != arm.links.end()) return;
   const std::string& link = cell.link(target->link).name;
+  const std::string remedy = place.starts_with("/arms")
+                                 ? ": name the link without its prefix, which each arm has under "
+                                   "its own, or none"
+                                 : "; it moves " + links_of(cell, arm);
   problems.push_back({ProblemKind::invalid, "link-of-another-arm", place,
-                      "arm " + arm.name + " does not move " + link +
-                          ": name the link without its prefix, which each arm has under its own, "
-                          "or none",
-                      link});
+                      "arm " + arm.name + " does not move " + link + remedy, link});
 }
 
 }  // namespace
 
 Result<ArmId> find_arm(const Cell& cell, const std::string& name) {
   if (const auto arm = cell.find_arm(name)) return *arm;
-  std::string known;
-  for (const Arm& arm : cell.arms) known += (known.empty() ? "" : ", ") + arm.name;
-  return fault("unknown-arm", "", "the cell has no arm " + name + "; it has " + known, name);
+  return fault("unknown-arm", "", "the cell has no arm " + name + "; it has " + names_of_arms(cell),
+               name);
 }
 
 Result<Eigen::VectorXd> joints_of(const Cell& cell, ArmId id, const PlanGoal& said) {
@@ -131,7 +170,8 @@ Result<std::vector<MotionGoal>> goals_of(const Cell& cell, const GoalArms& who,
       add_below(place, std::move(goal.error()), problems);
       continue;
     }
-    if (!who.arms.empty()) find_link_of_another(cell, *goal, place_of_arm, problems);
+    find_link_of_another(cell, *goal, who.arms.empty() ? place + "/pose/link" : place_of_arm,
+                         problems);
     goals.push_back(*std::move(goal));
   }
   if (!problems.empty()) return failure(std::move(problems));

@@ -36,7 +36,8 @@ struct GoalArms {
 // the cell has it.
 [[nodiscard]] Result<MotionGoal> goal_of(const Cell& cell, ArmId arm, const PlanGoal& said);
 // For each of the arms. Problems: as above, those of the goal below `place` ("/move_to"), those of
-// arms at "/arm", "/arms" or "/arms/1": unknown, named twice, one that does not move the link.
+// arms at "/arm", "/arms" or "/arms/1": none named, unknown, named twice, one of several that does
+// not move the link (of a single arm the link is at fault: "/pose/link").
 [[nodiscard]] Result<std::vector<MotionGoal>> goals_of(const Cell& cell, const GoalArms& who,
                                                        const PlanGoal& said,
                                                        const std::string& place);

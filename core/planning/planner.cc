@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/collision/check/line_checker.h"
+#include "core/collision/scene/scene_bodies.h"
 #include "core/planning/shorten.h"
 #include "core/planning/tree_search.h"
 #include "core/trajectory/set_joints.h"
@@ -26,18 +27,27 @@ std::string mm(double metres) {
   return text;
 }
 
+constexpr const char* kStart = "start";
+constexpr const char* kGoal = "goal";
+
 std::optional<PlanRefusal> outside(const Cell& cell, const Arm& arm, const Eigen::VectorXd& q,
                                    const char* whose) {
   for (std::size_t j = 0; j < arm.joints.size(); ++j) {
     const Joint& joint = cell.joint(arm.joints[j]);
     const double value = q[static_cast<Eigen::Index>(j)];
     if (is_within_limits(joint, value)) continue;
-    char text[160];
-    std::snprintf(text, sizeof text, "%s: %s at %.6g is outside its limits %.6g to %.6g", whose,
-                  joint.name.c_str(), value, joint.lower, joint.upper);
-    return PlanRefusal{Reason::outside_limits, text};
+    char text[96];
+    std::snprintf(text, sizeof text, " at %.6g is outside its limits %.6g to %.6g", value,
+                  joint.lower, joint.upper);
+    PlanRefusal refusal{Reason::outside_limits, std::string(whose) + ": " + joint.name + text};
+    refusal.outside = OutsideLimits{whose == kStart, j, value};
+    return refusal;
   }
   return std::nullopt;
+}
+
+std::string told(const LineChecker::Answer& answer) {
+  return armloom::told(*answer.proximity, answer.moves_m);
 }
 
 // Limits; of joints without any, half a turn beyond where the way begins and ends.
@@ -84,10 +94,9 @@ class Search {
     auto points = grow_trees(search);
     if (!points) {
       if (cancelled()) return refuse({Reason::cancelled, "planning was cancelled"});
-      return refuse(
-          {Reason::not_found,
-           "no way was found within " + std::to_string(request_.budget) +
-               " evaluations; there may be one: a larger budget or another seed finds it"});
+      return refuse({Reason::not_found, "no way was found within " +
+                                            std::to_string(request_.budget) +
+                                            " evaluations; there may be one"});
     }
     shorten(*points, {search.is_free, search.stop, request_.seed});
     return way(*std::move(points));
@@ -113,22 +122,22 @@ class Search {
 
   // Fills goals_ with those that the arm may stand at, the nearest first.
   std::optional<PlanRefusal> check_ends() {
-    if (auto refusal = outside(cell_, arm_, start_, "start")) return refusal;
+    if (auto refusal = outside(cell_, arm_, start_, kStart)) return refusal;
     if (const auto answer = lines_.state(start_); answer.kind != LineChecker::Kind::free) {
-      return PlanRefusal{Reason::start_in_collision, "at the start " + told(*answer.proximity),
+      return PlanRefusal{Reason::start_in_collision, "at the start " + told(answer),
                          answer.proximity};
     }
     std::optional<PlanRefusal> first;
     for (std::size_t g = 0; g < request_.goals.size(); ++g) {
-      auto refusal = outside(cell_, arm_, request_.goals[g], "goal");
+      auto refusal = outside(cell_, arm_, request_.goals[g], kGoal);
       if (!refusal) {
         const auto answer = lines_.state(request_.goals[g]);
         if (answer.kind == LineChecker::Kind::free) {
           goals_.push_back(g);
           continue;
         }
-        refusal = PlanRefusal{Reason::goal_in_collision, "at the goal " + told(*answer.proximity),
-                              answer.proximity};
+        refusal =
+            PlanRefusal{Reason::goal_in_collision, "at the goal " + told(answer), answer.proximity};
       }
       if (!first) first = std::move(refusal);
     }
@@ -175,14 +184,15 @@ std::string reason_name(Reason reason) {
   return "";
 }
 
-std::string told(const Proximity& p) {
+std::string told(const Proximity& p, double moves_m) {
   const std::string distance =
       p.clearance_m > 0.0 ? " is " + mm(p.clearance_m) + " from " : std::string(" touches ");
   std::string text = p.body_a + distance + p.body_b;
-  if (p.clearance_m >= p.limit_m) {
-    return text + ", as much as is asked, but not with the tracking error on top";
-  }
-  return text + "; " + mm(p.limit_m) + " are asked";
+  const bool is_contact_alone = p.limit_m <= kTouching_m;  // a clearance of zero
+  text += "; " + (is_contact_alone ? "contact is not allowed" : mm(p.limit_m) + " are asked");
+  if (p.clearance_m < p.limit_m) return text;
+  if (moves_m > 0.0) return text + ", and " + mm(moves_m) + " on top for the tracking error";
+  return text + ", which is not proven with the tracking error on top";
 }
 
 tl::expected<JointWay, PlanRefusal> Planner::plan(const PlanRequest& request) const {

@@ -13,6 +13,13 @@
 
 namespace armloom {
 
+// A joint that stands, or is to stand, beyond its limits.
+struct OutsideLimits {
+  bool at_start;
+  std::size_t joint;  // of the arm's
+  double position;    // rad or m
+};
+
 // Why there is no plan. The cell's words: links, distances, what would have been enough.
 struct PlanRefusal {
   enum class Reason {
@@ -29,9 +36,16 @@ struct PlanRefusal {
   std::string detail;                       // one sentence
   std::optional<Proximity> proximity = {};  // of collisions
   std::uint64_t evaluations = 0;
-  // Joint positions that come nearest to what was asked, where they are known: of a pose that is
-  // not reached.
+  // Joint positions that would do, the nearest to what was asked that are known: the nearest free
+  // ones; of a pose that is not reached those that come nearest to it; of a straight line those as
+  // far as it goes.
   std::optional<Eigen::VectorXd> nearest = {};
+  std::optional<std::string> link = {};       // that is not brought to its pose, or along its line
+  std::optional<OutsideLimits> outside = {};  // the first one; of outside_limits
+  // It is where the arm stands that is at fault, not where it is to go.
+  [[nodiscard]] bool is_of_start() const {
+    return reason == Reason::start_in_collision || (outside && outside->at_start);
+  }
 };
 // "start-in-collision": for programs.
 [[nodiscard]] std::string reason_name(PlanRefusal::Reason reason);
@@ -75,7 +89,8 @@ class Planner {
   PlanningScenePtr scene_;
 };
 
-// "left_link7 comes within 3 mm of table, 20 mm are asked".
-[[nodiscard]] std::string told(const Proximity& proximity);
+// "left_link7 is 3 mm from table; 20 mm are asked". `moves_m`: what the two may move on top, as the
+// tracking error lets them, where the distance alone would do (LineChecker::Answer).
+[[nodiscard]] std::string told(const Proximity& proximity, double moves_m = 0.0);
 
 }  // namespace armloom

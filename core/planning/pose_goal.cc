@@ -93,15 +93,16 @@ class PoseSearch {
   }
 
   [[nodiscard]] PlanRefusal refusal() const {
-    char text[320];
     const std::string link = cell_.link(goal_.link).name;
-    std::snprintf(text, sizeof text,
-                  "%s does not reach that pose within the joints' limits; the nearest that was "
-                  "found is %.3g mm and %.3g "
-                  "degrees off",
-                  link.c_str(), 1e3 * nearest_.off_m, nearest_.off_rad * 180.0 / std::numbers::pi);
-    PlanRefusal refusal{Reason::goal_not_reached, text};
-    if (nearest_.q.size() > 0) refusal.nearest = nearest_.q;
+    PlanRefusal refusal{Reason::goal_not_reached,
+                        link + " does not reach that pose within the joints' limits"};
+    refusal.link = link;
+    if (nearest_.q.size() == 0) return refusal;
+    char text[96];
+    std::snprintf(text, sizeof text, "; the nearest that was found is %.4g mm and %.3g degrees off",
+                  1e3 * nearest_.off_m, nearest_.off_rad * 180.0 / std::numbers::pi);
+    refusal.detail += text;
+    refusal.nearest = nearest_.q;
     return refusal;
   }
 

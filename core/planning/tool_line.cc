@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/collision/check/line_checker.h"
 #include "core/collision/check/motion_checker.h"
+#include "core/planning/nearest_free.h"
 #include "core/planning/pose_descent.h"
 #include "core/planning/shorten.h"
 #include "core/trajectory/set_joints.h"
@@ -41,13 +43,18 @@ class ToolLine {
                                         "link " + cell_.link(goal_.link).name +
                                             " is not moved by the joints of arm " + arm_.name});
     }
-    const double steps = std::max(length_ / kLineStep_m, std::abs(angle_) / kLineStep_rad);
+    // However long it is said to be: no arm gets that far.
+    const double steps =
+        std::min(1e6, std::max(length_ / kLineStep_m, std::abs(angle_) / kLineStep_rad));
     const int count = std::max(4, static_cast<int>(std::ceil(steps)));
     std::vector<Eigen::VectorXd> points{joints_of(at_, arm_.joints)};
     for (int i = 1; i <= count; ++i) {
       const double share = static_cast<double>(i) / count;
       Eigen::VectorXd q = descend(cell_, arm_, *chain, along(share), points.back());
-      if (auto broken = break_at(share, points.back(), q)) return tl::unexpected(*broken);
+      if (auto broken = break_at(share, points.back(), q)) {
+        broken->nearest = points.back();
+        return tl::unexpected(*std::move(broken));
+      }
       points.push_back(std::move(q));
     }
     return points;
@@ -55,7 +62,8 @@ class ToolLine {
 
   // How the motion leaves the line. Between two looks the link is no farther off than at the nearer
   // one and half of what it goes in between.
-  [[nodiscard]] std::optional<PlanRefusal> leaves(const Trajectory& motion) {
+  [[nodiscard]] std::optional<PlanRefusal> leaves(const Trajectory& motion,
+                                                  const std::vector<Eigen::VectorXd>& points) {
     const double looks = std::max({length_ / kLook_m, std::abs(angle_) / kLook_rad, 100.0});
     const auto count = static_cast<std::int64_t>(std::ceil(looks));
     Eigen::VectorXd q;
@@ -71,8 +79,13 @@ class ToolLine {
       const double off_m = off.translation().norm() + goes_m / 2;
       const double off_rad = Eigen::AngleAxisd(off.linear()).angle() + goes_rad / 2;
       if (off_m > kLineWithin_m || off_rad > kLineWithin_rad) {
-        return refusal(share, "the joints would leave the line by " + std::to_string(1e3 * off_m) +
-                                  " mm and " + std::to_string(off_rad) + " rad");
+        PlanRefusal left =
+            refusal(share, "the joints may leave the line by " + text(1e3 * off_m) + " mm and " +
+                               text(off_rad) + " rad; " + text(1e3 * kLineWithin_m) + " mm and " +
+                               text(kLineWithin_rad) + " rad are allowed");
+        const auto steps = static_cast<double>(points.size() - 1);
+        left.nearest = points[static_cast<std::size_t>(share * steps)];
+        return left;
       }
       before = here;
     }
@@ -81,7 +94,10 @@ class ToolLine {
 
   // That ends the line there.
   [[nodiscard]] PlanRefusal refusal(double share, const std::string& why) const {
-    return {Reason::line_broken, cell_.link(goal_.link).name + ", " + place(share) + ": " + why};
+    const std::string& link = cell_.link(goal_.link).name;
+    PlanRefusal broken{Reason::line_broken, link + ", " + place(share) + ": " + why};
+    broken.link = link;
+    return broken;
   }
   // Where the link is at that instant, for people.
   [[nodiscard]] std::string place_of(const Trajectory& motion, Duration when) {
@@ -123,9 +139,10 @@ class ToolLine {
                                                     const Eigen::VectorXd& q) {
     Eigen::Index farthest = 0;
     const double jump = (q - before).cwiseAbs().maxCoeff(&farthest);
-    const std::string& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(farthest)]).name;
+    const Joint& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(farthest)]);
     if (jump > kLineJump || !q.allFinite()) {
-      return refusal(share, joint + " would have to jump by " + std::to_string(jump) +
+      return refusal(share, joint.name + " would have to jump by " + text(jump) +
+                                (joint.kind == JointKind::prismatic ? " m" : " rad") +
                                 " within one step: the line leads past a singular place");
     }
     const Eigen::Isometry3d off = along(share).inverse() * pose_at(q);
@@ -139,6 +156,11 @@ class ToolLine {
     return refusal(share, "the arm does not reach on");
   }
 
+  [[nodiscard]] static std::string text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+  }
   [[nodiscard]] std::string place(double share) const {
     char text[96];
     std::snprintf(text, sizeof text, "after %.3f of %.3f m of the straight line (%.0f %%)",
@@ -155,6 +177,30 @@ class ToolLine {
   double angle_ = 0.0;
   double length_ = 0.0;
 };
+
+// How far along them the arm keeps its distances; nothing: not even at the first.
+NearestFree last_free(const PlanningScenePtr& scene, const PlanRequest& request,
+                      const std::vector<Eigen::VectorXd>& points) {
+  LineChecker lines(scene, request.arm, request.at, scene->cell().checking.tracking_error_rad,
+                    request.left_out);
+  std::optional<Eigen::VectorXd> last;
+  for (const Eigen::VectorXd& q : points) {
+    if (!lines.is_free(last.value_or(q), q)) break;
+    last = q;
+  }
+  return {std::move(last), lines.evaluations()};
+}
+
+PlanRefusal blocked_by(const Conflict& found, const std::string& place, NearestFree nearest) {
+  const std::string what = found.proximity.body_a.empty()
+                               ? "that nothing is too close is not proven"
+                               : told(found.proximity);
+  PlanRefusal blocked{Reason::line_blocked, what + ", " + place};
+  if (!found.proximity.body_a.empty()) blocked.proximity = found.proximity;
+  blocked.nearest = std::move(nearest.q);
+  blocked.evaluations = nearest.evaluations;
+  return blocked;
+}
 
 }  // namespace
 
@@ -173,13 +219,11 @@ tl::expected<PlannedMotion, PlanRefusal> plan_line(const PlanningScenePtr& scene
   if (!timed) {
     return tl::unexpected(line.refusal(1.0, timed.error().front().detail));
   }
-  if (auto left = line.leaves(*timed->trajectory)) return tl::unexpected(std::move(*left));
+  if (auto left = line.leaves(*timed->trajectory, *points)) return tl::unexpected(std::move(*left));
   MotionChecker checker(scene);
   if (const auto found = found_in_the_way(checker, request, timed->trajectory)) {
-    return tl::unexpected(PlanRefusal{
-        Reason::line_blocked,
-        told(found->proximity) + ", " + line.place_of(*timed->trajectory, found->own_time),
-        found->proximity});
+    return tl::unexpected(blocked_by(*found, line.place_of(*timed->trajectory, found->own_time),
+                                     last_free(scene, request, *points)));
   }
   JointWay way{.points = *std::move(points), .goal = 0, .evaluations = 1};
   return PlannedMotion{std::move(way), *std::move(timed), 0.0};

@@ -106,6 +106,10 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
     turn = turns.next();
   }
   for (; turn; turn = Turns(state).next()) {
+    if (put_off_where_it_stands(state, state.jobs.at(*turn))) {
+      put_off = true;
+      continue;
+    }
     const bool is_choice = choosing_.begin(state, *turn);
     if (!waits_for_sequence(state, choosing_.job())) {
       ask(state, {choosing_.job()}, is_choice ? Purpose::option : Purpose::start);

@@ -89,6 +89,13 @@ void put_off(State& state, Record& record, std::vector<Wait> waits) {
   }
 }
 
+bool put_off_where_it_stands(State& state, Record& record) {
+  const GoalWay* way = record.job.stands_in();
+  if (way == nullptr) return false;
+  put_off(state, record, {Wait{.kind = Wait::Kind::object, .proximity = way->stands_in}});
+  return true;
+}
+
 void wait_behind(State& state, Record& record, JobId first) {
   stay_queued(state, record, {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}});
 }

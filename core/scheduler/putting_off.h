@@ -12,6 +12,8 @@ namespace armloom {
 void note_found(Record& record, std::vector<Wait> waits);
 // Into the backlog, until what holds it back is another.
 void put_off(State& state, Record& record, std::vector<Wait> waits);
+// Where its way begins in something that no job moves (Job::stands_in): nothing is asked about it.
+[[nodiscard]] bool put_off_where_it_stands(State& state, Record& record);
 // Not the backlog: it could go, or soon could, but for those that have to come before it.
 void wait_behind(State& state, Record& record, JobId first);
 // So it is in the sequence; when that is another one, it is judged again.

@@ -95,7 +95,8 @@ struct PlanOptions {
   std::string to;                 // a named state, or JSON (server/messages/plan_goal.h)
   std::string from;               // the same without poses; empty: home
   std::uint64_t seed = 1;
-  std::string out;  // empty: stdout
+  std::optional<int> budget = {};  // PlanQuestion::budget
+  std::string out;                 // empty: stdout
 };
 int plan_way(const PlanOptions& options);
 

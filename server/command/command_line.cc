@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "core/executive/plan_task.h"
 #include "server/command/command.h"
 
 namespace armloom {
@@ -118,6 +119,10 @@ Command plan_command(CLI::App& app) {
       ->required();
   command->add_option("--from", options->from, "where it stands: a named state or joints (home)");
   add_seed(*command, options->seed, "of the search");
+  command
+      ->add_option("--budget", options->budget,
+                   "evaluations that the search may take, for each arm (400000)")
+      ->check(CLI::Range(1, kPlanBudgetMax));
   command->add_option("--out", options->out, "file of the job, a body of POST /jobs (stdout)");
   return {command, [options] { return plan_way(*options); }};
 }

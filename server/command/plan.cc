@@ -1,3 +1,5 @@
+#include "server/messages/plan.h"
+
 #include <fstream>
 #include <iostream>
 
@@ -30,16 +32,28 @@ void say(const std::vector<RefusedArm>& refused) {
     detail += (detail.empty() ? "" : "; ") + whose + refusal.detail;
     evaluations += refusal.evaluations;
   }
+  if (first.reason == PlanRefusal::Reason::not_found) {
+    detail += ": a larger --budget or another --seed may find it";
+  }
   std::cerr << "armloom: no plan: " << detail << '\n';
   JsonWriter out;
   out.begin_object()
       .field("result", reason_name(first.reason))
       .field("detail", detail)
       .field("evaluations", evaluations);
+  if (const auto links = links_of(first); !links.empty()) {
+    out.key("links").begin_array();
+    for (const std::string& link : links) out.value(link);
+    out.end_array();
+  }
   if (first.proximity) {
-    out.key("links").begin_array().value(first.proximity->body_a);
-    out.value(first.proximity->body_b).end_array();
     out.field("clearance_m", first.proximity->clearance_m);
+    out.field("asked_m", first.proximity->limit_m);
+  }
+  if (first.nearest) {
+    out.key("nearest").begin_array();
+    for (const double position : *first.nearest) out.value(position);
+    out.end_array();
   }
   out.end_object();
   std::cout << out.text() << '\n';
@@ -76,6 +90,7 @@ Result<std::vector<PlanQuestion>> questions_of(const PlanOptions& options, const
   for (MotionGoal& goal : *goals) {
     const ArmId arm = goal.arm;
     PlanQuestion question{.goal = std::move(goal), .at = cell.home(), .seed = options.seed};
+    question.budget = options.budget;
     if (!options.from.empty()) {
       const auto q = joints_of(cell, arm, *from);
       if (!q) return at_option("--from", q.error());

@@ -30,6 +30,9 @@ FormatPtr<PlanInquiry> plan_inquiry_format() {
                 "Where it begins, as joints or a named state; absent: where it will be when all "
                 "jobs that are accepted have run"),
           field("seed", &Inquiry::seed, count(), "Of the search: the same one repeats the plan"),
+          field("budget", &Inquiry::budget, integer(1, kPlanBudgetMax),
+                "Evaluations (stretches of lines) that the search may take; absent: 400,000. A way "
+                "that there is takes a few thousand mostly. A straight line takes none"),
           field("velocity_scaling_factor", &Inquiry::speed, number({kVelocityScalingMin, 1.0}),
                 "The share of its speed at which it goes; absent: the cell's"),
       }));
@@ -90,16 +93,30 @@ FormatPtr<PlanView> plan_format() {
   return format;
 }
 
-ProblemDocument document_of(const PlanRefusal& refusal) {
+std::vector<std::string> links_of(const PlanRefusal& refusal) {
+  if (refusal.proximity) return {refusal.proximity->body_a, refusal.proximity->body_b};
+  if (refusal.link) return {*refusal.link};
+  return {};
+}
+
+ProblemDocument document_of(const RefusedInquiry& refused) {
+  const PlanRefusal& refusal = refused.why;
   const std::string slug = reason_name(refusal.reason);
   ProblemDocument document{.type = problem_type(slug),
                            .title = problem_title(slug),
                            .status = 422,
                            .detail = refusal.detail,
                            .evaluations = refusal.evaluations};
+  if (refusal.reason == PlanRefusal::Reason::not_found) {
+    document.detail += ": a larger budget or another seed may find it";
+  }
+  if (!refused.pointer.empty()) document.pointer = refused.pointer;
+  const bool has_value = !std::holds_alternative<std::monostate>(refused.value);
+  if (has_value) document.value = refused.value;
+  if (auto links = links_of(refusal); !links.empty()) document.links = std::move(links);
   if (refusal.proximity) {
-    document.links = {refusal.proximity->body_a, refusal.proximity->body_b};
     document.clearance_m = refusal.proximity->clearance_m;
+    document.asked_m = refusal.proximity->limit_m;
   }
   if (refusal.nearest) document.nearest = {refusal.nearest->begin(), refusal.nearest->end()};
   return document;

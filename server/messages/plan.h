@@ -15,6 +15,8 @@ namespace armloom {
 // Its answer.
 [[nodiscard]] FormatPtr<PlanView> plan_format();
 // Or why there is none: status 422.
-[[nodiscard]] ProblemDocument document_of(const PlanRefusal& refusal);
+[[nodiscard]] ProblemDocument document_of(const RefusedInquiry& refused);
+// Links that come too close, or the one that is not brought to its pose; empty: none is at fault.
+[[nodiscard]] std::vector<std::string> links_of(const PlanRefusal& refusal);
 
 }  // namespace armloom

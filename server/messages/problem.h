@@ -29,8 +29,9 @@ struct ProblemDocument {
   std::optional<decltype(Problem::value)> value;
   std::vector<Error> errors;  // empty: only the one above
   // Why there is no plan; absent for all other problems.
-  std::optional<std::vector<std::string>> links = {};  // that come too close
+  std::optional<std::vector<std::string>> links = {};  // that come too close, or do not get there
   std::optional<double> clearance_m = {};              // of these
+  std::optional<double> asked_m = {};                  // what they were to keep
   std::optional<std::vector<double>> nearest = {};     // joint positions that come nearest
   std::optional<std::uint64_t> evaluations = {};
 };

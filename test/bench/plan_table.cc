@@ -1,12 +1,14 @@
 // The table of core/planning/README.md: from every named or published pose of each arm to every
 // other, all other arms at home: how many are solved, how soon, how long the ways are.
-//   plan_table CELL [SCENARIO]...
+//   plan_table CELL [SCENARIO]... [--jobs FILE]
 // Arms of few poses get random ones besides. A scenario (shared/data/scenarios) adds its poses to
-// the arms that stand where its robots do.
+// the arms that stand where its robots do. FILE gets all that was solved as jobs, one after the
+// other, for `armloom simulate` and `armloom audit` (plan_and_audit.py).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -17,7 +19,9 @@
 #include "core/collision/check/line_checker.h"
 #include "core/model/cell/build_cell.h"
 #include "core/planning/plan_motion.h"
+#include "core/trajectory/set_joints.h"
 #include "server/codec/cell_codec.h"
+#include "test/bench/plan_rounds.h"
 
 namespace armloom {
 namespace {
@@ -65,9 +69,10 @@ double quantile(std::vector<double> values, double share) {
 }
 
 struct Row {
-  std::size_t queries = 0, solved = 0, straight = 0, in_time = 0, stopping = 0;
+  std::size_t queries = 0, parted = 0, straight = 0, in_time = 0, stopping = 0;
   std::vector<double> ms, stretch;
   std::vector<std::string> colliding, unsolved;
+  PlanRounds rounds;
 };
 
 // Arms of few poses get ten more that are free, of a fixed seed.
@@ -90,12 +95,10 @@ void add_postures(const Cell& cell, ArmId id, LineChecker& lines, Poses& free) {
   }
 }
 
-Row run(const PlanningScenePtr& scene, ArmId id, const Poses& poses) {
+// Those of the poses at which the arm may stand, the others at home; and of the rest what is close.
+Poses free_poses(const PlanningScenePtr& scene, ArmId id, const Poses& poses, Row& row) {
   const Cell& cell = scene->cell();
-  const Arm& arm = cell.arm(id);
-  Row row;
-  Configuration at = cell.home();
-  LineChecker lines(scene, id, at, cell.checking.tracking_error_rad);
+  LineChecker lines(scene, id, cell.home(), cell.checking.tracking_error_rad);
   Poses free;
   for (const auto& [name, q] : poses) {
     const auto answer = lines.state(q);
@@ -103,47 +106,110 @@ Row run(const PlanningScenePtr& scene, ArmId id, const Poses& poses) {
       const auto same = [&q](const auto& other) { return (other.second - q).norm() < 1e-9; };
       if (std::ranges::none_of(free, same)) free.emplace(name, q);
     } else {
-      row.colliding.push_back(name + ": " + told(*answer.proximity));
+      row.colliding.push_back(name + ": " + told(*answer.proximity, answer.moves_m));
     }
   }
   add_postures(cell, id, lines, free);
-  const Planner planner(scene);
-  for (const auto& [from, q] : free) {
-    for (const auto& [to, goal] : free) {
-      if (from == to) continue;
-      for (std::size_t j = 0; j < arm.joints.size(); ++j) {
-        at[static_cast<Eigen::Index>(arm.joints[j].index())] = q[static_cast<Eigen::Index>(j)];
-      }
-      const auto begin = Clock::now();
-      const auto planned = plan_motion(planner, {.arm = id, .at = at, .goals = {goal}});
-      const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-      ++row.queries;
-      row.ms.push_back(ms);
-      if (!planned) {
-        row.unsolved.push_back(from + " to " + to + ": " + planned.error().detail);
-        continue;
-      }
-      ++row.solved;
-      row.in_time += ms <= 1000.0;
-      row.straight += planned->way.points.size() == 2;
-      row.stopping += planned->way.points.size() > 2 && planned->rounded_within == 0.0;
-      row.stretch.push_back(planned->way.length() / (goal - q).norm());
-    }
-  }
-  return row;
+  return free;
 }
 
+// One arm's queries.
+class Queries {
+ public:
+  Queries(const PlanningScenePtr& scene, ArmId id, const Poses& free, Row& row)
+      : planner_(scene),
+        id_(id),
+        poses_(free.begin(), free.end()),
+        groups_(free.size()),
+        row_(row) {}
+
+  void run() {
+    for (std::size_t from = 0; from < poses_.size(); ++from) {
+      for (std::size_t to = 0; to < poses_.size(); ++to) {
+        if (from == to) continue;
+        if (groups_.are_parted(from, to)) {
+          ++row_.parted;
+        } else {
+          ask(from, to);
+        }
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] PlanRequest request(std::size_t from, std::size_t to) const {
+    const Cell& cell = planner_.scene()->cell();
+    PlanRequest request{.arm = id_, .at = cell.home(), .goals = {poses_[to].second}};
+    set_joints(request.at, cell.arm(id_).joints, poses_[from].second);
+    return request;
+  }
+
+  void ask(std::size_t from, std::size_t to) {
+    const auto begin = Clock::now();
+    const auto planned = plan_motion(planner_, request(from, to));
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    if (!planned && part(from, to)) return;
+    ++row_.queries;
+    row_.ms.push_back(ms);
+    if (!planned) {
+      row_.unsolved.push_back(poses_[from].first + " to " + poses_[to].first + ": " +
+                              planned.error().detail);
+      return;
+    }
+    groups_.join(from, to);
+    row_.in_time += ms <= 1000.0;
+    row_.straight += planned->way.points.size() == 2;
+    row_.stopping += planned->way.points.size() > 2 && planned->rounded_within == 0.0;
+    row_.stretch.push_back(planned->way.length() /
+                           (poses_[to].second - poses_[from].second).norm());
+    row_.rounds.add(from, to, planned->timed.request);
+  }
+
+  // Whether there is no way as far as can be told: none with ten times the budget, either.
+  bool part(std::size_t from, std::size_t to) {
+    if (groups_.are_joined(from, to)) return false;
+    PlanRequest longer = request(from, to);
+    longer.budget *= 10;
+    if (planner_.plan(longer)) return groups_.join(from, to), false;
+    groups_.part(from, to);
+    row_.unsolved.push_back("very likely no way: " + poses_[from].first + " to " +
+                            poses_[to].first);
+    ++row_.parted;
+    return true;
+  }
+
+  Planner planner_;
+  ArmId id_;
+  std::vector<std::pair<std::string, Eigen::VectorXd>> poses_;
+  PoseGroups groups_;
+  Row& row_;
+};
+
 void print(const std::string& name, const Row& row) {
-  std::printf("| %s | %zu | %.1f %% | %zu | %zu | %.2f | %.1f | %.0f | %.2f | %.2f | %.2f |\n",
-              name.c_str(), row.queries,
-              100.0 * static_cast<double>(row.in_time) / static_cast<double>(row.queries),
-              row.straight, row.stopping, quantile(row.ms, 0.5), quantile(row.ms, 0.95),
-              quantile(row.ms, 1.0), quantile(row.stretch, 0.5), quantile(row.stretch, 0.95),
-              quantile(row.stretch, 1.0));
+  std::printf(
+      "| %s | %zu | %zu | %.1f %% | %zu | %zu | %.2f | %.1f | %.0f | %.2f | %.2f | %.2f |\n",
+      name.c_str(), row.queries, row.parted,
+      100.0 * static_cast<double>(row.in_time) / static_cast<double>(row.queries), row.straight,
+      row.stopping, quantile(row.ms, 0.5), quantile(row.ms, 0.95), quantile(row.ms, 1.0),
+      quantile(row.stretch, 0.5), quantile(row.stretch, 0.95), quantile(row.stretch, 1.0));
   std::fflush(stdout);
 }
 
-int table(const std::vector<std::string>& files) {
+// Which of them is home.
+std::size_t home_of(const Poses& free, const Eigen::VectorXd& home) {
+  const auto is_home = [&](const auto& pose) { return (pose.second - home).norm() < 1e-9; };
+  const auto found = std::ranges::find_if(free, is_home);
+  if (found == free.end()) throw std::runtime_error("an arm may not stand at home");
+  return static_cast<std::size_t>(std::distance(free.begin(), found));
+}
+
+int table(std::vector<std::string> files) {
+  std::string jobs_file;
+  if (files.size() > 2 && files[files.size() - 2] == "--jobs") {
+    jobs_file = files.back();
+    files.resize(files.size() - 2);
+  }
+
   const CellPtr cell = load(files.front());
   const auto scene = PlanningScene::build(cell);
   if (!scene) throw std::runtime_error(scene.error().front().detail);
@@ -156,13 +222,19 @@ int table(const std::vector<std::string>& files) {
     add_published(nlohmann::json::parse(text_of(files[i])), *cell, poses);
   }
   std::string notes;
+  std::deque<Row> rows;
+  std::vector<std::vector<const TrajectoryRequest*>> rounds;
   for (std::uint32_t a = 0; a < cell->arms.size(); ++a) {
-    const Row row = run(*scene, ArmId{a}, poses[a]);
+    Row& row = rows.emplace_back();
+    const Poses free = free_poses(*scene, ArmId{a}, poses[a], row);
+    Queries(*scene, ArmId{a}, free, row).run();
+    rounds.push_back(row.rounds.round_from(home_of(free, cell->arms[a].home)));
     print(cell->name + " " + cell->arms[a].name, row);
     for (const auto& pose : row.colliding) notes += cell->arms[a].name + " " + pose + "\n";
     for (const auto& pair : row.unsolved) notes += "unsolved: " + pair + "\n";
   }
   std::cout << notes;
+  if (!jobs_file.empty()) write_jobs(jobs_file, rounds);
   return 0;
 }
 
@@ -171,7 +243,7 @@ int table(const std::vector<std::string>& files) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::cerr << "plan_table CELL [SCENARIO]...\n";
+    std::cerr << "plan_table CELL [SCENARIO]... [--jobs FILE]\n";
     return 2;
   }
   try {

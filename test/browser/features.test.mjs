@@ -169,6 +169,38 @@ test('a way to a goal is planned by form, looked at, and sent', { timeout: 120_0
   await finished(id);
 });
 
+test('the goal of a tool is dragged in the cell: planned, judged and shown before it is sent', { timeout: 120_000 }, async () => {
+  await go('#/');
+  await page.locator('[data-test=new-job]').click();
+  await page.locator('[data-test=plan-goal] summary').click();
+  await page.locator('[data-test=plan-arm]').selectOption('right');
+  await page.locator('[data-test=plan-kind]').selectOption('pose');
+  await page.locator('[data-test=plan-xyz]').fill('');
+  await page.locator('[data-test=plan-move]').click();
+  await page.evaluate(() => window.armloom.drawn());
+  const before = await view_picture();
+  const view = await page.locator('.view canvas').boundingBox();
+  const tool = await page.evaluate(() => window.armloom.where_is_tool());
+  await page.mouse.move(view.x + tool.x, view.y + tool.y);
+  await page.mouse.down();
+  await page.mouse.move(view.x + tool.x + 20, view.y + tool.y - 20, { steps: 6 });
+  await page.mouse.up();
+  await page.locator('[data-test=planned]').waitFor({ timeout: 60_000 });
+  assert.match(await page.locator('[data-test=planned]').innerText(), /proven.*could start now/);
+  assert.match(await page.locator('[data-test=plan-xyz]').inputValue(), /^-?[\d.]+, -?[\d.]+, -?[\d.]+$/);
+  assert.match(await page.locator('[data-test=job-text]').inputValue(), /right_panda_joint1/);
+  const ghost = await difference(chromium.context, before, await view_picture());
+  assert.ok(ghost.count > kLeastGhost_px, `${ghost.count} pixels of ghosts`);
+  const { status, value } = await ask(page, 'GET', '/jobs?arm=right&state=running');
+  assert.equal(status, 200);
+  assert.deepEqual(value.jobs, [], 'nothing moves before it is sent');
+  await page.locator('[data-test=plan-turn]').click();
+  assert.equal(await page.locator('[data-test=plan-move]').getAttribute('aria-pressed'), 'false');
+  await page.screenshot(path_for('drag-tool-dark'));
+  await page.locator('[data-test=send]').click();
+  await finished(await page.locator('[data-test=accepted] a').innerText());
+});
+
 test('after a stop the recovery page says why, and leads back', { timeout: 120_000 }, async () => {
   await send('left', 'interrupted', [kMiddle], 20);
   await page.locator('[data-test=list-running] [data-test="job-interrupted"]').waitFor({ timeout: 40_000 });

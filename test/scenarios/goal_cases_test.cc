@@ -66,6 +66,60 @@ TEST_P(Goals, OneThatIsBehindAnObjectFailsWithThePlannersReason) {
   expect_at(-1.0, -1.0);
 }
 
+// What the arm stands in is no matter of where it is to go: a trajectory would wait for it, too.
+TEST_P(Goals, WhereAnObjectTouchesTheArmTheyWaitForItToGo) {
+  cell->submit(move_to("x", -0.8, "before"));
+  cell->run_to_the_end(at(10s));
+  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -0.8, 0.1)));
+  cell->submit(move_to("x", 0.5, "first"));
+  cell->submit(move_to("x", 0.0, "second"));
+  cell->submit(move_to("y", 0.5, "of the other arm"));
+  cell->run_until(cell->simulation->now() + 5s);
+  const JobView waits = cell->job("first");
+  EXPECT_EQ(waits.state, JobState::backlogged) << waits.detail;
+  EXPECT_EQ(waits.planned, false);
+  ASSERT_EQ(waits.waits_on.size(), 1U);
+  EXPECT_EQ(waits.waits_on[0].kind, Wait::Kind::object);
+  ASSERT_EQ(waits.waits_on[0].links.size(), 2U);
+  EXPECT_EQ(waits.waits_on[0].links[1], "hand");
+  EXPECT_EQ(cell->job("second").state, JobState::queued);
+  EXPECT_EQ(cell->job("of the other arm").state, JobState::succeeded);
+  ASSERT_TRUE(cell->simulation->executive().scene().remove("hand"));
+  cell->submit(move_to("y", -1.0, "out of the way"));
+  cell->run_to_the_end(at(40s));
+  for (const char* key : {"first", "second"}) {
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail;
+  }
+  expect_at(0.0, -1.0);
+}
+
+TEST_P(Goals, WhereAnObjectTouchesTheArmTheyExpireAfterTheirTimeout) {
+  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -1.0, 0.1)));
+  JobRequest goal = move_to("x", 0.5, "goal");
+  goal.backlog_timeout = 5s;
+  cell->submit(goal);
+  cell->run_until(at(4s));
+  EXPECT_EQ(cell->job("goal").state, JobState::backlogged);
+  cell->run_to_the_end(at(10s));
+  EXPECT_EQ(cell->job("goal").reason, Reason::backlog_timeout);
+  EXPECT_LT(cell->simulation->now(), at(6s));
+}
+
+// Changes of the scene that leave it as it is are no tries that are used up.
+TEST_P(Goals, TheyWaitHoweverOftenElseTheSceneChanges) {
+  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -1.0, 0.1)));
+  cell->submit(move_to("x", 0.5, "goal"));
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_TRUE(cell->simulation->executive().scene().add(
+        box_at("fly " + std::to_string(i), 3.0, 3.0 + i)));
+    cell->run_until(cell->simulation->now() + 200ms);
+  }
+  EXPECT_EQ(cell->job("goal").state, JobState::backlogged) << cell->job("goal").detail;
+  ASSERT_TRUE(cell->simulation->executive().scene().remove("hand"));
+  cell->run_to_the_end(at(20s));
+  EXPECT_EQ(cell->job("goal").state, JobState::succeeded) << cell->job("goal").detail;
+}
+
 // The plan was made without the object, and is made again with it.
 TEST_P(Goals, APlanOfAnotherSceneIsMadeAgain) {
   cell->submit(move_to("x", 0.5, "late"));

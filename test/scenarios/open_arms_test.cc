@@ -86,6 +86,31 @@ TEST_P(OpenArms, OneThatHasNoWayIsNamedWithTheReason) {
   EXPECT_THAT(job.ways.choice->detail, HasSubstr("x cannot: no plan"));
 }
 
+TEST_P(OpenArms, WhereAnObjectTouchesOneArmTheOtherGoesAndWhereItTouchesAllTheyWait) {
+  const auto hand = [](const char* name, double x_m, double y_m) {
+    CollisionObject object{.name = name, .shape = Box{{0.1, 0.1, 0.1}}};
+    object.X_WO.translation() = Eigen::Vector3d(x_m, y_m, 0.0);
+    return object;
+  };
+  ASSERT_TRUE(executive().scene().add(hand("at x", -1.0, 0.1)));
+  cell->submit(either(-0.5, "by y"));
+  cell->run_to_the_end();
+  EXPECT_THAT(cell->job("by y").arms, ElementsAre("y"));
+  ASSERT_TRUE(executive().scene().add(hand("at y", 0.1, -0.5)));
+  cell->submit(either(-0.7, "by whom"));
+  cell->submit(either(-0.8, "and then"));
+  cell->run_until(cell->simulation->now() + 5s);
+  EXPECT_EQ(cell->job("by whom").state, JobState::backlogged) << cell->job("by whom").detail;
+  ASSERT_FALSE(cell->job("by whom").waits_on.empty());
+  EXPECT_EQ(cell->job("by whom").waits_on[0].kind, Wait::Kind::object);
+  ASSERT_TRUE(executive().scene().remove("at y"));
+  cell->run_to_the_end(at(60s));
+  for (const char* key : {"by whom", "and then"}) {
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail;
+    EXPECT_THAT(cell->job(key).arms, ElementsAre("y"));
+  }
+}
+
 TEST_P(OpenArms, WhereNoneHasAWayEachSaysWhy) {
   for (const auto& [name, x, y] : {std::tuple("a", 0.5, 0.0), std::tuple("b", 0.0, 0.5)}) {
     CollisionObject post{.name = name, .shape = Box{{0.1, 0.1, 0.1}}};

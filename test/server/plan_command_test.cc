@@ -49,6 +49,8 @@ TEST_F(PlanCommand, SaysWhyThereIsNoPlan) {
   EXPECT_EQ(in_the_table.exit_code, 1);
   EXPECT_EQ(in_the_table.last_line()["result"], "goal-in-collision");
   EXPECT_EQ(in_the_table.last_line()["links"].size(), 2u);
+  EXPECT_EQ(in_the_table.last_line()["asked_m"], 0.02);
+  EXPECT_EQ(in_the_table.last_line()["nearest"].size(), 7u);
   const Outcome too_far = plan("--to '{\"pose\": {\"xyz\": [3, 0, 0.5]}}'");
   EXPECT_EQ(too_far.exit_code, 1);
   EXPECT_EQ(too_far.last_line()["result"], "goal-not-reached");
@@ -86,6 +88,7 @@ TEST_F(PlanCommand, RefusesBadInputWithPlaceAndRemedy) {
   refused("--to '{\"named\": \"ready\", \"joints\": []}'", "--to");
   refused("--to '{\"pose\": {\"link\": \"left_tool\"}}'", "no link left_tool");
   refused("--to '{\"pse\": 1}'", "pse");
+  refused("--to ready --budget 0", "--budget");
   refused("--to ready --from '{\"pose\": {}}'", "--from");
   refused("--to ready --out /no/such/folder/job.json", "--out");
   const Outcome unknown = run("plan --cell " + test::kCell + " --arm lft --to ready");

@@ -83,6 +83,40 @@ TEST_F(PlanOverHttp, SaysWhyThereIsNone) {
   EXPECT_EQ(far["nearest"].size(), 7U);
 }
 
+TEST_F(PlanOverHttp, SaysWhatOfTheRequestIsAtFaultAndTheNearestThatWouldDo) {
+  start(1.0);
+  const json beyond = {0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0};
+  const json table = {0.0, 1.7, 0.0, -1.0, 0.0, 1.0, 0.0};
+  const json outside = plan({{"arm", "left"}, {"to", {{"joints", beyond}}}}).json();
+  EXPECT_EQ(outside["type"], "urn:armloom:problem:outside-limits");
+  EXPECT_EQ(outside["pointer"], "/to/joints/3");
+  EXPECT_EQ(outside["value"], 1.0);
+  EXPECT_EQ(outside["nearest"].size(), 7U);
+  const json begins =
+      plan({{"arm", "left"}, {"to", {{"named", "ready"}}}, {"start", {{"joints", beyond}}}}).json();
+  EXPECT_EQ(begins["pointer"], "/start/joints/3");
+  const json collides = plan({{"arm", "left"}, {"to", {{"joints", table}}}}).json();
+  EXPECT_EQ(collides["pointer"], "/to/joints");
+  EXPECT_EQ(collides["asked_m"], 0.02);
+  const json nearest = collides["nearest"];
+  ASSERT_EQ(nearest.size(), 7U) << collides;
+  EXPECT_EQ(plan({{"arm", "left"}, {"to", {{"joints", nearest}}}}).status, 200);
+  const json stands =
+      plan({{"arms", {"right", "left"}}, {"to", {{"pose", {{"xyz", {3, 0, 0.5}}}}}}}).json();
+  EXPECT_EQ(stands["pointer"], "/to/pose");
+  EXPECT_EQ(stands["links"], json({"right_panda_link8"}));
+}
+
+TEST_F(PlanOverHttp, SearchesNoLongerThanItsBudget) {
+  start(1.0);
+  json body = {{"arm", "left"}, {"to", {{"named", "extended"}}}, {"budget", 0}};
+  EXPECT_EQ(plan(body).json()["pointer"], "/budget");
+  body["budget"] = 4'000'001;
+  EXPECT_EQ(plan(body).json()["pointer"], "/budget");
+  body["budget"] = 100'000;
+  EXPECT_EQ(plan(body).status, 200);
+}
+
 TEST_F(PlanOverHttp, OfSeveralArmsTakesTheOneThatArrivesFirstAndSaysWhyNotTheOthers) {
   start(20.0);
   const json beside_left = {
@@ -163,7 +197,15 @@ TEST_F(GoalsOverHttp, OneOfAGoalAndATrajectoryIsGiven) {
   both["move_to"] = {{"named", "ready"}};
   EXPECT_EQ(post("/api/v1/jobs", both.dump()).status, 422);
   const json no_arm = {{"move_to", {{"named", "ready"}}}};
-  EXPECT_EQ(post("/api/v1/jobs", no_arm.dump()).json()["pointer"], "/arm");
+  const json refused = post("/api/v1/jobs", no_arm.dump()).json();
+  EXPECT_EQ(refused["pointer"], "/arm");
+  EXPECT_EQ(refused["type"], "urn:armloom:problem:no-arm");
+  const json foreign = {
+      {"arm", "left"},
+      {"move_to", {{"pose", {{"link", "right_panda_link8"}, {"xyz", {0, 0, 1}}}}}}};
+  const auto answer = post("/api/v1/jobs", foreign.dump());
+  EXPECT_EQ(answer.status, 422);
+  EXPECT_EQ(answer.json()["pointer"], "/move_to/pose/link");
 }
 
 TEST_F(PlanOverHttp, AStraightLineIsKeptOrRefusedWithThePlace) {

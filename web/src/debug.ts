@@ -8,6 +8,7 @@
 //   armloom.is_drawn()                    whether every robot of the cell stands in the view
 //   armloom.drawn()                       a promise, kept once all that changed has been drawn
 //   armloom.where_is(object)              its middle, px from the view's top left
+//   armloom.where_is_tool()               the same of the tool that is in hand
 //   armloom.ahead()                       how many ways ahead are drawn
 //   armloom.break_connection()            as if the network had: it is opened again
 //   armloom.pictures()                    how many have been drawn
@@ -29,6 +30,7 @@ export interface DebugHook {
   is_drawn(): boolean;
   drawn(): Promise<void>;
   where_is(object: string): { x: number; y: number } | null;
+  where_is_tool(): { x: number; y: number } | null;
   ahead(): number;
   break_connection(): void;
   pictures(): number;
@@ -57,6 +59,7 @@ export function install_debug_hook(app: App, break_connection: () => void): void
     is_drawn: () => view?.is_drawn() ?? false,
     drawn: () => view?.drawn() ?? Promise.reject(new Error('the view is not loaded yet')),
     where_is: (object) => view?.where_is(object) ?? null,
+    where_is_tool: () => view?.where_is_tool() ?? null,
     ahead: () => view?.ahead() ?? 0,
     break_connection,
     pictures: () => view?.pictures() ?? 0,

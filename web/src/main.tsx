@@ -71,7 +71,7 @@ const connection = new Connection({
 });
 const router = new Router(address_bar_of(window));
 const app: App = {
-  store, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), ghost: signal(null), by_hand: signal(null),
+  store, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), ghost: signal(null), by_hand: signal(null), tool: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
   router, player: new Player(store, connection, router),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),

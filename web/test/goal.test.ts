@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { numbers_in, plan_request, states_of, type GoalForm } from '../src/compose/goal';
+import { form_of_pose, numbers_in, plan_request, pose_of_form, states_of, type GoalForm } from '../src/compose/goal';
 import type { CellArm } from '../src/server/messages';
 
 const form = (over: Partial<GoalForm>): GoalForm => ({ arm: 'left', kind: 'named', named: 'ready', joints: '', xyz: '0, 0.2, 0.5', rpy: '180 0 0', link: '', speed: '50', ...over });
@@ -21,6 +21,13 @@ describe('a goal', () => {
     expect(body({ kind: 'pose', xyz: '1 2' })).toMatch(/Position.*1 2/);
     expect(body({ kind: 'pose', rpy: '' })).toMatch(/Turn/);
     expect(body({ speed: '0' })).toMatch(/Speed/);
+  });
+
+  it('comes from a pose that was dragged, and goes back to one', () => {
+    const texts = form_of_pose({ xyz: [0.12345, -0.2, 0.5], rpy: [Math.PI, 0, -Math.PI / 4] });
+    expect(texts).toEqual({ xyz: '0.123, -0.2, 0.5', rpy: '180, 0, -45' });
+    expect(pose_of_form(texts)?.rpy[2]).toBeCloseTo(-Math.PI / 4);
+    expect(pose_of_form({ xyz: '', rpy: '180, 0, 0' })).toBeNull();
   });
 
   it('has home among the named states, once', () => {

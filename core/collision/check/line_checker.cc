@@ -16,6 +16,13 @@ constexpr double kLineTowardsShare = 0.25;
 // Times along a line are no times: its whole length takes this.
 constexpr Duration kLength = std::chrono::seconds(1);
 
+// A node of the line, beside all of what stands still.
+TubePair::Nodes nodes_of(const TubePair& pair, const std::shared_ptr<MotionTube>& line, int node) {
+  if (pair.is_self()) return {node, node};
+  return pair.a() == line ? TubePair::Nodes{node, TimeTree::root()}
+                          : TubePair::Nodes{TimeTree::root(), node};
+}
+
 }  // namespace
 
 LineChecker::LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration& rest,
@@ -87,17 +94,16 @@ LineChecker::Stretch LineChecker::look(TubePair& pair, TubePair::Nodes at,
     const bool hopeless = room(u) < kLineTowardsShare * u.moves_m();
     if (hopeless) {  // no distance would do: whether it is a conflict is soon found out
       const bool may_be = room(u) < 0.0;
-      return may_be && pair.distance(narrow, at, u.limit_m) < u.limit_m ? Stretch::conflict
-                                                                        : Stretch::open;
+      return may_be && pair.limits_kept(narrow, at, {&u.limit_m, 1}) == 0 ? Stretch::conflict
+                                                                          : Stretch::open;
     }
     const double enough_m = u.limit_m + u.moves_m();
-    const double distance_m = pair.distance(narrow, at, enough_m);
-    if (distance_m < u.limit_m) return Stretch::conflict;
-    if (distance_m >= enough_m) continue;
-    if (distance_m - u.limit_m > kLineTowardsShare * u.moves_m() &&
-        pair.keeps_apart(narrow, at, u.limit_m, enough_m)) {
-      continue;
-    }
+    const double some_m = u.limit_m + kLineTowardsShare * u.moves_m();
+    const double limits_m[] = {u.limit_m, some_m, enough_m};
+    const std::size_t kept = pair.limits_kept(narrow, at, limits_m);
+    if (kept == 0) return Stretch::conflict;
+    if (kept == 3) continue;
+    if (kept == 2 && pair.keeps_apart(narrow, at, u.limit_m, enough_m)) continue;
     return Stretch::open;
   }
   return Stretch::free;
@@ -129,10 +135,7 @@ std::optional<LineChecker::Found> LineChecker::search(const std::shared_ptr<Moti
         const std::size_t count = std::min<std::size_t>(filter::kLanes, nodes.size() - done);
         TubePair::Nodes batch[filter::kLanes];
         for (std::size_t i = 0; i < count; ++i) {
-          const int own = nodes[done + i];
-          batch[i] = pairs[c].is_self()     ? TubePair::Nodes{own, own}
-                     : pairs[c].a() == tube ? TubePair::Nodes{own, TimeTree::root()}
-                                            : TubePair::Nodes{TimeTree::root(), own};
+          batch[i] = nodes_of(pairs[c], tube, nodes[done + i]);
         }
         pairs[c].filter({batch, count});
         evaluations_ += count;
@@ -163,25 +166,45 @@ LineChecker::Answer LineChecker::line(const Eigen::VectorXd& from, const Eigen::
   const auto tube = tube_along(from, to);
   const auto found = search(tube, (to - from).lpNorm<Eigen::Infinity>());
   if (!found) return {};
-  // The pair that is worst there, exactly.
-  const Duration at = tube->middle(found->node);
   TubePair pair = pair_with(counterparts_[found->counterpart], tube);
+  const auto [worst, moves_m] = worst_of(pair, tube, *found);
+  const BodyPair& bodies = scene_->bodies().pairs[worst.pair.index()];
+  Answer answer{found->proven ? Kind::conflict : Kind::undecided,
+                to_seconds(tube->middle(found->node)) / to_seconds(kLength),
+                proximity_of(scene_->bodies().bodies[bodies.a], scene_->bodies().bodies[bodies.b],
+                             worst.distance_m),
+                moves_m};
+  answer.proximity->limit_m = limit_m(worst.pair);
+  return answer;
+}
+
+double LineChecker::limit_m(PairId pair) const {
+  return scene_->bodies().group_of(pair).limit_m(PairLimits::of(scene_->cell()));
+}
+
+LineChecker::Worst LineChecker::worst_of(TubePair& pair, const std::shared_ptr<MotionTube>& tube,
+                                         const Found& found) const {
+  const Duration at = tube->middle(found.node);
   const auto close = pair.too_close_at(at, at);
-  const auto limit_m = [&](PairId id) {
-    return scene_->bodies().group_of(id).limit_m(PairLimits::of(scene_->cell()));
-  };
   const auto missing = [&](const TubePair::PairDistance& c) {
     return c.distance_m - limit_m(c.pair);
   };
-  const TubePair::PairDistance worst =
-      close.empty() ? pair.closest_at(at, at) : *std::ranges::min_element(close, {}, missing);
-  const BodyPair& bodies = scene_->bodies().pairs[worst.pair.index()];
-  Answer answer{found->proven ? Kind::conflict : Kind::undecided,
-                to_seconds(at) / to_seconds(kLength),
-                proximity_of(scene_->bodies().bodies[bodies.a], scene_->bodies().bodies[bodies.b],
-                             worst.distance_m)};
-  answer.proximity->limit_m = limit_m(worst.pair);
-  return answer;
+  if (!close.empty()) return {*std::ranges::min_element(close, {}, missing), 0.0};
+  // None is too close at its middle: one would have to be farther away for all of the stretch.
+  const TubePair::Nodes nodes = nodes_of(pair, tube, found.node);
+  pair.filter({&nodes, 1});
+  std::optional<Worst> worst;
+  double least = 0.0;
+  const std::vector<TubePair::Undecided> undecided = pair.undecided(0);
+  for (const TubePair::Undecided& u : undecided) {
+    const NarrowPair& narrow = pair.narrow(u.narrow, u.box);
+    const double enough_m = u.limit_m + u.moves_m();
+    const double distance_m = pair.distance(narrow, nodes, enough_m);
+    if (distance_m - enough_m >= least) continue;
+    least = distance_m - enough_m;
+    worst = Worst{{narrow.pair, distance_m}, u.moves_m()};
+  }
+  return worst.value_or(Worst{pair.closest_at(at, at), 0.0});
 }
 
 }  // namespace armloom

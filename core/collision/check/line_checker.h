@@ -38,6 +38,9 @@ class LineChecker {
     double at = 0.0;                          // share of the line, 0 to 1: where ...
     std::optional<Proximity> proximity = {};  // ... and what, if not free; body_a is of the arm
                                               // with the smaller id
+    // Undecided: what these two may move on top by the tracking error, and along what is left open
+    // of the line; their distance does not leave that room.
+    double moves_m = 0.0;
   };
   // Rows as the arm's joints. With from == to: the state, with its tracking error.
   [[nodiscard]] Answer line(const Eigen::VectorXd& from, const Eigen::VectorXd& to);
@@ -73,6 +76,14 @@ class LineChecker {
                                    const std::shared_ptr<MotionTube>& tube) const;
   [[nodiscard]] std::optional<Found> search(const std::shared_ptr<MotionTube>& tube,
                                             double distance);
+  // The pair that lacks most of its limit there, and how much more than that was asked of it.
+  struct Worst {
+    TubePair::PairDistance pair;
+    double moves_m;
+  };
+  [[nodiscard]] Worst worst_of(TubePair& pair, const std::shared_ptr<MotionTube>& tube,
+                               const Found& found) const;
+  [[nodiscard]] double limit_m(PairId pair) const;
   [[nodiscard]] Stretch look(TubePair& pair, TubePair::Nodes at,
                              std::vector<TubePair::Undecided>& undecided) const;
 

@@ -75,6 +75,7 @@ Proximity OrientedDiagram::proximity_of(const CoordinationDiagram::Witness& foun
   const BodyPair& pair = bodies.pairs[found.pair.index()];
   Proximity proximity =
       armloom::proximity_of(bodies.bodies[pair.a], bodies.bodies[pair.b], found.distance_m);
+  proximity.limit_m = bodies.group_of(found.pair).limit_m(PairLimits::of(*bodies.cell));
   return turned_ ? turned_around(std::move(proximity)) : proximity;
 }
 

@@ -204,6 +204,12 @@ double TubePair::distance(const NarrowPair& pair, Nodes at, double limit_m) cons
   return body_distance(setting_.bodies->shapes, placed_a(pair, at), placed_b(pair, at), limit_m);
 }
 
+std::size_t TubePair::limits_kept(const NarrowPair& pair, Nodes at,
+                                  std::span<const double> limits_m) const {
+  return armloom::limits_kept(setting_.bodies->shapes, placed_a(pair, at), placed_b(pair, at),
+                              limits_m);
+}
+
 bool TubePair::keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, double enough_m) {
   const KinematicBody& a = body_a(pair);
   const KinematicBody& b = body_b(pair);

@@ -56,6 +56,9 @@ class TubePair {
 
   // min(exact distance at the middle of both nodes, limit_m).
   [[nodiscard]] double distance(const NarrowPair& pair, Nodes at, double limit_m) const;
+  // How many of these limits the exact distance there is not below. Precondition: ascending.
+  [[nodiscard]] std::size_t limits_kept(const NarrowPair& pair, Nodes at,
+                                        std::span<const double> limits_m) const;
   // Whether the pair keeps its limit all over both nodes where the bodies that come into question
   // are enough_m apart at the middle or do not come that close along their direction.
   [[nodiscard]] bool keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, double enough_m);

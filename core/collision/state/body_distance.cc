@@ -68,6 +68,25 @@ bool bodies_surely_closer_than(const std::vector<ConvexShape>& shapes, const Pla
   return false;
 }
 
+std::size_t limits_kept(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
+                        const PlacedBody& b, std::span<const double> limits_m) {
+  std::size_t kept = limits_m.size();
+  for (ShapeGroups of_a(shapes, a); !of_a.ended(); of_a.next()) {
+    for (ShapeGroups of_b(shapes, b); !of_b.ended() && kept > 0; of_b.next()) {
+      const double distance_m = shapes_distance(shapes, of_a, of_b, limits_m[kept - 1]);
+      const bool pieces = of_a.are_pieces() || of_b.are_pieces();
+      const bool asks_surfaces = pieces && distance_m < kSurfaceWithin_m;
+      const auto is_below = [&](double limit_m) {
+        if (distance_m >= limit_m) return false;
+        if (!asks_surfaces || limit_m > kSurfaceWithin_m) return true;
+        return closer_than(of_a.solid(), of_b.solid(), limit_m);
+      };
+      while (kept > 0 && is_below(limits_m[kept - 1])) --kept;
+    }
+  }
+  return kept;
+}
+
 bool bodies_closer_than(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                         const PlacedBody& b, double limit_m) {
   const auto found = [](const PlacedSolid& of_a, const PlacedSolid& of_b, double within_m) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/collision/scene/scene_bodies.h"
@@ -32,5 +33,10 @@ inline constexpr double kSurfaceWithin_m = 0.05;
 // Whether body_distance() is below limit_m, found out sooner.
 [[nodiscard]] bool bodies_closer_than(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                                       const PlacedBody& b, double limit_m);
+
+// How many of these limits body_distance() is not below, found out sooner: of surfaces each limit
+// is decided by itself, which takes a fraction of their distance. Precondition: ascending.
+[[nodiscard]] std::size_t limits_kept(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
+                                      const PlacedBody& b, std::span<const double> limits_m);
 
 }  // namespace armloom

@@ -71,7 +71,8 @@ void add_after(const State& state, const Record& record, Edges& edges) {
 
 Closed plan(const Turns&, const Record& record) {
   const Job& job = record.job;
-  const bool is_asked = job.is_unplanned() || job.is_replanned_now() || job.is_detour_asked() ||
+  const bool is_unplanned = job.is_unplanned() && job.stands_in() == nullptr;
+  const bool is_asked = is_unplanned || job.is_replanned_now() || job.is_detour_asked() ||
                         record.approaches.are_in_question();
   if (!is_asked) return std::nullopt;
   return FoundWaits(Wait{.kind = Wait::Kind::plan});

@@ -80,6 +80,7 @@ void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
   }
   way.is_planned = false;
   way.refusal.reset();
+  way.stands_in.reset();
   ++way.tries;
   way.question = ++record.asking.plans;
   way.asked_at = state.version;
@@ -88,7 +89,12 @@ void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
   state.decided.effects.push_back(PlanMotion{record.job.id, *way.question, std::move(question)});
 }
 
-enum class Answered { planned, refused, not_yet };
+enum class Answered {
+  planned,
+  stands_in,  // something that has to go before it can be planned (Job::stands_in)
+  refused,
+  not_yet,
+};
 
 // What is not known of the way, or is out of date, is asked.
 Answered answer_of(State& state, Record& record, GoalWay& way) {
@@ -96,8 +102,9 @@ Answered answer_of(State& state, Record& record, GoalWay& way) {
   const auto at = at_its_turn(state, record, way);
   if (!at) return Answered::not_yet;
   if (fits(state, way, *at)) {
-    if (!way.is_planned) return Answered::refused;
+    if (!way.is_planned && !way.stands_in) return Answered::refused;
     way.tries = 0;
+    if (way.stands_in) return Answered::stands_in;
     const bool asks_anew =
         way.times_others_left < kPlansMax && is_in_the_way_of_another(state, record.job, way);
     if (!asks_anew) return Answered::planned;
@@ -118,16 +125,17 @@ Answered answer_of(State& state, Record& record, GoalWay& way) {
 Answered answer_of(State& state, Record& record) {
   Job& job = record.job;
   JobGoal& goal = *job.goal;
-  bool all = true;
+  bool all = true, any_stands_in = false;
   std::optional<std::size_t> planned;
   for (std::size_t k = 0; k < goal.ways.size(); ++k) {
     if (!job.has_open_arm() && k != goal.taken) continue;
     const Answered answer = answer_of(state, record, goal.ways[k]);
     if (answer == Answered::not_yet) all = false;
+    if (answer == Answered::stands_in) any_stands_in = true;
     if (answer == Answered::planned && (!planned || k == goal.taken)) planned = k;
   }
   if (!all) return Answered::not_yet;
-  if (!planned) return Answered::refused;
+  if (!planned) return any_stands_in ? Answered::stands_in : Answered::refused;
   if (job.has_open_arm() && *planned != goal.taken) take_alternative(state, record, *planned);
   if (!std::exchange(goal.is_planned, true)) {
     state.lanes.renew_later();
@@ -160,7 +168,7 @@ Record* plan_lane(State& state, ArmId arm) {
     if (job.has_open_arm() && !is_one_of_the_first(state, record)) continue;
     const Answered answer = answer_of(state, record);
     if (answer == Answered::refused) return &record;
-    if (answer == Answered::not_yet && !job.has_open_arm()) return nullptr;
+    if (answer != Answered::planned && !job.has_open_arm()) return nullptr;
   }
   return nullptr;
 }
@@ -227,6 +235,8 @@ void take_plan(State& state, const PlanMade& answer) {
   asked->question.reset();
   if (!answer.trajectory) {
     asked->refusal = answer.why;
+    asked->stands_in = answer.stands_in;
+    state.jobs.explain(*record);
     return;
   }
   asked->is_planned = true;

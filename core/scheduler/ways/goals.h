@@ -13,6 +13,9 @@ namespace armloom {
 // is chosen at its turn (waiting/choosing.h): the one by which it arrives first. Until then the
 // jobs behind it are planned as if it went by another arm.
 
+// One whose arm stands too close to an object has no plan until that has gone, and waits for it at
+// its turn as a trajectory does: in the backlog, until its timeout.
+
 // Asks for what has no plan (PlanMotion), or one that no longer fits: the arm will be elsewhere, or
 // the scene is another one. A job is given kPlansMax tries in a row, then it fails. Whether one
 // did: then others may begin elsewhere.

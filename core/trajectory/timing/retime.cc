@@ -1,5 +1,6 @@
 #include "core/trajectory/timing/retime.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,46 @@ std::vector<Eigen::VectorXd> way_of(const TrajectoryRequest& request) {
   return way;
 }
 
+// Of the chord between two points.
+double distance_to_chord(const Eigen::VectorXd& point, const Eigen::VectorXd& from,
+                         const Eigen::VectorXd& to) {
+  const Eigen::VectorXd chord = to - from;
+  const double length2 = chord.squaredNorm();
+  const double share = length2 > 0.0 ? chord.dot(point - from) / length2 : 0.0;
+  return (point - from - std::clamp(share, 0.0, 1.0) * chord).norm();
+}
+
+// From each point that stays the farthest one to which the chord passes all between within
+// kThinWithin; so far it is looked, that the time goes with the number of points.
+constexpr std::size_t kSpanMax = 64;
+
+std::vector<Eigen::VectorXd> thinned(const std::vector<Eigen::VectorXd>& way) {
+  std::vector<Eigen::VectorXd> kept{way.front()};
+  for (std::size_t from = 0; from + 1 < way.size();) {
+    const auto is_passed = [&](std::size_t to) {
+      for (std::size_t k = from + 1; k < to; ++k) {
+        if (distance_to_chord(way[k], way[from], way[to]) > kThinWithin) return false;
+      }
+      return true;
+    };
+    std::size_t to = from + 1;
+    while (to + 1 < way.size() && to - from < kSpanMax && is_passed(to + 1)) ++to;
+    kept.push_back(way[to]);
+    from = to;
+  }
+  return JointPath::leads_somewhere(kept) ? kept : way;  // one that leads back at once
+}
+
+// What could be done about it.
+std::string remedy(std::size_t given, double made) {
+  const double share = static_cast<double>(kWaypointsMax) / made;
+  const auto of_each = static_cast<std::size_t>(0.9 * share * static_cast<double>(given));
+  return "the " + std::to_string(given) + " waypoints become " + to_text(made) +
+         " with the times that are made, and a motion has at most " +
+         std::to_string(kWaypointsMax) + ": give the way in several jobs of at most " +
+         std::to_string(of_each) + " waypoints each, or fewer waypoints";
+}
+
 }  // namespace
 
 Result<TrajectoryPtr> retimed(const TrajectoryRequest& request, const Cell& cell) {
@@ -55,13 +96,19 @@ Result<TrajectoryPtr> retimed(const TrajectoryRequest& request, const Cell& cell
                   {}});
   }
   if (!problems.empty()) return failure(std::move(problems).take());
-  auto timed = time_path(cell, names.joints, JointPath::rounded(way, kRetimeWithin),
+  const auto path = JointPath::rounded(thinned(way), kRetimeWithin - kThinWithin);
+  auto timed = time_path(cell, names.joints, path,
                          {.shares = {.velocity = request.retime->velocity.value_or(
                                          cell.execution.velocity_scaling_factor)}});
   if (timed) return std::move(timed->trajectory);
   for (Problem& problem : timed.error()) {
     problem.pointer = "/points";
-    problem.detail.insert(0, "with the times that were made: ");
+    const auto* made = std::get_if<double>(&problem.value);
+    if (problem.kind == ProblemKind::too_large && made != nullptr) {
+      problem.detail = remedy(request.points.size(), *made);
+    } else {
+      problem.detail.insert(0, "with the times that were made: ");
+    }
   }
   return failure(std::move(timed.error()));
 }

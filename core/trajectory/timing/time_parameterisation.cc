@@ -114,6 +114,7 @@ Result<TimedMotion> time_path(const Cell& cell, const std::vector<JointId>& join
   TrajectoryRequest request = request_for(cell, joints);
   for (int i = 0; i < kTriesMax; ++i) {
     request.points = softened(path, rates, fastest_along(path, rates, kParts), window_s);
+    if (request.points.size() > kWaypointsMax) break;  // it is refused whatever comes of it
     const LimitShares used = limit_shares(request.points, limits);
     const double factor =
         std::max({used.velocity, std::sqrt(used.acceleration), std::cbrt(used.jerk)});

@@ -97,6 +97,62 @@ TEST(Retime, IsAsFastAsTheCellHasItUnlessTheRequestSaysAnotherSpeed) {
   EXPECT_EQ((*way.read())->duration(), fast);
 }
 
+// As recorded every few milliseconds: more waypoints than corners.
+TEST(Retime, TakesAPathThatWasSampledClosely) {
+  Way way(2);
+  Eigen::VectorXd middle(7);
+  middle << 0.0, -0.4, 0.0, -1.8, 0.0, 1.8, 0.0;
+  way.request.points.clear();
+  constexpr int kPoints = 9000;
+  for (int i = 0; i < kPoints; ++i) {
+    const double along = 6.28 * i / kPoints;
+    std::vector<double> q(middle.begin(), middle.end());
+    q[0] += 0.4 * std::sin(3.0 * along);
+    q[1] += 0.3 * std::cos(2.0 * along) - 0.3;
+    q[3] += 0.2 * std::sin(5.0 * along);
+    way.request.points.push_back({.positions = q});
+  }
+  const auto made = way.read();
+  ASSERT_TRUE(made) << made.error().front().detail;
+  JointState state;
+  std::vector<Eigen::VectorXd> places;
+  for (Duration t{}; t <= (*made)->duration(); t += std::chrono::milliseconds(2)) {
+    (*made)->sample(t, state);
+    places.push_back(state.position);
+  }
+  for (std::size_t i = 0; i < way.request.points.size(); i += 50) {
+    const Eigen::Map<const Eigen::VectorXd> at(way.request.points[i].positions.data(), 7);
+    double nearest = 1e9;
+    for (const auto& place : places) nearest = std::min(nearest, (place - at).norm());
+    ASSERT_LT(nearest, kRetimeWithin + 4e-3) << i;
+  }
+  EXPECT_LT(to_seconds((*made)->duration()), 30.0);
+}
+
+// Back and forth by less than what is left out elsewhere is a way all the same.
+TEST(Retime, TakesAWayThatIsShorterThanWhatIsLeftOut) {
+  Way way(3);
+  way.request.points[1] = way.request.points[2] = way.request.points[0];
+  way.request.points[1].positions[0] += 0.5 * kThinWithin;
+  const auto made = way.read();
+  ASSERT_TRUE(made) << made.error().front().detail;
+}
+
+TEST(Retime, SaysInWhichPartsAWayOfTooManyCornersIsToBeGiven) {
+  Way way(3000);
+  const auto made = way.read();
+  ASSERT_FALSE(made);
+  const Problem& problem = made.error().front();
+  EXPECT_EQ(problem.pointer, "/points");
+  EXPECT_THAT(problem.detail, HasSubstr("the 3000 waypoints become "));
+  const auto begins = problem.detail.find("at most ", problem.detail.find("several jobs"));
+  const auto each = static_cast<std::size_t>(std::stoul(problem.detail.substr(begins + 8)));
+  EXPECT_GE(each, 100U);
+  way.request.points.resize(each);
+  const auto part = way.read();
+  EXPECT_TRUE(part) << part.error().front().detail;
+}
+
 TEST(Retime, SaysWhatIsWrongWithTheWaypointsOfTheClient) {
   const auto told = [](const Way& way) {
     const auto made = way.read();

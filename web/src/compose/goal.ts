@@ -1,6 +1,7 @@
 // A goal as a form has it: numbers are texts until they are asked for. Pure.
 
 import type { Cell, CellArm } from '../server/messages';
+import type { ToolPose } from '../view/tool_in_hand';
 
 export type GoalKind = 'named' | 'joints' | 'pose';
 export interface GoalForm { arm: string; kind: GoalKind; named: string; joints: string; xyz: string; rpy: string; link: string; speed: string }
@@ -35,6 +36,20 @@ function goal_of(form: GoalForm): object | string {
   if (rpy?.length !== 3) return `Turn: three numbers in degrees; found ${form.rpy}`;
   const radians = rpy.map((angle) => (angle * Math.PI) / 180);
   return { pose: { ...(form.link.trim() === '' ? {} : { link: form.link.trim() }), xyz, rpy: radians } };
+}
+
+/** As a form has it: millimetres, and tenths of a degree. */
+export function form_of_pose({ xyz, rpy }: ToolPose): Pick<GoalForm, 'xyz' | 'rpy'> {
+  const text = (numbers: readonly number[], digits: number) => numbers.map((n) => String(Number(n.toFixed(digits)))).join(', ');
+  return { xyz: text(xyz, 3), rpy: text(rpy.map((angle) => (angle * 180) / Math.PI), 1) };
+}
+
+/** null: the form does not say one yet. */
+export function pose_of_form({ xyz, rpy }: Pick<GoalForm, 'xyz' | 'rpy'>): ToolPose | null {
+  const at = numbers_in(xyz);
+  const turn = numbers_in(rpy)?.map((angle) => (angle * Math.PI) / 180);
+  if (at?.length !== 3 || turn?.length !== 3) return null;
+  return { xyz: at as ToolPose['xyz'], rpy: turn as ToolPose['rpy'] };
 }
 
 /** Between commas or blanks; null where one is none. */

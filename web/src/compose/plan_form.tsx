@@ -1,13 +1,15 @@
 // Say where to go instead of how: the server plans the way, which is then looked at, judged and sent as
 // any job is.
 
-import { useState } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Plan, Problem } from '../server/messages';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
 import { millimetres, seconds, why_mute } from '../wording';
 import { pretty } from './example';
-import { arm_of, plan_request, states_of, type GoalForm, type GoalKind } from './goal';
+import type { Grip } from '../view/by_hand';
+import type { ToolPose } from '../view/tool_in_hand';
+import { arm_of, form_of_pose, plan_request, pose_of_form, states_of, type GoalForm, type GoalKind } from './goal';
 import { Refused } from './refused';
 
 type Outcome = { kind: 'none' } | { kind: 'busy' } | { kind: 'planned'; plan: Plan } | { kind: 'refused'; problem: Problem } | { kind: 'fault'; text: string };
@@ -24,31 +26,38 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
   const { cell } = app.store;
   const [form, set_form] = useState<GoalForm | null>(last);
   const [outcome, set_outcome] = useState<Outcome>({ kind: 'none' });
+  const turn_ = useRef(0);
   if (!cell) return null;
   const first = cell.robots.flatMap((robot) => robot.arms)[0]?.name ?? '';
   const shown = form ?? { arm: first, kind: 'named', named: 'home', joints: '', xyz: '', rpy: '180, 0, 0', link: '', speed: '50' };
   const set = (part: Partial<GoalForm>) => {
-    last = { ...shown, ...part };
+    last = { ...(last ?? shown), ...part };  // also for who was told of the form some time ago
     set_form(last);
     set_outcome({ kind: 'none' });
   };
-  const plan = async () => {
-    const asked = plan_request(shown);
+  const plan = async (form: GoalForm) => {
+    const asked = plan_request(form);
     if (!asked.ok) return set_outcome({ kind: 'fault', text: asked.fault });
     set_outcome({ kind: 'busy' });
     app.ghost.value = null;
+    const turn = ++turn_.current;
     const answer = await app.api.plan(asked.text);
+    if (turn !== turn_.current) return;  // it was dragged on meanwhile
     if (!answer.ok) {
-      show_nearest(answer.problem, shown.arm, app);
+      show_nearest(answer.problem, form.arm, app);
       return set_outcome({ kind: 'refused', problem: answer.problem });
     }
     set_outcome({ kind: 'planned', plan: answer.value });
-    change(pretty({ name: name_of(shown), trajectory: answer.value.trajectory }));
+    change(pretty({ name: name_of(form), trajectory: answer.value.trajectory }));
+  };
+  const drag = (part: Partial<GoalForm>) => {
+    set(part);
+    if (last) void plan(last);
   };
   const mute = why_mute(app.store.link);
   const { arm } = shown;
   return (
-    <form class="plan-form" data-test="plan-form" onSubmit={(event) => { event.preventDefault(); void plan(); }}>
+    <form class="plan-form" data-test="plan-form" onSubmit={(event) => { event.preventDefault(); void plan(shown); }}>
       <div class="line wrap">
         <label>Arm <select value={arm} data-test="plan-arm" onChange={(event) => set({ arm: event.currentTarget.value, named: 'home' })}>
           {[...app.store.arms.keys()].map((name) => <option key={name} value={name}>{name}</option>)}
@@ -59,6 +68,7 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
         <label>Speed <input class="narrow" type="number" min="1" max="100" value={shown.speed} data-test="plan-speed" onInput={(event) => set({ speed: event.currentTarget.value })} /> %</label>
       </div>
       <Goal form={shown} app={app} set={set} />
+      {shown.kind === 'pose' && <Drag form={shown} app={app} drag={drag} />}
       <div class="line">
         <button type="submit" data-test="plan" disabled={outcome.kind === 'busy' || mute !== null} title={mute ?? 'Nothing moves: the way is shown first'}>
           {outcome.kind === 'busy' ? 'Planning…' : 'Plan the way'}
@@ -98,6 +108,26 @@ function Goal({ form, app, set }: { form: GoalForm; app: App; set(part: Partial<
   return <div class="line wrap goal">{text('xyz', 'Position in the world, m', '0, 0.2, 0.5')}{text('rpy', 'Turn, degrees', '180, 0, 0')}{text('link', 'Of the link', 'that of the last joint')}</div>;
 }
 
+/** The goal in the cell: planned each time it is let go, by the same form that can be filled in. */
+function Drag({ form, app, drag }: { form: GoalForm; app: App; drag(part: Partial<GoalForm>): void }) {
+  const [grip, set_grip] = useState<Grip | null>(null);
+  const { arm, link, xyz, rpy } = form;
+  useEffect(() => {
+    const let_go = (pose: ToolPose) => drag(form_of_pose(pose));
+    app.tool.value = grip && { arm, link: link.trim(), grip, at: pose_of_form({ xyz, rpy }), let_go };
+  }, [app, grip, arm, link, xyz, rpy]);
+  useEffect(() => () => { app.tool.value = null; }, [app]);
+  const button = (its: Grip, title: string) => (
+    <button type="button" class="small" data-test={`plan-${its}`} aria-pressed={grip === its} onClick={() => set_grip(grip === its ? null : its)}>{title}</button>
+  );
+  return (
+    <div class="line wrap">
+      {button('move', 'Drag the tool')}{button('turn', 'Turn the tool')}
+      <span class="dim small">{grip ? 'By its arrows or rings in the cell; planned when it is let go. Nothing moves.' : 'In the cell, or by the form above.'}</span>
+    </div>
+  );
+}
+
 function Planned({ plan }: { plan: Plan }) {
   const { verdict, not_judged } = plan;
   const words = verdict === undefined ? `As a job it would be refused now: ${not_judged?.detail ?? ''}`
@@ -116,8 +146,8 @@ function Unplanned({ problem }: { problem: Problem }) {
   return (
     <>
       <Refused problem={problem} />
-      {links && clearance_m !== undefined && <p class="small">{links[0]} and {links[1]}: {clearance_m <= 0 ? 'in contact' : `${millimetres(clearance_m)} apart`}.</p>}
-      {nearest && <p class="small">The ghost stands where the arm comes nearest.</p>}
+      {links?.length === 2 && clearance_m !== undefined && <p class="small">{links[0]} and {links[1]}: {clearance_m <= 0 ? 'in contact' : `${millimetres(clearance_m)} apart`}.</p>}
+      {nearest && <p class="small">The ghost stands at the nearest place that was found.</p>}
     </>
   );
 }

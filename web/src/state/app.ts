@@ -12,6 +12,7 @@ import type { Router } from '../route/router';
 import type { Actions } from './actions';
 import type { Settings } from './settings';
 import type { Store } from './store';
+import type { Tool } from '../view/tool_in_hand';
 
 export interface App {
   store: Store;
@@ -30,6 +31,8 @@ export interface App {
   ghost: Signal<Readonly<Record<string, number>> | null>;
   /** The object that may be moved by hand in the cell. */
   by_hand: Signal<string | null>;
+  /** The tool whose goal is dragged in the cell. */
+  tool: Signal<Tool | null>;
   /** So much of the cell's left is covered by a pane. */
   covered_px: Signal<number>;
 }

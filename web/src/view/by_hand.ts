@@ -1,11 +1,13 @@
-// An object of the scene is moved by hand: by arrows along the world's axes, or by its middle. It is asked
-// of the server when it is let go.
+// Something is moved by hand: by arrows along the world's axes or by its middle, or turned by rings about
+// its own axes. What comes of it is asked of the server when it is let go.
 
 import * as THREE from 'three';
 import { TransformControls } from 'three/addons/controls/TransformControls.js';
 import type { Stage } from './stage';
 
 const kSize = 0.75;
+
+export type Grip = 'move' | 'turn';
 
 export class ByHand {
   private readonly controls_: TransformControls;
@@ -24,7 +26,9 @@ export class ByHand {
   }
 
   /** This one may be moved; null: none. Answers whether it was another one before. */
-  show(object: THREE.Object3D | null): boolean {
+  show(object: THREE.Object3D | null, grip: Grip = 'move'): boolean {
+    this.controls_.setMode(grip === 'move' ? 'translate' : 'rotate');
+    this.controls_.setSpace(grip === 'move' ? 'world' : 'local');
     if (object === this.object_) return false;
     this.object_ = object;
     if (object) this.controls_.attach(object);

@@ -20,6 +20,7 @@ import { SceneObjects } from './scene_objects';
 import { dispose } from './shapes';
 import { Stage } from './stage';
 import { SurfaceShelf, type Surfaces } from './surfaces';
+import { ToolInHand } from './tool_in_hand';
 import { ToolPaths } from './tool_path';
 
 export class CellView {
@@ -34,6 +35,7 @@ export class CellView {
   private readonly shelf_ = new SurfaceShelf();
   private readonly objects_: SceneObjects;
   private readonly by_hand_: ByHand;
+  private readonly tool_: ToolInHand;
   private cell_: Cell | null = null;
   private readonly off_: (() => void)[];
 
@@ -41,7 +43,7 @@ export class CellView {
   private states_ = '';
   private instant_s_: number | null = null;
 
-  constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'motions' | 'settings' | 'actions' | 'by_hand'>) {
+  constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'motions' | 'settings' | 'actions' | 'by_hand' | 'tool'>) {
     const store_ = this.store_;
     this.stage_ = new Stage(host_);
     this.labels_ = new ArmLabels(host_);
@@ -52,12 +54,13 @@ export class CellView {
     this.stage_.after_draw = () => this.place_labels();
     this.stage_.on_level = ({ ghosts }) => this.ahead_.show_level(ghosts);
     this.by_hand_ = new ByHand(this.stage_, (object) => this.let_go(object));
+    this.tool_ = new ToolInHand(this.stage_, (arm, link) => this.robots_.get(store_.arms.get(arm)?.robot ?? '')?.frame_of(arm, link) ?? null);
     on_click(this.stage_.canvas, (x_px, y_px) => this.pick(x_px, y_px));
     this.stage_.on_camera = (camera) => app_.router.look_from(camera);
     this.off_ = [
       store_.on_change(() => this.follow()), store_.on_frame(() => this.move()), store_.on_beat(() => this.measure()),
       app_.motions.changes.subscribe(() => this.look_ahead()), app_.settings.shows.subscribe(() => this.show_shows()),
-      app_.by_hand.subscribe(() => this.take_in_hand()),
+      app_.by_hand.subscribe(() => this.take_in_hand()), app_.tool.subscribe((tool) => this.tool_.show(tool)),
     ];
     this.follow();
   }
@@ -67,6 +70,7 @@ export class CellView {
     this.labels_.clear();
     this.distances_.clear();
     this.by_hand_.close();
+    this.tool_.close();
     this.stage_.close();
   }
 
@@ -130,6 +134,10 @@ export class CellView {
   where_is(object: string): { x: number; y: number } | null {
     const found = this.objects_.find(object);
     return found ? this.stage_.to_page(found.position) : null;
+  }
+  /** The same of the tool that is in hand. */
+  where_is_tool(): { x: number; y: number } | null {
+    return this.tool_.position ? this.stage_.to_page(this.tool_.position) : null;
   }
 
   /** How many ways ahead are drawn. */
@@ -285,7 +293,7 @@ export class CellView {
 
   /** What was clicked, an arm or an object, is looked at. */
   private pick(x_px: number, y_px: number): void {
-    if (this.by_hand_.is_touched) return;
+    if (this.by_hand_.is_touched || this.tool_.is_touched) return;
     const sight = this.stage_.sight(x_px, y_px);
     const robots = [...this.robots_.values()];
     const hit = sight.intersectObjects([...robots.map((robot) => robot.root), ...this.objects_.group.children], true)[0]?.object;

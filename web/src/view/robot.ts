@@ -79,6 +79,15 @@ export class RobotModel {
     return tool_of(this.root, this.prefix_, this.arms_.find((one) => one.name === arm));
   }
 
+  /** The frame of a link in the world, by its name with or without prefix; empty: of the arm's last joint. */
+  frame_of(arm: string, link: string): THREE.Matrix4 | null {
+    const last = this.arms_.find((one) => one.name === arm)?.joints.at(-1);
+    const own = link.startsWith(this.prefix_) ? link.slice(this.prefix_.length) : link;
+    const found = link === '' ? this.root.joints[(last ?? '').slice(this.prefix_.length)] : this.root.links[own] ?? this.root.links[link];
+    found?.updateWorldMatrix(true, false);
+    return found?.matrixWorld.clone() ?? null;
+  }
+
   /** What is drawn of a link, by its name in the cell. */
   skin_of(link: string): THREE.Mesh | null {
     const known = link.startsWith(this.prefix_) ? this.root.links[link.slice(this.prefix_.length)] : undefined;

@@ -1,0 +1,47 @@
+#include "core/planning/nearest_free.h"
+
+#include <utility>
+
+#include "core/collision/check/line_checker.h"
+#include "core/planning/places_around.h"
+
+namespace armloom {
+namespace {
+
+// The line from there to what is wanted is halved so often.
+constexpr int kHalvings = 10;
+
+// Precondition: `q` is free, `wanted` is not.
+Eigen::VectorXd brought_nearer(LineChecker& states, const Eigen::VectorXd& wanted,
+                               Eigen::VectorXd q) {
+  Eigen::VectorXd blocked = wanted;
+  for (int i = 0; i < kHalvings; ++i) {
+    Eigen::VectorXd middle = 0.5 * (q + blocked);
+    (states.is_free(middle, middle) ? q : blocked) = std::move(middle);
+  }
+  return q;
+}
+
+}  // namespace
+
+NearestFree nearest_free(const PlanningScenePtr& scene, const PlanRequest& request,
+                         const Eigen::VectorXd& wanted) {
+  const Cell& cell = scene->cell();
+  const Arm& arm = cell.arm(request.arm);
+  LineChecker states(scene, request.arm, request.at, cell.checking.tracking_error_rad,
+                     request.left_out);
+  const Eigen::VectorXd centre = within_limits(cell, arm, wanted);
+  if (states.is_free(centre, centre)) return {centre, states.evaluations()};
+  std::optional<Eigen::VectorXd> nearest;
+  int found = 0;
+  for (int i = 1; i <= kPlacesLookedAt && found < kFreePlacesMax; ++i) {
+    Eigen::VectorXd q = place_around(cell, arm, centre, i);
+    if (!states.is_free(q, q)) continue;
+    ++found;
+    q = brought_nearer(states, centre, std::move(q));
+    if (!nearest || (q - wanted).norm() < (*nearest - wanted).norm()) nearest = std::move(q);
+  }
+  return {std::move(nearest), states.evaluations()};
+}
+
+}  // namespace armloom

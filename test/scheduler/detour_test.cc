@@ -1,0 +1,98 @@
+// Of several ways to a goal the one that arrives first, within a number of tries and a budget of
+// each.
+#include "core/scheduler/ways/detour.h"
+
+#include <gmock/gmock.h>
+
+#include "test/scheduler/bench_cell.h"
+
+namespace armloom {
+namespace {
+
+// Arm 1 holds the place on arm 0's shortest way, of 3 s, for about 40 s more.
+class DetoursByHand : public ::testing::Test, protected Bench {
+ protected:
+  DetoursByHand() : Bench(2, "earliest_start") {}
+
+  void SetUp() override {
+    holds_ = submit(move({1}, 0, 1, 60s), now());
+    answer_free(now());
+    progressed(holds_, 10ms, now());
+    goes_ = submit({.job = JobId{0},
+                    .trajectory = way_of(3s),
+                    .goals = {{.arm = ArmId{0}, .to = Eigen::VectorXd::Constant(1, 1.0)}}},
+                   now());
+    answer_plan(3s);
+    answer_that_it_waits();
+  }
+
+  static TrajectoryPtr way_of(Duration duration) { return move({0}, 0, 1, duration); }
+  TimePoint now() { return now_ += 1ms; }
+  void heard(const Effect& effect) override {
+    if (const auto* plan = std::get_if<PlanMotion>(&effect)) plans_.push_back(*plan);
+  }
+  void answer_plan(Duration lasts) {
+    ASSERT_LT(answered_, plans_.size()) << "nothing was asked";
+    const PlanMotion asked = plans_[answered_++];
+    step(PlanMade{.job = asked.job, .question = asked.number, .trajectory = way_of(lasts)}, now());
+  }
+  // The shortest way meets arm 1 from 2 to 40 s of that one's time.
+  void answer_that_it_waits() {
+    answer_regions(now(), {{goes_, holds_, {region(ProgressBox{1s, 2s, 0s, 40s})}}});
+  }
+  // Ways of these durations, each free of all others.
+  void offer(std::vector<Duration> ways) {
+    for (const Duration lasts : ways) {
+      answer_plan(lasts);
+      if (HasFatalFailure()) return;
+      answer_free(now());
+    }
+  }
+  [[nodiscard]] Duration taken() const { return job(goes_).trajectory->duration(); }
+  [[nodiscard]] std::size_t asked_around() const { return plans_.size() - 1; }
+
+  TimePoint now_{};
+  JobId holds_{0}, goes_{0};
+  std::vector<PlanMotion> plans_;
+  std::size_t answered_ = 0;
+};
+
+TEST_F(DetoursByHand, TheOneThatArrivesFirstIsTakenOfAllThatAreTried) {
+  offer({12s, 8s, 10s, 9s});
+  if (question) answer_free(now());  // by that one again
+  EXPECT_EQ(taken(), 8s);
+  EXPECT_EQ(state(goes_), JobState::scheduled);
+  EXPECT_EQ(asked_around(), static_cast<std::size_t>(kDetoursMax));
+  ASSERT_TRUE(job(goes_).goal->detour);
+  EXPECT_TRUE(job(goes_).goal->detour->is_taken);
+  EXPECT_GT(job(goes_).goal->detour->saves, 20s);
+}
+
+TEST_F(DetoursByHand, OneThatHardlyWaitsEndsTheSearch) {
+  offer({12s, 3200ms});
+  if (question) answer_free(now());
+  EXPECT_EQ(taken(), 3200ms);
+  EXPECT_EQ(asked_around(), 2U);
+}
+
+// Its own way arrives before the other one, though it waits.
+TEST_F(DetoursByHand, TheShortestIsTakenWhereNoneArrivesSooner) {
+  answer_plan(50s);  // this is of no use: it is not even judged
+  for (int i = 1; i < kDetoursMax && answered_ < plans_.size(); ++i) answer_plan(55s);
+  while (question) answer_that_it_waits();
+  EXPECT_EQ(taken(), 3s);
+  EXPECT_EQ(state(goes_), JobState::scheduled);
+  EXPECT_FALSE(job(goes_).goal->detour->is_taken);
+}
+
+TEST_F(DetoursByHand, EachIsLookedForWithinABudget) {
+  offer({12s, 11s, 10s, 9s});
+  ASSERT_EQ(asked_around(), static_cast<std::size_t>(kDetoursMax));
+  for (std::size_t i = 1; i < plans_.size(); ++i) {
+    EXPECT_EQ(plans_[i].question.budget, kDetourBudget);
+    EXPECT_NE(plans_[i].question.seed, plans_[i - 1].question.seed) << "another way each time";
+  }
+}
+
+}  // namespace
+}  // namespace armloom
