@@ -62,8 +62,7 @@ class Service::Impl {
     broadcast_ = std::make_unique<Broadcast>(
         Broadcast::Parts{cell, stream_, *clock_, hub_, recording_.get(), keeper_.get(), *alerts_,
                          post, options_.log, *metrics_});
-    ExecutiveOptions executive_options;
-    executive_options.policy = options_.policy;
+    ExecutiveOptions executive_options{.policy = options_.policy};
     std::optional<Restart> restart;
     if (keeper_) {
       keeper_->serve(*clock_, post);
@@ -81,10 +80,11 @@ class Service::Impl {
     if (restart) go_on(std::move(*restart), cell);
     keep_recordings(source.file.parent_path());
     comparison_ = std::make_unique<Comparison>(cell, post);
-    api_ = std::make_unique<Api>(ApiParts{
-        cell, stream_, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), *alerts_, post,
-        guard_, [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_,
-        limits_, *comparison_, control_, options_.hold_lease});
+    api_ = std::make_unique<Api>(
+        ApiParts{cell, stream_, *clock_, *loop_, hub_, recording_.get(), keeper_.get(), *alerts_,
+                 post, [this](std::function<void()> task) { http_->post_urgent(std::move(task)); },
+                 guard_, [this](std::function<void()> task) { worker_.post(std::move(task)); },
+                 *metrics_, limits_, *comparison_, control_, options_.hold_lease});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;

@@ -63,7 +63,8 @@ void Publisher::queue_may_have_changed(TimePoint now) {
 }
 
 void Publisher::tell_queue(TimePoint now) {
-  if (!queue_is_old_ || (now < next_queue_ && all_stopped() == told_queue_.stopped)) return;
+  if (!queue_is_old_) return;
+  if (now < next_queue_) return tell_stopped(now);
   queue_is_old_ = false;
   QueueView present = queue();
   const std::size_t jobs = shown_.jobs.active();
@@ -71,6 +72,13 @@ void Publisher::tell_queue(TimePoint now) {
   if (present == told_queue_) return;
   told_queue_ = present;
   tell(std::move(present), now);
+}
+
+// With the lists as they were told: to make those of thousands takes longer than all else of a
+// stop.
+void Publisher::tell_stopped(TimePoint now) {
+  const bool stopped = all_stopped();
+  if (std::exchange(told_queue_.stopped, stopped) != stopped) tell(told_queue_, now);
 }
 
 bool Publisher::all_stopped() const {

@@ -51,6 +51,7 @@ class Publisher {
   [[nodiscard]] std::uint64_t seq() const { return seq_; }
 
  private:
+  void tell_stopped(TimePoint now);
   [[nodiscard]] bool all_stopped() const;
   [[nodiscard]] bool is_told_of_a_start(ArmId arm) const;
   [[nodiscard]] ArmState state_of(ArmId arm) const;

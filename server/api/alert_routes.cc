@@ -10,11 +10,13 @@ namespace armloom {
 namespace {
 
 void get_alerts(Call call) {
-  const auto& alerts = call.parts.alerts.alerts();
-  AlertList list;
-  list.alerts.assign(alerts.rbegin(), alerts.rend());
-  const Respond respond = std::move(call.respond);
-  respond(answer(200, alert_list_format(), list));
+  // Behind the events that were told before: a stop is answered before it stands here.
+  call.parts.post([&parts = call.parts, respond = call.respond] {
+    const auto& alerts = parts.alerts.alerts();
+    AlertList list;
+    list.alerts.assign(alerts.rbegin(), alerts.rend());
+    respond(answer(200, alert_list_format(), list));
+  });
 }
 
 // A token's name is proven, what a client says of itself is not.

@@ -98,33 +98,49 @@ Results merged(const Batch& batch, const std::vector<Result<JobView>>& submitted
   return results;
 }
 
-void tell(const ApiParts& parts, const BatchPtr& batch,
-          const std::vector<Result<JobView>>& submitted, const Respond& respond) {
-  std::vector<JobKeeper::AcceptedJob> accepted;
-  KnownJobs ids(batch->known.size());
+// What is to be put down, and said, of a batch that the executive has taken.
+struct Taken {
+  std::vector<JobKeeper::AcceptedJob> accepted = {};
+  KnownJobs ids;  // of these, in their places
+  Response response = {};
+};
+
+Taken taken(const Batch& batch, const std::vector<Result<JobView>>& submitted, Results before,
+            const WallClock& clock) {
+  Taken all{.ids = KnownJobs(batch.known.size())};
   auto next = submitted.begin();
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (!batch->is_new(i)) continue;
+  for (std::size_t i = 0; i < all.ids.size(); ++i) {
+    if (!batch.is_new(i)) continue;
     if (const Result<JobView>& job = *next++) {
-      accepted.push_back({*job, batch->request.jobs[i].text, origin_of(*batch->sent, i)});
-      ids[i] = job->key;
+      all.accepted.push_back({*job, batch.request.jobs[i].text, origin_of(*batch.sent, i)});
+      all.ids[i] = job->key;
     }
   }
-  look_at(parts, batch->known,
-          [&parts, batch, submitted, ids, respond, accepted = std::move(accepted)](Results before) {
-            Results results = merged(*batch, submitted, std::move(before));
-            acknowledge(parts, accepted, respond,
-                        [&parts, batch, ids, results = std::move(results)] {
-                          note_accepted(parts, *batch->sent, ids);
-                          return batch_response(batch->request.atomic, results, parts.clock);
-                        });
-          });
+  const Results results = merged(batch, submitted, std::move(before));
+  all.response = batch_response(batch.request.atomic, results, clock);
+  return all;
+}
+
+// What is said is written aside: of a thousand jobs that takes long.
+void tell(const ApiParts& parts, const BatchPtr& batch,
+          const std::shared_ptr<const Executive::BatchAnswers>& submitted, const Respond& respond) {
+  look_at(parts, batch->known, [&parts, batch, submitted, respond](const Results& before) {
+    parts.aside([&parts, batch, submitted, respond, before, clock = parts.clock] {
+      const auto all = std::make_shared<Taken>(taken(*batch, **submitted, before, clock));
+      parts.post([&parts, batch, respond, all] {
+        acknowledge(parts, std::move(all->accepted), respond, [&parts, batch, all] {
+          note_accepted(parts, *batch->sent, all->ids);
+          return std::move(all->response);
+        });
+      });
+    });
+  });
 }
 
 // By the executive, part by part: control cycles and stops go on between. `then` on the server's
 // thread.
 void take(const ApiParts& parts, std::vector<JobRequest> jobs, bool atomic,
-          std::function<void(const Executive::BatchAnswers&)> then) {
+          std::function<void(const std::shared_ptr<const Executive::BatchAnswers>&)> then) {
   struct Taking {
     std::vector<JobRequest> jobs;
     std::shared_ptr<Executive::Batch> batch = {};
@@ -135,7 +151,7 @@ void take(const ApiParts& parts, std::vector<JobRequest> jobs, bool atomic,
     auto answers = taking->batch->go_on();
     if (!answers) return false;
     parts.post([then, answers = std::make_shared<const Executive::BatchAnswers>(
-                          std::move(*answers))] { then(*answers); });
+                          std::move(*answers))] { then(answers); });
     return true;
   });
 }
@@ -163,9 +179,9 @@ void submit_batch(const ApiParts& parts, const std::shared_ptr<Batch>& batch,
     if (batch->is_new(i)) jobs.push_back(std::move(*batch->request.jobs[i].job));
   }
   take(parts, std::move(jobs), batch->request.atomic,
-       [&parts, batch, respond](const Executive::BatchAnswers& results) {
-         if (!results) return respond(problem_response(results.error()));
-         tell(parts, batch, *results, respond);
+       [&parts, batch, respond](const std::shared_ptr<const Executive::BatchAnswers>& results) {
+         if (!*results) return respond(problem_response(results->error()));
+         tell(parts, batch, results, respond);
        });
 }
 

@@ -39,7 +39,8 @@ struct ApiParts {
   Recording* recording;  // null: none
   JobKeeper* keeper;     // null: jobs end with the server
   AlertBook& alerts;
-  std::function<void(std::function<void()>)> post;  // to the server's thread, in order
+  std::function<void(std::function<void()>)> post;         // to the server's thread, in order
+  std::function<void(std::function<void()>)> post_urgent;  // before all of these
   Guard& guard;
   // To a thread for what takes long and needs nothing of this.
   std::function<void(std::function<void()>)> aside;
@@ -67,14 +68,14 @@ void ask(const ApiParts& parts, Ask ask, Then then) {
   });
 }
 
-// The same before all that waits for the strand.
+// The same before all that waits for the strand, and for the server's thread.
 template <class Ask, class Then>
 void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
-  parts.loop.post_urgent(
-      [&parts, ask = std::move(ask), then = std::move(then)](Executive& executive) {
-        using Answer = decltype(ask(executive));
-        parts.post([answer = std::make_shared<Answer>(ask(executive)), then] { then(*answer); });
-      });
+  parts.loop.post_urgent([&parts, ask = std::move(ask),
+                          then = std::move(then)](Executive& executive) {
+    using Answer = decltype(ask(executive));
+    parts.post_urgent([answer = std::make_shared<Answer>(ask(executive)), then] { then(*answer); });
+  });
 }
 
 // So many more jobs that whoever asks submits; answered, where they are too many.

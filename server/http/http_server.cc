@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "server/http/asio.h"
+#include "server/http/posted_tasks.h"
 #include "server/http/session.h"
 #include "server/http/transport.h"
 
@@ -78,6 +79,7 @@ class HttpServer::Impl {
   }
 
   asio::io_context& io() { return io_; }
+  PostedTasks& posted() { return posted_; }
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
 
  private:
@@ -189,6 +191,7 @@ class HttpServer::Impl {
   std::optional<MemoryBudget> memory_;
   TlsContextPtr tls_;  // null: without
   asio::io_context io_{1};
+  PostedTasks posted_{io_};
   tcp::acceptor acceptor_{io_};
   tcp::socket spare_{io_};  // a descriptor for refusing whoever comes when there is no other
   asio::signal_set signals_{io_};
@@ -218,7 +221,10 @@ HttpServer::~HttpServer() = default;
 Result<void> HttpServer::use_tls(const TlsFiles& files) { return impl_->use_tls(files); }
 std::uint16_t HttpServer::port() const { return impl_->port(); }
 void HttpServer::run(Site site, bool until_signal) { impl_->run(std::move(site), until_signal); }
-void HttpServer::post(std::function<void()> task) { asio::post(impl_->io(), std::move(task)); }
+void HttpServer::post(std::function<void()> task) { impl_->posted().post(std::move(task)); }
+void HttpServer::post_urgent(std::function<void()> task) {
+  asio::post(impl_->io(), std::move(task));
+}
 void HttpServer::stop() { impl_->io().stop(); }
 
 }  // namespace armloom

@@ -44,8 +44,11 @@ class HttpServer {
   // are to be watched: then every subscription says why it closes first. Connections are closed.
   void run(Site site, bool until_signal);
 
-  // Thread-safe. Runs `task` on the server's thread, soon, in the order posted.
+  // Thread-safe. Runs `task` on the server's thread, soon, in the order posted; whoever is at a
+  // socket has a turn between.
   void post(std::function<void()> task);
+  // Before all that was posted and has not run.
+  void post_urgent(std::function<void()> task);
   void stop();  // thread-safe
 
  private:

@@ -55,7 +55,7 @@ def main():
     parser.add_argument("--waiting", type=int, default=9000)
     parser.add_argument("--batches", type=int, default=3)
     asked = parser.parse_args()
-    with LoadedServer(asked.armloom) as server:
+    with LoadedServer(asked.armloom, "--jobs-per-second", 100000) as server:
         measure(server, asked.waiting, asked.batches)
 
 

@@ -88,7 +88,7 @@ TEST_F(Refusals, OfALineThroughAnObjectSayWhatWasAskedAndHowFarItIsFree) {
   const PlanRefusal why = refusal(line_from(at, {-0.3, 0.1, 0.0}), at);
   ASSERT_EQ(why.reason, Reason::line_blocked) << why.detail;
   ASSERT_TRUE(why.proximity);
-  EXPECT_EQ(why.proximity->limit_m, wall.cell->clearance_m);
+  EXPECT_EQ(why.proximity->limit_m, wall.cell->clearances.clearance_m);
   EXPECT_THAT(why.detail, HasSubstr("20 mm are asked"));
   ASSERT_TRUE(why.nearest);
   EXPECT_TRUE(is_free(*why.nearest));

@@ -76,8 +76,8 @@ TEST_P(Goals, WhereAnObjectTouchesTheArmTheyWaitForItToGo) {
   cell->submit(move_to("y", 0.5, "of the other arm"));
   cell->run_until(cell->simulation->now() + 5s);
   const JobView waits = cell->job("first");
-  EXPECT_EQ(waits.state, JobState::backlogged) << waits.detail;
-  EXPECT_EQ(waits.planned, false);
+  EXPECT_EQ(waits.state, JobState::backlogged) << waits.detail();
+  EXPECT_EQ(waits.motion.planned, false);
   ASSERT_EQ(waits.waits_on.size(), 1U);
   EXPECT_EQ(waits.waits_on[0].kind, Wait::Kind::object);
   ASSERT_EQ(waits.waits_on[0].links.size(), 2U);
@@ -88,7 +88,7 @@ TEST_P(Goals, WhereAnObjectTouchesTheArmTheyWaitForItToGo) {
   cell->submit(move_to("y", -1.0, "out of the way"));
   cell->run_to_the_end(at(40s));
   for (const char* key : {"first", "second"}) {
-    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail;
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail();
   }
   expect_at(0.0, -1.0);
 }
@@ -96,12 +96,12 @@ TEST_P(Goals, WhereAnObjectTouchesTheArmTheyWaitForItToGo) {
 TEST_P(Goals, WhereAnObjectTouchesTheArmTheyExpireAfterTheirTimeout) {
   ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -1.0, 0.1)));
   JobRequest goal = move_to("x", 0.5, "goal");
-  goal.backlog_timeout = 5s;
+  goal.terms.backlog_timeout = 5s;
   cell->submit(goal);
   cell->run_until(at(4s));
   EXPECT_EQ(cell->job("goal").state, JobState::backlogged);
   cell->run_to_the_end(at(10s));
-  EXPECT_EQ(cell->job("goal").reason, Reason::backlog_timeout);
+  EXPECT_EQ(cell->job("goal").reason(), Reason::backlog_timeout);
   EXPECT_LT(cell->simulation->now(), at(6s));
 }
 
@@ -114,10 +114,10 @@ TEST_P(Goals, TheyWaitHoweverOftenElseTheSceneChanges) {
         box_at("fly " + std::to_string(i), 3.0, 3.0 + i)));
     cell->run_until(cell->simulation->now() + 200ms);
   }
-  EXPECT_EQ(cell->job("goal").state, JobState::backlogged) << cell->job("goal").detail;
+  EXPECT_EQ(cell->job("goal").state, JobState::backlogged) << cell->job("goal").detail();
   ASSERT_TRUE(cell->simulation->executive().scene().remove("hand"));
   cell->run_to_the_end(at(20s));
-  EXPECT_EQ(cell->job("goal").state, JobState::succeeded) << cell->job("goal").detail;
+  EXPECT_EQ(cell->job("goal").state, JobState::succeeded) << cell->job("goal").detail();
 }
 
 // The plan was made without the object, and is made again with it.

@@ -100,13 +100,13 @@ TEST_P(OpenArms, WhereAnObjectTouchesOneArmTheOtherGoesAndWhereItTouchesAllTheyW
   cell->submit(either(-0.7, "by whom"));
   cell->submit(either(-0.8, "and then"));
   cell->run_until(cell->simulation->now() + 5s);
-  EXPECT_EQ(cell->job("by whom").state, JobState::backlogged) << cell->job("by whom").detail;
+  EXPECT_EQ(cell->job("by whom").state, JobState::backlogged) << cell->job("by whom").detail();
   ASSERT_FALSE(cell->job("by whom").waits_on.empty());
   EXPECT_EQ(cell->job("by whom").waits_on[0].kind, Wait::Kind::object);
   ASSERT_TRUE(executive().scene().remove("at y"));
   cell->run_to_the_end(at(60s));
   for (const char* key : {"by whom", "and then"}) {
-    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail;
+    EXPECT_EQ(cell->job(key).state, JobState::succeeded) << cell->job(key).detail();
     EXPECT_THAT(cell->job(key).arms, ElementsAre("y"));
   }
 }

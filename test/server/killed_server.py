@@ -1,5 +1,6 @@
 """A server that is to be killed, and when."""
 import json
+import os
 import pathlib
 import subprocess
 import time
@@ -23,7 +24,9 @@ def swing(job_id, arm, duration_s, after):
 
 class Kill:
     """When a server ends: `kind`, and the how manieth of what."""
-    KINDS = ["time", "change", "fdatasync", "pwrite64", "full disk", "broken disk"]
+    KINDS = ["time", "change"]
+    TRACED = ["fdatasync", "pwrite64", "full disk", "broken disk"]
+    POWER_CUT = "power cut"
 
     def __init__(self, kind, nth):
         self.kind, self.nth = kind, nth
@@ -42,14 +45,17 @@ class Kill:
         return ["strace", "-D", "-f", "-qq", "-o", "/dev/null",
                 "-e", "trace=" + inject.split(":")[0], "-e", "inject=" + inject]
 
+    def cuts_power(self):
+        return self.kind == self.POWER_CUT
+
     def may_hinder_start(self):
-        return bool(self.tracer())
+        return bool(self.tracer()) or self.cuts_power()
 
     def await_and_kill(self, server, rng):
         """Returns whether it came where it was to come."""
         if self.kind == "change":
             came = server.wait_for_changes(self.nth)
-        elif self.kind in ("fdatasync", "pwrite64"):
+        elif self.kind in ("fdatasync", "pwrite64", self.POWER_CUT):
             came = server.ends_within(1.5)
         else:
             came = not server.ends_within(rng.uniform(0.0, 0.6))
@@ -62,11 +68,12 @@ class NotUp(Exception):
 
 
 class Server:
-    def __init__(self, program, data, log, tracer=()):
+    def __init__(self, program, data, log, tracer=(), environment=None):
+        self.began = time.monotonic()
         self.process = subprocess.Popen(
             [*tracer, program, "serve", "--cell", str(ROOT / "config/two_pandas.json"), "--speed", "5",
              "--listen", "127.0.0.1:0", "--data", str(data)],
-            stdout=subprocess.PIPE, stderr=log, text=True)
+            stdout=subprocess.PIPE, stderr=log, text=True, env={**os.environ, **(environment or {})})
         line = self.process.stdout.readline()
         if ":" not in line:
             self.kill()

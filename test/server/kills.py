@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Kills the server (kill -9) while jobs come in, wait, run and end, and looks at what the next one finds.
 
-    test/server/kills.py ARMLOOM [--kills 12] [--seed 1] [--folder DIR]
+    test/server/kills.py ARMLOOM [--kills 12] [--seed 1] [--folder DIR] [--power-cuts LIBRARY] [--only KIND ...]
 
 One after the other, a kill comes at some time, at the Nth change of a job's state that is told, and, by strace
 where that is installed, at the Nth sync and at the Nth write of the database, N growing from the first one of the
-process; or some writes or syncs fail first, as on a full or a broken disk. After each: every job that was
-acknowledged is there, once, in the order in which it was accepted; what had ended has ended as it had; what waited
+process; or some writes or syncs fail first, as on a full or a broken disk; or the power is cut in the place of the
+Nth sync, so that of what was not synced nothing is left, or any part of it (with the library synced_copy of the
+build). After each: every job that was acknowledged is there, once, in the order in which it was accepted; what had ended has ended as it had; what waited
 waits; what had moved is `interrupted` and stays so; arms are stopped until they are resumed. Over all runs no job
 has moved in two of them (the recordings say so). With --kills 1000 it is the long run.
 """
@@ -23,6 +24,7 @@ import threading
 import time
 
 from killed_server import API, Kill, NotUp, Server, swing
+from power_cut import SyncedCopy
 
 ENDED = {"succeeded", "canceled", "expired", "failed", "interrupted"}
 ONE_LIFE = 50  # kills of one data folder, then another one is begun
@@ -120,10 +122,9 @@ def moved_in(folder):
 class Lives:
     """One data folder after the other, each of many runs."""
 
-    def __init__(self, program, folder, seed):
-        self.program, self.folder, self.rng = program, folder, random.Random(seed)
-        can_trace = shutil.which("strace") and subprocess.run(["strace", "-o", "/dev/null", "true"]).returncode == 0
-        self.kinds = Kill.KINDS if can_trace else Kill.KINDS[:2]
+    def __init__(self, program, folder, seed, kinds, library):
+        self.program, self.folder, self.rng, self.kinds = program, folder, random.Random(seed), kinds
+        self.synced = SyncedCopy(library, folder / "data")
         self.log = open(folder / "log", "a", encoding="utf-8")
         self.up, self.kills, self.came = [], 0, dict.fromkeys(self.kinds, 0)
         self.acknowledged = self.waited = self.interrupted = self.moved_jobs = 0
@@ -132,7 +133,7 @@ class Lives:
         kind = self.kinds[self.kills % len(self.kinds)]
         nth = 1 + self.kills // len(self.kinds)
         self.kills += 1
-        return Kill(kind, 1 + nth % {"time": 1, "change": 40, "fdatasync": 60}.get(kind, 150))
+        return Kill(kind, 1 + nth % {"time": 1, "change": 40, "fdatasync": 60, Kill.POWER_CUT: 60}.get(kind, 150))
 
     def saw_enough(self):
         return self.acknowledged >= self.kills and self.moved_jobs and self.interrupted and self.waited
@@ -149,24 +150,31 @@ class Lives:
                 self.came[kill.kind] += 1
             except AssertionError as found:
                 raise AssertionError(f"kill {number} of this folder, the one at {kill}: {found}") from found
+            if kill.cuts_power():
+                self.synced.cut(self.rng)
         server = Server(self.program, data, self.log)  # what the last one left
-        self.waited += trial.look(server)
-        server.kill()
+        try:
+            self.look_through(trial, server)
+        finally:
+            server.kill()
         self.acknowledged += len(trial.order)
         self.interrupted += sum(state == "interrupted" for state in trial.ended.values())
         self.moved_jobs += len(moved)
         shutil.rmtree(data)
 
+    def look_through(self, trial, server):
+        self.waited += trial.look(server)
+        self.up.append(time.monotonic() - server.began)
+
     def run_once(self, trial, data, moved, kill):
         before = recordings(data)
-        began = time.monotonic()
-        server = Server(self.program, data, self.log, kill.tracer())
+        environment = self.synced.environment(kill.nth) if kill.cuts_power() else None
+        server = Server(self.program, data, self.log, kill.tracer(), environment)
         done = threading.Event()
         try:
             # A server that is killed as it starts, or whose disk fails, is looked through by the next one.
             if not kill.may_hinder_start():
-                self.waited += trial.look(server)
-                self.up.append(time.monotonic() - began)
+                self.look_through(trial, server)
             load = threading.Thread(target=trial.load, args=(server, done))
             load.start()
             self.came[kill.kind] += kill.await_and_kill(server, self.rng)
@@ -186,8 +194,13 @@ def recordings(data):
     return set(data.glob("*/events.jsonl")) | set(data.glob("events.jsonl"))
 
 
-def run(program, kills, seed, folder):
-    lives = Lives(program, folder, seed)
+def possible_kinds(library):
+    can_trace = shutil.which("strace") and subprocess.run(["strace", "-o", "/dev/null", "true"]).returncode == 0
+    return Kill.KINDS + (Kill.TRACED if can_trace else []) + ([Kill.POWER_CUT] if library else [])
+
+
+def run(program, kills, seed, folder, kinds, library):
+    lives = Lives(program, folder, seed, kinds, library)
     # Where other work leaves the machine little time, few jobs are acknowledged before a kill.
     while lives.kills < kills or (not lives.saw_enough() and lives.kills < 5 * kills):
         lives.live(min(ONE_LIFE, max(kills - lives.kills, 6)))
@@ -204,11 +217,17 @@ def main():
     parser.add_argument("--kills", type=int, default=12)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--folder")
+    parser.add_argument("--power-cuts", metavar="LIBRARY", type=pathlib.Path)
+    parser.add_argument("--only", nargs="*", metavar="KIND")
     options = parser.parse_args()
+    library = options.power_cuts and options.power_cuts.resolve()
+    kinds = [kind for kind in possible_kinds(library) if kind in (options.only or [kind])]
+    if not kinds:
+        parser.error(f"none of these is possible here: {options.only}")
     folder = pathlib.Path(options.folder or tempfile.mkdtemp(prefix="armloom-kills-"))
     folder.mkdir(parents=True, exist_ok=True)
     try:
-        run(options.program, options.kills, options.seed, folder)
+        run(options.program, options.kills, options.seed, folder, kinds, library)
     except NotUp as error:
         sys.exit(str(error))
     if not options.folder:

@@ -3,6 +3,7 @@
 // Random runs of an executive on two Pandas, with the log of its inputs and what it told: verdicts,
 // plans and words from the disk come when they like, as on a busy machine.
 
+#include <atomic>
 #include <deque>
 #include <filesystem>
 #include <map>
@@ -83,7 +84,10 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
     return true;
   }
   bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
-  bool draft(PlanTask) override { return false; }
+  bool draft(PlanTask task) override {
+    later([task = std::move(task)] { task.done(answer_of(task)); });
+    return true;
+  }
   void plan(PlanTask task) override {
     planned_by_ = std::max(planned_by_, now_) + Duration(random_() % 40) * kControlPeriod.count();
     pending_.emplace(planned_by_, [task = std::move(task)] { task.done(answer_of(task)); });
@@ -96,6 +100,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
   [[nodiscard]] TimePoint ended_at() const { return now_ - kControlPeriod; }
   [[nodiscard]] const Executive& executive() const { return *executive_; }
   std::vector<std::string> log;
+  std::size_t planned = 0;  // ways that were asked for and found
 
  private:
   void answer(std::optional<MotionChecker>& checker, const Question& question,
@@ -210,9 +215,22 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
       case 26:  // what only asks is not logged, and changes nothing, however long it takes
       case 27:
         return executive_->check(request(swing(arm())), [](const auto&) {});
+      case 28:
+        return plan();
       default:
         if (!batch_) (void)executive_->submit(request(swing(arm())));
     }
+  }
+
+  void plan() {
+    PlanInquiry inquiry{.to = {.named = "ready"}, .seed = random_()};
+    if (random_() % 2 == 0) {
+      inquiry.arms = {"left", "right"};
+    } else {
+      inquiry.arm = arm();
+    }
+    executive_->plan(std::move(inquiry), std::make_shared<std::atomic<bool>>(false),
+                     [this](const auto& outcome) { planned += outcome && *outcome; });
   }
 
   std::mt19937_64 random_;

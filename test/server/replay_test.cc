@@ -15,7 +15,7 @@ using test::two_pandas;
 
 TEST(Replay, ComesToTheSameEventsByteForByte) {
   const std::vector<std::string> policies{"earliest_start", "coordinated", "certified"};
-  std::size_t inputs = 0, events = 0;
+  std::size_t inputs = 0, events = 0, planned = 0;
   std::map<std::string, int> ended;
   for (std::uint64_t seed = 1; seed <= seed_count(100); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -39,14 +39,18 @@ TEST(Replay, ComesToTheSameEventsByteForByte) {
     EXPECT_EQ(a.min_clearance_m, b.min_clearance_m);
     inputs += run.log.size();
     events += run.events.size();
+    planned += run.planned;
     for (const auto& [state, count] : run.ended) ended[state] += count;
   }
-  std::printf("%zu inputs, %zu events, %d jobs succeeded, %d canceled, %d failed, %d expired\n",
-              inputs, events, ended["succeeded"], ended["canceled"], ended["failed"],
-              ended["expired"]);
+  std::printf(
+      "%zu inputs, %zu events, %d jobs succeeded, %d canceled, %d failed, %d expired; %zu ways "
+      "planned beside them\n",
+      inputs, events, ended["succeeded"], ended["canceled"], ended["failed"], ended["expired"],
+      planned);
   EXPECT_GT(inputs, 50 * seed_count(100));
   EXPECT_GT(ended["succeeded"], 0);
   EXPECT_GT(ended["canceled"], 0);
+  EXPECT_GT(planned, seed_count(100) / 10);
 }
 
 TEST(Replay, SaysWhereItIsNotAsTheRunWas) {
