@@ -66,11 +66,12 @@ TEST_P(Goals, OneThatIsBehindAnObjectFailsWithThePlannersReason) {
   expect_at(-1.0, -1.0);
 }
 
-// What the arm stands in is no matter of where it is to go: a trajectory would wait for it, too.
+// What the arm stands too close to is no matter of where it is to go. (Nearer than this an object
+// is refused.)
 TEST_P(Goals, WhereAnObjectTouchesTheArmTheyWaitForItToGo) {
   cell->submit(move_to("x", -0.8, "before"));
   cell->run_to_the_end(at(10s));
-  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -0.8, 0.1)));
+  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -0.8, 0.165)));
   cell->submit(move_to("x", 0.5, "first"));
   cell->submit(move_to("x", 0.0, "second"));
   cell->submit(move_to("y", 0.5, "of the other arm"));
@@ -94,7 +95,7 @@ TEST_P(Goals, WhereAnObjectTouchesTheArmTheyWaitForItToGo) {
 }
 
 TEST_P(Goals, WhereAnObjectTouchesTheArmTheyExpireAfterTheirTimeout) {
-  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -1.0, 0.1)));
+  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -1.0, 0.165)));
   JobRequest goal = move_to("x", 0.5, "goal");
   goal.terms.backlog_timeout = 5s;
   cell->submit(goal);
@@ -107,7 +108,7 @@ TEST_P(Goals, WhereAnObjectTouchesTheArmTheyExpireAfterTheirTimeout) {
 
 // Changes of the scene that leave it as it is are no tries that are used up.
 TEST_P(Goals, TheyWaitHoweverOftenElseTheSceneChanges) {
-  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -1.0, 0.1)));
+  ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -1.0, 0.165)));
   cell->submit(move_to("x", 0.5, "goal"));
   for (int i = 0; i < 12; ++i) {
     ASSERT_TRUE(cell->simulation->executive().scene().add(

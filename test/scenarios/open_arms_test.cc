@@ -92,11 +92,11 @@ TEST_P(OpenArms, WhereAnObjectTouchesOneArmTheOtherGoesAndWhereItTouchesAllTheyW
     object.X_WO.translation() = Eigen::Vector3d(x_m, y_m, 0.0);
     return object;
   };
-  ASSERT_TRUE(executive().scene().add(hand("at x", -1.0, 0.1)));
+  ASSERT_TRUE(executive().scene().add(hand("at x", -1.0, 0.165)));
   cell->submit(either(-0.5, "by y"));
   cell->run_to_the_end();
   EXPECT_THAT(cell->job("by y").arms, ElementsAre("y"));
-  ASSERT_TRUE(executive().scene().add(hand("at y", 0.1, -0.5)));
+  ASSERT_TRUE(executive().scene().add(hand("at y", 0.165, -0.5)));
   cell->submit(either(-0.7, "by whom"));
   cell->submit(either(-0.8, "and then"));
   cell->run_until(cell->simulation->now() + 5s);

@@ -89,6 +89,11 @@ void ask(State& state, Record& record) {
   state.decided.effects.push_back(PlanMotion{job.id, *detour.question, std::move(question)});
 }
 
+// Whether another one is worth the question.
+bool goes_on(const Detour& detour) {
+  return detour.arrives > detour.soon_enough && detour.tries < kDetoursMax;
+}
+
 // Of those that were weighed. Whether that is another one than it had.
 bool go_by_best(State& state, Record& record) {
   Detour& detour = *record.job.goal->detour;
@@ -108,11 +113,11 @@ bool rate(State& state, Record& record, TimePoint arrives) {
     if (detour.arrives != kNever) detour.saves += detour.arrives - arrives;
     detour.arrives = arrives;
   }
-  const bool goes_on = detour.arrives > detour.soon_enough && detour.tries < kDetoursMax;
+  const bool asks_on = goes_on(detour);
   // Meanwhile it has the best of them: what others leave it has to be a way that it may go.
   const bool is_another = go_by_best(state, record);
-  if (goes_on) ask(state, record);
-  return goes_on || is_another;
+  if (asks_on) ask(state, record);
+  return asks_on || is_another;
 }
 
 }  // namespace
@@ -157,11 +162,12 @@ void take_detour(State& state, const PlanMade& answer) {
   detour.question.reset();
   state.jobs.explain(*record);
   if (!may_go_round(*record)) return;
-  const bool is_of_use = answer.trajectory && detour.best &&
-                         detour.asked_at >= state.recheck_epoch &&
-                         state.now + answer.trajectory->duration() < detour.arrives &&
-                         answer.trajectory->start().isApprox(detour.best->start());
-  if (!is_of_use) return (void)go_by_best(state, *record);
+  const bool fits = answer.trajectory && detour.best && detour.asked_at >= state.recheck_epoch &&
+                    answer.trajectory->start().isApprox(detour.best->start());
+  const bool is_sooner = fits && state.now + answer.trajectory->duration() < detour.arrives;
+  // One that takes longer than the best says nothing of the next one; that there is none does.
+  if (fits && !is_sooner && goes_on(detour)) return ask(state, *record);
+  if (!is_sooner) return (void)go_by_best(state, *record);
   detour.is_weighed = true;
   go_by(state, *record, answer.trajectory);
 }
