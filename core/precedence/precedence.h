@@ -11,7 +11,7 @@ namespace armloom {
 
 // Who waits stays so far short of a region: what its arm then meets in another motion of the other
 // one, whose regions have an outline of their own, begins no earlier than where it stands.
-inline constexpr Duration kShortOf = std::chrono::milliseconds(50);
+inline constexpr Duration kShortOf = std::chrono::milliseconds(20);
 
 // The passing order in one conflict region of two motions: `first` leaves every box before `second`
 // comes to it. Compared by progress (trajectory time), never by clocks, so that it holds however

@@ -18,10 +18,10 @@ TEST(ClosePasses, AreDecidedWhenTheBudgetIsRaised) {
   cell.clearances.clearance_m = 0.001;
   const auto shared = std::make_shared<const Cell>(std::move(cell));
   bench::ExactScene exact(shared);
-  const Pool pool(exact, 16, 77);
+  const Pool pool(exact, 64, 77);
   std::size_t open = 0;
   std::size_t left = 0;
-  for (const MovingPair& pair : random_pairs(exact, pool, 1500, 78)) {
+  for (const MovingPair& pair : random_pairs(exact, pool, 3000, 78)) {
     MotionChecker checker(exact.scene);
     Question question = pair.question(*shared, Swept{.tracking_error = 0.0});
     Verdict verdict = checker.judge(question);

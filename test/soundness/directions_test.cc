@@ -33,7 +33,7 @@ class Arm {
     axes_.resize(frames * 6 * kLanes);
     frames_.resize(frames * 12 * kLanes);
     capsules_.resize(linkage_.capsules.size() * 6 * kLanes);
-    bends_.resize(linkage_.capsules.size() * kLanes);
+    sweeps_.resize(linkage_.capsules.size() * filter::kSweep * kLanes);
     motion_bounds_.resize(static_cast<std::size_t>(linkage_.rows) * kLanes);
     for (const filter::Frame& frame : linkage_.frames) {
       const double m = most_[static_cast<std::size_t>(frame.joint)] * std::abs(frame.multiplier);
@@ -64,15 +64,18 @@ class Arm {
     const filter::Kernel& kernel = filter::best_kernel();
     const filter::Placed placed{frames_.data(), axes_.data(), capsules_.data()};
     kernel.place(view_, q.data(), placed);
-    kernel.inflate(view_, placed, spans_.data(), {motion_bounds_.data(), bends_.data()});
+    kernel.inflate(view_, placed, {spans_.data(), drifts_.data(), looses_.data()},
+                   {motion_bounds_.data(), sweeps_.data()});
   }
 
   [[nodiscard]] const RandomLinkage& kinematics() const { return linkage_; }
   [[nodiscard]] NumberedCapsule capsule(int number) const {
     return {number, linkage_.capsules[static_cast<std::size_t>(number)]};
   }
-  [[nodiscard]] filter::MovedCapsules moved() const {
-    return {capsules_.data(), &view_, axes_.data(), drifts_.data(), looses_.data(), bends_.data()};
+  // One stretch: all of the spans.
+  [[nodiscard]] filter::SweptCapsule swept(int capsule) const {
+    const float* at = capsules_.data() + capsule * 6 * kLanes;
+    return {at, at, sweeps_.data() + capsule * filter::kSweep * kLanes, 0, 1};
   }
   [[nodiscard]] CenteredSegment segment(int capsule, int lane) const {
     CenteredSegment segment;
@@ -91,7 +94,7 @@ class Arm {
   filter::ArmKinematics view_;
   std::vector<double> middle_, most_, frames_;
   std::vector<double> drift_;  // the share of most_ that all joints go together
-  std::vector<float> axes_, capsules_, motion_bounds_, bends_, spans_, drifts_, looses_;
+  std::vector<float> axes_, capsules_, motion_bounds_, sweeps_, spans_, drifts_, looses_;
 };
 
 struct Tally {
@@ -104,7 +107,9 @@ double largest_kept(const Arm& a, const Arm& b, int capsule_a, int capsule_b) {
   const auto kept = [&](double limit_m) {
     const filter::Pair pair =
         kernel_pair(a.capsule(capsule_a), b.capsule(capsule_b), limit_m, kMargin_m);
-    return filter::best_kernel().keep_apart(a.moved(), b.moved(), pair, 1U) != 0;
+    const filter::Parted parted =
+        filter::best_kernel().parted(a.swept(capsule_a), b.swept(capsule_b), pair);
+    return parted.distance >= pair.limit_up;
   };
   double low = 0.0, high = 4.0;
   if (!kept(low)) return -1.0;

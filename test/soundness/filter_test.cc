@@ -62,7 +62,7 @@ struct Results {
   Results(const filter::Kernel& kernel, const Comparison& of) : Results(kernel, of, of.arm) {}
 
   std::vector<double> frames;
-  std::vector<float> axes, capsules, motion_bounds, bends;
+  std::vector<float> axes, capsules, motion_bounds, sweeps;
   std::vector<filter::Hit> hits, box_hits;
 
  private:
@@ -71,12 +71,13 @@ struct Results {
         axes(arm.frames.size() * 6 * kLanes),
         capsules(arm.capsules.size() * 6 * kLanes),
         motion_bounds(static_cast<std::size_t>(arm.rows) * kLanes),
-        bends(arm.capsules.size() * kLanes),
+        sweeps(arm.capsules.size() * filter::kSweep * kLanes),
         hits(of.pairs.size() + 1),
         box_hits(of.boxes.size() + 1) {
     const filter::Placed placed{frames.data(), axes.data(), capsules.data()};
     kernel.place(arm.view(), of.q.data(), placed);
-    kernel.inflate(arm.view(), placed, of.span.data(), {motion_bounds.data(), bends.data()});
+    kernel.inflate(arm.view(), placed, {of.span.data(), of.span.data(), of.span.data()},
+                   {motion_bounds.data(), sweeps.data()});
     const filter::Side side{capsules.data(), motion_bounds.data()};
     const filter::Pairs pairs{of.pairs.data(), static_cast<int>(of.pairs.size()), {}};
     hits.resize(

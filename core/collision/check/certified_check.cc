@@ -145,8 +145,8 @@ void CertifiedCheck::check_in_step(const ArmMotion& own, const ArmMotion& other)
   ask(store_.between(*own.entry, *other.entry),
       {.progress_a = own.progress_s(),
        .progress_b = own.progress_s(),
-       .lag_a = apart_s + other.entry->stopping_reach_s,
-       .lag_b = apart_s + own.entry->stopping_reach_s,
+       .lag_a = apart_s + store_.stopping_reach_s(*other.entry),
+       .lag_b = apart_s + store_.stopping_reach_s(*own.entry),
        .duration_a = duration_s,
        .duration_b = duration_s},
       own, &other);

@@ -1,5 +1,6 @@
 // One batch of cells: from the filter over the exact distance to a state.
 #include <algorithm>
+#include <limits>
 
 #include "core/collision/diagram/coordination_diagram.h"
 
@@ -27,18 +28,21 @@ void CoordinationDiagram::evaluate(std::span<const int> cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) decide(cells[i], pair_.undecided(i));
 }
 
-// Whether the pair keeps its limit all over the cell; notes it if not.
+// Whether the pair keeps its limit all over the cell; notes it if not. Where capsules keep it in
+// the middle there is no conflict to be proven: only the direction that parts the bodies is asked
+// for.
 bool CoordinationDiagram::clears(Node& cell, TubePair::Undecided& u) {
   const NarrowPair& pair = pair_.narrow(u.narrow, u.box);
   const double enough_m = u.limit_m + u.moves_m();
-  u.distance_m = pair_.distance(pair, nodes_of(cell), enough_m);
-  u.slack_m = 0.0;
-  if (u.distance_m >= enough_m) return true;
-  if (u.distance_m - u.limit_m > kTowardsShare * u.moves_m() &&
-      pair_.keeps_apart(pair, nodes_of(cell), u.limit_m, enough_m)) {
-    return true;
+  const bool may_conflict = u.distance_m < u.limit_m;
+  if (may_conflict) {
+    u.distance_m = pair_.distance(pair, nodes_of(cell), enough_m);
+    u.slack_m = 0.0;
+    if (u.distance_m >= enough_m) return true;
   }
-  note(cell, {pair.pair, u.narrow, u.box, u.distance_m});
+  const bool asked = !may_conflict || u.distance_m - u.limit_m > kTowardsShare * u.moves_m();
+  if (asked && pair_.keeps_apart(pair, nodes_of(cell), u.limit_m, enough_m)) return true;
+  if (may_conflict) note(cell, {pair.pair, u.narrow, u.box, u.distance_m});
   return false;
 }
 
@@ -50,8 +54,13 @@ void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& un
   if (undecided.empty()) return;
 
   // What is in conflict all over the cell makes that of it; what is not clear splits it.
+  constexpr double kProven = -std::numeric_limits<double>::infinity();
   const auto passes = [&](Undecided& u) {
-    if (clears(cell, u)) return true;
+    if (u.short_m == kProven) return true;
+    if (clears(cell, u)) {
+      u.short_m = kProven;
+      return true;
+    }
     if (u.distance_m + u.moves_m() < u.limit_m) {
       cell.state = CellState::conflict;
     } else {
@@ -63,14 +72,8 @@ void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& un
   const auto closest = std::ranges::min_element(
       undecided, {}, [](const Undecided& u) { return u.distance_m + u.slack_m - u.limit_m; });
   if (closest->distance_m + closest->slack_m < closest->limit_m && !passes(*closest)) return;
-  // The largest distance that a pair may have, as far as the capsules tell: what is inside of them
-  // is not farther from the body than they stand off.
-  const auto room = [](const Undecided& u) {
-    return std::max(u.distance_m, 0.0) + u.slack_m - u.limit_m;
-  };
-  const auto worst = std::ranges::min_element(
-      undecided, {}, [&](const Undecided& u) { return room(u) - u.moves_m(); });
-  if (room(*worst) < kTowardsShare * worst->moves_m()) {  // no distance would do: none is asked
+  const auto worst = std::ranges::max_element(undecided, {}, &Undecided::needs_m);
+  if (worst->needs_m() > TubePair::kAlongShapes_m) {  // no distance would do: none is asked
     choose_split(cell, *worst);
     return;
   }
@@ -91,8 +94,8 @@ void CoordinationDiagram::note(Node& cell, const NarrowWitness& found) {
 }
 
 void CoordinationDiagram::choose_split(Node& cell, const TubePair::Undecided& worst) {
-  cell.split_a = worst.moves_a_m >= kBothShare * worst.moves_b_m;
-  cell.split_b = worst.moves_b_m >= kBothShare * worst.moves_a_m;
+  cell.split_a = worst.towards_a_m >= kBothShare * worst.towards_b_m;
+  cell.split_b = worst.towards_b_m >= kBothShare * worst.towards_a_m;
   if (!(cell.split_a && tree_.a().width(cell.a) > CellTree::kFinest) &&
       !(cell.split_b && tree_.b().width(cell.b) > CellTree::kFinest)) {
     cell.split_a = cell.split_b = true;  // what is left

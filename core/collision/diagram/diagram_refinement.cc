@@ -15,9 +15,13 @@ std::uint64_t CoordinationDiagram::refine_from(std::vector<int> leaves, std::uin
                                                const Expand& expand, const Follow& follow) {
   std::uint64_t looked_at = 0;
   std::vector<int> unknown;
+  std::vector<TubePair::Nodes> nodes;
   while (!leaves.empty()) {
     unknown.clear();
     expand(leaves, unknown);
+    nodes.clear();
+    for (const int cell : unknown) nodes.push_back(nodes_of(tree_.at(cell)));
+    pair_.place_all(nodes);
     for (std::span<const int> left = unknown; !left.empty();) {
       if (looked_at >= budget) return looked_at;
       const auto batch = left.first(std::min<std::size_t>(filter::kLanes, left.size()));

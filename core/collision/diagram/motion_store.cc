@@ -82,13 +82,20 @@ MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId a
             tracking_error,
             std::make_shared<MotionTube>(geometry, trajectory, rest, tracking_error,
                                          scratch_.tubes[arm.index()]),
-            trajectory ? stopping_reach_s(scene_->cell(), *trajectory) : 0.0,
             question_});
   for (const JointId joint : geometry->kinematics.joints()) {
     entry->rest.push_back(rest[static_cast<Eigen::Index>(joint.index())]);
   }
   entries.push_back(std::move(entry));
   return *entries.back();
+}
+
+double MotionStore::stopping_reach_s(Entry& entry) const {
+  if (!entry.stopping_reach_s) {
+    entry.stopping_reach_s =
+        entry.trajectory ? armloom::stopping_reach_s(scene_->cell(), *entry.trajectory) : 0.0;
+  }
+  return *entry.stopping_reach_s;
 }
 
 OrientedDiagram MotionStore::diagram(Diagrams& of, const Key& key, const Comparison& made) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,9 +31,9 @@ class MotionStore {
     std::vector<double> rest;  // of the arm's joints, rows of its kinematics
     double tracking_error;
     std::shared_ptr<MotionTube> tube;
-    double stopping_reach_s;
     std::uint64_t asked_at;
-    std::vector<Entry*> compared = {};  // those that it has a diagram with
+    std::vector<Entry*> compared = {};            // those that it has a diagram with
+    std::optional<double> stopping_reach_s = {};  // once it was asked for
 
     [[nodiscard]] Duration duration() const { return tube->duration(); }
   };
@@ -42,6 +43,8 @@ class MotionStore {
   void begin_question();
   [[nodiscard]] Entry& motion(const TrajectoryPtr& trajectory, ArmId arm, const Configuration& rest,
                               double tracking_error);
+
+  [[nodiscard]] double stopping_reach_s(Entry& entry) const;
 
   // Of two arms, empty where they are out of reach; of an arm and what stands still; of an arm and
   // itself.

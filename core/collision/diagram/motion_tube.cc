@@ -24,10 +24,11 @@ struct MotionTube::Scratch {
   };
   Motions joints;  // [row][kLanes]
   Motions frames;  // [frame][kLanes]
-  std::vector<float> motion_bounds;
+  std::vector<float> motion_bounds, axes;
   std::vector<int> capsule_rows;  // in Block::motion_bound
   std::vector<filter::Hit> hits;
-  Eigen::VectorXd position, lower, upper;
+  std::vector<int> stretches;
+  Eigen::VectorXd position;
   Trajectory::AboutLine line;
 };
 
@@ -40,6 +41,7 @@ std::shared_ptr<MotionTube::Scratch> MotionTube::make_scratch(const ArmGeometry&
   }
   for (auto* rows : {&s->frames.span, &s->frames.drift, &s->frames.loose})
     rows->resize(lane_size(arm.frames().size()));
+  s->axes.resize(lane_size(arm.frames().size() * 6));
   s->motion_bounds.resize(lane_size(static_cast<std::size_t>(arm.motion_bound_rows())));
   s->capsule_rows.resize(arm.capsules().size());
   std::iota(s->capsule_rows.begin(), s->capsule_rows.end(), 0);
@@ -96,29 +98,23 @@ void MotionTube::place(std::span<const int> nodes) {
 // and from a line through it.
 void MotionTube::fill_lane(int node, int lane) {
   Scratch& s = *scratch_;
-  if (trajectory_) {
-    trajectory_->enclose_about_line(from(node), to(node), s.line);
-    trajectory_->enclose_positions(from(node), to(node), s.lower, s.upper);
-  }
+  if (trajectory_) trajectory_->enclose_about_line(from(node), to(node), s.line);
   // Nodes are cut in whole nanoseconds: neither half is longer than this.
   const double half_s = 0.5 * to_seconds(width(node)) + 1e-9;
   for (std::size_t row = 0; row < rest_.size(); ++row) {
     const std::size_t place = lane_size(row) + static_cast<std::size_t>(lane);
     const int column = column_[row];
-    double span = tracking_error_;
     double loose = tracking_error_;
     double drift = 0.0;
     if (column < 0) {
       s.q[place] = rest_[row];
     } else {
-      const double q = s.line.position[column];
-      s.q[place] = q;
-      span += std::max(s.upper[column] - q, q - s.lower[column]) + kRounding;
+      s.q[place] = s.line.position[column];
       drift = s.line.velocity[column] * half_s;
       // The rounding of a drift to float is far below a millionth of it.
       loose += s.line.off[column] + kRounding + 1e-6 * std::abs(drift);
     }
-    s.joints.span[place] = std::max(round_up(span), round_up(std::abs(drift) + loose));
+    s.joints.span[place] = round_up(std::abs(drift) + loose);
     s.joints.drift[place] = static_cast<float>(drift);
     s.joints.loose[place] = round_up(loose);
   }
@@ -161,14 +157,14 @@ void MotionTube::place_batch(std::span<const int> nodes) {
   block.motion_bound.resize(lane_size(capsules));
   block.ball.resize(lane_size(4));
   block.frames.resize(lane_size(arm.frames().size() * 12));
-  block.axes.resize(lane_size(arm.frames().size() * 6));
   block.drifts = s.frames.drift;
   block.looses = s.frames.loose;
-  block.bends.resize(lane_size(capsules));
-  const filter::Placed placed{block.frames.data(), block.axes.data(), block.capsules.data()};
+  block.sweeps.resize(lane_size(capsules * filter::kSweep));
+  const filter::Placed placed{block.frames.data(), s.axes.data(), block.capsules.data()};
   kernel.place(arm.view(), s.q.data(), placed);
-  kernel.inflate(arm.view(), placed, s.frames.span.data(),
-                 {s.motion_bounds.data(), block.bends.data()});
+  kernel.inflate(arm.view(), placed,
+                 {s.frames.span.data(), s.frames.drift.data(), s.frames.loose.data()},
+                 {s.motion_bounds.data(), block.sweeps.data()});
   for (std::size_t c = 0; c < capsules; ++c) {
     const auto row = static_cast<std::size_t>(arm.capsules()[c].motion_bounds_begin);
     std::copy_n(s.motion_bounds.data() + lane_size(row), kLanes,
@@ -192,6 +188,41 @@ void MotionTube::place_batch(std::span<const int> nodes) {
     }
     node.self_end = self_hits_.size();
   }
+}
+
+void MotionTube::collect_stretches(int node, std::vector<int>& stretches) {
+  if (width(node) <= kStretch) {
+    stretches.push_back(node);
+    return;
+  }
+  const int child = first_child(node);
+  collect_stretches(child, stretches);
+  collect_stretches(child + 1, stretches);
+}
+
+MotionTube::Stretches MotionTube::stretches_of(int node) {
+  if (at(node).stretches.block != nullptr || width(node) > kLanes * kStretch) {
+    return at(node).stretches;
+  }
+  std::vector<int>& nodes = scratch_->stretches;
+  nodes.clear();
+  collect_stretches(node, nodes);
+  placements_.resize(size());
+  bool side_by_side = true;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Placement& first = at(nodes.front());
+    const Placement& stretch = at(nodes[i]);
+    side_by_side = side_by_side && stretch.placed && stretch.block == first.block &&
+                   stretch.lane == first.lane + i;
+  }
+  if (!side_by_side) {
+    for (const int stretch : nodes) placements_[static_cast<std::size_t>(stretch)].placed = true;
+    place_batch(nodes);
+  }
+  const Placement& first = at(nodes.front());
+  const int begin = static_cast<int>(first.lane);
+  return placements_[static_cast<std::size_t>(node)].stretches = {
+             blocks_[first.block].get(), begin, begin + static_cast<int>(nodes.size())};
 }
 
 void MotionTube::axes_of(int node, int frame, std::size_t skipped,

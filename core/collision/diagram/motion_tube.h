@@ -42,6 +42,8 @@ class MotionTube : public TimeTree {
 
   // Computes nodes that are not yet (eight at once). Before it the functions below are undefined.
   void place(std::span<const int> nodes);
+  // A node is this wide, or made up of stretches that are.
+  inline static constexpr Duration kStretch = std::chrono::microseconds(87'500);
 
   // Eight nodes side by side, as the kernels have placed them.
   struct Block {
@@ -49,11 +51,9 @@ class MotionTube : public TimeTree {
     std::vector<float> motion_bound;  // [capsule][kLanes]: motion bounds, m
     std::vector<float> ball;          // [4][kLanes], filter::Side::ball
     std::vector<double> frames;       // [frame][12][kLanes]
-    std::vector<float> axes;          // [frame][6][kLanes], filter::Placed::axes
-    std::vector<float>
-        drifts;  // [frame][kLanes]: filter::MovedCapsules::drift, of its joint, rad or m
-    std::vector<float> looses;  // filter::MovedCapsules::loose
-    std::vector<float> bends;   // [capsule][kLanes], filter::MovedCapsules::bend
+    std::vector<float> drifts;        // filter::JointMotions::drift
+    std::vector<float> looses;        // filter::JointMotions::loose
+    std::vector<float> sweeps;        // filter::MotionBounds::sweeps
   };
   struct Place {
     const Block* block;
@@ -63,6 +63,15 @@ class MotionTube : public TimeTree {
   [[nodiscard]] Place place_of(int node) const {
     return {blocks_[at(node).block].get(), at(node).lane};
   }
+  // Stretches side by side that make up a placed node: its halves' halves down to kStretch, placed
+  // together when first asked for. A node of more than eight has none.
+  struct Stretches {
+    const Block* block = nullptr;
+    int first = 0;
+    int end = 0;
+  };
+  [[nodiscard]] Stretches stretches_of(int node);
+
   // The axes of the node that carry what a frame of the kinematics carries, base to tip, without
   // the first `skipped`.
   void axes_of(int node, int frame, std::size_t skipped, std::vector<MovingAxis>& axes) const;
@@ -85,11 +94,13 @@ class MotionTube : public TimeTree {
     std::size_t lane = 0;
     std::size_t self_begin = 0;
     std::size_t self_end = 0;
+    Stretches stretches = {};
   };
   [[nodiscard]] const Placement& at(int node) const {
     return placements_[static_cast<std::size_t>(node)];
   }
   void place_batch(std::span<const int> nodes);
+  void collect_stretches(int node, std::vector<int>& stretches);
   void fill_lane(int node, int lane);
 
   std::shared_ptr<const ArmGeometry> geometry_;

@@ -43,10 +43,21 @@ class TubePair {
     double moves_a_m;   // within the node
     double moves_b_m;
     double limit_m;
-    double slack_m;  // by how much the exact distance may be above the bound
+    double slack_m;      // by how much the exact distance may be above the bound
+    double short_m;      // how much farther apart capsules would have to be to be proven
+    double towards_a_m;  // how much closer each comes during the node along what parts them
+    double towards_b_m;
 
     [[nodiscard]] double moves_m() const { return moves_a_m + moves_b_m; }
+    // How much farther the bodies would have to be: what is inside of capsules is not farther from
+    // the other body than they stand off.
+    [[nodiscard]] double needs_m() const { return short_m - slack_m; }
   };
+  // What the exact shapes' own direction may gain over the capsules'.
+  inline static constexpr double kAlongShapes_m = 0.004;
+
+  // Places many at once, which costs less than eight by eight.
+  void place_all(std::span<const Nodes> nodes);
   // Places and filters up to eight; undecided() then tells what is open of each, until the next
   // call.
   void filter(std::span<const Nodes> batch);
@@ -77,7 +88,11 @@ class TubePair {
  private:
   struct Gathered;
   struct Batch;
-  [[nodiscard]] int left_open(const Batch& a, const Batch& b, int hits);
+  struct Lanes;
+  void look_along(Lanes& lanes, const filter::Hit& hit, unsigned lane,
+                  filter::Parted& parted) const;
+  [[nodiscard]] int left_open(unsigned of_batch, int hits);
+  [[nodiscard]] double slack_m(const NarrowPair& pair) const;
   [[nodiscard]] PlacedBody placed_a(const NarrowPair& pair, Nodes at) const;
   [[nodiscard]] PlacedBody placed_b(const NarrowPair& pair, Nodes at) const;
   [[nodiscard]] const KinematicBody& body_a(const NarrowPair& pair) const;

@@ -54,11 +54,23 @@ struct Placed {
   float* capsules;
 };
 
+// How far the joint of each frame may be from the configuration, [frame][kLanes] (rad, m), rounded
+// up: by no more than span, and by s * drift + e, the same s for all of them from -1 to 1, |e| <=
+// loose; |drift| + loose is no more than the span by much.
+struct JointMotions {
+  const float* span;
+  const float* drift;
+  const float* loose;
+};
+
 // How far each capsule may move.
 struct MotionBounds {
-  float* rows;  // [row][kLanes], see Capsule::motion_bounds_begin
-  float* bend;  // [capsule][kLanes]
+  float* rows;    // [row][kLanes], see Capsule::motion_bounds_begin
+  float* sweeps;  // [capsule][kSweep][kLanes]
 };
+// What a capsule passes: both ends of its axis move by s V and something of at most this length
+// more, -1 <= s <= 1. V of the end at center + half, V of the other one, the length.
+inline constexpr int kSweep = 7;
 
 // Capsules whose motion bounds are known, as one side of a comparison.
 struct Side {
@@ -68,16 +80,19 @@ struct Side {
                       // they may move (Kernel::enclose); not read where pairs have no groups
 };
 
-// The capsules of a side that is held apart along one direction, and what moves them.
-struct MovedCapsules {
-  const float* capsules;            // as Placed::capsules
-  const ArmKinematics* kinematics;  // null: nothing moves them
-  const float* axes;                // as Placed::axes
-  // Of the frame's joint, [frame][kLanes]: it is off by s * drift + e, the same s for all of them
-  // from -1 to 1, |e| <= loose; |drift| + loose is no more than the span by much.
-  const float* drift;
-  const float* loose;
-  const float* bend;  // as inflate() makes it, of spans |drift| + loose or more
+// A capsule in one configuration, and what it passes from there in up to kLanes stretches of a
+// motion, side by side: those of [first, end).
+struct SweptCapsule {
+  const float* at;        // of Placed::capsules, at its lane
+  const float* capsules;  // of Placed::capsules, in the middle of each stretch
+  const float* sweeps;    // of MotionBounds::sweeps, from there
+  int first, end;
+};
+
+// Two of them along the direction that parts their axes.
+struct Parted {
+  float distance;    // what they keep at least (m), with their radii and margins
+  float towards[2];  // how much closer each comes along it than where it is at
 };
 
 // Two capsules to compare, with what does not change. Rows of the sides' motion_bound arrays say
@@ -143,14 +158,13 @@ struct Hit {
 struct Kernel {
   const char* name;
   void (*place)(const ArmKinematics& kinematics, const double* q, const Placed& out);
-  // `at`: as place() made it. span: [frame][kLanes], how far the joint of the frame may be from the
-  // configuration (rad, m), rounded up. Row m of a capsule bounds how far any point of it moves
+  // `at`: as place() made it. Row m of a capsule bounds how far any point of it moves
   // against anything that shares its first m ancestors: the sum over the other ancestors of span
   // times the lever about that joint at this configuration. (Changing the joints one after another
   // from base to tip, each turns what is behind it in the shape that it has here: hence the levers
-  // at hand bound motions of any size.) bend: what along any direction is to be added to the first
-  // order of that motion (sweep.h, the second sum, with what turning adds to a round end).
-  void (*inflate)(const ArmKinematics& kinematics, const Placed& at, const float* span,
+  // at hand bound motions of any size.) Sweeps are the drifts' motion to first order, and all else
+  // that may be added to it along any direction (sweep.h: what is loose, and the second sum).
+  void (*inflate)(const ArmKinematics& kinematics, const Placed& at, const JointMotions& motions,
                   const MotionBounds& out);
   // The ball of a side; rows[c] is the row of capsule c in `motion_bound`. Null: nothing moves.
   void (*enclose)(const ArmKinematics& kinematics, const float* capsules, const float* motion_bound,
@@ -158,10 +172,8 @@ struct Kernel {
   // Writes the pairs that are undecided in one of `lanes`; returns their number. `hits` has room
   // for all pairs.
   int (*near_pairs)(const Side& a, const Side& b, const Pairs& pairs, unsigned lanes, Hit* hits);
-  // In which of `lanes` the two capsules keep their limit wherever the joints are within their
-  // spans, because of how far each reaches along the direction that parts their axes (sweep.h).
-  unsigned (*keep_apart)(const MovedCapsules& a, const MovedCapsules& b, const Pair& pair,
-                         unsigned lanes);
+  // What the two capsules keep, whichever stretch each is in.
+  Parted (*parted)(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair);
   int (*near_boxes)(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits);
 };
 

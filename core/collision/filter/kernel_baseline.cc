@@ -48,7 +48,7 @@ inline F operator/(F a, F b) { return {_mm_div_ps(a.v, b.v)}; }
 
 }  // namespace
 
-const Kernel kBaselineKernel = {"baseline",    place<D>,      inflate<F>,   enclose<F>,
-                                near_pairs<F>, keep_apart<F>, near_boxes<F>};
+const Kernel kBaselineKernel = {"baseline",    place<D>,  inflate<F>,   enclose<F>,
+                                near_pairs<F>, parted<F>, near_boxes<F>};
 
 }  // namespace armloom::filter

@@ -136,6 +136,11 @@ struct Vec {
   static Vec load(const float* p) {
     return {F::load(p), F::load(p + kLanes), F::load(p + 2 * kLanes)};
   }
+  void store(float* p) const {
+    x.store(p);
+    y.store(p + kLanes);
+    z.store(p + 2 * kLanes);
+  }
 };
 template <class F>
 inline F dot(const Vec<F>& a, const Vec<F>& b) {
@@ -150,9 +155,35 @@ inline Vec<F> minus(const Vec<F>& a, const Vec<F>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
+// What moves a capsule, base to tip: sums over its ancestors.
+template <class F>
+struct SweepSums {
+  F zero = F::all(0.0F);
+  Vec<F> ahead{zero, zero, zero};   // of the end at center + half
+  Vec<F> behind{zero, zero, zero};  // of the other one
+  F off = zero;                     // what is loose, and what is bent
+  F turned = zero;
+
+  void add(const Vec<F>& v, F by) {
+    ahead = {ahead.x + v.x * by, ahead.y + v.y * by, ahead.z + v.z * by};
+    behind = {behind.x + v.x * by, behind.y + v.y * by, behind.z + v.z * by};
+  }
+  void turn_ends(const Vec<F>& v, F by) {
+    ahead = {ahead.x + v.x * by, ahead.y + v.y * by, ahead.z + v.z * by};
+    behind = {behind.x - v.x * by, behind.y - v.y * by, behind.z - v.z * by};
+  }
+  void store(float* to) const {
+    const F drifts = F::abs(ahead.x) + F::abs(ahead.y) + F::abs(ahead.z) + F::abs(behind.x) +
+                     F::abs(behind.y) + F::abs(behind.z);
+    ahead.store(to);
+    behind.store(to + 3 * kLanes);
+    (off * F::all(1.0001F) + drifts * F::all(1e-5F)).store(to + 6 * kLanes);
+  }
+};
+
 // Float roundings of a lever are below one part in 1e5 and a micrometre.
 template <class F>
-void inflate(const ArmKinematics& kinematics, const Placed& at, const float* span,
+void inflate(const ArmKinematics& kinematics, const Placed& at, const JointMotions& motions,
              const MotionBounds& out) {
   for (int c = 0; c < kinematics.capsule_count; ++c) {
     const Capsule& capsule = kinematics.capsules[c];
@@ -164,31 +195,39 @@ void inflate(const ArmKinematics& kinematics, const Placed& at, const float* spa
       const Vec<F> center = Vec<F>::load(at.capsules + c * 6 * kLanes + l);
       const Vec<F> half = Vec<F>::load(at.capsules + (c * 6 + 3) * kLanes + l);
       F sum = F::all(0.0F);
-      F bends = F::all(0.0F);
-      F turned = F::all(0.0F);
+      SweepSums<F> sweep;
       sum.store(rows + capsule.depth * kLanes + l);
       for (int k = capsule.depth - 1; k >= 0; --k) {
         const int f = ancestors[k];
-        const F by = F::load(span + f * kLanes + l);
+        const F by = F::load(motions.span + f * kLanes + l);
+        const F drift = F::load(motions.drift + f * kLanes + l);
+        const F loose = F::load(motions.loose + f * kLanes + l);
+        const Vec<F> axis = Vec<F>::load(at.axes + (f * 6 + 3) * kLanes + l);
         F lever = F::all(1.0F);
-        if (!kinematics.frames[f].prismatic) {
+        if (kinematics.frames[f].prismatic) {
+          sweep.add(axis, F::all(0.0F) - drift);
+          sweep.off = sweep.off + loose * F::all(1.0001F);
+        } else {
           const Vec<F> origin = Vec<F>::load(at.axes + f * 6 * kLanes + l);
-          const Vec<F> axis = Vec<F>::load(at.axes + (f * 6 + 3) * kLanes + l);
           const Vec<F> u = cross(minus(center, origin), axis);
           const Vec<F> v = cross(half, axis);
           const F uv = F::abs(dot(u, v));
           lever = F::sqrt(dot(u, u) + dot(v, v) + uv + uv) + extra;
-          bends = bends + by * (sum + half_one * by * lever);
-          turned = turned + by;
+          sweep.add(u, drift);
+          sweep.turn_ends(v, drift);
+          sweep.off = sweep.off + loose * (lever - F::all(capsule.radius_up)) +
+                      by * (sum + half_one * by * lever);
+          sweep.turned = sweep.turned + by;
         }
         sum = sum + lever * by * F::all(1.00001F);
         sum.store(rows + k * kLanes + l);
       }
       // sqrt(1 + t^2) - 1 <= t^2 / 2; the last term: roundings of the moments about each axis.
-      bends = bends + half_one * F::all(capsule.radius_up) * turned * turned;
+      const F turned = sweep.turned;
       const F size = F::abs(center.x) + F::abs(center.y) + F::abs(center.z);
-      bends = bends * F::all(1.0001F) + turned * (F::all(4e-6F) + F::all(1e-6F) * size);
-      bends.store(out.bend + c * kLanes + l);
+      sweep.off = sweep.off + half_one * F::all(capsule.radius_up) * turned * turned +
+                  turned * (F::all(4e-6F) + F::all(1e-6F) * size);
+      sweep.store(out.sweeps + c * kSweep * kLanes + l);
     }
   }
 }

@@ -34,71 +34,48 @@ inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pai
   return gap / F::max(length, F::all(1e-20F));
 }
 
-// Of a capsule: its centre, and from there to one end.
+// All lanes alike.
 template <class F>
-struct Axis {
-  Vec<F> center, half;
-  static Axis load(const float* p) { return {Vec<F>::load(p), Vec<F>::load(p + 3 * kLanes)}; }
-};
-
-// How much farther than its centre a capsule's axis reaches along d, to first order of what the
-// joints may do.
-template <class F>
-inline F reach_along(const MovedCapsules& of, int c, const Vec<F>& d, const Axis<F>& at, int l) {
-  const F along = dot(d, at.half);
-  if (of.kinematics == nullptr) return F::abs(along);
-  const Capsule& capsule = of.kinematics->capsules[c];
-  const int* ancestors = of.kinematics->ancestors + capsule.ancestors_begin;
-  const F zero = F::all(0.0F);
-  F ahead = zero;   // of the end at center + half
-  F behind = zero;  // of the other one
-  F drift_ahead = zero;
-  F drift_behind = zero;
-  for (int k = 0; k < capsule.depth; ++k) {
-    const int f = ancestors[k];
-    const Vec<F> axis = Vec<F>::load(of.axes + (f * 6 + 3) * kLanes + l);
-    const F drift = F::load(of.drift + f * kLanes + l);
-    const F loose = F::load(of.loose + f * kLanes + l);
-    if (of.kinematics->frames[f].prismatic) {
-      const F shift = dot(d, axis);
-      drift_ahead = drift_ahead + drift * shift;
-      drift_behind = drift_behind + drift * shift;
-      ahead = ahead + loose * F::abs(shift);
-      behind = behind + loose * F::abs(shift);
-      continue;
-    }
-    const Vec<F> moment = cross(d, axis);
-    const F middle = dot(moment, minus(at.center, Vec<F>::load(of.axes + f * 6 * kLanes + l)));
-    const F end = dot(moment, at.half);
-    drift_ahead = drift_ahead + drift * (middle + end);
-    drift_behind = drift_behind + drift * (middle - end);
-    ahead = ahead + loose * F::abs(middle + end);
-    behind = behind + loose * F::abs(middle - end);
-  }
-  ahead = ahead + along + F::abs(drift_ahead);
-  behind = behind - along + F::abs(drift_behind);
-  return F::max(ahead, behind) * F::all(1.00001F) + F::load(of.bend + c * kLanes + l);
+inline Vec<F> spread(const float* at) {
+  return {F::all(at[0]), F::all(at[kLanes]), F::all(at[2 * kLanes])};
 }
 
-// Roundings: as axis_gap() but for the direction's, once more; those of moments are in `bend`.
+// How much farther than its own centre a capsule's axis reaches along d in any of its stretches.
 template <class F>
-unsigned keep_apart(const MovedCapsules& a, const MovedCapsules& b, const Pair& pair,
-                    unsigned lanes) {
-  unsigned open = 0;
+inline float reach_along(const SweptCapsule& of, const Vec<F>& d) {
+  const Vec<F> center = spread<F>(of.at);
+  float reach[kLanes];
   for (int l = 0; l < kLanes; l += F::kLanes) {
-    const auto at_a = Axis<F>::load(a.capsules + pair.a * 6 * kLanes + l);
-    const auto at_b = Axis<F>::load(b.capsules + pair.b * 6 * kLanes + l);
-    const Vec<F> w = minus(at_a.center, at_b.center);
-    const Vec<F> v = between_axes(w, at_a.half, at_b.half, pair);
-    const F length = F::max(F::sqrt(dot(v, v)), F::all(1e-20F));
-    const Vec<F> d = {v.x / length, v.y / length, v.z / length};
-    const F zero = F::all(0.0F);
-    const Vec<F> back = {zero - d.x, zero - d.y, zero - d.z};
-    const F gap =
-        dot(d, w) - reach_along(a, pair.a, back, at_a, l) - reach_along(b, pair.b, d, at_b, l);
-    open |= F::not_at_least(gap, F::all(pair.limit_up + pair.radii_up + 1e-6F)) << l;
+    const F along = dot(d, Vec<F>::load(of.capsules + 3 * kLanes + l));
+    const F ahead = F::abs(dot(d, Vec<F>::load(of.sweeps + l))) + along;
+    const F behind = F::abs(dot(d, Vec<F>::load(of.sweeps + 3 * kLanes + l))) - along;
+    const F away = dot(d, minus(Vec<F>::load(of.capsules + l), center));
+    (away + F::max(ahead, behind) + F::load(of.sweeps + 6 * kLanes + l)).store(reach + l);
   }
-  return lanes & ~open;
+  float most = reach[of.first];
+  for (int l = of.first + 1; l < of.end; ++l) most = reach[l] > most ? reach[l] : most;
+  return most;
+}
+
+// Roundings: as axis_gap(), and those of the direction and of centres, once more.
+template <class F>
+Parted parted(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair) {
+  const Vec<F> w = minus(spread<F>(a.at), spread<F>(b.at));
+  const Vec<F> half_a = spread<F>(a.at + 3 * kLanes);
+  const Vec<F> half_b = spread<F>(b.at + 3 * kLanes);
+  const Vec<F> v = between_axes(w, half_a, half_b, pair);
+  const F length = F::max(F::sqrt(dot(v, v)), F::all(1e-20F));
+  const Vec<F> d = {v.x / length, v.y / length, v.z / length};
+  const F zero = F::all(0.0F);
+  const Vec<F> back = {zero - d.x, zero - d.y, zero - d.z};
+  float own[3 * kLanes];
+  dot(d, w).store(own);
+  F::abs(dot(d, half_a)).store(own + kLanes);
+  F::abs(dot(d, half_b)).store(own + 2 * kLanes);
+  const float of_a = reach_along(a, back);
+  const float of_b = reach_along(b, d);
+  return {own[0] - of_a - of_b - pair.radii_up - 3e-6F,
+          {of_a - own[kLanes], of_b - own[2 * kLanes]}};
 }
 
 // About the middle of the box around the capsules' centres.

@@ -40,7 +40,7 @@ inline F operator/(F a, F b) { return {a.v / b.v}; }
 
 }  // namespace
 
-const Kernel kScalarKernel = {"scalar",      place<D>,      inflate<F>,   enclose<F>,
-                              near_pairs<F>, keep_apart<F>, near_boxes<F>};
+const Kernel kScalarKernel = {"scalar",      place<D>,  inflate<F>,   enclose<F>,
+                              near_pairs<F>, parted<F>, near_boxes<F>};
 
 }  // namespace armloom::filter

@@ -1,0 +1,221 @@
+// A batch of cells of a TubePair: which pairs of capsules are left open in each.
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/collision/diagram/tube_pair.h"
+#include "core/collision/diagram/tube_scratch.h"
+#include "core/collision/filter/kernels.h"
+
+namespace armloom {
+namespace {
+
+using filter::kLanes;
+using Block = MotionTube::Block;
+
+}  // namespace
+
+// The nodes of a batch in their tube, lane by lane.
+struct TubePair::Batch {
+  const MotionTube& tube;
+  Gathered& to;
+  std::array<MotionTube::Place, kLanes> of{};
+  std::size_t count;
+  filter::Side side;
+
+  Batch(const MotionTube& tube_of, const std::vector<int>& nodes, Gathered& gathered)
+      : tube(tube_of), to(gathered), count(nodes.size()) {
+    for (std::size_t lane = 0; lane < count; ++lane) of[lane] = tube.place_of(nodes[lane]);
+    side = {rows(&Block::capsules, to.capsules), rows(&Block::motion_bound, to.motion_bound),
+            rows(&Block::ball, to.ball)};
+  }
+  // The block that they are, in its order; null: they are none. That of a rest has it in all lanes.
+  [[nodiscard]] const Block* as_block() const {
+    if (tube.size() == 1) return of[0].block;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if (of[lane].block != of[0].block || of[lane].lane != lane) return nullptr;
+    }
+    return of[0].block;
+  }
+  // Every row of them: the block's own where they are one.
+  [[nodiscard]] const float* rows(std::vector<float> Block::*member,
+                                  std::vector<float>& gathered) const {
+    if (const Block* block = as_block()) return (block->*member).data();
+    gathered.resize(std::max(gathered.size(), (of[0].block->*member).size()));
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::vector<float>& from = of[lane].block->*member;
+      for (std::size_t row = 0; row < from.size(); row += kLanes) {
+        gathered[row + lane] = from[row + of[lane].lane];
+      }
+    }
+    return gathered.data();
+  }
+};
+
+// The cells of a batch as pairs of capsules meet in them.
+struct TubePair::Lanes {
+  struct Side {
+    MotionTube::Place at;
+    MotionTube::Stretches stretches;
+
+    [[nodiscard]] filter::SweptCapsule swept(int capsule) const {
+      const auto row = [capsule](const std::vector<float>& of, int rows) {
+        return of.data() + static_cast<std::ptrdiff_t>(capsule) * rows * kLanes;
+      };
+      return {row(at.block->capsules, 6) + at.lane, row(stretches.block->capsules, 6),
+              row(stretches.block->sweeps, filter::kSweep), stretches.first, stretches.end};
+    }
+  };
+  std::array<Side, kLanes> a, b;
+  unsigned lost = 0;  // no distance of one pair would do: of the others none is looked for
+};
+
+// Along the direction that parts the capsules of a hit, whichever of their stretches they are in.
+void TubePair::look_along(Lanes& lanes, const filter::Hit& hit, unsigned lane,
+                          filter::Parted& parted) const {
+  const filter::Pair& pair = setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)];
+  const Lanes::Side& a = lanes.a[lane];
+  const Lanes::Side& b = lanes.b[lane];
+  parted = a.stretches.block == nullptr || b.stretches.block == nullptr
+               ? filter::Parted{hit.distance[lane] - hit.motion_bound[lane], {0.0F, 0.0F}}
+               : filter::best_kernel().parted(a.swept(pair.a), b.swept(pair.b), pair);
+  const double short_m = static_cast<double>(pair.limit_up - parted.distance);
+  if (short_m > slack_m(narrow(hit.pair, false)) + kAlongShapes_m) lanes.lost |= 1U << lane;
+}
+
+// Of the pairs that bounds of their motion leave open, those that stay so along the direction that
+// parts them. Of each cell the closest pair is looked at first. Returns their number.
+int TubePair::left_open(unsigned of_batch, int hits) {
+  Scratch& s = *setting_.scratch;
+  Lanes lanes;
+  std::array<int, kLanes> closest{};
+  for (unsigned lane = 0; lane < kLanes; ++lane) {
+    if ((of_batch >> lane & 1U) == 0) continue;
+    float least_m = std::numeric_limits<float>::infinity();
+    closest[lane] = -1;
+    for (int h = 0; h < hits; ++h) {
+      const filter::Hit& hit = s.pairs.of[static_cast<std::size_t>(h)];
+      if ((hit.lanes >> lane & 1U) == 0) continue;
+      const float limit_m = setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)].limit_up;
+      const float room_m = hit.distance[lane] - hit.motion_bound[lane] - limit_m;
+      if (room_m >= least_m) continue;
+      least_m = room_m;
+      closest[lane] = h;
+    }
+    if (closest[lane] < 0) continue;
+    lanes.a[lane] = {a_->place_of(s.nodes_a[lane]), a_->stretches_of(s.nodes_a[lane])};
+    lanes.b[lane] = {b_->place_of(s.nodes_b[lane]), b_->stretches_of(s.nodes_b[lane])};
+    look_along(lanes, s.pairs.of[static_cast<std::size_t>(closest[lane])], lane,
+               s.parted_closest[lane]);
+  }
+  int left = 0;
+  for (int h = 0; h < hits; ++h) {
+    filter::Hit& hit = s.pairs.of[static_cast<std::size_t>(h)];
+    const float limit_m = setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)].limit_up;
+    filter::Parted* parted = s.parted[static_cast<std::size_t>(left)].of;
+    for (unsigned lane = 0; lane < kLanes; ++lane) {
+      if ((hit.lanes >> lane & 1U) == 0) continue;
+      if (closest[lane] == h) {
+        parted[lane] = s.parted_closest[lane];
+      } else if ((lanes.lost >> lane & 1U) != 0) {
+        parted[lane] = {limit_m, {0.0F, 0.0F}};
+        continue;
+      } else {
+        look_along(lanes, hit, lane, parted[lane]);
+      }
+      if (parted[lane].distance >= limit_m) hit.lanes &= ~(1U << lane);
+    }
+    if (hit.lanes == 0) continue;
+    if (left != h) s.pairs.of[static_cast<std::size_t>(left)] = hit;
+    ++left;
+  }
+  return left;
+}
+
+void TubePair::place_all(std::span<const Nodes> nodes) {
+  Scratch& s = *setting_.scratch;
+  s.nodes_a.clear();
+  s.nodes_b.clear();
+  for (const Nodes& at : nodes) {
+    s.nodes_a.push_back(at.a);
+    s.nodes_b.push_back(at.b);
+  }
+  a_->place(s.nodes_a);
+  if (!is_self()) b_->place(s.nodes_b);
+}
+
+void TubePair::filter(std::span<const Nodes> batch) {
+  Scratch& s = *setting_.scratch;
+  s.nodes_a.clear();
+  s.nodes_b.clear();
+  for (const Nodes& nodes : batch) {
+    s.nodes_a.push_back(nodes.a);
+    s.nodes_b.push_back(nodes.b);
+  }
+  a_->place(s.nodes_a);
+  if (is_self()) return;  // its tube has filtered them
+  b_->place(s.nodes_b);
+  const Batch a(*a_, s.nodes_a, s.a);
+  const Batch b(*b_, s.nodes_b, s.b);
+  s.side_a = a.side;
+  const PairSet& set = *setting_.pairs;
+  const filter::Kernel& kernel = filter::best_kernel();
+  const unsigned lanes = (1U << batch.size()) - 1U;
+  const int found = kernel.near_pairs(a.side, b.side, set.grouped(), lanes, s.pairs.of.data());
+  s.pairs.count = left_open(lanes, found);
+  s.boxes.count = kernel.near_boxes(a.side, set.boxes.data(), static_cast<int>(set.boxes.size()),
+                                    lanes, s.boxes.of.data());
+}
+
+double TubePair::slack_m(const NarrowPair& pair) const {
+  const BodyPair& bodies = setting_.bodies->pairs[pair.pair.index()];
+  return setting_.bodies->bodies[bodies.a].fitted.overestimate_m +
+         setting_.bodies->bodies[bodies.b].fitted.overestimate_m;
+}
+
+std::vector<TubePair::Undecided>& TubePair::undecided(std::size_t lane) {
+  Scratch& s = *setting_.scratch;
+  const PairSet& set = *setting_.pairs;
+  s.undecided.clear();
+  // Where nothing more is known, parts move towards each other at least this share of what they
+  // may move in all directions, mostly.
+  constexpr double kTowardsShare = 0.25;
+  const auto add = [&](int entry, bool box, double distance_m, double moves_a_m,
+                       double moves_m) -> Undecided& {
+    const NarrowPair& pair = narrow(entry, box);
+    const double short_m = pair.limit_m + kTowardsShare * moves_m - std::max(distance_m, 0.0);
+    return s.undecided.emplace_back(Undecided{entry, box, distance_m, moves_a_m,
+                                              moves_m - moves_a_m, pair.limit_m, slack_m(pair),
+                                              short_m, moves_a_m, moves_m - moves_a_m});
+  };
+  if (is_self()) {
+    for (const MotionTube::SelfHit& hit : a_->self_hits(s.nodes_a[lane])) {
+      add(hit.pair, false, hit.distance, hit.motion_bound, hit.motion_bound);
+    }
+    return s.undecided;
+  }
+  const auto of_lane = [lane](const Scratch::Hits& hits, const auto& visit) {
+    for (std::size_t h = 0; h < static_cast<std::size_t>(hits.count); ++h) {
+      if ((hits.of[h].lanes >> lane & 1U) != 0) visit(h, hits.of[h]);
+    }
+  };
+  const auto moves_a_m = [&](int row) {
+    return s.side_a.motion_bound[static_cast<std::size_t>(row) * kLanes + lane];
+  };
+  of_lane(s.pairs, [&](std::size_t h, const filter::Hit& hit) {
+    const int row = set.pairs[static_cast<std::size_t>(hit.pair)].row_a;
+    Undecided& open =
+        add(hit.pair, false, hit.distance[lane], moves_a_m(row), hit.motion_bound[lane]);
+    const filter::Parted& parted = s.parted[h].of[lane];
+    open.short_m = open.limit_m - static_cast<double>(parted.distance);
+    open.towards_a_m = static_cast<double>(parted.towards[0]);
+    open.towards_b_m = static_cast<double>(parted.towards[1]);
+  });
+  of_lane(s.boxes, [&](std::size_t, const filter::Hit& hit) {
+    const int row = set.boxes[static_cast<std::size_t>(hit.pair)].row_a;
+    add(hit.pair, true, hit.distance[lane], moves_a_m(row), hit.motion_bound[lane]);
+  });
+  return s.undecided;
+}
+
+}  // namespace armloom

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/collision/diagram/tube_pair.h"
+
+namespace armloom {
+
+// Nodes of one tube that lie apart, side by side.
+struct TubePair::Gathered {
+  std::vector<float> capsules, motion_bound, ball;  // MotionTube::Block
+};
+
+// What is at hand: nodes to be filtered, what is open of one of them, one state.
+struct TubePair::Scratch {
+  Gathered a, b;
+  struct Hits {
+    std::vector<filter::Hit> of;
+    int count = 0;
+  };
+  Hits pairs, boxes;
+  struct Parted {  // of a hit, by lane
+    filter::Parted of[filter::kLanes];
+  };
+  std::vector<Parted> parted;  // by hit of pairs
+  std::array<filter::Parted, filter::kLanes> parted_closest;
+  std::vector<int> nodes_a, nodes_b;
+  filter::Side side_a;
+  std::vector<Undecided> undecided;
+  std::vector<MovingAxis> axes_a, axes_b;
+  struct OneState {
+    std::vector<double> frames_a, frames_b, q;
+  };
+  OneState state;
+};
+
+}  // namespace armloom
