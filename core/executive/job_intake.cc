@@ -78,7 +78,8 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                         "an arm is named with move_to; a trajectory's joints say which arms move",
                         request.arm.empty() ? request.arms.front() : request.arm});
   }
-  if (request.terms.approach == Approach::plan && (request.move_to || request.motions().size() > 1)) {
+  if (request.terms.approach == Approach::plan &&
+      (request.move_to || request.motions().size() > 1)) {
     problems.push_back({ProblemKind::invalid, "not-served", "/approach",
                         "a goal's way begins where the arm stands, and alternatives end where they "
                         "begin: neither has an approach",
@@ -121,7 +122,8 @@ std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ah
     if (motion) {
       begin_where_open(**motion, ahead);
       for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
-      const bool begins_anywhere = ahead.begins_anywhere || request.terms.approach == Approach::plan;
+      const bool begins_anywhere =
+          ahead.begins_anywhere || request.terms.approach == Approach::plan;
       if (!begins_anywhere) find_start_elsewhere(*cell_, **motion, ahead.rest, found);
       motions.push_back(std::move(*motion));
     }

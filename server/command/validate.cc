@@ -76,9 +76,11 @@ void print_arm(const Cell& cell, const Arm& arm) {
 
 void print_settings(const Cell& cell) {
   const double mount_m = cell.clearances.mount_limit_m();
-  std::cout << "clearance " << cell.clearances.clearance_m << " m, " << cell.clearances.self_clearance_m
-            << " m of an arm from itself"
-            << (mount_m < cell.clearances.clearance_m ? ", " + text_of(mount_m) + " m from its mount" : "")
+  std::cout << "clearance " << cell.clearances.clearance_m << " m, "
+            << cell.clearances.self_clearance_m << " m of an arm from itself"
+            << (mount_m < cell.clearances.clearance_m
+                    ? ", " + text_of(mount_m) + " m from its mount"
+                    : "")
             << '\n'
             << "checking: time step " << to_seconds(cell.checking.time_step)
             << " s, tracking error " << cell.checking.tracking_error_rad << " rad, delay "

@@ -17,9 +17,9 @@ TimePoint time_limit(const std::vector<TimedJob>& jobs, const std::vector<FaultR
       if (motion.points.empty()) continue;
       duration_s = std::max(duration_s, motion.points.back().time_from_start_s);
     }
-    limit_s += to_seconds(timed.job.terms.backlog_timeout.value_or(cell.scheduling.backlog_timeout)) +
-               duration_s * cell.execution.duration_scaling +
-               to_seconds(cell.execution.duration_margin);
+    limit_s +=
+        to_seconds(timed.job.terms.backlog_timeout.value_or(cell.scheduling.backlog_timeout)) +
+        duration_s * cell.execution.duration_scaling + to_seconds(cell.execution.duration_margin);
     last_s = std::max(last_s, to_seconds(timed.at));
   }
   return at(from_seconds(last_s + limit_s));

@@ -224,7 +224,8 @@ std::set<std::size_t> joints_above_arms(const RobotTree& tree, const RobotSemant
       // A mimic joint moves with the joint that it follows.
       const auto& mimic = tree.links[*link].joint.mimic;
       const std::size_t driver = mimic ? mimic->driver : *link;
-      if (tree.links[driver].joint.is_independent() && !of_arms.contains(driver)) above.insert(driver);
+      if (tree.links[driver].joint.is_independent() && !of_arms.contains(driver))
+        above.insert(driver);
     }
   }
   return above;

@@ -85,8 +85,8 @@ Result<Homes> choose_homes(const CellPtr& cell) {
     auto& of_arm = places.emplace_back();
     for (const HomeCandidate& candidate : candidates.back()) {
       const bool made_up = candidate.kind == HomeCandidate::Kind::made_up;
-      of_arm.push_back(
-          {candidate.q, std::max(cell->clearances.clearance_m, made_up ? kMadeUpClearance_m : 0.0)});
+      of_arm.push_back({candidate.q, std::max(cell->clearances.clearance_m,
+                                              made_up ? kMadeUpClearance_m : 0.0)});
     }
   }
   const auto found = find_free_homes(cell, places);

@@ -26,7 +26,8 @@ std::string name_in(const std::string& urdf_text) {
 HeldJoint hold(const RobotTree& tree, const RobotSemantics& semantics, std::size_t joint) {
   const TreeLink& link = tree.links[joint];
   double nearest_to_zero = std::max(0.0, link.joint.limits.lower.value_or(0.0));
-  if (link.joint.limits.upper) nearest_to_zero = std::min(nearest_to_zero, *link.joint.limits.upper);
+  if (link.joint.limits.upper)
+    nearest_to_zero = std::min(nearest_to_zero, *link.joint.limits.upper);
   HeldJoint held{link.joint.name, nearest_to_zero, {}};
   std::size_t best = 0;
   for (const auto& [group, states] : semantics.states) {

@@ -164,7 +164,8 @@ void register_states(const Workloads& workloads) {
         return open;
       });
     });
-    decided("decided_clearance", {scene->cell().clearances.clearance_m, scene->cell().clearances.self_clearance_m});
+    decided("decided_clearance",
+            {scene->cell().clearances.clearance_m, scene->cell().clearances.self_clearance_m});
   }
 }
 

@@ -52,7 +52,8 @@ void register_cell(const std::string& name, const CellPtr& cell) {
       decided(run, scene, states, {0.0, 0.0});
     });
     benchmark::RegisterBenchmark(("decided_clearance" + row).c_str(), [=](auto& run) {
-      decided(run, scene, states, {cell->clearances.clearance_m, cell->clearances.self_clearance_m});
+      decided(run, scene, states,
+              {cell->clearances.clearance_m, cell->clearances.self_clearance_m});
     });
     benchmark::RegisterBenchmark(("closest_below_0.1m" + row).c_str(),
                                  [=](auto& run) { closest(run, scene, states, 0.1); });

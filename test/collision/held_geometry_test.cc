@@ -15,7 +15,8 @@ TEST(HeldObjects, AreWhereTheirLinksCarryThemForTheChecker) {
   Holding h;
   small::ScaledQuery checker(h.scene);
   const double limit_m = 0.1;
-  const double self_limit_m = limit_m * h.cell->clearances.self_clearance_m / h.cell->clearances.clearance_m;
+  const double self_limit_m =
+      limit_m * h.cell->clearances.self_clearance_m / h.cell->clearances.clearance_m;
   std::vector<NearPair> near;
   int close = 0;
   int contacts = 0;
@@ -117,8 +118,8 @@ TEST(HeldObjects, KeepTheClearanceAllAlongSweptMotions) {
               positions[static_cast<Eigen::Index>(k)];
         }
       }
-      const auto near =
-          checker.first_closer_than(q, h.cell->clearances.clearance_m - 1e-6, std::vector<bool>{true, false});
+      const auto near = checker.first_closer_than(q, h.cell->clearances.clearance_m - 1e-6,
+                                                  std::vector<bool>{true, false});
       ASSERT_FALSE(near.has_value())
           << near->body_a << " " << near->body_b << " at " << to_seconds(t) << " s of pair " << i;
     }

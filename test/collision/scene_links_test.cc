@@ -118,8 +118,9 @@ TEST(SceneLinks, GetTheClearanceOfTheScene) {
       const Configuration* state[] = {&q};
       const bool too_close = gap_m < cell->clearances.clearance_m;
       EXPECT_EQ(states.too_close(state) != 0, too_close) << gap_m;
-      EXPECT_EQ(checker.first_closer_than(q, cell->clearances.clearance_m, {true, true}).has_value(),
-                too_close)
+      EXPECT_EQ(
+          checker.first_closer_than(q, cell->clearances.clearance_m, {true, true}).has_value(),
+          too_close)
           << gap_m;
       const auto stops = checker.all_closer_than(q, 0.01);
       EXPECT_EQ(stops.size(), gap_m < 0.01 ? 1U : 0U);

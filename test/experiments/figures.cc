@@ -92,15 +92,17 @@ void note_jobs(const SimulationResult& result, const std::vector<PlannedJob>& pl
     const PlannedJob& known = *index.at(job.key);
     if (!job.times.started_at || !job.times.ended_at) continue;
     const auto before = free_at.find(known.arm.index());
-    const TimePoint ready =
-        before == free_at.end() ? job.times.submitted_at : std::max(job.times.submitted_at, before->second);
+    const TimePoint ready = before == free_at.end()
+                                ? job.times.submitted_at
+                                : std::max(job.times.submitted_at, before->second);
     free_at[known.arm.index()] = *job.times.ended_at;
     const double wait_s = to_seconds(*job.times.started_at - ready);
     run.row.wait_mean_s += wait_s;
     run.row.wait_max_s = std::max(run.row.wait_max_s, wait_s);
-    run.row.held_mean_s += to_seconds(*job.times.ended_at - *job.times.started_at - job.motion.duration);
-    run.timeline.jobs.push_back(
-        {known.arm.index(), to_seconds(*job.times.started_at), to_seconds(*job.times.ended_at), known.kind});
+    run.row.held_mean_s +=
+        to_seconds(*job.times.ended_at - *job.times.started_at - job.motion.duration);
+    run.timeline.jobs.push_back({known.arm.index(), to_seconds(*job.times.started_at),
+                                 to_seconds(*job.times.ended_at), known.kind});
     ++started;
   }
   run.row.wait_mean_s /= static_cast<double>(std::max<std::size_t>(started, 1));

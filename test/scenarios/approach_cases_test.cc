@@ -64,7 +64,8 @@ TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
   cell->run_to_the_end();
   const JobView failed = cell->job("in the post");
   EXPECT_EQ(failed.reason(), Reason::start_mismatch);
-  EXPECT_NE(failed.detail().find("no way to where it begins: "), std::string::npos) << failed.detail();
+  EXPECT_NE(failed.detail().find("no way to where it begins: "), std::string::npos)
+      << failed.detail();
   EXPECT_NE(failed.detail().find("post"), std::string::npos) << failed.detail();
   cell->expect_at("a", {-1, 0});
 }

@@ -138,7 +138,8 @@ TEST_P(ChainsUnder, AllSucceedAndNeverTouch) {
       if (!well && first_other.empty()) first_other = told(job);
       if (std::getenv("ARMLOOM_TOLD") != nullptr) {
         std::cout << (job.times.started_at ? to_seconds(*job.times.started_at) : -1.0) << ".."
-                  << (job.times.ended_at ? to_seconds(*job.times.ended_at) : -1.0) << " " << told(job) << "\n";
+                  << (job.times.ended_at ? to_seconds(*job.times.ended_at) : -1.0) << " "
+                  << told(job) << "\n";
       }
     }
     EXPECT_TRUE(result->all_ended) << "seed " << seed << ": jobs hang";

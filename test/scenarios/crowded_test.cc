@@ -153,7 +153,8 @@ void tell(const CrowdedWorkload& world, const SimulationResult& result, const st
   for (const JobView& job : result.jobs) {
     std::cout << "  " << to_seconds(job.times.submitted_at) << " -> "
               << (job.times.started_at ? to_seconds(*job.times.started_at) : -1.0) << ".."
-              << (job.times.ended_at ? to_seconds(*job.times.ended_at) : -1.0) << " " << told(job) << "\n";
+              << (job.times.ended_at ? to_seconds(*job.times.ended_at) : -1.0) << " " << told(job)
+              << "\n";
   }
 }
 

@@ -100,8 +100,8 @@ PandasRun run(const Stock& stock, std::uint64_t seed, const std::string& policy)
     for (const std::string& key : keys) {
       const JobView job = *executive.job(key);
       std::cout << seed << " " << job.name << " submitted " << to_seconds(job.times.submitted_at)
-                << " began " << (job.times.started_at ? to_seconds(*job.times.started_at) : -1.0) << " "
-                << told(job) << "\n";
+                << " began " << (job.times.started_at ? to_seconds(*job.times.started_at) : -1.0)
+                << " " << told(job) << "\n";
     }
   }
   PandasRun outcome;

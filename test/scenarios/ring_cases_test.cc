@@ -35,7 +35,8 @@ TEST_P(InARing, OneOfTwoThatSwapTheirPlacesMovesAsideAndComesBack) {
   EXPECT_EQ(cell.job("aside-2").name, "b returns to where it stood");
   EXPECT_EQ(cell.job("aside-1").state, JobState::succeeded);
   EXPECT_EQ(cell.job("aside-2").state, JobState::succeeded);
-  EXPECT_LT(*cell.job("one").times.started_at, *cell.job("aside-2").times.started_at) << "b lets it pass";
+  EXPECT_LT(*cell.job("one").times.started_at, *cell.job("aside-2").times.started_at)
+      << "b lets it pass";
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
 }
 

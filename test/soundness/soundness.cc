@@ -135,8 +135,8 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
     Question alone = pair.question(cell, kExactly);
     alone.others.clear();
     static_cast<void>(checker.judge(alone));
-    measure_certified(pair, truth, checker.judge(pair.question(cell, kExactly)), cell.clearances.clearance_m,
-                      report);
+    measure_certified(pair, truth, checker.judge(pair.question(cell, kExactly)),
+                      cell.clearances.clearance_m, report);
     if (truth.smallest_m > 0.0) continue;
     if (!first_in_regions_s(checker_without.judge(pair.question(cell, kExactly)), pair)) {
       ++report.missed_collisions;

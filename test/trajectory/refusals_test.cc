@@ -224,7 +224,8 @@ TEST(Validate, RefusesMotionsLongerThanTheBound) {
 
 TEST(Validate, SaysWhyAJointHasNoValueOfItsOwn) {
   Cell cell = test_cell();
-  cell.robots.emplace_back().joints_without_value = {{"torso", "is held at 0.3"}, {"finger", "follows thumb"}};
+  cell.robots.emplace_back().joints_without_value = {{"torso", "is held at 0.3"},
+                                                     {"finger", "follows thumb"}};
   const auto why = [&](const std::string& joint) {
     TrajectoryRequest request = pair_request();
     request.joint_names.push_back(joint);

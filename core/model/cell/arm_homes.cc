@@ -17,9 +17,9 @@ void warn_if_held_elsewhere(const RobotBuild& robot, const ArmBuild& build, std:
   const TreeLink& link = robot.tree.links[index];
   if (!link.joint.held || std::abs(*link.joint.held - value) <= 1e-6) return;
   diagnostics.warn({ProblemKind::invalid, "held-joint", build.pointer + "/home",
-                    "arm " + build.description->name + ": home has joint " + link.joint.name + " at " +
-                        text_of(value) + ", and \"fixed\" holds it at " + text_of(*link.joint.held) +
-                        ", which counts",
+                    "arm " + build.description->name + ": home has joint " + link.joint.name +
+                        " at " + text_of(value) + ", and \"fixed\" holds it at " +
+                        text_of(*link.joint.held) + ", which counts",
                     value});
 }
 
@@ -151,7 +151,8 @@ std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBui
   } else {
     std::string names;
     for (const std::size_t joint : build.group) {
-      if (robot.joints[joint]) names += (names.empty() ? "" : ", ") + robot.tree.links[joint].joint.name;
+      if (robot.joints[joint])
+        names += (names.empty() ? "" : ", ") + robot.tree.links[joint].joint.name;
     }
     diagnostics.in_cell("wrong-size", build.pointer + "/home",
                         "arm " + arm.name + ": home has " + std::to_string(home.size()) +

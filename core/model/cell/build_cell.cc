@@ -101,7 +101,8 @@ RobotBuild read_robot(const RobotDescription& description, std::size_t index, Me
 std::string why_no_value(const RobotBuild& robot, const TreeLink& link) {
   if (link.joint.held) return "is held at " + text_of(*link.joint.held);
   if (!link.joint.mimic) return "is fixed";
-  return "follows " + robot.description->prefix + robot.tree.links[link.joint.mimic->driver].joint.name;
+  return "follows " + robot.description->prefix +
+         robot.tree.links[link.joint.mimic->driver].joint.name;
 }
 
 void add_joints(RobotBuild& robot, Cell& cell) {
@@ -221,7 +222,8 @@ void add_robot(RobotBuild robot, Cell& cell, Diagnostics& diagnostics) {
 void copy_settings(const CellDescription& description, Cell& cell) {
   cell.name = description.name;
   cell.clearances.clearance_m = description.clearance_m;
-  cell.clearances.self_clearance_m = std::min(description.self_clearance_m, description.clearance_m);
+  cell.clearances.self_clearance_m =
+      std::min(description.self_clearance_m, description.clearance_m);
   cell.clearances.mount_clearance_m = description.mount_clearance_m;
   cell.checking = description.checking;
   cell.scheduling = description.scheduling;

@@ -118,10 +118,11 @@ void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Diagnostics& diag
     if (link.joint.motion == JointKind::continuous || !(below || above)) continue;
     const std::string place = robot.tree.place_of_joint(link);
     diagnostics.warn({ProblemKind::invalid, "mimic-beyond-limits", place,
-                      place + ": it follows " + robot.tree.links[link.joint.mimic->driver].joint.name +
-                          " from " + text_of(from) + " to " + text_of(to) +
-                          ", beyond its own limits [" + (own.lower ? text_of(*own.lower) : "-inf") +
-                          ", " + (own.upper ? text_of(*own.upper) : "inf") +
+                      place + ": it follows " +
+                          robot.tree.links[link.joint.mimic->driver].joint.name + " from " +
+                          text_of(from) + " to " + text_of(to) + ", beyond its own limits [" +
+                          (own.lower ? text_of(*own.lower) : "-inf") + ", " +
+                          (own.upper ? text_of(*own.upper) : "inf") +
                           "]: here it goes there, the robot may stop short; check <mimic>",
                       below ? from : to});
   }

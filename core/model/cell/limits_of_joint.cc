@@ -119,8 +119,8 @@ std::optional<double> LimitsOfJoint::from_cell(const std::optional<double>& valu
 
 void LimitsOfJoint::refuse(const char* slug, const std::string& name, const std::string& rest,
                            double value) {
-  diagnostics_.in_cell(slug, pointer_ + "/" + name, "joint " + link_.joint.name + ": " + name + rest,
-                       value);
+  diagnostics_.in_cell(slug, pointer_ + "/" + name,
+                       "joint " + link_.joint.name + ": " + name + rest, value);
 }
 
 std::optional<double> LimitsOfJoint::from_file(const std::optional<double>& value, const char* name,

@@ -81,8 +81,8 @@ void take_joint(const urdf::Joint& joint, UrdfNotes::Joint notes, TreeJoint& tak
   taken.many_values = notes.many_values;
   if (joint.type == urdf::Joint::FIXED) return;
   taken.motion = joint.type == urdf::Joint::PRISMATIC    ? JointKind::prismatic
-                : joint.type == urdf::Joint::CONTINUOUS ? JointKind::continuous
-                                                        : JointKind::revolute;
+                 : joint.type == urdf::Joint::CONTINUOUS ? JointKind::continuous
+                                                         : JointKind::revolute;
   taken.axis = vector_of(joint.axis).normalized();
   if (notes.lower) taken.limits.lower = joint.limits->lower;
   if (notes.upper) taken.limits.upper = joint.limits->upper;
@@ -92,7 +92,7 @@ void take_joint(const urdf::Joint& joint, UrdfNotes::Joint notes, TreeJoint& tak
 
 // Through all the mimics that it follows, which do not go in a ring (urdf_check.h).
 TreeJoint::Mimic mimic_of(const urdf::Joint& joint, const urdf::ModelInterface& model,
-                         const RobotTree& tree) {
+                          const RobotTree& tree) {
   const urdf::JointMimic& own = *joint.mimic;
   const urdf::Joint& followed = *model.joints_.at(own.joint_name);
   if (!followed.mimic) return {tree.by_joint.at(own.joint_name), own.multiplier, own.offset};
@@ -135,7 +135,8 @@ RobotTree tree_of(const urdf::ModelInterface& model, UrdfNotes notes) {
       open.emplace_back(child->get(), index);
   }
   for (const auto& [name, joint] : model.joints_) {
-    if (joint->mimic) tree.links[tree.by_joint.at(name)].joint.mimic = mimic_of(*joint, model, tree);
+    if (joint->mimic)
+      tree.links[tree.by_joint.at(name)].joint.mimic = mimic_of(*joint, model, tree);
   }
   return tree;
 }

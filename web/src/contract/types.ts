@@ -232,14 +232,13 @@ export interface components {
                 /** @description What was found there */
                 value: string | number | null;
             }[];
-            /** @description Where there is no plan: which come too close, ... */
-            links?: [
-                string,
-                string
-            ];
-            /** @description ... and how close; zero or less in contact */
+            /** @description Where there is no plan: the two that come too close, or the one that is not brought to its pose */
+            links?: string[];
+            /** @description How close the two come; zero or less in contact */
             clearance_m?: number;
-            /** @description Of a pose that is not reached: joint positions that come nearest */
+            /** @description How far apart they are to be */
+            asked_m?: number;
+            /** @description Joint positions that would do, the nearest that were found: free ones; of a pose that is not reached those that come nearest to it; of a straight line as far as it goes */
             nearest?: number[];
             /** @description What planning took */
             evaluations?: number;
