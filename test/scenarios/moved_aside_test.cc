@@ -26,5 +26,52 @@ TEST_P(BesideAMovedArm, AGoalIsPlannedAnewAndReached) {
   EXPECT_GT(cell.closest_m(), 0.0);
 }
 
+JobRequest to_place(const std::string& arm, Place_m to, std::string key) {
+  JobRequest goal{.key = std::move(key), .name = "", .trajectory = {}};
+  goal.arm = arm;
+  goal.move_to = PlanGoal{.joints = std::vector{to.first, to.second}, .named = {}, .pose = {}};
+  return goal;
+}
+
+// One is to come to where the other stands, which is to go past it: beside where that one will be
+// it is planned right through where it is.
+TEST_P(BesideAMovedArm, TwoGoalsInEachOthersWayAreNoRingWhereOneCanGoRound) {
+  TwoGantries cell(gantries(OnIdleBlocker::report), GetParam());
+  cell.submit(to_place("b", {-1, 0}, "to its place"));
+  cell.submit(to_place("a", {1.4, 0}, "past it"));
+  cell.run_to_the_end(at(200s));
+  for (const char* key : {"past it", "to its place"}) {
+    EXPECT_EQ(cell.job(key).state, JobState::succeeded) << cell.job(key).detail();
+  }
+  EXPECT_GT(cell.closest_m(), 0.0);
+}
+
+class Overtaken : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, Overtaken,
+                         ::testing::Values("reservation", "timed_discrete", "certified",
+                                           "earliest_start", "coordinated"));
+
+// While c's goal is planned b overtakes it, and comes to rest on that way; what comes then to the
+// place that c is to leave again would stay there.
+TEST_P(Overtaken, AGoalIsPlannedAnewBeforeOthersAreInItsWay) {
+  TwoGantries cell(
+      gantries(OnIdleBlocker::report, {{-0.7, -0.28}, {0.7, 0.28}, {-0.7, 0.28}, {0.7, -0.28}}),
+      GetParam());
+  cell.submit(to_place("b", {0.42, 0.28}, "b comes"));
+  cell.submit(to_place("a", {0.14, -0.28}, "a comes"));
+  cell.run_until(at(1700ms));
+  cell.submit(to_place("c", {0.42, -0.28}, "c comes"));
+  JobRequest overtakes = go("b", {0.42, 0.28}, {-0.14, 0.28}, 2.64, "overtakes");
+  overtakes.trajectory.points.push_back({{-0.42, -0.28}, {0.0, 0.0}, {0.0, 0.0}, 5.28});
+  cell.submit(overtakes);
+  cell.submit(to_place("c", {-0.7, -0.28}, "c leaves"));
+  cell.run_until(at(2141ms));
+  cell.submit(to_place("a", {0.42, -0.28}, "a follows"));
+  cell.run_to_the_end(at(200s));
+  for (const char* key : {"c comes", "overtakes", "c leaves", "a follows"}) {
+    EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key << ": " << cell.job(key).detail();
+  }
+}
+
 }  // namespace
 }  // namespace armloom

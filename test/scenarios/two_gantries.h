@@ -17,16 +17,19 @@ namespace armloom {
 
 using namespace std::chrono_literals;
 
-// Balls of 10 cm radius, "a" and "b", that go anywhere in one plane: from (-1, 0) and (1, 0) m.
-inline CellDescription gantries(OnIdleBlocker on_idle_blocker) {
-  CellDescription cell{.name = "two gantries"};
-  for (const std::string name : {"a", "b"}) {
+using Place_m = std::pair<double, double>;
+
+// Balls of 10 cm radius, "a", "b" and so on, that go anywhere in one plane.
+inline CellDescription gantries(OnIdleBlocker on_idle_blocker, const std::vector<Place_m>& homes) {
+  CellDescription cell{.name = "gantries"};
+  for (std::size_t i = 0; i < homes.size(); ++i) {
+    const std::string name(1, static_cast<char>('a' + i));
     RobotDescription robot{.name = name,
                            .urdf = source_dir() + "/test/scenarios/data/gantry.urdf",
                            .srdf = source_dir() + "/test/scenarios/data/gantry.srdf",
                            .prefix = name + "_"};
-    const double x_m = name == "a" ? -1.0 : 1.0;
-    ArmDescription arm{.name = name, .group = "axes", .home = {x_m, 0.0}, .limits = {}};
+    ArmDescription arm{
+        .name = name, .group = "axes", .home = {homes[i].first, homes[i].second}, .limits = {}};
     for (const char* joint : {"x", "y"}) arm.limits[joint].acceleration = 20.0;
     robot.arms.push_back(std::move(arm));
     cell.robots.push_back(std::move(robot));
@@ -35,8 +38,9 @@ inline CellDescription gantries(OnIdleBlocker on_idle_blocker) {
   cell.scheduling.on_idle_blocker = on_idle_blocker;
   return cell;
 }
-
-using Place_m = std::pair<double, double>;
+inline CellDescription gantries(OnIdleBlocker on_idle_blocker) {
+  return gantries(on_idle_blocker, {{-1.0, 0.0}, {1.0, 0.0}});
+}
 
 // Straight, from rest to rest, as a client would post it.
 inline JobRequest go(const std::string& arm, Place_m from, Place_m to, double duration_s,

@@ -24,13 +24,30 @@ bool fits(const State& state, const GoalWay& way, const Configuration& at) {
   return is_asked && is_as_asked(state, way, at, way.goal.arm);
 }
 
-// It waits for an arm that no job moves, and that it was not planned beside: a move aside of our
-// own, say, has taken that one elsewhere since.
+// What is admitted will come to its end, whoever came first.
+bool comes_to_its_end(const Job& job) { return job.in<Queued>() == nullptr; }
+
+// The arm rests where the job was found to be blocked by it.
+bool is_stood_by(const State& state, const Job& job, ArmId arm) {
+  if (!job.is_waiting() || !state.is_judged(job)) return false;
+  return std::ranges::any_of(job.judgement().found, [arm](const Wait& wait) {
+    return wait.kind == Wait::Kind::arm && wait.arm == arm;
+  });
+}
+
+// It waits for an arm that it was not planned beside where that rests, or comes to rest by what is
+// admitted: that one was overtaken by another job, or a move aside of our own has taken it there.
 bool is_in_the_way_of_another(const State& state, const Job& job, const GoalWay& way) {
   if (!job.is_waiting() || !state.is_judged(job)) return false;
   return std::ranges::any_of(job.judgement().found, [&](const Wait& wait) {
-    if (wait.kind != Wait::Kind::arm || !state.jobs.queues()[*wait.arm].empty()) return false;
-    return !is_as_asked(state, way, state.arms.rest(), *wait.arm);
+    if (wait.kind != Wait::Kind::arm && wait.kind != Wait::Kind::job) return false;
+    if (!wait.arm || *wait.arm == way.goal.arm) return false;
+    Configuration at = state.arms.rest();
+    for (JobId id : state.jobs.queues()[*wait.arm]) {
+      const Job& other = state.jobs.at(id).job;
+      if (comes_to_its_end(other)) follow_to_end(at, *state.cell, *wait.arm, *other.trajectory);
+    }
+    return !is_as_asked(state, way, at, *wait.arm);
   });
 }
 
@@ -53,7 +70,8 @@ std::optional<Configuration> at_its_turn(const State& state, const Record& recor
   return at;
 }
 
-// In its turn: all that came before it is done, and its own arm is where the job finds it.
+// In its turn: all that came before it is done, or is admitted, and its own arm is where the job
+// finds it. Who was found to stand in its way stays there.
 PlanQuestion question_about(const State& state, const Record& record, const GoalWay& way,
                             Configuration at) {
   PlanQuestion question{.goal = way.goal, .seed = record.job.id.value()};
@@ -62,9 +80,12 @@ PlanQuestion question_about(const State& state, const Record& record, const Goal
     const ArmId arm{a};
     if (arm == way.goal.arm) continue;
     question.may_move.push_back(arm);
+    const bool stays = is_stood_by(state, record.job, arm);
     for (JobId id : state.jobs.queues()[arm]) {
       const Record& other = state.jobs.at(id);
-      if (other.turn < turn && other.job.knows_its_end() && !other.job.has_open_arm()) {
+      const bool goes_before =
+          other.turn < turn && !stays && other.job.knows_its_end() && !other.job.has_open_arm();
+      if (goes_before || comes_to_its_end(other.job)) {
         follow_to_end(at, *state.cell, arm, *other.job.trajectory);
       }
     }
@@ -74,6 +95,7 @@ PlanQuestion question_about(const State& state, const Record& record, const Goal
 }
 
 void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
+  PlanQuestion question = question_about(state, record, way, at);  // by what was found of it
   if (std::exchange(record.job.goal->is_planned, false)) {
     state.lanes.renew_later();
     ++state.version;
@@ -84,7 +106,6 @@ void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
   ++way.tries;
   way.question = ++record.asking.plans;
   way.asked_at = state.version;
-  PlanQuestion question = question_about(state, record, way, at);
   way.beside = question.at;
   state.decided.effects.push_back(PlanMotion{record.job.id, *way.question, std::move(question)});
 }
