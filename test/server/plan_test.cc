@@ -104,7 +104,7 @@ TEST_F(PlanOverHttp, SaysWhatOfTheRequestIsAtFaultAndTheNearestThatWouldDo) {
   const json stands =
       plan({{"arms", {"right", "left"}}, {"to", {{"pose", {{"xyz", {3, 0, 0.5}}}}}}}).json();
   EXPECT_EQ(stands["pointer"], "/to/pose");
-  EXPECT_EQ(stands["links"], json({"right_panda_link8"}));
+  EXPECT_EQ(stands["links"], json({"right_panda_link7"}));
 }
 
 TEST_F(PlanOverHttp, SearchesNoLongerThanItsBudget) {
