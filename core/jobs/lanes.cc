@@ -4,13 +4,19 @@
 #include <utility>
 
 namespace armloom {
+namespace {
+
+// It may yet be another one: planned for the first time, anew, or around what others hold.
+bool is_way_open(const Job& job) { return job.is_unplanned() || job.is_detour_asked(); }
+
+}  // namespace
 
 void Lanes::add(const Record& record) {
   if (record.errand.before) is_stale_ = true;
   if (is_stale_ || !record.job.knows_its_end()) return;
   WaitingLeg leg = record.leg;
   leg.after = record.job.terms.after;
-  leg.is_estimate = record.job.is_unplanned();
+  leg.is_estimate = is_way_open(record.job);
   sequence_.append(std::move(leg));
 }
 
@@ -46,7 +52,7 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
     const Record& record = book.at(id);
     WaitingLeg& leg = legs.emplace_back(record.leg);
     leg.after = record.job.terms.after;
-    leg.is_estimate = record.job.is_unplanned();
+    leg.is_estimate = is_way_open(record.job);
     if (record.errand.lets_pass && book.is_active(*record.errand.lets_pass)) {
       leg.after.push_back(*record.errand.lets_pass);
     }

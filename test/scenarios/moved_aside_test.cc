@@ -46,14 +46,9 @@ TEST_P(BesideAMovedArm, TwoGoalsInEachOthersWayAreNoRingWhereOneCanGoRound) {
   EXPECT_GT(cell.closest_m(), 0.0);
 }
 
-class Overtaken : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Policies, Overtaken,
-                         ::testing::Values("reservation", "timed_discrete", "certified",
-                                           "earliest_start", "coordinated"));
-
 // While c's goal is planned b overtakes it, and comes to rest on that way; what comes then to the
 // place that c is to leave again would stay there.
-TEST_P(Overtaken, AGoalIsPlannedAnewBeforeOthersAreInItsWay) {
+TEST_P(BesideAMovedArm, AGoalThatIsOvertakenIsPlannedAnewBeforeOthersAreInItsWay) {
   TwoGantries cell(
       gantries(OnIdleBlocker::report, {{-0.7, -0.28}, {0.7, 0.28}, {-0.7, 0.28}, {0.7, -0.28}}),
       GetParam());
