@@ -6,8 +6,9 @@
 namespace armloom {
 namespace {
 
-// It may yet be another one: planned for the first time, anew, or around what others hold.
-bool is_way_open(const Job& job) { return job.is_unplanned() || job.is_detour_asked(); }
+// While a goal waits its way may yet be another one: it is planned for the first time, anew, or
+// around what others hold.
+bool is_way_open(const Job& job) { return job.goal && job.in<Queued>() != nullptr; }
 
 }  // namespace
 
