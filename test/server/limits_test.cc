@@ -192,7 +192,8 @@ TEST_F(Limits, UnfinishedBodiesTakeABoundedPartOfTheMemory) {
 
 // What takes long to read is read aside: the strand of connections goes on.
 TEST_F(Limits, AnEnormousBodyKeepsNobodyWaiting) {
-  options_.limits.requests = {1e6, 1e6};  // it asks as often as it is answered
+  // It asks as often as it is answered.
+  options_.limits.requests = options_.limits.requests_of_all = {1e6, 1e6};
   start(1.0);
   std::string body = "{\"jobs\": [";
   while (body.size() < 8'000'000) body += "{},";
