@@ -146,15 +146,8 @@ void TubePair::place_all(std::span<const Nodes> nodes) {
 
 void TubePair::filter(std::span<const Nodes> batch) {
   Scratch& s = *setting_.scratch;
-  s.nodes_a.clear();
-  s.nodes_b.clear();
-  for (const Nodes& nodes : batch) {
-    s.nodes_a.push_back(nodes.a);
-    s.nodes_b.push_back(nodes.b);
-  }
-  a_->place(s.nodes_a);
+  place_all(batch);
   if (is_self()) return;  // its tube has filtered them
-  b_->place(s.nodes_b);
   const Batch a(*a_, s.nodes_a, s.a);
   const Batch b(*b_, s.nodes_b, s.b);
   s.side_a = a.side;

@@ -80,7 +80,6 @@ void ask(State& state, Record& record) {
   ++detour.tries;
   detour.question = ++record.asking.plans;
   detour.asked_at = state.version;
-  state.lanes.renew_later();
   PlanQuestion question{.goal = {.arm = goal.way().goal.arm,
                                  .to = Eigen::VectorXd(job.trajectory->goal()),
                                  .speed = goal.way().goal.speed},
@@ -161,7 +160,6 @@ void take_detour(State& state, const PlanMade& answer) {
   Detour& detour = *record->job.goal->detour;
   if (detour.question != answer.question) return;
   detour.question.reset();
-  state.lanes.renew_later();
   state.jobs.explain(*record);
   if (!may_go_round(*record)) return;
   const bool fits = answer.trajectory && detour.best && detour.asked_at >= state.recheck_epoch &&
