@@ -37,8 +37,8 @@ struct MotionGoal {
 struct PlanQuestion {
   MotionGoal goal;
   Configuration at;  // where every joint stands: the arm's own are the start
-  // Arms that do not rest there for good: a way past them is looked for first, and where there is
-  // none, one as if they were gone.
+  // Arms that do not rest there for good: a way past them is looked for first, past all but those
+  // that stand where the arm sets out or is to go; where there is none, one as if they were gone.
   std::vector<ArmId> may_move = {};
   bool has_no_way_past = false;  // that is known already of these: it is looked for as if gone
   std::uint64_t seed = 1;

@@ -80,7 +80,7 @@ void RefusedPlans::learn(const PlanQuestion& question, const PlanningScenePtr& s
   if (!answer) {
     add(question, question.may_move, answer.error());
   } else if (answer->not_past) {
-    add(question, {}, *answer->not_past);
+    add(question, answer->not_past->left_out, answer->not_past->why);
   }
 }
 

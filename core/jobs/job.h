@@ -154,7 +154,6 @@ struct GoalWay {
   bool is_planned = false;                     // its trajectory is the plan; else an estimate
   std::optional<std::uint64_t> question = {};  // that is open: its number
   int tries = 0;                               // since a plan last fitted
-  int times_others_left = 0;                   // asked anew as one that it went beside is elsewhere
   Configuration beside = {};                   // the last question: where all would stand, ...
   Version asked_at = 0;                        // ... and when it was asked
   std::optional<std::string> refusal = {};     // the answer to it, where there is no plan

@@ -1,6 +1,7 @@
 #include "core/planning/answer_plan.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/planning/clear_places.h"
 #include "core/planning/nearest_free.h"
@@ -11,8 +12,8 @@
 namespace armloom {
 namespace {
 
-// Of the first of two tries. Ways that there are take a tenth of this mostly (README.md); looking
-// for one that there is not would keep the second try waiting for ten times as long.
+// Of the tries past others. Ways that there are take a tenth of this mostly (README.md); looking
+// for one that there is not would keep the last try waiting for ten times as long.
 constexpr std::uint64_t kBesideBudget = 40'000;
 
 struct JointGoals {
@@ -49,6 +50,22 @@ PlanRefusal with_nearest(const PlanningScenePtr& scene, const PlanRequest& reque
   refusal.nearest = std::move(nearest.q);
   refusal.evaluations += nearest.evaluations;
   return refusal;
+}
+
+// Who stands where the arm sets out or is to go has to go first, whatever the way.
+std::optional<ArmId> stands_at_an_end(const PlanRefusal& refusal, const PlanRequest& request,
+                                      const std::vector<ArmId>& may_move) {
+  using Reason = PlanRefusal::Reason;
+  const bool is_of_end =
+      refusal.reason == Reason::start_in_collision || refusal.reason == Reason::goal_in_collision;
+  if (!is_of_end || !refusal.proximity) return std::nullopt;
+  for (const auto& arm : {refusal.proximity->arm_a, refusal.proximity->arm_b}) {
+    const auto is_among = [&arm](const std::vector<ArmId>& arms) {
+      return std::ranges::find(arms, *arm) != arms.end();
+    };
+    if (arm && is_among(may_move) && !is_among(request.left_out)) return arm;
+  }
+  return std::nullopt;
 }
 
 // One try of each kind of goal.
@@ -93,23 +110,26 @@ PlanAnswer answer_plan(const PlanningScenePtr& scene, const PlanQuestion& questi
   const std::uint64_t budget = question.budget.value_or(PlanRequest::kDefaultBudget);
   request.budget = question.may_move.empty() ? budget : std::min(budget, kBesideBudget);
   const Answer answer(scene, question);
-  std::optional<PlanRefusal> not_past;
-  if (question.may_move.empty() || !question.has_no_way_past) {
-    auto beside = with_spent(answer.to(request));
-    if (beside) return beside;
-    if (question.may_move.empty()) {
-      return tl::unexpected(with_nearest(scene, request, std::move(beside.error())));
+  std::optional<NotPast> not_past;
+  if (question.has_no_way_past) request.left_out = question.may_move;
+  for (;;) {
+    const bool is_last = request.left_out.size() == question.may_move.size();
+    request.budget = is_last ? budget : std::min(budget, kBesideBudget);
+    auto motion = with_spent(answer.to(request));
+    if (motion) {
+      motion->not_past = std::move(not_past);
+      return motion;
     }
-    if (beside.error().reason == PlanRefusal::Reason::cancelled) return beside;
-    spent = beside.error().evaluations;
-    not_past = std::move(beside.error());
+    PlanRefusal& refusal = motion.error();
+    if (refusal.reason == PlanRefusal::Reason::cancelled) return motion;
+    if (is_last) return tl::unexpected(with_nearest(scene, request, std::move(refusal)));
+    spent = refusal.evaluations;
+    if (const auto arm = stands_at_an_end(refusal, request, question.may_move)) {
+      request.left_out.push_back(*arm);
+    } else {
+      not_past = NotPast{std::exchange(request.left_out, question.may_move), std::move(refusal)};
+    }
   }
-  request.left_out = question.may_move;
-  request.budget = budget;
-  auto alone = with_spent(answer.to(request));
-  if (!alone) return tl::unexpected(with_nearest(scene, request, std::move(alone.error())));
-  alone->not_past = std::move(not_past);
-  return alone;
 }
 
 }  // namespace armloom

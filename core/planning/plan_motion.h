@@ -1,10 +1,19 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "core/collision/check/motion_checker.h"
 #include "core/planning/planner.h"
 #include "core/trajectory/timing/time_parameterisation.h"
 
 namespace armloom {
+
+// That there is no way past the others as they stand, though these were left out.
+struct NotPast {
+  std::vector<ArmId> left_out;
+  PlanRefusal why;
+};
 
 // A way with times: what `POST /jobs` takes.
 struct PlannedMotion {
@@ -12,8 +21,8 @@ struct PlannedMotion {
   TimedMotion timed;
   // How far corners of the way were cut (joint space, rad or m); 0: the arm rests at each.
   double rounded_within = 0.0;
-  // As if other arms were gone (answer_plan.h): why there is no way past them.
-  std::optional<PlanRefusal> not_past = {};
+  // As if all that may move were gone (answer_plan.h).
+  std::optional<NotPast> not_past = {};
 };
 
 // What stands against the motion as a job would be judged (Swept), everything else standing as in

@@ -27,27 +27,19 @@ bool fits(const State& state, const GoalWay& way, const Configuration& at) {
 // What is admitted will come to its end, whoever came first.
 bool comes_to_its_end(const Job& job) { return job.in<Queued>() == nullptr; }
 
-// The arm rests where the job was found to be blocked by it.
-bool is_stood_by(const State& state, const Job& job, ArmId arm) {
-  if (!job.is_waiting() || !state.is_judged(job)) return false;
-  return std::ranges::any_of(job.judgement().found, [arm](const Wait& wait) {
-    return wait.kind == Wait::Kind::arm && wait.arm == arm;
-  });
+// Where the arm comes to rest by what is admitted.
+void follow_admitted(Configuration& at, const State& state, ArmId arm) {
+  for (JobId id : state.jobs.queues()[arm]) {
+    const Job& job = state.jobs.at(id).job;
+    if (comes_to_its_end(job)) follow_to_end(at, *state.cell, arm, *job.trajectory);
+  }
 }
 
-// It waits for an arm that it was not planned beside where that rests, or comes to rest by what is
-// admitted: that one was overtaken by another job, or a move aside of our own has taken it there.
-bool is_in_the_way_of_another(const State& state, const Job& job, const GoalWay& way) {
+bool is_found_in_the_way(const State& state, const Job& job, ArmId arm) {
   if (!job.is_waiting() || !state.is_judged(job)) return false;
-  return std::ranges::any_of(job.judgement().found, [&](const Wait& wait) {
-    if (wait.kind != Wait::Kind::arm && wait.kind != Wait::Kind::job) return false;
-    if (!wait.arm || *wait.arm == way.goal.arm) return false;
-    Configuration at = state.arms.rest();
-    for (JobId id : state.jobs.queues()[*wait.arm]) {
-      const Job& other = state.jobs.at(id).job;
-      if (comes_to_its_end(other)) follow_to_end(at, *state.cell, *wait.arm, *other.trajectory);
-    }
-    return !is_as_asked(state, way, at, *wait.arm);
+  return std::ranges::any_of(job.judgement().found, [arm](const Wait& wait) {
+    const bool of_an_arm = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::job;
+    return of_an_arm && wait.arm == arm;
   });
 }
 
@@ -71,7 +63,8 @@ std::optional<Configuration> at_its_turn(const State& state, const Record& recor
 }
 
 // In its turn: all that came before it is done, or is admitted, and its own arm is where the job
-// finds it. Who was found to stand in its way stays there.
+// finds it. Who was found in its way is passed where it comes to rest by what is admitted, whoever
+// came first, and so for as long as it comes to rest there.
 PlanQuestion question_about(const State& state, const Record& record, const GoalWay& way,
                             Configuration at) {
   PlanQuestion question{.goal = way.goal, .seed = record.job.id.value()};
@@ -80,18 +73,31 @@ PlanQuestion question_about(const State& state, const Record& record, const Goal
     const ArmId arm{a};
     if (arm == way.goal.arm) continue;
     question.may_move.push_back(arm);
-    const bool stays = is_stood_by(state, record.job, arm);
+    follow_admitted(at, state, arm);
+    const bool was_passed_there = way.beside.size() != 0 && is_as_asked(state, way, at, arm);
+    if (was_passed_there || is_found_in_the_way(state, record.job, arm)) continue;
     for (JobId id : state.jobs.queues()[arm]) {
       const Record& other = state.jobs.at(id);
       const bool goes_before =
-          other.turn < turn && !stays && other.job.knows_its_end() && !other.job.has_open_arm();
-      if (goes_before || comes_to_its_end(other.job)) {
-        follow_to_end(at, *state.cell, arm, *other.job.trajectory);
-      }
+          other.turn < turn && other.job.knows_its_end() && !other.job.has_open_arm();
+      if (goes_before) follow_to_end(at, *state.cell, arm, *other.job.trajectory);
     }
   }
   question.at = std::move(at);
   return question;
+}
+
+// It waits for an arm that it was not planned beside where that comes to rest: another job has
+// overtaken it, or a move aside of our own has taken that arm there.
+bool is_to_pass_another_place(const State& state, const Record& record, const GoalWay& way,
+                              const Configuration& at) {
+  Configuration rest = at;
+  for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
+    if (ArmId{a} == way.goal.arm || !is_found_in_the_way(state, record.job, ArmId{a})) continue;
+    follow_admitted(rest, state, ArmId{a});
+    if (!is_as_asked(state, way, rest, ArmId{a})) return true;
+  }
+  return false;
 }
 
 void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
@@ -126,10 +132,7 @@ Answered answer_of(State& state, Record& record, GoalWay& way) {
     if (!way.is_planned && !way.stands_in) return Answered::refused;
     way.tries = 0;
     if (way.stands_in) return Answered::stands_in;
-    const bool asks_anew =
-        way.times_others_left < kPlansMax && is_in_the_way_of_another(state, record.job, way);
-    if (!asks_anew) return Answered::planned;
-    ++way.times_others_left;
+    if (!is_to_pass_another_place(state, record, way, *at)) return Answered::planned;
   }
   if (way.tries < kPlansMax) {
     if (way.beside.size() != 0 && way.is_planned) record.job.goal->detour.reset();
