@@ -68,5 +68,44 @@ TEST_P(BesideAMovedArm, AGoalThatIsOvertakenIsPlannedAnewBeforeOthersAreInItsWay
   }
 }
 
+// b stands where c is to go, and a in b's straight way for good: that b has to go before c can come
+// is no reason to plan it through a.
+TEST_P(BesideAMovedArm, WhoNeverMovesIsPassedThoughAnotherHasToGoFirst) {
+  TwoGantries cell(gantries(OnIdleBlocker::report, {{0.14, 0.28}, {0.7, 0.28}, {-0.42, -0.28}}),
+                   GetParam());
+  cell.submit(to_place("c", {0.7, 0.28}, "comes"));
+  cell.submit(to_place("b", {-0.7, 0.28}, "goes"));
+  cell.run_to_the_end(at(200s));
+  for (const char* key : {"comes", "goes"}) {
+    EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key << ": " << cell.job(key).detail();
+  }
+}
+
+// d's goal waits while one arm after the other comes to its way and leaves it again. Before it was
+// planned five times in vain, beside the same places, before the first of them had moved.
+TEST_P(BesideAMovedArm, AGoalIsPlannedPastEachThatComesHoweverManyDo) {
+  TwoGantries cell(
+      gantries(OnIdleBlocker::report, {{-0.42, 0.28}, {0.42, -0.28}, {0.14, 0.28}, {0.14, -0.28}}),
+      GetParam());
+  cell.submit(go("a", {-0.42, 0.28}, {0.14, 0}, 3.96, "a comes"));
+  cell.submit(to_place("b", {-0.42, -0.28}, "b goes"));
+  cell.submit(to_place("c", {0.42, 0}, "c goes"));
+  cell.submit(to_place("b", {-0.42, 0.28}, "b goes on"));
+  cell.run_until(at(1147ms));
+  cell.submit(to_place("c", {-0.14, 0}, "c comes"));
+  cell.run_until(at(1884ms));
+  cell.submit(go("a", {0.14, 0}, {0.7, 0.28}, 3.96, "a leaves"));
+  cell.run_until(at(2023ms));
+  cell.submit(to_place("d", {-0.14, 0.28}, "goal"));
+  cell.run_until(at(2858ms));
+  JobRequest last = to_place("a", {0.42, 0.28}, "a comes back");
+  last.after = {"c comes"};
+  cell.submit(last);
+  cell.run_to_the_end(at(200s));
+  EXPECT_EQ(cell.job("goal").state, JobState::succeeded) << cell.job("goal").detail();
+  EXPECT_EQ(cell.job("a comes back").state, JobState::succeeded)
+      << cell.job("a comes back").detail();
+}
+
 }  // namespace
 }  // namespace armloom
