@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/scheduler/policy_names.h"
+#include "core/policies/policy_names.h"
 
 namespace armloom {
 

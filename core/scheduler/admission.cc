@@ -6,9 +6,9 @@
 
 #include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
+#include "core/policies/policy.h"
 #include "core/scheduler/groups.h"
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/policy.h"
 #include "core/scheduler/putting_off.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/ways/approach.h"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/jobs/phases.h"
+#include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
 
 namespace armloom {
@@ -11,8 +12,6 @@ namespace {
 
 // Authority is extended by no less than this, but for the last bit.
 constexpr Duration kGrantStep = std::chrono::milliseconds(80);
-// Nearer than this to its limit, a motion has come to it.
-constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
 void explain_pause(State& state, Record& record) {
   const auto held = state.graph.held_back(record.job.id);
@@ -122,31 +121,6 @@ void see_pauses(State& state, Record& record, Duration progress_before) {
     explain_pause(state, record);
     state.jobs.changed(record);
   }
-}
-
-std::optional<Wait> held_where_it_stands(const State& state, const Record& record) {
-  const Job& job = record.job;
-  const auto* moving = job.in<Moving>();
-  const bool may_stand = job.in<Admitted>() != nullptr || (moving != nullptr && moving->pause);
-  if (!may_stand || state.graph.limit(job.id) > job.progress + kAtLimit) return std::nullopt;
-  const auto held = state.graph.held_back(job.id);
-  return held ? std::optional(wait_for(*held)) : std::nullopt;
-}
-
-bool holds_one_ahead(const State& state, const Record& record) {
-  const auto& arms = record.job.trajectory->arms();
-  return std::ranges::any_of(arms, [&](ArmId arm) {
-    const auto& queue = state.jobs.queues()[arm];
-    const auto goes_ahead = [&](JobId id) { return id != record.job.id && state.graph.holds(id); };
-    const auto end = std::ranges::find_if_not(queue, goes_ahead);
-    return std::any_of(queue.begin(), end,
-                       [&](JobId id) { return state.graph.is_held_by(id, arms); });
-  });
-}
-
-bool stands(const State& state, const Record& record) {
-  const bool behind = record.job.in<Admitted>() != nullptr && !is_at_head(state.jobs, record);
-  return record.job.is_waiting() || behind || held_where_it_stands(state, record).has_value();
 }
 
 }  // namespace armloom

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "core/scheduler/authority.h"
-#include "core/scheduler/policy.h"
+#include "core/jobs/standing.h"
+#include "core/policies/policy.h"
 
 namespace armloom {
 namespace {

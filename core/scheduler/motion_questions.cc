@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/scheduler/policy.h"
+#include "core/policies/policy.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {

@@ -8,9 +8,9 @@
 #include "core/jobs/phases.h"
 #include "core/jobs/state.h"
 #include "core/jobs/timeline.h"
+#include "core/policies/policy.h"
 #include "core/scheduler/admission.h"
 #include "core/scheduler/amending.h"
-#include "core/scheduler/policy.h"
 #include "core/scheduler/waiting/wait_cycles.h"
 #include "core/scheduler/ways/goals.h"
 

@@ -1,8 +1,8 @@
 #include "core/scheduler/under_way.h"
 
 #include "core/jobs/phases.h"
+#include "core/policies/policy.h"
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/policy.h"
 
 namespace armloom {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/jobs/pace.h"
-#include "core/scheduler/policy.h"
+#include "core/policies/policy.h"
 
 namespace armloom {
 namespace {

@@ -4,8 +4,8 @@
 #include <random>
 #include <set>
 
+#include "core/deadlock/waits_for.h"
 #include "core/scheduler/waiting/priority_inheritance.h"
-#include "core/scheduler/waiting/waits_for.h"
 
 namespace armloom {
 namespace {

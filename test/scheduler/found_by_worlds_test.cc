@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/scheduler/policy.h"
+#include "core/policies/policy.h"
 #include "test/scheduler/ideal_arms.h"
 
 namespace armloom {

@@ -2,7 +2,7 @@
 #include <map>
 #include <sstream>
 
-#include "core/scheduler/policy.h"
+#include "core/policies/policy.h"
 #include "test/server/command_fixture.h"
 
 namespace armloom {

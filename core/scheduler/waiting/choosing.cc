@@ -4,9 +4,9 @@
 #include <limits>
 #include <utility>
 
+#include "core/policies/policy.h"
 #include "core/precedence/order_search.h"
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/policy.h"
 #include "core/scheduler/weighing.h"
 
 namespace armloom {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/scheduler/authority.h"
-#include "core/scheduler/policy.h"
+#include "core/jobs/standing.h"
+#include "core/policies/policy.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/goals.h"
 

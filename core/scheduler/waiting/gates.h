@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
+#include "core/deadlock/waits_for.h"
 #include "core/scheduler/waiting/turns.h"
-#include "core/scheduler/waiting/waits_for.h"
 
 namespace armloom {
 

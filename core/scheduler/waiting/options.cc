@@ -4,7 +4,7 @@
 #include <ranges>
 #include <utility>
 
-#include "core/scheduler/policy.h"
+#include "core/policies/policy.h"
 
 namespace armloom {
 namespace {

@@ -3,7 +3,7 @@
 #include <map>
 #include <vector>
 
-#include "core/scheduler/waiting/waits_for.h"
+#include "core/deadlock/waits_for.h"
 
 namespace armloom {
 

@@ -5,7 +5,7 @@
 #include <ranges>
 #include <utility>
 
-#include "core/scheduler/policy.h"
+#include "core/policies/policy.h"
 #include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/waiting/priority_inheritance.h"
 

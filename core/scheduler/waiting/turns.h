@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/deadlock/waits_for.h"
 #include "core/jobs/state.h"
-#include "core/scheduler/waiting/waits_for.h"
 
 namespace armloom {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/jobs/phases.h"
-#include "core/scheduler/authority.h"
+#include "core/jobs/standing.h"
 #include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/ways/replanning.h"
 

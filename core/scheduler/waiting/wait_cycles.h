@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "core/deadlock/waits_for.h"
 #include "core/jobs/state.h"
-#include "core/scheduler/waiting/waits_for.h"
 #include "core/scheduler/yielding/yield_moves.h"
 
 namespace armloom {

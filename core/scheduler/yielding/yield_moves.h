@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/deadlock/waits_for.h"
 #include "core/jobs/state.h"
-#include "core/scheduler/waiting/waits_for.h"
 
 namespace armloom {
 

@@ -8,13 +8,13 @@
 #include "core/coordination/motion.h"
 #include "core/jobs/state.h"
 #include "core/model/cell.h"
+#include "core/policies/policy_names.h"
 #include "core/precedence/passing_orders.h"
-#include "core/scheduler/policy_names.h"
 
 namespace armloom {
 
 // What distinguishes one way of sharing the workspace from another. Pure. A new policy is one file
-// in core/scheduler/policies, its name in policy_names.h and one word in make_policy().
+// in core/policies, its name in policy_names.h and one word in make_policy().
 class Policy {
  public:
   virtual ~Policy() = default;

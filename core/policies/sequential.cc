@@ -1,6 +1,6 @@
 // One job at a time in the whole cell, as MoveIt executes. What stands in the way at rest (other
 // arms, the scene) is still judged.
-#include "core/scheduler/policies/policies.h"
+#include "core/policies/policies.h"
 
 namespace armloom {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/scheduler/policy.h"
+#include "core/policies/policy.h"
 
 namespace armloom {
 

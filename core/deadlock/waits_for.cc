@@ -1,4 +1,4 @@
-#include "core/scheduler/waiting/waits_for.h"
+#include "core/deadlock/waits_for.h"
 
 #include <algorithm>
 #include <optional>

@@ -3,7 +3,7 @@
 // there on its path, and goes on when the others have passed. Any arm may be late, slow or stop.
 // The next legs of every lane are admitted ahead, so that the orders of all of them are chosen
 // together.
-#include "core/scheduler/policies/policies.h"
+#include "core/policies/policies.h"
 
 namespace armloom {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scheduler/policy_names.h"
+#include "core/policies/policy_names.h"
 
 #include <algorithm>
 #include <iterator>

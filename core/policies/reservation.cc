@@ -1,7 +1,7 @@
 // A motion reserves everything that it sweeps for as long as it runs: a job starts when no place of
 // its way is too close to any place of what remains of the others' ways (Meehan et al.). Times do
 // not count, so that any motion may be late.
-#include "core/scheduler/policies/policies.h"
+#include "core/policies/policies.h"
 
 namespace armloom {
 namespace {

@@ -1,7 +1,7 @@
 // The paper's policy: a job starts beside the running ones when both, compared at equal instants
 // every time_step, keep their clearance; else it goes to the backlog and is tried again when what
 // holds reservations has changed. Between the instants nothing is promised.
-#include "core/scheduler/policies/policies.h"
+#include "core/policies/policies.h"
 
 namespace armloom {
 namespace {

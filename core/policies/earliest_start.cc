@@ -2,7 +2,7 @@
 // start with which it passes all running and scheduled motions without a stop. Its orders then
 // hold: nothing that comes after it can put it off, and it begins when those before it are far
 // enough.
-#include "core/scheduler/policies/policies.h"
+#include "core/policies/policies.h"
 
 namespace armloom {
 namespace {

@@ -1,9 +1,9 @@
-#include "core/scheduler/policy.h"
+#include "core/policies/policy.h"
 
 #include <algorithm>
 #include <iterator>
 
-#include "core/scheduler/policies/policies.h"
+#include "core/policies/policies.h"
 
 namespace armloom {
 namespace {

@@ -2,7 +2,7 @@
 // when by the clock it passes each of their conflict regions before or after them without a stop.
 // Then that is the order, however late anybody is. Else it goes to the backlog and is tried again
 // when what is admitted has changed.
-#include "core/scheduler/policies/policies.h"
+#include "core/policies/policies.h"
 
 namespace armloom {
 namespace {

@@ -3,8 +3,8 @@
 // begins when all have ended.
 #include <algorithm>
 
-#include "core/scheduler/authority.h"
-#include "core/scheduler/policies/policies.h"
+#include "core/jobs/standing.h"
+#include "core/policies/policies.h"
 
 namespace armloom {
 namespace {

@@ -1,0 +1,34 @@
+#include "core/jobs/standing.h"
+
+#include <algorithm>
+
+#include "core/jobs/waits.h"
+
+namespace armloom {
+
+std::optional<Wait> held_where_it_stands(const State& state, const Record& record) {
+  const Job& job = record.job;
+  const auto* moving = job.in<Moving>();
+  const bool may_stand = job.in<Admitted>() != nullptr || (moving != nullptr && moving->pause);
+  if (!may_stand || state.graph.limit(job.id) > job.progress + kAtLimit) return std::nullopt;
+  const auto held = state.graph.held_back(job.id);
+  return held ? std::optional(wait_for(*held)) : std::nullopt;
+}
+
+bool holds_one_ahead(const State& state, const Record& record) {
+  const auto& arms = record.job.trajectory->arms();
+  return std::ranges::any_of(arms, [&](ArmId arm) {
+    const auto& queue = state.jobs.queues()[arm];
+    const auto goes_ahead = [&](JobId id) { return id != record.job.id && state.graph.holds(id); };
+    const auto end = std::ranges::find_if_not(queue, goes_ahead);
+    return std::any_of(queue.begin(), end,
+                       [&](JobId id) { return state.graph.is_held_by(id, arms); });
+  });
+}
+
+bool stands(const State& state, const Record& record) {
+  const bool behind = record.job.in<Admitted>() != nullptr && !is_at_head(state.jobs, record);
+  return record.job.is_waiting() || behind || held_where_it_stands(state, record).has_value();
+}
+
+}  // namespace armloom

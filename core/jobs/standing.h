@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+
+#include "core/jobs/state.h"
+
+namespace armloom {
+
+// Nearer than this to its limit, a motion has come to it.
+inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
+
+// What keeps an admitted job from going on, or from beginning; nothing: it goes, or is about to.
+[[nodiscard]] std::optional<Wait> held_where_it_stands(const State& state, const Record& record);
+// One of its arms rests in the way of a motion that comes before it on another one of its arms.
+[[nodiscard]] bool holds_one_ahead(const State& state, const Record& record);
+// It moves only after others have moved.
+[[nodiscard]] bool stands(const State& state, const Record& record);
+
+}  // namespace armloom
