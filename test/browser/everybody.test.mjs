@@ -12,6 +12,7 @@ const kFinger_px = 36;
 const kMostTabs = 120;
 const kTurned_px = 2000;
 const kLeastEvent_px = 12;
+const kLeastScrub_px = 90;
 // What is undecided is hatched in this (web/src/state/palette.ts); as an eye without colours sees it.
 const kStripes_grey = [0x4e, 0x4e, 0x4e];
 const kLeastStripes_px = 40;
@@ -127,13 +128,20 @@ test('what has the focus is never under a bar that sticks', { timeout: 60_000 },
   await page.setViewportSize({ width: 1440, height: 900 });
 });
 
-test('what is reported is marked on the timeline', { timeout: 30_000 }, async () => {
+test('what is reported is marked on the timeline, and looked back at from its line', { timeout: 30_000 }, async () => {
   await page.evaluate(() => window.armloom.drawn());
   await page.locator('[data-test=stopped]').waitFor();
   const strip = await page.locator('.timeline canvas').screenshot();
   const found = await Promise.all([[0xff, 0x70, 0x78], [0xf0, 0xb5, 0x41]].map((rgb) => pixels_like(desk.context, strip, rgb, 12)));
   assert.ok(Math.max(...found) > kLeastEvent_px, `${found} pixels of marks`);
+  await page.locator('.notices [data-test^=then-]').first().click();
+  await page.locator('[data-test=instant]').waitFor();
+  assert.match(page.url(), /[?&]t=\d/);
+  const [scrub, zoom] = [await page.locator('[data-test=scrub]').boundingBox(), await page.getByRole('button', { name: 'Zoom out' }).boundingBox()];
+  assert.ok(scrub.width >= kLeastScrub_px && scrub.x + scrub.width <= zoom.x, `the scrub bar is ${scrub.width} px wide, from ${scrub.x}; its neighbour begins at ${zoom.x}`);
   await page.screenshot(path_for('event-marks-dark'));
+  await page.locator('[data-test=follow-now]').click();
+  await page.locator('[data-test=instant]').waitFor({ state: 'detached' });
 });
 
 test('on a tablet all is done by finger', { timeout: 120_000 }, async () => {

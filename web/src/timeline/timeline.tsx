@@ -45,7 +45,7 @@ export function Timeline({ app }: { app: App }) {
   useEffect(() => draw.current(), [span, theme, address]);
   return (
     <section class="timeline" aria-label="Timeline">
-      <div class="line head">
+      <div class={`line head${held_s === null ? '' : ' looks-back'}`}>
         <h2>Timeline</h2>
         <span class="key"><i class="solid" /> ran, runs</span><span class="key"><i class="outlined" /> expected</span>
         <span class="key"><i class="hatched" /> waits</span><span class="key"><i class="hatched pausing" /> stands on its way</span><span class="key"><i class="event" /> event</span>
