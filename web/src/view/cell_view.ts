@@ -94,7 +94,8 @@ export class CellView {
   show_ghost(q: Readonly<Record<string, number>> | null): void {
     if (!this.cell_) return;
     const names = [...this.store_.arms.keys()];
-    this.ghosts_.show(q, this.store_.q, this.cell_, this.surfaces_, (arm) => ink(arm_colour(names, arm)));
+    const colour = (arm: string) => ink(arm_colour(names, arm));
+    while (!this.ghosts_.show({ q, now: this.store_.q }, this.cell_, this.surfaces_, colour));
     this.stage_.invalidate(true);
   }
 
@@ -199,6 +200,7 @@ export class CellView {
 
   private look_ahead(): void {
     if (this.ahead_.follow(this.surfaces_, this.instant_s_ === null)) this.stage_.invalidate();
+    if (this.ahead_.lacks_ghosts) requestAnimationFrame(() => this.look_ahead());
   }
 
   /** The monitor's closest pairs, as things are now. */
