@@ -28,5 +28,6 @@ export default defineConfig({
     host: '127.0.0.1',
     proxy: { '/api': { target: server, ws: true } },
   },
-  test: { include: ['test/**/*.test.ts'], environment: 'node' },
+  // Colours are tested as they stand in the sheets.
+  test: { include: ['test/**/*.test.ts'], environment: 'node', css: true },
 });

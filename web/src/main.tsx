@@ -32,6 +32,7 @@ import './style/base.css';
 import './style/layout.css';
 import './style/panels.css';
 import './style/pages.css';
+import './style/touch.css';
 import { Timeline } from './timeline/timeline';
 import { CellPanel } from './view/cell_panel';
 

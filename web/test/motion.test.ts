@@ -3,7 +3,7 @@ import { bodies_of, read_bag } from '../src/compose/bag';
 import { motion_of } from '../src/motion/pasted';
 import { motion_of_piece, read_trajectory } from '../src/motion/motion';
 import { MotionBook } from '../src/motion/motion_book';
-import type { JobMotion } from '../src/server/messages';
+import { parse_job_motion, type JobMotion } from '../src/server/messages';
 
 const body = (id: string, joints: string[], stations: number[][], velocities = true) => ({
   id, trajectory: {
@@ -91,5 +91,25 @@ describe('a trajectory', () => {
     for (const answer of answers.splice(0)) answer();
     await new Promise((done) => setTimeout(done));
     expect(asked.at(-1)).toBe('j0');
+  });
+});
+
+describe('The longest trajectory that a server takes', () => {
+  // Tasks above 0.1 s are felt; beside reading the JSON as such, which nobody is spared.
+  const kMostTimesJson = 6;
+
+  it('is read in about the time that its JSON takes', () => {
+    const rest = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7];
+    const points = Array.from({ length: 10_000 }, (_, i) => ({ positions: rest, velocities: rest, accelerations: rest, time_from_start: { sec: i, nanosec: 0 } }));
+    const text = JSON.stringify({ id: 'long', duration_s: 9999, trajectory: { joint_names: ['a', 'b', 'c', 'd', 'e', 'f', 'g'], points } });
+    const ratios = [1, 2, 3].map(() => {
+      const from_ms = performance.now();
+      const value: unknown = JSON.parse(text);
+      const parsed_ms = performance.now();
+      const checked = parse_job_motion(value);
+      expect(checked.ok && read_trajectory(checked.value.trajectory)?.points.length).toBe(10_000);
+      return (performance.now() - parsed_ms) / (parsed_ms - from_ms);
+    });
+    expect(Math.min(...ratios)).toBeLessThan(kMostTimesJson);
   });
 });

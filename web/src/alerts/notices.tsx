@@ -39,9 +39,16 @@ function Line({ notice, app }: { notice: Notice; app: App }) {
   const seen = app.alerts.of(id_of(notice))?.acknowledged;
   return (
     <div class={`notice ${notice.level}${seen ? ' seen' : ''}`}>
-      <span class="mono">{clock(notice.t_s)}</span>
+      {is_kept(notice.t_s, app)
+        ? <button class="then mono" title="Look back at it, in every view" data-test={`then-${notice.seq ?? notice.key}`} onClick={() => app.router.hold_at(notice.t_s)}>{clock(notice.t_s)}</button>
+        : <span class="mono">{clock(notice.t_s)}</span>}
       <span class="glyph" aria-label={notice.level} role="img">{kGlyphs[notice.level]}</span>
       <span>{notice.text}</span>
     </div>
   );
+}
+
+/** Whether it can be looked back at. */
+function is_kept(t_s: number, { store: { trace } }: App): boolean {
+  return trace.first_s !== null && trace.last_s !== null && t_s >= trace.first_s && t_s <= trace.last_s;
 }

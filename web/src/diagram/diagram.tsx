@@ -6,7 +6,7 @@ import {
   evidence_in_words, evidence_of, plan_from, plan_in_words, shares, type Point,
 } from './reading';
 import type { Diagram, Job, Problem } from '../server/messages';
-import { arm_colour, ink, kCellColours } from '../state/palette';
+import { arm_colour, ink, kCellColours, kUndecidedStripes } from '../state/palette';
 import type { Store } from '../state/store';
 import { short_id } from '../wording';
 import type { Api } from '../server/api';
@@ -171,7 +171,7 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
         aria-label={`Where ${diagram.a.id} (across) and ${diagram.b.id} (up) are in conflict`} />
       <div class="line keys">
         {(['free', 'conflict', 'undecided'] as const).map((state) => (
-          <span key={state} class="key"><i style={{ background: kCellColours[state] }} /> {state} <b class="mono">{percent(share[state])}</b></span>
+          <span key={state} class="key"><i class={state} style={{ '--cell': kCellColours[state], '--stripes': kUndecidedStripes }} /> {state} <b class="mono">{percent(share[state])}</b></span>
         ))}
         <span class="grow" />
         <span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>

@@ -3,7 +3,7 @@
 
 import type { Evidence, Point } from './reading';
 import type { Diagram, DiagramLayer, DiagramMeeting } from '../server/messages';
-import { ink, kCellColours } from '../state/palette';
+import { ink, kCellColours, kUndecidedStripes } from '../state/palette';
 import { millimetres, short_id } from '../wording';
 
 export interface Scene {
@@ -28,6 +28,7 @@ const kTop_px = 10;
 const kRight_px = 12;
 const kTick_px = 56;
 const kNarrowest = 3;  // a rectangle longer than this times its height is not drawn to one scale
+const kStripes_px = 6;
 const kInk = '#0c1118';
 const kPlan = '#10161f';
 
@@ -110,7 +111,7 @@ function fit(canvas: HTMLCanvasElement, width: number, height: number): CanvasRe
 }
 
 function draw_cells(g: CanvasRenderingContext2D, sheet: Sheet, { layer }: Scene): void {
-  const edges = new Path2D();
+  const [edges, undecided] = [new Path2D(), new Path2D()];
   for (const { state, a_s, b_s } of layer.cells ?? []) {
     const left = sheet.x(a_s[0]);
     const top = sheet.y(b_s[1]);
@@ -119,11 +120,27 @@ function draw_cells(g: CanvasRenderingContext2D, sheet: Sheet, { layer }: Scene)
     g.fillStyle = kCellColours[state];
     // A hair wider, so that the ground does not shine through between neighbours.
     g.fillRect(left, top, width + 0.4, height + 0.4);
+    if (state === 'undecided') undecided.rect(left, top, width + 0.4, height + 0.4);
     if (width > 3 && height > 3) edges.rect(left, top, width, height);
   }
+  stripe(g, sheet, undecided);
   g.strokeStyle = '#0b10162e';
   g.lineWidth = 0.5;
   g.stroke(edges);
+}
+
+function stripe(g: CanvasRenderingContext2D, { width, height }: Sheet, where: Path2D): void {
+  g.save();
+  g.clip(where);
+  g.strokeStyle = kUndecidedStripes;
+  g.lineWidth = 1.2;
+  g.beginPath();
+  for (let at = -height; at < width; at += kStripes_px) {
+    g.moveTo(at, height);
+    g.lineTo(at + height, 0);
+  }
+  g.stroke();
+  g.restore();
 }
 
 function draw_axes(g: CanvasRenderingContext2D, sheet: Sheet, { diagram, colours }: Scene): void {

@@ -1,6 +1,6 @@
 // What the address names, beside the cell or over it.
 
-import type { ComponentChildren } from 'preact';
+import type { ComponentChildren, RefObject } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { ArmPage } from '../arms/arm_page';
 import { AlertsPage } from '../alerts/alerts_page';
@@ -29,13 +29,28 @@ export function Pane({ app }: { app: App }) {
     if (pane.current) observer.observe(pane.current);
     return () => observer.disconnect();
   }, [app, place.page]);
+  use_focus(pane, place.page);
   if (place.page === 'cell') return null;
   return (
-    <section ref={pane} class={`pane${width}`} aria-label={place_in_words(place)} data-test={`page-${place.page}`}>
+    <section ref={pane} tabIndex={-1} class={`pane${width}`} aria-label={place_in_words(place)} data-test={`page-${place.page}`}>
       <button class="close" aria-label="Close" title="Back to the cell (Escape)" onClick={() => app.router.go({ page: 'cell' })}>×</button>
       <div class="pane-body" key={JSON.stringify(place)}>{content_of(place, app)}</div>
     </section>
   );
+}
+
+/** A page that is opened gets the focus, and whoever had it gets it back: keys go on where one looks. */
+function use_focus(pane: RefObject<HTMLElement>, page: Place['page']): void {
+  const before = useRef<Element | null>(null);
+  const last = useRef(page);
+  useEffect(() => {
+    if (page === last.current) return;
+    if (last.current === 'cell') before.current = document.activeElement;
+    last.current = page;
+    const back = before.current;
+    if (page !== 'cell') pane.current?.focus({ preventScroll: true });
+    else if (document.activeElement === document.body && back instanceof HTMLElement) back.focus({ preventScroll: true });
+  }, [page]);
 }
 
 function content_of(place: Place, app: App): ComponentChildren {

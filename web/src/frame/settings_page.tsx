@@ -13,6 +13,7 @@ const kKeys: readonly [string, string][] = [
   ['F8', 'Stop all, wherever the focus is'], ['Escape', 'Back to the cell'], ['c', 'Cell'], ['n', 'New job'],
   ['o', 'Scene'], ['h', 'History'], ['r', 'Recordings'], [',', 'Settings'],
   ['← →  + −  0', 'In the timeline: move, zoom, follow now'],
+  ['← → ↑ ↓  + −  0', 'In the cell: turn it, nearer, farther, all'],
 ];
 
 export function SettingsPage({ app }: { app: App }) {

@@ -30,6 +30,8 @@ export const kCellColours: Record<CellState, string> = {
   conflict: '#e0454e',
   undecided: '#f0b541',
 };
+/** What is undecided is hatched, too: it is told from what is free where colours are not. */
+export const kUndecidedStripes = '#6e4c00';
 
 const known = new Map<string, string>();
 

@@ -7,10 +7,13 @@ import { kAxis_px, kLeft_px, kRight_px, lane_height, type Sheet } from './sheet'
 import { tick_of } from './span';
 
 /** What is looked at: the rest is dimmed. And the instant that is held, if one is. */
-export interface Lit { jobs: readonly string[]; arms: readonly string[]; held_s: number | null }
+export interface Lit { jobs: readonly string[]; arms: readonly string[]; held_s: number | null; events: readonly EventMark[] }
+/** What was reported then. */
+export interface EventMark { t_s: number; level: 'info' | 'warning' | 'error' }
 
 const kFont = '"Inter Variable", system-ui, sans-serif';
 const kHatch_px = 5;
+const kEventColours: Record<EventMark['level'], string> = { info: '--dim', warning: '--amber', error: '--red' };
 // A bar is no narrower.
 const kLeast_px = 2;
 
@@ -30,10 +33,25 @@ export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly
     if (row) for (const mark of drawn_of(lane.marks, sheet.from_s, sheet.from_s + sheet.length_s, sheet.t_s(kLeast_px) - sheet.t_s(0))) draw_mark(g, sheet, row, mark, is_dim(mark, lane.arm, lit), mark === hover);
   });
   lanes.forEach((lane, i) => draw_threads(g, sheet, lane, i, rows, arms, hover));
+  draw_events(g, sheet, lit.events);
   draw_now(g, sheet);
   if (lit.held_s !== null) draw_held(g, sheet, lit.held_s);
   g.restore();
   rows.forEach((row, i) => draw_name(g, row, lanes[i]?.arm ?? ''));
+}
+
+/** A notch over the axis for each, its form by how bad it is: bars and triangles. */
+function draw_events(g: CanvasRenderingContext2D, sheet: Sheet, events: readonly EventMark[]): void {
+  const foot = sheet.height - kAxis_px;
+  for (const { t_s, level } of [...events].reverse()) {
+    const at = Math.round(sheet.x(t_s));
+    if (at < kLeft_px || at > sheet.width) continue;
+    g.fillStyle = ink(kEventColours[level]);
+    g.beginPath();
+    if (level === 'info') g.rect(at - 1, foot - 6, 2, 6);
+    else for (const [x, y] of [[at, foot - 8], [at + 5, foot], [at - 5, foot]] as const) g.lineTo(x, y);
+    g.fill();
+  }
 }
 
 function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number): Row {
@@ -109,7 +127,7 @@ function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Ma
   if (right < kLeft_px || left > sheet.width) return;
   const width = right - left;
   g.globalAlpha = dim ? 0.28 : 1;
-  if (mark.kind === 'wait') hatch(g, left, row.wait_top, width, row.wait_height, row.colour, hover);
+  if (mark.kind === 'wait') hatch(g, { left, top: row.wait_top, width, height: row.wait_height }, row.colour, hover);
   else if (mark.kind === 'pause') draw_pause(g, row, left, width, hover);
   else if (mark.expected) draw_expected(g, row, mark, left, width, dim, hover);
   else draw_motion(g, row, mark, left, width, dim, hover);
@@ -144,7 +162,7 @@ function draw_expected(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: 
 function draw_pause(g: CanvasRenderingContext2D, row: Row, left: number, width: number, hover: boolean): void {
   g.fillStyle = ink('--panel');
   g.fillRect(left, row.bar_top, width, row.bar_height);
-  hatch(g, left, row.bar_top + 1, width, row.bar_height - 2, ink('--holding'), hover);
+  hatch(g, { left, top: row.bar_top + 1, width, height: row.bar_height - 2, falls: true }, ink('--holding'), hover);
 }
 
 function bar(g: CanvasRenderingContext2D, left: number, top: number, width: number, height: number): void {
@@ -190,7 +208,10 @@ function draw_threads(g: CanvasRenderingContext2D, sheet: Sheet, lane: Lane, i: 
   }
 }
 
-function hatch(g: CanvasRenderingContext2D, left: number, top: number, width: number, height: number, colour: string, strong: boolean): void {
+/** Rising stripes wait, falling ones stand on their way: told apart where colours are not. */
+interface Stripes { left: number; top: number; width: number; height: number; falls?: boolean }
+
+function hatch(g: CanvasRenderingContext2D, { left, top, width, height, falls = false }: Stripes, colour: string, strong: boolean): void {
   g.save();
   g.beginPath();
   g.rect(left, top, width, height);
@@ -202,7 +223,7 @@ function hatch(g: CanvasRenderingContext2D, left: number, top: number, width: nu
   const shown = Math.max(left, 0);
   const first = shown - ((shown - left) % kHatch_px) - height - kHatch_px;
   const last = Math.min(left + width, g.canvas.width);
-  for (let at = first; at < last; at += kHatch_px) line(g, at, top + height, at + height, top);
+  for (let at = first; at < last; at += kHatch_px) line(g, at, falls ? top : top + height, at + height, falls ? top + height : top);
   g.restore();
 }
 

@@ -45,10 +45,10 @@ export function Timeline({ app }: { app: App }) {
   useEffect(() => draw.current(), [span, theme, address]);
   return (
     <section class="timeline" aria-label="Timeline">
-      <div class="line head">
+      <div class={`line head${held_s === null ? '' : ' looks-back'}`}>
         <h2>Timeline</h2>
         <span class="key"><i class="solid" /> ran, runs</span><span class="key"><i class="outlined" /> expected</span>
-        <span class="key"><i class="hatched" /> waits</span><span class="key"><i class="hatched pausing" /> stands on its way</span>
+        <span class="key"><i class="hatched" /> waits</span><span class="key"><i class="hatched pausing" /> stands on its way</span><span class="key"><i class="event" /> event</span>
         <span class="grow" />
         <ScrubBar app={app} />
         <button class="small" aria-label="Zoom out" title="Zoom out (−)" onClick={() => change(zoomed(span, 1.5, store.t_s))}>−</button>
@@ -110,7 +110,7 @@ function draw_now(canvas: HTMLCanvasElement, drawing: Drawing, app: App): void {
   drawing.sheet = sheet_of(canvas.clientWidth, canvas.clientHeight, drawing.span, app.store.t_s);
   drawing.lanes = known_lanes(app, drawing.sheet.from_s);
   const { jobs, arms } = selection_of(app.router.place, app.store);
-  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s: app.router.address.peek().t_s }, drawing.hover);
+  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s: app.router.address.peek().t_s, events: app.store.notices }, drawing.hover);
 }
 
 interface Tip { x: number; up: number; words: string }

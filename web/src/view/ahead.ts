@@ -22,6 +22,8 @@ export class Ahead {
   private kinematics_: Kinematics[] = [];
   private readonly ways_ = new Map<string, Shown>();
   private cell_: Cell | null = null;
+  /** Some are still to be built, each when it is followed again. */
+  lacks_ghosts = false;
   private ghosts_at_ = '';
   private seen_ = '';
 
@@ -34,6 +36,7 @@ export class Ahead {
     for (const key of [...this.ways_.keys()]) this.forget(key);
     this.ghosts_.clear();
     this.ghosts_at_ = '';
+    this.lacks_ghosts = false;
     if (cell === this.cell_) return;
     this.cell_ = cell;
     this.kinematics_ = [];
@@ -133,9 +136,10 @@ export class Ahead {
     }
     const at = ends.join('\n');
     if (at === this.ghosts_at_) return;
-    this.ghosts_at_ = at;
     const names = [...this.app_.store.arms.keys()];
-    this.ghosts_.show(ends.length === 0 ? null : q, this.app_.store.q, this.cell_, surfaces, (arm) => ink(arm_colour(names, arm)));
+    const all = this.ghosts_.show({ q: ends.length === 0 ? null : q, now: this.app_.store.q }, this.cell_, surfaces, (arm) => ink(arm_colour(names, arm)));
+    this.lacks_ghosts = !all;
+    this.ghosts_at_ = all ? at : `${at}\n${this.ghosts_.count}`;
   }
 
   private forget(key: string): void {

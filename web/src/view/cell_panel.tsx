@@ -10,6 +10,7 @@ import type { Shows } from '../state/settings';
 import { use_store } from '../state/use_store';
 import { clearance_in_words, clock, millimetres } from '../wording';
 import type { CellView } from './cell_view';
+import { step_of_key, type CameraStep } from './steer';
 
 interface Props { app: App; on_view(view: CellView): void }
 
@@ -44,11 +45,18 @@ export function CellPanel({ app, on_view }: Props) {
   useEffect(() => view?.set_covered(covered_px < 0.75 * (host.current?.clientWidth ?? 0) ? covered_px : 0), [view, covered_px]);
   return (
     <div class={`cell${store.stopped ? ' stopped' : ''}`}>
-      <div class="view" ref={host} role="img" aria-label="The cell in 3D: every arm where it was measured" />
+      <div class="view" ref={host} role="img" tabIndex={0} data-test="view"
+        aria-label="The cell in 3D: every arm where it was measured. Arrow keys turn it, plus and minus lead nearer and farther, 0 shows all"
+        onKeyDown={(event) => {
+          const step = event.ctrlKey || event.metaKey || event.altKey ? null : step_of_key(event.key);
+          if (step === null) return;
+          event.preventDefault();
+          view?.steer(step);
+        }} />
       {!view && <p class="loading">{fault === null ? 'Loading the 3D view…' : `The 3D view cannot be shown here: ${fault}`}</p>}
       <ClearanceFigure app={app} />
       {address.t_s !== null && <div class="instant-mark" data-test="instant">Looking back at {clock(address.t_s)}, not at now</div>}
-      <div class="cell-top"><StoppedMark app={app} /><ShownBar app={app} /></div>
+      <div class="cell-top"><StoppedMark app={app} /><ShownBar app={app} /><CameraBar view={view} /></div>
     </div>
   );
 }
@@ -79,6 +87,22 @@ function ShownBar({ app }: { app: App }) {
       {kShows.map(([what, title, meaning]) => (
         <button key={what} class="small" aria-pressed={shows[what]} title={meaning} data-test={`show-${what}`}
           onClick={() => app.settings.set_shows({ ...shows, [what]: !shows[what] })}>{title}</button>
+      ))}
+    </div>
+  );
+}
+
+const kSteps: readonly [step: CameraStep, sign: string, title: string][] = [
+  ['left', '←', 'Camera to the left'], ['right', '→', 'Camera to the right'], ['up', '↑', 'Camera up'], ['down', '↓', 'Camera down'],
+  ['nearer', '+', 'Nearer'], ['farther', '−', 'Farther'], ['whole', 'All', 'All in the picture, as at first'],
+];
+
+/** Where the camera stands, for who does not drag. */
+function CameraBar({ view }: { view: CellView | null }) {
+  return (
+    <div class="camera-bar" role="group" aria-label="Camera">
+      {kSteps.map(([step, sign, title]) => (
+        <button key={step} class="small" disabled={!view} aria-label={title} title={title} data-test={`camera-${step}`} onClick={() => view?.steer(step)}>{sign}</button>
       ))}
     </div>
   );

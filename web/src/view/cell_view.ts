@@ -15,17 +15,17 @@ import { box_around_bases } from './framing';
 import { Ghosts } from './ghosts';
 import { ByHand } from './by_hand';
 import { ArmLabels } from './labels';
-import { RobotModel } from './robot';
+import { Robots } from './robots';
 import { SceneObjects } from './scene_objects';
-import { dispose } from './shapes';
 import { Stage } from './stage';
+import type { CameraStep } from './steer';
 import { SurfaceShelf, type Surfaces } from './surfaces';
 import { ToolInHand } from './tool_in_hand';
 import { ToolPaths } from './tool_path';
 
 export class CellView {
   private readonly stage_: Stage;
-  private readonly robots_ = new Map<string, RobotModel>();
+  private readonly robots_ = new Robots();
   private readonly ghosts_ = new Ghosts();
   private readonly ahead_: Ahead;
   private readonly distances_: Distances;
@@ -50,11 +50,11 @@ export class CellView {
     this.objects_ = new SceneObjects(this.shelf_, () => this.stage_.invalidate(true));
     this.ahead_ = new Ahead(app_);
     this.distances_ = new Distances(host_, (body) => this.drawn_of(body));
-    this.stage_.scene.add(this.objects_.group, this.ghosts_.group, this.ahead_.group, this.distances_.group, this.paths_.group);
+    this.stage_.scene.add(this.robots_.group, this.objects_.group, this.ghosts_.group, this.ahead_.group, this.distances_.group, this.paths_.group);
     this.stage_.after_draw = () => this.place_labels();
     this.stage_.on_level = ({ ghosts }) => this.ahead_.show_level(ghosts);
     this.by_hand_ = new ByHand(this.stage_, (object) => this.let_go(object));
-    this.tool_ = new ToolInHand(this.stage_, (arm, link) => this.robots_.get(store_.arms.get(arm)?.robot ?? '')?.frame_of(arm, link) ?? null);
+    this.tool_ = new ToolInHand(this.stage_, (arm, link) => this.robots_.get(store_.arms.get(arm)?.robot)?.frame_of(arm, link) ?? null);
     on_click(this.stage_.canvas, (x_px, y_px) => this.pick(x_px, y_px));
     this.stage_.on_camera = (camera) => app_.router.look_from(camera);
     this.off_ = [
@@ -78,7 +78,7 @@ export class CellView {
   show_selection(selection: Selection): void {
     this.objects_.light(selection.object);
     this.labels_.light(selection.arms);
-    for (const robot of this.robots_.values()) robot.show_lit(selection.arms);
+    this.robots_.show_lit(selection.arms);
     this.stage_.invalidate();
   }
 
@@ -94,13 +94,19 @@ export class CellView {
   show_ghost(q: Readonly<Record<string, number>> | null): void {
     if (!this.cell_) return;
     const names = [...this.store_.arms.keys()];
-    this.ghosts_.show(q, this.store_.q, this.cell_, this.surfaces_, (arm) => ink(arm_colour(names, arm)));
+    const colour = (arm: string) => ink(arm_colour(names, arm));
+    while (!this.ghosts_.show({ q, now: this.store_.q }, this.cell_, this.surfaces_, colour));
     this.stage_.invalidate(true);
   }
 
   /** As an address has it; null leaves it as it is. */
   show_camera(camera: Camera | null): void {
     this.stage_.show_camera(camera);
+  }
+
+  /** By a button or a key, as by dragging. */
+  steer(step: CameraStep): void {
+    this.stage_.steer(step);
   }
 
   show_theme(): void {
@@ -194,6 +200,7 @@ export class CellView {
 
   private look_ahead(): void {
     if (this.ahead_.follow(this.surfaces_, this.instant_s_ === null)) this.stage_.invalidate();
+    if (this.ahead_.lacks_ghosts) requestAnimationFrame(() => this.look_ahead());
   }
 
   /** The monitor's closest pairs, as things are now. */
@@ -204,12 +211,8 @@ export class CellView {
   }
 
   private drawn_of(body: string): THREE.Mesh | null {
-    for (const robot of this.robots_.values()) {
-      const skin = robot.root.visible ? robot.skin_of(body) : null;
-      if (skin) return skin;
-    }
     const object = this.objects_.find(body);
-    return object instanceof THREE.Mesh ? object : null;
+    return this.robots_.skin_of(body) ?? (object instanceof THREE.Mesh ? object : null);
   }
 
   private place_labels(): void {
@@ -219,10 +222,6 @@ export class CellView {
 
   private build(cell: Cell): void {
     this.cell_ = cell;
-    for (const robot of this.robots_.values()) {
-      dispose(robot.root);
-      this.stage_.scene.remove(robot.root);
-    }
     this.robots_.clear();
     this.ghosts_.clear();
     this.ahead_.begin(cell);
@@ -241,23 +240,14 @@ export class CellView {
   private add_robots(cell: Cell, surfaces: Surfaces): void {
     this.surfaces_ = surfaces;
     this.states_ = '';
-    for (const robot of cell.robots) {
-      try {
-        const model = new RobotModel(robot, surfaces);
-        this.robots_.set(robot.name, model);
-        this.stage_.scene.add(model.root);
-      } catch (error) {
-        console.warn(`robot ${robot.name} cannot be drawn:`, error);
-      }
-    }
+    this.robots_.add(cell, surfaces);
     this.stage_.invalidate(true);
   }
 
   /** Looks at the robots as they stand: those with meshes come in all sizes. */
   private frame_robots(): void {
     this.move();
-    const box = new THREE.Box3();
-    for (const robot of this.robots_.values()) box.expandByObject(robot.root);
+    const box = new THREE.Box3().setFromObject(this.robots_.group);
     if (!box.isEmpty()) this.stage_.frame(box);
   }
 
@@ -267,10 +257,8 @@ export class CellView {
   }
 
   private move(): void {
-    let moved = false;
     const q = this.instant_s_ === null ? this.store_.q : this.store_.trace.at(this.instant_s_) ?? this.store_.q;
-    for (const robot of this.robots_.values()) moved = robot.set_q(q) || moved;
-    if (!moved) return;
+    if (!this.robots_.set_q(q)) return;
     this.draw_paths(this.instant_s_ ?? this.store_.t_s);
     this.ahead_.move();
     this.stage_.invalidate(true);
@@ -286,7 +274,7 @@ export class CellView {
   }
 
   private where_stands(arm: string): { x: number; y: number } | null {
-    const robot = this.robots_.get(this.store_.arms.get(arm)?.robot ?? '');
+    const robot = this.robots_.get(this.store_.arms.get(arm)?.robot);
     const foot = robot?.root.visible ? robot.foot(arm) : null;
     return foot ? this.stage_.to_page(foot) : null;
   }
@@ -295,11 +283,10 @@ export class CellView {
   private pick(x_px: number, y_px: number): void {
     if (this.by_hand_.is_touched || this.tool_.is_touched) return;
     const sight = this.stage_.sight(x_px, y_px);
-    const robots = [...this.robots_.values()];
-    const hit = sight.intersectObjects([...robots.map((robot) => robot.root), ...this.objects_.group.children], true)[0]?.object;
+    const hit = sight.intersectObjects([this.robots_.group, ...this.objects_.group.children], true)[0]?.object;
     if (!hit) return;
     const object = this.objects_.name_of(hit);
-    const arm = robots.map((robot) => robot.arm_of(hit)).find((name) => name !== null) ?? null;
+    const arm = this.robots_.arm_of(hit);
     if (object !== null) this.app_.router.go({ page: 'scene', name: object });
     else if (arm !== null) this.app_.router.go({ page: 'arm', name: arm });
   }

@@ -1,7 +1,7 @@
 // Arms as they would stand: translucent, each in its own colour, over the cell as it is.
 
 import * as THREE from 'three';
-import type { Cell } from '../server/messages';
+import type { Cell, CellRobot } from '../server/messages';
 import { FinishedMesh, quick_material } from './finish';
 import { dispose } from './shapes';
 import { RobotModel } from './robot';
@@ -9,29 +9,46 @@ import type { Surfaces } from './surfaces';
 
 const kPreview = 0.42;
 
+type Model = Pick<RobotModel, 'set_q'> & { root: THREE.Object3D };
+/** Where joints of ghosts are, and where all are measured. */
+export interface Poses { q: Readonly<Record<string, number>> | null; now: Readonly<Record<string, number>> }
+
 export class Ghosts {
   readonly group = new THREE.Group();
-  private readonly models_ = new Map<string, RobotModel>();
+  private readonly models_ = new Map<string, Model>();
 
-  constructor(private readonly opacity_ = kPreview) {}
+  constructor(private readonly opacity_ = kPreview, private readonly build_: (robot: CellRobot, surfaces: Surfaces) => Model = (robot, surfaces) => new RobotModel(robot, surfaces)) {}
 
-  /** The robots that these joints belong to stand as told; null: no ghost. A robot is built when it is first asked for. */
-  show(q: Readonly<Record<string, number>> | null, now: Readonly<Record<string, number>>, cell: Cell, surfaces: Surfaces, colour: (arm: string) => string): void {
+  /**
+   * The robots that these joints belong to stand as told; null: no ghost. A robot is built when it is first
+   * asked for, and one at a time, as that takes long: false says that others are still missing.
+   */
+  show({ q, now }: Poses, cell: Cell, surfaces: Surfaces, colour: (arm: string) => string): boolean {
     for (const model of this.models_.values()) model.root.visible = false;
-    if (!q) return;
-    for (const robot of cell.robots) {
-      const arm = robot.arms.find(({ joints }) => joints.some((joint) => joint in q));
+    let built = 0;
+    for (const robot of q ? cell.robots : []) {
+      const arm = robot.arms.find(({ joints }) => joints.some((joint) => joint in (q ?? {})));
       if (!arm) continue;
-      let model = this.models_.get(robot.name);
-      if (!model) {
-        model = new RobotModel(robot, surfaces);
-        this.models_.set(robot.name, model);
-        paint(model.root, colour(arm.name), this.opacity_);
-        this.group.add(model.root);
-      }
+      const known = this.models_.get(robot.name);
+      if (!known && ++built > 1) return false;
+      const model = known ?? this.add(robot, surfaces, colour(arm.name));
       model.root.visible = true;
       model.set_q({ ...now, ...q });
     }
+    return true;
+  }
+
+  /** How many have been built. */
+  get count(): number {
+    return this.models_.size;
+  }
+
+  private add(robot: CellRobot, surfaces: Surfaces, colour: string): Model {
+    const model = this.build_(robot, surfaces);
+    this.models_.set(robot.name, model);
+    paint(model.root, colour, this.opacity_);
+    this.group.add(model.root);
+    return model;
   }
 
   /** Another cell has other robots. */

@@ -15,7 +15,9 @@ import { distance_for, type Opening } from './framing';
 import { Fence } from './fence';
 import { show_finish } from './finish';
 import { kFirstInSoftware, kLevels, Pace, type Level } from './pace';
+import { make_renderer } from './renderer';
 import { add_lights, floor, light_up } from './scenery';
+import { is_same, kLowest_rad, kNearest_m, stepped, type CameraStep } from './steer';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
@@ -36,8 +38,8 @@ export class Stage {
 
   private readonly renderer_: THREE.WebGLRenderer;
   private readonly controls_: OrbitControls;
-  /** Told when the user has turned or moved the camera. */
-  on_camera: (camera: Camera) => void = () => {};
+  /** Told when the user has turned or moved the camera; null: it stands as at first. */
+  on_camera: (camera: Camera | null) => void = () => {};
 
   private readonly fog_ = new THREE.Fog(0x000000, 5, 14);
   private floor_: THREE.Group | null = null;
@@ -64,14 +66,9 @@ export class Stage {
     const software = renders_in_software();
     const fine = wants_fine_picture() || !software;
     this.pace_ = new Pace(software ? kFirstInSoftware : 0);
-    this.renderer_ = new THREE.WebGLRenderer({ antialias: fine, alpha: true, powerPreference: 'low-power' });
+    this.renderer_ = make_renderer(fine);
     this.full_ratio_ = fine ? Math.min(2, window.devicePixelRatio) : 1;
     this.renderer_.setPixelRatio(this.full_ratio_);
-    this.renderer_.toneMapping = THREE.ACESFilmicToneMapping;
-    this.renderer_.toneMappingExposure = 1.2;
-    this.renderer_.shadowMap.enabled = true;
-    this.renderer_.shadowMap.type = THREE.PCFShadowMap;
-    this.renderer_.shadowMap.autoUpdate = false;
     this.fence_ = new Fence(this.renderer_.getContext() as WebGL2RenderingContext);
     host_.prepend(this.renderer_.domElement);
 
@@ -80,8 +77,8 @@ export class Stage {
     this.show_theme();
 
     this.controls_ = new OrbitControls(this.camera, this.renderer_.domElement);
-    this.controls_.maxPolarAngle = Math.PI / 2 - 0.03;
-    this.controls_.minDistance = 0.5;
+    this.controls_.maxPolarAngle = kLowest_rad;
+    this.controls_.minDistance = kNearest_m;
     let before = this.camera_now();
     this.controls_.addEventListener('start', () => { before = this.camera_now(); });
     this.controls_.addEventListener('end', () => {
@@ -122,6 +119,15 @@ export class Stage {
     this.controls_.target.set(camera[3], camera[4], camera[5]);
     this.controls_.update();
     this.invalidate();
+  }
+
+  /** The user's, by a button or a key. */
+  steer(step: CameraStep): void {
+    if (step === 'whole') this.look_from_default();
+    else this.show_camera(stepped(this.camera_now(), step));
+    this.moved_by_user_ = step !== 'whole';
+    this.invalidate();
+    this.on_camera(this.moved_by_user_ ? this.camera_now() : null);
   }
 
   show_theme(): void {
@@ -289,9 +295,4 @@ export class Stage {
     const { target } = this.controls_;
     return [position.x, position.y, position.z, target.x, target.y, target.z];
   }
-}
-
-/** As an address tells it: to the millimetre. */
-function is_same(a: Camera, b: Camera): boolean {
-  return a.every((value, i) => Math.abs(value - (b[i] ?? 0)) < 2e-3);
 }

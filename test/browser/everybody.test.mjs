@@ -1,0 +1,206 @@
+// The dashboard for everybody: by keys alone, by finger on a tablet, and for eyes that see no colours.
+//
+//   node --test test/browser/everybody.test.mjs      (after the server and web/dist were built; see harness.mjs)
+
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { arm_now, ask, Browser, job_through, path_for, Server } from './harness.mjs';
+import { difference, pixels_like } from './pictures.mjs';
+
+const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
+const kFinger_px = 36;
+const kMostTabs = 120;
+const kTurned_px = 2000;
+const kLeastEvent_px = 12;
+const kLeastScrub_px = 90;
+// What is undecided is hatched in this (web/src/state/palette.ts); as an eye without colours sees it.
+const kStripes_grey = [0x4e, 0x4e, 0x4e];
+const kLeastStripes_px = 40;
+
+const server = new Server('config/two_pandas.json', 'certified');
+const desk = new Browser();
+const tablet = new Browser();
+let url;
+let page;
+let finger;
+
+before(async () => {
+  url = await server.start();
+  page = await desk.open({ colorScheme: 'dark' });
+  await desk.visit(url);
+}, { timeout: 90_000 });
+
+after(async () => {
+  await desk.close();
+  await tablet.close();
+  await server.end();
+}, { timeout: 30_000 });
+
+async function send(arm, id, way, seconds, over = {}) {
+  const { names, q } = await arm_now(page, arm);
+  const { status, value } = await ask(page, 'POST', '/jobs', job_through(id, names, [q, ...way.map((to) => to ?? q)], seconds, over));
+  assert.equal(status, 202, JSON.stringify(value));
+}
+
+async function view_picture(of = page) {
+  await of.evaluate(() => window.armloom.drawn());
+  return of.locator('.view canvas').screenshot({ timeout: 60_000 });
+}
+
+/** Goes on by Tab until this has the focus. */
+async function tab_to(selector, key = 'Tab') {
+  for (let i = 0; i < kMostTabs; i++) {
+    await page.keyboard.press(key);
+    if (await page.evaluate((selector) => document.activeElement.matches(selector), selector)) return;
+  }
+  assert.fail(`${selector} is not reached in ${kMostTabs} steps`);
+}
+
+const focused = () => page.evaluate(() => document.activeElement.dataset.test ?? document.activeElement.className);
+
+test('the cell is turned by keys and by buttons, without dragging', { timeout: 60_000 }, async () => {
+  const first = await view_picture();
+  await tab_to('[data-test=view]');
+  for (const key of ['ArrowRight', 'ArrowRight', 'ArrowUp', '+']) await page.keyboard.press(key);
+  const turned = await difference(desk.context, first, await view_picture());
+  assert.ok(turned.count > kTurned_px, `${turned.count} pixels changed`);
+  assert.match(page.url(), /camera=/);
+  await page.keyboard.press('0');
+  assert.doesNotMatch(page.url(), /camera=/);
+  await page.locator('[data-test=camera-left]').click();
+  assert.match(page.url(), /camera=/);
+  await page.locator('[data-test=camera-whole]').click();
+  assert.doesNotMatch(page.url(), /camera=/);
+  await page.mouse.move(5, 5);
+  await page.evaluate(() => document.activeElement.blur());
+  const whole = await difference(desk.context, first, await view_picture());
+  assert.ok(whole.count < kTurned_px / 10, `${whole.count} pixels are elsewhere`);
+});
+
+test('a job is planned, sent, looked at and cancelled by keys alone', { timeout: 90_000 }, async () => {
+  await tab_to('[data-test=new-job]', 'Shift+Tab');
+  await page.keyboard.press('Enter');
+  await page.locator('[data-test=page-new]').waitFor();
+  assert.equal(await focused(), 'page-new', 'what was opened has the focus');
+  await tab_to('summary');
+  await page.keyboard.press('Enter');
+  await tab_to('[data-test=plan-named]');
+  await page.keyboard.type('ready');
+  await tab_to('[data-test=plan]');
+  await page.keyboard.press('Enter');
+  await page.locator('[data-test=planned]').waitFor({ timeout: 60_000 });
+  await ask(page, 'PUT', '/sim/speed', { speed: 0.05 });
+  await tab_to('[data-test=send]');
+  await page.keyboard.press('Enter');
+  const accepted = page.locator('[data-test=accepted] a');
+  const id = await accepted.innerText();
+  await page.keyboard.press('Escape');
+  await page.locator('.pane').waitFor({ state: 'detached' });
+  assert.equal(await focused(), 'new-job', 'who had the focus before has it again');
+  await page.locator(`[data-test=list-running] [data-test="job-${id}"]`).waitFor({ timeout: 40_000 });
+  await tab_to('.cancel');
+  await page.keyboard.press('Enter');
+  await page.locator('[data-test=confirm-cancel]').waitFor();
+  await page.keyboard.press('Enter');
+  await ask(page, 'PUT', '/sim/speed', { speed: 10 });
+  await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 40_000 });
+});
+
+test('what has the focus is never under a bar that sticks', { timeout: 60_000 }, async () => {
+  await ask(page, 'POST', '/stop');
+  for (let i = 0; i < 12; i++) await send(i % 2 === 0 ? 'left' : 'right', `waits-${i}`, [null], 1);
+  await page.locator('[data-test="job-waits-11"]').waitFor();
+  for (const size of [{ width: 820, height: 700 }, { width: 1280, height: 600 }]) {
+    await page.setViewportSize(size);
+    await page.locator('[data-test="job-waits-11"] .cancel').focus();
+    const hidden = [];
+    for (let i = 0; i < 40; i++) {
+      await page.keyboard.press('Shift+Tab');
+      hidden.push(...await page.evaluate(() => {
+        const { activeElement: element } = document;
+        const { left, top, width, height } = element.getBoundingClientRect();
+        const sticky = document.elementsFromPoint(left + width / 2, top + Math.min(height / 2, 12)).find((one) => /^(sticky|fixed)$/.test(getComputedStyle(one).position) && !one.contains(element));
+        return sticky ? [`${element.outerHTML.slice(0, 80)} under ${sticky.tagName} ${sticky.className}`] : [];
+      }));
+    }
+    assert.deepEqual(hidden, [], `${size.width} px`);
+  }
+  await page.setViewportSize({ width: 1440, height: 900 });
+});
+
+test('what is reported is marked on the timeline, and looked back at from its line', { timeout: 30_000 }, async () => {
+  await page.evaluate(() => window.armloom.drawn());
+  await page.locator('[data-test=stopped]').waitFor();
+  const strip = await page.locator('.timeline canvas').screenshot();
+  const found = await Promise.all([[0xff, 0x70, 0x78], [0xf0, 0xb5, 0x41]].map((rgb) => pixels_like(desk.context, strip, rgb, 12)));
+  assert.ok(Math.max(...found) > kLeastEvent_px, `${found} pixels of marks`);
+  await page.locator('.notices [data-test^=then-]').first().click();
+  await page.locator('[data-test=instant]').waitFor();
+  assert.match(page.url(), /[?&]t=\d/);
+  const [scrub, zoom] = [await page.locator('[data-test=scrub]').boundingBox(), await page.getByRole('button', { name: 'Zoom out' }).boundingBox()];
+  assert.ok(scrub.width >= kLeastScrub_px && scrub.x + scrub.width <= zoom.x, `the scrub bar is ${scrub.width} px wide, from ${scrub.x}; its neighbour begins at ${zoom.x}`);
+  await page.screenshot(path_for('event-marks-dark'));
+  await page.locator('[data-test=follow-now]').click();
+  await page.locator('[data-test=instant]').waitFor({ state: 'detached' });
+});
+
+test('on a tablet all is done by finger', { timeout: 120_000 }, async () => {
+  finger = await tablet.open({ colorScheme: 'light', viewport: { width: 1024, height: 768 }, hasTouch: true, isMobile: true });
+  await tablet.visit(url);
+  const small = await finger.evaluate((least) => [...document.querySelectorAll('button, select, summary, input[type=search]')]
+    .map((element) => ({ element, box: element.getBoundingClientRect() }))
+    .filter(({ box }) => box.width > 1 && Math.min(box.height, box.width) < least)
+    .map(({ element, box }) => `${element.outerHTML.slice(0, 90)} ${box.width.toFixed(0)} x ${box.height.toFixed(0)}`), kFinger_px - 0.5);
+  assert.deepEqual(small, []);
+  await finger.screenshot(path_for('tablet-light'));
+  // Nothing is shown by pointing only: who waits is made more urgent at once.
+  await finger.locator('[data-test="job-waits-3"]').getByRole('button', { name: 'More urgent: waits-3' }).tap();
+  await finger.locator('[data-test="job-waits-3"]').getByText('+1', { exact: true }).waitFor();
+  // A finger turns the cell, and touches an arm.
+  const touch = await tablet.context.newCDPSession(finger);
+  const view = await finger.locator('.view canvas').boundingBox();
+  const at = (dx) => ({ x: view.x + view.width * 0.7 + dx, y: view.y + view.height * 0.25 });
+  await touch.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [at(0)] });
+  for (let i = 1; i <= 5; i++) await touch.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [at(12 * i)] });
+  await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+  await finger.waitForFunction(() => /camera=/.test(location.hash));
+  await finger.locator('[data-test=camera-whole]').tap();
+  await finger.evaluate(() => window.armloom.drawn());
+  const label = await finger.locator('.arm-label', { hasText: 'left' }).boundingBox();
+  await finger.touchscreen.tap(label.x + label.width / 2, label.y - 30);
+  await finger.locator('[data-test=page-arm]').waitFor();
+  await finger.setViewportSize({ width: 820, height: 1180 });
+  await finger.locator('[data-test=page-arm] .uplot').waitFor();
+  const wide = await finger.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  assert.equal(wide, 0, 'nothing is beside the page');
+  await finger.screenshot(path_for('tablet-upright-light'));
+  for (let i = 0; i < 12; i++) await ask(finger, 'DELETE', `/jobs/waits-${i}`);
+  await finger.getByRole('button', { name: 'Resume', exact: true }).tap();
+  await finger.locator('[data-test=stopped]').waitFor({ state: 'detached' });
+  await finger.locator('[data-test=stop]').tap();
+  await finger.locator('[data-test=stopped]').waitFor();
+  await finger.getByRole('button', { name: 'Resume', exact: true }).tap();
+  await finger.locator('[data-test=stopped]').waitFor({ state: 'detached' });
+  assert.deepEqual(tablet.errors, []);
+});
+
+test('a diagram is read without colours', { timeout: 60_000 }, async () => {
+  await ask(page, 'PUT', '/sim/speed', { speed: 1 });
+  await ask(page, 'POST', '/stop');
+  await send('left', 'grey-left', [kMiddle, null], 6);
+  await send('right', 'grey-right', [kMiddle, null], 6);
+  const eyes = await desk.context.newCDPSession(page);
+  await eyes.send('Emulation.setEmulatedVisionDeficiency', { type: 'achromatopsia' });
+  await page.evaluate(() => { location.hash = '#/pair/grey-left/grey-right'; });
+  const diagram = page.locator('[data-test=diagram]');
+  await diagram.locator('canvas').first().waitFor();
+  await page.evaluate(() => window.armloom.drawn());
+  const stripes = await pixels_like(desk.context, await diagram.screenshot(), kStripes_grey, 10);
+  await page.screenshot(path_for('diagram-without-colours'));
+  assert.ok(stripes > kLeastStripes_px, `${stripes} pixels of stripes`);
+  await eyes.send('Emulation.setEmulatedVisionDeficiency', { type: 'none' });
+});
+
+test('nothing so far was an error in the console', () => {
+  assert.deepEqual(desk.errors, []);
+});

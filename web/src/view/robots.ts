@@ -1,0 +1,68 @@
+// The robots of a cell as they are drawn.
+
+import * as THREE from 'three';
+import type { Cell } from '../server/messages';
+import { RobotModel } from './robot';
+import { dispose } from './shapes';
+import type { Surfaces } from './surfaces';
+
+export class Robots {
+  readonly group = new THREE.Group();
+  private readonly models_ = new Map<string, RobotModel>();
+
+  /** Those of another cell. One that cannot be drawn is said in the console. */
+  add(cell: Cell, surfaces: Surfaces): void {
+    for (const robot of cell.robots) {
+      try {
+        const model = new RobotModel(robot, surfaces);
+        this.models_.set(robot.name, model);
+        this.group.add(model.root);
+      } catch (error) {
+        console.warn(`robot ${robot.name} cannot be drawn:`, error);
+      }
+    }
+  }
+
+  clear(): void {
+    for (const robot of this.models_.values()) dispose(robot.root);
+    this.group.clear();
+    this.models_.clear();
+  }
+
+  get size(): number {
+    return this.models_.size;
+  }
+
+  get(name: string | undefined): RobotModel | null {
+    return this.models_.get(name ?? '') ?? null;
+  }
+
+  /** Answers whether any has moved visibly. */
+  set_q(q: Readonly<Record<string, number>>): boolean {
+    let moved = false;
+    for (const robot of this.models_.values()) moved = robot.set_q(q) || moved;
+    return moved;
+  }
+
+  show_lit(arms: readonly string[]): void {
+    for (const robot of this.models_.values()) robot.show_lit(arms);
+  }
+
+  /** What is drawn of a link; null while its robot is put away. */
+  skin_of(link: string): THREE.Mesh | null {
+    for (const robot of this.models_.values()) {
+      const skin = robot.root.visible ? robot.skin_of(link) : null;
+      if (skin) return skin;
+    }
+    return null;
+  }
+
+  /** The arm that a drawn thing belongs to. */
+  arm_of(node: THREE.Object3D): string | null {
+    for (const robot of this.models_.values()) {
+      const arm = robot.arm_of(node);
+      if (arm !== null) return arm;
+    }
+    return null;
+  }
+}
