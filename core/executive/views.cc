@@ -9,7 +9,11 @@
 namespace armloom {
 namespace {
 
-constexpr const char* kToPark = "\"on_idle_blocker\": \"park\" in the cell's scheduling";
+// The setting with which the server itself would send `whom` aside.
+std::string to_send_aside(const std::string& whom) {
+  return "\"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, which send " +
+         whom + " aside where there is a free way";
+}
 
 // By which an arm may go out of the way.
 std::string ways_aside(const Cell& cell) {
@@ -30,8 +34,8 @@ std::optional<std::string> opens(ArmId id, bool in_vain, const Cell& cell, const
   const std::string begins = arm + (stopped ? " is stopped and has no job: " : " has no job: ");
   if (cell.scheduling.on_idle_blocker == OnIdleBlocker::report) {
     return begins + (stopped ? "resuming it, and a job" : "one") +
-           " that moves it away would open the way, or " + kToPark + ", which sends it aside" +
-           (stopped ? " when resumed" : "");
+           " that moves it away would open the way, or " + to_send_aside("it") +
+           (stopped ? " when it is resumed" : "");
   }
   if (in_vain && !stopped) {
     return begins + "no free way aside was found (" + ways_aside(cell) +
@@ -56,7 +60,7 @@ std::string deadlock_text(const std::vector<std::string>& ring, const Cell& cell
   text += ring.front() + ": none of them can move before the next one does; a job before them " +
           "that moves an arm out of the others' way would open the ring, or ";
   if (cell.scheduling.on_idle_blocker == OnIdleBlocker::report) {
-    return text + kToPark + ", which sends one aside";
+    return text + to_send_aside("one");
   }
   return text + "a free way aside for one (" + ways_aside(cell) + "), of which none was found";
 }

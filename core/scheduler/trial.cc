@@ -86,6 +86,21 @@ Duration Trial::approach_ends() const {
   return last;
 }
 
+// Who waits for its own approach waits for what that waits for: nobody else knows of it yet.
+std::vector<Wait> Trial::waits() const {
+  std::vector<Wait> waits;
+  for (const Wait& wait : waits_) {
+    const bool is_own = wait.job && std::ranges::find(approaches_, *wait.job) != approaches_.end();
+    const Job* approach = is_own ? scheduler_.find(*wait.job) : nullptr;
+    if (approach != nullptr && !approach->waits_on.empty()) {
+      waits.insert(waits.end(), approach->waits_on.begin(), approach->waits_on.end());
+    } else {
+      waits.push_back(wait);
+    }
+  }
+  return waits;
+}
+
 Trial::Outcome Trial::outcome() const {
   const Job& job = *scheduler_.find(job_);
   Outcome outcome{.kind = Verdict::Kind::conflict, .evaluations = evaluations_};
@@ -101,7 +116,7 @@ Trial::Outcome Trial::outcome() const {
     return outcome;
   }
   outcome.starts_in = by_clock_;
-  outcome.waits = waits_;
+  outcome.waits = waits();
   if (job.has_ended()) outcome.waits.clear();
   if (job.has_ended() && last_) {
     for (const Conflict& conflict : last_->conflicts) outcome.waits.push_back(wait_for(conflict));

@@ -56,6 +56,7 @@ class Trial {
   [[nodiscard]] bool is_decided() const;
   [[nodiscard]] bool is_on_its_way() const;
   [[nodiscard]] Duration approach_ends() const;
+  [[nodiscard]] std::vector<Wait> waits() const;
 
   Scheduler scheduler_;
   JobId job_;

@@ -36,7 +36,8 @@ TEST_P(Aside, AnIdleArmInTheWayIsTold) {
   EXPECT_EQ(waits.waits_on[0].arm, "x");
   EXPECT_EQ(waits.waits_on[0].detail,
             "arm x has no job: one that moves it away would open the way, or \"on_idle_blocker\": "
-            "\"park\" in the cell's scheduling, which sends it aside");
+            "\"park\" or \"replan\" in the cell's scheduling, which send it aside where there is a "
+            "free way");
 }
 
 TEST_P(Aside, WhatWouldHaveOpenedTheWayStandsInTheReasonWhenItExpires) {
@@ -143,8 +144,9 @@ TEST_P(Aside, AStoppedArmInTheWayIsToldToNeedAResume) {
   cell->run_until(at(10s));
   EXPECT_EQ(cell->job("passes").waits_on.at(0).detail,
             "arm x is stopped and has no job: resuming it, and a job that moves it away would open "
-            "the way, or \"on_idle_blocker\": \"park\" in the cell's scheduling, which sends it "
-            "aside when resumed");
+            "the way, or \"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, "
+            "which send it "
+            "aside where there is a free way when it is resumed");
 
   cell.emplace(parking(OnIdleBlocker::park), GetParam());
   cell->submit(slide("x", -1, 0, 2, "in the middle"));

@@ -96,6 +96,16 @@ TEST_P(CheckedGoals, AnApproachIsPlannedAndItsTimeTold) {
   EXPECT_NEAR(to_seconds(*done.times.started_at - submitted), *said.approach_s, 0.5);
 }
 
+// The approach is nobody's job yet: what would be waited for is told.
+TEST_P(CheckedGoals, AnApproachOfAStoppedArmWaitsForItsStop) {
+  cell->simulation->executive().stop({ArmId{0}}, "operator");
+  const CheckView said = check(from_elsewhere("x", -0.5, 0.5, "job"));
+  EXPECT_EQ(said.kind, Verdict::Kind::conflict);
+  ASSERT_EQ(said.conflicts.size(), 1U);
+  EXPECT_EQ(said.conflicts[0].kind, Wait::Kind::stop);
+  EXPECT_EQ(said.conflicts[0].arm, "x");
+}
+
 TEST_P(CheckedGoals, AnApproachThatHasNoWaySaysSo) {
   ASSERT_EQ(set_post(-0.5, 0.0), "");
   const CheckView said = check(from_elsewhere("x", -0.5, 0.5, "job"));

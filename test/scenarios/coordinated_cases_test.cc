@@ -96,7 +96,8 @@ TEST_F(Coordinated, GivesUpOnItsPathWhenNothingMovesTheArmAway) {
   EXPECT_EQ(gave_up.reason(), Reason::backlog_timeout);
   EXPECT_EQ(gave_up.detail(),
             "waited 20 s on its path; arm x has no job: one that moves it away would open the way, "
-            "or \"on_idle_blocker\": \"park\" in the cell's scheduling, which sends it aside");
+            "or \"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, which send "
+            "it aside where there is a free way");
   ASSERT_EQ(gave_up.waits_on.size(), 1U);
   EXPECT_EQ(gave_up.waits_on[0].arm, "x");
 }

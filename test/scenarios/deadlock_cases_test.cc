@@ -28,7 +28,8 @@ TEST_P(T10, ASwapOfTwoGoalsIsNamedAtOnceAndTheLastJobGivesWay) {
       failed.detail(),
       "two -> one -> two: none of them can move before the next one does; a job before them that "
       "moves an arm out of the others' way would open the ring, or \"on_idle_blocker\": "
-      "\"park\" in the cell's scheduling, which sends one aside");
+      "\"park\" or \"replan\" in the cell's scheduling, which send one aside where there is a free "
+      "way");
   const JobView stays = cell.job("one");
   EXPECT_EQ(stays.state, JobState::backlogged);
   EXPECT_TRUE(stays.ring.empty());
