@@ -108,7 +108,6 @@ PlanAnswer answer_plan(const PlanningScenePtr& scene, const PlanQuestion& questi
     return answer;
   };
   const std::uint64_t budget = question.budget.value_or(PlanRequest::kDefaultBudget);
-  request.budget = question.may_move.empty() ? budget : std::min(budget, kBesideBudget);
   const Answer answer(scene, question);
   std::optional<NotPast> not_past;
   if (question.has_no_way_past) request.left_out = question.may_move;

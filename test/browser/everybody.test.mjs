@@ -4,7 +4,7 @@
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { arm_now, ask, Browser, job_through, path_for, Server } from './harness.mjs';
+import { ask, Browser, path_for, send_through, Server } from './harness.mjs';
 import { difference, pixels_like } from './pictures.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -36,11 +36,7 @@ after(async () => {
   await server.end();
 }, { timeout: 30_000 });
 
-async function send(arm, id, way, seconds, over = {}) {
-  const { names, q } = await arm_now(page, arm);
-  const { status, value } = await ask(page, 'POST', '/jobs', job_through(id, names, [q, ...way.map((to) => to ?? q)], seconds, over));
-  assert.equal(status, 202, JSON.stringify(value));
-}
+const send = (...job) => send_through(page, ...job);
 
 async function view_picture(of = page) {
   await of.evaluate(() => window.armloom.drawn());

@@ -8,7 +8,7 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { arm_now, ask, Browser, job_through, kRoot, path_for, Server } from './harness.mjs';
+import { ask, Browser, kRoot, path_for, send_through, Server } from './harness.mjs';
 import { difference } from './pictures.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -36,11 +36,7 @@ const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
 const speed = (value) => ask(page, 'PUT', '/sim/speed', { speed: value });
 const finished = (id) => page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
 
-async function send(arm, id, way, seconds, over = {}) {
-  const { names, q } = await arm_now(page, arm);
-  const { status, value } = await ask(page, 'POST', '/jobs', job_through(id, names, [q, ...way.map((to) => to ?? q)], seconds, over));
-  assert.equal(status, 202, JSON.stringify(value));
-}
+const send = (...job) => send_through(page, ...job);
 
 async function view_picture() {
   await page.evaluate(() => window.armloom.drawn());

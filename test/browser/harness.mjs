@@ -5,6 +5,7 @@
 //   ARMLOOM_CHROMIUM        the browser, default /usr/bin/chromium
 //   ARMLOOM_SCREENSHOT_DIR  where pictures of the page go; none are kept without it
 
+import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -130,4 +131,11 @@ export function arm_now(page, arm) {
     const names = Object.keys(all).filter((name) => name.startsWith(`${arm}_panda_joint`)).sort();
     return { names, q: names.map((name) => all[name]) };
   }, arm);
+}
+
+/** Sends a job of an arm from where it is, through places of its joints; null: where it is. */
+export async function send_through(page, arm, id, way, seconds, over = {}) {
+  const { names, q } = await arm_now(page, arm);
+  const { status, value } = await ask(page, 'POST', '/jobs', job_through(id, names, [q, ...way.map((to) => to ?? q)], seconds, over));
+  assert.equal(status, 202, JSON.stringify(value));
 }

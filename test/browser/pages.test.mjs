@@ -6,7 +6,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { arm_now, ask, Browser, job_through, path_for, Server, web_require } from './harness.mjs';
+import { arm_now, ask, Browser, job_through, path_for, send_through, Server, web_require } from './harness.mjs';
 import { difference } from './pictures.mjs';
 
 const kStop = 'Stop all: controlled, drives stay powered';
@@ -32,11 +32,7 @@ after(async () => {
   await server.end();
 }, { timeout: 30_000 });
 
-async function send(arm, id, way, seconds, over = {}) {
-  const { names, q } = await arm_now(page, arm);
-  const { status, value } = await ask(page, 'POST', '/jobs', job_through(id, names, [q, ...way.map((to) => to ?? q)], seconds, over));
-  assert.equal(status, 202, JSON.stringify(value));
-}
+const send = (...job) => send_through(page, ...job);
 
 async function view_picture() {
   await page.evaluate(() => window.armloom.drawn());

@@ -78,8 +78,8 @@ PlanQuestion question_about(const State& state, const Record& record, const Goal
     if (was_passed_there || is_found_in_the_way(state, record.job, arm)) continue;
     for (JobId id : state.jobs.queues()[arm]) {
       const Record& other = state.jobs.at(id);
-      const bool goes_before =
-          other.turn < turn && other.job.knows_its_end() && !other.job.has_open_arm();
+      const bool goes_before = other.turn < turn && !comes_to_its_end(other.job) &&
+                               other.job.knows_its_end() && !other.job.has_open_arm();
       if (goes_before) follow_to_end(at, *state.cell, arm, *other.job.trajectory);
     }
   }
