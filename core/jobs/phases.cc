@@ -70,6 +70,14 @@ const TrajectoryPtr& likeliest(const State& state, const Submit& job) {
   });
 }
 
+// An approach that could not be made, or has waited in vain: another one would not fare better.
+void refuse_approach(State& state, const Record& record, Reason reason, const std::string& why) {
+  const bool in_vain = reason == Reason::no_plan || reason == Reason::backlog_timeout;
+  if (!in_vain || !record.job.goal || !record.errand.before) return;
+  Record* head = state.jobs.find(*record.errand.before);
+  if (head != nullptr) head->approaches.refusal = why;
+}
+
 }  // namespace
 
 Record record_of(State& state, const Submit& job) {
@@ -102,6 +110,7 @@ void enter(State& state, Record& record, JobPhase phase) {
 }
 
 void end(State& state, Record& record, JobState how, Reason reason, std::string detail) {
+  refuse_approach(state, record, reason, detail);
   const bool succeeded = how == JobState::succeeded;
   if (succeeded) {
     state.graph.finish(record.job.id);

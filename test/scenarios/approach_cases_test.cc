@@ -70,6 +70,20 @@ TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
   cell->expect_at("a", {-1, 0});
 }
 
+TEST_P(Approaches, OneThatWaitsInVainIsNotTriedAgain) {
+  JobRequest job = approached(go("a", {1, 0}, {1, 2}, 6, "where b stands"));
+  job.terms.backlog_timeout = 5s;
+  cell->submit(job);
+  cell->run_to_the_end();
+  EXPECT_EQ(cell->job("approach-1").state, JobState::expired);
+  EXPECT_FALSE(cell->executive().job("approach-2"));
+  const JobView failed = cell->job("where b stands");
+  EXPECT_EQ(failed.reason(), Reason::start_mismatch);
+  EXPECT_NE(failed.detail().find("no way to where it begins: waited 5 s"), std::string::npos)
+      << failed.detail();
+  EXPECT_LT(failed.times.ended_at, at(6s));
+}
+
 // Its way was planned while the other arm was elsewhere, and that then stops on it.
 TEST_P(Approaches, AnArmThatHasComeToRestOnTheWayThereIsPassed) {
   cell.emplace(gantries(OnIdleBlocker::replan), GetParam());

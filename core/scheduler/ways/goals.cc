@@ -214,10 +214,7 @@ bool plan_goals(State& state) {
   if (!state.jobs.has_goals()) return any_failed;
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
     while (Record* record = plan_lane(state, ArmId{arm})) {
-      const std::string why = why_none(state, record->job);
-      Record* helped = record->errand.before ? state.jobs.find(*record->errand.before) : nullptr;
-      if (helped != nullptr) helped->approaches.refusal = why;
-      end(state, *record, JobState::failed, Reason::no_plan, why);
+      end(state, *record, JobState::failed, Reason::no_plan, why_none(state, record->job));
       any_failed = true;
     }
   }
