@@ -146,6 +146,10 @@ Bounds bounds(const Polynomial& p, double from_s, double to_s) {
 
 std::optional<Extreme> worst_outside(const Polynomial& p, double duration_s,
                                      const Bounds& allowed) {
+  // Most are far inside: they get nowhere near.
+  const double swing = magnitude(p, duration_s) - std::abs(p[0]);
+  if (p[0] - swing >= allowed.lower && p[0] + swing <= allowed.upper) return std::nullopt;
+
   Bernstein b = bernstein(p, duration_s);
   const auto [lowest, highest] = std::minmax_element(b.begin(), b.end());
   if (*lowest >= allowed.lower && *highest <= allowed.upper) return std::nullopt;

@@ -17,23 +17,29 @@ double largest(const Value& value, double h, std::initializer_list<double> place
   return most;
 }
 
-// Adds what one joint uses on a piece of h seconds.
+// What one joint uses on a piece of h seconds is added where it may be more than the shares so far.
+// The jerk is a quadratic, the acceleration a cubic: their extremes are found exactly.
 void add(const Polynomial& c, double h, const JointRates& rates, Eigen::Index j,
          LimitShares& shares) {
-  // The jerk is a quadratic, the acceleration a cubic: their extremes are found exactly.
   const double j0 = 6.0 * c[3], j1 = 24.0 * c[4], j2 = 60.0 * c[5];
-  const auto jerk = [&](double t) { return j0 + t * (j1 + t * j2); };
+  double most_jerk = std::abs(j0) + h * (std::abs(j1) + h * std::abs(j2));
+  if (most_jerk > shares.jerk * rates.jerk[j]) {
+    const auto jerk = [&](double t) { return j0 + t * (j1 + t * j2); };
+    most_jerk = largest(jerk, h, {-j1 / (2.0 * j2)});
+    shares.jerk = std::max(shares.jerk, most_jerk / rates.jerk[j]);
+  }
+  // No larger than at the nearer end and what the jerk adds until there; the velocity likewise.
   const auto acceleration = [&](double t) {
     return 2.0 * c[2] + t * (j0 + t * (j1 / 2.0 + t * j2 / 3.0));
   };
-  const double most_jerk = largest(jerk, h, {-j1 / (2.0 * j2)});
-  // Zeros of the jerk, in the form that keeps its digits.
-  const double root = std::sqrt(std::max(0.0, j1 * j1 - 4.0 * j2 * j0));
-  const double sum = -0.5 * (j1 + std::copysign(root, j1));
-  const double most_acceleration = largest(acceleration, h, {sum / j2, j0 / sum});
-  shares.jerk = std::max(shares.jerk, most_jerk / rates.jerk[j]);
-  shares.acceleration = std::max(shares.acceleration, most_acceleration / rates.acceleration[j]);
-  // The velocity is no larger than at the nearer end and what the acceleration adds until there.
+  double most_acceleration = largest(acceleration, h, {}) + 0.5 * h * most_jerk;
+  if (most_acceleration > shares.acceleration * rates.acceleration[j]) {
+    // Zeros of the jerk, in the form that keeps its digits.
+    const double root = std::sqrt(std::max(0.0, j1 * j1 - 4.0 * j2 * j0));
+    const double sum = -0.5 * (j1 + std::copysign(root, j1));
+    most_acceleration = largest(acceleration, h, {sum / j2, j0 / sum});
+    shares.acceleration = std::max(shares.acceleration, most_acceleration / rates.acceleration[j]);
+  }
   const Polynomial v = derivative(c);
   const double ends = std::max(std::abs(v[0]), std::abs(evaluate(v, h)));
   if (ends + 0.5 * h * most_acceleration <= shares.velocity * rates.velocity[j]) return;

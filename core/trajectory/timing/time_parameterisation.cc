@@ -19,9 +19,8 @@ using Points = std::vector<Eigen::VectorXd>;
 // A path is cut in at least this many parts for its speeds.
 constexpr std::size_t kParts = 160;
 // The quintics swing out beyond what they stand for by less than this share, but for rare cases:
-// these are made again, slower.
+// these are slowed down.
 constexpr double kHeadroom = 1.0 - 2e-3;
-constexpr int kTriesMax = 8;
 
 TrajectoryRequest request_for(const Cell& cell, const std::vector<JointId>& joints) {
   TrajectoryRequest request;
@@ -69,6 +68,22 @@ void append_line(TrajectoryRequest& request, const JointRates& rates, const Eige
   request.points.back().positions.assign(to.begin(), to.end());
 }
 
+// The same motion `factor` times as slow: its velocities are divided by that, its accelerations by
+// the square. Waypoints have whole nanoseconds: each is where the motion is then.
+void slow_down(std::vector<WaypointRequest>& points, double factor) {
+  for (WaypointRequest& point : points) {
+    const double exact_s = factor * point.time_from_start_s;
+    point.time_from_start_s = std::round(exact_s * 1e9) / 1e9;
+    const double later_s = point.time_from_start_s - exact_s;
+    for (std::size_t j = 0; j < point.positions.size(); ++j) {
+      point.accelerations[j] /= factor * factor;
+      point.velocities[j] /= factor;
+      point.positions[j] += later_s * point.velocities[j];
+      point.velocities[j] += later_s * point.accelerations[j];
+    }
+  }
+}
+
 Result<TimedMotion> validated(TrajectoryRequest request, const Cell& cell) {
   auto trajectory = validate(request, cell);
   if (!trajectory) return failure(std::move(trajectory.error()));
@@ -112,16 +127,12 @@ Result<TimedMotion> time_path(const Cell& cell, const std::vector<JointId>& join
   rates.velocity *= 1.0 - 1e-4;
   rates.acceleration *= kHeadroom;
   TrajectoryRequest request = request_for(cell, joints);
-  for (int i = 0; i < kTriesMax; ++i) {
-    request.points = softened(path, rates, fastest_along(path, rates, kParts), window_s);
-    if (request.points.size() > kWaypointsMax) break;  // it is refused whatever comes of it
+  request.points = softened(path, rates, fastest_along(path, rates, kParts), window_s);
+  if (request.points.size() <= kWaypointsMax) {  // else it is refused as it is
     const LimitShares used = limit_shares(request.points, limits);
     const double factor =
         std::max({used.velocity, std::sqrt(used.acceleration), std::cbrt(used.jerk)});
-    if (factor <= 1.0) break;
-    rates.velocity /= factor / kHeadroom;
-    rates.acceleration /= factor * factor / kHeadroom;
-    if (used.jerk > 1.0) window_s *= factor;
+    if (factor > 1.0) slow_down(request.points, factor * (1.0 + 1e-6));
   }
   return validated(std::move(request), cell);
 }
