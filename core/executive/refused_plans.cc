@@ -35,6 +35,12 @@ bool stand_alike(const Cell& cell, const std::vector<ArmId>& left_out, const Con
   return true;
 }
 
+// Who stands at an end of the way says nothing of a way past the others.
+bool was_looked_for(const PlanRefusal& why) {
+  using Reason = PlanRefusal::Reason;
+  return why.reason != Reason::start_in_collision && why.reason != Reason::goal_in_collision;
+}
+
 }  // namespace
 
 void RefusedPlans::look_at(const PlanningScenePtr& scene) {
@@ -43,9 +49,10 @@ void RefusedPlans::look_at(const PlanningScenePtr& scene) {
 
 // One that was refused though more arms were left out is refused all the more.
 const PlanRefusal* RefusedPlans::find(const PlanQuestion& question,
-                                      const std::vector<ArmId>& left_out) const {
+                                      const std::vector<ArmId>& left_out,
+                                      bool (*counts)(const PlanRefusal&)) const {
   const auto found = std::ranges::find_if(refused_, [&](const Refused& refused) {
-    return is_same(refused.goal, question.goal) &&
+    return (counts == nullptr || counts(refused.why)) && is_same(refused.goal, question.goal) &&
            std::ranges::all_of(left_out,
                                [&](ArmId arm) {
                                  return std::ranges::find(refused.left_out, arm) !=
@@ -63,7 +70,7 @@ void RefusedPlans::tell(PlanTask& task) {
     task.known = *known;
     task.known->evaluations = 0;  // this time
   }
-  task.question.has_no_way_past = find(task.question, {}) != nullptr;
+  task.question.has_no_way_past = find(task.question, {}, &was_looked_for) != nullptr;
 }
 
 void RefusedPlans::add(const PlanQuestion& question, std::vector<ArmId> left_out,

@@ -30,7 +30,8 @@ class RefusedPlans {
   void look_at(const PlanningScenePtr& scene);
   void add(const PlanQuestion& question, std::vector<ArmId> left_out, const PlanRefusal& why);
   [[nodiscard]] const PlanRefusal* find(const PlanQuestion& question,
-                                        const std::vector<ArmId>& left_out) const;
+                                        const std::vector<ArmId>& left_out,
+                                        bool (*counts)(const PlanRefusal&) = nullptr) const;
 
   PlanningScenePtr scene_;
   std::deque<Refused> refused_;

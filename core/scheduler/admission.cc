@@ -228,7 +228,8 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   const PassingOrders orders =
       state.policy->decide(state.graph.question(candidates, verdict.regions));
   const bool can_go = orders.blockers.empty();
-  if (jobs.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
+  const bool is_known = can_go || !may_be_asked_again(first, verdict);
+  if (is_known && jobs.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
   if (tries_together(state, jobs, can_go)) return;
   if (can_go) {
     if (leaves_a_sequence(state, jobs)) {
@@ -241,7 +242,7 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   std::vector<Wait> waits;
   for (const Blocker& blocker : orders.blockers) {
     if (blocker.blocked != first.job.id) continue;
-    if (blocker.arm) {
+    if (blocker.arm && is_known) {
       state.lanes.learn_in_the_way(first.job.id, *blocker.arm, state.jobs, state.arms);
     }
     waits.push_back(wait_for(blocker));

@@ -116,13 +116,16 @@ void hold_back(State& state, Record& record, const Verdict& verdict) {
   state.jobs.set_waits(record, *waits);
 }
 
+bool may_be_asked_again(const Record& record, const Verdict& verdict) {
+  return larger_effort(verdict, record.asking.effort) && record.asking.raised < kRaisedMax;
+}
+
 bool is_asked_again(Record& record, const Verdict& verdict) {
-  const auto effort = larger_effort(verdict, record.asking.effort);
-  if (!effort || record.asking.raised >= kRaisedMax) {
+  if (!may_be_asked_again(record, verdict)) {
     record.asking.effort = 1;
     return false;
   }
-  record.asking.effort = *effort;
+  record.asking.effort = *larger_effort(verdict, record.asking.effort);
   ++record.asking.raised;
   return true;
 }

@@ -81,11 +81,19 @@ std::vector<TimedJob> with_goals(std::vector<TimedJob> jobs) {
   return jobs;
 }
 
+// Of 300 loads those that were not done once: a way that takes more than the usual effort to be
+// certified was taken to be blocked; an arm that stood at a goal, for a proof that there is no way.
+std::vector<std::uint64_t> goal_loads() {
+  std::vector<std::uint64_t> seeds{20, 248};
+  for (std::uint64_t seed = 1; seed <= seed_count(kLoads); ++seed) seeds.push_back(seed);
+  return seeds;
+}
+
 class GoalChainsUnder : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(GoalChainsUnder, AllSucceedAndNeverTouch) {
   std::size_t jobs = 0;
-  for (std::uint64_t seed = 1; seed <= seed_count(kLoads); ++seed) {
+  for (std::uint64_t seed : goal_loads()) {
     const CrowdedWorkload load = make_chain(2 + seed % 3, 8 + seed * 7 % 17, seed % 2 == 0, seed);
     Closest closest;
     const auto result = simulate(cell_of(load, OnIdleBlocker::report),
