@@ -228,8 +228,8 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   const PassingOrders orders =
       state.policy->decide(state.graph.question(candidates, verdict.regions));
   const bool can_go = orders.blockers.empty();
-  const bool is_known = can_go || !may_be_asked_again(first, verdict);
-  if (is_known && jobs.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
+  if (!can_go && is_asked_again(first, verdict)) return;  // what stands against it is not known yet
+  if (jobs.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
   if (tries_together(state, jobs, can_go)) return;
   if (can_go) {
     if (leaves_a_sequence(state, jobs)) {
@@ -242,7 +242,7 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   std::vector<Wait> waits;
   for (const Blocker& blocker : orders.blockers) {
     if (blocker.blocked != first.job.id) continue;
-    if (blocker.arm && is_known) {
+    if (blocker.arm) {
       state.lanes.learn_in_the_way(first.job.id, *blocker.arm, state.jobs, state.arms);
     }
     waits.push_back(wait_for(blocker));
@@ -251,7 +251,7 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   std::vector<JobId> group = with_next_jobs(state, jobs, orders.in_the_way);
   if (group.size() > jobs.size()) {
     ask(state, std::move(group), Purpose::start);
-  } else if (!is_asked_again(first, verdict)) {
+  } else {
     put_off(state, first, first.job.judgement().found);
   }
 }

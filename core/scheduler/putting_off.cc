@@ -75,6 +75,7 @@ void note_found(Record& record, std::vector<Wait> waits) {
 }
 
 void put_off(State& state, Record& record, std::vector<Wait> waits) {
+  record.asking.effort = 1;
   if (gives_detour_up(state, record)) return;
   state.jobs.set_waits(record, waits);
   judgement_of(record) = {state.version, std::move(waits)};
@@ -116,16 +117,10 @@ void hold_back(State& state, Record& record, const Verdict& verdict) {
   state.jobs.set_waits(record, *waits);
 }
 
-bool may_be_asked_again(const Record& record, const Verdict& verdict) {
-  return larger_effort(verdict, record.asking.effort) && record.asking.raised < kRaisedMax;
-}
-
 bool is_asked_again(Record& record, const Verdict& verdict) {
-  if (!may_be_asked_again(record, verdict)) {
-    record.asking.effort = 1;
-    return false;
-  }
-  record.asking.effort = *larger_effort(verdict, record.asking.effort);
+  const auto effort = larger_effort(verdict, record.asking.effort);
+  if (!effort || record.asking.raised >= kRaisedMax) return false;
+  record.asking.effort = *effort;
   ++record.asking.raised;
   return true;
 }

@@ -29,7 +29,5 @@ void hold_back(State& state, Record& record, const Verdict& verdict);
 // one when its turn comes, behind those that are judged with less. So often at most that a job that
 // cannot be decided takes no time from others each time that something changes.
 [[nodiscard]] bool is_asked_again(Record& record, const Verdict& verdict);
-// Until then nothing is known to be in its way.
-[[nodiscard]] bool may_be_asked_again(const Record& record, const Verdict& verdict);
 
 }  // namespace armloom
