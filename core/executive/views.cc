@@ -24,26 +24,33 @@ std::string ways_aside(const Cell& cell) {
 }
 
 // What would open the way past an arm that stays where it is; nothing while its jobs move it.
-std::optional<std::string> opens(ArmId id, bool in_vain, const Cell& cell, const JobNames& names) {
-  const std::string arm = "arm " + cell.arm(id).name;
-  const bool stopped = names.is_stopped(id);
-  if (names.has_job(id)) {
+std::optional<std::string> opens(const Wait& wait, bool in_vain, const Cell& cell,
+                                 const JobNames& names) {
+  const std::string arm = "arm " + cell.arm(*wait.arm).name;
+  const bool stopped = names.is_stopped(*wait.arm);
+  if (names.has_job(*wait.arm)) {
     if (!stopped) return std::nullopt;
     return arm + " is stopped: resuming it would let its own job move it on";
   }
   const std::string begins = arm + (stopped ? " is stopped and has no job: " : " has no job: ");
-  if (cell.scheduling.on_idle_blocker == OnIdleBlocker::report) {
+  const OnIdleBlocker setting = cell.scheduling.on_idle_blocker;
+  if (setting == OnIdleBlocker::report) {
     return begins + (stopped ? "resuming it, and a job" : "one") +
            " that moves it away would open the way, or " + to_send_aside("it") +
            (stopped ? " when it is resumed" : "");
   }
-  if (in_vain && !stopped) {
-    return begins + "no free way aside was found (" + ways_aside(cell) +
-           "); one that moves it away would have opened this one";
+  const std::string none = "no free way aside was found (" + ways_aside(cell) + "); ";
+  if (in_vain && !stopped)
+    return begins + none + "a job that moves it away would have opened this one";
+  if (wait.has_no_way_aside && !stopped) {
+    return begins + none + "a job that moves it away would open this one" +
+           (setting == OnIdleBlocker::park
+                ? ", or \"on_idle_blocker\": \"replan\", by which ways aside are planned"
+                : "");
   }
   return begins + (stopped ? "when it is resumed " : "") +
          "it goes aside where it has a free way (" + ways_aside(cell) +
-         "), else one that moves it away would open this one";
+         "), else a job that moves it away would open this one";
 }
 
 // What would open the way past what stands still.
@@ -72,7 +79,7 @@ WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names, bool
   if (wait.job) view.job = names.key(*wait.job);
   if (wait.arm) view.arm = cell.arm(*wait.arm).name;
   std::optional<std::string> opening;
-  if (wait.kind == Wait::Kind::arm && wait.arm) opening = opens(*wait.arm, in_vain, cell, names);
+  if (wait.kind == Wait::Kind::arm && wait.arm) opening = opens(wait, in_vain, cell, names);
   if (wait.kind == Wait::Kind::object && wait.proximity) opening = opens(*wait.proximity, cell);
   if (opening) view.detail += (view.detail.empty() ? "" : "; ") + *opening;
   if (wait.proximity) {

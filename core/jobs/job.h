@@ -40,10 +40,12 @@ struct Wait {
   Duration own_time{};                 // with proximity: trajectory time of this job
   Duration other_time{};               // and of the other one
   std::string detail = {};             // stop: its cause
+  bool has_no_way_aside = false;       // arm: none of those that it could go is left to be tried
 
   // Same obstacle, whatever the figures: used to spare clients a repeated event.
   [[nodiscard]] bool same_cause(const Wait& other) const {
-    return kind == other.kind && job == other.job && arm == other.arm && detail == other.detail;
+    return kind == other.kind && job == other.job && arm == other.arm && detail == other.detail &&
+           has_no_way_aside == other.has_no_way_aside;
   }
 };
 [[nodiscard]] const char* to_string(Wait::Kind kind);

@@ -18,6 +18,7 @@ void Lanes::add(const Record& record) {
   WaitingLeg leg = record.leg;
   leg.after = record.job.terms.after;
   leg.is_estimate = is_way_open(record.job);
+  leg.is_approached = record.job.terms.approaches;
   sequence_.append(std::move(leg));
 }
 
@@ -54,6 +55,7 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
     WaitingLeg& leg = legs.emplace_back(record.leg);
     leg.after = record.job.terms.after;
     leg.is_estimate = is_way_open(record.job);
+    leg.is_approached = record.job.terms.approaches;
     if (record.errand.lets_pass && book.is_active(*record.errand.lets_pass)) {
       leg.after.push_back(*record.errand.lets_pass);
     }

@@ -119,7 +119,11 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
     put_off = true;
   }
   if (goes_around_idle_arm(state)) return true;
-  if (auto idle = next_yield(state)) ask_yield(state, std::move(*idle));
+  if (auto idle = next_yield(state)) {
+    ask_yield(state, std::move(*idle));
+  } else {
+    tell_of_no_way_aside(state);
+  }
   return put_off;
 }
 
@@ -249,11 +253,8 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   }
   if (jobs.size() == 1 || !waits.empty()) note_found(first, std::move(waits));
   std::vector<JobId> group = with_next_jobs(state, jobs, orders.in_the_way);
-  if (group.size() > jobs.size()) {
-    ask(state, std::move(group), Purpose::start);
-  } else {
-    put_off(state, first, first.job.judgement().found);
-  }
+  if (group.size() > jobs.size()) return ask(state, std::move(group), Purpose::start);
+  put_off(state, first, first.job.judgement().found);
 }
 
 // Whether the jobs go; else they wait, or what has to be known is asked.

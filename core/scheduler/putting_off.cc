@@ -9,6 +9,7 @@
 #include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
 #include "core/scheduler/ways/detour.h"
+#include "core/scheduler/yielding/yield_moves.h"
 
 namespace armloom {
 namespace {
@@ -77,6 +78,7 @@ void note_found(Record& record, std::vector<Wait> waits) {
 void put_off(State& state, Record& record, std::vector<Wait> waits) {
   record.asking.effort = 1;
   if (gives_detour_up(state, record)) return;
+  for (Wait& wait : waits) wait.has_no_way_aside = has_no_way_aside(state, record, wait);
   state.jobs.set_waits(record, waits);
   judgement_of(record) = {state.version, std::move(waits)};
   if (!is_at_head(state.jobs, record)) return;  // it has had no turn yet

@@ -59,9 +59,10 @@ void SafeSequence::add(WaitingLeg waiting) {
     if (leg.is_estimate) leg.from[i] = end;
     const bool near =
         leg.from[i] == end || (leg.from[i]->q - end->q).cwiseAbs().maxCoeff() <= tolerance_;
-    leg.cut = leg.cut || !near;
+    leg.begins_elsewhere = leg.begins_elsewhere || !near;
     end = leg.to[i];
   }
+  leg.cut = leg.begins_elsewhere && !leg.is_approached;
   leg.placed = follows(leg);
   for (ArmId arm : leg.arms) unplaced_legs_[arm.index()] += leg.placed ? 0 : 1;
   Legs& legs = leg.placed ? sequence_ : unplaced_;
@@ -75,7 +76,7 @@ bool SafeSequence::remove(JobId job) {
   const auto known = index_.find(job);
   if (known == index_.end()) return true;
   const auto leg = known->second;
-  const bool stays = leg->from == leg->to && !leg->cut;
+  const bool stays = leg->from == leg->to && !leg->begins_elsewhere;
   if (!leg->placed) {
     for (ArmId arm : leg->arms) --unplaced_legs_[arm.index()];
   }
@@ -157,7 +158,7 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
 
 bool SafeSequence::follows_on(JobId job) const {
   const auto known = index_.find(job);
-  return known == index_.end() || !known->second->cut;
+  return known == index_.end() || !known->second->begins_elsewhere;
 }
 
 bool SafeSequence::goes_before(JobId first, JobId other) const {

@@ -26,6 +26,8 @@ struct WaitingLeg {
   // when the legs given before it are done: these it is taken to pass. Of other places an estimate
   // of its way is asked.
   bool is_estimate = false;
+  // Its arms are brought to where it begins, wherever they stand: that way is taken to be found.
+  bool is_approached = false;
 };
 
 // Does this leg find its way free while an arm that it does not move rests there?
@@ -100,7 +102,8 @@ class SafeSequence {
     std::unordered_map<std::uint64_t, bool> free = {};  // by Place::id
     std::vector<std::uint64_t> seen = {};  // Place::id by arm: it passes where they stand so
     bool placed = false;                   // in sequence_, else in unplaced_
-    bool cut = false;                      // does not begin where its lanes lead
+    bool cut = false;                      // it cannot begin where its lanes lead
+    bool begins_elsewhere = false;         // and is brought there, unless it is cut
   };
   using Legs = std::list<Leg>;
   using Order = std::vector<Leg*>;

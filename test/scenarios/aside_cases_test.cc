@@ -125,15 +125,15 @@ TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
   EXPECT_FALSE(cell->simulation->executive().job("aside-1"));
   ASSERT_FALSE(waits.waits_on.empty());
   EXPECT_EQ(waits.waits_on[0].detail,
-            "arm x has no job: it goes aside where it has a free way (back along its last motion, "
-            "home, or to a named pose of its group), else one that moves it away would open this "
-            "one");
+            "arm x has no job: no free way aside was found (back along its last motion, home, or to "
+            "a named pose of its group); a job that moves it away would open this one, or "
+            "\"on_idle_blocker\": \"replan\", by which ways aside are planned");
   cell->run_to_the_end(at(600s));
   const JobView expired = cell->job("passes");
   EXPECT_EQ(expired.reason(), Reason::backlog_timeout);
   EXPECT_TRUE(expired.detail().ends_with(
       "; arm x has no job: no free way aside was found (back along its last motion, home, or to a "
-      "named pose of its group); one that moves it away would have opened this one"))
+      "named pose of its group); a job that moves it away would have opened this one"))
       << expired.detail();
 }
 
@@ -157,7 +157,7 @@ TEST_P(Aside, AStoppedArmInTheWayIsToldToNeedAResume) {
   EXPECT_EQ(cell->job("passes").state, JobState::backlogged);
   EXPECT_EQ(cell->job("passes").waits_on.at(0).detail,
             "arm x is stopped and has no job: when it is resumed it goes aside where it has a free "
-            "way (back along its last motion, home, or to a named pose of its group), else one "
+            "way (back along its last motion, home, or to a named pose of its group), else a job "
             "that moves it away would open this one");
   cell->submit(slide("x", 0, 1, 2, "leaves"));
   for (const WaitView& wait : cell->job("passes").waits_on) {

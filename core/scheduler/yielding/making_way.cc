@@ -30,18 +30,21 @@ JobId add_own(State& state, const YieldTrial& move, TrajectoryPtr way, std::opti
   return id;
 }
 
-// The arm's next job gains nothing by its return, where it begins elsewhere anyway.
-bool begins_there(const State& state, const YieldTrial& move) {
-  const Trajectory& next = *state.jobs.at(*move.before).job.trajectory;
-  return !state.arms.begins_elsewhere(*state.cell, next, move.arm);
+// It gains nothing by the arm's return, where it begins elsewhere anyway.
+bool begins_there(const State& state, const Record& next, ArmId arm) {
+  return !state.arms.begins_elsewhere(*state.cell, *next.job.trajectory, arm);
 }
 
 }  // namespace
 
 void send_aside(State& state, const YieldTrial& move) {
-  const bool returns = move.before && begins_there(state, move);
+  Record* next = move.before ? &state.jobs.at(*move.before) : nullptr;
+  const bool returns = next != nullptr && !next->job.goal && begins_there(state, *next, move.arm);
   const JobId goes = add_own(state, move, move.way, std::nullopt);
   if (returns) (void)add_own(state, move, retraced(*move.way), goes);
+  if (next == nullptr || !next->job.goal) return;
+  next->errand.lets_pass = move.blocked_job;  // a goal begins wherever the arm stands by then
+  state.lanes.renew_later();
 }
 
 }  // namespace armloom

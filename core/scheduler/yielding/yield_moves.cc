@@ -74,6 +74,10 @@ std::optional<YieldTrial> untried(const State& state, const Record& record, ArmI
   return goes ? std::optional(trial) : std::nullopt;
 }
 
+bool is_idle_arm(const State& state, const Wait& wait) {
+  return wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queues()[*wait.arm].empty();
+}
+
 const std::vector<Wait>& waits_of(const Job& job) {
   return job.is_waiting() ? job.judgement().found : job.waits_on;
 }
@@ -88,13 +92,29 @@ std::optional<YieldTrial> next_yield(const State& state) {
     if (!put_off && !job.pausing()) continue;
     if (job.is_replanned_now()) continue;  // perhaps it passes
     for (const Wait& wait : waits_of(job)) {
-      const bool idle =
-          wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queues()[*wait.arm].empty();
-      if (!idle) continue;
+      if (!is_idle_arm(state, wait)) continue;
       if (auto move = untried(state, record, *wait.arm)) return move;
     }
   }
   return std::nullopt;
+}
+
+bool has_no_way_aside(const State& state, const Record& record, const Wait& wait) {
+  return state.cell->scheduling.on_idle_blocker != OnIdleBlocker::report &&
+         is_idle_arm(state, wait) && !state.arms.is_stopped(*wait.arm) &&
+         !untried(state, record, *wait.arm);
+}
+
+void tell_of_no_way_aside(State& state) {
+  const std::vector<JobId> ids(state.jobs.past_queue().begin(), state.jobs.past_queue().end());
+  for (JobId id : ids) {
+    Record& record = state.jobs.at(id);
+    auto* queued = std::get_if<Queued>(&record.job.phase);
+    if (queued == nullptr || !state.is_judged(record.job)) continue;
+    for (Wait& wait : queued->judgement.found)
+      wait.has_no_way_aside = has_no_way_aside(state, record, wait);
+    if (queued->in_backlog) state.jobs.set_waits(record, queued->judgement.found);
+  }
 }
 
 std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring) {
