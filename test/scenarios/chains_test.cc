@@ -89,23 +89,46 @@ std::vector<std::uint64_t> goal_loads() {
   return seeds;
 }
 
-class GoalChainsUnder : public ::testing::TestWithParam<std::string> {};
+// Every second job begins on its way instead of where its arm stands, and is to be brought there.
+std::vector<TimedJob> with_approaches(std::vector<TimedJob> jobs) {
+  for (std::size_t i = 0; i < jobs.size(); i += 2) {
+    auto& points = jobs[i].job.trajectory.points;
+    if (points.size() > 2) {
+      points.erase(points.begin());
+      const double begins_s = points.front().time_from_start_s;
+      for (WaypointRequest& point : points) point.time_from_start_s -= begins_s;
+    } else {
+      for (std::size_t j = 0; j < points[0].positions.size(); ++j)
+        points[0].positions[j] = (points[0].positions[j] + points[1].positions[j]) / 2.0;
+    }
+    jobs[i].job.terms.approach = Approach::plan;
+  }
+  return jobs;
+}
 
-TEST_P(GoalChainsUnder, AllSucceedAndNeverTouch) {
-  std::size_t jobs = 0;
-  for (std::uint64_t seed : goal_loads()) {
+class GoalChainsUnder : public ::testing::TestWithParam<std::string> {
+ protected:
+  void expect_whole(std::uint64_t seed, std::vector<TimedJob> (*changed)(std::vector<TimedJob>)) {
     const CrowdedWorkload load = make_chain(2 + seed % 3, 8 + seed * 7 % 17, seed % 2 == 0, seed);
     Closest closest;
     const auto result = simulate(cell_of(load, OnIdleBlocker::report),
                                  ExecutiveOptions{.policy = GetParam(), .waiting_max = 1000},
-                                 {with_goals(load.jobs()), at(2000s)}, closest);
+                                 {changed(load.jobs()), at(2000s)}, closest);
     ASSERT_TRUE(result);
     for (const JobView& job : result->jobs)
       EXPECT_EQ(job.state, JobState::succeeded) << "seed " << seed << ": " << told(job);
     EXPECT_GT(closest.smallest_m, 0.0) << "seed " << seed;
     jobs += result->jobs.size();
   }
-  std::cout << jobs << " jobs" << std::endl;
+  void TearDown() override { std::cout << jobs << " jobs" << std::endl; }
+  std::size_t jobs = 0;
+};
+
+TEST_P(GoalChainsUnder, AllSucceedAndNeverTouch) {
+  for (std::uint64_t seed : goal_loads()) expect_whole(seed, with_goals);
+}
+TEST_P(GoalChainsUnder, AllAreBroughtToWhereTheyBeginAndSucceed) {
+  for (std::uint64_t seed : goal_loads()) expect_whole(seed, with_approaches);
 }
 INSTANTIATE_TEST_SUITE_P(Policies, GoalChainsUnder,
                          ::testing::Values("sequential", "lockstep", "reservation", "certified",
