@@ -79,7 +79,11 @@ void Lanes::learn(const std::vector<Passage>& asked, const Verdict& verdict, con
     sequence_.learn(passage, answer != PassageAnswer::blocked);
     const Record* leg = book.find(passage.leg);
     if (answer != PassageAnswer::apart || leg == nullptr) continue;
-    for (ArmId arm : leg->leg.arms) sequence_.learn_apart(arm, passage.place->arm);
+    if (passage.from != nullptr) {
+      sequence_.learn_apart(passage.from->arm, passage.place->arm);
+    } else {
+      for (ArmId arm : leg->leg.arms) sequence_.learn_apart(arm, passage.place->arm);
+    }
   }
 }
 

@@ -135,7 +135,7 @@ void Admission::ask(State& state, std::vector<JobId> jobs, Purpose purpose) {
     auto outlook = state.lanes.after(jobs, state.jobs, state.arms);
     unknown = std::move(outlook.unknown);
     std::ranges::move(outlook.ahead, std::back_inserter(unknown));
-    add_passages(question, unknown, state.jobs);
+    add_passages(question, unknown, state);
   }
   open_ = OpenQuestion{state.version, std::move(jobs), purpose, {}, std::move(unknown)};
   state.decided.effects.push_back(Judge{std::move(question)});

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/policies/policy.h"
+#include "core/trajectory/joint_line.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -13,6 +14,17 @@ Motion motion_now(const State& state, const Job& job) {
                 .trajectory = job.trajectory,
                 .progress = job.progress,
                 .to_come = !state.jobs.queues().is_first(job)};
+}
+
+// Its own motion, or the straight way by which its arm is brought to where that begins.
+TrajectoryPtr motion_of(const Passage& passage, const Cell& cell, const Record& record) {
+  if (passage.from == nullptr) return record.job.trajectory;
+  const WaitingLeg& leg = record.leg;
+  const auto own = std::ranges::find(leg.arms, passage.from->arm) - leg.arms.begin();
+  const auto& joints = cell.arm(passage.from->arm).joints;
+  const auto way =
+      line_or_stay(cell, joints, passage.from->q, leg.from[static_cast<std::size_t>(own)]->q);
+  return way ? way : record.job.trajectory;
 }
 
 }  // namespace
@@ -52,10 +64,11 @@ CoordinatedMotion as_candidate(const Job& job) {
           .priority = job.terms.priority};
 }
 
-void add_passages(Question& question, const std::vector<Passage>& unknown, const JobBook& jobs) {
+void add_passages(Question& question, const std::vector<Passage>& unknown, const State& state) {
   for (const Passage& passage : unknown) {
+    const Record& record = state.jobs.at(passage.leg);
     question.passages.push_back({Motion{.job = passage.leg,
-                                        .trajectory = jobs.at(passage.leg).job.trajectory,
+                                        .trajectory = motion_of(passage, *state.cell, record),
                                         .progress = Duration{},
                                         .to_come = true},
                                  passage.place->arm, passage.place->q});

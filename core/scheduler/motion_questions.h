@@ -18,6 +18,6 @@ namespace armloom {
 // given.
 [[nodiscard]] Configuration rest_after_admitted(const State& state, const Job* job = nullptr);
 // Passages, to be asked besides.
-void add_passages(Question& question, const std::vector<Passage>& unknown, const JobBook& jobs);
+void add_passages(Question& question, const std::vector<Passage>& unknown, const State& state);
 
 }  // namespace armloom

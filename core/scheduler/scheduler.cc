@@ -138,11 +138,11 @@ void Scheduler::settle() {
   plan_other_ways(state_);
   weigh_again(state_);
   dispatch_ready(state_);
-  do {
-    fail_impossible_starts(state_);
-  } while (plan_goals(state_));
   bool put_off = true;
   while (put_off) {  // until a question is open, or nothing is left to be asked
+    do {
+      fail_impossible_starts(state_);
+    } while (plan_goals(state_));
     state_.lanes.renew(state_.jobs, state_.arms);
     state_.round = state_.policy->next_round(state_);
     const Turns turns = explain_waits(state_);

@@ -40,15 +40,18 @@ bool SafeSequence::follows(const Leg& leg) const {
 
 void SafeSequence::append(WaitingLeg waiting) {
   const JobId job = waiting.job;
-  const bool is_estimate = waiting.is_estimate;
-  const State past = is_estimate ? ends_ : State{};
+  const State past = ends_;
   add(std::move(waiting));
-  if (is_estimate) assume(*index_.at(job), past);
+  assume(*index_.at(job), past);
 }
 
+// What is still to be planned will pass these.
 void SafeSequence::assume(Leg& leg, const State& past) {
+  if (!leg.is_estimate && leg.approaches.empty()) return;
   for (const PlacePtr& place : past) {
-    if (std::ranges::find(leg.arms, place->arm) == leg.arms.end()) leg.free[place->id] = true;
+    if (std::ranges::find(leg.arms, place->arm) != leg.arms.end()) continue;
+    if (leg.is_estimate) leg.free[place->id] = true;
+    for (Approach& approach : leg.approaches) approach.free[place->id] = true;
   }
 }
 
@@ -59,10 +62,10 @@ void SafeSequence::add(WaitingLeg waiting) {
     if (leg.is_estimate) leg.from[i] = end;
     const bool near =
         leg.from[i] == end || (leg.from[i]->q - end->q).cwiseAbs().maxCoeff() <= tolerance_;
-    leg.begins_elsewhere = leg.begins_elsewhere || !near;
+    if (!near && leg.is_approached) leg.approaches.push_back({end});
+    leg.cut = leg.cut || (!near && !leg.is_approached);
     end = leg.to[i];
   }
-  leg.cut = leg.begins_elsewhere && !leg.is_approached;
   leg.placed = follows(leg);
   for (ArmId arm : leg.arms) unplaced_legs_[arm.index()] += leg.placed ? 0 : 1;
   Legs& legs = leg.placed ? sequence_ : unplaced_;
@@ -76,7 +79,7 @@ bool SafeSequence::remove(JobId job) {
   const auto known = index_.find(job);
   if (known == index_.end()) return true;
   const auto leg = known->second;
-  const bool stays = leg->from == leg->to && !leg->begins_elsewhere;
+  const bool stays = leg->from == leg->to && !leg->cut && leg->approaches.empty();
   if (!leg->placed) {
     for (ArmId arm : leg->arms) --unplaced_legs_[arm.index()];
   }
@@ -109,10 +112,10 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
   ends_ = stands_ = std::move(stands);
   asked_.clear();
   found_.clear();
-  std::unordered_map<JobId, State> past;  // of those that are not planned yet
+  std::unordered_map<JobId, State> past;  // of those of which something is still to be planned
   State in_turn = stands_;
   for (const WaitingLeg& leg : legs) {
-    if (leg.is_estimate) past.emplace(leg.job, in_turn);
+    if (leg.is_estimate || leg.is_approached) past.emplace(leg.job, in_turn);
     move(in_turn, leg);
   }
   // By the old order; a new one before the first old one that follows it.
@@ -149,7 +152,13 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
     const bool is_same = before != known.end() && before->second->arms == added.arms &&
                          before->second->motion == added.motion;
     if (is_same) added.free = std::move(before->second->free);
-    if (added.is_estimate) assume(added, past.at(leg->job));
+    for (Approach& approach : added.approaches) {
+      if (!is_same) break;
+      for (Approach& was : before->second->approaches)
+        if (was.from == approach.from) approach.free = std::move(was.free);
+    }
+    if (const auto others = past.find(leg->job); others != past.end())
+      assume(added, others->second);
     const bool too_early =
         std::ranges::any_of(leg->after, [&](JobId job) { return to_be_added.contains(job); });
     if (too_early && added.placed) take_out(added);
@@ -158,7 +167,7 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
 
 bool SafeSequence::follows_on(JobId job) const {
   const auto known = index_.find(job);
-  return known == index_.end() || !known->second->begins_elsewhere;
+  return known == index_.end() || (!known->second->cut && known->second->approaches.empty());
 }
 
 bool SafeSequence::goes_before(JobId first, JobId other) const {
@@ -173,16 +182,22 @@ bool SafeSequence::goes_before(JobId first, JobId other) const {
 void SafeSequence::learn(const Passage& passage, bool free) {
   const auto known = index_.find(passage.leg);
   if (known == index_.end() || known->second->motion != passage.motion) return;
-  bool& is_free = known->second->free.try_emplace(passage.place->id, !free).first->second;
+  Leg& leg = *known->second;
+  Free* of = passage.from == nullptr ? &leg.free : nullptr;
+  for (Approach& approach : leg.approaches)
+    if (approach.from == passage.from) of = &approach.free;
+  if (of == nullptr) return;
+  bool& is_free = of->try_emplace(passage.place->id, !free).first->second;
   if (is_free == free) return;
   is_free = free;
-  known->second->seen.clear();
+  leg.seen.clear();
   tried_ = false;
 }
 
 void SafeSequence::forget_passages() {
   for (auto& [job, leg] : index_) {
     leg->free.clear();
+    for (Approach& approach : leg->approaches) approach.free.clear();
     leg->seen.clear();
   }
   tried_ = false;
@@ -192,18 +207,21 @@ SafeSequence::Passes SafeSequence::passes(Leg& leg, const State& state,
                                           std::vector<Passage>* unknown) {
   if (std::ranges::equal(leg.seen, state, {}, {}, &Place::id)) return Passes::free;
   bool known = true;
+  const auto is_blocked = [&](const Free& free, const PlacePtr& place, const PlacePtr& from) {
+    const auto found = free.find(place->id);
+    if (found != free.end()) return !found->second;
+    known = false;
+    if (unknown != nullptr) unknown->push_back({leg.job, place, leg.motion, from});
+    return false;
+  };
   for (std::size_t arm = 0; arm < state.size(); ++arm) {
     const bool own = std::ranges::find(leg.arms, state[arm]->arm) != leg.arms.end();
     if (own || std::ranges::all_of(leg.arms, [&](ArmId a) { return apart_[a.index()][arm]; })) {
       continue;
     }
-    const auto found = leg.free.find(state[arm]->id);
-    if (found == leg.free.end()) {
-      known = false;
-      if (unknown != nullptr) unknown->push_back({leg.job, state[arm], leg.motion});
-    } else if (!found->second) {
-      return Passes::blocked;
-    }
+    if (is_blocked(leg.free, state[arm], nullptr)) return Passes::blocked;
+    for (const Approach& approach : leg.approaches)
+      if (is_blocked(approach.free, state[arm], approach.from)) return Passes::blocked;
   }
   if (!known) return Passes::unknown;
   leg.seen.clear();

@@ -26,7 +26,7 @@ struct WaitingLeg {
   // when the legs given before it are done: these it is taken to pass. Of other places an estimate
   // of its way is asked.
   bool is_estimate = false;
-  // Its arms are brought to where it begins, wherever they stand: that way is taken to be found.
+  // Its arms are brought to where it begins, wherever they stand, by ways that are estimates too.
   bool is_approached = false;
 };
 
@@ -35,6 +35,7 @@ struct Passage {
   JobId leg;
   PlacePtr place;
   std::uint64_t motion = 0;  // WaitingLeg::motion
+  PlacePtr from = nullptr;   // not null: its arm is brought from there to where the leg begins
 };
 
 // The banker's question (Dijkstra 1965) with places in the way instead of money: when all that is
@@ -98,12 +99,17 @@ class SafeSequence {
   [[nodiscard]] Outlook after(const std::vector<JobId>& group);
 
  private:
+  using Free = std::unordered_map<std::uint64_t, bool>;  // by Place::id
+  struct Approach {
+    PlacePtr from;
+    Free free = {};
+  };
   struct Leg : WaitingLeg {
-    std::unordered_map<std::uint64_t, bool> free = {};  // by Place::id
-    std::vector<std::uint64_t> seen = {};  // Place::id by arm: it passes where they stand so
-    bool placed = false;                   // in sequence_, else in unplaced_
-    bool cut = false;                      // it cannot begin where its lanes lead
-    bool begins_elsewhere = false;         // and is brought there, unless it is cut
+    Free free = {};
+    std::vector<Approach> approaches = {};  // of arms that are brought to where it begins
+    std::vector<std::uint64_t> seen = {};   // Place::id by arm: it passes where they stand so
+    bool placed = false;                    // in sequence_, else in unplaced_
+    bool cut = false;                       // does not begin where its lanes lead
   };
   using Legs = std::list<Leg>;
   using Order = std::vector<Leg*>;

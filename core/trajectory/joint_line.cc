@@ -59,6 +59,13 @@ Result<TrajectoryPtr> joint_line(const Cell& cell, const std::vector<JointId>& j
   return validate(request, cell);
 }
 
+TrajectoryPtr line_or_stay(const Cell& cell, const std::vector<JointId>& joints,
+                           const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  auto line = joint_line(cell, joints, from, to);
+  if (!line) line = joint_line(cell, joints, to, to);
+  return line ? *line : nullptr;
+}
+
 TrajectoryPtr retraced(const Trajectory& trajectory) {
   std::vector<Segment> segments(trajectory.segments().rbegin(), trajectory.segments().rend());
   for (Segment& segment : segments) {

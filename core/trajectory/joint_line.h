@@ -26,6 +26,9 @@ inline constexpr Duration kLineMin = std::chrono::milliseconds(10);
 [[nodiscard]] Result<TrajectoryPtr> joint_line(const Cell& cell, const std::vector<JointId>& joints,
                                                const Eigen::VectorXd& from,
                                                const Eigen::VectorXd& to);
+// The same; where it sets out outside the limits, staying at `to`. Null: that is outside, too.
+[[nodiscard]] TrajectoryPtr line_or_stay(const Cell& cell, const std::vector<JointId>& joints,
+                                         const Eigen::VectorXd& from, const Eigen::VectorXd& to);
 
 // The same path backwards with the same times: at t it is where `trajectory` is at duration - t,
 // with the velocity negated and the acceleration kept. So it keeps every limit that `trajectory`

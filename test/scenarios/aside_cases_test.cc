@@ -124,10 +124,11 @@ TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
   EXPECT_EQ(waits.state, JobState::backlogged);
   EXPECT_FALSE(cell->simulation->executive().job("aside-1"));
   ASSERT_FALSE(waits.waits_on.empty());
-  EXPECT_EQ(waits.waits_on[0].detail,
-            "arm x has no job: no free way aside was found (back along its last motion, home, or to "
-            "a named pose of its group); a job that moves it away would open this one, or "
-            "\"on_idle_blocker\": \"replan\", by which ways aside are planned");
+  EXPECT_EQ(
+      waits.waits_on[0].detail,
+      "arm x has no job: no free way aside was found (back along its last motion, home, or to "
+      "a named pose of its group); a job that moves it away would open this one, or "
+      "\"on_idle_blocker\": \"replan\", by which ways aside are planned");
   cell->run_to_the_end(at(600s));
   const JobView expired = cell->job("passes");
   EXPECT_EQ(expired.reason(), Reason::backlog_timeout);

@@ -81,10 +81,12 @@ std::vector<TimedJob> with_goals(std::vector<TimedJob> jobs) {
   return jobs;
 }
 
-// Of 300 loads those that were not done once: a way that takes more than the usual effort to be
-// certified was taken to be blocked; an arm that stood at a goal, for a proof that there is no way.
+// Of 300 loads also those that were not done once: a way that takes more than the usual effort to
+// be certified was taken to be blocked; an arm that stood at a goal, for a proof that there is no
+// way; ways to where a job begins were taken to be free; a plan that was given up was not made
+// anew.
 std::vector<std::uint64_t> goal_loads() {
-  std::vector<std::uint64_t> seeds{20, 248};
+  std::vector<std::uint64_t> seeds{20, 86, 143, 227, 248, 267};
   for (std::uint64_t seed = 1; seed <= seed_count(kLoads); ++seed) seeds.push_back(seed);
   return seeds;
 }

@@ -107,5 +107,23 @@ TEST_P(BesideAMovedArm, AGoalIsPlannedPastEachThatComesHoweverManyDo) {
       << cell.job("a comes back").detail();
 }
 
+// A goal begins wherever its arm stands: nobody goes back for it onto the other one's goal.
+TEST_P(BesideAMovedArm, ASwapOfGoalsTakesOneMoveAside) {
+  TwoGantries cell(gantries(OnIdleBlocker::park), GetParam());
+  cell.submit(to_place("a", {-0.3, 0.0}, "a comes"));
+  cell.submit(to_place("b", {0.4, 0.6}, "b comes"));
+  cell.run_to_the_end(at(100s));
+  cell.submit(to_place("a", {0.4, 0.6}, "a"));
+  cell.submit(to_place("b", {-0.3, 0.0}, "b"));
+  cell.run_to_the_end(at(200s));
+  for (const char* key : {"a", "b"}) {
+    EXPECT_EQ(cell.job(key).state, JobState::succeeded) << cell.job(key).detail();
+  }
+  cell.expect_at("a", {0.4, 0.6});
+  cell.expect_at("b", {-0.3, 0.0});
+  EXPECT_TRUE(cell.executive().job("aside-1"));
+  EXPECT_FALSE(cell.executive().job("aside-2"));
+}
+
 }  // namespace
 }  // namespace armloom

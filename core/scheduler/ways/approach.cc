@@ -12,19 +12,13 @@
 namespace armloom {
 namespace {
 
-// How long it may take: the straight line at that speed is the planner's to make.
-TrajectoryPtr estimate(const State& state, ArmId id, const Eigen::VectorXd& to) {
-  const auto& joints = state.cell->arm(id).joints;
-  auto line = joint_line(*state.cell, joints, joints_of(state.arms.rest(), joints), to);
-  if (!line) line = joint_line(*state.cell, joints, to, to);  // it stands outside its limits
-  return line ? *line : nullptr;
-}
-
 bool send_to_start(State& state, Record& head, ArmId arm) {
   Configuration at = state.arms.rest();
   set_joints(at, *head.job.trajectory, head.job.trajectory->start());
-  const Eigen::VectorXd to = joints_of(at, state.cell->arm(arm).joints);
-  TrajectoryPtr way = estimate(state, arm, to);
+  const auto& joints = state.cell->arm(arm).joints;
+  const Eigen::VectorXd to = joints_of(at, joints);
+  // How long it may take: the straight line at that speed is the planner's to make.
+  TrajectoryPtr way = line_or_stay(*state.cell, joints, joints_of(state.arms.rest(), joints), to);
   if (!way) return false;
   const double speed = std::min(kApproachSpeed, state.cell->execution.velocity_scaling_factor);
   Record record =
