@@ -119,11 +119,7 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
     put_off = true;
   }
   if (goes_around_idle_arm(state)) return true;
-  if (auto idle = next_yield(state)) {
-    ask_yield(state, std::move(*idle));
-  } else {
-    tell_of_no_way_aside(state);
-  }
+  if (auto idle = next_yield(state)) ask_yield(state, std::move(*idle));
   return put_off;
 }
 

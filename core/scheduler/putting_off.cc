@@ -9,7 +9,6 @@
 #include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
 #include "core/scheduler/ways/detour.h"
-#include "core/scheduler/yielding/yield_moves.h"
 
 namespace armloom {
 namespace {
@@ -41,6 +40,13 @@ std::optional<std::vector<Wait>> waits_for(State& state, Record& record, const V
     if (verdict.kind == Verdict::Kind::undecided) waits.back().detail = kUndecided;
   }
   return waits;
+}
+
+// As it was found before; what is otherwise by now is seen when ways aside are tried.
+bool has_no_way_aside(const Job& job, const Wait& wait) {
+  return std::ranges::any_of(job.waits_on, [&](const Wait& was) {
+    return was.has_no_way_aside && was.arm == wait.arm && was.kind == wait.kind;
+  });
 }
 
 Judgement& judgement_of(Record& record) {
@@ -78,7 +84,7 @@ void note_found(Record& record, std::vector<Wait> waits) {
 void put_off(State& state, Record& record, std::vector<Wait> waits) {
   record.asking.effort = 1;
   if (gives_detour_up(state, record)) return;
-  for (Wait& wait : waits) wait.has_no_way_aside = has_no_way_aside(state, record, wait);
+  for (Wait& wait : waits) wait.has_no_way_aside = has_no_way_aside(record.job, wait);
   state.jobs.set_waits(record, waits);
   judgement_of(record) = {state.version, std::move(waits)};
   if (!is_at_head(state.jobs, record)) return;  // it has had no turn yet

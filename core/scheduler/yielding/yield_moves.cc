@@ -82,39 +82,33 @@ const std::vector<Wait>& waits_of(const Job& job) {
   return job.is_waiting() ? job.judgement().found : job.waits_on;
 }
 
+void tell_of_way_aside(State& state, Record& record, ArmId arm, bool has_none) {
+  auto* queued = std::get_if<Queued>(&record.job.phase);
+  if (queued == nullptr || !queued->in_backlog) return;
+  for (Wait& wait : queued->judgement.found)
+    if (wait.kind == Wait::Kind::arm && wait.arm == arm) wait.has_no_way_aside = has_none;
+  state.jobs.set_waits(record, queued->judgement.found);
+}
+
 }  // namespace
 
-std::optional<YieldTrial> next_yield(const State& state) {
+std::optional<YieldTrial> next_yield(State& state) {
+  if (state.cell->scheduling.on_idle_blocker == OnIdleBlocker::report) return std::nullopt;
   for (JobId id : state.jobs.past_queue()) {
-    const Record& record = state.jobs.at(id);
+    Record& record = state.jobs.at(id);
     const Job& job = record.job;
     const bool put_off = job.is_waiting() && state.is_judged(job);
     if (!put_off && !job.pausing()) continue;
     if (job.is_replanned_now()) continue;  // perhaps it passes
     for (const Wait& wait : waits_of(job)) {
       if (!is_idle_arm(state, wait)) continue;
-      if (auto move = untried(state, record, *wait.arm)) return move;
+      auto move = untried(state, record, *wait.arm);
+      const bool has_none = !move && !state.arms.is_stopped(*wait.arm);
+      if (has_none != wait.has_no_way_aside) tell_of_way_aside(state, record, *wait.arm, has_none);
+      if (move) return move;
     }
   }
   return std::nullopt;
-}
-
-bool has_no_way_aside(const State& state, const Record& record, const Wait& wait) {
-  return state.cell->scheduling.on_idle_blocker != OnIdleBlocker::report &&
-         is_idle_arm(state, wait) && !state.arms.is_stopped(*wait.arm) &&
-         !untried(state, record, *wait.arm);
-}
-
-void tell_of_no_way_aside(State& state) {
-  const std::vector<JobId> ids(state.jobs.past_queue().begin(), state.jobs.past_queue().end());
-  for (JobId id : ids) {
-    Record& record = state.jobs.at(id);
-    auto* queued = std::get_if<Queued>(&record.job.phase);
-    if (queued == nullptr || !state.is_judged(record.job)) continue;
-    for (Wait& wait : queued->judgement.found)
-      wait.has_no_way_aside = has_no_way_aside(state, record, wait);
-    if (queued->in_backlog) state.jobs.set_waits(record, queued->judgement.found);
-  }
 }
 
 std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring) {

@@ -19,12 +19,9 @@ struct YieldTrial {
   std::size_t index = 0;             // of the ways from where the arm rests
 };
 
-// For the first job that waits for an arm which no job will move.
-[[nodiscard]] std::optional<YieldTrial> next_yield(const State& state);
-// Whether this wait is for such an arm, and nothing is left to be tried.
-[[nodiscard]] bool has_no_way_aside(const State& state, const Record& record, const Wait& wait);
-// What waits so is told. Precondition: there is no next_yield().
-void tell_of_no_way_aside(State& state);
+// For the first job that waits for an arm which no job will move. Those before it for which nothing
+// is left to be tried are told so.
+[[nodiscard]] std::optional<YieldTrial> next_yield(State& state);
 // Of an arm of the ring. Each job of a ring waits for the next one, mostly for the arm that only
 // that will move: could it move before its job? The one whose job would have to give way otherwise
 // is tried first. Not where a move aside is in the ring that can give way itself.
