@@ -40,7 +40,7 @@ bool SafeSequence::follows(const Leg& leg) const {
 
 void SafeSequence::append(WaitingLeg waiting) {
   const JobId job = waiting.job;
-  const State past = ends_;
+  const State past = waiting.is_estimate || waiting.is_approached ? ends_ : State{};
   add(std::move(waiting));
   assume(*index_.at(job), past);
 }
