@@ -10,16 +10,20 @@ namespace {
 // around what others hold.
 bool is_way_open(const Job& job) { return job.goal && job.in<Queued>() != nullptr; }
 
+WaitingLeg waiting_leg(const Record& record) {
+  WaitingLeg leg = record.leg;
+  leg.after = record.job.terms.after;
+  leg.is_estimate = is_way_open(record.job);
+  leg.is_approached = record.job.terms.approaches;
+  return leg;
+}
+
 }  // namespace
 
 void Lanes::add(const Record& record) {
   if (record.errand.before) is_stale_ = true;
   if (is_stale_ || !record.job.knows_its_end()) return;
-  WaitingLeg leg = record.leg;
-  leg.after = record.job.terms.after;
-  leg.is_estimate = is_way_open(record.job);
-  leg.is_approached = record.job.terms.approaches;
-  sequence_.append(std::move(leg));
+  sequence_.append(waiting_leg(record));
 }
 
 void Lanes::follow(const Job& job, const JobPhase& before) {
@@ -52,10 +56,7 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
   std::vector<WaitingLeg> legs;
   for (JobId id : in_turn(book, waiting)) {
     const Record& record = book.at(id);
-    WaitingLeg& leg = legs.emplace_back(record.leg);
-    leg.after = record.job.terms.after;
-    leg.is_estimate = is_way_open(record.job);
-    leg.is_approached = record.job.terms.approaches;
+    WaitingLeg& leg = legs.emplace_back(waiting_leg(record));
     if (record.errand.lets_pass && book.is_active(*record.errand.lets_pass)) {
       leg.after.push_back(*record.errand.lets_pass);
     }

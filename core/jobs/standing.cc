@@ -31,4 +31,8 @@ bool stands(const State& state, const Record& record) {
   return record.job.is_waiting() || behind || held_where_it_stands(state, record).has_value();
 }
 
+bool is_idle_arm(const State& state, const Wait& wait) {
+  return wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queues()[*wait.arm].empty();
+}
+
 }  // namespace armloom

@@ -16,4 +16,7 @@ inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 // It moves only after others have moved.
 [[nodiscard]] bool stands(const State& state, const Record& record);
 
+// It waits for an arm that no job will move.
+[[nodiscard]] bool is_idle_arm(const State& state, const Wait& wait);
+
 }  // namespace armloom

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/jobs/phases.h"
+#include "core/jobs/standing.h"
 #include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/ways/replanning.h"
 
@@ -46,8 +47,7 @@ void see_whether_in_vain(const State& state, Record& record) {
   if (held && !state.is_judged(record.job)) return;  // not known yet
   const FoundWaits waits = found_in_the_way(state, record);
   const bool in_vain = std::ranges::any_of(waits.all(), [&](const Wait& wait) {
-    return wait.kind == Wait::Kind::object ||
-           (wait.kind == Wait::Kind::arm && state.jobs.queues()[*wait.arm].empty());
+    return wait.kind == Wait::Kind::object || is_idle_arm(state, wait);
   });
   if (!in_vain) pause->in_vain_since.reset();
   if (in_vain && !pause->in_vain_since) pause->in_vain_since = state.now;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/jobs/phases.h"
+#include "core/jobs/standing.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/trajectory/set_joints.h"
 
@@ -89,10 +90,6 @@ void expire(State& state, Record& record, const std::string& why) {
   give_up(state, record,
           {AfterStop::Then::fail, Reason::backlog_timeout,
            std::string("waited ") + waited + where + "; no other way: " + why});
-}
-
-bool is_idle_arm(const State& state, const Wait& wait) {
-  return wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queues()[*wait.arm].empty();
 }
 
 // As it was found when it was judged last, or where it stands.

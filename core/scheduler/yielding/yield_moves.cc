@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/jobs/standing.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/yielding/ways_aside.h"
 #include "core/trajectory/set_joints.h"
@@ -72,10 +73,6 @@ std::optional<YieldTrial> untried(const State& state, const Record& record, ArmI
   if (!is_planned) return trial;
   const bool goes = trial.way && trial.index == ways.size() && !has_been_there(of_all, *trial.way);
   return goes ? std::optional(trial) : std::nullopt;
-}
-
-bool is_idle_arm(const State& state, const Wait& wait) {
-  return wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queues()[*wait.arm].empty();
 }
 
 const std::vector<Wait>& waits_of(const Job& job) {
