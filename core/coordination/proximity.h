@@ -20,6 +20,8 @@ struct Proximity {
   bool held_a = false;         // body_a is an object that arm_a holds
   bool held_b = false;         // body_b is an object that arm_b holds
   double limit_m = 0.0;        // what they should have kept, where they were asked for that
+
+  bool operator==(const Proximity&) const = default;
 };
 
 // The same evidence as the second body sees it.

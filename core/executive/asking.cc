@@ -162,7 +162,9 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
   Trial::Outcome outcome = trial->outcome();
   for (Wait& wait : outcome.waits) {
     const bool is_known = wait.job && scheduler_.find(*wait.job) != nullptr;
-    if (wait.job && !is_known) wait.job.reset();  // its arm's own way back, or forgotten meanwhile
+    if (!wait.job || is_known) continue;
+    wait.job.reset();
+    wait.detail = "a motion of the server's own, which would go first";
   }
   CheckView view = view_of(outcome, *cell_, jobs_);
   view.scene_version = scene_.version();

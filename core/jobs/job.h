@@ -42,6 +42,7 @@ struct Wait {
   std::string detail = {};             // stop: its cause
   bool has_no_way_aside = false;       // arm: none of those that it could go is left to be tried
 
+  bool operator==(const Wait&) const = default;
   // Same obstacle, whatever the figures: used to spare clients a repeated event.
   [[nodiscard]] bool same_cause(const Wait& other) const {
     return kind == other.kind && job == other.job && arm == other.arm && detail == other.detail &&

@@ -174,6 +174,7 @@ std::vector<JobId> JobBook::end(Record& record, Ended how) {
 
 void JobBook::set_waits(Record& record, std::span<const Wait> waits) {
   auto& old = record.job.waits_on;
+  if (std::ranges::equal(old, waits)) return;
   const bool same =
       std::ranges::equal(old, waits, [](const Wait& a, const Wait& b) { return a.same_cause(b); });
   old.assign(waits.begin(), waits.end());

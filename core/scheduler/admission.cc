@@ -34,11 +34,9 @@ std::optional<JobId> next_recheck(const State& state) {
   return std::nullopt;
 }
 
-// For some of what waits there may be no order one by one if it goes: then it waits in turn.
-bool waits_for_sequence(State& state, JobId job) {
-  const auto outlook = state.lanes.after({job}, state.jobs, state.arms);
-  if (outlook.first) wait_in_turn(state, state.jobs.at(job), *outlook.first);
-  return outlook.first.has_value();
+// Of what waits, if these go.
+SafeSequence::Outlook outlook_with(State& state, const std::vector<JobId>& jobs) {
+  return state.lanes.after(jobs, state.jobs, state.arms);
 }
 
 // It was stopped on its way; its orders stand, if nothing has come to rest there meanwhile.
@@ -90,7 +88,7 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   if (open_) return false;
   bool put_off = false;
   if (const auto recheck = next_recheck(state)) {
-    ask(state, {*recheck}, Purpose::recheck);
+    ask_recheck(state, *recheck);
     return put_off;
   }
   if (const auto job = next_in_question(state)) {
@@ -111,11 +109,14 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
       continue;
     }
     const bool is_choice = choosing_.begin(state, *turn);
-    if (!waits_for_sequence(state, choosing_.job())) {
-      ask(state, {choosing_.job()}, is_choice ? Purpose::option : Purpose::start);
+    const JobId job = choosing_.job();
+    auto outlook = outlook_with(state, {job});
+    if (!outlook.first) {
+      ask(state, {job}, std::move(outlook), is_choice ? Purpose::option : Purpose::start);
       open_->is_only_option = !is_choice;
       return put_off;
     }
+    wait_in_turn(state, state.jobs.at(job), *outlook.first);
     put_off = true;
   }
   if (goes_around_idle_arm(state)) return true;
@@ -123,16 +124,18 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   return put_off;
 }
 
-void Admission::ask(State& state, std::vector<JobId> jobs, Purpose purpose) {
+void Admission::ask_recheck(State& state, JobId job) {
+  open_ = OpenQuestion{state.version, {job}, Purpose::recheck};
+  state.decided.effects.push_back(Judge{question_now(state, {job})});
+}
+
+void Admission::ask(State& state, std::vector<JobId> jobs, SafeSequence::Outlook outlook,
+                    Purpose purpose) {
   Question question = question_now(state, jobs);
-  std::vector<Passage> unknown;
-  if (purpose == Purpose::start || purpose == Purpose::option) {
-    question.effort = state.jobs.at(jobs.front()).asking.effort;
-    auto outlook = state.lanes.after(jobs, state.jobs, state.arms);
-    unknown = std::move(outlook.unknown);
-    std::ranges::move(outlook.ahead, std::back_inserter(unknown));
-    add_passages(question, unknown, state);
-  }
+  question.effort = state.jobs.at(jobs.front()).asking.effort;
+  std::vector<Passage> unknown = std::move(outlook.unknown);
+  std::ranges::move(outlook.ahead, std::back_inserter(unknown));
+  add_passages(question, unknown, state);
   open_ = OpenQuestion{state.version, std::move(jobs), purpose, {}, std::move(unknown)};
   state.decided.effects.push_back(Judge{std::move(question)});
 }
@@ -200,7 +203,8 @@ void Admission::answer_yield(State& state, const Verdict& verdict, YieldTrial mo
 void Admission::answer_option(State& state, Verdict verdict) {
   if (!choosing_.stands(state)) return;
   if (choosing_.rate(state, std::move(verdict))) {
-    return ask(state, {choosing_.job()}, Purpose::option);
+    const std::vector<JobId> next{choosing_.job()};
+    return ask(state, next, outlook_with(state, next), Purpose::option);
   }
   const auto best = choosing_.decide(state);
   if (best) return answer_start(state, *best, {choosing_.job()});
@@ -249,16 +253,16 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   }
   if (jobs.size() == 1 || !waits.empty()) note_found(first, std::move(waits));
   std::vector<JobId> group = with_next_jobs(state, jobs, orders.in_the_way);
-  if (group.size() > jobs.size()) return ask(state, std::move(group), Purpose::start);
+  if (group.size() > jobs.size()) return ask(state, group, outlook_with(state, group));
   put_off(state, first, first.job.judgement().found);
 }
 
 // Whether the jobs go; else they wait, or what has to be known is asked.
 bool Admission::leaves_a_sequence(State& state, const std::vector<JobId>& jobs) {
-  const auto outlook = state.lanes.after(jobs, state.jobs, state.arms);
+  auto outlook = outlook_with(state, jobs);
   Record& first = state.jobs.at(jobs.front());
   if (!outlook.unknown.empty()) {
-    ask(state, jobs, Purpose::start);
+    ask(state, jobs, std::move(outlook));
   } else if (outlook.first && jobs.size() > 1) {
     put_off(state, first, first.job.judgement().found);  // not so
   } else if (outlook.first) {
@@ -276,20 +280,21 @@ bool Admission::tries_together(State& state, const std::vector<JobId>& jobs, boo
   const bool tried = together_ && together_->version == state.version;
   if (!can_go) {
     if (!tried || together_->alone.empty()) return false;
-    ask(state, std::exchange(together_->alone, {}), Purpose::start);
+    const std::vector<JobId> alone = std::exchange(together_->alone, {});
+    ask(state, alone, outlook_with(state, alone));
     return true;
   }
   if (tried) return false;
-  const auto outlook = state.lanes.after(jobs, state.jobs, state.arms);
+  auto outlook = outlook_with(state, jobs);
   if (!outlook.ahead.empty()) {  // others have come meanwhile
-    ask(state, jobs, Purpose::start);
+    ask(state, jobs, std::move(outlook));
     return true;
   }
   if (outlook.all) return false;
-  std::vector<JobId> all = with_all_that_wait(state, jobs);
+  const std::vector<JobId> all = with_all_that_wait(state, jobs);
   if (all.size() == jobs.size() || all.size() > kTogetherMax) return false;
   together_ = Together{state.version, jobs};
-  ask(state, std::move(all), Purpose::start);
+  ask(state, all, outlook_with(state, all));
   return true;
 }
 

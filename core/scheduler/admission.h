@@ -45,7 +45,9 @@ class Admission {
     std::vector<JobId> alone;
   };
 
-  void ask(State& state, std::vector<JobId> jobs, Purpose purpose);
+  void ask(State& state, std::vector<JobId> jobs, SafeSequence::Outlook outlook,
+           Purpose purpose = Purpose::start);
+  void ask_recheck(State& state, JobId job);
   void ask_about_itself(State& state, JobId job);
   void ask_yield(State& state, YieldTrial move);
   void answer_yield(State& state, const Verdict& verdict, YieldTrial move, WaitCycles& cycles);

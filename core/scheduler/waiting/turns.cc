@@ -50,7 +50,9 @@ std::optional<JobId> first_that_waits(const State& state, const std::deque<JobId
 // Whose waits may be others than they were told. Ascending.
 std::vector<JobId> to_explain(State& state) {
   const std::set<JobId> unexplained = std::exchange(state.jobs.news().unexplained, {});
-  std::vector<JobId> jobs(unexplained.begin(), unexplained.end());
+  std::vector<JobId> jobs;
+  jobs.reserve(unexplained.size() + 2 * state.cell->arms.size() + kUndecidedMax);
+  jobs.assign(unexplained.begin(), unexplained.end());
   for (const auto& queue : state.jobs.queues()) {
     if (!queue.empty()) jobs.push_back(queue.front());
     if (const auto first = first_that_waits(state, queue)) jobs.push_back(*first);
