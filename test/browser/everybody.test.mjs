@@ -103,6 +103,8 @@ test('a job is planned, sent, looked at and cancelled by keys alone', { timeout:
 });
 
 test('what has the focus is never under a bar that sticks', { timeout: 60_000 }, async () => {
+  // Slowly, so that what is reported is in sight for long: the next test looks at it.
+  await ask(page, 'PUT', '/sim/speed', { speed: 0.1 });
   await ask(page, 'POST', '/stop');
   for (let i = 0; i < 12; i++) await send(i % 2 === 0 ? 'left' : 'right', `waits-${i}`, [null], 1);
   await page.locator('[data-test="job-waits-11"]').waitFor();
@@ -170,6 +172,7 @@ test('what is reported is marked on the timeline, and looked back at from its li
   await page.screenshot(path_for('event-marks-dark'));
   await page.locator('[data-test=follow-now]').click();
   await page.locator('[data-test=instant]').waitFor({ state: 'detached' });
+  await ask(page, 'PUT', '/sim/speed', { speed: 10 });
 });
 
 test('on a tablet all is done by finger', { timeout: 120_000 }, async () => {
