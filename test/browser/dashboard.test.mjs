@@ -79,6 +79,7 @@ test('the example moves an idle arm and brings it back', { timeout: 60_000 }, as
 });
 
 test('details of a running job show how far it is', { timeout: 60_000 }, async () => {
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 0.25 });  // a busy machine is given the time to look
   await open_form();
   await page.locator('[data-test=example-right]').click();
   await page.locator('[data-test=send]').click();
@@ -89,7 +90,9 @@ test('details of a running job show how far it is', { timeout: 60_000 }, async (
     return state === 'running' && progress > 0;
   });
   await page.screenshot(path_for('details'));
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 10 });
   await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 1 });
   await page.getByRole('button', { name: 'Close', exact: true }).click();
 });
 
@@ -194,9 +197,12 @@ test('stop holds the cell and resume frees it', { timeout: 30_000 }, async () =>
   await page.locator('[data-test=stopped]').waitFor({ state: 'detached' });
 });
 
-test('a banner says that the server is gone', { timeout: 30_000 }, async () => {
+test('a banner says that the server is gone, and how old is what is seen', { timeout: 30_000 }, async () => {
   await server.end();
-  await page.locator('[data-test=lost]').waitFor();
+  const lost = page.locator('[data-test=lost]');
+  await lost.waitFor();
+  await lost.locator('[data-test=age]', { hasText: /^[\d.]+ s$/ }).waitFor();
+  assert.match(await lost.innerText(), /Connection lost.*last known state, [\d.]+ s old; arms may still be moving/s);
   await page.screenshot(path_for('lost'));
 });
 

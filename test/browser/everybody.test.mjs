@@ -103,6 +103,8 @@ test('a job is planned, sent, looked at and cancelled by keys alone', { timeout:
 });
 
 test('what has the focus is never under a bar that sticks', { timeout: 60_000 }, async () => {
+  // Slowly, so that what is reported is in sight for long: the next test looks at it.
+  await ask(page, 'PUT', '/sim/speed', { speed: 0.1 });
   await ask(page, 'POST', '/stop');
   for (let i = 0; i < 12; i++) await send(i % 2 === 0 ? 'left' : 'right', `waits-${i}`, [null], 1);
   await page.locator('[data-test="job-waits-11"]').waitFor();
@@ -130,6 +132,38 @@ test('what is reported is marked on the timeline, and looked back at from its li
   const strip = await page.locator('.timeline canvas').screenshot();
   const found = await Promise.all([[0xff, 0x70, 0x78], [0xf0, 0xb5, 0x41]].map((rgb) => pixels_like(desk.context, strip, rgb, 12)));
   assert.ok(Math.max(...found) > kLeastEvent_px, `${found} pixels of marks`);
+  // By keys: told, put away, and looked back at.
+  const [tip, canvas] = [page.locator('.timeline .tip'), page.locator('[data-test=lanes]')];
+  const kTold = /^Warning at 0:\d\d:\d\d\.\d, [\d.]+ s ago: stopped: left, right \(operator\)/;
+  const to_the_stop = async () => {
+    await canvas.focus();
+    for (let i = 0; i < 5; i++) {
+      await page.keyboard.press('PageUp');
+      if (kTold.test(await tip.innerText())) return;
+    }
+    assert.fail(await tip.innerText());
+  };
+  const follow_now = async () => {
+    await page.locator('[data-test=instant]').waitFor();
+    await page.locator('[data-test=follow-now]').click();
+    await page.locator('[data-test=instant]').waitFor({ state: 'detached' });
+  };
+  await to_the_stop();
+  assert.match(await page.locator('.timeline [role=status]').textContent(), kTold);
+  await page.screenshot(path_for('event-tip-dark'));
+  await page.keyboard.press('Enter');
+  await follow_now();
+  await to_the_stop();
+  const [told, lanes] = [await tip.boundingBox(), await canvas.boundingBox()];
+  await page.keyboard.press('Escape');
+  await tip.waitFor({ state: 'detached' });
+  // By pointer: what is under it is told, and a click looks back at it.
+  const notch = { x: told.x + told.width / 2, y: lanes.y + lanes.height - 22 };
+  await page.mouse.move(notch.x, notch.y - 30);
+  await page.mouse.move(notch.x, notch.y);
+  assert.match(await tip.innerText(), kTold);
+  await page.mouse.click(notch.x, notch.y);
+  await follow_now();
   await page.locator('.notices [data-test^=then-]').first().click();
   await page.locator('[data-test=instant]').waitFor();
   assert.match(page.url(), /[?&]t=\d/);
@@ -138,6 +172,7 @@ test('what is reported is marked on the timeline, and looked back at from its li
   await page.screenshot(path_for('event-marks-dark'));
   await page.locator('[data-test=follow-now]').click();
   await page.locator('[data-test=instant]').waitFor({ state: 'detached' });
+  await ask(page, 'PUT', '/sim/speed', { speed: 10 });
 });
 
 test('on a tablet all is done by finger', { timeout: 120_000 }, async () => {

@@ -6,12 +6,13 @@
 //   ARMLOOM_SCREENSHOT_DIR  where pictures of the page go; none are kept without it
 
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
+import { execFile, spawn } from 'node:child_process';
 import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { promisify } from 'node:util';
 
 export const kRoot = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 export const web_require = createRequire(join(kRoot, 'web/package.json'));
@@ -56,6 +57,10 @@ export class Server {
       });
     });
   }
+
+  /** It keeps its connections and says nothing, as one that hangs; until it is thawed. */
+  freeze() { this.process_.kill('SIGSTOP'); }
+  thaw() { this.process_.kill('SIGCONT'); }
 
   async end() {
     const server = this.process_;
@@ -113,6 +118,29 @@ export function ask(page, method, path, body) {
     const text = await answer.text();
     return { status: answer.status, value: text === '' ? null : JSON.parse(text) };
   }, [method, path, body]);
+}
+
+/** Files from a desktop, dropped on the middle of what a selector names. */
+export async function drop_files(page, files, selector) {
+  const { x, y, width, height } = await page.locator(selector).boundingBox();
+  const session = await page.context().newCDPSession(page);
+  const at = { x: x + width / 2, y: y + height / 2, data: { items: [], files, dragOperationsMask: 1 } };
+  for (const type of ['dragEnter', 'dragOver', 'drop']) await session.send('Input.dispatchDragEvent', { type, ...at });
+  await session.detach();
+}
+
+/** What a button puts on the clipboard. */
+export async function copied_by(page, button) {
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+  await button.click();
+  await button.getByText(': copied').waitFor();
+  return page.evaluate(() => navigator.clipboard.readText());
+}
+
+/** What a command answers, in this environment and no other one. */
+export async function run(program, words, env = {}) {
+  const { stdout } = await promisify(execFile)(program, words, { env: { PATH: process.env.PATH, ...env } });
+  return stdout;
 }
 
 /** A job through these configurations, `seconds` from each to the next, at rest at each. */

@@ -8,7 +8,7 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { Browser, kBinary, path_for, Server } from './harness.mjs';
+import { arm_now, Browser, copied_by, job_through, kBinary, path_for, run, Server } from './harness.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'armloom-login-'));
 const tokens = join(folder, 'tokens');
@@ -51,6 +51,19 @@ test('who acknowledges is known by the token', { timeout: 60_000 }, async () => 
   await page.locator('[data-test=open-alerts]').click();
   await page.locator('[data-test=acknowledge-all]').click();
   await page.locator('[data-test=alerts]', { hasText: 'Acknowledged by ada' }).waitFor();
+});
+
+test('copies take the token from the environment, and none without it', { timeout: 60_000 }, async () => {
+  const { names, q } = await arm_now(page, 'left');
+  await page.evaluate(() => { location.hash = '#/new'; });
+  await page.locator('[data-test=job-text]').fill(JSON.stringify(job_through('copied', names, [q, q], 1)));
+  const curl = await copied_by(page, page.locator('.pane [data-test=copy-curl]'));
+  assert.ok(!curl.includes(token));
+  assert.match(await run('bash', ['-c', curl]), /"status": ?401/);
+  assert.match(await run('bash', ['-c', curl], { ARMLOOM_TOKEN: token }), /"id": ?"copied"/);
+  await page.evaluate(() => { location.hash = '#/job/copied'; });
+  const python = await copied_by(page, page.locator('.pane [data-test=copy-Python]'));
+  assert.match(await run('python3', ['-c', python], { ARMLOOM_TOKEN: token }), /^(queued|backlogged|scheduled|running|succeeded) /);
 });
 
 test('logging out leads to the login page, and back only with a token', { timeout: 60_000 }, async () => {

@@ -1,67 +1,79 @@
 // How quick the dashboard is: pictures a second of the 3D view, tasks of the page that took long, how long
-// clicks take, and whether its memory grows, with two arms under the demo load. For an idle machine; a
-// test it is not.
+// clicks take and how the timeline follows the hand, and whether its memory grows, with two arms under the
+// demo load. For an idle machine; a test it is not.
 //
-//   node test/browser/measure.mjs [--seconds N] [--jobs N] [--minutes N]
+//   node test/browser/measure.mjs [--seconds N] [--jobs N] [--busy N] [--minutes N]
 //
-//   --seconds N   how long pictures are counted, default 30
-//   --jobs N      so many cancelled jobs are in the history, default 0
-//   --minutes N   then so long its memory is watched, default 0
+//   --seconds N   how long pictures are counted, default 30; 0: neither these nor clicks nor the timeline
+//   --jobs N      so many jobs have been done before, default 0
+//   --busy N      so many programs that never rest run beside, default 0
+//   --minutes N   then so long its memory is watched, in a small window, default 0
 
 import { spawn } from 'node:child_process';
 import { parseArgs } from 'node:util';
-import { Browser, job_through, kRoot, Server } from './harness.mjs';
+import { arm_now, Browser, job_through, kRoot, Server } from './harness.mjs';
 
 const kLooks = 6;
 const kClicks = 12;
-const kBatch = 200;
+const kBatch = 200;  // a multiple of four: each arm ends where it began
+const kHaste = 20;
+const kSwing_rad = 0.2;
+const kDragged_px = 400;
+const kSteps = 40;
+const kZooms = 12;
+const kSmall = { width: 800, height: 600 };
 const kLong_ms = 100;
 const kEachMinute_ms = 60_000;
 
-const { values } = parseArgs({ options: { seconds: { type: 'string' }, jobs: { type: 'string' }, minutes: { type: 'string' } } });
-const [seconds, jobs, minutes] = [Number(values.seconds ?? 30), Number(values.jobs ?? 0), Number(values.minutes ?? 0)];
+const kOptions = { seconds: 30, jobs: 0, busy: 0, minutes: 0 };
+const { values } = parseArgs({ options: Object.fromEntries(Object.keys(kOptions).map((name) => [name, { type: 'string' }])) });
+const { seconds, jobs, busy, minutes } = Object.fromEntries(Object.entries(kOptions).map(([name, usual]) => [name, Number(values[name] ?? usual)]));
 const server = new Server('config/two_pandas.json', 'coordinated');
 const browser = new Browser();
-let load;
+const others = [];
 try {
   const url = await server.start();
   const page = await browser.open({ viewport: { width: 1280, height: 720 } });
   await browser.visit(url);
   if (jobs > 0) await fill_history(page, url, jobs);
-  load = spawn('python3', ['server/demo.py', url.replace(/\/$/, ''), 'config/two_pandas_jobs.json'], { cwd: kRoot, stdio: 'ignore' });
+  others.push(spawn('python3', ['server/demo.py', url.replace(/\/$/, ''), 'config/two_pandas_jobs.json'], { cwd: kRoot, stdio: 'ignore' }));
   await page.waitForFunction(() => window.armloom.jobs().some(({ state }) => state === 'running'));
-  await watch_tasks(page);
-  await count_pictures(page);
-  await click_about(page);
-  await tell_tasks(page);
+  for (let i = 0; i < busy; i++) others.push(spawn(process.execPath, ['-e', 'for (;;);'], { stdio: 'ignore' }));
+  if (seconds > 0) {
+    await watch_tasks(page);
+    await count_pictures(page);
+    await tell_tasks(page, 'while nobody did anything');
+    await click_about(page);
+    await tell_tasks(page, 'of clicks');
+    await use_timeline(page);
+    await tell_tasks(page, 'of the timeline');
+  }
   if (minutes > 0) await watch_memory(page);
 } finally {
-  load?.kill();
+  for (const other of others) other.kill('SIGKILL');
   await browser.close();
   await server.end();
 }
 
-/** Jobs that are told of, wait, and are cancelled: the quickest way to have many. */
+/** Short ones of both arms, there and back, done in haste. */
 async function fill_history(page, url, count) {
-  const { names, q } = await page.evaluate(() => {
-    const all = window.armloom.q();
-    const names = Object.keys(all).filter((name) => name.startsWith('left_panda_joint')).sort();
-    return { names, q: names.map((name) => all[name]) };
-  });
-  const away = q.map((value, i) => (i === 0 ? value + 0.3 : value));
-  const ask = async (method, path, body) => {
+  const arms = await Promise.all(['left', 'right'].map((arm) => arm_now(page, arm)));
+  const call = async (method, path, body) => {
     const answer = await fetch(`${url}api/v1${path}`, { method, headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) });
     if (!answer.ok) throw new Error(`${method} ${path}: ${answer.status} ${(await answer.text()).slice(0, 300)}`);
   };
-  await ask('POST', '/stop');
+  await call('PUT', '/sim/speed', { speed: kHaste });
   for (let from = 0; from < count; from += kBatch) {
-    const ids = Array.from({ length: Math.min(kBatch, count - from) }, (_, i) => `past-${from + i}`);
-    await ask('POST', '/batches', { atomic: true, jobs: ids.map((id) => job_through(id, names, [q, away, q], 1)) });
-    for (const id of ids) await ask('DELETE', `/jobs/${id}`);
+    const batch = Array.from({ length: Math.min(kBatch, count - from) }, (_, i) => {
+      const { names, q } = arms[i % 2];
+      const away = q.map((angle, k) => (k === 6 ? angle + kSwing_rad : angle));
+      return job_through(`past-${from + i}`, names, (i >> 1) % 2 === 0 ? [q, away] : [away, q], 1);
+    });
+    await call('POST', '/batches', { atomic: true, jobs: batch });
     // One that falls behind is told anew how things stand, with the last jobs only.
-    await page.waitForFunction((count) => window.armloom.jobs().filter(({ result }) => result !== null).length >= count, from + ids.length);
+    await page.waitForFunction((count) => window.armloom.jobs().filter(({ result }) => result !== null).length >= count, from + batch.length, { timeout: 600_000, polling: 200 });
   }
-  await ask('POST', '/resume');
+  await call('PUT', '/sim/speed', { speed: 1 });
   console.log(`${count} jobs in the history`);
 }
 
@@ -73,13 +85,13 @@ async function watch_tasks(page) {
 }
 
 /** Scripts that took long, by what called them, and frames of which scripts are but a part. */
-async function tell_tasks(page) {
-  const found = await page.evaluate((long_ms) => window.long_frames.filter(({ duration }) => duration > long_ms).map((frame) => {
+async function tell_tasks(page, when) {
+  const found = await page.evaluate((long_ms) => window.long_frames.splice(0).filter(({ duration }) => duration > long_ms).map((frame) => {
     const scripts = frame.scripts.map(({ invoker, sourceURL, sourceFunctionName, duration }) => `${invoker} ${sourceURL.replace(/.*\//, '')} ${sourceFunctionName} ${duration.toFixed(0)} ms`);
     return { ms: frame.duration, script_ms: frame.scripts.reduce((sum, { duration }) => sum + duration, 0), words: scripts.join('; ') };
   }), kLong_ms);
   const worst = found.sort((a, b) => b.script_ms - a.script_ms).slice(0, 5);
-  console.log(`${found.length} frames above ${kLong_ms} ms${worst.map(({ ms, script_ms, words }) => `\n  ${ms.toFixed(0)} ms, scripts ${script_ms.toFixed(0)} ms: ${words}`).join('')}`);
+  console.log(`${found.length} frames above ${kLong_ms} ms ${when}${worst.map(({ ms, script_ms, words }) => `\n  ${ms.toFixed(0)} ms, scripts ${script_ms.toFixed(0)} ms: ${words}`).join('')}`);
 }
 
 async function count_pictures(page) {
@@ -114,8 +126,42 @@ async function click_about(page) {
   console.log(`clicks answered in ${most_ms.toFixed(0)} ms at most (${place}), ${took[kClicks >> 1][1].toFixed(0)} ms in the middle`);
 }
 
+/**
+ * Dragged to and fro and zoomed, at its usual length and with all that was in view: from each event until
+ * what it led to has been drawn.
+ */
+async function use_timeline(page) {
+  for (const what of ['a minute', 'all that was']) {
+    if (what === 'all that was') for (let i = 0; i < kZooms; i++) await page.getByRole('button', { name: 'Zoom out' }).click();
+    const took = await page.evaluate(async ([steps, dragged_px]) => {
+      const canvas = document.querySelector('.timeline canvas');
+      const { left, top, width } = canvas.getBoundingClientRect();
+      const drawn = () => new Promise((done) => { requestAnimationFrame(() => setTimeout(done)); });
+      const took = [];
+      const send = async (event) => {
+        const from_ms = performance.now();
+        canvas.dispatchEvent(event);
+        await drawn();
+        took.push(performance.now() - from_ms);
+      };
+      canvas.setPointerCapture = () => {};  // these pointers are none of the browser's
+      const at = (dx) => ({ bubbles: true, cancelable: true, pointerId: 1, clientX: left + width / 2 + dx, clientY: top + 20 });
+      for (const way of [1, -1]) {
+        await send(new PointerEvent('pointerdown', at(0)));
+        for (let i = 1; i <= steps; i++) await send(new PointerEvent('pointermove', at((way * dragged_px * i) / steps)));
+        await send(new PointerEvent('pointerup', at(way * dragged_px)));
+      }
+      for (let i = 0; i < steps; i++) await send(new WheelEvent('wheel', { ...at(0), deltaY: i % 2 === 0 ? 100 : -100 }));
+      return took.sort((a, b) => a - b);
+    }, [kSteps, kDragged_px]);
+    const shown = await page.evaluate(() => window.armloom.lanes().reduce((sum, { marks }) => sum + marks.length, 0));
+    console.log(`the timeline with ${what} (${shown} marks known): drags and turns of the wheel drawn in ${took.at(-1).toFixed(0)} ms at most, ${took[took.length >> 1].toFixed(0)} ms in the middle`);
+  }
+}
+
 /** What is in use after a collection, each minute; the slope is that of the last two thirds, when its books are full. */
 async function watch_memory(page) {
+  await page.setViewportSize(kSmall);
   const session = await page.context().newCDPSession(page);
   const heaps = [];
   for (let minute = 0; minute <= minutes; minute++) {

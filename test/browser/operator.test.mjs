@@ -1,5 +1,5 @@
-// What the dashboard lets an operator do beside jobs: move an arm by hand, and ask what other policies would
-// have done.
+// What the dashboard lets an operator do beside jobs: move an arm by hand, ask what other policies would have
+// done, and see that what is shown is old.
 //
 //   node --test test/browser/operator.test.mjs      (after the server and web/dist were built; see harness.mjs)
 
@@ -27,7 +27,7 @@ const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
 const speed = (value) => ask(page, 'PUT', '/sim/speed', { speed: value });
 const finished = (id) => page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
 
-test('an arm is moved by hand as long as a button is held, by pointer and by key', { timeout: 120_000 }, async () => {
+test('an arm is moved by hand as long as a button is held: by mouse, key and finger', { timeout: 120_000 }, async () => {
   await speed(1);
   await go('#/arm/left');
   await page.locator('[data-test=control-person]').fill('Ada');
@@ -58,6 +58,22 @@ test('an arm is moved by hand as long as a button is held, by pointer and by key
   await page.keyboard.up('Space');
   assert.equal((await canceled(2)).state, 'canceled');
 
+  const touch = await page.context().newCDPSession(page);
+  await touch.send('Emulation.setTouchEmulationEnabled', { enabled: true });
+  await page.waitForFunction(() => navigator.maxTouchPoints > 0);
+  const { x, y, width, height } = await button.boundingBox();
+  const finger = (type, dx = 0) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: type === 'touchEnd' ? [] : [{ x: x + width / 2 + dx, y: y + height / 2 }] });
+  await finger('touchStart');
+  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor({ timeout: 60_000 });
+  await finger('touchMove', 15);  // a finger never lies still
+  assert.equal(await button.getAttribute('aria-pressed'), 'true');
+  assert.equal((await by_hand()).filter((job) => job.result === null).length, 1);
+  await finger('touchEnd');
+  assert.equal((await canceled(3)).state, 'canceled');
+  assert.equal(await button.getAttribute('aria-pressed'), 'false');
+  await touch.send('Emulation.setTouchEmulationEnabled', { enabled: false });
+  await touch.detach();
+
   // Somebody else takes control: what is held is let go, and the page says by whom.
   await button.hover();
   await page.mouse.down();
@@ -65,7 +81,7 @@ test('an arm is moved by hand as long as a button is held, by pointer and by key
   await ask(page, 'POST', '/control', { who: 'Bob', take: true });
   await page.locator('[data-test=take-control]', { hasText: 'Take control from Bob' }).waitFor();
   await page.mouse.up();
-  assert.equal((await canceled(3)).state, 'canceled');
+  assert.equal((await canceled(4)).state, 'canceled');
   await page.locator('[data-test=in-control]', { hasText: 'Bob' }).waitFor();
   await page.locator('[data-test=take-control]').click();
   await page.locator('[data-test=release-control]').click();
@@ -98,6 +114,27 @@ test('what the other policies would have done is asked from the page, and one of
   await page.locator('[data-test=compared-coordinated]').getByText('in force').waitFor();
   await page.locator('[data-test=use-certified]').click();
   await page.locator('[data-test=compared-certified]').getByText('in force').waitFor();
+});
+
+// The connection stays open, and nothing comes.
+test('what is old is shown as old, with its age, and as fresh once more is heard', { timeout: 60_000 }, async () => {
+  const age_s = async (locator) => Number((await locator.textContent()).match(/([\d.]+) s/)[1]);
+  const saturation = () => page.evaluate(() => getComputedStyle(document.querySelector('.view')).filter);
+  assert.equal(await saturation(), 'none');
+  server.freeze();
+  const stale = page.locator('[data-test=stale]');
+  await stale.waitFor();
+  const first_s = await age_s(stale);
+  assert.ok(first_s >= 2, `${first_s} s`);
+  assert.match(await saturation(), /grayscale/);
+  assert.match(await page.locator('[data-test=link]').innerText(), /silent for/);
+  await page.locator('.stale-time').waitFor();
+  await page.screenshot(path_for('stale-dark'));
+  await page.waitForFunction((first_s) => Number(document.querySelector('[data-test=stale]').textContent.match(/([\d.]+) s/)[1]) > first_s, first_s);
+  server.thaw();
+  await stale.waitFor({ state: 'detached' });
+  await page.locator('[data-test=link].open').waitFor();
+  assert.equal(await saturation(), 'none');
 });
 
 test('nothing so far was an error in the console', () => {

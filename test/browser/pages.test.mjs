@@ -7,12 +7,10 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { arm_now, ask, Browser, job_through, path_for, send_through, Server, web_require } from './harness.mjs';
-import { difference } from './pictures.mjs';
 
 const kStop = 'Stop all: controlled, drives stay powered';
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 const kAxe = readFileSync(web_require.resolve('axe-core/axe.min.js'), 'utf8');
-const kLeastGhost_px = 1500;
 // A name that would do something, were it taken for HTML.
 const kHostile = '<img src=x onerror="window.was_html=1"><b>&amp;';
 
@@ -33,11 +31,6 @@ after(async () => {
 }, { timeout: 30_000 });
 
 const send = (...job) => send_through(page, ...job);
-
-async function view_picture() {
-  await page.evaluate(() => window.armloom.drawn());
-  return page.locator('.view canvas').screenshot();
-}
 
 const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
 
@@ -67,6 +60,28 @@ test('the timeline shows what comes: motions, waits, and for whom', { timeout: 6
   assert.match(page.url(), /#\/job\/second/);
   await page.screenshot(path_for('job-dark'));
   await ask(page, 'PUT', '/sim/speed', { speed: 1 });
+});
+
+test('the timeline is dragged and zoomed, and follows now again', { timeout: 30_000 }, async () => {
+  const canvas = page.locator('.timeline canvas');
+  const shown = async () => [Number(await canvas.getAttribute('data-from')), Number(await canvas.getAttribute('data-length'))];
+  const { x, y, width } = await canvas.boundingBox();
+  const drag = async (dx) => {
+    await page.mouse.move(x + width / 2, y + 20);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + dx, y + 20, { steps: 8 });
+    await page.mouse.up();
+  };
+  await drag(80);
+  await page.waitForFunction(() => document.querySelector('.timeline canvas').dataset.from !== 'now');
+  const [before_s, length_s] = await shown();
+  await drag(-120);
+  const moved_px = (((await shown())[0] - before_s) / length_s) * (width - 82);
+  assert.ok(Math.abs(moved_px - 120) < 4, `120 px were dragged, ${moved_px} px moved`);
+  await page.mouse.wheel(0, -100);
+  await page.waitForFunction((length_s) => Number(document.querySelector('.timeline canvas').dataset.length) < length_s, length_s);
+  await page.locator('[data-test=follow-now]').click();
+  await page.waitForFunction(() => document.querySelector('.timeline canvas').dataset.from === 'now');
 });
 
 test('an address shows the same to whoever opens it: job, instant and camera', { timeout: 60_000 }, async () => {
@@ -160,57 +175,8 @@ test('objects are added, moved and taken away by form', { timeout: 60_000 }, asy
   await page.waitForFunction(() => !window.armloom.objects().some((object) => object.name === 'can'));
 });
 
-test('a job is judged before it is sent, a bag of jobs is taken whole', { timeout: 60_000 }, async () => {
-  await page.locator('[data-test=list-finished] [data-test="job-second"]').waitFor({ timeout: 40_000 });
-  await page.locator('[data-test=new-job]').click();
-  const { names, q } = await arm_now(page, 'left');
-  const text = page.locator('[data-test=job-text]');
-  await text.fill(JSON.stringify(job_through('judged', names, [q, kMiddle, q], 4)));
-  await page.locator('[data-test=judge]').click();
-  assert.match(await page.locator('[data-test=judged]').innerText(), /free\s+It would start now/);
-  assert.equal((await ask(page, 'GET', '/jobs/judged')).status, 404);
-
-  // Previewed: a ghost of the arm where it would be, and where it would meet what stands in its way.
-  const without = await view_picture();
-  await page.locator('[data-test=preview-time]').fill('4');
-  // The ghost comes once the form has been drawn, which may be after a picture or two.
-  let ghost = { count: 0 };
-  for (let tries = 0; tries < 30 && ghost.count <= kLeastGhost_px; tries++) ghost = await difference(chromium.context, without, await view_picture());
-  assert.ok(ghost.count > kLeastGhost_px, `${ghost.count} pixels changed`);
-  await ask(page, 'PUT', '/scene/objects/post', { box: [0.1, 0.1, 0.6], xyz: [-0.05, 0, 0.6], rpy: [0, 0, 0] });
-  await page.locator('[data-test=judge]').click();
-  await page.locator('[data-test=show-conflict]').first().click();
-  assert.match(await page.locator('[data-test=judged]').innerText(), /in conflict/);
-  await page.waitForFunction(() => { const at = Number(document.querySelector('[data-test=preview-time]').value); return at > 0.1 && at < 3.9; });
-  await page.evaluate(() => window.armloom.drawn());
-  await page.screenshot(path_for('preview-dark'));
-  await ask(page, 'DELETE', '/scene/objects/post');
-  const bag = [1, 2].map((i) => ({ at: 0, job: job_through(`bag-${i}`, names, [q, q.map((v, k) => v + (k === 0 ? 0.1 * i : 0)), q], 1) }));
-  await text.fill(JSON.stringify(bag));
-  assert.match(await page.locator('[data-test=bag]').innerText(), /2 jobs/);
-  await page.screenshot(path_for('compose-dark'));
-  await page.locator('[data-test=send]').click();
-  await page.locator('[data-test=accepted]').getByText('bag-2').click();
-  await page.locator('[data-test=page-job]').getByText('bag-2').first().waitFor();
-  await page.locator('[data-test=list-finished] [data-test="job-bag-2"]').waitFor();
-});
-
-test('a job is cancelled after a question only', { timeout: 60_000 }, async () => {
-  await send('left', 'unwanted', [kMiddle, null], 5);
-  const row = page.locator('[data-test="job-unwanted"]');
-  await row.getByRole('button', { name: 'Cancel unwanted' }).click();
-  await row.getByRole('button', { name: 'Keep' }).click();
-  assert.match(await row.getAttribute('data-state'), /queued|running|scheduled/);
-  await row.getByRole('button', { name: 'Cancel unwanted' }).click();
-  await row.locator('[data-test=confirm-cancel]').click();
-  await page.locator('[data-test=list-finished] [data-test="job-unwanted"]').waitFor();
-  await page.locator('[data-test=filter]').fill('canceled left');
-  await page.locator('[data-test="job-first"]').waitFor({ state: 'detached' });
-  assert.equal(await row.getAttribute('data-state'), 'canceled');
-  await page.locator('[data-test=filter]').fill('');
-});
-
 test('names never become HTML', { timeout: 60_000 }, async () => {
+  await page.locator('[data-test=list-finished] [data-test="job-second"]').waitFor({ timeout: 40_000 });  // its arm is at rest
   await page.evaluate(() => { window.was_html = 0; });
   const { names, q } = await arm_now(page, 'right');
   const job = job_through('hostile', names, [q, q.map((v, k) => v + (k === 0 ? 0.2 : 0)), q], 2, { name: kHostile });

@@ -9,7 +9,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { arm_now, ask, Browser, job_through, kBinary, kRoot, path_for, Server, web_require } from './harness.mjs';
+import { arm_now, ask, Browser, drop_files, job_through, kBinary, kRoot, path_for, Server, web_require } from './harness.mjs';
 import { difference } from './pictures.mjs';
 
 const kLeastMoved_px = 800;
@@ -50,7 +50,7 @@ test('a recording is opened from its files and scrubbed through, and the present
   record();
   await page.locator('[data-test=go-recordings]').click();
   const files = page.locator('[data-test=recording-files]');
-  await files.setInputFiles([join(folder, 'run/events.jsonl')]);
+  await drop_files(page, [join(folder, 'run/events.jsonl')], 'nav');
   assert.match(await page.locator('[data-test=recording-fault]').innerText(), /no states\.csv/);
   await files.setInputFiles(['states.csv', 'events.jsonl'].map((name) => join(folder, 'run', name)));
   await page.locator('[data-test=opened]').waitFor({ timeout: 40_000 });

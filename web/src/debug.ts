@@ -17,7 +17,7 @@
 //                                         picture of each tells which pixels are that robot's
 
 import type { App } from './state/app';
-import { known_lanes } from './timeline/timeline';
+import { known_lanes } from './timeline/known';
 import type { CellView } from './view/cell_view';
 import type { Level } from './view/pace';
 

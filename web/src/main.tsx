@@ -7,6 +7,7 @@ import { install_debug_hook, show_debug_view } from './debug';
 import { Hand } from './control/hand';
 import { Banner } from './frame/banner';
 import { Header } from './frame/header';
+import { listen_to_drops } from './frame/drops';
 import { Pane } from './frame/pane';
 import { listen_to_keys } from './frame/shortcuts';
 import { use_staleness } from './frame/staleness';
@@ -72,7 +73,7 @@ const connection = new Connection({
 });
 const router = new Router(address_bar_of(window));
 const app: App = {
-  store, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), ghost: signal(null), by_hand: signal(null), tool: signal(null),
+  store, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
   router, player: new Player(store, connection, router),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),
@@ -134,6 +135,7 @@ const root = document.getElementById('app');
 if (root) render(<Page />, root);
 install_debug_hook(app, () => connection.break());
 listen_to_keys(app, window);
+listen_to_drops(app, window);
 void load_cell();
 void know_who();
 connection.start();

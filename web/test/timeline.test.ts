@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { Forecast, Job } from '../src/server/messages';
-import { drawn_of, lanes_of, mark_at, type Lane } from '../src/timeline/lanes';
+import { drawn_of, lanes_of, mark_at, pasts_of, type Lane } from '../src/timeline/lanes';
 import { around, begin_of, kFollowing, kNowAt, moved, tick_of, zoomed } from '../src/timeline/span';
 import { lane_in_words } from '../src/timeline/told';
 import { job_json, wait_json } from './samples';
@@ -24,7 +24,10 @@ const kForecast = {
 } as unknown as Forecast;
 
 const known = (jobs: Job[], forecast: Forecast | null, now_s = 10): Lane =>
-  lanes_of({ arms: ['left'], jobs, stands: () => [], forecast, now_s })[0] as Lane;
+  lanes_of({
+    arms: ['left'], jobs: jobs.filter((one) => one.ended_s === null), pasts: pasts_of(['left'], jobs.filter((one) => one.ended_s !== null), () => []),
+    stands: () => [], has_ended: (id) => jobs.some((one) => one.id === id && one.ended_s !== null), forecast, now_s,
+  })[0] as Lane;
 
 describe('the lanes of the timeline', () => {
   it('shows what was: motions, and waits only where the arm could have gone', () => {

@@ -10,7 +10,7 @@ import { range_of, type Arm, type CellJoint } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
 import { use_store } from '../state/use_store';
-import { known_lanes } from '../timeline/timeline';
+import { known_lanes } from '../timeline/known';
 import { lane_in_words } from '../timeline/told';
 import { short_id, why_mute } from '../wording';
 import { StatePill } from './arms';

@@ -5,7 +5,10 @@ export type Bag =
   | { kind: 'one'; text: string }
   | { kind: 'bag'; jobs: unknown[] };
 
-/** A list of bodies, a list of {"at", "job"} as in a jobs file, or {"jobs": […]}; anything else is one body. */
+/**
+ * A list of bodies, a list of {"at", "job"} as in a jobs file, or {"jobs": […]}; a trajectory by itself is
+ * a job of nothing else; anything else is one body.
+ */
 export function read_bag(text: string): Bag {
   let value: unknown;
   try {
@@ -13,9 +16,16 @@ export function read_bag(text: string): Bag {
   } catch {
     return { kind: 'one', text };
   }
+  if (is_trajectory(value)) return { kind: 'one', text: JSON.stringify({ trajectory: value }, null, 1) };
   const list = Array.isArray(value) ? value : (value as { jobs?: unknown } | null)?.jobs;
   if (!Array.isArray(list) || list.length === 0) return { kind: 'one', text };
-  return { kind: 'bag', jobs: list.map((entry) => (entry as { job?: unknown } | null)?.job ?? entry) };
+  return { kind: 'bag', jobs: list.map((entry) => (is_trajectory(entry) ? { trajectory: entry as unknown } : (entry as { job?: unknown } | null)?.job ?? entry)) };
+}
+
+/** As ROS's tools print a JointTrajectory. */
+function is_trajectory(value: unknown): boolean {
+  const { joint_names, points } = (value ?? {}) as { joint_names?: unknown; points?: unknown };
+  return Array.isArray(joint_names) && Array.isArray(points);
 }
 
 /** Each body with a name for people. */

@@ -2,6 +2,8 @@
 // of jobs, which is taken whole or not at all.
 
 import { useMemo, useState } from 'preact/hooks';
+import { asked_of, Copy } from '../jobs/copy';
+import { curl_to_post, python_to_post } from '../jobs/snippets';
 import { Link } from '../route/link';
 import type { Problem } from '../server/messages';
 import type { App } from '../state/app';
@@ -15,26 +17,24 @@ import { PlanForm } from './plan_form';
 import { Preview, type Chosen } from './preview';
 import { Refused } from './refused';
 
-// What was typed outlives the page's pane.
-let draft = '';
-
 type Outcome =
   | { kind: 'none' } | { kind: 'busy'; what: string } | { kind: 'accepted'; ids: string[] }
   | { kind: 'refused'; problem: Problem } | { kind: 'judged'; judgements: Judgement[] };
 
+/** What was found out, and which instant is previewed; of another text it says nothing. */
+interface Said { of: string; outcome: Outcome; chosen: Chosen | null }
+
+const kNothingSaid: Omit<Said, 'of'> = { outcome: { kind: 'none' }, chosen: null };
+
 export function NewJob({ app }: { app: App }) {
   use_store(app.store);
-  const [text, set_text] = useState(draft);
-  const [outcome, set_outcome] = useState<Outcome>({ kind: 'none' });
-  const [over, set_over] = useState(false);
-  const change = (next: string) => {
-    draft = next;
-    set_text(next);
-    set_chosen(null);
-    set_outcome({ kind: 'none' });
-  };
-  const [chosen, set_chosen] = useState<Chosen | null>(null);
-  const show_end = (next: string) => set_chosen({ t_s: motion_of(read_bag(next))?.duration_s ?? 0 });
+  const text = app.draft.value;
+  const [said, set_said] = useState<Said>({ of: text, ...kNothingSaid });
+  const { outcome, chosen } = said.of === text ? said : kNothingSaid;
+  const set_outcome = (next: Outcome) => set_said({ of: text, outcome: next, chosen });
+  const set_chosen = (next: Chosen) => set_said({ of: text, outcome, chosen: next });
+  const change = (next: string) => { app.draft.value = next; };
+  const show_end = (next: string) => set_said({ of: next, outcome: { kind: 'none' }, chosen: { t_s: motion_of(read_bag(next))?.duration_s ?? 0 } });
   const bag = useMemo(() => read_bag(text), [text]);
   const motion = useMemo(() => motion_of(bag), [bag]);
   const mute = why_mute(app.store.link);
@@ -60,15 +60,9 @@ export function NewJob({ app }: { app: App }) {
         <PlanForm app={app} change={(next) => { change(next); show_end(next); }} />
       </details>
       <Examples app={app} change={change} />
-      <textarea class={`mono${over ? ' over' : ''}`} spellcheck={false} aria-label="Job as JSON" data-test="job-text" value={text}
+      <textarea class="mono" spellcheck={false} aria-label="Job as JSON" data-test="job-text" value={text}
         placeholder={'{\n  "trajectory": {\n    "joint_names": […],\n    "points": […]\n  }\n}'}
         onInput={(event) => change(event.currentTarget.value)}
-        onDragOver={(event) => { event.preventDefault(); set_over(true); }} onDragLeave={() => set_over(false)}
-        onDrop={(event) => {
-          event.preventDefault();
-          set_over(false);
-          void dropped(event).then((found) => { if (found !== null) change(found); });
-        }}
         onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) void send(); }} />
       {motion && <Preview motion={motion} app={app} chosen={chosen} />}
       <div class="line">
@@ -79,6 +73,7 @@ export function NewJob({ app }: { app: App }) {
           {outcome.kind === 'busy' ? outcome.what : bag.kind === 'bag' ? 'Send all' : 'Send'}
         </button>
       </div>
+      {text.trim() !== '' && <Copies bag={bag} app={app} />}
       {outcome.kind === 'accepted' && <Accepted ids={outcome.ids} app={app} />}
       {outcome.kind === 'judged' && <Judged judgements={outcome.judgements} show={motion && bag.kind === 'one' ? (t_s) => set_chosen({ t_s }) : null} />}
       {outcome.kind === 'refused' && <Refused problem={outcome.problem} />}
@@ -97,6 +92,21 @@ function Examples({ app, change }: { app: App; change(text: string): void }) {
           onClick={() => change(pretty(example_job(arm, store.q_of(arm), store.cell?.joints ?? [])))}>{arm.name}</button>
       ))}
       {idle.length === 0 && <span class="dim">an idle arm: none at the moment</span>}
+    </div>
+  );
+}
+
+/** The same request for a terminal or a program. */
+function Copies({ bag, app }: { bag: Bag; app: App }) {
+  const with_it = (make: typeof curl_to_post) => () => {
+    const { path, body } = request_of(bag);
+    return make(path, body, asked_of(app));
+  };
+  return (
+    <div class="line">
+      <span class="grow dim small">The same for programs</span>
+      <Copy what="curl" text={with_it(curl_to_post)} />
+      <Copy what="Python" text={with_it(python_to_post)} />
     </div>
   );
 }
@@ -120,10 +130,16 @@ function Accepted({ ids, app }: { ids: string[]; app: App }) {
   );
 }
 
+/** What is sent, and where. */
+function request_of(bag: Bag): { path: '/batches' | '/jobs'; body: string } {
+  return bag.kind === 'bag'
+    ? { path: '/batches', body: JSON.stringify({ atomic: true, jobs: bag.jobs }) }
+    : { path: '/jobs', body: bag.text };
+}
+
 async function sent(bag: Bag, app: App): Promise<Outcome> {
-  const answer = bag.kind === 'bag'
-    ? await app.api.post_batch(JSON.stringify({ atomic: true, jobs: bag.jobs }))
-    : await app.api.post_job(bag.text);
+  const { path, body } = request_of(bag);
+  const answer = path === '/batches' ? await app.api.post_batch(body) : await app.api.post_job(body);
   return answer.ok ? { kind: 'accepted', ids: ids_of(answer.value) } : { kind: 'refused', problem: answer.problem };
 }
 
@@ -132,9 +148,4 @@ function ids_of(answer: unknown): string[] {
   const { id, jobs } = (answer ?? {}) as { id?: unknown; jobs?: unknown };
   if (typeof id === 'string') return [id];
   return Array.isArray(jobs) ? jobs.flatMap(ids_of) : [];
-}
-
-async function dropped(event: DragEvent): Promise<string | null> {
-  const file = event.dataTransfer?.files[0];
-  return file ? file.text() : event.dataTransfer?.getData('text/plain') ?? null;
 }

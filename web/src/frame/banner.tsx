@@ -3,6 +3,8 @@
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
+import { seconds } from '../wording';
+import { files_over } from './drops';
 import { use_staleness } from './staleness';
 
 export function Banner({ app }: { app: App }) {
@@ -12,10 +14,13 @@ export function Banner({ app }: { app: App }) {
   const stale_s = use_staleness(store);
   return (
     <div class="banners">
+      {files_over.value && (
+        <div class="banner" role="status" data-test="files-over"><span>Let go: a job, a bag of jobs or a trajectory is shown before it is sent; a recording's files are opened.</span></div>
+      )}
       {store.link.status === 'lost' && <Lost app={app} />}
       {store.link.status === 'open' && stale_s !== null && (
         <div class="banner lost" role="alert" data-test="stale">
-          <span><b>Old data.</b> Nothing was heard from the server for {stale_s} s; arms may still be moving.</span>
+          <span><b>Old data.</b> Nothing was heard from the server for {seconds(stale_s)}; arms may still be moving.</span>
         </div>
       )}
       {store.link.status === 'recording' && (
@@ -41,6 +46,7 @@ function Lost({ app }: { app: App }) {
   const link = app.store.link;
   const retry_in_ms = link.status === 'lost' ? link.retry_in_ms : 0;
   const [left_s, set_left_s] = useState(0);
+  const stale_s = use_staleness(app.store);
   useEffect(() => {
     const until_ms = performance.now() + retry_in_ms;
     const show = () => set_left_s(Math.max(0, Math.ceil((until_ms - performance.now()) / 1000)));
@@ -51,7 +57,7 @@ function Lost({ app }: { app: App }) {
   return (
     <div class="banner lost" role="alert" data-test="lost">
       <span>
-        <b>Connection lost.</b> What you see is the last known state; arms may still be moving.
+        <b>Connection lost.</b> What you see is the last known state{stale_s !== null && <span aria-live="off">, <span data-test="age">{seconds(stale_s)}</span> old</span>}; arms may still be moving.
         <span aria-live="off">{left_s > 0 ? ` Trying again in ${left_s} s.` : ' Trying again…'}</span>
       </span>
       <button onClick={app.actions.retry_connection}>Try now</button>

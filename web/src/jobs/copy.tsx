@@ -1,6 +1,8 @@
 // A button that puts text on the clipboard, and says whether that worked.
 
 import { useState } from 'preact/hooks';
+import type { App } from '../state/app';
+import type { Asked } from './snippets';
 
 const kTold_ms = 1500;
 
@@ -15,6 +17,11 @@ export function Copy({ what, text }: { what: string; text(): string }) {
       Copy {what === 'JSON' ? what : `as ${what}`}<span role="status">{told === '' ? '' : `: ${told}`}</span>
     </button>
   );
+}
+
+/** As programs would ask the server of this page. */
+export function asked_of(app: App): Asked {
+  return { origin: location.origin, with_token: app.session.value?.asks_for_token ?? false };
 }
 
 /** Browsers give the clipboard to pages of a secure origin only; a cell's panel is often none. */

@@ -12,7 +12,7 @@ import { is_terminal } from '../state/job_book';
 import { arm_colour } from '../state/palette';
 import { use_store } from '../state/use_store';
 import { clock, millimetres, reason_in_words, result_in_words, short_id, wait_in_words, ways_in_words, why_mute } from '../wording';
-import { Copy } from './copy';
+import { asked_of, Copy } from './copy';
 import { curl_of, python_of } from './snippets';
 import { states_of } from './states';
 import { when_in_words } from './when';
@@ -45,8 +45,8 @@ export function JobPage({ id, app }: { id: string; app: App }) {
       <h3>For programs</h3>
       <div class="line">
         <Copy what="JSON" text={() => pretty(job)} />
-        <Copy what="curl" text={() => curl_of(job, location.origin)} />
-        <Copy what="Python" text={() => python_of(job, location.origin)} />
+        <Copy what="curl" text={() => curl_of(job, asked_of(app))} />
+        <Copy what="Python" text={() => python_of(job, asked_of(app))} />
       </div>
       <pre class="mono" data-test="raw" tabIndex={0} aria-label="The job as JSON">{pretty(job)}</pre>
     </div>

@@ -1,25 +1,66 @@
-// A job as a command line or a program would ask for it. Pure. What users named is quoted, never
-// pasted raw: a command that is copied must not do more than it says.
+// A job, or the request that submits one, as a command line or a program would ask for it. Pure. What users
+// named is quoted, never pasted raw: a command that is copied must not do more than it says. Where the server
+// asks for tokens, the program's is taken from the environment and never shown.
 
 import type { Job } from '../server/messages';
 
-export function curl_of(job: Pick<Job, 'id'>, origin: string): string {
-  return `curl -s ${quoted_for_shell(address_of(job, origin))}`;
+/** Where it is asked, and whether that wants a token. */
+export interface Asked { origin: string; with_token: boolean }
+
+const kVariable = 'ARMLOOM_TOKEN';
+
+export function curl_of(job: Pick<Job, 'id'>, asked: Asked): string {
+  return `curl -s ${curl_token(asked)}${quoted_for_shell(address_of(job, asked))}`;
 }
 
-export function python_of(job: Pick<Job, 'id'>, origin: string): string {
+export function python_of(job: Pick<Job, 'id'>, asked: Asked): string {
   return [
-    'import json',
-    'import urllib.request',
-    '',
-    `with urllib.request.urlopen(${JSON.stringify(address_of(job, origin))}) as answer:`,
+    ...imports(asked),
+    `request = urllib.request.Request(${JSON.stringify(address_of(job, asked))}${asked.with_token ? `, headers={${python_token()}}` : ''})`,
+    'with urllib.request.urlopen(request) as answer:',
     '    job = json.load(answer)',
     'print(job["state"], job["waits_on"])',
   ].join('\n');
 }
 
-function address_of(job: Pick<Job, 'id'>, origin: string): string {
+/** Submits it, however long it is: as an argument it could be too long. */
+export function curl_to_post(path: string, body: string, asked: Asked): string {
+  let end = 'END';
+  while (body.includes(end)) end += '_';
+  const address = quoted_for_shell(`${asked.origin}/api/v1${path}`);
+  return `curl -s ${curl_token(asked)}${address} -H 'Content-Type: application/json' --data-binary @- <<'${end}'\n${body}\n${end}`;
+}
+
+export function python_to_post(path: string, body: string, asked: Asked): string {
+  return [
+    ...imports(asked),
+    `body = ${python_text(body)}`,
+    `headers = {"Content-Type": "application/json"${asked.with_token ? `, ${python_token()}` : ''}}`,
+    `request = urllib.request.Request(${JSON.stringify(`${asked.origin}/api/v1${path}`)}, body.encode(), headers)`,
+    'with urllib.request.urlopen(request) as answer:',
+    '    print(json.load(answer))',
+  ].join('\n');
+}
+
+function address_of(job: Pick<Job, 'id'>, { origin }: Asked): string {
   return `${origin}/api/v1/jobs/${encodeURIComponent(job.id)}`;
+}
+
+function curl_token({ with_token }: Asked): string {
+  return with_token ? `-H "Authorization: Bearer $${kVariable}" ` : '';
+}
+
+function python_token(): string {
+  return `"Authorization": "Bearer " + os.environ["${kVariable}"]`;
+}
+
+function imports({ with_token }: Asked): string[] {
+  return ['import json', ...with_token ? ['import os'] : [], 'import urllib.request', ''];
+}
+
+/** Its lines stay lines. */
+function python_text(text: string): string {
+  return `'''${text.replaceAll('\\', '\\\\').replaceAll("'", "\\'")}'''`;
 }
 
 /** Single quotes keep everything but themselves. */

@@ -12,7 +12,7 @@ export function motion_of(bag: Bag): Motion | null {
   const ends_s = new Map<string, number>();
   const parts: Part[] = [];
   for (const body of bodies) {
-    const piece = read_trajectory(child(body, 'trajectory') ?? body);
+    const piece = read_trajectory(child(body, 'trajectory'));
     if (!piece) continue;
     const motion = motion_of_piece(piece);
     const begins_s = Math.max(0, ...piece.names.map((name) => ends_s.get(name) ?? 0));

@@ -9,16 +9,36 @@ import { read_events } from './read_events';
 import { StatesReader } from './read_states';
 
 export interface Opened { name: string; frames: number; events: number; unread: number; first_s: number; last_s: number }
-export type Opening = { ok: true; opened: Opened } | { ok: false; fault: string };
+type Opening = { ok: true; opened: Opened } | { ok: false; fault: string };
 
 export class Player {
   /** What is looked at; null: the present. */
   readonly opened = signal<Opened | null>(null);
+  readonly reading = signal(false);
+  /** Why the last files are none that can be looked at. */
+  readonly fault = signal<string | null>(null);
 
   constructor(private readonly store_: Store, private readonly connection_: Pick<Connection, 'stop' | 'begin_anew'>, private readonly router_: Router) {}
 
   /** The files of a recording's folder; others of it are not needed. */
-  async open(files: readonly File[]): Promise<Opening> {
+  async open(files: readonly File[]): Promise<void> {
+    this.reading.value = true;
+    const opening = await this.read(files);
+    this.reading.value = false;
+    this.fault.value = opening.ok ? null : opening.fault;
+  }
+
+  /** Back to the present. */
+  close(): void {
+    this.fault.value = null;
+    if (this.opened.value === null) return;
+    this.opened.value = null;
+    this.router_.hold_at(null);
+    this.store_.forget_all();
+    this.connection_.begin_anew();
+  }
+
+  private async read(files: readonly File[]): Promise<Opening> {
     const find = (name: string) => files.find((file) => file.name === name);
     const states = find('states.csv');
     if (!states) return { ok: false, fault: 'There is no states.csv among the files: it has the arms\' positions. A server writes it with --data DIR --record, simulate always.' };
@@ -37,15 +57,6 @@ export class Player {
     this.opened.value = opened;
     this.router_.hold_at(first_s);
     return { ok: true, opened };
-  }
-
-  /** Back to the present. */
-  close(): void {
-    if (this.opened.value === null) return;
-    this.opened.value = null;
-    this.router_.hold_at(null);
-    this.store_.forget_all();
-    this.connection_.begin_anew();
   }
 }
 

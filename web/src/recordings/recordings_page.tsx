@@ -5,37 +5,29 @@ import { useState } from 'preact/hooks';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
 import { clock, seconds } from '../wording';
-import type { Opening } from './player';
 
 export function RecordingsPage({ app }: { app: App }) {
   use_store(app.store);
-  const [opening, set_opening] = useState<Opening | 'busy' | null>(null);
-  const { opened } = app.player;
-  const open = async (files: readonly File[]) => {
-    if (files.length === 0) return;
-    set_opening('busy');
-    set_opening(await app.player.open(files));
-  };
+  const { opened, reading, fault } = app.player;
   return (
     <div class="page">
       <h2>Recordings</h2>
       <h3>Look at one</h3>
       <p class="hint">
         A folder that <code>armloom serve --data DIR --record</code> or <code>armloom simulate --out DIR</code> has written: choose
-        its <code>states.csv</code> and <code>events.jsonl</code> together, or drop them here. Nothing leaves this browser.
+        its <code>states.csv</code> and <code>events.jsonl</code> together, or drop them on the page. Nothing leaves this browser.
       </p>
-      <label class="drop" onDragOver={(event) => event.preventDefault()}
-        onDrop={(event) => { event.preventDefault(); void open([...event.dataTransfer?.files ?? []]); }}>
+      <label class="drop">
         <input type="file" multiple accept=".csv,.jsonl,.json" class="sr-only" data-test="recording-files"
-          onChange={(event) => { void open([...event.currentTarget.files ?? []]); }} />
-        {opening === 'busy' ? 'Reading…' : 'Choose the files, or drop them here'}
+          onChange={(event) => { if (event.currentTarget.files?.length) void app.player.open([...event.currentTarget.files]); }} />
+        {reading.value ? 'Reading…' : 'Choose the files, or drop them'}
       </label>
-      {opening !== null && opening !== 'busy' && !opening.ok && <p class="refused" role="alert" data-test="recording-fault">{opening.fault}</p>}
+      {fault.value !== null && <p class="refused" role="alert" data-test="recording-fault">{fault.value}</p>}
       {opened.value && (
         <div class="opened" role="status" data-test="opened">
           <p><b>{opened.value.name}</b>: {seconds(opened.value.last_s - opened.value.first_s)} from {clock(opened.value.first_s)}, {opened.value.frames} pictures, {opened.value.events} events{opened.value.unread > 0 && `, ${opened.value.unread} of another version not read`}.</p>
           <p class="hint">The scrub bar below leads through it; all views show that instant.</p>
-          <button data-test="recording-close" onClick={() => { app.player.close(); set_opening(null); }}>Back to the present</button>
+          <button data-test="recording-close" onClick={() => app.player.close()}>Back to the present</button>
         </div>
       )}
       <Export app={app} />

@@ -27,6 +27,8 @@ export interface App {
   hand: Hand;
   /** Who uses this browser, where the server asks for tokens; null: not known yet. */
   session: Signal<Session | null>;
+  /** The job, or the bag of jobs, that is being composed; it outlives the page's pane. */
+  draft: Signal<string>;
   /** Joints as they would stand, shown in the cell; null: nothing is previewed. */
   ghost: Signal<Readonly<Record<string, number>> | null>;
   /** The object that may be moved by hand in the cell. */

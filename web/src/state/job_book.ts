@@ -42,6 +42,7 @@ export class JobBook {
   private ended_: Job[] = [];
   private order_ = new Map<string, number>();
   private lists_: Map<JobList, Job[]> | null = null;
+  private endings_ = 0;
 
   constructor(private readonly most_finished_ = kMaxFinished) {}
 
@@ -55,6 +56,7 @@ export class JobBook {
     }));
     this.open_ = new Set(jobs.filter((job) => !is_terminal(job)).map((job) => job.id));
     this.ended_ = jobs.filter(is_terminal).sort((a, b) => ended(a) - ended(b));
+    this.endings_ += 1;
     this.lists_ = null;
   }
 
@@ -68,7 +70,10 @@ export class JobBook {
     const last = stands.at(-1);
     if (job.state !== 'holding' && last && last.to_s === null) last.to_s = t_s;
     this.heard_.set(job.id, { job, t_s, since_s: same_state ? known.since_s : t_s, stands, changes });
-    if (known && is_terminal(known.job)) this.ended_ = this.ended_.filter((one) => one.id !== job.id);
+    if (known && is_terminal(known.job)) {
+      this.ended_ = this.ended_.filter((one) => one.id !== job.id);
+      this.endings_ += 1;
+    }
     if (is_terminal(job)) this.end(job);
     else this.open_.add(job.id);
     this.lists_ = null;
@@ -113,9 +118,23 @@ export class JobBook {
     return [...this.heard_.values()].map((heard) => heard.job);
   }
 
-  /** Those that have not ended, and those that ended at a time or later. */
-  since_time(t_s: number): Job[] {
-    const jobs = [...this.open_].flatMap((id) => this.get(id) ?? []);
+  /** Those that have not ended. */
+  get open(): Job[] {
+    return [...this.open_].flatMap((id) => this.get(id) ?? []);
+  }
+
+  has_ended(id: string): boolean {
+    return this.heard_.has(id) && !this.open_.has(id);
+  }
+
+  /** Another number whenever those that have ended are other ones. */
+  get endings(): number {
+    return this.endings_;
+  }
+
+  /** Those that ended at a time or later, newest first. */
+  ended_since(t_s: number): Job[] {
+    const jobs: Job[] = [];
     for (let i = this.ended_.length - 1; i >= 0; i--) {
       const job = this.ended_[i];
       if (!job || ended(job) < t_s) break;
@@ -150,6 +169,7 @@ export class JobBook {
   /** Most end in the order in which they are heard of. */
   private end(job: Job): void {
     this.open_.delete(job.id);
+    this.endings_ += 1;
     let at = this.ended_.length;
     while (at > 0 && ended(this.ended_[at - 1]) > ended(job)) at -= 1;
     this.ended_.splice(at, 0, job);

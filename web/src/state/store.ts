@@ -18,6 +18,8 @@ export interface Notice {
   level: 'info' | 'warning' | 'error';
   source: 'monitor' | 'alert';
   text: string;
+  /** Those that it is about, where the server names them. */
+  arms: readonly string[];
 }
 
 const kBeat_ms = 160;
@@ -119,7 +121,7 @@ export class Store {
       }
       case 'monitor': {
         const level = message.data.stopped.length ? 'error' : 'warning';
-        this.note(message.t_s, level, 'monitor', monitor_in_words(message.data), message.seq);
+        this.note(message.t_s, level, 'monitor', monitor_in_words(message.data), message.seq, message.data.arms);
         break;
       }
       case 'alert':
@@ -276,8 +278,8 @@ export class Store {
     });
   }
 
-  private note(t_s: number, level: Notice['level'], source: Notice['source'], text: string, seq: number | null = null): void {
-    const notice = { key: this.next_key_++, stream: this.stream, seq, t_s, level, source, text };
+  private note(t_s: number, level: Notice['level'], source: Notice['source'], text: string, seq: number | null = null, arms: readonly string[] = []): void {
+    const notice = { key: this.next_key_++, stream: this.stream, seq, t_s, level, source, text, arms };
     this.notices = [notice, ...this.notices].slice(0, kMaxNotices);
   }
 

@@ -32,34 +32,52 @@ export interface Lane {
 
 export interface Known {
   arms: readonly string[];
+  /** Of those that have not ended. */
   jobs: readonly Job[];
+  pasts: ReadonlyMap<string, Past>;
   stands(job: string): readonly Stand[];
+  has_ended(job: string): boolean;
   forecast: Forecast | null;
   now_s: number;
 }
 
+/** What an arm's jobs that have ended left, which does not change any more, and since when it is free of them. */
+export interface Past { marks: readonly Mark[]; free_from_s: number }
+
+const kNoPast: Past = { marks: [], free_from_s: 0 };
 const kLeastWait_s = 0.15;
 
+export function pasts_of(arms: readonly string[], ended: readonly Job[], stands: Known['stands']): Map<string, Past> {
+  return new Map([...by_arm(arms, ended)].map(([arm, jobs]) => [arm, done_of(jobs, kNoPast, Infinity, stands)]));
+}
+
 export function lanes_of(known: Known): Lane[] {
-  const of_arm = new Map<string, Job[]>(known.arms.map((arm) => [arm, []]));
-  for (const job of known.jobs) for (const arm of job.arms) of_arm.get(arm)?.push(job);
+  const { now_s, pasts, stands } = known;
+  const of_arm = by_arm(known.arms, known.jobs);
   return known.arms.map((arm) => {
     const expected = known.forecast?.arms.find((lane) => lane.name === arm);
     const jobs = of_arm.get(arm) ?? [];
-    const ended = new Set(jobs.filter((job) => job.ended_s !== null).map((job) => job.id));
-    const legs = (expected?.legs ?? []).filter((leg) => !ended.has(leg.id));
+    const done = done_of(jobs, pasts.get(arm) ?? kNoPast, now_s, stands);
+    const legs = (expected?.legs ?? []).filter((leg) => !known.has_ended(leg.id));
     return {
       arm,
-      marks: [...past_of(jobs, known), ...legs.flatMap((leg) => future_of(leg, known.now_s))],
+      marks: [...done.marks, ...next_of(jobs, done.free_from_s, now_s), ...legs.flatMap((leg) => future_of(leg, now_s))],
       waiting: expected?.waiting ?? 0,
     };
   });
 }
 
-function past_of(jobs: readonly Job[], { now_s, stands }: Known): Mark[] {
-  const marks: Mark[] = [];
+function by_arm(arms: readonly string[], jobs: readonly Job[]): Map<string, Job[]> {
+  const of_arm = new Map<string, Job[]>(arms.map((arm) => [arm, []]));
+  for (const job of jobs) for (const arm of job.arms) of_arm.get(arm)?.push(job);
+  return of_arm;
+}
+
+/** What has begun, each with the wait before it, after what was. */
+function done_of(jobs: readonly Job[], past: Past, now_s: number, stands: Known['stands']): Past {
+  const marks: Mark[] = [...past.marks];
   const begun = jobs.filter((job) => job.started_s !== null).sort((a, b) => (a.started_s ?? 0) - (b.started_s ?? 0));
-  let free_from_s = 0;
+  let { free_from_s } = past;
   for (const job of begun) {
     const start_s = job.started_s ?? 0;
     const could_s = Math.max(free_from_s, job.submitted_s);
@@ -69,12 +87,15 @@ function past_of(jobs: readonly Job[], { now_s, stands }: Known): Mark[] {
     for (const stand of stands(job.id)) marks.push(mark('pause', job, stand.from_s, stand.to_s ?? end_s, job.waits_on[0] ?? null));
     free_from_s = Math.max(free_from_s, end_s);
   }
-  const next = jobs.filter((job) => job.started_s === null && job.ended_s === null).sort((a, b) => a.submitted_s - b.submitted_s)[0];
-  if (next) {
-    const could_s = Math.max(free_from_s, next.submitted_s);
-    if (now_s - could_s > kLeastWait_s) marks.push(mark('wait', next, could_s, now_s, next.waits_on[0] ?? null));
-  }
-  return marks;
+  return { marks, free_from_s };
+}
+
+/** That the first of those that have not begun waits. */
+function next_of(jobs: readonly Job[], free_from_s: number, now_s: number): Mark[] {
+  const next = jobs.filter((job) => job.started_s === null).sort((a, b) => a.submitted_s - b.submitted_s)[0];
+  if (!next) return [];
+  const could_s = Math.max(free_from_s, next.submitted_s);
+  return now_s - could_s > kLeastWait_s ? [mark('wait', next, could_s, now_s, next.waits_on[0] ?? null)] : [];
 }
 
 function mark(kind: Mark['kind'], job: Job, from_s: number, to_s: number, waits_on: WaitsOn | null): Mark {

@@ -2,24 +2,25 @@
 
 import { arm_colour, ink } from '../state/palette';
 import { short_id } from '../wording';
+import { draw_events, type EventMark } from './events';
 import { drawn_of, type Lane, type Mark } from './lanes';
 import { kAxis_px, kLeft_px, kRight_px, lane_height, type Sheet } from './sheet';
 import { tick_of } from './span';
 
 /** What is looked at: the rest is dimmed. And the instant that is held, if one is. */
 export interface Lit { jobs: readonly string[]; arms: readonly string[]; held_s: number | null; events: readonly EventMark[] }
-/** What was reported then. */
-export interface EventMark { t_s: number; level: 'info' | 'warning' | 'error' }
+/** What is pointed at, or gone to by keys. */
+export interface Pointed { mark: Mark | null; events: readonly EventMark[] }
 
 const kFont = '"Inter Variable", system-ui, sans-serif';
 const kHatch_px = 5;
-const kEventColours: Record<EventMark['level'], string> = { info: '--dim', warning: '--amber', error: '--red' };
 // A bar is no narrower.
 const kLeast_px = 2;
 
 interface Row { top: number; height: number; colour: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number }
 
-export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly Lane[], lit: Lit, hover: Mark | null): void {
+export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly Lane[], lit: Lit, pointed: Pointed): void {
+  const { mark: hover } = pointed;
   g.clearRect(0, 0, sheet.width, sheet.height);
   const arms = lanes.map((lane) => lane.arm);
   const rows = lanes.map((lane, i) => row_of(sheet, arms, lane.arm, i));
@@ -33,25 +34,11 @@ export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly
     if (row) for (const mark of drawn_of(lane.marks, sheet.from_s, sheet.from_s + sheet.length_s, sheet.t_s(kLeast_px) - sheet.t_s(0))) draw_mark(g, sheet, row, mark, is_dim(mark, lane.arm, lit), mark === hover);
   });
   lanes.forEach((lane, i) => draw_threads(g, sheet, lane, i, rows, arms, hover));
-  draw_events(g, sheet, lit.events);
+  draw_events(g, sheet, lit.events, pointed.events);
   draw_now(g, sheet);
   if (lit.held_s !== null) draw_held(g, sheet, lit.held_s);
   g.restore();
   rows.forEach((row, i) => draw_name(g, row, lanes[i]?.arm ?? ''));
-}
-
-/** A notch over the axis for each, its form by how bad it is: bars and triangles. */
-function draw_events(g: CanvasRenderingContext2D, sheet: Sheet, events: readonly EventMark[]): void {
-  const foot = sheet.height - kAxis_px;
-  for (const { t_s, level } of [...events].reverse()) {
-    const at = Math.round(sheet.x(t_s));
-    if (at < kLeft_px || at > sheet.width) continue;
-    g.fillStyle = ink(kEventColours[level]);
-    g.beginPath();
-    if (level === 'info') g.rect(at - 1, foot - 6, 2, 6);
-    else for (const [x, y] of [[at, foot - 8], [at + 5, foot], [at - 5, foot]] as const) g.lineTo(x, y);
-    g.fill();
-  }
 }
 
 function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number): Row {

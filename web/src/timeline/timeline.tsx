@@ -4,28 +4,23 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { selection_of } from '../route/selection';
 import type { App } from '../state/app';
-import { lanes_of, mark_at, type Lane, type Mark } from './lanes';
+import { event_beside, events_in_words, type EventMark } from './events';
+import { known_lanes } from './known';
 import { paint } from './paint';
-import { fit, lane_at, sheet_of, type Sheet } from './sheet';
-import { around, kFollowing, moved, zoomed, type Span } from './span';
+import { kNothing, pointing, tip_of, type Drawing, type Tip } from './pointing';
+import { fit, sheet_of } from './sheet';
+import { around, begin_of, kFollowing, moved, zoomed, type Span } from './span';
 import { ScrubBar } from './scrub_bar';
 import { Told } from './told_list';
-import { mark_in_words } from './told';
 
 const kRedraw_ms = 100;
-const kClick_px = 4;
-// A motion that ended before what is shown tells since when its arm could have gone on.
-const kBefore_s = 60;
-
-/** What is drawn and what is pointed at; changes many times a second, so no component's state. */
-interface Drawing { span: Span; lanes: Lane[]; sheet: Sheet | null; hover: Mark | null }
-
 export function Timeline({ app }: { app: App }) {
   const { store, router, settings } = app;
   const canvas = useRef<HTMLCanvasElement>(null);
-  const drawing = useRef<Drawing>({ span: kFollowing, lanes: [], sheet: null, hover: null });
+  const drawing = useRef<Drawing>({ span: kFollowing, lanes: [], sheet: null, pointed: kNothing, drag: null });
   const [span, set_span] = useState<Span>(kFollowing);
   const [tip, set_tip] = useState<Tip | null>(null);
+  const [chosen, set_chosen] = useState('');
   const held_s = router.address.value.t_s;
   const change = (next: Span) => {
     drawing.current.span = next;
@@ -40,6 +35,47 @@ export function Timeline({ app }: { app: App }) {
     draw.current = () => { if (canvas.current) draw_now(canvas.current, drawing.current, app); };
     return drive(canvas, store, () => draw.current());
   }, [app]);
+  const look_away = () => {
+    if (drawing.current.pointed === kNothing) return;
+    drawing.current.pointed = kNothing;
+    set_tip(null);
+    draw.current();
+  };
+  // Whatever has the focus: what pointing shows is put away by a key.
+  useEffect(() => {
+    if (!tip) return;
+    const put_away = (event: KeyboardEvent) => { if (event.key === 'Escape') look_away(); };
+    window.addEventListener('keydown', put_away);
+    return () => window.removeEventListener('keydown', put_away);
+  }, [tip !== null]);
+  /** By key: shown where it stands, and said. */
+  const choose = (event: EventMark) => {
+    const { span: now } = drawing.current;
+    change(is_shown({ ...now, held_from_s: begin_of(now, store.t_s) }, event.t_s, store.t_s) ? moved(now, 0, store.t_s) : around(now, event.t_s, store.t_s));
+    drawing.current.pointed = { mark: null, events: [event] };
+    draw.current();
+    const { sheet } = drawing.current;
+    if (sheet) set_tip(tip_of([event], sheet, store.t_s));
+    set_chosen(events_in_words([event], store.t_s));
+  };
+  /** Whether it was one of the timeline's keys. */
+  const by_key = (key: string): boolean => {
+    const [at = null] = drawing.current.pointed.events;
+    if (key === 'PageUp' || key === 'PageDown') {
+      const event = event_beside(store.notices, at, key === 'PageUp' ? -1 : 1);
+      if (event) choose(event);
+      return true;
+    }
+    if (key === 'Enter' && at) {
+      router.hold_at(at.t_s);
+      return true;
+    }
+    const next = span_by_key(key, drawing.current.span, store.t_s);
+    if (!next) return false;
+    if (key === '0') router.hold_at(null);
+    change(next);
+    return true;
+  };
   const theme = settings.shown_theme.value;
   const address = router.address.value;
   useEffect(() => draw.current(), [span, theme, address]);
@@ -57,15 +93,11 @@ export function Timeline({ app }: { app: App }) {
           onClick={() => { router.hold_at(null); change({ ...span, held_from_s: null }); }}>Now</button>
       </div>
       <div class="sheet">
-        <canvas ref={canvas} tabIndex={0} role="img" aria-label="A lane for each arm: what it did, and what it is expected to do. Told below in words."
+        <canvas ref={canvas} tabIndex={0} role="img" data-test="lanes" data-from={span.held_from_s ?? 'now'} data-length={span.length_s}
+          aria-label="A lane for each arm: what it did, and what it is expected to do. Told below in words. Page up and page down go through the events, Enter looks back at one."
           {...pointing(drawing.current, app, change, set_tip, () => draw.current())}
-          onKeyDown={(event) => {
-            const next = span_by_key(event.key, drawing.current.span, store.t_s);
-            if (!next) return;
-            event.preventDefault();
-            if (event.key === '0') router.hold_at(null);
-            change(next);
-          }} />
+          onBlur={() => look_away()} onKeyDown={(event) => { if (by_key(event.key)) event.preventDefault(); }} />
+        <span class="sr-only" role="status">{chosen}</span>
         {tip && <div class="tip" role="tooltip" style={{ left: `${tip.x}px`, bottom: `${tip.up}px` }}>{tip.words}</div>}
       </div>
       <Told app={app} />
@@ -96,71 +128,13 @@ function drive(canvas: { current: HTMLCanvasElement | null }, store: App['store'
   };
 }
 
-/** Of what moves or waits at a time or later. */
-export function known_lanes({ store }: Pick<App, 'store'>, from_s = store.t_s): Lane[] {
-  return lanes_of({
-    arms: [...store.arms.keys()], jobs: store.book.since_time(from_s - kBefore_s), stands: (id) => store.book.stands(id),
-    forecast: store.forecast, now_s: store.t_s,
-  });
-}
-
 function draw_now(canvas: HTMLCanvasElement, drawing: Drawing, app: App): void {
   const g = fit(canvas);
   if (!g) return;
   drawing.sheet = sheet_of(canvas.clientWidth, canvas.clientHeight, drawing.span, app.store.t_s);
   drawing.lanes = known_lanes(app, drawing.sheet.from_s);
   const { jobs, arms } = selection_of(app.router.place, app.store);
-  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s: app.router.address.peek().t_s, events: app.store.notices }, drawing.hover);
-}
-
-interface Tip { x: number; up: number; words: string }
-
-/** What the pointer does: tells what is under it, moves the sheet, zooms, leads to a job. */
-function pointing(drawing: Drawing, app: App, change: (span: Span) => void, tell: (tip: Tip | null) => void, draw: () => void) {
-  let from: { x: number; span: Span } | null = null;
-  let travelled = 0;
-  const found = (event: MouseEvent): Mark | null => {
-    const { sheet, lanes } = drawing;
-    const lane = sheet ? lanes[lane_at(sheet, lanes.length, event.offsetY)] : undefined;
-    return sheet && lane ? mark_at(lane, sheet.t_s(event.offsetX)) : null;
-  };
-  return {
-    onPointerDown: (event: PointerEvent) => {
-      from = { x: event.offsetX, span: drawing.span };
-      travelled = 0;
-      (event.currentTarget as HTMLCanvasElement).setPointerCapture(event.pointerId);
-    },
-    onPointerMove: (event: PointerEvent) => {
-      const { sheet } = drawing;
-      if (from && sheet) {
-        travelled = Math.max(travelled, Math.abs(event.offsetX - from.x));
-        if (travelled > kClick_px) return change(moved(from.span, sheet.t_s(from.x) - sheet.t_s(event.offsetX), app.store.t_s));
-      }
-      const mark = found(event);
-      drawing.hover = mark;
-      draw();
-      if (!mark || !sheet) return tell(null);
-      const x = Math.min(Math.max(event.offsetX, 140), sheet.width - 140);
-      tell({ x, up: sheet.height - event.offsetY + 12, words: mark_in_words(mark, app.store.t_s) });
-    },
-    onPointerUp: (event: PointerEvent) => {
-      const mark = from && travelled <= kClick_px ? found(event) : null;
-      from = null;
-      if (mark) app.router.go({ page: 'job', id: mark.job });
-    },
-    onPointerLeave: () => {
-      drawing.hover = null;
-      tell(null);
-      draw();
-    },
-    onWheel: (event: WheelEvent) => {
-      event.preventDefault();
-      const { sheet, span } = drawing;
-      if (!sheet) return;
-      const share = Math.min(1, Math.max(0, (sheet.t_s(event.offsetX) - sheet.from_s) / sheet.length_s));
-      change(zoomed(span, event.deltaY > 0 ? 1.2 : 1 / 1.2, app.store.t_s, share));
-    },
-  };
+  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s: app.router.address.peek().t_s, events: app.store.notices }, drawing.pointed);
 }
 
 function span_by_key(key: string, span: Span, now_s: number): Span | null {

@@ -2,8 +2,8 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
+import { known_lanes } from './known';
 import { lane_in_words } from './told';
-import { known_lanes } from './timeline';
 
 const kRenew_ms = 1000;
 

@@ -1,0 +1,191 @@
+// Composing jobs, used as a person would: judged and previewed before they are sent, dropped as files, copied
+// for programs, planned to a goal by form and by hand in the cell; and cancelled.
+//
+//   node --test test/browser/compose.test.mjs      (after the server and web/dist were built; see harness.mjs)
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { arm_now, ask, Browser, copied_by, drop_files, job_through, path_for, run, send_through, Server } from './harness.mjs';
+import { difference } from './pictures.mjs';
+
+const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
+const kLeastShown_px = 1500;
+const kLeastGhost_px = 800;
+// A name that a shell or a page might take for more than a name.
+const kHostile = `<img src=x onerror="window.was_html=1"><b>&amp;'$(exit 3)`;
+
+const folder = mkdtempSync(join(tmpdir(), 'armloom-compose-'));
+const server = new Server('config/two_pandas.json', 'coordinated');
+const chromium = new Browser();
+let page;
+
+before(async () => {
+  const url = await server.start();
+  page = await chromium.open({ colorScheme: 'dark' });
+  await chromium.visit(url);
+}, { timeout: 90_000 });
+
+after(async () => {
+  await chromium.close();
+  await server.end();
+  rmSync(folder, { recursive: true, force: true });
+}, { timeout: 30_000 });
+
+const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
+const send = (...job) => send_through(page, ...job);
+const finished = (id) => page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
+
+async function view_picture() {
+  await page.evaluate(() => window.armloom.drawn());
+  return page.locator('.view canvas').screenshot({ timeout: 60_000 });
+}
+
+test('a job is judged before it is sent, a bag of jobs is taken whole', { timeout: 60_000 }, async () => {
+  await page.locator('[data-test=new-job]').click();
+  const { names, q } = await arm_now(page, 'left');
+  const text = page.locator('[data-test=job-text]');
+  await text.fill(JSON.stringify(job_through('judged', names, [q, kMiddle, q], 4)));
+  await page.locator('[data-test=judge]').click();
+  assert.match(await page.locator('[data-test=judged]').innerText(), /free\s+It would start now/);
+  assert.equal((await ask(page, 'GET', '/jobs/judged')).status, 404);
+
+  // Previewed: a ghost of the arm where it would be, and where it would meet what stands in its way.
+  const without = await view_picture();
+  await page.locator('[data-test=preview-time]').fill('4');
+  // The ghost comes once the form has been drawn, which may be after a picture or two.
+  let ghost = { count: 0 };
+  for (let tries = 0; tries < 30 && ghost.count <= kLeastShown_px; tries++) ghost = await difference(chromium.context, without, await view_picture());
+  assert.ok(ghost.count > kLeastShown_px, `${ghost.count} pixels changed`);
+  await ask(page, 'PUT', '/scene/objects/post', { box: [0.1, 0.1, 0.6], xyz: [-0.05, 0, 0.6], rpy: [0, 0, 0] });
+  await page.locator('[data-test=judge]').click();
+  await page.locator('[data-test=show-conflict]').first().click();
+  assert.match(await page.locator('[data-test=judged]').innerText(), /in conflict/);
+  await page.waitForFunction(() => { const at = Number(document.querySelector('[data-test=preview-time]').value); return at > 0.1 && at < 3.9; });
+  await page.evaluate(() => window.armloom.drawn());
+  await page.screenshot(path_for('preview-dark'));
+  await ask(page, 'DELETE', '/scene/objects/post');
+  const bag = [1, 2].map((i) => ({ at: 0, job: job_through(`bag-${i}`, names, [q, q.map((v, k) => v + (k === 0 ? 0.1 * i : 0)), q], 1) }));
+  await text.fill(JSON.stringify(bag));
+  assert.match(await page.locator('[data-test=bag]').innerText(), /2 jobs/);
+  await page.screenshot(path_for('compose-dark'));
+  await page.locator('[data-test=send]').click();
+  await page.locator('[data-test=accepted]').getByText('bag-2').click();
+  await page.locator('[data-test=page-job]').getByText('bag-2').first().waitFor();
+  await page.locator('[data-test=list-finished] [data-test="job-bag-2"]').waitFor();
+});
+
+test('a file that is dropped anywhere on the page is shown, and sent', { timeout: 60_000 }, async () => {
+  await go('#/');
+  const { names, q } = await arm_now(page, 'left');
+  const way = [q, q.map((v, k) => v + (k === 0 ? -0.3 : 0))];
+  const { trajectory } = job_through('', names, way, 1);
+  const file = join(folder, 'trajectory.json');
+  writeFileSync(file, JSON.stringify(trajectory));  // as a ROS tool has it: no job around it
+  await drop_files(page, [file], '.view canvas');
+  await page.locator('[data-test=page-new]').waitFor();
+  assert.deepEqual(JSON.parse(await page.locator('[data-test=job-text]').inputValue()), trajectory);
+  await page.locator('[data-test=preview-time]').waitFor();
+  await page.locator('[data-test=judge]').click();
+  await page.locator('[data-test=judged]', { hasText: 'free' }).waitFor();
+  await page.locator('[data-test=send]').click();
+  const id = await page.locator('[data-test=accepted] a').innerText();
+  await page.locator(`[data-test=list-finished] [data-test="job-${id}"][data-state=succeeded]`).waitFor();
+});
+
+test('a request and a job are copied as curl and as Python, and both work', { timeout: 120_000 }, async () => {
+  const { names, q } = await arm_now(page, 'right');
+  const copy = (what) => page.locator(`.pane [data-test=copy-${what}]`);
+  for (const [what, program] of [['curl', ['bash', '-c']], ['Python', ['python3', '-c']]]) {
+    const id = `by-${what}`;
+    await go('#/new');
+    await page.locator('[data-test=job-text]').fill(JSON.stringify(job_through(id, names, [q, q], 1, { name: kHostile }), null, 1));
+    assert.match(await run(program[0], [program[1], await copied_by(page, copy(what))]), new RegExp(`\\Wid\\W+${id}\\W`));
+    await page.locator(`[data-test=list-finished] [data-test="job-${id}"][data-state=succeeded]`).waitFor();
+    await go(`#/job/${id}`);
+    await page.locator('[data-test=page-job] [data-test=raw]', { hasText: id }).waitFor();
+    const told = await run(program[0], [program[1], await copied_by(page, copy(what))]);
+    if (what === 'curl') assert.equal(JSON.parse(told).name, kHostile);
+    else assert.equal(told.trim(), 'succeeded []');
+    assert.equal(JSON.parse(await copied_by(page, copy('JSON'))).id, id);
+  }
+});
+
+test('a job is cancelled after a question only', { timeout: 60_000 }, async () => {
+  await send('left', 'unwanted', [kMiddle, null], 5);
+  const row = page.locator('[data-test="job-unwanted"]');
+  await row.getByRole('button', { name: 'Cancel unwanted' }).click();
+  await row.getByRole('button', { name: 'Keep' }).click();
+  assert.match(await row.getAttribute('data-state'), /queued|running|scheduled/);
+  await row.getByRole('button', { name: 'Cancel unwanted' }).click();
+  await row.locator('[data-test=confirm-cancel]').click();
+  await page.locator('[data-test=list-finished] [data-test="job-unwanted"]').waitFor();
+  await page.locator('[data-test=filter]').fill('canceled left');
+  await page.locator('[data-test="job-by-curl"]').waitFor({ state: 'detached' });
+  assert.equal(await row.getAttribute('data-state'), 'canceled');
+  await page.locator('[data-test=filter]').fill('');
+});
+
+test('a way to a goal is planned by form, looked at, and sent', { timeout: 120_000 }, async () => {
+  await page.locator('[data-test=new-job]').click();
+  await page.locator('[data-test=plan-goal] summary').click();
+  await page.locator('[data-test=plan-arm]').selectOption('left');
+  await page.locator('[data-test=plan-kind]').selectOption('pose');
+  await page.locator('[data-test=plan-xyz]').fill('0, 9, 0.5');
+  await page.locator('[data-test=plan]').click();
+  await page.locator('[data-test=plan-form] [data-test=problem]').waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=plan-xyz]').fill('zero');
+  await page.locator('[data-test=plan]').click();
+  assert.match(await page.locator('[data-test=plan-fault]').innerText(), /Position.*zero/);
+  const before = await view_picture();
+  await page.locator('[data-test=plan-kind]').selectOption('named');
+  await page.locator('[data-test=plan-named]').selectOption('ready');
+  await page.locator('[data-test=plan]').click();
+  await page.locator('[data-test=planned]').waitFor({ timeout: 60_000 });
+  assert.match(await page.locator('[data-test=planned]').innerText(), /proven.*could start now/);
+  assert.match(await page.locator('[data-test=job-text]').inputValue(), /left to ready[^]*left_panda_joint1/);
+  const ghost = await difference(chromium.context, before, await view_picture());
+  assert.ok(ghost.count > kLeastGhost_px, `${ghost.count} pixels of ghosts`);
+  await page.screenshot(path_for('plan-dark'));
+  await page.locator('[data-test=send]').click();
+  const id = await page.locator('[data-test=accepted] a').innerText();
+  await finished(id);
+});
+
+test('the goal of a tool is dragged in the cell: planned, judged and shown before it is sent', { timeout: 120_000 }, async () => {
+  await go('#/');
+  await page.locator('[data-test=new-job]').click();
+  await page.locator('[data-test=plan-goal] summary').click();
+  await page.locator('[data-test=plan-arm]').selectOption('right');
+  await page.locator('[data-test=plan-kind]').selectOption('pose');
+  await page.locator('[data-test=plan-xyz]').fill('');
+  await page.locator('[data-test=plan-move]').click();
+  await page.evaluate(() => window.armloom.drawn());
+  const before = await view_picture();
+  const view = await page.locator('.view canvas').boundingBox();
+  const tool = await page.evaluate(() => window.armloom.where_is_tool());
+  await page.mouse.move(view.x + tool.x, view.y + tool.y);
+  await page.mouse.down();
+  await page.mouse.move(view.x + tool.x + 20, view.y + tool.y - 20, { steps: 6 });
+  await page.mouse.up();
+  await page.locator('[data-test=planned]').waitFor({ timeout: 60_000 });
+  assert.match(await page.locator('[data-test=planned]').innerText(), /proven.*could start now/);
+  assert.match(await page.locator('[data-test=plan-xyz]').inputValue(), /^-?[\d.]+, -?[\d.]+, -?[\d.]+$/);
+  assert.match(await page.locator('[data-test=job-text]').inputValue(), /right_panda_joint1/);
+  const ghost = await difference(chromium.context, before, await view_picture());
+  assert.ok(ghost.count > kLeastGhost_px, `${ghost.count} pixels of ghosts`);
+  const { status, value } = await ask(page, 'GET', '/jobs?arm=right&state=running');
+  assert.equal(status, 200);
+  assert.deepEqual(value.jobs, [], 'nothing moves before it is sent');
+  await page.locator('[data-test=plan-turn]').click();
+  assert.equal(await page.locator('[data-test=plan-move]').getAttribute('aria-pressed'), 'false');
+  await page.screenshot(path_for('drag-tool-dark'));
+  await page.locator('[data-test=send]').click();
+  await finished(await page.locator('[data-test=accepted] a').innerText());
+});
+
+test('nothing so far was an error in the console', () => {
+  assert.deepEqual(chromium.errors.filter((text) => !/404 \(|409 \(|422 \(/.test(text)), []);
+});

@@ -1,0 +1,76 @@
+// What was reported, as notches over the timeline's axis: drawn, found under the pointer, gone through by
+// keys, and told in words. Pure but for the drawing.
+
+import { ink } from '../state/palette';
+import type { Notice } from '../state/store';
+import { clock, seconds } from '../wording';
+import { kAxis_px, kLeft_px, kRight_px, type Sheet } from './sheet';
+
+export type EventMark = Pick<Notice, 'key' | 't_s' | 'level' | 'text' | 'arms'>;
+
+const kColours: Record<EventMark['level'], string> = { info: '--dim', warning: '--amber', error: '--red' };
+const kNames: Record<EventMark['level'], string> = { info: 'Note', warning: 'Warning', error: 'Error' };
+const kHeight_px = 9;
+// A notch is narrower than what a hand can point at.
+const kReach_px = 7;
+const kMostTold = 3;
+
+/** Bars and triangles by how bad it is; the one that is looked at is outlined. The newest come first, and lie on top. */
+export function draw_events(g: CanvasRenderingContext2D, sheet: Sheet, events: readonly EventMark[], looked_at: readonly EventMark[]): void {
+  const foot = sheet.height - kAxis_px;
+  for (const event of [...events].reverse()) {
+    const at = Math.round(sheet.x(event.t_s));
+    if (at < kLeft_px || at > sheet.width) continue;
+    g.fillStyle = ink(kColours[event.level]);
+    g.beginPath();
+    if (event.level === 'info') g.rect(at - 1, foot - 6, 2, 6);
+    else for (const [x, y] of [[at, foot - 8], [at + 5, foot], [at - 5, foot]] as const) g.lineTo(x, y);
+    g.closePath();
+    g.fill();
+    if (!looked_at.includes(event)) continue;
+    g.strokeStyle = ink('--text');
+    g.lineWidth = 2;
+    g.stroke();
+  }
+}
+
+/** Those at a place of the sheet, newest first; none where it is not on the notches' strip. */
+export function events_at(events: readonly EventMark[], sheet: Sheet, x: number, y: number): EventMark[] {
+  const foot = sheet.height - kAxis_px;
+  if (y < foot - kHeight_px - 3 || y > sheet.height) return [];
+  const found = events.filter((event) => Math.abs(sheet.x(event.t_s) - x) <= kReach_px && is_in(sheet, event));
+  const nearest = found.reduce<EventMark | null>((best, event) => (best && Math.abs(sheet.x(best.t_s) - x) <= Math.abs(sheet.x(event.t_s) - x) ? best : event), null);
+  // Those that share its pixels are told with it.
+  return nearest ? found.filter((event) => Math.abs(sheet.x(event.t_s) - sheet.x(nearest.t_s)) <= 2) : [];
+}
+
+function is_in(sheet: Sheet, { t_s }: EventMark): boolean {
+  const x = sheet.x(t_s);
+  return x >= kLeft_px && x <= sheet.width - kRight_px;
+}
+
+/** The next one later (by 1) or earlier (by -1) than another; without one, the newest there is. */
+export function event_beside(events: readonly EventMark[], from: EventMark | null, by: 1 | -1): EventMark | null {
+  if (events.length === 0) return null;
+  const at = from ? events.findIndex(({ key }) => key === from.key) : -1;
+  if (at < 0) return events[0] ?? null;
+  return events[Math.min(events.length - 1, Math.max(0, at - by))] ?? null;
+}
+
+/** How bad, when, what, and which arms, a line each. */
+export function events_in_words(events: readonly EventMark[], now_s: number): string {
+  const lines = events.slice(0, kMostTold).map((event) => event_in_words(event, now_s));
+  if (events.length > kMostTold) lines.push(`and ${events.length - kMostTold} more`);
+  return lines.join('\n');
+}
+
+function event_in_words({ level, t_s, text, arms }: EventMark, now_s: number): string {
+  const unnamed = arms.filter((arm) => !names(text, arm));
+  const of = unnamed.length === 0 ? '' : ` (${unnamed.join(' and ')})`;
+  return `${kNames[level]} at ${clock(t_s)}, ${seconds(Math.max(0, now_s - t_s))} ago: ${text}${of}`;
+}
+
+/** Whether an arm stands in a text as a word of its own, not as the beginning of a link's name. */
+function names(text: string, arm: string): boolean {
+  return text.split(/[^\p{L}\p{N}_-]+/u).includes(arm);
+}

@@ -1,0 +1,88 @@
+// What the pointer does on the timeline: tells what is under it, moves the sheet, zooms, leads to a job or
+// back to an event.
+
+import type { App } from '../state/app';
+import { events_at, events_in_words, type EventMark } from './events';
+import { mark_at, type Lane } from './lanes';
+import type { Pointed } from './paint';
+import { kAxis_px, lane_at, type Sheet } from './sheet';
+import { moved, zoomed, type Span } from './span';
+import { mark_in_words } from './told';
+
+/** What is drawn and what is pointed at; changes many times a second, so no component's state. */
+export interface Drawing { span: Span; lanes: Lane[]; sheet: Sheet | null; pointed: Pointed; drag: Drag | null }
+
+/** From where the pointer went down; it outlives that the page is drawn anew meanwhile. */
+interface Drag { x: number; span: Span; travelled_px: number }
+
+export interface Tip { x: number; up: number; words: string }
+
+export const kNothing: Pointed = { mark: null, events: [] };
+
+const kClick_px = 4;
+const kTipHalf_px = 140;
+const kAboveAxis_px = 12;
+
+export function tip_of(events: readonly EventMark[], sheet: Sheet, now_s: number): Tip {
+  return { x: beside_rims(sheet.x(events[0]?.t_s ?? now_s), sheet), up: kAxis_px + kAboveAxis_px, words: events_in_words(events, now_s) };
+}
+
+function beside_rims(x: number, sheet: Sheet): number {
+  return Math.min(Math.max(x, kTipHalf_px), sheet.width - kTipHalf_px);
+}
+
+export function pointing(drawing: Drawing, app: App, change: (span: Span) => void, tell: (tip: Tip | null) => void, draw: () => void) {
+  const found = (event: MouseEvent): Pointed => {
+    const { sheet, lanes } = drawing;
+    if (!sheet) return kNothing;
+    const events = events_at(app.store.notices, sheet, event.offsetX, event.offsetY);
+    if (events.length > 0) return { mark: null, events };
+    const lane = lanes[lane_at(sheet, lanes.length, event.offsetY)];
+    return { mark: lane ? mark_at(lane, sheet.t_s(event.offsetX)) : null, events };
+  };
+  const told = ({ mark, events }: Pointed, sheet: Sheet, event: MouseEvent): Tip | null => {
+    const now_s = app.store.t_s;
+    if (events.length > 0) return tip_of(events, sheet, now_s);
+    return mark && { x: beside_rims(event.offsetX, sheet), up: sheet.height - event.offsetY + 12, words: mark_in_words(mark, now_s) };
+  };
+  return {
+    onPointerDown: (event: PointerEvent) => {
+      drawing.drag = { x: event.offsetX, span: moved(drawing.span, 0, app.store.t_s), travelled_px: 0 };
+      (event.currentTarget as HTMLCanvasElement).setPointerCapture(event.pointerId);
+    },
+    onPointerMove: (event: PointerEvent) => {
+      const { sheet, drag } = drawing;
+      if (drag && sheet) {
+        drag.travelled_px = Math.max(drag.travelled_px, Math.abs(event.offsetX - drag.x));
+        if (drag.travelled_px > kClick_px) {
+          tell(null);
+          return change(moved(drag.span, sheet.t_s(drag.x) - sheet.t_s(event.offsetX), app.store.t_s));
+        }
+      }
+      const pointed = found(event);
+      drawing.pointed = pointed;
+      (event.currentTarget as HTMLCanvasElement).classList.toggle('leads', pointed.mark !== null || pointed.events.length > 0);
+      draw();
+      tell(sheet && told(pointed, sheet, event));
+    },
+    onPointerUp: (event: PointerEvent) => {
+      const { mark, events: [first] } = drawing.drag && drawing.drag.travelled_px <= kClick_px ? found(event) : kNothing;
+      drawing.drag = null;
+      if (mark) app.router.go({ page: 'job', id: mark.job });
+      else if (first) app.router.hold_at(first.t_s);
+    },
+    onPointerCancel: () => { drawing.drag = null; },
+    onPointerLeave: () => {
+      drawing.pointed = kNothing;
+      tell(null);
+      draw();
+    },
+    onWheel: (event: WheelEvent) => {
+      event.preventDefault();
+      const { sheet, span } = drawing;
+      if (!sheet) return;
+      const share = Math.min(1, Math.max(0, (sheet.t_s(event.offsetX) - sheet.from_s) / sheet.length_s));
+      change(zoomed(span, event.deltaY > 0 ? 1.2 : 1 / 1.2, app.store.t_s, share));
+    },
+  };
+}
