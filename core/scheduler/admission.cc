@@ -88,11 +88,11 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   if (open_) return false;
   bool put_off = false;
   if (const auto recheck = next_recheck(state)) {
-    ask_recheck(state, *recheck);
+    ask_about(state, *recheck, question_now(state, {*recheck}), Purpose::recheck);
     return put_off;
   }
   if (const auto job = next_in_question(state)) {
-    ask_about_itself(state, *job);
+    ask_about(state, *job, question_by_itself(state, state.jobs.at(*job).job), Purpose::itself);
     return put_off;
   }
   std::optional<JobId> turn;
@@ -124,11 +124,6 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   return put_off;
 }
 
-void Admission::ask_recheck(State& state, JobId job) {
-  open_ = OpenQuestion{state.version, {job}, Purpose::recheck};
-  state.decided.effects.push_back(Judge{question_now(state, {job})});
-}
-
 void Admission::ask(State& state, std::vector<JobId> jobs, SafeSequence::Outlook outlook,
                     Purpose purpose) {
   Question question = question_now(state, jobs);
@@ -140,9 +135,9 @@ void Admission::ask(State& state, std::vector<JobId> jobs, SafeSequence::Outlook
   state.decided.effects.push_back(Judge{std::move(question)});
 }
 
-void Admission::ask_about_itself(State& state, JobId job) {
-  open_ = OpenQuestion{state.version, {job}, Purpose::itself};
-  state.decided.effects.push_back(Judge{question_by_itself(state, state.jobs.at(job).job)});
+void Admission::ask_about(State& state, JobId job, Question question, Purpose purpose) {
+  open_ = OpenQuestion{state.version, {job}, purpose};
+  state.decided.effects.push_back(Judge{std::move(question)});
 }
 
 void Admission::ask_yield(State& state, YieldTrial move) {

@@ -47,8 +47,7 @@ class Admission {
 
   void ask(State& state, std::vector<JobId> jobs, SafeSequence::Outlook outlook,
            Purpose purpose = Purpose::start);
-  void ask_recheck(State& state, JobId job);
-  void ask_about_itself(State& state, JobId job);
+  void ask_about(State& state, JobId job, Question question, Purpose purpose);
   void ask_yield(State& state, YieldTrial move);
   void answer_yield(State& state, const Verdict& verdict, YieldTrial move, WaitCycles& cycles);
   void answer_option(State& state, Verdict verdict);

@@ -11,6 +11,7 @@
 namespace armloom::experiments {
 namespace {
 
+using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 
 ConflictTable table_of(std::size_t rows, const std::string& cells) {
@@ -212,6 +213,22 @@ TEST(Delays, TakeTheTimeThatTheySay) {
   const double after_s = run_policy(workload, "shuttles", "sequential", 1, {}).row.makespan_s;
   const double twice_s = to_seconds(workload.jobs[2].trajectory->duration());
   EXPECT_NEAR(after_s - before_s, 1.0 + twice_s, 0.1);
+}
+
+TEST(Delays, LeaveTheWayAsItIs) {
+  const Workload workload = workload_kind("shuttles").make(1);
+  const Trajectory& motion = *workload.jobs[2].trajectory;
+  const TrajectoryPtr late = as_delayed(motion, {1.0, 0.5});
+  EXPECT_EQ(late->duration(), 1s + 2 * motion.duration());
+  Eigen::VectorXd planned;
+  Eigen::VectorXd made;
+  late->sample_positions(999ms, made);
+  EXPECT_EQ(made, motion.start());
+  for (Duration time{}; time <= motion.duration(); time += 10ms) {
+    motion.sample_positions(time, planned);
+    late->sample_positions(1s + 2 * time, made);
+    EXPECT_LT((planned - made).lpNorm<Eigen::Infinity>(), 1e-9) << to_seconds(time);
+  }
 }
 
 TEST(Delays, MeetATenthToThreeTenthsOfTheJobs) {

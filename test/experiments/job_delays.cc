@@ -1,8 +1,11 @@
 #include "test/experiments/job_delays.h"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <stdexcept>
 
+#include "test/experiments/joined_diagram.h"
 #include "test/experiments/moves.h"
 
 namespace armloom::experiments {
@@ -93,6 +96,31 @@ void delay_some(std::vector<PlannedJob>& jobs, std::uint64_t seed) {
     const double speed = uniform(random, kSlowest, kFastest);
     if (uniform(random, 0.0, 1.0) < share) job.delay = JobDelay{late_s, speed};
   }
+}
+
+TrajectoryPtr as_delayed(const Trajectory& motion, const JobDelay& delay) {
+  constexpr Duration kSquare = JoinedDiagram::kSquare;
+  const Duration late = from_seconds(delay.late_s) / kSquare * kSquare;
+  const Duration takes =
+      from_seconds(to_seconds(motion.duration()) / delay.speed) / kSquare * kSquare;
+  const double rate = to_seconds(motion.duration()) / to_seconds(takes);
+  std::vector<Segment> segments;
+  if (late > Duration{}) {
+    Segment stands{Duration{}, late, {}};
+    stands.coefficients.setZero(motion.start().size(), 6);
+    stands.coefficients.col(0) = motion.start();
+    segments.push_back(std::move(stands));
+  }
+  const auto when = [&](Duration time) { return from_seconds(to_seconds(time) / rate); };
+  for (const Segment& whole : motion.segments()) {
+    const Duration from = when(whole.start);
+    const bool is_last = whole.start + whole.duration == motion.duration();
+    const Duration to = is_last ? takes : when(whole.start + whole.duration);
+    Segment slow{late + from, to - from, whole.coefficients};
+    for (int k = 1; k < 6; ++k) slow.coefficients.col(k) *= std::pow(rate, k);
+    segments.push_back(std::move(slow));
+  }
+  return std::make_shared<const Trajectory>(motion.joints(), motion.arms(), std::move(segments));
 }
 
 Result<SimulationResult> simulate_delayed(const CellPtr& cell, ExecutiveOptions options,

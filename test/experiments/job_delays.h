@@ -21,6 +21,11 @@ inline constexpr double kSlowest = 0.3;
 inline constexpr double kFastest = 0.8;
 void delay_some(std::vector<PlannedJob>& jobs, std::uint64_t seed);
 
+// A motion as an arm makes it that begins so late and is so slow, and never waits for anybody: what
+// it takes beyond the motion is rounded down so that the whole is a multiple of
+// JoinedDiagram::kSquare. Precondition: the motion is one.
+[[nodiscard]] TrajectoryPtr as_delayed(const Trajectory& motion, const JobDelay& delay);
+
 // As simulate(), with arms that are late and slow with the jobs that are to be. An arm is told to
 // start late from when the job before has started, and to be slow from the job's start to its end;
 // a move aside that comes between is late in the job's stead.

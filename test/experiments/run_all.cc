@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "test/experiments/fixed_orders.h"
+#include "test/experiments/job_delays.h"
 
 namespace armloom::experiments {
 namespace {
@@ -24,7 +25,10 @@ SeedRuns run_seed(const WorkloadKind& kind, std::uint64_t seed,
   const Workload given =
       kind.freed_from.empty() ? workload : workload_kind(kind.freed_from).make(seed);
   std::vector<Work> work;
-  for (const PlannedJob& job : given.jobs) work.push_back({job.arm, job.trajectory, job.timed.at});
+  for (const PlannedJob& job : given.jobs) {
+    work.push_back({job.arm, job.delay ? as_delayed(*job.trajectory, *job.delay) : job.trajectory,
+                    job.timed.at});
+  }
   const Limits limits{lower_bound(workload.cell, work, kMoment), optimum(workload.cell, work)};
   SeedRuns done{workload.cell, {}};
   if (!workload.one_arm.empty()) {
