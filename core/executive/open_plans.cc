@@ -24,6 +24,7 @@ PlanMade made_of(const PlanMotion& asked, PlanAnswer answer) {
   PlanMade made{.job = asked.job, .question = asked.number, .trajectory = nullptr};
   if (answer) {
     made.trajectory = answer->timed.trajectory;
+    made.goes_through = answer->goes_through;
   } else {
     const PlanRefusal& refusal = answer.error();
     made.why = "no plan: " + refusal.detail + nearest_text(refusal);

@@ -63,6 +63,7 @@ struct PlanMade {
   std::string why = {};      // there is none: one sentence
   // There is none because the arm stands too close to this, which no job moves.
   std::optional<Proximity> stands_in = {};
+  bool goes_through = false;  // it leads where others stand: no way past all of them was found
 };
 // What a controller measured of a job's motion. Sent for every job in motion at every tick that
 // matters; `kind` says what has changed.

@@ -161,6 +161,7 @@ struct GoalWay {
   Version asked_at = 0;                        // ... and when it was asked
   std::optional<std::string> refusal = {};     // the answer to it, where there is no plan
   std::optional<Proximity> stands_in = {};     // ... as the arm stands too close to this
+  bool goes_through = false;                   // where others stand (PlanMade)
 };
 // Another way to a goal, around the places that others hold (detour.h).
 struct Detour {

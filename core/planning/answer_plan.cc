@@ -117,6 +117,7 @@ PlanAnswer answer_plan(const PlanningScenePtr& scene, const PlanQuestion& questi
     auto motion = with_spent(answer.to(request));
     if (motion) {
       motion->not_past = std::move(not_past);
+      motion->goes_through = !request.left_out.empty();
       return motion;
     }
     PlanRefusal& refusal = motion.error();

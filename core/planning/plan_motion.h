@@ -23,6 +23,7 @@ struct PlannedMotion {
   double rounded_within = 0.0;
   // As if all that may move were gone (answer_plan.h).
   std::optional<NotPast> not_past = {};
+  bool goes_through = false;  // some of these were left out
 };
 
 // What stands against the motion as a job would be judged (Swept), everything else standing as in

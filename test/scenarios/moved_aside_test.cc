@@ -125,5 +125,46 @@ TEST_P(BesideAMovedArm, ASwapOfGoalsTakesOneMoveAside) {
   EXPECT_FALSE(cell.executive().job("aside-2"));
 }
 
+// Two rows of three places between walls: a finds both ways to its goal shut when it is planned, by
+// b and by c, which is about to leave. Its plan led through b, and where c had gone it stayed so:
+// with what waits behind it that made a ring, and jobs failed.
+TEST(BesideAnArmThatLeaves, AGoalIsPlannedAnewWhereNoWayWasFound) {
+  CellDescription description =
+      gantries(OnIdleBlocker::report, {{-0.4, -0.4}, {0.12, -0.14}, {-0.14, -0.4}});
+  for (RobotDescription& robot : description.robots) {
+    for (const char* joint : {"x", "y"}) {
+      robot.arms.front().limits[joint].velocity = 0.5;
+      robot.arms.front().limits[joint].acceleration = 2.0;
+    }
+  }
+  const auto wall = [&description](const std::string& name, const Eigen::Vector3d& size,
+                                   Place_m at) {
+    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+    X_WO.translation() = Eigen::Vector3d(at.first, at.second, 0.0);
+    description.objects.push_back({name, Box{size}, X_WO});
+  };
+  wall("left", {0.2, 1.0, 0.3}, {-0.66, -0.27});
+  wall("right", {0.2, 1.0, 0.3}, {0.38, -0.27});
+  wall("below", {1.2, 0.2, 0.3}, {-0.14, -0.66});
+  wall("above", {1.2, 0.2, 0.3}, {-0.14, 0.12});
+  TwoGantries cell(description, "coordinated");
+  cell.submit(to_place("b", {-0.4, -0.14}, "b comes"));
+  JobRequest up = go("c", {-0.14, -0.4}, {-0.14, -0.14}, 1.0, "c up");
+  up.after = {"b comes"};
+  cell.submit(up);
+  cell.submit(to_place("c", {0.12, -0.14}, "c leaves"));
+  cell.submit(to_place("a", {-0.14, -0.14}, "goal"));
+  cell.submit(to_place("c", {-0.4, -0.4}, "c behind a"));
+  cell.submit(to_place("c", {0.12, -0.14}, "c back"));
+  JobRequest leaves = to_place("b", {-0.14, -0.4}, "b leaves");
+  leaves.after = {"c back"};
+  cell.submit(leaves);
+  cell.submit(go("a", {-0.14, -0.14}, {-0.4, -0.14}, 1.0, "a on"));
+  cell.run_to_the_end(at(200s));
+  for (const char* key : {"goal", "c behind a", "c back", "b leaves", "a on"}) {
+    EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key << ": " << cell.job(key).detail();
+  }
+}
+
 }  // namespace
 }  // namespace armloom

@@ -88,14 +88,20 @@ PlanQuestion question_about(const State& state, const Record& record, const Goal
 }
 
 // It waits for an arm that it was not planned beside where that comes to rest: another job has
-// overtaken it, or a move aside of our own has taken that arm there.
+// overtaken it, or a move aside of our own has taken that arm there. Where no way past the others
+// was found there may be one as soon as any of them is to rest elsewhere.
 bool is_to_pass_another_place(const State& state, const Record& record, const GoalWay& way,
                               const Configuration& at) {
-  Configuration rest = at;
+  Configuration rest = way.goes_through ? question_about(state, record, way, at).at : at;
   for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
-    if (ArmId{a} == way.goal.arm || !is_found_in_the_way(state, record.job, ArmId{a})) continue;
-    follow_admitted(rest, state, ArmId{a});
-    if (!is_as_asked(state, way, rest, ArmId{a})) return true;
+    const ArmId arm{a};
+    if (arm == way.goal.arm) continue;
+    if (is_found_in_the_way(state, record.job, arm)) {
+      follow_admitted(rest, state, arm);
+    } else if (!way.goes_through) {
+      continue;
+    }
+    if (!is_as_asked(state, way, rest, arm)) return true;
   }
   return false;
 }
@@ -261,6 +267,7 @@ void take_plan(State& state, const PlanMade& answer) {
     return;
   }
   asked->is_planned = true;
+  asked->goes_through = answer.goes_through;
   WaitingLeg leg = state.arms.leg_of(*state.cell, answer.job, *answer.trajectory);
   if (record->job.has_open_arm()) {
     const auto which = static_cast<std::size_t>(asked - goal.ways.begin());
