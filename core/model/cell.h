@@ -24,13 +24,17 @@ using Configuration = Eigen::VectorXd;
 
 enum class JointKind { revolute, continuous, prismatic };
 
+// How far any joint may be from zero (rad or m), also one without limits: beyond any use, and near
+// enough that nothing that is made of it overflows or loses more than its last digits.
+inline constexpr double kFarthestPosition = 1e5;
+
 // A movable joint that is no mimic: one entry of a Configuration.
 struct Joint {
   std::string name;  // with prefix
   RobotId robot;
   std::optional<ArmId> arm;  // the arm that it belongs to, as arm or gripper joint
   JointKind kind;
-  double lower;  // rad or m; -inf/+inf for continuous joints that no file limits
+  double lower;  // rad or m; where no file says so, of continuous joints, -kFarthestPosition
   double upper;
   double velocity_max;      // > 0; rad/s or m/s
   double acceleration_max;  // > 0
@@ -39,6 +43,9 @@ struct Joint {
   // Where it stands at the start, if it is no joint of an arm's group: at zero, or at the limit
   // next to it, unless the cell says more of a gripper's.
   double start = 0.0;
+
+  [[nodiscard]] bool has_lower() const { return lower > -kFarthestPosition; }
+  [[nodiscard]] bool has_upper() const { return upper < kFarthestPosition; }
 
   // Limits that no file gives: the defaults that cell_description.h states.
   struct Assumed {

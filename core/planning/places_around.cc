@@ -20,7 +20,7 @@ Eigen::VectorXd place_around(const Cell& cell, const Arm& arm, const Eigen::Vect
   Eigen::VectorXd q = halton(i, centre.size());
   for (Eigen::Index j = 0; j < q.size(); ++j) {
     const Joint& joint = cell.joint(arm.joints[static_cast<std::size_t>(j)]);
-    const bool ranged = std::isfinite(joint.lower) && std::isfinite(joint.upper);
+    const bool ranged = joint.has_lower() && joint.has_upper();
     const double far = ranged ? joint.upper - joint.lower : kFarthest;
     q[j] = centre[j] + reach * far * (2.0 * q[j] - 1.0);
   }

@@ -61,8 +61,8 @@ JointRoom room_of(const Cell& cell, const Arm& arm, const Eigen::VectorXd& start
   for (std::size_t j = 0; j < arm.joints.size(); ++j) {
     const Joint& joint = cell.joint(arm.joints[j]);
     const auto row = static_cast<Eigen::Index>(j);
-    room.lower[row] = std::isfinite(joint.lower) ? joint.lower : room.lower[row] - std::numbers::pi;
-    room.upper[row] = std::isfinite(joint.upper) ? joint.upper : room.upper[row] + std::numbers::pi;
+    room.lower[row] = joint.has_lower() ? joint.lower : room.lower[row] - std::numbers::pi;
+    room.upper[row] = joint.has_upper() ? joint.upper : room.upper[row] + std::numbers::pi;
   }
   return room;
 }

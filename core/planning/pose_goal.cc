@@ -53,7 +53,7 @@ class PoseSearch {
       Eigen::VectorXd q = halton(i, standing_.size());
       for (Eigen::Index j = 0; j < q.size(); ++j) {
         const Joint& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(j)]);
-        const bool ranged = std::isfinite(joint.lower) && std::isfinite(joint.upper);
+        const bool ranged = joint.has_lower() && joint.has_upper();
         const double lower = ranged ? joint.lower : standing_[j] - std::numbers::pi;
         const double upper = ranged ? joint.upper : standing_[j] + std::numbers::pi;
         q[j] = lower + q[j] * (upper - lower);

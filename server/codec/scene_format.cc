@@ -77,10 +77,11 @@ PartPtr<Shape> primitive_part() {
                                                         shape_of_words);
 }
 
-PartPtr<Eigen::Isometry3d> pose_part() {
+PartPtr<Eigen::Isometry3d> pose_part(Need xyz) {
   return std::make_shared<SpeltPart<Eigen::Isometry3d, PoseWords>>(
       std::vector<PartPtr<PoseWords>>{
-          field("xyz", &PoseWords::xyz_m, vector3(kPosition), "Position in metres."),
+          member({"xyz", "Position in metres.", xyz, std::nullopt}, &PoseWords::xyz_m,
+                 vector3(kPosition)),
           field("rpy", &PoseWords::rpy_rad, vector3(kAngle),
                 "Roll, pitch, yaw about fixed axes, in rad, as in a URDF."),
           read_only(field("rpy_deg", &PoseWords::rpy_deg, vector3(kAngleDegrees),

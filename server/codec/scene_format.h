@@ -11,7 +11,8 @@ namespace armloom {
 // Parts of the description of a cell file (cell_format.h): what stands where.
 
 // Members xyz and rpy.
-[[nodiscard]] formats::PartPtr<Eigen::Isometry3d> pose_part();
+[[nodiscard]] formats::PartPtr<Eigen::Isometry3d> pose_part(
+    formats::Need xyz = formats::Need::optional);
 // A box, a cylinder or a sphere: exactly one of these members.
 [[nodiscard]] formats::PartPtr<Shape> primitive_part();
 // An object of the scene: a name, a shape, a pose.

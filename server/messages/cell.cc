@@ -89,7 +89,7 @@ PartPtr<CellJointView> limit(const char* key, double Joint::*where) {
       key,
       [where](const CellJointView& view) {
         const double limit = view.joint->*where;
-        return std::isfinite(limit) ? std::optional(limit) : std::nullopt;
+        return std::abs(limit) < kFarthestPosition ? std::optional(limit) : std::nullopt;
       },
       nullable(number(kAnyNumber)), "null: none");
 }

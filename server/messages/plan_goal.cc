@@ -13,7 +13,7 @@ using namespace formats;
 FormatPtr<PlanGoal> plan_goal_format() {
   static const FormatPtr<PlanPose> pose = object<PlanPose>({
       field("link", &PlanPose::link, name(), "With prefix; absent: that of the arm's last joint"),
-      inlined(&PlanPose::X_WL, pose_part()),
+      inlined(&PlanPose::X_WL, pose_part(Need::required)),
   });
   static const FormatPtr<PlanGoal> format =
       named("Goal", "Where an arm is to be.",

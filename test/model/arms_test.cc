@@ -78,8 +78,10 @@ TEST(Arms, TakeTheLimitsOfTheCellFile) {
   EXPECT_EQ(turn.lower, -2.0);
   EXPECT_EQ(turn.upper, 2.5);
   EXPECT_EQ(cell->joint(*cell->find_joint("t_l_grip")).brake, 1.0);
-  EXPECT_EQ(cell->joint(*cell->find_joint("t_r_spin")).upper,
-            std::numeric_limits<double>::infinity());
+  const Joint& endless = cell->joint(*cell->find_joint("t_r_spin"));
+  EXPECT_EQ(endless.upper, kFarthestPosition);
+  EXPECT_FALSE(endless.has_lower());
+  EXPECT_FALSE(endless.has_upper());
 }
 
 TEST(Links, ComeAfterTheirParentsAndCarryTheirShapes) {

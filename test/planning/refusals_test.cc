@@ -46,6 +46,23 @@ class Refusals : public ::testing::Test {
   WallCell wall;
 };
 
+// One that turns without end had no limits, and FCL ended the process.
+TEST(RefusalsOfEndlessJoints, OfAGoalThatNoTurnsReachSayHowFarTheyMay) {
+  const CellPtr cell = build_or_fail(two_arms_description());
+  const PlanningScenePtr scene = *PlanningScene::build(cell);
+  const ArmId arm = *cell->joint(*cell->find_joint("t_r_spin")).arm;
+  for (const double far : {-1e300, -1e154, 2e5, 1e17, 1e30, 1e300}) {
+    Eigen::VectorXd to = cell->arm(arm).home;
+    to[0] = far;
+    const auto answer = answer_plan(scene, {.goal = {.arm = arm, .to = to}, .at = cell->home()});
+    ASSERT_FALSE(answer) << far;
+    EXPECT_EQ(answer.error().reason, Reason::outside_limits) << far;
+    EXPECT_THAT(answer.error().detail, HasSubstr("t_r_spin")) << far;
+    ASSERT_TRUE(answer.error().outside);
+    EXPECT_EQ(answer.error().outside->position, far);
+  }
+}
+
 TEST_F(Refusals, OfAGoalInCollisionSayTheNearestThatIsFree) {
   const Eigen::VectorXd wanted = in_the_table();
   const PlanRefusal why = refusal(wanted);

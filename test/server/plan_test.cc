@@ -148,10 +148,13 @@ TEST_F(PlanOverHttp, RefusesWhatItDoesNotKnowWithItsPlace) {
   const json state = plan({{"arm", "left"}, {"to", {{"named", "redy"}}}}).json();
   EXPECT_EQ(state["pointer"], "/to/named");
   EXPECT_EQ(state["status"], 422);
-  const json pose =
-      plan({{"arm", "left"}, {"to", {{"named", "ready"}}}, {"start", {{"pose", json::object()}}}})
-          .json();
+  const json pose = plan({{"arm", "left"},
+                          {"to", {{"named", "ready"}}},
+                          {"start", {{"pose", {{"xyz", {0, 0, 1}}}}}}})
+                        .json();
   EXPECT_EQ(pose["pointer"], "/start/pose");
+  const json nowhere = plan({{"arm", "left"}, {"to", {{"pose", {{"rpy", {3.14, 0, 0}}}}}}}).json();
+  EXPECT_EQ(nowhere["pointer"], "/to/pose/xyz") << "not the world's origin";
 }
 
 class GoalsOverHttp : public RunningServer {};

@@ -188,8 +188,9 @@ void LimitsOfJoint::warn_of_units() {
   const double farthest = slides ? kFarthestSlide_m : kFarthestTurn_rad;
   const double fastest = slides ? kFastestSlide_m_s : kFastestTurn_rad_s;
   const std::string unit = slides ? " m" : " rad";
+  const bool endless = joint_.kind == JointKind::continuous;
   const auto beyond = [&](double limit) {
-    return std::isfinite(limit) && std::abs(limit) > farthest;
+    return std::abs(limit) > farthest && !(endless && std::abs(limit) == kFarthestPosition);
   };
   if (beyond(joint_.lower) || beyond(joint_.upper)) {
     warn("wrong-unit", place_in_urdf(),

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include "core/model/cell/limits_of_joint.h"
@@ -26,8 +27,8 @@ void LimitsOfJoint::settle_positions() {
       upper ? upper
             : from_file(file_.upper, "max_position", urdf.upper,
                         urdf.upper && file_.upper ? *file_.upper - *urdf.upper : 0.0);
-  joint_.lower = lowest.value_or(endless ? -kInfinity : 0.0);
-  joint_.upper = highest.value_or(endless ? kInfinity : 0.0);
+  joint_.lower = std::max(lowest.value_or(endless ? -kInfinity : 0.0), -kFarthestPosition);
+  joint_.upper = std::min(highest.value_or(endless ? kInfinity : 0.0), kFarthestPosition);
   if (lowest && highest && joint_.lower > joint_.upper) {
     refuse_crossed();
     say_nothing_more();
