@@ -86,10 +86,11 @@ TEST_F(PlanCommand, RefusesBadInputWithPlaceAndRemedy) {
   refused("--to redy", "did you mean ready?");
   refused("--to '[0, 1]'", "7 joints, found 2");
   refused("--to '{\"named\": \"ready\", \"joints\": []}'", "--to");
-  refused("--to '{\"pose\": {\"link\": \"left_tool\"}}'", "no link left_tool");
+  refused("--to '{\"pose\": {\"link\": \"left_tool\", \"xyz\": [0, 0, 1]}}'", "no link left_tool");
+  refused("--to '{\"pose\": {\"rpy\": [0, 0, 0]}}'", "\"xyz\" is missing");
   refused("--to '{\"pse\": 1}'", "pse");
   refused("--to ready --budget 0", "--budget");
-  refused("--to ready --from '{\"pose\": {}}'", "--from");
+  refused("--to ready --from '{\"pose\": {\"xyz\": [0, 0, 1]}}'", "--from");
   refused("--to ready --out /no/such/folder/job.json", "--out");
   const Outcome unknown = run("plan --cell " + test::kCell + " --arm lft --to ready");
   EXPECT_EQ(unknown.exit_code, 2);
