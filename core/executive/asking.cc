@@ -161,10 +161,10 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
   }
   Trial::Outcome outcome = trial->outcome();
   for (Wait& wait : outcome.waits) {
-    const bool is_known = wait.job && scheduler_.find(*wait.job) != nullptr;
-    if (!wait.job || is_known) continue;
+    if (!wait.job || scheduler_.find(*wait.job) != nullptr) continue;
+    const bool was_forgotten = *wait.job < scheduler_.next_job();
+    if (!was_forgotten) wait.detail = "a motion of the server's own, which would go first";
     wait.job.reset();
-    wait.detail = "a motion of the server's own, which would go first";
   }
   CheckView view = view_of(outcome, *cell_, jobs_);
   view.scene_version = scene_.version();
