@@ -211,9 +211,6 @@ struct Job {
   JobTerms terms = {};  // `after`: of these, those that have not ended yet
   // `trajectory` is one of them: until it is admitted it is as good as chosen, but may be another.
   std::vector<TrajectoryPtr> alternatives = {};
-  std::optional<JobGoal> goal = {};
-  std::optional<AnotherWay> another_way = {};
-  std::optional<Choice> choice = {};
   JobPhase phase = Queued{};
   JobTimes times = {};
   Duration progress{};  // trajectory time, last measured
@@ -221,6 +218,10 @@ struct Job {
   // The deadlock that it is part of, this job first: each waits for the next one, the last for the
   // first. Empty: none. Kept by the job that ends for it.
   std::vector<JobId> ring = {};
+  // What few jobs have comes last: every step reads what stands above.
+  std::optional<Choice> choice = {};
+  std::optional<AnotherWay> another_way = {};
+  std::optional<JobGoal> goal = {};
 
   template <typename P>
   [[nodiscard]] const P* in() const {

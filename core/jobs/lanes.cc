@@ -72,6 +72,12 @@ SafeSequence::Outlook Lanes::after(const std::vector<JobId>& jobs, const JobBook
   return sequence_.after(jobs);
 }
 
+bool Lanes::has_place(JobId job, const JobBook& book, const ArmRests& arms) {
+  renew(book, arms);
+  (void)sequence_.after({});
+  return sequence_.has_place(job);
+}
+
 void Lanes::learn(const std::vector<Passage>& asked, const Verdict& verdict, const JobBook& book) {
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const Passage& passage = asked[i];

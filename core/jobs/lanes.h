@@ -32,6 +32,8 @@ class Lanes {
   [[nodiscard]] bool goes_before(JobId first, JobId other) const {
     return is_stale_ || sequence_.goes_before(first, other);
   }
+  // Whether a sequence of what waits has it in it, as far as is known: of its first legs.
+  [[nodiscard]] bool has_place(JobId job, const JobBook& book, const ArmRests& arms);
   // Where they are as they were when asked last.
   [[nodiscard]] bool follows_on(JobId job) const { return sequence_.follows_on(job); }
   void renew(const JobBook& book, const ArmRests& arms);

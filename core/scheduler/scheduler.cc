@@ -124,7 +124,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   // Progress alone, the bulk of all inputs, changes nothing that others wait for.
   const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&
                              state_.jobs.news().changed.empty() &&
-                             state_.version == version_before && !(wake_at_ && *wake_at_ <= now);
+                             state_.version == version_before && !is_due();
   if (only_progress) return std::exchange(state_.decided.effects, {});
   settle();
   if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);
@@ -149,16 +149,32 @@ void Scheduler::settle() {
     cycles_.name(state_);
     put_off = admission_.ask_next(state_, turns, cycles_);
   }
+  look_ahead();
+}
+
+// Without anything else having happened. Where all goes as expected, the orders are not due.
+bool Scheduler::is_due() {
+  if (deadline_ && *deadline_ <= state_.now) return true;
+  if (!weighs_at_ || *weighs_at_ > state_.now) return false;
+  if (is_off_course(state_)) return true;
+  weighs_at_ = weighs_next(state_);
+  ask_for_wake();
+  return false;
+}
+
+void Scheduler::look_ahead() {
+  deadline_ = next_deadline(state_);
+  if (cycles_.is_one_to_settle()) {
+    const TimePoint soon = state_.now + kAfterRingWasTold;
+    deadline_ = deadline_ ? std::min(*deadline_, soon) : soon;
+  }
+  weighs_at_ = weighs_next(state_);
   ask_for_wake();
 }
 
 void Scheduler::ask_for_wake() {
-  std::optional<TimePoint> next = next_deadline(state_);
-  if (cycles_.is_one_to_settle()) {
-    const TimePoint soon = state_.now + kAfterRingWasTold;
-    next = next ? std::min(*next, soon) : soon;
-  }
-  if (const auto weighs = weighs_next(state_)) next = next ? std::min(*next, *weighs) : weighs;
+  std::optional<TimePoint> next = deadline_;
+  if (weighs_at_) next = next ? std::min(*next, *weighs_at_) : weighs_at_;
   if (next && next != wake_at_) state_.decided.effects.push_back(WakeAt{*next});
   wake_at_ = next;
 }

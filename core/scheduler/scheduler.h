@@ -90,12 +90,16 @@ class Scheduler {
   void on(const Replan& input);
   void on(const MotionReport& input);
   void settle();
+  [[nodiscard]] bool is_due();
+  void look_ahead();
   void ask_for_wake();
 
   State state_;
   WaitCycles cycles_;
   Admission admission_;
-  std::optional<TimePoint> wake_at_;
+  std::optional<TimePoint> deadline_;   // of jobs and rings
+  std::optional<TimePoint> weighs_at_;  // whether all goes as expected
+  std::optional<TimePoint> wake_at_;    // the earlier one
 };
 
 }  // namespace armloom

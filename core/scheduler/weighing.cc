@@ -32,9 +32,12 @@ void prepare_choice(State& state, const std::vector<JobId>& jobs) {
   state.graph.set_work_behind(state.jobs.queues().work_but(in_front));
 }
 
+bool is_off_course(const State& state) {
+  return state.policy->weighs_again() && state.expected.is_missed(state.graph.motions(), state.now);
+}
+
 void weigh_again(State& state) {
-  if (!state.policy->weighs_again()) return;
-  if (!state.expected.is_missed(state.graph.motions(), state.now)) return;
+  if (!is_off_course(state)) return;
   prepare_choice(state, {});
   const std::vector<CoordinatedMotion> nobody;
   const std::vector<PairRegions> nothing;

@@ -11,6 +11,9 @@ namespace armloom {
 // stopped, given up. Nobody's authority is taken back; whoever is late may lose its turn.
 void weigh_again(State& state);
 
+// Where something is so.
+[[nodiscard]] bool is_off_course(const State& state);
+
 // When that is to be looked at without another input; nothing: never.
 [[nodiscard]] std::optional<TimePoint> weighs_next(const State& state);
 

@@ -170,6 +170,11 @@ bool SafeSequence::follows_on(JobId job) const {
   return known == index_.end() || (!known->second->cut && known->second->approaches.empty());
 }
 
+bool SafeSequence::has_place(JobId job) const {
+  const auto known = index_.find(job);
+  return known == index_.end() || known->second->placed;
+}
+
 bool SafeSequence::goes_before(JobId first, JobId other) const {
   const auto known = index_.find(first);
   if (known == index_.end() || !known->second->placed) return false;

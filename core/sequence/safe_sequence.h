@@ -85,6 +85,8 @@ class SafeSequence {
   // Of two legs, as the sequence is now; one that is in none comes after all. False: the first one
   // is in none. Linear in its place.
   [[nodiscard]] bool goes_before(JobId first, JobId other) const;
+  // Whether it is in the sequence, as far as is known; true: nothing is known of it.
+  [[nodiscard]] bool has_place(JobId job) const;
   // It begins where the legs before it will leave its arms.
   [[nodiscard]] bool follows_on(JobId job) const;
 

@@ -14,10 +14,14 @@
 namespace armloom {
 namespace {
 
-// At the option instead of the place in a message.
+// What was said, and the place in it: "--to /pose/xyz".
+std::string place_in(const char* option, std::string_view pointer) {
+  return std::string(option) + (pointer.empty() ? "" : " ") + std::string(pointer);
+}
+
 tl::unexpected<Problems> at_option(const char* option, Problems problems) {
-  for (Problem& problem : problems) problem.pointer = option;
-  return failure(std::move(problems));
+  for (Problem& problem : problems) problem.pointer = place_in(option, problem.pointer);
+  return tl::unexpected(std::move(problems));
 }
 
 using RefusedArm = std::pair<std::string, PlanRefusal>;
@@ -78,8 +82,11 @@ Result<std::vector<PlanQuestion>> questions_of(const PlanOptions& options, const
   if (!goals) {
     Problems problems = std::move(goals.error());
     for (Problem& problem : problems) {
-      const bool is_arm = problem.pointer.starts_with("/arm");
-      problem.pointer = !is_arm ? "--to" : options.arms.empty() ? "--arm" : "--arms";
+      constexpr std::string_view kTo = "/to";
+      const std::string_view place = problem.pointer;
+      problem.pointer = !place.starts_with("/arm") ? place_in("--to", place.substr(kTo.size()))
+                        : options.arms.empty()     ? "--arm"
+                                                   : "--arms";
     }
     return failure(std::move(problems));
   }

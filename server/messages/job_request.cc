@@ -113,7 +113,7 @@ PartPtr<JobRequest> retime_part() {
                  "Times, velocities and accelerations are made: the fastest within the "
                  "joints' limits along the waypoints (corners are cut by 0.01 rad at "
                  "most), at rest at both ends. What the waypoints have of them is read "
-                 "over",
+                 "over. A move_to is timed so with or without it",
                  Need::optional, Schema(false)},
       flag(), [](const Request&) { return std::optional<bool>(); },
       [](Request& request, bool retime) {

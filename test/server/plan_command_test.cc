@@ -88,6 +88,7 @@ TEST_F(PlanCommand, RefusesBadInputWithPlaceAndRemedy) {
   refused("--to '{\"named\": \"ready\", \"joints\": []}'", "--to");
   refused("--to '{\"pose\": {\"link\": \"left_tool\", \"xyz\": [0, 0, 1]}}'", "no link left_tool");
   refused("--to '{\"pose\": {\"rpy\": [0, 0, 0]}}'", "\"xyz\" is missing");
+  refused("--to '{\"pose\": {\"xyz\": [0, 0]}}'", "--to /pose/xyz: ");
   refused("--to '{\"pse\": 1}'", "pse");
   refused("--to ready --budget 0", "--budget");
   refused("--to ready --from '{\"pose\": {\"xyz\": [0, 0, 1]}}'", "--from");

@@ -1,6 +1,7 @@
 #include "core/scheduler/waiting/options.h"
 
 #include <algorithm>
+#include <iterator>
 #include <ranges>
 #include <utility>
 
@@ -99,6 +100,17 @@ std::vector<Option> on_several_arms(const State& state, const Record& record) {
   return options;
 }
 
+std::size_t alternative_now(const Job& job) {
+  const auto now = std::ranges::find(job.alternatives, job.trajectory);
+  return static_cast<std::size_t>(now - job.alternatives.begin());
+}
+
+// The arm that it has now, as not the one that it had.
+Choice only_choice(const Job& job, std::size_t had) {
+  const ArmId shut = arm_of(*job.alternatives[had]);
+  return {.arms = {arm_of(*job.trajectory)}, .without = {{shut, "others come to rest in its way"}}};
+}
+
 }  // namespace
 
 std::size_t place_on(const State& state, const Record& record, ArmId arm) {
@@ -121,6 +133,34 @@ void take_alternative(State& state, Record& record, std::size_t which) {
   state.lanes.renew_later();
 }
 
+bool take_arms_that_remain(State& state) {
+  const auto is_shut = [&](JobId id) {
+    return state.jobs.at(id).job.in<Queued>() != nullptr &&
+           !state.lanes.has_place(id, state.jobs, state.arms);
+  };
+  std::vector<JobId> shut;
+  std::ranges::copy_if(state.jobs.undecided() | std::views::take(kUndecidedMax),
+                       std::back_inserter(shut), is_shut);
+  bool any = false;
+  for (JobId id : shut) {
+    Record& record = state.jobs.at(id);
+    const std::size_t had = alternative_now(record.job);
+    for (const Option& option : on_several_arms(state, record)) {
+      take_alternative(state, record, option.alternative);
+      if (!is_shut(id)) break;
+    }
+    if (is_shut(id)) {
+      take_alternative(state, record, had);
+      continue;
+    }
+    record.job.choice = only_choice(record.job, had);
+    state.jobs.decide_arm(record);
+    any = true;
+  }
+  if (any) ++state.version;
+  return any;
+}
+
 std::vector<Option> options_of(State& state, JobId turn) {
   const Record& record = state.jobs.at(turn);
   const auto& alternatives = record.job.alternatives;
@@ -128,8 +168,7 @@ std::vector<Option> options_of(State& state, JobId turn) {
   if (waits && alternatives.empty()) return in_any_order(state, record);
   auto options = waits ? on_several_arms(state, record) : std::vector<Option>{};
   if (!options.empty()) return options;
-  const auto now = std::ranges::find(alternatives, record.job.trajectory);
-  return {{turn, static_cast<std::size_t>(now - alternatives.begin())}};
+  return {{turn, alternative_now(record.job)}};
 }
 
 bool has_turn_on_some_arm(const State& state, const Record& record) {

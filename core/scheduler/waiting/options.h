@@ -21,6 +21,8 @@ struct Option {
 
 // So many jobs of a lane are looked at for one turn.
 inline constexpr std::size_t kOptionsMax = 6;
+// Of jobs that other arms could do so many are looked at, though others come before them.
+inline constexpr std::size_t kUndecidedMax = 16;
 
 // The first one is how things are. Who has been overtaken for scheduling.aging is overtaken no
 // more.
@@ -33,6 +35,11 @@ inline constexpr std::size_t kOptionsMax = 6;
 [[nodiscard]] std::size_t place_on(const State& state, const Record& record, ArmId arm);
 // From now on it is the job's to go by this alternative, behind those.
 void take_alternative(State& state, Record& record, std::size_t which);
+
+// Jobs that could come to their ends on another arm only, as others rest in their way on the one
+// that they have: from now on they are that one's for good, before something is admitted that shuts
+// it too. Whether there were any.
+[[nodiscard]] bool take_arms_that_remain(State& state);
 
 // From now on this is how things are: that one first, then the others as they were.
 void give_turn(State& state, const std::vector<Option>& options, std::size_t first);

@@ -7,6 +7,7 @@
 
 #include "core/policies/policy.h"
 #include "core/scheduler/waiting/gates.h"
+#include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/priority_inheritance.h"
 
 namespace armloom {
@@ -36,9 +37,6 @@ bool waits_beyond_turns(const State& state, const Record& record) {
 bool has_way_for_a_while(const Job& job) {
   return job.goal && job.goal->detour && job.goal->detour->is_weighed;
 }
-
-// Of jobs that other arms could do so many are looked at, though others come before them.
-constexpr std::size_t kUndecidedMax = 16;
 
 // Of an arm's jobs the first that is not admitted; nothing: all are.
 std::optional<JobId> first_that_waits(const State& state, const std::deque<JobId>& queue) {

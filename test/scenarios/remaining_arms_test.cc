@@ -1,0 +1,46 @@
+// Jobs that either of two arms could do, when what others do shuts the way of one of them.
+#include <gmock/gmock.h>
+
+#include "test/scenarios/two_gantries.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::HasSubstr;
+
+class RemainingArms : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, RemainingArms, ::testing::ValuesIn(known_policies()));
+
+// To a place and back to where it began.
+JobRequest visit(const std::string& arm, Place_m from, Place_m to, double duration_s,
+                 std::string key) {
+  JobRequest request = go(arm, from, to, duration_s / 2, std::move(key));
+  request.trajectory.points.push_back(request.trajectory.points.front());
+  request.trajectory.points.back().time_from_start_s = duration_s;
+  return request;
+}
+
+// "either" would be sooner done by a, behind its other job; but c comes to rest in that way for
+// good, and b leaves for where "either" could not begin. One after the other, as they came, all can
+// be done; so b does it before it leaves.
+TEST_P(RemainingArms, AreTakenBeforeTheyAreShutToo) {
+  TwoGantries cell(gantries(OnIdleBlocker::report, {{-0.5, 0}, {0.5, 0}, {0, 0.6}}), GetParam());
+  JobRequest either = visit("a", {-0.5, 0}, {0, 0}, 4, "either");
+  either.alternatives = {either.trajectory,
+                         visit("b", {0.5, 0}, {0.5, -0.9}, 7.2, "").trajectory};
+  either.trajectory = {};
+  JobRequest stays = go("c", {0, 0.6}, {0, 0}, 1.5, "stays");
+  stays.terms.priority = 5;
+  cell.submit(visit("a", {-0.5, 0}, {-0.5, -0.4}, 2, "visits"));
+  cell.submit(std::move(either));
+  cell.submit(std::move(stays));
+  cell.submit(go("b", {0.5, 0}, {0.3, 0.4}, 1, "leaves"));
+  cell.run_to_the_end(at(200s));
+  for (const char* key : {"visits", "either", "stays", "leaves"}) {
+    EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key << ": " << cell.job(key).detail();
+  }
+  EXPECT_GT(cell.closest_m(), 0.0);
+}
+
+}  // namespace
+}  // namespace armloom
