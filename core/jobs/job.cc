@@ -123,11 +123,6 @@ const GoalWay* Job::stands_in() const {
   return first;
 }
 
-const Judgement& Job::judgement() const {
-  const auto* held = in<Held>();
-  return held != nullptr ? held->judgement : std::get<Queued>(phase).judgement;
-}
-
 std::optional<Reason> Job::reason() const {
   const auto* ended = in<Ended>();
   return ended != nullptr ? std::optional(ended->reason) : std::nullopt;

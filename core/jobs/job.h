@@ -267,7 +267,10 @@ struct Job {
   // Judged free, and not at rest for good yet.
   [[nodiscard]] bool has_authority() const { return is_admitted() || in<Braking>() != nullptr; }
   // Precondition: it waits.
-  [[nodiscard]] const Judgement& judgement() const;
+  [[nodiscard]] const Judgement& judgement() const {
+    const auto* held = in<Held>();
+    return held != nullptr ? held->judgement : std::get<Queued>(phase).judgement;
+  }
 
   // Of one that has ended.
   [[nodiscard]] std::optional<Reason> reason() const;

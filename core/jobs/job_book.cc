@@ -146,11 +146,11 @@ void JobBook::enter(Record& record, JobPhase phase) {
   if (!job.alternatives.empty()) queues_.add_work(job);
   const bool is_decided = job.alternatives.empty() || job.in<Queued>() == nullptr;
   is_decided ? (void)undecided_.erase(job.id) : (void)undecided_.insert(job.id);
-  if (job.state() == JobState::queued || job.has_ended()) {
-    past_queue_.erase(job.id);
-  } else {
-    past_queue_.insert(job.id);
-  }
+  const auto place = std::ranges::lower_bound(past_queue_, job.id);
+  const bool was_past = place != past_queue_.end() && *place == job.id;
+  const bool is_past = job.state() != JobState::queued && !job.has_ended();
+  if (was_past && !is_past) past_queue_.erase(place);
+  if (is_past && !was_past) past_queue_.insert(place, job.id);
   explain_with_next(job);
 }
 

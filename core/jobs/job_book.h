@@ -102,7 +102,7 @@ class JobBook {
   [[nodiscard]] const Record& at(JobId job) const { return records_.at(job); }
   // All that have not ended; of these, all that were judged. In order of submission.
   [[nodiscard]] const std::set<JobId>& active() const { return active_; }
-  [[nodiscard]] const std::set<JobId>& past_queue() const { return past_queue_; }
+  [[nodiscard]] const std::vector<JobId>& past_queue() const { return past_queue_; }
   [[nodiscard]] const ArmQueues& queues() const { return queues_; }
   // These follow each other on the same arms and wait: now in this order.
   void put_in_order(const std::vector<JobId>& jobs);
@@ -147,7 +147,7 @@ class JobBook {
   std::unordered_map<JobId, Record> records_;
   JobIds ids_;
   std::set<JobId> active_;
-  std::set<JobId> past_queue_;
+  std::vector<JobId> past_queue_;  // few: ascending
   std::set<JobId> undecided_;
   std::set<JobId> being_replanned_;
   std::size_t goals_ = 0;

@@ -82,7 +82,7 @@ void go_on(State& state, Record& record) {
 }  // namespace
 
 void dispatch_ready(State& state) {
-  const std::vector<JobId> ids(state.jobs.past_queue().begin(), state.jobs.past_queue().end());
+  const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
     Record& record = state.jobs.at(id);
     go_on(state, record);

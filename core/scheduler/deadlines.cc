@@ -81,7 +81,7 @@ std::optional<TimePoint> expiry_of(const Job& job) {
 }
 
 void expire_and_overrun(State& state) {
-  const std::vector<JobId> ids(state.jobs.past_queue().begin(), state.jobs.past_queue().end());
+  const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
     Record& record = state.jobs.at(id);
     Job& job = record.job;

@@ -106,13 +106,14 @@ struct Taken {
 };
 
 Taken taken(const Batch& batch, const std::vector<Result<JobView>>& submitted, Results before,
-            const WallClock& clock) {
+            const WallClock& clock, bool is_stored) {
   Taken all{.ids = KnownJobs(batch.known.size())};
   auto next = submitted.begin();
   for (std::size_t i = 0; i < all.ids.size(); ++i) {
     if (!batch.is_new(i)) continue;
     if (const Result<JobView>& job = *next++) {
       all.accepted.push_back({*job, batch.request.jobs[i].text, origin_of(*batch.sent, i)});
+      if (is_stored) all.accepted.back().row = row_of(*job, clock);
       all.ids[i] = job->key;
     }
   }
@@ -121,12 +122,14 @@ Taken taken(const Batch& batch, const std::vector<Result<JobView>>& submitted, R
   return all;
 }
 
-// What is said is written aside: of a thousand jobs that takes long.
+// What is said and stored is written aside: of a thousand jobs that takes long.
 void tell(const ApiParts& parts, const BatchPtr& batch,
           const std::shared_ptr<const Executive::BatchAnswers>& submitted, const Respond& respond) {
   look_at(parts, batch->known, [&parts, batch, submitted, respond](const Results& before) {
     parts.aside([&parts, batch, submitted, respond, before, clock = parts.clock] {
-      const auto all = std::make_shared<Taken>(taken(*batch, **submitted, before, clock));
+      const bool is_stored = parts.keeper != nullptr;
+      const auto all =
+          std::make_shared<Taken>(taken(*batch, **submitted, before, clock, is_stored));
       parts.post([&parts, batch, respond, all] {
         acknowledge(parts, std::move(all->accepted), respond, [&parts, batch, all] {
           note_accepted(parts, *batch->sent, all->ids);

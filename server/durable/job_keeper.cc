@@ -40,26 +40,26 @@ Result<void> JobKeeper::look_up(JobRequest& job) const {
   return {};
 }
 
-StoredJob JobKeeper::stored(const JobView& job) const {
+StoredJob row_of(const JobView& job, const WallClock& clock) {
   StoredJob stored{.number = job.id.value(),
                    .id = job.key,
                    .state = to_string(job.state),
                    .has_ended = is_terminal(job.state),
-                   .submitted_ms = since_1970_ms(clock_->wall_at(job.times.submitted_at)),
+                   .submitted_ms = since_1970_ms(clock.wall_at(job.times.submitted_at)),
                    .arms = JsonWriter().value(job.arms).take(),
-                   .view = text_of(*job_format(), job, clock_)};
-  if (job.times.ended_at) stored.ended_ms = since_1970_ms(clock_->wall_at(*job.times.ended_at));
+                   .view = text_of(*job_format(), job, &clock)};
+  if (job.times.ended_at) stored.ended_ms = since_1970_ms(clock.wall_at(*job.times.ended_at));
   return stored;
 }
 
-void JobKeeper::see(const JobView& job) { store_->see(stored(job)); }
+void JobKeeper::see(const JobView& job) { store_->see(row_of(job, *clock_)); }
 
 void JobKeeper::accept(std::vector<AcceptedJob> jobs,
                        std::function<void(std::optional<Refusal>)> then) {
   std::vector<JobStore::Accepted> accepted;
   std::vector<std::string> keys;
-  for (auto& [job, body, origin] : jobs) {
-    StoredJob row = stored(job);
+  for (auto& [job, body, origin, made] : jobs) {
+    StoredJob row = made ? *std::move(made) : row_of(job, *clock_);
     row.origin = std::move(origin);
     accepted.push_back({std::move(row), std::move(body)});
     keys.push_back(job.key);

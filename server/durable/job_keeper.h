@@ -41,6 +41,7 @@ class JobKeeper final : public StartLog {
     JobView job;
     std::string body;
     RequestOrigin origin;
+    std::optional<StoredJob> row = {};  // row_of() it, where that was made aside
   };
   // Jobs that it has accepted: `then` is called when they are on disk, or with the reason why not;
   // they are canceled then.
@@ -63,7 +64,6 @@ class JobKeeper final : public StartLog {
 
  private:
   JobKeeper() = default;
-  [[nodiscard]] StoredJob stored(const JobView& job) const;
 
   const WallClock* clock_ = nullptr;
   std::function<void(std::function<void()>)> post_;
@@ -72,5 +72,8 @@ class JobKeeper final : public StartLog {
   std::unique_ptr<JobHistory> history_;
   std::unique_ptr<JobHistory> lists_;
 };
+
+// Without its origin.
+[[nodiscard]] StoredJob row_of(const JobView& job, const WallClock& clock);
 
 }  // namespace armloom

@@ -52,8 +52,10 @@ std::vector<JobId> to_explain(State& state) {
   jobs.reserve(unexplained.size() + 2 * state.cell->arms.size() + kUndecidedMax);
   jobs.assign(unexplained.begin(), unexplained.end());
   for (const auto& queue : state.jobs.queues()) {
-    if (!queue.empty()) jobs.push_back(queue.front());
-    if (const auto first = first_that_waits(state, queue)) jobs.push_back(*first);
+    if (queue.empty()) continue;
+    jobs.push_back(queue.front());
+    const auto first = first_that_waits(state, queue);
+    if (first && *first != queue.front()) jobs.push_back(*first);
   }
   std::ranges::copy(state.jobs.undecided() | std::views::take(kUndecidedMax),
                     std::back_inserter(jobs));

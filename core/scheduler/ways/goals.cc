@@ -227,9 +227,8 @@ bool plan_goals(State& state) {
   return any_failed;
 }
 
-std::optional<JobId> may_go_first(const State& state, const Record& record) {
+std::optional<JobId> undecided_before(const State& state, const Record& record) {
   const Job& job = record.job;
-  if (state.jobs.undecided().empty()) return std::nullopt;
   if (job.goal || job.in<Queued>() == nullptr) return std::nullopt;
   const auto& arms = job.trajectory->arms();
   for (JobId id : state.jobs.undecided()) {
