@@ -1,10 +1,6 @@
 #include "core/planning/nearest_free.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <utility>
-#include <vector>
 
 #include "core/collision/check/line_checker.h"
 #include "core/planning/places_around.h"
@@ -14,6 +10,7 @@ namespace {
 
 // The line from there to what is wanted is halved so often.
 constexpr int kHalvings = 10;
+constexpr int kSweeps = 2;  // over the joints
 
 // Along the line there. Precondition: `q` is free, `blocked` is not.
 Eigen::VectorXd brought_nearer(LineChecker& states, Eigen::VectorXd blocked, Eigen::VectorXd q) {
@@ -24,19 +21,19 @@ Eigen::VectorXd brought_nearer(LineChecker& states, Eigen::VectorXd blocked, Eig
   return q;
 }
 
-// The same, one joint after the other, those that are nearest first: what is off at the end is off
-// in few joints.
-Eigen::VectorXd joint_by_joint(LineChecker& states, const Eigen::VectorXd& wanted,
-                               Eigen::VectorXd q) {
-  std::vector<Eigen::Index> joints(static_cast<std::size_t>(q.size()));
-  std::iota(joints.begin(), joints.end(), Eigen::Index{0});
-  std::ranges::sort(joints, {},
-                    [&](Eigen::Index j) { return std::pair(std::abs(q[j] - wanted[j]), j); });
-  for (Eigen::Index j : joints) {
-    Eigen::VectorXd there = q;
-    there[j] = wanted[j];
-    q = states.is_free(there, there) ? there
-                                     : brought_nearer(states, std::move(there), std::move(q));
+// From a place at the edge of what is free: one joint after the other goes back to where it is
+// wanted, the others on as far as nothing is lost by it, and all are brought nearer again.
+Eigen::VectorXd by_fewer_joints(LineChecker& states, const Cell& cell, const Arm& arm,
+                                const Eigen::VectorXd& wanted, Eigen::VectorXd q) {
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (Eigen::Index j = 0; j < q.size(); ++j) {
+      Eigen::VectorXd off = q - wanted;
+      const double far = off.norm();
+      off[j] = 0.0;
+      if (off.norm() == 0.0 || off.norm() == far) continue;
+      Eigen::VectorXd fewer = within_limits(cell, arm, wanted + far / off.norm() * off);
+      if (states.is_free(fewer, fewer)) q = brought_nearer(states, wanted, std::move(fewer));
+    }
   }
   return q;
 }
@@ -57,7 +54,7 @@ NearestFree nearest_free(const PlanningScenePtr& scene, const PlanRequest& reque
     Eigen::VectorXd q = place_around(cell, arm, centre, i);
     if (!states.is_free(q, q)) continue;
     ++found;
-    q = joint_by_joint(states, centre, brought_nearer(states, centre, std::move(q)));
+    q = by_fewer_joints(states, cell, arm, centre, brought_nearer(states, centre, std::move(q)));
     if (!nearest || (q - wanted).norm() < (*nearest - wanted).norm()) nearest = std::move(q);
   }
   return {std::move(nearest), states.evaluations()};

@@ -10,8 +10,8 @@ namespace armloom {
 
 // Joint positions at which the arm keeps its distances from all that stands as the request says,
 // within its limits, as near to `wanted` as is found: of places around it (places_around.h) the
-// first free ones, each brought as near as it stays free, along the line there and then joint by
-// joint. Nothing: none is.
+// first free ones, each brought as near as it stays free, by as few joints as that takes. Nothing:
+// none is.
 // Thread-safe; the same in, the same out.
 struct NearestFree {
   std::optional<Eigen::VectorXd> q;
