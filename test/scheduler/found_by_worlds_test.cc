@@ -199,6 +199,25 @@ TEST_P(InTurn, WhoWaitsIsJudgedAgainWhenTheSequenceIsAnotherOne) {
     EXPECT_EQ(arms.state(job), JobState::succeeded) << "job " << job.value();
   }
 }
+
+// `either` would be sooner done by a, behind `before`; but `stays` comes to rest in that way for
+// good, and then b leaves for where `either` could not begin.
+TEST_P(InTurn, TheArmThatRemainsDoesWhatAnotherOneCouldHaveDone) {
+  constexpr ArmId a{0}, c{2};
+  IdealArms arms(one_joint_arms(3), std::move(*make_policy(GetParam(), *one_joint_arms(3))),
+                 Crossings({{a, 0.4, 0.6, c, 0.9, 1.1}}), [](JobId) { return Habits{}; });
+  const JobId before = arms.submit({JobId{0}, visit(0, 0, -0.5, 2s), {.backlog_timeout = 100s}});
+  Submit by_either{JobId{0}, visit(0, 0, 0.8, 4s), {.backlog_timeout = 100s}};
+  by_either.alternatives = {by_either.trajectory, visit(1, 0, 0.9, 7s)};
+  const JobId either = arms.submit(by_either);
+  const JobId stays =
+      arms.submit({JobId{0}, move({2}, 0, 1, 1s), {.priority = 5, .backlog_timeout = 100s}});
+  const JobId leaves = arms.submit({JobId{0}, move({1}, 0, 0.3, 1s), {.backlog_timeout = 100s}});
+  arms.run();
+  for (const JobId job : {before, either, stays, leaves}) {
+    EXPECT_EQ(arms.state(job), JobState::succeeded) << "job " << job.value();
+  }
+}
 INSTANTIATE_TEST_SUITE_P(Policies, InTurn,
                          ::testing::Values("sequential", "lockstep", "reservation", "certified",
                                            "earliest_start"),

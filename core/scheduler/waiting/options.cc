@@ -138,18 +138,22 @@ bool take_arms_that_remain(State& state) {
     return state.jobs.at(id).job.in<Queued>() != nullptr &&
            !state.lanes.has_place(id, state.jobs, state.arms);
   };
-  std::vector<JobId> shut;
-  std::ranges::copy_if(state.jobs.undecided() | std::views::take(kUndecidedMax),
-                       std::back_inserter(shut), is_shut);
+  std::vector<JobId> undecided;
+  std::ranges::copy(state.jobs.undecided() | std::views::take(kUndecidedMax),
+                    std::back_inserter(undecided));
   bool any = false;
-  for (JobId id : shut) {
+  for (JobId id : undecided) {
+    if (!is_shut(id)) continue;
     Record& record = state.jobs.at(id);
     const std::size_t had = alternative_now(record.job);
+    bool remains = false;
     for (const Option& option : on_several_arms(state, record)) {
+      if (option.alternative == had) continue;
       take_alternative(state, record, option.alternative);
-      if (!is_shut(id)) break;
+      remains = !is_shut(id);
+      if (remains) break;
     }
-    if (is_shut(id)) {
+    if (!remains) {
       take_alternative(state, record, had);
       continue;
     }
