@@ -39,12 +39,6 @@ SafeSequence::Outlook outlook_with(State& state, const std::vector<JobId>& jobs)
   return state.lanes.after(jobs, state.jobs, state.arms);
 }
 
-// Of what waits, something would be in no sequence that could go by another arm, and now does.
-bool shuts_out(State& state, const std::vector<JobId>& jobs) {
-  return !state.jobs.undecided().empty() && !outlook_with(state, jobs).all &&
-         take_arms_that_remain(state);
-}
-
 // It was stopped on its way; its orders stand, if nothing has come to rest there meanwhile.
 void go_on(State& state, Record& record, const Verdict& verdict) {
   std::vector<Wait> waits;
@@ -234,7 +228,7 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
       state.policy->decide(state.graph.question(candidates, verdict.regions));
   const bool can_go = orders.blockers.empty();
   if (!can_go && is_asked_again(first, verdict)) return;  // what stands against it is not known yet
-  if (can_go && shuts_out(state, jobs)) return;
+  if (can_go && take_arms_that_remain(state, jobs)) return;
   if (jobs.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
   if (tries_together(state, jobs, can_go)) return;
   if (can_go) {

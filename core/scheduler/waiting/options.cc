@@ -133,7 +133,9 @@ void take_alternative(State& state, Record& record, std::size_t which) {
   state.lanes.renew_later();
 }
 
-bool take_arms_that_remain(State& state) {
+bool take_arms_that_remain(State& state, const std::vector<JobId>& go) {
+  if (state.jobs.undecided().empty()) return false;
+  if (state.lanes.after(go, state.jobs, state.arms).all) return false;
   const auto is_shut = [&](JobId id) {
     return state.jobs.at(id).job.in<Queued>() != nullptr &&
            !state.lanes.has_place(id, state.jobs, state.arms);

@@ -36,10 +36,9 @@ inline constexpr std::size_t kUndecidedMax = 16;
 // From now on it is the job's to go by this alternative, behind those.
 void take_alternative(State& state, Record& record, std::size_t which);
 
-// Jobs that could come to their ends on another arm only, as others rest in their way on the one
-// that they have: from now on they are that one's for good, before something is admitted that shuts
-// it too. Whether there were any.
-[[nodiscard]] bool take_arms_that_remain(State& state);
+// Before these go: jobs that could come to their ends on another arm only, as others rest in their
+// way on the one that they have, are that one's for good from now on. Whether there were any.
+[[nodiscard]] bool take_arms_that_remain(State& state, const std::vector<JobId>& go);
 
 // From now on this is how things are: that one first, then the others as they were.
 void give_turn(State& state, const std::vector<Option>& options, std::size_t first);
