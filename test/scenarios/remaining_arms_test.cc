@@ -26,8 +26,7 @@ JobRequest visit(const std::string& arm, Place_m from, Place_m to, double durati
 TEST_P(RemainingArms, AreTakenBeforeTheyAreShutToo) {
   TwoGantries cell(gantries(OnIdleBlocker::report, {{-0.5, 0}, {0.5, 0}, {0, 0.6}}), GetParam());
   JobRequest either = visit("a", {-0.5, 0}, {0, 0}, 4, "either");
-  either.alternatives = {either.trajectory,
-                         visit("b", {0.5, 0}, {0.5, -0.9}, 7.2, "").trajectory};
+  either.alternatives = {either.trajectory, visit("b", {0.5, 0}, {0.5, -0.9}, 7.2, "").trajectory};
   either.trajectory = {};
   JobRequest stays = go("c", {0, 0.6}, {0, 0}, 1.5, "stays");
   stays.terms.priority = 5;
