@@ -1,12 +1,9 @@
 // Jobs that either of two arms could do, when what others do shuts the way of one of them.
-#include <gmock/gmock.h>
 
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {
 namespace {
-
-using ::testing::HasSubstr;
 
 class RemainingArms : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Policies, RemainingArms, ::testing::ValuesIn(known_policies()));
