@@ -11,7 +11,7 @@ namespace armloom {
 // stopped, given up. Nobody's authority is taken back; whoever is late may lose its turn.
 void weigh_again(State& state);
 
-// Where something is so.
+// Whether something is, as things are.
 [[nodiscard]] bool is_off_course(const State& state);
 
 // When that is to be looked at without another input; nothing: never.

@@ -21,7 +21,7 @@ std::string place_in(const char* option, std::string_view pointer) {
 
 tl::unexpected<Problems> at_option(const char* option, Problems problems) {
   for (Problem& problem : problems) problem.pointer = place_in(option, problem.pointer);
-  return tl::unexpected(std::move(problems));
+  return failure(std::move(problems));
 }
 
 using RefusedArm = std::pair<std::string, PlanRefusal>;
@@ -83,10 +83,12 @@ Result<std::vector<PlanQuestion>> questions_of(const PlanOptions& options, const
     Problems problems = std::move(goals.error());
     for (Problem& problem : problems) {
       constexpr std::string_view kTo = "/to";
-      const std::string_view place = problem.pointer;
-      problem.pointer = !place.starts_with("/arm") ? place_in("--to", place.substr(kTo.size()))
-                        : options.arms.empty()     ? "--arm"
-                                                   : "--arms";
+      std::string_view place = problem.pointer;
+      const bool is_arm = place.starts_with("/arm");
+      if (place.starts_with(kTo)) place.remove_prefix(kTo.size());
+      problem.pointer = !is_arm                ? place_in("--to", place)
+                        : options.arms.empty() ? "--arm"
+                                               : "--arms";
     }
     return failure(std::move(problems));
   }

@@ -1,5 +1,4 @@
 // Jobs that either of two arms could do, when what others do shuts the way of one of them.
-
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {

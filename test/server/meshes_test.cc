@@ -28,7 +28,9 @@ constexpr const char* kCell =
 
 class MeshRoutes : public test::RunningServer {
  protected:
-  MeshRoutes() : folder_(fs::path(::testing::TempDir()) / "armloom-meshes") {
+  MeshRoutes()
+      : folder_(fs::path(::testing::TempDir()) / "armloom-meshes" /
+                ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "package");
     write("r.urdf", kUrdf);

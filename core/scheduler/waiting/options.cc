@@ -133,32 +133,39 @@ void take_alternative(State& state, Record& record, std::size_t which) {
   state.lanes.renew_later();
 }
 
+namespace {
+
+// It waits, and is in no sequence by the arm that it has.
+bool is_shut(State& state, const Record& record) {
+  return record.job.in<Queued>() != nullptr &&
+         !state.lanes.has_place(record.job.id, state.jobs, state.arms);
+}
+
+// One by which it is not shut; false: there is none, and it keeps what it has.
+bool take_open_alternative(State& state, Record& record) {
+  const std::size_t had = alternative_now(record.job);
+  for (const Option& option : on_several_arms(state, record)) {
+    if (option.alternative == had) continue;
+    take_alternative(state, record, option.alternative);
+    if (!is_shut(state, record)) return true;
+  }
+  take_alternative(state, record, had);
+  return false;
+}
+
+}  // namespace
+
 bool take_arms_that_remain(State& state, const std::vector<JobId>& go) {
   if (state.jobs.undecided().empty()) return false;
   if (state.lanes.after(go, state.jobs, state.arms).all) return false;
-  const auto is_shut = [&](JobId id) {
-    return state.jobs.at(id).job.in<Queued>() != nullptr &&
-           !state.lanes.has_place(id, state.jobs, state.arms);
-  };
   std::vector<JobId> undecided;
   std::ranges::copy(state.jobs.undecided() | std::views::take(kUndecidedMax),
                     std::back_inserter(undecided));
   bool any = false;
   for (JobId id : undecided) {
-    if (!is_shut(id)) continue;
     Record& record = state.jobs.at(id);
     const std::size_t had = alternative_now(record.job);
-    bool remains = false;
-    for (const Option& option : on_several_arms(state, record)) {
-      if (option.alternative == had) continue;
-      take_alternative(state, record, option.alternative);
-      remains = !is_shut(id);
-      if (remains) break;
-    }
-    if (!remains) {
-      take_alternative(state, record, had);
-      continue;
-    }
+    if (!is_shut(state, record) || !take_open_alternative(state, record)) continue;
     record.job.choice = only_choice(record.job, had);
     state.jobs.decide_arm(record);
     any = true;
