@@ -21,6 +21,11 @@ describe('the pace of the 3D view', () => {
     expect(new Pace().took(60)).toBeCloseTo(120);
     expect(new Pace().took(300)).toBeCloseTo(1200);
   });
+  it('says when it is better not to draw while the page has something to do', () => {
+    expect(new Pace().disturbs).toBe(false);
+    expect(after(60).disturbs).toBe(true);
+    expect(after(60, 20).disturbs).toBe(false);
+  });
   it('does not change for one that took long', () => {
     expect(after(500, 20, 500, 20).level).toBe(kLevels[0]);
   });

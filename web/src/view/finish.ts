@@ -12,6 +12,18 @@ export class FinishedMesh extends THREE.Mesh {
     super(fine.geometry, fine.material);
   }
 
+  /** Of the same shape, with the same materials until it is painted otherwise. */
+  override clone(): this {
+    return new FinishedMesh({ ...this.fine }, { ...this.quick }).copy(this) as this;
+  }
+
+  /** Materials of its own in place of those that it shares with others. */
+  wear(fine: THREE.Material, quick: THREE.Material): void {
+    this.fine.material = fine;
+    this.quick.material = quick;
+    this.finish(true);
+  }
+
   finish(fine: boolean): void {
     const { geometry, material } = fine ? this.fine : this.quick;
     this.geometry = geometry;
@@ -21,9 +33,7 @@ export class FinishedMesh extends THREE.Mesh {
   /** Other materials, in both finishes; those before are let go. */
   paint(fine: THREE.Material, quick: THREE.Material): void {
     for (const finish of [this.fine, this.quick]) finish.material.dispose();
-    this.fine.material = fine;
-    this.quick.material = quick;
-    this.finish(true);
+    this.wear(fine, quick);
   }
 
   dispose(): void {

@@ -40,6 +40,7 @@ export class Pace {
   private quick_ = 0;
   private wanted_ = kQuickInARow;
   private since_rise_ = Infinity;
+  private last_ms_ = 0;
 
   constructor(private level_ = 0) {}
 
@@ -47,9 +48,15 @@ export class Pace {
     return kLevels[this.level_] ?? kLevels[0];
   }
 
+  /** Whether the page is better left alone when it has something to do. */
+  get disturbs(): boolean {
+    return this.last_ms_ > kQuick_ms;
+  }
+
   /** A drawing took so long; answers how long after its beginning the next one may begin. */
   took(took_ms: number): number {
     const most_ms = kMost_ms[this.level_] ?? Infinity;
+    this.last_ms_ = took_ms;
     this.long_ = took_ms > most_ms ? this.long_ + 1 : 0;
     this.very_long_ = took_ms > Math.max(kVeryLong_ms, most_ms) ? this.very_long_ + 1 : 0;
     this.quick_ = took_ms < (kLeast_ms[this.level_] ?? 0) ? this.quick_ + 1 : 0;

@@ -10,5 +10,6 @@ export function make_renderer(fine: boolean): THREE.WebGLRenderer {
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
   renderer.shadowMap.autoUpdate = false;
+  renderer.debug.checkShaderErrors = false;  // to ask is to wait until they are compiled
   return renderer;
 }

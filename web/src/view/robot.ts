@@ -12,7 +12,7 @@ import { FinishedMesh } from './finish';
 import type { Surfaces } from './surfaces';
 import { tool_of } from './kinematics';
 import { mark_geometry, place } from './shapes';
-import { merge_links } from './skin';
+import { give_skin, merge_links } from './skin';
 
 const kLitRing = 1.45;
 const kStill_rad = 1e-5;
@@ -34,9 +34,10 @@ export class RobotModel {
   constructor(robot: CellRobot, surfaces: Surfaces = new Map()) {
     this.arms_ = robot.arms;
     this.prefix_ = robot.prefix;
-    this.root = load(robot, surfaces);
-    choose_shapes(this.root);
-    this.skin_ = merge_links(this.root);
+    this.root = pattern_of(robot, surfaces).clone();
+    // Limits are the server's matter; what it measured is drawn as it is.
+    for (const joint of Object.values(this.root.joints)) joint.ignoreLimits = true;
+    this.skin_ = give_skin(this.root);
     place(this.root, robot.base.xyz, robot.base.rpy);
     this.joints_ = Object.keys(this.root.joints).map((key) => ({ name: robot.prefix + key, key, value: NaN }));
     for (const arm of robot.arms) this.marks_.set(arm.name, this.mark(arm, robot.prefix));
@@ -119,6 +120,19 @@ export class RobotModel {
   }
 }
 
+// To read a description and to merge its shapes takes long: done once for all that look the same, as two
+// arms of a kind and their ghosts do. Patterns go with the surfaces that they were made of.
+const patterns = new WeakMap<Surfaces, Map<string, URDFRobot>>();
+
+function pattern_of(robot: CellRobot, surfaces: Surfaces): URDFRobot {
+  const known = patterns.get(surfaces) ?? new Map<string, URDFRobot>();
+  patterns.set(surfaces, known);
+  const looks = JSON.stringify([robot.urdf, robot.meshes]);
+  const pattern = known.get(looks) ?? load(robot, surfaces);
+  known.set(looks, pattern);
+  return pattern;
+}
+
 function load(robot: CellRobot, surfaces: Surfaces): URDFRobot {
   const loader = new URDFLoader();
   loader.parseVisual = true;
@@ -132,8 +146,8 @@ function load(robot: CellRobot, surfaces: Surfaces): URDFRobot {
     done(mesh);
   };
   const root = loader.parse(robot.urdf);
-  // Limits are the server's matter; what it measured is drawn as it is.
-  for (const joint of Object.values(root.joints)) joint.ignoreLimits = true;
+  choose_shapes(root);
+  merge_links(root);
   return root;
 }
 

@@ -17,9 +17,9 @@ interface Rounds { sphere: THREE.SphereGeometry; cylinder: THREE.CylinderGeometr
 const kFine: Rounds = { sphere: new THREE.SphereGeometry(1, 20, 12), cylinder: new THREE.CylinderGeometry(1, 1, 1, 24) };
 const kQuick: Rounds = { sphere: new THREE.SphereGeometry(1, 12, 8), cylinder: new THREE.CylinderGeometry(1, 1, 1, 14) };
 
-/** Replaces the primitives of each link by one mesh; answers the skin that all of them share. */
-export function merge_links(robot: URDFRobot): THREE.MeshStandardMaterial {
-  const skin = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.5, metalness: 0.05 });
+/** Replaces the primitives of each link by one mesh. */
+export function merge_links(robot: URDFRobot): void {
+  const skin = make_skin();
   const quick_skin = quick_material(skin);
   robot.updateMatrixWorld(true);
   for (const link of Object.values(robot.links)) {
@@ -32,7 +32,18 @@ export function merge_links(robot: URDFRobot): THREE.MeshStandardMaterial {
     mesh.receiveShadow = true;
     link.add(mesh);
   }
+}
+
+/** A skin that all links share and no other robot; answers it. */
+export function give_skin(robot: URDFRobot): THREE.MeshStandardMaterial {
+  const skin = make_skin();
+  const quick_skin = quick_material(skin);
+  robot.traverse((node) => { if (node instanceof FinishedMesh) node.wear(skin, quick_skin); });
   return skin;
+}
+
+function make_skin(): THREE.MeshStandardMaterial {
+  return new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.5, metalness: 0.05 });
 }
 
 /** What can be seen of the parts, in the link's frame. */

@@ -25,6 +25,8 @@ const kLate_ms = 20;
 // A whole picture, as asked for or at rest, is followed by as long a pause as it took.
 const kShareOfWhole = 2;
 const kRest_ms = 900;
+// Where pictures take long, what was clicked is shown first: so long no new one is begun.
+const kAnswer_ms = 200;
 const kMargin = 1.06;
 const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
 
@@ -61,6 +63,7 @@ export class Stage {
   private at_rest_ = false;
   private whole_ = false;
   private resized_ = false;
+  private readonly closed_ = new AbortController();
 
   constructor(private readonly host_: HTMLElement) {
     const software = renders_in_software();
@@ -92,14 +95,13 @@ export class Stage {
       this.invalidate();
     });
     new ResizeObserver(() => this.resize()).observe(host_);
+    for (const what of ['click', 'keydown']) window.addEventListener(what, () => this.give_way(), { capture: true, signal: this.closed_.signal });
     this.resize();
   }
 
   get pictures(): number { return this.pictures_; }
   get level(): Level { return this.pace_.level; }
-  get canvas(): HTMLCanvasElement {
-    return this.renderer_.domElement;
-  }
+  get canvas(): HTMLCanvasElement { return this.renderer_.domElement; }
 
   /** Looks at a box so that it fills the view; kept until the user turns it. */
   frame(box: THREE.Box3): void {
@@ -142,6 +144,7 @@ export class Stage {
   close(): void {
     if (this.frame_ !== null) cancelAnimationFrame(this.frame_);
     if (this.rest_timer_ !== null) clearTimeout(this.rest_timer_);
+    this.closed_.abort();
     this.fence_.close();
     this.controls_.dispose();
     this.renderer_.dispose();
@@ -161,7 +164,7 @@ export class Stage {
     if (shapes_moved) this.whole_ = false;
     if (this.frame_ !== null) return;
     const draw = (now_ms: number) => {
-      if (!this.may_draw(now_ms)) {
+      if (this.fence_.is_up || now_ms < this.next_at_ms_) {
         this.frame_ = requestAnimationFrame(draw);
         return;
       }
@@ -172,9 +175,7 @@ export class Stage {
   }
 
   /** Whether a drag turns the view. */
-  let_turn(yes: boolean): void {
-    this.controls_.enabled = yes;
-  }
+  let_turn(yes: boolean): void { this.controls_.enabled = yes; }
 
   /** Kept after the next drawing, which it asks for; that one leaves nothing out, nor do others until something moves. */
   drawn(): Promise<void> {
@@ -201,8 +202,8 @@ export class Stage {
     return { x: ((p.x + 1) / 2) * this.host_.clientWidth, y: ((1 - p.y) / 2) * this.host_.clientHeight };
   }
 
-  private may_draw(now_ms: number): boolean {
-    return !this.fence_.is_up && now_ms >= this.next_at_ms_;
+  private give_way(): void {
+    if (this.pace_.disturbs) this.next_at_ms_ = Math.max(this.next_at_ms_, performance.now() + kAnswer_ms);
   }
 
   private draw(): void {
