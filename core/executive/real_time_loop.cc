@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/executive/own_checker.h"
+#include "core/executive/thread_priority.h"
 #include "core/executive/worker.h"
 
 namespace armloom {
@@ -172,6 +173,7 @@ class RealTimeLoop::Impl final : public JudgementService {
   }
 
   void cycle(std::stop_token stop) {
+    go_first();
     Wall::time_point due = Wall::now();
     TimePoint cell_now{};
     while (!stop.stop_requested()) {

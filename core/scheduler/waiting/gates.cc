@@ -106,7 +106,27 @@ Closed conflict(const Turns& turns, const Record& record) {
   return FoundWaits(record.job.judgement().found);
 }
 
+// It may be about to go: nothing is known to stand against it.
+bool may_go(const State& state, const Record& record) {
+  const Job& job = record.job;
+  if (!stands(state, record)) return true;
+  return job.is_waiting() && is_at_head(state.jobs, record) && !state.is_judged(job) &&
+         job.terms.after.empty() && !lets_another_pass(state.jobs, record) &&
+         !state.arms.stop_of(job) && !state.policy->place_taken_by(state, record);
+}
+
+// No way to its goal was found past where all others will come to rest. Once any of them is to rest
+// elsewhere, another way is sought (ways/goals.h): until all stand, what it waits for is not known.
+bool may_have_another_way(const State& state, const Record& record) {
+  const Job& job = record.job;
+  if (job.in<Queued>() == nullptr || !job.goal || !job.goal->way().goes_through) return false;
+  return std::ranges::any_of(state.jobs.active(), [&](JobId id) {
+    return id != job.id && may_go(state, state.jobs.at(id));
+  });
+}
+
 void add_conflict(const State& state, const Record& record, Edges& edges) {
+  if (may_have_another_way(state, record)) return;
   const FoundWaits found = found_in_the_way(state, record);
   for (const Wait& wait : found.all()) {
     const auto first = has_to_move_first(state, wait);

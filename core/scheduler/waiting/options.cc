@@ -105,12 +105,6 @@ std::size_t alternative_now(const Job& job) {
   return static_cast<std::size_t>(now - job.alternatives.begin());
 }
 
-// The arm that it has now, as not the one that it had.
-Choice only_choice(const Job& job, std::size_t had) {
-  const ArmId shut = arm_of(*job.alternatives[had]);
-  return {.arms = {arm_of(*job.trajectory)}, .without = {{shut, "others come to rest in its way"}}};
-}
-
 }  // namespace
 
 std::size_t place_on(const State& state, const Record& record, ArmId arm) {
@@ -153,6 +147,15 @@ bool take_open_alternative(State& state, Record& record) {
   return false;
 }
 
+// It keeps that arm: `why` it cannot do without on the one that it has.
+bool takes_arm_that_remains(State& state, Record& record, const char* why) {
+  const ArmId had = arm_of(*record.job.trajectory);
+  if (!take_open_alternative(state, record)) return false;
+  record.job.choice = Choice{.arms = {arm_of(*record.job.trajectory)}, .without = {{had, why}}};
+  state.jobs.decide_arm(record);
+  return true;
+}
+
 }  // namespace
 
 bool take_arms_that_remain(State& state, const std::vector<JobId>& go) {
@@ -164,14 +167,25 @@ bool take_arms_that_remain(State& state, const std::vector<JobId>& go) {
   bool any = false;
   for (JobId id : undecided) {
     Record& record = state.jobs.at(id);
-    const std::size_t had = alternative_now(record.job);
-    if (!is_shut(state, record) || !take_open_alternative(state, record)) continue;
-    record.job.choice = only_choice(record.job, had);
-    state.jobs.decide_arm(record);
-    any = true;
+    any = (is_shut(state, record) &&
+           takes_arm_that_remains(state, record, "others come to rest in its way")) ||
+          any;
   }
   if (any) ++state.version;
   return any;
+}
+
+bool leaves_by_other_arm(State& state, const WaitCycle& ring) {
+  for (JobId id : ring) {
+    Record& record = state.jobs.at(id);
+    auto* queued = std::get_if<Queued>(&record.job.phase);
+    if (queued == nullptr || record.job.alternatives.empty()) continue;
+    if (!takes_arm_that_remains(state, record, "it would wait there for ever")) continue;
+    queued->judgement = {};
+    ++state.version;
+    return true;
+  }
+  return false;
 }
 
 std::vector<Option> options_of(State& state, JobId turn) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/deadlock/waits_for.h"
 #include "core/jobs/state.h"
 
 namespace armloom {
@@ -39,6 +40,9 @@ void take_alternative(State& state, Record& record, std::size_t which);
 // Before these go: jobs that could come to their ends on another arm only, as others rest in their
 // way on the one that they have, are that one's for good from now on. Whether there were any.
 [[nodiscard]] bool take_arms_that_remain(State& state, const std::vector<JobId>& go);
+
+// A job of a ring that another arm could do is that one's for good. Whether there was any.
+[[nodiscard]] bool leaves_by_other_arm(State& state, const WaitCycle& ring);
 
 // From now on this is how things are: that one first, then the others as they were.
 void give_turn(State& state, const std::vector<Option>& options, std::size_t first);

@@ -8,6 +8,7 @@
 #include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
 #include "core/scheduler/waiting/gates.h"
+#include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/replanning.h"
 
 namespace armloom {
@@ -109,6 +110,10 @@ void WaitCycles::name(State& state) {
 void WaitCycles::settle(State& state) {
   for (Named& named : std::exchange(named_, {})) {
     const bool stood = ring_stands(state, named.ring, named.epoch);
+    if (stood && leaves_by_other_arm(state, named.ring)) {
+      untell(state, named.ring);
+      continue;
+    }
     named.way_out =
         stood && (goes_around(state, named.ring) || yield_in(state, named.ring).has_value());
     if (named.way_out) {
