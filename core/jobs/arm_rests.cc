@@ -108,4 +108,9 @@ std::optional<std::string> ArmRests::start_mismatch(const Cell& cell,
                              : std::string());
 }
 
+bool begins_at(const Cell& cell, const Trajectory& motion, const Place& place) {
+  const Eigen::VectorXd off = part_of(cell.arm(place.arm), motion, motion.start()) - place.q;
+  return off.cwiseAbs().maxCoeff() <= cell.execution.start_tolerance_rad;
+}
+
 }  // namespace armloom

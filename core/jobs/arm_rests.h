@@ -62,4 +62,7 @@ class ArmRests {
   std::vector<PlacePtr> places_at_;  // per arm: where it rests, or came from
 };
 
+// Whether the motion of that arm may begin with it there (execution.start_tolerance_rad).
+[[nodiscard]] bool begins_at(const Cell& cell, const Trajectory& motion, const Place& place);
+
 }  // namespace armloom

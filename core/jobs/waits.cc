@@ -1,5 +1,7 @@
 #include "core/jobs/waits.h"
 
+#include <cstdio>
+
 namespace armloom {
 
 Wait wait_for(const Conflict& conflict) {
@@ -24,6 +26,15 @@ Wait wait_for(const Blocker& blocker) {
               .proximity = blocker.proximity,
               .own_time = blocker.own_time,
               .other_time = blocker.other_time};
+}
+
+std::string self_collision_text(const Conflict& conflict) {
+  const double apart = conflict.proximity.clearance_m;
+  char how[64] = " touch each other";
+  if (apart > 0.0) std::snprintf(how, sizeof how, " come within %.4g m of each other", apart);
+  char when[64];
+  std::snprintf(when, sizeof when, " at %.3f s of the trajectory", to_seconds(conflict.own_time));
+  return conflict.proximity.body_a + " and " + conflict.proximity.body_b + how + when;
 }
 
 }  // namespace armloom

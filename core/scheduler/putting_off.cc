@@ -1,8 +1,6 @@
 #include "core/scheduler/putting_off.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <string>
 #include <utility>
 
 #include "core/coordination/effort.h"
@@ -17,15 +15,6 @@ namespace {
 constexpr const char* kUndecided = "undecided within the budget of evaluations";
 // So often is the budget of one job's questions raised.
 constexpr int kRaisedMax = 12;
-
-std::string hits_itself(const Conflict& conflict) {
-  const double apart = conflict.proximity.clearance_m;
-  char how[64] = " touch each other";
-  if (apart > 0.0) std::snprintf(how, sizeof how, " come within %.4g m of each other", apart);
-  char when[64];
-  std::snprintf(when, sizeof when, " at %.3f s of the trajectory", to_seconds(conflict.own_time));
-  return conflict.proximity.body_a + " and " + conflict.proximity.body_b + how + when;
-}
 
 // Nothing: it hits itself, and has not begun.
 std::optional<std::vector<Wait>> waits_for(State& state, Record& record, const Verdict& verdict) {
@@ -73,7 +62,7 @@ void stay_queued(State& state, Record& record, Judgement found) {
 bool fails_by_itself(State& state, Record& record, const Verdict& verdict) {
   const auto self = std::ranges::find(verdict.conflicts, Conflict::With::self, &Conflict::with);
   if (self == verdict.conflicts.end() || record.job.has_started()) return false;
-  end(state, record, JobState::failed, Reason::self_collision, hits_itself(*self));
+  end(state, record, JobState::failed, Reason::self_collision, self_collision_text(*self));
   return true;
 }
 

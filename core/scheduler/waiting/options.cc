@@ -41,19 +41,6 @@ std::vector<Option> in_any_order(const State& state, const Record& turn) {
   return options;
 }
 
-bool begins_at(const State& state, const Trajectory& trajectory, const Place& place) {
-  const Arm& arm = state.cell->arm(place.arm);
-  const double tolerance = state.cell->execution.start_tolerance_rad;
-  for (std::size_t i = 0; i < arm.joints.size(); ++i) {
-    const auto j = std::ranges::find(trajectory.joints(), arm.joints[i]);
-    if (j == trajectory.joints().end()) continue;
-    const auto index = j - trajectory.joints().begin();
-    const double off = trajectory.start()[index] - place.q[static_cast<Eigen::Index>(i)];
-    if (std::abs(off) > tolerance) return false;
-  }
-  return true;
-}
-
 // When it could go on the arm of this trajectory: when those have ended that are admitted there, as
 // far as the policy looks ahead; when those have gone that came before it; or not, as these lead
 // elsewhere.
@@ -74,15 +61,10 @@ When when_on(const State& state, const Record& record, const Trajectory& traject
     }
   }
   const bool begins = leads_to != nullptr
-                          ? begins_at(state, trajectory, *leads_to)
+                          ? begins_at(*state.cell, trajectory, *leads_to)
                           : !state.arms.begins_elsewhere(*state.cell, trajectory).has_value();
   if (!begins) return When::never;
   return is_next && admitted < state.policy->horizon() ? When::now : When::later;
-}
-
-bool has_turn(const State& state, const Record& record, const Trajectory& trajectory) {
-  return !state.arms.is_stopped(arm_of(trajectory)) &&
-         when_on(state, record, trajectory) == When::now;
 }
 
 std::vector<Option> on_several_arms(const State& state, const Record& record) {
@@ -199,12 +181,8 @@ std::vector<Option> options_of(State& state, JobId turn) {
 }
 
 bool has_turn_on_some_arm(const State& state, const Record& record) {
-  const Job& job = record.job;
-  if (job.in<Queued>() == nullptr) return false;
-  for (std::size_t k = 0; k < job.alternatives.size(); ++k) {
-    if (job.may_go_by(k) && has_turn(state, record, *job.alternatives[k])) return true;
-  }
-  return false;
+  if (record.job.in<Queued>() == nullptr || record.job.alternatives.empty()) return false;
+  return std::ranges::any_of(on_several_arms(state, record), &Option::goes_now);
 }
 
 void give_turn(State& state, const std::vector<Option>& options, std::size_t first) {
