@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "core/executive/own_checker.h"
-#include "core/executive/thread_priority.h"
 #include "core/executive/worker.h"
 
 namespace armloom {
@@ -173,7 +172,6 @@ class RealTimeLoop::Impl final : public JudgementService {
   }
 
   void cycle(std::stop_token stop) {
-    go_first();
     Wall::time_point due = Wall::now();
     TimePoint cell_now{};
     while (!stop.stop_requested()) {

@@ -23,7 +23,7 @@ export function startServer(binary, args) {
 // {status, headers, text}. Waits for no body when `bodyless`: the server may refuse a header alone.
 export function ask(port, method, path, {body, headers = {}, bodyless = false, agent = false} = {}) {
   return new Promise((resolve, reject) => {
-    const request = http.request({port, host: '127.0.0.1', method, path, headers, agent, timeout: 10_000});
+    const request = http.request({port, host: '127.0.0.1', method, path, headers, agent, timeout: 60_000});
     request.on('response', (response) => {
       const chunks = [];
       response.on('data', (chunk) => chunks.push(chunk));
