@@ -37,4 +37,10 @@ std::string self_collision_text(const Conflict& conflict) {
   return conflict.proximity.body_a + " and " + conflict.proximity.body_b + how + when;
 }
 
+std::string seconds_text(Duration duration) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g s", to_seconds(duration));
+  return text;
+}
+
 }  // namespace armloom

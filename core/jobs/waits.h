@@ -13,5 +13,7 @@ namespace armloom {
 [[nodiscard]] Wait wait_for(const Blocker& blocker);
 // Of a job whose arms would hit themselves or each other: what, how and when.
 [[nodiscard]] std::string self_collision_text(const Conflict& conflict);
+// "12.5 s"
+[[nodiscard]] std::string seconds_text(Duration duration);
 
 }  // namespace armloom

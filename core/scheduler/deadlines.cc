@@ -1,22 +1,15 @@
 #include "core/scheduler/deadlines.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <string>
 
 #include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
+#include "core/jobs/waits.h"
 #include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/ways/replanning.h"
 
 namespace armloom {
 namespace {
-
-std::string seconds_text(Duration duration) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g s", to_seconds(duration));
-  return text;
-}
 
 // Its time has passed, and it stands still.
 bool overruns(Job& job, TimePoint now) {

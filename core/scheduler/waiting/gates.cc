@@ -106,16 +106,18 @@ Closed conflict(const Turns& turns, const Record& record) {
   return FoundWaits(record.job.judgement().found);
 }
 
-// It may be about to go: nothing is known to stand against it.
+// It may be about to go: nothing is known to stand against it, and nobody has waited so long that
+// it would hold others back.
 bool may_go(const State& state, const Record& record) {
   const Job& job = record.job;
   if (!stands(state, record)) return true;
   return job.is_waiting() && is_at_head(state.jobs, record) && !state.is_judged(job) &&
          job.terms.after.empty() && !lets_another_pass(state.jobs, record) &&
-         !state.arms.stop_of(job) && !state.policy->place_taken_by(state, record);
+         !state.arms.stop_of(job) && !state.policy->place_taken_by(state, record) &&
+         !any_is_aged(state);
 }
 
-// No way to its goal was found past where all others will come to rest. Once any of them is to rest
+// No way to its goal was found past where all others will rest. Once one of them is to rest
 // elsewhere, another way is sought (ways/goals.h): until all stand, what it waits for is not known.
 bool may_have_another_way(const State& state, const Record& record) {
   const Job& job = record.job;
@@ -126,9 +128,10 @@ bool may_have_another_way(const State& state, const Record& record) {
 }
 
 void add_conflict(const State& state, const Record& record, Edges& edges) {
-  if (may_have_another_way(state, record)) return;
   const FoundWaits found = found_in_the_way(state, record);
+  const bool may_pass = may_have_another_way(state, record);
   for (const Wait& wait : found.all()) {
+    if (may_pass && wait.kind != Wait::Kind::order) continue;
     const auto first = has_to_move_first(state, wait);
     if (!first) continue;
     if (wait.kind == Wait::Kind::arm) {

@@ -149,9 +149,8 @@ bool take_arms_that_remain(State& state, const std::vector<JobId>& go) {
   bool any = false;
   for (JobId id : undecided) {
     Record& record = state.jobs.at(id);
-    any = (is_shut(state, record) &&
-           takes_arm_that_remains(state, record, "others come to rest in its way")) ||
-          any;
+    if (!is_shut(state, record)) continue;
+    any |= takes_arm_that_remains(state, record, "others come to rest in its way");
   }
   if (any) ++state.version;
   return any;

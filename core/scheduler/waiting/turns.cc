@@ -67,6 +67,13 @@ std::vector<JobId> to_explain(State& state) {
 
 }  // namespace
 
+bool any_is_aged(const State& state) {
+  return state.policy->lets_jobs_age() &&
+         std::ranges::any_of(state.jobs.queues(), [&](const auto& queue) {
+           return !queue.empty() && is_aged(state, state.jobs.at(queue.front()));
+         });
+}
+
 Turns::Turns(const State& state) : state_(state), aged_(aged_jobs()) {}
 
 std::vector<Turns::Aged> Turns::aged_jobs() const {

@@ -43,6 +43,9 @@ class Turns {
   std::vector<std::pair<JobId, bool>> found_;
 };
 
+// Somebody at the head of an arm has waited for longer than scheduling.aging.
+[[nodiscard]] bool any_is_aged(const State& state);
+
 // Tells each job what it waits for: the first gate that is closed for it. Answers the turns as they
 // are, which count until something changes.
 Turns explain_waits(State& state);

@@ -1,11 +1,11 @@
 #include "core/scheduler/ways/replanning.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
+#include "core/jobs/waits.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/trajectory/set_joints.h"
 
@@ -84,12 +84,11 @@ void ask_at_rest(State& state, Record& record) {
 }
 
 void expire(State& state, Record& record, const std::string& why) {
-  char waited[32];
-  std::snprintf(waited, sizeof waited, "%.6g s", to_seconds(record.job.terms.backlog_timeout));
   const char* where = record.job.has_started() ? " on its path" : " in the backlog";
   give_up(state, record,
           {AfterStop::Then::fail, Reason::backlog_timeout,
-           std::string("waited ") + waited + where + "; no other way: " + why});
+           "waited " + seconds_text(record.job.terms.backlog_timeout) + where +
+               "; no other way: " + why});
 }
 
 // As it was found when it was judged last, or where it stands.
