@@ -4,7 +4,7 @@ import { signal } from '@preact/signals';
 import type { Answer, Api } from '../server/api';
 import type { Timers } from '../server/connection';
 import { follow_job } from '../server/follow_job';
-import type { SceneObject } from '../server/messages';
+import type { Problem, SceneObject } from '../server/messages';
 import type { Store } from './store';
 
 export class Actions {
@@ -71,7 +71,13 @@ export class Actions {
 
   async ask(what: string, answer: Promise<Answer<unknown>>): Promise<boolean> {
     const got = await answer;
-    this.refusal.value = got.ok ? null : `${what} was refused: ${got.problem.detail ?? got.problem.title}`;
+    this.refusal.value = got.ok ? null : why_not(what, got.problem);
     return got.ok;
   }
+}
+
+/** Status 0: nobody has answered, so that nobody knows whether it was heard. */
+function why_not(what: string, problem: Problem): string {
+  if (problem.status !== 0) return `${what} was refused: ${problem.detail ?? problem.title}`;
+  return `${what} was not answered: the server may not have heard it, and arms may still move. Ask again, or use the cell's own emergency stop.`;
 }

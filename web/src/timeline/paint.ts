@@ -57,13 +57,18 @@ function is_dim(mark: Mark, arm: string, lit: Lit): boolean {
   return lit.arms.length > 0 && !lit.arms.includes(arm);
 }
 
+// More have no room on any sheet, whatever its times are.
+const kTicksMax = 1000;
+
 function draw_axis(g: CanvasRenderingContext2D, sheet: Sheet): void {
   const step_s = tick_of(sheet.length_s, (sheet.width - kLeft_px) / 74);
   g.font = `10.5px ${kFont}`;
   g.textAlign = 'center';
   g.textBaseline = 'alphabetic';
   g.lineWidth = 1;
-  for (let t_s = Math.ceil(sheet.from_s / step_s) * step_s; t_s <= sheet.from_s + sheet.length_s; t_s += step_s) {
+  const first_s = Math.ceil(sheet.from_s / step_s) * step_s;
+  for (let k = 0; k <= sheet.length_s / step_s && k < kTicksMax; k += 1) {
+    const t_s = first_s + k * step_s;
     if (t_s < 0) continue;
     const at = Math.round(sheet.x(t_s)) + 0.5;
     g.strokeStyle = ink('--line');

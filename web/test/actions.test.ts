@@ -1,0 +1,25 @@
+import { describe, expect, it } from 'vitest';
+import type { Answer, Api } from '../src/server/api';
+import { Actions } from '../src/state/actions';
+import type { Store } from '../src/state/store';
+
+function asked(answer: Answer<unknown>): Actions {
+  const api = { stop: () => Promise.resolve(answer) } as unknown as Api;
+  return new Actions(api, { set_stopped: () => undefined } as unknown as Store, {} as never, () => undefined);
+}
+
+const problem = { type: 'about:blank', title: 'Conflict', status: 409, detail: 'somebody else holds control' };
+
+describe('what was asked for', () => {
+  it('is said to be refused when the server refused it', async () => {
+    const actions = asked({ ok: false, problem });
+    await actions.stop();
+    expect(actions.refusal.value).toBe('Stop all was refused: somebody else holds control');
+  });
+  it('is not said to be refused when nobody answered: arms may still move', async () => {
+    const actions = asked({ ok: false, problem: { ...problem, title: 'The server does not answer', status: 0, detail: 'TypeError: Failed to fetch' } });
+    await actions.stop();
+    expect(actions.refusal.value).toMatch(/^Stop all was not answered: .*arms may still move/);
+    expect(actions.stopping.value).toBe(false);
+  });
+});
