@@ -26,13 +26,6 @@ TEST_P(BesideAMovedArm, AGoalIsPlannedAnewAndReached) {
   EXPECT_GT(cell.closest_m(), 0.0);
 }
 
-JobRequest to_place(const std::string& arm, Place_m to, std::string key) {
-  JobRequest goal{.key = std::move(key), .name = "", .trajectory = {}};
-  goal.arm = arm;
-  goal.move_to = PlanGoal{.joints = std::vector{to.first, to.second}, .named = {}, .pose = {}};
-  return goal;
-}
-
 // One is to come to where the other stands, which is to go past it: beside where that one will be
 // it is planned right through where it is.
 TEST_P(BesideAMovedArm, TwoGoalsInEachOthersWayAreNoRingWhereOneCanGoRound) {
@@ -123,24 +116,6 @@ TEST_P(BesideAMovedArm, ASwapOfGoalsTakesOneMoveAside) {
   cell.expect_at("b", {-0.3, 0.0});
   EXPECT_TRUE(cell.executive().job("aside-1"));
   EXPECT_FALSE(cell.executive().job("aside-2"));
-}
-
-// Beside and around places that arms stand at.
-struct Walls {
-  double left_m, right_m, below_m, above_m;
-};
-void put_walls(CellDescription& cell, const Walls& at) {
-  constexpr double kThick_m = 0.2, kLong_m = 1.6;
-  const Place_m middle{(at.left_m + at.right_m) / 2, (at.below_m + at.above_m) / 2};
-  const auto wall = [&cell](const std::string& name, const Eigen::Vector3d& size, Place_m place) {
-    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
-    X_WO.translation() = Eigen::Vector3d(place.first, place.second, 0.0);
-    cell.objects.push_back({name, Box{size}, X_WO});
-  };
-  wall("left", {kThick_m, kLong_m, 0.3}, {at.left_m, middle.second});
-  wall("right", {kThick_m, kLong_m, 0.3}, {at.right_m, middle.second});
-  wall("below", {kLong_m, kThick_m, 0.3}, {middle.first, at.below_m});
-  wall("above", {kLong_m, kThick_m, 0.3}, {middle.first, at.above_m});
 }
 
 // Two rows of three places between walls: a finds both ways to its goal shut when it is planned, by

@@ -53,6 +53,31 @@ inline JobRequest go(const std::string& arm, Place_m from, Place_m to, double du
   return request;
 }
 
+inline JobRequest to_place(const std::string& arm, Place_m to, std::string key) {
+  JobRequest goal{.key = std::move(key), .name = "", .trajectory = {}};
+  goal.arm = arm;
+  goal.move_to = PlanGoal{.joints = std::vector{to.first, to.second}, .named = {}, .pose = {}};
+  return goal;
+}
+
+// Beside and around places that arms stand at.
+struct Walls {
+  double left_m, right_m, below_m, above_m;
+};
+inline void put_walls(CellDescription& cell, const Walls& at) {
+  constexpr double kThick_m = 0.2, kLong_m = 1.6;
+  const Place_m middle{(at.left_m + at.right_m) / 2, (at.below_m + at.above_m) / 2};
+  const auto wall = [&cell](const std::string& name, const Eigen::Vector3d& size, Place_m place) {
+    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+    X_WO.translation() = Eigen::Vector3d(place.first, place.second, 0.0);
+    cell.objects.push_back({name, Box{size}, X_WO});
+  };
+  wall("left", {kThick_m, kLong_m, 0.3}, {at.left_m, middle.second});
+  wall("right", {kThick_m, kLong_m, 0.3}, {at.right_m, middle.second});
+  wall("below", {kLong_m, kThick_m, 0.3}, {middle.first, at.below_m});
+  wall("above", {kLong_m, kThick_m, 0.3}, {middle.first, at.above_m});
+}
+
 // The cell on hand-driven time.
 class TwoGantries {
  public:
