@@ -1,5 +1,5 @@
 // More goals than can all be reached, for more arms than have room: whatever becomes of each,
-// nothing stands for ever, and nothing touches.
+// nothing stands for ever.
 #include <algorithm>
 #include <random>
 
