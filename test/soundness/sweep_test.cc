@@ -114,7 +114,7 @@ struct Two {
     PlacedConvexShape at_a, at_b;
     place(a, X_WA, at_a);
     place(b, X_WB, at_b);
-    const auto apart = separation(a, at_a, b, at_b);
+    const auto apart = separation(a, at_a, b, at_b, 10.0);
     if (!apart) return std::nullopt;
     return swept_gap({a, at_a, axes_a}, {b, at_b, axes_b}, apart->n_W);
   }

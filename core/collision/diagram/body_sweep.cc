@@ -15,7 +15,7 @@ bool shapes_keep_apart(const MovingShape& a, const MovingShape& b, double limit_
   const double reach_m = enough_m + a.shape.bounding_radius_m() + b.shape.bounding_radius_m();
   if ((a.at.segment.center - b.at.segment.center).squaredNorm() >= reach_m * reach_m) return true;
   if (lower_bound(a.shape, a.at, b.shape, b.at).distance_m >= enough_m) return true;
-  const std::optional<Separation> apart = separation(a.shape, a.at, b.shape, b.at);
+  const std::optional<Separation> apart = separation(a.shape, a.at, b.shape, b.at, enough_m);
   if (!apart) return false;
   if (apart->distance_m >= enough_m) return true;
   if (apart->distance_m < limit_m) return false;

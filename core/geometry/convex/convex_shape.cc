@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/geometry/convex/exact_distance.h"
+#include "core/geometry/convex/gjk.h"
 #include "core/geometry/convex/solid_of_shape.h"
 #include "core/geometry/mesh/mesh.h"
 
@@ -199,8 +200,13 @@ Bound lower_bound(const ConvexShape& a, const PlacedConvexShape& at_a, const Con
 }
 
 std::optional<Separation> separation(const ConvexShape& a, const PlacedConvexShape& at_a,
-                                     const ConvexShape& b, const PlacedConvexShape& at_b) {
+                                     const ConvexShape& b, const PlacedConvexShape& at_b,
+                                     double enough_m) {
   if (a.kind != ConvexShapeKind::round || b.kind != ConvexShapeKind::round) {
+    const GjkResult found = gjk(a, at_a, b, at_b, enough_m);
+    if (found.settled) {
+      return found.proven.distance_m > 0.0 ? std::optional(found.proven) : std::nullopt;
+    }
     return exact_separation(a, shape_pose(a, at_a), b, shape_pose(b, at_b));
   }
   const Eigen::Vector3d gap = segment_segment_gap(at_b.segment, at_a.segment);
@@ -218,7 +224,8 @@ double distance_below(const ConvexShape& a, const PlacedConvexShape& at_a, const
   const Bound bound = lower_bound(a, at_a, b, at_b);
   if (bound.distance_m >= limit_m) return limit_m;
   if (bound.exact) return bound.distance_m;
-  return std::min(limit_m, exact_distance(a, shape_pose(a, at_a), b, shape_pose(b, at_b)));
+  const auto apart = separation(a, at_a, b, at_b, limit_m);
+  return apart ? std::min(limit_m, apart->distance_m) : std::min(limit_m, 0.0);
 }
 
 }  // namespace armloom

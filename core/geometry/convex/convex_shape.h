@@ -65,7 +65,7 @@ struct Bound {
                                 const ConvexShape& b, const PlacedConvexShape& at_b);
 
 // Two bodies with a gap of distance_m between two planes across n, of unit length from a to b.
-// Nothing where none is found, as in contact.
+// Nothing where none is found, as in contact; the distance, or at least enough_m.
 struct Separation {
   double distance_m;
   Eigen::Vector3d n_W;
@@ -73,7 +73,7 @@ struct Separation {
 [[nodiscard]] std::optional<Separation> separation(const ConvexShape& a,
                                                    const PlacedConvexShape& at_a,
                                                    const ConvexShape& b,
-                                                   const PlacedConvexShape& at_b);
+                                                   const PlacedConvexShape& at_b, double enough_m);
 
 // min(distance, limit_m): cheap when the bound is not below the limit. Negative or zero in contact.
 [[nodiscard]] double distance_below(const ConvexShape& a, const PlacedConvexShape& at_a,

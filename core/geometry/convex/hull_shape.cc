@@ -69,10 +69,16 @@ HullShape fit_hull(const ConvexHull& hull_M) {
   return shape;
 }
 
-double HullShape::support(const Eigen::Vector3d& n_S) const {
+const Eigen::Vector3d& HullShape::farthest(const Eigen::Vector3d& n_S) const {
+  const Eigen::Vector3d* farthest = nullptr;
   double largest = -std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3d& p : hull.vertices) largest = std::max(largest, n_S.dot(p));
-  return largest;
+  for (const Eigen::Vector3d& p : hull.vertices) {
+    const double along = n_S.dot(p);
+    if (along <= largest) continue;
+    largest = along;
+    farthest = &p;
+  }
+  return *farthest;
 }
 
 }  // namespace armloom

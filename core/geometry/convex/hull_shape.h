@@ -17,8 +17,8 @@ struct HullShape {
   double radius_m = 0.0;        // of a capsule about z that contains the hull ...
   double half_length_m = 0.0;   // ... and half the length of its axis
 
-  // The largest n . x over the hull; n in S.
-  [[nodiscard]] double support(const Eigen::Vector3d& n_S) const;
+  // The corner with the largest n . x; n in S.
+  [[nodiscard]] const Eigen::Vector3d& farthest(const Eigen::Vector3d& n_S) const;
 };
 
 [[nodiscard]] HullShape fit_hull(const ConvexHull& hull_M);

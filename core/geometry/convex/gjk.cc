@@ -1,0 +1,189 @@
+#include "core/geometry/convex/gjk.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace armloom {
+namespace {
+
+using Eigen::Vector3d;
+
+// Shapes with flat faces take some 5 to 10; a rim comes nearer by a share of what is left.
+constexpr int kMostSteps = 48;
+// A tetrahedron that is no higher has no inside.
+constexpr double kLeastHeight_m = 1e-11;
+
+// A shape without what is added around it all: a segment where it is round.
+struct Core {
+  const ConvexShape& shape;
+  const PlacedConvexShape& at;
+
+  [[nodiscard]] double radius_m() const {
+    return shape.kind == ConvexShapeKind::round ? shape.radius_m : 0.0;
+  }
+  // The point that is farthest along n, from the shape's centre.
+  [[nodiscard]] Vector3d farthest(const Vector3d& n_W) const {
+    if (shape.kind == ConvexShapeKind::round) {
+      return n_W.dot(at.segment.half) < 0.0 ? Vector3d(-at.segment.half) : at.segment.half;
+    }
+    const Vector3d n = at.X_WS.linear().transpose() * n_W;
+    Vector3d p;
+    if (shape.kind == ConvexShapeKind::hull) {
+      p = shape.hull->farthest(n);
+    } else if (shape.kind == ConvexShapeKind::box) {
+      for (int i = 0; i < 3; ++i) p[i] = std::copysign(shape.half_size_m[i], n[i]);
+    } else {
+      const double across = std::hypot(n.x(), n.y());
+      const double scale = across > 0.0 ? shape.radius_m / across : 0.0;
+      p = {n.x() * scale, n.y() * scale, std::copysign(shape.half_length_m, n.z())};
+    }
+    return at.X_WS.linear() * p;
+  }
+};
+
+// Up to four points of the difference, of which none can be left out.
+class Simplex {
+ public:
+  void add(const Vector3d& p) { points_[static_cast<std::size_t>(size_++)] = p; }
+  [[nodiscard]] bool has(const Vector3d& p) const {
+    return std::find(points_.begin(), points_.begin() + size_, p) != points_.begin() + size_;
+  }
+  // Its point nearest to the origin; keeps the corners that this one lies between. All four: the
+  // origin is inside.
+  [[nodiscard]] Vector3d reduce() {
+    switch (size_) {
+      case 1:
+        return points_[0];
+      case 2:
+        return of_segment();
+      case 3:
+        return keep(of_triangle(0, 1, 2));
+      default:
+        return of_tetrahedron();
+    }
+  }
+  [[nodiscard]] bool is_full() const { return size_ == 4; }
+
+ private:
+  struct Nearest {
+    Vector3d p;
+    std::array<int, 3> corners;
+    int count;
+  };
+
+  [[nodiscard]] Nearest between(int i, int j, double share) const {
+    return {points_[static_cast<std::size_t>(i)] +
+                share * (points_[static_cast<std::size_t>(j)] - points_[static_cast<std::size_t>(i)]),
+            {i, j, 0},
+            2};
+  }
+  [[nodiscard]] Nearest corner(int i) const {
+    return {points_[static_cast<std::size_t>(i)], {i, 0, 0}, 1};
+  }
+  Vector3d keep(const Nearest& nearest) {
+    const std::array<Vector3d, 4> from = points_;
+    for (int i = 0; i < nearest.count; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      points_[k] = from[static_cast<std::size_t>(nearest.corners[k])];
+    }
+    size_ = nearest.count;
+    return nearest.p;
+  }
+
+  Vector3d of_segment() {
+    const Vector3d along = points_[1] - points_[0];
+    const double share = -points_[0].dot(along) / along.squaredNorm();
+    if (!(share > 0.0)) return keep(corner(0));
+    if (share >= 1.0) return keep(corner(1));
+    return keep(between(0, 1, share));
+  }
+
+  // C. Ericson, "Real-Time Collision Detection", 5.1.5, of the origin.
+  [[nodiscard]] Nearest of_triangle(int i, int j, int k) const {
+    const Vector3d& a = points_[static_cast<std::size_t>(i)];
+    const Vector3d& b = points_[static_cast<std::size_t>(j)];
+    const Vector3d& c = points_[static_cast<std::size_t>(k)];
+    const Vector3d ab = b - a;
+    const Vector3d ac = c - a;
+    const double d1 = -ab.dot(a);
+    const double d2 = -ac.dot(a);
+    if (d1 <= 0.0 && d2 <= 0.0) return corner(i);
+    const double d3 = -ab.dot(b);
+    const double d4 = -ac.dot(b);
+    if (d3 >= 0.0 && d4 <= d3) return corner(j);
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return between(i, j, d1 / (d1 - d3));
+    const double d5 = -ab.dot(c);
+    const double d6 = -ac.dot(c);
+    if (d6 >= 0.0 && d5 <= d6) return corner(k);
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return between(i, k, d2 / (d2 - d6));
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0.0 && d4 >= d3 && d5 >= d6) {
+      return between(j, k, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    }
+    // Along the normal: better conditioned than the sum of the corners' shares.
+    const Vector3d n = ab.cross(ac);
+    return {n * (n.dot(a) / n.squaredNorm()), {i, j, k}, 3};
+  }
+
+  // Of the faces that the origin lies outside of, or in the plane of.
+  Vector3d of_tetrahedron() {
+    constexpr std::array<std::array<int, 4>, 4> kFaces{
+        {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}}};
+    Nearest nearest{Vector3d::Zero(), {}, 0};
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [i, j, k, other] : kFaces) {
+      const Vector3d& a = points_[static_cast<std::size_t>(i)];
+      const Vector3d n = (points_[static_cast<std::size_t>(j)] - a)
+                             .cross(points_[static_cast<std::size_t>(k)] - a);
+      const double inner = n.dot(points_[static_cast<std::size_t>(other)] - a);
+      const double origin = -n.dot(a);
+      const bool is_flat = std::abs(inner) <= kLeastHeight_m * n.norm();
+      if (!is_flat && inner * origin > 0.0) continue;
+      const Nearest of_face = of_triangle(i, j, k);
+      if (of_face.p.squaredNorm() >= least) continue;
+      least = of_face.p.squaredNorm();
+      nearest = of_face;
+    }
+    return nearest.count == 0 ? Vector3d(Vector3d::Zero()) : keep(nearest);
+  }
+
+  std::array<Vector3d, 4> points_;
+  int size_ = 0;
+};
+
+}  // namespace
+
+GjkResult gjk(const ConvexShape& a, const PlacedConvexShape& at_a, const ConvexShape& b,
+              const PlacedConvexShape& at_b, double enough_m) {
+  const Core of_a{a, at_a};
+  const Core of_b{b, at_b};
+  const double radii_m = of_a.radius_m() + of_b.radius_m();
+  const Vector3d centers = at_b.segment.center - at_a.segment.center;
+  GjkResult found{{-std::numeric_limits<double>::infinity(), Vector3d::UnitZ()}, false};
+  Simplex simplex;
+  Vector3d nearest = centers;  // of the difference b - a, to the origin
+  double length = nearest.norm();
+  for (int step = 0; step < kMostSteps && length > 0.0; ++step) {
+    const Vector3d n = nearest / length;
+    const Vector3d p = centers + of_b.farthest(-n) - of_a.farthest(n);
+    const double gap_m = n.dot(p) - radii_m;
+    if (gap_m > found.proven.distance_m) found.proven = {gap_m, n};
+    found.settled = found.proven.distance_m > 0.0 &&
+                    (found.proven.distance_m >= enough_m ||
+                     (step > 0 && length - radii_m - found.proven.distance_m < kGjkSettled_m));
+    if (found.settled || simplex.has(p)) return found;
+    simplex.add(p);
+    nearest = simplex.reduce();
+    const double before = length;
+    length = nearest.norm();
+    if (simplex.is_full() || length <= radii_m) return {{0.0, n}, true};  // they share a point
+    if (step > 0 && !(length < before)) return found;  // no farther for rounding
+  }
+  return found;
+}
+
+}  // namespace armloom
