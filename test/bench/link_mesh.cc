@@ -25,7 +25,7 @@ double support(const ConvexShape& body, const Eigen::Vector3d& n) {
     case ConvexShapeKind::cylinder:
       return middle + along + body.radius_m * std::hypot(n_S.x(), n_S.y());
     case ConvexShapeKind::hull:
-      return middle + n_S.dot(body.hull->farthest(n_S));
+      return middle + body.hull->support(n_S);
     case ConvexShapeKind::round:
       break;
   }

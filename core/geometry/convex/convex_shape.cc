@@ -203,10 +203,8 @@ std::optional<Separation> separation(const ConvexShape& a, const PlacedConvexSha
                                      const ConvexShape& b, const PlacedConvexShape& at_b,
                                      double enough_m) {
   if (a.kind != ConvexShapeKind::round || b.kind != ConvexShapeKind::round) {
-    const GjkResult found = gjk(a, at_a, b, at_b, enough_m);
-    if (found.settled) {
-      return found.proven.distance_m > 0.0 ? std::optional(found.proven) : std::nullopt;
-    }
+    const std::optional<Separation> found = gjk(a, at_a, b, at_b, enough_m);
+    if (found) return found->distance_m > 0.0 ? found : std::nullopt;
     return exact_separation(a, shape_pose(a, at_a), b, shape_pose(b, at_b));
   }
   const Eigen::Vector3d gap = segment_segment_gap(at_b.segment, at_a.segment);

@@ -46,7 +46,7 @@ double support(const ConvexShape& body, const Eigen::Isometry3d& X_WS, const Eig
     case ConvexShapeKind::cylinder:
       return along + body.radius_m * std::hypot(n.x(), n.y());
     case ConvexShapeKind::hull:
-      return n.dot(body.hull->farthest(n));
+      return body.hull->support(n);
     case ConvexShapeKind::round:
       break;
   }

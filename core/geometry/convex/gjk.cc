@@ -19,19 +19,22 @@ constexpr double kLeastHeight_m = 1e-11;
 struct Core {
   const ConvexShape& shape;
   const PlacedConvexShape& at;
+  std::uint32_t corner = 0;
 
   [[nodiscard]] double radius_m() const {
     return shape.kind == ConvexShapeKind::round ? shape.radius_m : 0.0;
   }
-  // The point that is farthest along n, from the shape's centre.
-  [[nodiscard]] Vector3d farthest(const Vector3d& n_W) const {
+  // The point that is farthest along n, from the shape's centre; of a hull, from the corner where the
+  // last one was.
+  [[nodiscard]] Vector3d farthest(const Vector3d& n_W) {
     if (shape.kind == ConvexShapeKind::round) {
       return n_W.dot(at.segment.half) < 0.0 ? Vector3d(-at.segment.half) : at.segment.half;
     }
     const Vector3d n = at.X_WS.linear().transpose() * n_W;
     Vector3d p;
     if (shape.kind == ConvexShapeKind::hull) {
-      p = shape.hull->farthest(n);
+      corner = shape.hull->uphill(n, corner);
+      p = shape.hull->hull.vertices[corner];
     } else if (shape.kind == ConvexShapeKind::box) {
       for (int i = 0; i < 3; ++i) p[i] = std::copysign(shape.half_size_m[i], n[i]);
     } else {
@@ -40,6 +43,12 @@ struct Core {
       p = {n.x() * scale, n.y() * scale, std::copysign(shape.half_length_m, n.z())};
     }
     return at.X_WS.linear() * p;
+  }
+  // How far it reaches along n beyond p, its farthest point: nothing but for hulls.
+  [[nodiscard]] double beyond(const Vector3d& n_W) const {
+    if (shape.kind != ConvexShapeKind::hull) return 0.0;
+    const Vector3d n = at.X_WS.linear().transpose() * n_W;
+    return std::max(0.0, shape.hull->support(n) - n.dot(shape.hull->hull.vertices[corner]));
   }
 };
 
@@ -157,13 +166,13 @@ class Simplex {
 
 }  // namespace
 
-GjkResult gjk(const ConvexShape& a, const PlacedConvexShape& at_a, const ConvexShape& b,
-              const PlacedConvexShape& at_b, double enough_m) {
-  const Core of_a{a, at_a};
-  const Core of_b{b, at_b};
+std::optional<Separation> gjk(const ConvexShape& a, const PlacedConvexShape& at_a,
+                              const ConvexShape& b, const PlacedConvexShape& at_b,
+                              double enough_m) {
+  Core of_a{a, at_a};
+  Core of_b{b, at_b};
   const double radii_m = of_a.radius_m() + of_b.radius_m();
   const Vector3d centers = at_b.segment.center - at_a.segment.center;
-  GjkResult found{{-std::numeric_limits<double>::infinity(), Vector3d::UnitZ()}, false};
   Simplex simplex;
   Vector3d nearest = centers;  // of the difference b - a, to the origin
   double length = nearest.norm();
@@ -171,19 +180,23 @@ GjkResult gjk(const ConvexShape& a, const PlacedConvexShape& at_a, const ConvexS
     const Vector3d n = nearest / length;
     const Vector3d p = centers + of_b.farthest(-n) - of_a.farthest(n);
     const double gap_m = n.dot(p) - radii_m;
-    if (gap_m > found.proven.distance_m) found.proven = {gap_m, n};
-    found.settled = found.proven.distance_m > 0.0 &&
-                    (found.proven.distance_m >= enough_m ||
-                     (step > 0 && length - radii_m - found.proven.distance_m < kGjkSettled_m));
-    if (found.settled || simplex.has(p)) return found;
+    const auto settles = [&](double found_m) {
+      const bool is_nearest = step > 0 && length - radii_m - found_m < kGjkSettled_m;
+      return found_m > 0.0 && (found_m >= enough_m || is_nearest);
+    };
+    if (settles(gap_m)) {
+      const double proven_m = gap_m - of_a.beyond(n) - of_b.beyond(-n);
+      if (settles(proven_m)) return Separation{proven_m, n};
+    }
+    if (simplex.has(p)) return std::nullopt;
     simplex.add(p);
     nearest = simplex.reduce();
     const double before = length;
     length = nearest.norm();
-    if (simplex.is_full() || length <= radii_m) return {{0.0, n}, true};  // they share a point
-    if (step > 0 && !(length < before)) return found;  // no farther for rounding
+    if (simplex.is_full() || length <= radii_m) return Separation{0.0, n};  // they share a point
+    if (step > 0 && !(length < before)) return std::nullopt;  // no nearer for rounding
   }
-  return found;
+  return std::nullopt;
 }
 
 }  // namespace armloom

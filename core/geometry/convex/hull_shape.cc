@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace armloom {
 namespace {
@@ -33,6 +34,20 @@ Eigen::Matrix3d turned_to_z(const Eigen::Matrix3d& R, const Eigen::Vector3d& siz
   Eigen::Matrix3d turned;
   for (Eigen::Index i = 0; i < 3; ++i) turned.col(i) = R.col((i + longest + 1) % 3);
   return turned;
+}
+
+void list_neighbors(HullShape& shape) {
+  std::vector<std::set<std::uint32_t>> of(shape.hull.vertices.size());
+  for (const Triangle& face : shape.hull.faces) {
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      of[face[i]].insert(face[(i + 1) % 3]);
+      of[face[(i + 1) % 3]].insert(face[i]);
+    }
+  }
+  for (const std::set<std::uint32_t>& neighbors : of) {
+    shape.neighbors.insert(shape.neighbors.end(), neighbors.begin(), neighbors.end());
+    shape.neighbors_end.push_back(static_cast<std::uint32_t>(shape.neighbors.size()));
+  }
 }
 
 }  // namespace
@@ -65,20 +80,30 @@ HullShape fit_hull(const ConvexHull& hull_M) {
         std::sqrt(std::max(0.0, (shape.radius_m - beside) * (shape.radius_m + beside)));
     shape.half_length_m = std::max(shape.half_length_m, std::abs(p.z()) - cap);
   }
+  list_neighbors(shape);
   shape.radius_m *= 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
   return shape;
 }
 
-const Eigen::Vector3d& HullShape::farthest(const Eigen::Vector3d& n_S) const {
-  const Eigen::Vector3d* farthest = nullptr;
+double HullShape::support(const Eigen::Vector3d& n_S) const {
   double largest = -std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3d& p : hull.vertices) {
-    const double along = n_S.dot(p);
-    if (along <= largest) continue;
-    largest = along;
-    farthest = &p;
-  }
-  return *farthest;
+  for (const Eigen::Vector3d& p : hull.vertices) largest = std::max(largest, n_S.dot(p));
+  return largest;
+}
+
+std::uint32_t HullShape::uphill(const Eigen::Vector3d& n_S, std::uint32_t from) const {
+  std::uint32_t best = from;
+  double largest = n_S.dot(hull.vertices[from]);
+  do {
+    from = best;
+    for (std::uint32_t k = from == 0 ? 0 : neighbors_end[from - 1]; k < neighbors_end[from]; ++k) {
+      const double along = n_S.dot(hull.vertices[neighbors[k]]);
+      if (along <= largest) continue;
+      largest = along;
+      best = neighbors[k];
+    }
+  } while (best != from);
+  return best;
 }
 
 }  // namespace armloom

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
 #include <vector>
 
 #include "core/geometry/mesh/convex_hull.h"
@@ -17,8 +19,15 @@ struct HullShape {
   double radius_m = 0.0;        // of a capsule about z that contains the hull ...
   double half_length_m = 0.0;   // ... and half the length of its axis
 
-  // The corner with the largest n . x; n in S.
-  [[nodiscard]] const Eigen::Vector3d& farthest(const Eigen::Vector3d& n_S) const;
+  // Of each corner those it shares an edge with, one after the other.
+  std::vector<std::uint32_t> neighbors;
+  std::vector<std::uint32_t> neighbors_end;  // of each corner
+
+  // The largest n . x of all corners; n in S.
+  [[nodiscard]] double support(const Eigen::Vector3d& n_S) const;
+  // The corner with it, most likely: uphill from another one along edges, which few corners are
+  // looked at for. Where faces are flat but for rounding it may end beside it.
+  [[nodiscard]] std::uint32_t uphill(const Eigen::Vector3d& n_S, std::uint32_t from) const;
 };
 
 [[nodiscard]] HullShape fit_hull(const ConvexHull& hull_M);

@@ -37,8 +37,10 @@ SurfaceDescent::Turn SurfaceDescent::turn_of(const Eigen::Isometry3d& X) {
 
 void SurfaceDescent::part_along(const Vector3d& n_A) {
   n_A_ = n_A;
+  n_B_ = X_AB_.linear().transpose() * n_A;
+  n_offset_m_ = n_A.dot(X_AB_.translation());
   const Eigen::Vector3f in_a = n_A.cast<float>();
-  const Eigen::Vector3f in_b = (X_AB_.linear().transpose() * n_A).cast<float>();
+  const Eigen::Vector3f in_b = n_B_.cast<float>();
   of_b_in_a_.n_S = in_a;
   of_a_in_b_.n_S = -in_b;
   of_b_in_a_.n_width_S = of_a_in_b_.n_width_X = in_a.cwiseAbs();
@@ -56,7 +58,12 @@ double SurfaceDescent::run() {
   root.half = {Array4f::Constant(b_.root.half[0]), Array4f::Constant(b_.root.half[1]),
                Array4f::Constant(b_.root.half[2])};
   roots_m_ = static_cast<double>(gaps(a_.root, root, of_b_in_a_).least_m[0]);
-  if (roots_m_ < best_m_) visit(a_.root, b_.root);
+  if (roots_m_ >= best_m_) return best_m_;
+  if (a_.root.leaf && b_.root.leaf) {
+    measure(a_.root.below, b_.root.below);
+  } else {
+    visit(a_.root, b_.root);
+  }
   return best_m_;
 }
 
@@ -92,11 +99,8 @@ SurfaceDescent::Gaps SurfaceDescent::gaps(const Box& box, const Node& others,
           (across > 0.0F).select(least, across)};
 }
 
+// Of two boxes that are not both leaves: opens one of them.
 void SurfaceDescent::visit(const Box& a, const Box& b) {
-  if (a.leaf && b.leaf) {
-    measure(a.below, b.below);
-    return;
-  }
   const bool into_a = b.leaf || (!a.leaf && size(a) >= size(b));
   const Node& opened = into_a ? a_.nodes[a.below] : b_.nodes[b.below];
   const Gaps found = into_a ? gaps(b, opened, of_a_in_b_) : gaps(a, opened, of_b_in_a_);
@@ -109,10 +113,16 @@ void SurfaceDescent::visit(const Box& a, const Box& b) {
   before(0, 2);
   before(1, 3);
   before(1, 2);
+  const Box& other = into_a ? b : a;
   for (const int i : next) {
     if (static_cast<double>(found.least_m[i]) >= best_m_ || best_m_ < enough_m_) continue;
     if (static_cast<double>(found.along_m[i]) >= kept_.along_m) continue;
-    const Box box = opened.box(static_cast<std::size_t>(i));
+    const auto k = static_cast<std::size_t>(i);
+    if (other.leaf && opened.leaf[k]) {
+      into_a ? measure(opened.below[k], b.below) : measure(a.below, opened.below[k]);
+      continue;
+    }
+    const Box box = opened.box(k);
     into_a ? visit(box, b) : visit(a, box);
   }
 }
@@ -122,13 +132,14 @@ void SurfaceDescent::measure(std::uint32_t a, std::uint32_t b) {
   std::uint64_t& last = measured_[(a * 31U + b) % measured_.size()];
   if (last == both) return;
   last = both;
-  TrianglePoints other = b_.corners(b);
-  for (Vector3d& p : other) p = X_AB_ * p;
   const double limit_m = best_m_ + rounding_.triangles_m;
   const TrianglePoints own = a_.corners(a);
-  const double along = std::min({n_A_.dot(other[0]), n_A_.dot(other[1]), n_A_.dot(other[2])}) -
-                       std::max({n_A_.dot(own[0]), n_A_.dot(own[1]), n_A_.dot(own[2])});
+  TrianglePoints other = b_.corners(b);
+  const double along =
+      n_offset_m_ + std::min({n_B_.dot(other[0]), n_B_.dot(other[1]), n_B_.dot(other[2])}) -
+      std::max({n_A_.dot(own[0]), n_A_.dot(own[1]), n_A_.dot(own[2])});
   if (along >= std::min(limit_m, kept_.along_m)) return;
+  for (Vector3d& p : other) p = X_AB_ * p;
   const TriangleGap found = triangle_gap(own, other, limit_m);
   if (found.distance_m >= limit_m) return;
   if (kept_.apart != nullptr && found.distance_m > 0.0 && kept_.apart->keeps(own, other, found.n)) {

@@ -67,6 +67,8 @@ class SurfaceDescent {
   const SurfaceTree& b_;
   Eigen::Isometry3d X_AB_;
   Eigen::Vector3d n_A_ = Eigen::Vector3d::Zero();  // that direction, from a to b
+  Eigen::Vector3d n_B_ = Eigen::Vector3d::Zero();  // the same in B's frame, ...
+  double n_offset_m_ = 0.0;                        // ... whose origin is so far along it
   Turn of_b_in_a_;
   Turn of_a_in_b_;
   struct Rounding {
