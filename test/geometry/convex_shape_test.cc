@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/convex/exact_distance.h"
+#include "core/geometry/convex/gjk.h"
 #include "test/collision/small_cell.h"
 #include "test/geometry/reference_distance.h"
 
@@ -108,6 +109,9 @@ TEST(Bodies, DistancesAreNeverTooLargeAndHardlyEverTooSmall) {
     }
     ++apart[static_cast<std::size_t>(i % 5)];
     EXPECT_LE(d, truth.upper + 1e-9) << "trial " << i;
+    const double by_fcl = exact_distance(a, shape_pose(a, at_a), b, shape_pose(b, at_b));
+    EXPECT_LE(by_fcl, truth.upper + 1e-9) << "trial " << i;
+    EXPECT_GE(by_fcl, truth.lower - 2e-3) << "trial " << i;
     EXPECT_GE(d, truth.lower - 2e-3) << "trial " << i;
     if (d < truth.lower - 2e-7) ++too_small;
     EXPECT_LE(bound.distance_m, truth.upper + 1e-9) << "trial " << i;
@@ -117,6 +121,39 @@ TEST(Bodies, DistancesAreNeverTooLargeAndHardlyEverTooSmall) {
   }
   for (const int count : apart) EXPECT_GT(count, 1000);
   EXPECT_LE(too_small, 2);
+}
+
+// What it does not settle costs an exact distance, what it settles wrongly an arm.
+TEST(Gjk, SettlesNearlyAllAndNothingWrongly) {
+  std::mt19937_64 random(20261126);
+  int asked = 0;
+  int open = 0;
+  std::array<int, 3> settled{};  // apart, in contact, enough
+  for (int i = 0; i < 4000; ++i) {
+    const ConvexShape a = make_convex_shapes(random_shape(i % 5, random)).front();
+    const ConvexShape b = make_convex_shapes(random_shape(i / 5 % 5, random)).front();
+    const Eigen::Isometry3d X_WA = reference::random_pose(random, 0.4);
+    Eigen::Isometry3d X_WB = reference::random_pose(random, 0.4);
+    if (i % 3 == 0) X_WB.linear() = X_WA.linear();
+    const reference::Bracket truth = reference::distance(convex(a, X_WA), convex(b, X_WB), 1000);
+    if (truth.upper - truth.lower > 1e-7) continue;
+    PlacedConvexShape at_a;
+    PlacedConvexShape at_b;
+    place(a, X_WA, at_a);
+    place(b, X_WB, at_b);
+    const double enough_m = i % 2 == 0 ? 10.0 : 0.05;
+    const auto found = gjk(a, at_a, b, at_b, enough_m);
+    ++asked;
+    if (!found) {
+      ++open;
+      continue;
+    }
+    EXPECT_LE(found->distance_m, std::max(truth.upper, 0.0) + 1e-9) << "trial " << i;
+    EXPECT_GE(found->distance_m, std::min(enough_m, truth.lower - 2e-7)) << "trial " << i;
+    ++settled[found->distance_m == 0.0 ? 1 : found->distance_m < enough_m ? 0 : 2];
+  }
+  EXPECT_LE(open, asked / 100);
+  for (const int count : settled) EXPECT_GE(count, 150);
 }
 
 // As arms that turn about upright axes have them: libccd's GJK claims contact, or 20 mm too much.

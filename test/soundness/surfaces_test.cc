@@ -107,6 +107,38 @@ TEST(Surfaces, AreCloserThanALimitWhenTheirDistanceIs) {
   EXPECT_GE(closer, 500);
 }
 
+// A rough distance is never too large, no smaller than allowed, and exact where it has to be.
+TEST(Surfaces, AreToldAsRoughlyAsAllowed) {
+  std::mt19937_64 random(54);
+  constexpr Roughness kRough{0.02, 0.01};
+  int rough = 0;
+  int exact = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Solid a{concave_mesh({0.3, 0.1, false}, random)->surface};
+    const Solid b{concave_mesh({0.2, 0.1, false}, random)->surface, Eigen::Isometry3d::Identity(),
+                  i % 2 == 0 ? 0.0 : 0.01};
+    for (int k = 0; k < 20; ++k) {
+      const Eigen::Isometry3d X_WA = Eigen::Isometry3d::Identity();
+      Eigen::Isometry3d X_WB = X_WA;
+      X_WB.translation() =
+          Eigen::Vector3d(between(random, -0.4, 0.4), between(random, -0.4, 0.4), 0.1);
+      const double distance = solid_distance({a, X_WA}, {b, X_WB}, 10.0);
+      const double told = solid_distance({a, X_WA}, {b, X_WB}, 10.0, kRough);
+      ASSERT_LE(told, distance + 1e-9);
+      ASSERT_GE(told, distance - kRough.by_m - 1e-9);
+      ASSERT_EQ(told < kRough.exact_below_m, distance < kRough.exact_below_m);
+      if (distance < kRough.exact_below_m) {
+        ASSERT_NEAR(told, distance, 1e-9);
+        exact += distance > 0.0 ? 1 : 0;
+      } else if (told < distance - 1e-6) {
+        ++rough;
+      }
+    }
+  }
+  EXPECT_GE(rough, 100);
+  EXPECT_GE(exact, 20);
+}
+
 // What balls inside of two solids say at once.
 TEST(InnerBalls, ProveOnlyWhatIsSoAndMostOfWhatOverlaps) {
   std::mt19937_64 random(55);

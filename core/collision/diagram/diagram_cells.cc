@@ -14,6 +14,9 @@ constexpr double kBothShare = 0.5;
 // mostly: where more than that would have to be nothing, it is not asked.
 constexpr double kTowardsShare = 0.25;
 
+// What is not below the limit is known well enough to this share of the motion.
+constexpr double kRoughShare = 0.125;
+
 }  // namespace
 
 TubePair::Nodes CoordinationDiagram::nodes_of(const Node& cell) const {
@@ -36,7 +39,8 @@ bool CoordinationDiagram::clears(Node& cell, TubePair::Undecided& u) {
   const double enough_m = u.limit_m + u.moves_m();
   const bool may_conflict = u.distance_m < u.limit_m;
   if (may_conflict) {
-    u.distance_m = pair_.distance(pair, nodes_of(cell), enough_m);
+    u.distance_m =
+        pair_.distance(pair, nodes_of(cell), enough_m, {u.limit_m, kRoughShare * u.moves_m()});
     u.slack_m = 0.0;
     if (u.distance_m >= enough_m) return true;
   }

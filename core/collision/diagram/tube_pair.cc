@@ -51,8 +51,10 @@ PlacedBody TubePair::placed_b(const NarrowPair& pair, Nodes at) const {
   return {setting_.bodies->bodies[b.body], body_pose(b, b_->place_of(at.b).frames(), kLanes)};
 }
 
-double TubePair::distance(const NarrowPair& pair, Nodes at, double limit_m) const {
-  return body_distance(setting_.bodies->shapes, placed_a(pair, at), placed_b(pair, at), limit_m);
+double TubePair::distance(const NarrowPair& pair, Nodes at, double limit_m,
+                          const Roughness& of_surfaces) const {
+  return body_distance(setting_.bodies->shapes, placed_a(pair, at), placed_b(pair, at), limit_m,
+                       of_surfaces);
 }
 
 std::size_t TubePair::limits_kept(const NarrowPair& pair, Nodes at,

@@ -66,7 +66,8 @@ class TubePair {
   [[nodiscard]] const NarrowPair& narrow(int entry, bool box) const;
 
   // min(exact distance at the middle of both nodes, limit_m).
-  [[nodiscard]] double distance(const NarrowPair& pair, Nodes at, double limit_m) const;
+  [[nodiscard]] double distance(const NarrowPair& pair, Nodes at, double limit_m,
+                                const Roughness& of_surfaces = {}) const;
   // How many of these limits the exact distance there is not below. Precondition: ascending.
   [[nodiscard]] std::size_t limits_kept(const NarrowPair& pair, Nodes at,
                                         std::span<const double> limits_m) const;

@@ -52,8 +52,11 @@ double smallest_distance(const std::vector<ConvexShape>& shapes, const PlacedBod
 }  // namespace
 
 double body_distance(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
-                     const PlacedBody& b, double limit_m) {
-  return smallest_distance(shapes, a, b, limit_m, solid_distance);
+                     const PlacedBody& b, double limit_m, const Roughness& of_surfaces) {
+  const auto distance = [&](const PlacedSolid& of_a, const PlacedSolid& of_b, double within_m) {
+    return solid_distance(of_a, of_b, within_m, of_surfaces);
+  };
+  return smallest_distance(shapes, a, b, limit_m, distance);
 }
 
 bool bodies_surely_closer_than(const std::vector<ConvexShape>& shapes, const PlacedBody& a,

@@ -23,7 +23,8 @@ inline constexpr double kSurfaceWithin_m = 0.05;
 // closer is decided by its surface (solid.h). Never larger than the true distance; exact but for
 // pieces of meshes that are farther apart than kSurfaceWithin_m.
 [[nodiscard]] double body_distance(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
-                                   const PlacedBody& b, double limit_m);
+                                   const PlacedBody& b, double limit_m,
+                                   const Roughness& of_surfaces = {});
 
 // Whether balls prove it (surely_closer_than, solid.h): what is soon known.
 [[nodiscard]] bool bodies_surely_closer_than(const std::vector<ConvexShape>& shapes,

@@ -24,8 +24,8 @@ struct Core {
   [[nodiscard]] double radius_m() const {
     return shape.kind == ConvexShapeKind::round ? shape.radius_m : 0.0;
   }
-  // The point that is farthest along n, from the shape's centre; of a hull, from the corner where the
-  // last one was.
+  // The point that is farthest along n, from the shape's centre; of a hull, from the corner where
+  // the last one was.
   [[nodiscard]] Vector3d farthest(const Vector3d& n_W) {
     if (shape.kind == ConvexShapeKind::round) {
       return n_W.dot(at.segment.half) < 0.0 ? Vector3d(-at.segment.half) : at.segment.half;
@@ -83,8 +83,8 @@ class Simplex {
   };
 
   [[nodiscard]] Nearest between(int i, int j, double share) const {
-    return {points_[static_cast<std::size_t>(i)] +
-                share * (points_[static_cast<std::size_t>(j)] - points_[static_cast<std::size_t>(i)]),
+    return {points_[static_cast<std::size_t>(i)] + share * (points_[static_cast<std::size_t>(j)] -
+                                                            points_[static_cast<std::size_t>(i)]),
             {i, j, 0},
             2};
   }

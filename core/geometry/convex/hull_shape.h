@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
-#include <vector>
 
 #include "core/geometry/mesh/convex_hull.h"
 

@@ -28,7 +28,8 @@ Eigen::Isometry3d X_AB_of(const PlacedSolid& a, const PlacedSolid& b) {
   return a.X_WT.inverse(Eigen::Isometry) * b.X_WT;
 }
 
-double distance(const PlacedSolid& at_a, const PlacedSolid& at_b, double limit_m, double enough_m) {
+double distance(const PlacedSolid& at_a, const PlacedSolid& at_b, double limit_m, double enough_m,
+                const Roughness& rough = {}) {
   const Solid& a = at_a.solid;
   const Solid& b = at_b.solid;
   const Eigen::Isometry3d X_AB = X_AB_of(at_a, at_b);
@@ -39,6 +40,7 @@ double distance(const PlacedSolid& at_a, const PlacedSolid& at_b, double limit_m
   }
   const double within_m = limit_m + radii_m;
   SurfaceDescent descent(*a.tree, *b.tree, X_AB, within_m, enough_m + radii_m);
+  descent.allow({rough.exact_below_m + radii_m, rough.by_m});
   const double closest_m = descent.run();
   const double found_m = closest_m < within_m ? std::min(closest_m - radii_m, limit_m) : limit_m;
   if (found_m <= 0.0) return std::min(limit_m, 0.0);
@@ -50,8 +52,9 @@ double distance(const PlacedSolid& at_a, const PlacedSolid& at_b, double limit_m
 
 }  // namespace
 
-double solid_distance(const PlacedSolid& a, const PlacedSolid& b, double limit_m) {
-  return distance(a, b, limit_m, 0.0);
+double solid_distance(const PlacedSolid& a, const PlacedSolid& b, double limit_m,
+                      const Roughness& rough) {
+  return distance(a, b, limit_m, 0.0, rough);
 }
 
 bool closer_than(const PlacedSolid& a, const PlacedSolid& b, double limit_m) {

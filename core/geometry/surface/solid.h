@@ -33,9 +33,10 @@ struct PlacedSolid {
 // min(distance, limit_m) of two solids; zero where they touch, overlap or one is inside of the
 // other. Never larger than the true distance (each pair of triangles is proven apart,
 // triangle_distance.h; the rounding of the tree's boxes is taken off); measured less than 1e-9 m
-// below it. What lies farther than limit_m is passed over: cheap when limit_m is small. Throws
-// nothing, allocates nothing; any thread.
-[[nodiscard]] double solid_distance(const PlacedSolid& a, const PlacedSolid& b, double limit_m);
+// below it, and what is allowed. What lies farther than limit_m is passed over: cheap when limit_m
+// is small. Throws nothing, allocates nothing; any thread.
+[[nodiscard]] double solid_distance(const PlacedSolid& a, const PlacedSolid& b, double limit_m,
+                                    const Roughness& rough = {});
 
 // Whether they are closer than limit_m, which is found out sooner than how close.
 [[nodiscard]] bool closer_than(const PlacedSolid& a, const PlacedSolid& b, double limit_m);

@@ -64,7 +64,7 @@ double SurfaceDescent::run() {
   } else {
     visit(a_.root, b_.root);
   }
-  return best_m_;
+  return std::min(best_m_, passed_m_);
 }
 
 // At most the distance of what is in the boxes: that of the others from the box along its axes
@@ -115,7 +115,11 @@ void SurfaceDescent::visit(const Box& a, const Box& b) {
   before(1, 2);
   const Box& other = into_a ? b : a;
   for (const int i : next) {
-    if (static_cast<double>(found.least_m[i]) >= best_m_ || best_m_ < enough_m_) continue;
+    if (best_m_ < enough_m_) return;
+    if (static_cast<double>(found.least_m[i]) >= passes_at()) {
+      passed_m_ = std::min(passed_m_, static_cast<double>(found.least_m[i]));
+      continue;
+    }
     if (static_cast<double>(found.along_m[i]) >= kept_.along_m) continue;
     const auto k = static_cast<std::size_t>(i);
     if (other.leaf && opened.leaf[k]) {
@@ -135,10 +139,14 @@ void SurfaceDescent::measure(std::uint32_t a, std::uint32_t b) {
   const double limit_m = best_m_ + rounding_.triangles_m;
   const TrianglePoints own = a_.corners(a);
   TrianglePoints other = b_.corners(b);
-  const double along =
-      n_offset_m_ + std::min({n_B_.dot(other[0]), n_B_.dot(other[1]), n_B_.dot(other[2])}) -
-      std::max({n_A_.dot(own[0]), n_A_.dot(own[1]), n_A_.dot(own[2])});
-  if (along >= std::min(limit_m, kept_.along_m)) return;
+  const double along = n_offset_m_ +
+                       std::min({n_B_.dot(other[0]), n_B_.dot(other[1]), n_B_.dot(other[2])}) -
+                       std::max({n_A_.dot(own[0]), n_A_.dot(own[1]), n_A_.dot(own[2])});
+  if (along >= kept_.along_m) return;
+  if (along >= passes_at() + rounding_.triangles_m) {
+    passed_m_ = std::min(passed_m_, along - rounding_.triangles_m);
+    return;
+  }
   for (Vector3d& p : other) p = X_AB_ * p;
   const TriangleGap found = triangle_gap(own, other, limit_m);
   if (found.distance_m >= limit_m) return;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "core/geometry/mesh/surface_tree.h"
 #include "core/geometry/surface/triangle_distance.h"
@@ -21,6 +23,12 @@ class KeptApart {
   [[nodiscard]] virtual double enough_along(const Eigen::Vector3d& n) const = 0;
 };
 
+// A distance that may be told up to by_m too small, unless it is below exact_below_m.
+struct Roughness {
+  double exact_below_m = 0.0;
+  double by_m = 0.0;
+};
+
 // The distance of two surfaces (without radii): both trees from the root down, the nearer boxes
 // first, and triangles at the end. Boxes are compared in single precision, four in one step, and
 // what rounding may do is taken off; triangles in double. Holds references; one question each.
@@ -31,7 +39,9 @@ class SurfaceDescent {
                  double limit_m, double enough_m);
 
   void pass_over(KeptApart* kept) { kept_.apart = kept; }
-  // min(distance, limit), never larger than the true one; above enough_m less than 1e-9 m below it.
+  void allow(const Roughness& rough) { rough_ = rough; }
+  // min(distance, limit), never larger than the true one; above enough_m less than 1e-9 m below it,
+  // and what is allowed.
   [[nodiscard]] double run();
   // After run(), of surfaces apart and below the limit: the direction from a to b of the nearest
   // triangles, in A's frame.
@@ -76,8 +86,17 @@ class SurfaceDescent {
     double triangles_m;
   };
   Rounding rounding_;
+  // What is so far apart is passed over: as the distance can be no smaller, or hardly.
+  [[nodiscard]] double passes_at() const {
+    return rough_.by_m > 0.0
+               ? std::max(best_m_ - rough_.by_m, std::min(best_m_, rough_.exact_below_m))
+               : best_m_;
+  }
+
   double best_m_;
+  double passed_m_ = std::numeric_limits<double>::infinity();  // the least of what was passed over
   double enough_m_;
+  Roughness rough_;
   double roots_m_ = 0.0;
   struct Kept {
     KeptApart* apart = nullptr;
