@@ -97,7 +97,7 @@ struct SchedulingSettings {
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
   OnIdleBlocker on_idle_blocker = OnIdleBlocker::park;
-  int horizon_legs = 6;  // of each lane, admitted ahead by policies that look ahead
+  int horizon_legs = 12;  // of each lane, admitted ahead by policies that look ahead
   OnRestart on_restart = OnRestart::ask;
 };
 struct MonitorSettings {

@@ -22,8 +22,8 @@ namespace armloom {
 // passes first, but not at any price.
 class OrderSearch {
  public:
-  inline static constexpr double kWeightOfSum = 0.3;
-  inline static constexpr double kWeightOfPriority = 1.2;
+  inline static constexpr double kWeightOfSum = 0.1;
+  inline static constexpr double kWeightOfPriority = 1.0;
   inline static constexpr std::size_t kPredictionsMax = 300;
   // So many orders are followed in all of them together: a prediction takes as long as there are
   // orders, and of long horizons there are thousands.
