@@ -42,6 +42,8 @@ export class CellView {
   /** As they are drawn: a drawing costs much, so it is asked for when something has changed. */
   private states_ = '';
   private instant_s_: number | null = null;
+  /** The next ghost is built then; one asks for it, however often the store changes meanwhile. */
+  private builds_: number | null = null;
 
   constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'motions' | 'settings' | 'actions' | 'by_hand' | 'tool'>) {
     const store_ = this.store_;
@@ -67,6 +69,7 @@ export class CellView {
 
   close(): void {
     for (const off of this.off_) off();
+    if (this.builds_ !== null) cancelAnimationFrame(this.builds_);
     this.labels_.clear();
     this.distances_.clear();
     this.by_hand_.close();
@@ -172,7 +175,7 @@ export class CellView {
     if (cell && cell !== this.cell_) this.build(cell);
     this.objects_.show(objects);
     this.take_in_hand();
-    const states = [...arms.values()].map(({ name, state }) => `${name} ${state}`).join('\n');
+    const states = [...arms.values()].map((arm) => `${arm.name} ${this.store_.arm_state(arm)}`).join('\n');
     if (states !== this.states_) {
       for (const arm of arms.values()) this.show_arm(arm);
       this.stage_.invalidate();
@@ -200,7 +203,11 @@ export class CellView {
 
   private look_ahead(): void {
     if (this.ahead_.follow(this.surfaces_, this.instant_s_ === null)) this.stage_.invalidate();
-    if (this.ahead_.lacks_ghosts) requestAnimationFrame(() => this.look_ahead());
+    if (!this.ahead_.lacks_ghosts || this.builds_ !== null) return;
+    this.builds_ = requestAnimationFrame(() => {
+      this.builds_ = null;
+      this.look_ahead();
+    });
   }
 
   /** The monitor's closest pairs, as things are now. */
@@ -223,6 +230,8 @@ export class CellView {
   private build(cell: Cell): void {
     this.cell_ = cell;
     this.robots_.clear();
+    this.labels_.clear();
+    this.paths_.clear();
     this.ghosts_.clear();
     this.ahead_.begin(cell);
     const box = box_around_bases(cell);
@@ -252,8 +261,9 @@ export class CellView {
   }
 
   private show_arm(arm: Arm): void {
-    this.robots_.get(arm.robot)?.show_state(arm.name, arm.state);
-    this.labels_.show(arm, [...this.store_.arms.keys()]);
+    const state = this.store_.arm_state(arm);
+    this.robots_.get(arm.robot)?.show_state(arm.name, state);
+    this.labels_.show(arm.name, state, [...this.store_.arms.keys()]);
   }
 
   private move(): void {

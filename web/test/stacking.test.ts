@@ -1,0 +1,32 @@
+import { describe, expect, it } from 'vitest';
+import { stacked } from '../src/view/stacking';
+
+const at = (x: number, y: number, width_px = 80) => ({ x, y, width_px });
+
+describe('labels of arms that stand close to each other', () => {
+  it('are put below each other, from left to right; others stay', () => {
+    expect(stacked([at(100, 50), at(110, 55), at(400, 52), at(120, 60)], 22, 4)).toEqual([50, 72, 52, 94]);
+  });
+
+  // 256 lies between 241.9 and 241.9 + 22: the sum is rounded, and less than 22 away from it.
+  it('end, where a sum of two numbers is rounded down', () => {
+    const rounded = Array.from({ length: 20_000 }, (_, i) => 234 + i * 0.0011).find((y) => y + 22 - y < 22);
+    expect(rounded).toBeDefined();
+    const y = rounded ?? 0;
+    expect(stacked([at(100, y), at(101, y + 1)], 22, 4)).toEqual([y, y + 22]);
+  });
+
+  it('end, wherever eight of them stand', () => {
+    let seed = 7;
+    const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
+    for (let run = 0; run < 2000; run++) {
+      const labels = Array.from({ length: 8 }, () => at(40 * random(), 500 * random()));
+      const y = stacked(labels, 22, 4).sort((a, b) => a - b);
+      for (let i = 1; i < y.length; i++) expect((y[i] ?? 0) - (y[i - 1] ?? 0)).toBeGreaterThan(22 - 1e-9);
+    }
+  });
+
+  it('end, where one has no place', () => {
+    expect(stacked([at(NaN, NaN), at(0, 0), at(0, Infinity)], 22, 4)).toHaveLength(3);
+  });
+});
