@@ -1,6 +1,7 @@
 // What the page says about jobs, in words. Pure functions from the contract's data to sentences.
 
 import type { Link } from './server/connection';
+import { is_stopped } from './state/standing';
 import { pair_of, type Clearance, type Job, type MonitorData, type WaitsOn } from './server/messages';
 
 /** An id short enough for a list: a long machine-made one is cut, a name that a client chose stays. */
@@ -82,7 +83,7 @@ export function figure_in_words(job: Job, now_s: number, progress: number): Figu
   if (job.stopping) return { text: 'stopping', title: 'Brakes on its path' };
   switch (job.state) {
     case 'running': return { text: `${seconds((1 - progress) * (job.duration_s ?? 0))} left`, title: 'Time until its motion ends' };
-    case 'holding': return { text: 'holding', title: 'Stands still on its path' };
+    case 'holding': return is_stopped(job) ? { text: 'stopped', title: 'Stands on its path until its arm is resumed' } : { text: 'holding', title: 'Stands still on its path' };
     case 'queued': case 'backlogged': case 'scheduled': return waited(job, now_s);
     default: break;
   }

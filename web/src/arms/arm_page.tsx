@@ -29,7 +29,7 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
     <div class="page" style={{ '--arm': colour }}>
       <div class="line">
         <h2 class="ellipsis"><span class="swatch" aria-hidden="true" /> {name}</h2>
-        <StatePill arm={arm} />
+        <StatePill arm={arm} app={app} />
         <span class="grow" />
         <StopOfArm arm={arm} app={app} />
       </div>

@@ -29,12 +29,12 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
   const lit = selection_of(app.router.address.value.place, store).arms.includes(arm.name);
   return (
     <div class={`card${lit ? ' lit' : ''}`} data-test={`arm-${arm.name}`}
-      style={{ '--arm': arm_colour([...store.arms.keys()], arm.name), '--state': kStateColours[arm.state] }}>
+      style={{ '--arm': arm_colour([...store.arms.keys()], arm.name), '--state': kStateColours[store.arm_state(arm)] }}>
       <Link app={app} to={{ page: 'arm', name: arm.name }} class="card-link" title={`All about the arm ${arm.name}`}>
         <span class="line">
           <span class="swatch" aria-hidden="true" />
           <b class="grow ellipsis">{arm.name}</b>
-          <StatePill arm={arm} />
+          <StatePill arm={arm} app={app} />
         </span>
         <span class="line dim job-of-arm">
           <span class="grow ellipsis">{job ? job.name || short_id(job.id) : arm.job ? short_id(arm.job) : 'no job'}</span>
@@ -46,6 +46,7 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
   );
 }
 
-export function StatePill({ arm }: { arm: Arm }) {
-  return <span class="pill" style={{ '--state': kStateColours[arm.state] }}><span aria-hidden="true">{kStateGlyphs[arm.state]}</span> {arm.state}</span>;
+export function StatePill({ arm, app }: { arm: Arm; app: App }) {
+  const state = app.store.arm_state(arm);
+  return <span class="pill" data-test="arm-state" style={{ '--state': kStateColours[state] }}><span aria-hidden="true">{kStateGlyphs[state]}</span> {state}</span>;
 }

@@ -10,6 +10,7 @@ import { kCanReplan, type Job, type WaitsOn } from '../server/messages';
 import type { App } from '../state/app';
 import { is_terminal } from '../state/job_book';
 import { arm_colour } from '../state/palette';
+import { told_state } from '../state/standing';
 import { use_store } from '../state/use_store';
 import { clock, millimetres, reason_in_words, result_in_words, short_id, wait_in_words, ways_in_words, why_mute } from '../wording';
 import { asked_of, Copy } from './copy';
@@ -32,7 +33,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
       <h2 class="ellipsis">{job.name || job.id}</h2>
       <p class="hint line">
         {job.arms.map((arm) => <Link key={arm} app={app} to={{ page: 'arm', name: arm }} class="tag link-tag"><span style={{ color: arm_colour(arms, arm) }}>{arm}</span></Link>)}
-        <span class={`state-word ${job.state}`} data-test="job-state">{job.state}</span>
+        <span class={`state-word ${told_state(job)}`} data-test="job-state">{told_state(job)}</span>
         <span class="mono ellipsis">{job.id}</span>
       </p>
       {words !== '' && <p class="words">{words}</p>}

@@ -8,6 +8,7 @@ import type { Job } from '../server/messages';
 import type { App } from '../state/app';
 import { is_terminal } from '../state/job_book';
 import { arm_colour } from '../state/palette';
+import { told_state } from '../state/standing';
 import { use_store } from '../state/use_store';
 import { figure_in_words, reason_in_words, result_in_words, short_id, why_mute } from '../wording';
 import { when_in_words } from './when';
@@ -25,7 +26,7 @@ export function Row({ job, app }: Props) {
   const ended = is_terminal(job);
   return (
     <article
-      class={`job ${job.state}${selected ? ' selected' : ''}${of_arm ? ' of-arm' : ''}`} data-test={`job-${job.id}`} data-state={job.state}
+      class={`job ${told_state(job)}${selected ? ' selected' : ''}${of_arm ? ' of-arm' : ''}`} data-test={`job-${job.id}`} data-state={job.state}
       style={{ '--arm': arm_colour(arms, job.arms[0] ?? '') }}
     >
       <Link app={app} to={selected && place.page === 'job' ? { page: 'cell' } : { page: 'job', id: job.id }} class="open" title={`Details of ${job.id}`}>

@@ -12,7 +12,7 @@ export type StateAt = readonly [name: string, t_s: number | null];
 export function states_of(job: Job, heard: readonly Change[]): StateAt[] {
   const end: StateAt = [is_terminal(job) ? job.state : 'ended', job.ended_s];
   const lasting = heard.filter(({ t_s }, i) => (heard[i + 1]?.t_s ?? Infinity) - t_s > kLeast_s);
-  const on_the_way = lasting.filter(({ state }) => !is_terminal({ state }));
+  const on_the_way = lasting.filter(({ state }) => state === 'stopped' || !is_terminal({ state }));
   const started = job.started_s === null || !on_the_way.some(({ state }) => state === 'running');
   const steps: StateAt[] = on_the_way.map(({ state, t_s }) => [state, t_s]);
   if (started) steps.push(['started', job.started_s]);

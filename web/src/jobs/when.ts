@@ -2,6 +2,7 @@
 // Pure. Times are cell time.
 
 import type { Job } from '../server/messages';
+import { is_stopped } from '../state/standing';
 import type { Store } from '../state/store';
 import { seconds } from '../wording';
 
@@ -13,11 +14,12 @@ export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'for
   if (job.state === 'backlogged') parts.push(`blocked for ${seconds(Math.max(0, now_s - (job.backlogged_s ?? since_s ?? now_s)))}`);
   if (job.state === 'holding' && since_s !== null) parts.push(`stands for ${seconds(Math.max(0, now_s - since_s))}`);
   const starts_s = leg ? leg.starts_s : job.scheduled_s;
-  if (job.started_s === null && starts_s !== null) {
+  const stopped = is_stopped(job);  // its reason says so, and until when
+  if (!stopped && job.started_s === null && starts_s !== null) {
     parts.push(starts_s > now_s + 0.05 ? `starts in about ${seconds(starts_s - now_s)}` : 'about to start');
   }
-  if (leg && leg.starts_s === null) parts.push('no start as things are');
-  if (leg && job.state === 'holding') parts.push(leg.ends_s === null ? 'no end as things are' : `ends in about ${seconds(Math.max(0, leg.ends_s - now_s))}`);
+  if (!stopped && leg && leg.starts_s === null) parts.push('no start as things are');
+  if (!stopped && leg && job.state === 'holding') parts.push(leg.ends_s === null ? 'no end as things are' : `ends in about ${seconds(Math.max(0, leg.ends_s - now_s))}`);
   if (job.expires_s !== undefined) parts.push(`expires in ${seconds(Math.max(0, job.expires_s - now_s))}`);
   return parts.join(' · ');
 }

@@ -1,6 +1,7 @@
 // What stopped the arms, and what each of them needs to go on. Pure.
 
 import type { Arm, Job } from '../server/messages';
+import { is_stopped, state_of } from '../state/standing';
 import type { Notice, Store } from '../state/store';
 import { short_id } from '../wording';
 
@@ -9,14 +10,9 @@ export function cause_of(notices: readonly Notice[]): Notice | null {
   return notices.find(({ text, source, level }) => /^stopped: /.test(text) || (source === 'monitor' && level === 'error') || /fault/.test(text)) ?? null;
 }
 
-/** An arm that stands on its path tells by its job that it was stopped. */
-export function is_stopped(arm: Arm, job: Job | null): boolean {
-  return arm.state === 'stopped' || (job?.waits_on.some(({ kind, arm: of }) => kind === 'stop' && (of === null || of === arm.name)) ?? false);
-}
-
-/** Those that stand until they are resumed. */
+/** Those that stand, or brake and will stand, until they are resumed. */
 export function waiting_arms(store: Pick<Store, 'arms' | 'job'>): Arm[] {
-  return [...store.arms.values()].filter((arm) => arm.state === 'fault' || is_stopped(arm, arm.job === null ? null : store.job(arm.job)));
+  return [...store.arms.values()].filter((arm) => arm.state === 'fault' || arm.state === 'stopped' || is_stopped(arm.job === null ? null : store.job(arm.job), arm.name));
 }
 
 export interface Need { words: string; resume: boolean; home: boolean }
@@ -27,7 +23,7 @@ export function need_of(arm: Arm, job: Job | null, q: readonly number[]): Need {
   const off_rad = Math.max(0, ...arm.home.map((home, i) => Math.abs((q[i] ?? home) - home)));
   const away = off_rad > kAtHome_rad;
   const name = job ? job.name || short_id(job.id) : '';
-  switch (arm.state !== 'fault' && is_stopped(arm, job) ? 'stopped' : arm.state) {
+  switch (state_of(arm, job)) {
     case 'fault':
       return { words: 'Its controller is at fault: what it did has failed. Clear the fault there, then resume it.', resume: true, home: false };
     case 'stopped':
@@ -37,7 +33,7 @@ export function need_of(arm: Arm, job: Job | null, q: readonly number[]): Need {
     case 'holding':
       return { words: `Stands on its path until the way of ${name || 'its job'} is free. Nothing to do.`, resume: false, home: false };
     case 'moving':
-      return { words: `Moves: ${name || 'its job'}.`, resume: false, home: false };
+      return { words: is_stopped(job, arm.name) ? 'Brakes on its path.' : `Moves: ${name || 'its job'}.`, resume: false, home: false };
     case 'idle':
       return away ? { words: 'Ready, away from home. Send it home, or leave it to its jobs.', resume: false, home: true } : { words: 'Ready, at home.', resume: false, home: false };
   }

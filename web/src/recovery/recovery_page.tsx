@@ -66,7 +66,7 @@ function Needs({ arm, app }: { arm: Arm; app: App }) {
   const mute = why_mute(store.link);
   return (
     <li data-test={`need-${arm.name}`} style={{ '--arm': arm_colour([...store.arms.keys()], arm.name) }}>
-      <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{arm.name}</Link><StatePill arm={arm} /></div>
+      <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{arm.name}</Link><StatePill arm={arm} app={app} /></div>
       <p>{need.words}</p>
       <div class="line">
         {need.resume && <button class="small" disabled={mute !== null} onClick={() => void app.actions.resume_arm(arm.name)}>Resume {arm.name} alone</button>}

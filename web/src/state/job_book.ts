@@ -3,6 +3,7 @@
 // order in which they did, so that ten thousand of them cost nothing when one more is heard of.
 
 import type { Job, JobState, QueueData } from '../server/messages';
+import { is_stopped, told_state } from './standing';
 
 export type JobList = 'running' | 'scheduled' | 'queued' | 'backlog' | 'finished';
 
@@ -13,15 +14,18 @@ const kListOfState: Record<JobState, JobList> = {
 const kMaxFinished = 10_000;
 // Forgotten some at a time.
 const kSlack = 0.05;
+// Of one job that stands and goes on for hours the last ones.
+const kMostRemembered = 400;
 
 export function is_terminal(job: Pick<Job, 'state'>): boolean {
   return kListOfState[job.state] === 'finished';
 }
 
-/** Cell time; to_s is null while it lasts. */
-export interface Stand { from_s: number; to_s: number | null }
+/** Cell time; to_s is null while it lasts. `stopped`: until somebody resumes its arm. */
+export interface Stand { from_s: number; to_s: number | null; stopped: boolean }
 
-export interface Change { state: JobState; t_s: number }
+/** `stopped`: it stands until its arm is resumed. */
+export interface Change { state: JobState | 'stopped'; t_s: number }
 
 interface Heard {
   job: Job;
@@ -65,10 +69,9 @@ export class JobBook {
     const same_state = known?.job.state === job.state;
     const stands = known?.stands ?? [];
     const changes = known?.changes ?? [];
-    if (!same_state) changes.push({ state: job.state, t_s });
-    if (job.state === 'holding' && !same_state) stands.push({ from_s: t_s, to_s: null });
-    const last = stands.at(-1);
-    if (job.state !== 'holding' && last && last.to_s === null) last.to_s = t_s;
+    const told = told_state(job);
+    if (changes.at(-1)?.state !== told && (!same_state || told_state(known.job) !== told)) remember(changes, { state: told, t_s });
+    stand(stands, job, t_s);
     this.heard_.set(job.id, { job, t_s, since_s: same_state ? known.since_s : t_s, stands, changes });
     if (known && is_terminal(known.job)) {
       this.ended_ = this.ended_.filter((one) => one.id !== job.id);
@@ -176,6 +179,21 @@ export class JobBook {
     if (this.ended_.length <= this.most_finished_ * (1 + kSlack)) return;
     for (const old of this.ended_.splice(0, this.ended_.length - this.most_finished_)) this.heard_.delete(old.id);
   }
+}
+
+/** It stands, goes on, or stands for another reason than before. */
+function stand(stands: Stand[], job: Job, t_s: number): void {
+  const last = stands.at(-1);
+  const open = last && last.to_s === null ? last : null;
+  const stopped = is_stopped(job);
+  if (open && job.state === 'holding' && open.stopped === stopped) return;
+  if (open) open.to_s = t_s;
+  if (job.state === 'holding') remember(stands, { from_s: t_s, to_s: null, stopped });
+}
+
+function remember<T>(list: T[], one: T): void {
+  list.push(one);
+  if (list.length > kMostRemembered) list.splice(0, list.length - kMostRemembered);
 }
 
 function ended(job: Job | undefined): number {

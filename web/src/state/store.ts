@@ -4,9 +4,11 @@
 
 import { signal, untracked, type ReadonlySignal } from '@preact/signals';
 import type { Link } from '../server/connection';
-import type { Arm, ArmAuthority, Cell, Clearance, Forecast, Job, Message, SceneObject, StateMessage } from '../server/messages';
+import type { Arm, ArmAuthority, ArmState, Cell, Clearance, Forecast, Job, Message, SceneObject, StateMessage } from '../server/messages';
 import { monitor_in_words } from '../wording';
+import { outlook_of } from './outlook';
 import { is_terminal, JobBook, type JobList } from './job_book';
+import { state_of } from './standing';
 import { Trace } from './trace';
 
 export interface Notice {
@@ -24,6 +26,7 @@ export interface Notice {
 
 const kBeat_ms = 160;
 const kMaxNotices = 100;
+const kStands: ReadonlySet<ArmState> = new Set(['holding', 'stopped', 'fault'] as const);
 
 export class Store {
   cell: Cell | null = null;
@@ -46,7 +49,7 @@ export class Store {
   /** The numbers of the events of this run: the last one, and how many were left out or came twice. */
   numbers = { last: 0, missed: 0, doubled: 0 };
 
-  /** What the server expects the arms to do; null: not known. */
+  /** What the arms are expected to do, as far as that can be known; null: not known. */
   forecast: Forecast | null = null;
   readonly book = new JobBook();
   readonly trace = new Trace();
@@ -199,7 +202,7 @@ export class Store {
   }
 
   set_forecast(forecast: Forecast | null): void {
-    this.forecast = forecast;
+    this.forecast = forecast && outlook_of(forecast);
     this.changed();
   }
 
@@ -230,10 +233,15 @@ export class Store {
   /** Share of its trajectory that a job has done by now: the last report, carried on while it runs. */
   progress(job: Job): number {
     const heard_s = this.book.heard_at(job.id);
-    const moves = job.state === 'running' && job.arms.every((arm) => this.arms.get(arm)?.state !== 'holding');
+    const moves = job.state === 'running' && job.arms.every((arm) => !kStands.has(this.arms.get(arm)?.state ?? 'moving'));
     if (heard_s === null || !moves || job.stopping || !job.duration_s) return job.progress;
     const since_report = Math.max(0, this.t_s - Math.max(heard_s, job.started_s ?? heard_s));
     return Math.min(1, job.progress + since_report / job.duration_s);
+  }
+
+  /** What an arm does, as people are told of it. */
+  arm_state(arm: Arm): ArmState {
+    return state_of(arm, arm.job === null ? null : this.job(arm.job));
   }
 
   is_terminal(job: Job): boolean {

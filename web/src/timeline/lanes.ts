@@ -21,6 +21,8 @@ export interface Mark {
   /** Infinity: for ever, as things are. */
   to_s: number;
   waits_on: WaitsOn | null;
+  /** It stands, or stood, until its arm is resumed. */
+  stopped: boolean;
 }
 
 export interface Lane {
@@ -84,7 +86,10 @@ function done_of(jobs: readonly Job[], past: Past, now_s: number, stands: Known[
     if (start_s - could_s > kLeastWait_s) marks.push(mark('wait', job, could_s, start_s, null));
     const end_s = job.ended_s ?? now_s;
     marks.push(mark('motion', job, start_s, end_s, null));
-    for (const stand of stands(job.id)) marks.push(mark('pause', job, stand.from_s, stand.to_s ?? end_s, job.waits_on[0] ?? null));
+    for (const { from_s, to_s, stopped } of stands(job.id)) {
+      // Why it stood before is not remembered.
+      marks.push({ ...mark('pause', job, from_s, to_s ?? end_s, to_s === null ? job.waits_on[0] ?? null : null), stopped });
+    }
     free_from_s = Math.max(free_from_s, end_s);
   }
   return { marks, free_from_s };
@@ -99,7 +104,7 @@ function next_of(jobs: readonly Job[], free_from_s: number, now_s: number): Mark
 }
 
 function mark(kind: Mark['kind'], job: Job, from_s: number, to_s: number, waits_on: WaitsOn | null): Mark {
-  return { kind, expected: false, job: job.id, label: job.name, state: job.state, from_s, to_s, waits_on };
+  return { kind, expected: false, job: job.id, label: job.name, state: job.state, from_s, to_s, waits_on, stopped: waits_on?.kind === 'stop' };
 }
 
 /** What is to come of it. A time of the server that is past by now ends at now. */
@@ -107,9 +112,12 @@ function future_of(leg: ForecastLeg, now_s: number): Mark[] {
   const common = { expected: true, job: leg.id, label: leg.name, state: leg.state };
   const marks: Mark[] = [];
   const add = (kind: Mark['kind'], from_s: number, to_s: number, waits_on: WaitsOn | null) => {
-    if (to_s > now_s) marks.push({ ...common, kind, from_s: Math.max(now_s, from_s), to_s, waits_on });
+    if (to_s > now_s) marks.push({ ...common, kind, from_s: Math.max(now_s, from_s), to_s, waits_on, stopped: waits_on?.kind === 'stop' });
   };
-  if (leg.starts_s !== null) add('motion', leg.starts_s, leg.ends_s ?? Infinity, null);
+  const [next] = leg.pauses;
+  // Of one that was stopped nothing is to come but that it stands.
+  const stopped = next?.waits_on?.kind === 'stop' && next.to_s === null && next.from_s <= now_s;
+  if (leg.starts_s !== null && !stopped) add('motion', leg.starts_s, leg.ends_s ?? Infinity, null);
   for (const pause of leg.pauses) {
     add(pause.at_s > 0 ? 'pause' : 'wait', pause.from_s, pause.to_s ?? Infinity, pause.waits_on);
   }

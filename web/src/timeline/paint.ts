@@ -119,8 +119,8 @@ function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Ma
   if (right < kLeft_px || left > sheet.width) return;
   const width = right - left;
   g.globalAlpha = dim ? 0.28 : 1;
-  if (mark.kind === 'wait') hatch(g, { left, top: row.wait_top, width, height: row.wait_height }, row.colour, hover);
-  else if (mark.kind === 'pause') draw_pause(g, row, left, width, hover);
+  if (mark.kind === 'wait') hatch(g, { left, top: row.wait_top, width, height: row.wait_height }, mark.stopped ? ink('--alarm') : row.colour, hover);
+  else if (mark.kind === 'pause') draw_pause(g, row, left, width, mark.stopped, hover);
   else if (mark.expected) draw_expected(g, row, mark, left, width, dim, hover);
   else draw_motion(g, row, mark, left, width, dim, hover);
   g.globalAlpha = 1;
@@ -150,11 +150,11 @@ function draw_expected(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: 
   label(g, row, mark, left, width, ink('--text'));
 }
 
-/** It stands on its way: the bar is open there. */
-function draw_pause(g: CanvasRenderingContext2D, row: Row, left: number, width: number, hover: boolean): void {
+/** It stands on its way, or is stopped there: the bar is open. */
+function draw_pause(g: CanvasRenderingContext2D, row: Row, left: number, width: number, stopped: boolean, hover: boolean): void {
   g.fillStyle = ink('--panel');
   g.fillRect(left, row.bar_top, width, row.bar_height);
-  hatch(g, { left, top: row.bar_top + 1, width, height: row.bar_height - 2, falls: true }, ink('--holding'), hover);
+  hatch(g, { left, top: row.bar_top + 1, width, height: row.bar_height - 2, falls: true }, ink(stopped ? '--alarm' : '--holding'), hover || stopped);
 }
 
 function bar(g: CanvasRenderingContext2D, left: number, top: number, width: number, height: number): void {

@@ -5,9 +5,9 @@ import type { Lane, Mark } from './lanes';
 
 export function mark_in_words(mark: Mark, now_s: number): string {
   const title = mark.label || short_id(mark.job);
-  const until = Number.isFinite(mark.to_s) ? `until ${clock(mark.to_s)}` : 'with no end as things are';
+  const until = Number.isFinite(mark.to_s) ? `until ${clock(mark.to_s)}` : mark.stopped ? 'until it is resumed' : 'with no end as things are';
   if (mark.kind === 'motion') return `${title}: ${expectation(mark)}${clock(mark.from_s)} to ${Number.isFinite(mark.to_s) ? clock(mark.to_s) : 'no end as things are'}`;
-  const why = mark.waits_on ? wait_in_words(mark.waits_on) : mark.kind === 'wait' ? 'waits before its start' : 'stands on its way';
+  const why = mark.stopped && mark.waits_on === null ? 'was stopped' : mark.waits_on ? wait_in_words(mark.waits_on) : mark.kind === 'wait' ? 'waits before its start' : 'stands on its way';
   const length = Number.isFinite(mark.to_s) ? ` (${seconds(mark.to_s - Math.max(mark.from_s, mark.expected ? now_s : 0))})` : '';
   return `${title} ${why}, ${until}${length}`;
 }

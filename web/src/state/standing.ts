@@ -1,0 +1,19 @@
+// Why an arm stands. Pure. The server says `holding` of every arm that stands on its path with a job; that
+// it was stopped, and goes on only when somebody resumes it, is what its job waits for.
+
+import type { Arm, ArmState, Job, JobState } from '../server/messages';
+
+/** Whether a job waits until an arm is resumed: this one, or any of its own. */
+export function is_stopped(job: Pick<Job, 'waits_on'> | null, arm: string | null = null): boolean {
+  return job?.waits_on.some((wait) => wait.kind === 'stop' && (arm === null || wait.arm === null || wait.arm === arm)) ?? false;
+}
+
+/** The same of a job. */
+export function told_state(job: Pick<Job, 'state' | 'waits_on'>): JobState | 'stopped' {
+  return job.state === 'holding' && is_stopped(job) ? 'stopped' : job.state;
+}
+
+/** As people are told of it, everywhere. One that still brakes moves. */
+export function state_of(arm: Pick<Arm, 'name' | 'state'>, job: Pick<Job, 'waits_on'> | null): ArmState {
+  return arm.state === 'holding' && is_stopped(job, arm.name) ? 'stopped' : arm.state;
+}

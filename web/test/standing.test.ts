@@ -1,0 +1,113 @@
+import { describe, expect, it } from 'vitest';
+import type { Arm, Forecast, Job } from '../src/server/messages';
+import { parse_message } from '../src/server/messages';
+import { states_of } from '../src/jobs/states';
+import { when_in_words } from '../src/jobs/when';
+import { outlook_of } from '../src/state/outlook';
+import { state_of } from '../src/state/standing';
+import { Store } from '../src/state/store';
+import { known_lanes } from '../src/timeline/known';
+import { lane_in_words } from '../src/timeline/told';
+import { figure_in_words } from '../src/wording';
+import { arm_json, envelope, job_json, snapshot, wait_json } from './samples';
+
+const kStop = wait_json({ kind: 'stop', id: null, arm: 'left', links: [], own_time_s: null, other_time_s: null, clearance_m: null, detail: 'operator' });
+const stopped_job = (over: object = {}) => job_json('pick', { state: 'holding', started_s: 2, progress: 0.25, waits_on: [kStop], ...over }) as Job;
+const arm = (over: object = {}) => arm_json('left', { state: 'holding', job: 'pick', ...over }) as Arm;
+
+function told(store: Store, text: string): void {
+  const parsed = parse_message(text);
+  if (parsed.kind === 'message') store.take(parsed.message);
+  else throw new Error(JSON.stringify(parsed));
+}
+
+describe('an arm that was stopped', () => {
+  it('is told as stopped, not as one that holds until its way is free', () => {
+    expect(state_of(arm(), stopped_job())).toBe('stopped');
+    expect(state_of(arm(), stopped_job({ waits_on: [wait_json()] }))).toBe('holding');
+    expect(state_of(arm(), null)).toBe('holding');
+    expect(state_of(arm({ state: 'moving' }), stopped_job())).toBe('moving');
+    expect(state_of(arm({ state: 'fault' }), stopped_job())).toBe('fault');
+    // Of a motion of several arms only one was stopped: the others hold for it.
+    expect(state_of(arm({ name: 'right' }), stopped_job({ arms: ['left', 'right'] }))).toBe('holding');
+    expect(figure_in_words(stopped_job(), 9, 0.25).text).toBe('stopped');
+    expect(figure_in_words(stopped_job({ waits_on: [wait_json()] }), 9, 0.25).text).toBe('holding');
+  });
+
+  it('is remembered as stopped, with when: by its job, and on the timeline', () => {
+    const store = new Store(() => 0);
+    told(store, snapshot(1));
+    told(store, envelope('job', 2, stopped_job({ state: 'running', waits_on: [] })));
+    told(store, envelope('job', 3, stopped_job({ waits_on: [wait_json()] })));
+    told(store, envelope('job', 4, stopped_job()));
+    told(store, envelope('arm', 5, arm({ state: 'holding' })));
+    expect(store.arms.get('left') && store.arm_state(store.arms.get('left') as Arm)).toBe('stopped');
+    expect(store.book.stands('pick')).toEqual([{ from_s: 3, to_s: 4, stopped: false }, { from_s: 4, to_s: null, stopped: true }]);
+    told(store, envelope('job', 7, stopped_job({ state: 'running', waits_on: [] })));
+    expect(store.book.stands('pick').at(-1)).toEqual({ from_s: 4, to_s: 7, stopped: true });
+    expect(states_of(store.job('pick') as Job, store.book.changes('pick')).map(([name]) => name)).toEqual(['submitted', 'running', 'holding', 'stopped', 'running', 'ended']);
+    expect(known_lanes({ store })[0]?.marks.filter(({ kind }) => kind === 'pause').map(({ stopped }) => stopped)).toEqual([false, true]);
+  });
+
+  it('that stands and goes on for hours is remembered for the last times only', () => {
+    const store = new Store(() => 0);
+    told(store, snapshot(1));
+    for (let i = 0; i < 3000; i++) told(store, envelope('job', 2 + i, stopped_job({ state: i % 2 ? 'running' : 'holding', waits_on: [] })));
+    expect(store.book.stands('pick').length).toBeLessThanOrEqual(400);
+    expect(store.book.changes('pick').length).toBeLessThanOrEqual(400);
+  });
+});
+
+// As the server expects it 2 s after a stop, and 2 s later: for as long again as it has stood.
+const forecast = (now_s: number, stood_s: number) => ({
+  now_s, horizon_legs: 6, arms: [
+    {
+      name: 'left', waiting: 0, legs: [
+        { id: 'pick', name: '', arms: ['left'], state: 'holding', progress: 0.25, starts_s: 2, ends_s: now_s + stood_s + 9, pauses: [{ from_s: now_s, to_s: now_s + stood_s, at_s: 3, waits_on: kStop }] },
+        { id: 'behind', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: now_s + stood_s + 9, ends_s: now_s + stood_s + 12, pauses: [] },
+      ],
+    },
+    {
+      name: 'right', waiting: 0, legs: [
+        { id: 'other', name: '', arms: ['right'], state: 'running', progress: 0.5, starts_s: 1, ends_s: now_s + 4, pauses: [] },
+        {
+          id: 'waits', name: '', arms: ['right'], state: 'scheduled', progress: 0, starts_s: now_s + stood_s + 1.4, ends_s: now_s + stood_s + 13,
+          pauses: [{ from_s: now_s + 4, to_s: now_s + stood_s + 1.4, at_s: 0, waits_on: wait_json({ id: 'pick', arm: 'left' }) }],
+        },
+      ],
+    },
+  ],
+}) as unknown as Forecast;
+
+describe('what is expected beside an arm that was stopped', () => {
+  it('has no time: it does not run ahead while the arm stands', () => {
+    const ends = (of: Forecast) => of.arms.flatMap(({ legs }) => legs.map(({ id, starts_s, ends_s }) => [id, starts_s, ends_s]));
+    expect(ends(outlook_of(forecast(10, 2)))).toEqual([['pick', 2, null], ['behind', null, null], ['other', 1, 14], ['waits', null, null]]);
+    expect(ends(outlook_of(forecast(12, 4)))).toEqual([['pick', 2, null], ['behind', null, null], ['other', 1, 16], ['waits', null, null]]);
+    const waits = outlook_of(forecast(10, 2)).arms[1]?.legs[1];
+    expect(waits?.pauses.map(({ to_s }) => to_s)).toEqual([null]);
+  });
+
+  it('is as it was where nobody was stopped', () => {
+    const running = forecast(10, 2);
+    for (const lane of running.arms) for (const leg of lane.legs) leg.pauses = [];
+    expect(outlook_of(running)).toBe(running);
+  });
+
+  it('comes to an end where jobs wait for each other in a ring', () => {
+    const ring = forecast(10, 2);
+    const [left, right] = ring.arms;
+    if (left?.legs[1]) left.legs[1].pauses = [{ from_s: 10, to_s: null, at_s: 0, waits_on: wait_json({ id: 'waits' }) as never }];
+    if (right?.legs[1]) right.legs[1].pauses = [{ from_s: 10, to_s: null, at_s: 0, waits_on: wait_json({ id: 'behind' }) as never }];
+    expect(outlook_of(ring).arms.flatMap(({ legs }) => legs.map(({ ends_s }) => ends_s))).toEqual([null, null, 14, null]);
+  });
+
+  it('is told so: by the job, and by the lane', () => {
+    const store = new Store(() => 0);
+    told(store, snapshot(10, { jobs: [stopped_job(), job_json('waits', { state: 'scheduled', arms: ['right'], waits_on: [wait_json({ id: 'pick' })] })], arms: [arm(), arm_json('right')] }));
+    store.set_forecast(forecast(10, 2));
+    expect(when_in_words(store.job('pick') as Job, store)).not.toMatch(/end/);
+    expect(when_in_words(store.job('waits') as Job, store)).toBe('no start as things are');
+    expect(lane_in_words(known_lanes({ store })[0] ?? { arm: '', marks: [], waiting: 0 }, 10)).toEqual(['pick waits for resume: left is stopped (operator), until it is resumed']);
+  });
+});
