@@ -71,7 +71,7 @@ const connection = new Connection({
     if (store.reject(kind)) console.warn(`${kind} message (further ones are only counted): ${what}`);
   },
 });
-const router = new Router(address_bar_of(window));
+const router = new Router(address_bar_of(window), () => store.stream);
 const app: App = {
   store, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),

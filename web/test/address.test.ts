@@ -10,14 +10,14 @@ const kPlaces: Place[] = [
 describe('addresses', () => {
   it('come back as they were, whatever stands in a name', () => {
     for (const place of kPlaces) {
-      const address: Address = { place, t_s: 12.5, camera: [1, -2.5, 3, 0, 0, 0.4] };
+      const address: Address = { place, t_s: 12.5, run: '7997886f', camera: [1, -2.5, 3, 0, 0, 0.4] };
       expect(parse_address(address_text(address))).toEqual(address);
     }
   });
 
   it('are short when nothing is held', () => {
-    expect(address_text({ place: { page: 'cell' }, t_s: null, camera: null })).toBe('#/');
-    expect(parse_address('')).toEqual({ place: { page: 'cell' }, t_s: null, camera: null });
+    expect(address_text({ place: { page: 'cell' }, t_s: null, run: null, camera: null })).toBe('#/');
+    expect(parse_address('')).toEqual({ place: { page: 'cell' }, t_s: null, run: null, camera: null });
   });
 
   it('leave out what makes no sense, and name a page that is none', () => {
@@ -25,6 +25,8 @@ describe('addresses', () => {
     expect(parse_address('#/job/a?t=-1&camera=1,2,x,0,0,0').camera).toBeNull();
     expect(parse_address('#/?camera=1,2,3,4,5,6,7').camera).toBeNull();
     expect(parse_address('#/?t=').t_s).toBeNull();
+    expect(parse_address('#/?t=3&run=<b>').run).toBeNull();
+    expect(parse_address('#/?run=7997886f').run).toBeNull();
     for (const hash of ['#/nothing', '#/job', '#/pair/a', '#/history/x']) expect(parse_address(hash).place.page).toBe('unknown');
     expect(parse_address('#/job/%E0%A4%A').place).toEqual({ page: 'job', id: '%E0%A4%A' });
   });
@@ -54,10 +56,21 @@ describe('the router', () => {
     expect(changes).toEqual(['replace #/arm/left?t=7.25', 'push #/job/a?t=7.25', 'replace #/job/a']);
   });
 
+  it('says which run of the server a time is of: another one begins at zero again', () => {
+    const { fake, changes } = bar('#/');
+    let stream: string | null = '7997886f-351f-4aa0-babd-42ad4e6d6ef7';
+    const router = new Router(fake, () => stream);
+    router.hold_at(7.25);
+    stream = null;
+    router.go({ page: 'history' });
+    router.hold_at(3);
+    expect(changes).toEqual(['replace #/?t=7.25&run=7997886f', 'push #/history?t=7.25&run=7997886f', 'replace #/history?t=3']);
+  });
+
   it('follows the address bar', () => {
     const { fake, back_to } = bar('#/');
     const router = new Router(fake);
     back_to('#/scene/crate?t=3');
-    expect(router.address.value).toEqual({ place: { page: 'scene', name: 'crate' }, t_s: 3, camera: null });
+    expect(router.address.value).toEqual({ place: { page: 'scene', name: 'crate' }, t_s: 3, run: null, camera: null });
   });
 });

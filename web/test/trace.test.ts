@@ -12,8 +12,22 @@ describe('the trace of measured joints', () => {
     const trace = filled(10);
     expect(trace.at(4.7)).toEqual({ a: 4, b: -4 });
     expect(trace.at(9)).toEqual({ a: 9, b: -9 });
-    expect(trace.at(99)).toEqual({ a: 9, b: -9 });
-    expect(trace.at(-1)).toBeNull();
+    expect(trace.at(9.005)).toEqual({ a: 9, b: -9 });
+    expect(trace.at(-0.005)).toEqual({ a: 0, b: -0 });
+  });
+
+  it('answers nothing for what was not heard, and says where that lies', () => {
+    expect(new Trace().heard(3)).toBe('nothing');
+    const trace = filled(10);
+    expect([trace.heard(-1), trace.at(-1)]).toEqual(['before', null]);
+    expect([trace.heard(99), trace.at(99)]).toEqual(['after', null]);
+    expect(trace.heard(4.7)).toBe('kept');
+    trace.break_off();
+    trace.push(20, { a: 20, b: -20 });
+    trace.push(21, { a: 21, b: -21 });
+    expect([trace.heard(9.5), trace.at(15)]).toEqual(['gap', null]);
+    expect([trace.at(9), trace.at(20), trace.at(20.5)]).toEqual([{ a: 9, b: -9 }, { a: 20, b: -20 }, { a: 20, b: -20 }]);
+    expect(trace.at(19.995)).toEqual({ a: 20, b: -20 });
   });
 
   it('keeps so many frames and no more', () => {

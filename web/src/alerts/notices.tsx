@@ -39,7 +39,7 @@ function Line({ notice, app }: { notice: Notice; app: App }) {
   const seen = app.alerts.of(id_of(notice))?.acknowledged;
   return (
     <div class={`notice ${notice.level}${seen ? ' seen' : ''}`}>
-      {is_kept(notice.t_s, app)
+      {is_kept(notice, app)
         ? <button class="then mono" title="Look back at it, in every view" data-test={`then-${notice.seq ?? notice.key}`} onClick={() => app.router.hold_at(notice.t_s)}>{clock(notice.t_s)}</button>
         : <span class="mono">{clock(notice.t_s)}</span>}
       <span class="glyph" aria-label={notice.level} role="img">{kGlyphs[notice.level]}</span>
@@ -49,6 +49,6 @@ function Line({ notice, app }: { notice: Notice; app: App }) {
 }
 
 /** Whether it can be looked back at. */
-function is_kept(t_s: number, { store: { trace } }: App): boolean {
-  return trace.first_s !== null && trace.last_s !== null && t_s >= trace.first_s && t_s <= trace.last_s;
+function is_kept({ stream, t_s }: Notice, { store }: App): boolean {
+  return (stream === null || stream === store.stream) && store.trace.heard(t_s) === 'kept';
 }

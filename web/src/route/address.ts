@@ -7,7 +7,8 @@
 //   #/scene  #/scene/NAME   the objects, one of them chosen
 //   #/new                   compose a job
 //   #/history  #/settings  #/alerts  #/recovery  #/recordings  #/policies
-//   ?t=12.5                 the timeline held at this cell time, in seconds
+//   ?t=12.5                 all views held at this cell time, in seconds
+//   &run=7997886f           the run of the server that it is a time of, by the beginning of its stream's id
 //   ?camera=x,y,z,x,y,z     where the camera stands and what it looks at, in metres
 
 export type Place =
@@ -23,14 +24,16 @@ const kPlain = ['new', 'history', 'settings', 'alerts', 'recovery', 'recordings'
 /** Position, then target. */
 export type Camera = readonly [number, number, number, number, number, number];
 
-export interface Address { place: Place; t_s: number | null; camera: Camera | null }
+/** `run`: of `t_s`; null: not said, so that the present one is meant. */
+export interface Address { place: Place; t_s: number | null; run: string | null; camera: Camera | null }
 
-export const kHome: Address = { place: { page: 'cell' }, t_s: null, camera: null };
+export const kHome: Address = { place: { page: 'cell' }, t_s: null, run: null, camera: null };
 
 export function parse_address(hash: string): Address {
   const [path = '', query = ''] = hash.replace(/^#/, '').split('?', 2);
   const asked = new URLSearchParams(query);
-  return { place: parse_place(path), t_s: parse_time(asked.get('t')), camera: parse_camera(asked.get('camera')) };
+  const t_s = parse_time(asked.get('t'));
+  return { place: parse_place(path), t_s, run: t_s === null ? null : parse_run(asked.get('run')), camera: parse_camera(asked.get('camera')) };
 }
 
 function parse_place(path: string): Place {
@@ -59,6 +62,10 @@ function parse_time(text: string | null): number | null {
   return Number.isFinite(t_s) && t_s >= 0 ? t_s : null;
 }
 
+function parse_run(text: string | null): string | null {
+  return text !== null && /^[0-9a-f]{8}/i.test(text) ? text.slice(0, 8) : null;
+}
+
 function parse_camera(text: string | null): Camera | null {
   const [a, b, c, d, e, f, ...more] = (text ?? '').split(',').map((part) => (part === '' ? NaN : Number(part)));
   if (a === undefined || b === undefined || c === undefined || d === undefined || e === undefined || f === undefined) return null;
@@ -66,9 +73,10 @@ function parse_camera(text: string | null): Camera | null {
   return more.length === 0 && camera.every((value) => Number.isFinite(value) && Math.abs(value) < 1000) ? camera : null;
 }
 
-export function address_text({ place, t_s, camera }: Address): string {
+export function address_text({ place, t_s, run, camera }: Address): string {
   const query = [
     ...(t_s === null ? [] : [`t=${Number(t_s.toFixed(2))}`]),
+    ...(t_s === null || run === null ? [] : [`run=${run}`]),
     ...(camera === null ? [] : [`camera=${camera.map((value) => Number(value.toFixed(3))).join(',')}`]),
   ].join('&');
   return `#${place_text(place)}${query === '' ? '' : `?${query}`}`;

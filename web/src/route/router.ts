@@ -14,7 +14,8 @@ export interface AddressBar {
 export class Router {
   private readonly address_;
 
-  constructor(private readonly bar_: AddressBar) {
+  /** `run`: the run of the server that is listened to; null: none yet. */
+  constructor(private readonly bar_: AddressBar, private readonly run_: () => string | null = () => null) {
     this.address_ = signal<Address>(parse_address(bar_.read()));
     bar_.on_change(() => { this.address_.value = parse_address(bar_.read()); });
   }
@@ -39,7 +40,7 @@ export class Router {
 
   /** These do not make a step to go back by. */
   hold_at(t_s: number | null): void {
-    this.see({ t_s });
+    this.see({ t_s, run: t_s === null ? null : this.run_()?.slice(0, 8) ?? null });
   }
   look_from(camera: Camera | null): void {
     this.see({ camera });

@@ -26,6 +26,8 @@ export interface Notice {
 
 const kBeat_ms = 160;
 const kMaxNotices = 100;
+const kSilent_ms = 1000;
+const kMissed_s = 0.5;
 const kStands: ReadonlySet<ArmState> = new Set(['holding', 'stopped', 'fault'] as const);
 
 export class Store {
@@ -82,9 +84,10 @@ export class Store {
   }
 
   take(message: Message): void {
+    const silent_ms = this.silence_ms() ?? 0;
     this.heard_at_ms_ = this.now_ms_();
     if (message.type === 'state') {
-      this.take_frame(message);
+      this.take_frame(message, silent_ms);
       return;
     }
     const same_run = message.stream === this.stream;
@@ -190,6 +193,7 @@ export class Store {
 
   set_link(link: Link): void {
     this.link = link;
+    if (link.status === 'lost') this.trace.break_off();
     this.changed();
   }
 
@@ -216,6 +220,11 @@ export class Store {
     this.rejected = { ...this.rejected, [kind]: this.rejected[kind] + 1 };
     this.changed();
     return this.rejected[kind] === 1;
+  }
+
+  /** Those of this run: times of another one are no times of it. */
+  get events(): readonly Notice[] {
+    return this.notices.filter(({ stream }) => stream === null || stream === this.stream);
   }
 
   jobs(list: JobList): readonly Job[] {
@@ -258,7 +267,9 @@ export class Store {
     return this.heard_at_ms_ === null ? null : this.now_ms_() - this.heard_at_ms_;
   }
 
-  private take_frame(frame: StateMessage): void {
+  private take_frame(frame: StateMessage, silent_ms: number): void {
+    // Frames may be lost on the way. A page that was busy itself hears all of them, late.
+    if (silent_ms > kSilent_ms && frame.t_s - (this.trace.last_s ?? frame.t_s) > kMissed_s) this.trace.break_off();
     this.t_s = frame.t_s;
     Object.assign(this.q, frame.q);
     this.clearance = frame.clearance;

@@ -3,12 +3,21 @@
 
 const kFrames = 9_000;  // five minutes at 30 Hz
 
+// What is asked for has been rounded: addresses hold hundredths of a second.
+const kRounding_s = 0.01;
+
 export interface Curves { t_s: number[]; q: number[][] }
+
+/** Whether an instant was heard; if not, where it lies. */
+export type Heard = 'kept' | 'before' | 'after' | 'gap' | 'nothing';
 
 export class Trace {
   private names_: string[] = [];
   private t_s_ = new Float64Array(0);
   private q_ = new Float32Array(0);
+  /** 1: nothing was heard between this frame and the one before. */
+  private breaks_ = new Uint8Array(0);
+  private broken_ = false;
   private count_ = 0;
   private next_ = 0;
 
@@ -17,6 +26,12 @@ export class Trace {
   clear(): void {
     this.count_ = 0;
     this.next_ = 0;
+    this.broken_ = false;
+  }
+
+  /** What comes next does not follow what was heard last. */
+  break_off(): void {
+    this.broken_ = this.count_ > 0;
   }
 
   /** All anew, however many there are. */
@@ -41,6 +56,8 @@ export class Trace {
     else if (last === t_s) return;
     this.t_s_[this.next_] = t_s;
     names.forEach((name, i) => { this.q_[this.next_ * names.length + i] = q[name] ?? NaN; });
+    this.breaks_[this.next_] = this.broken_ ? 1 : 0;
+    this.broken_ = false;
     this.next_ = (this.next_ + 1) % this.capacity_;
     this.count_ = Math.min(this.capacity_, this.count_ + 1);
   }
@@ -52,11 +69,16 @@ export class Trace {
     return this.count_ === 0 ? null : this.time(this.count_ - 1);
   }
 
-  /** Every joint at the last frame until then; null when it is older than all that is kept. */
+  heard(t_s: number): Heard {
+    const frame = this.frame_at(t_s);
+    return typeof frame === 'number' ? 'kept' : frame;
+  }
+
+  /** Every joint at the last frame until then; null when that instant was not heard. */
   at(t_s: number): Record<string, number> | null {
-    const i = this.last_until(t_s);
-    if (i < 0) return null;
-    return Object.fromEntries(this.names_.map((name, joint) => [name, this.value(i, joint)]));
+    const frame = this.frame_at(t_s);
+    if (typeof frame !== 'number') return null;
+    return Object.fromEntries(this.names_.map((name, joint) => [name, this.value(frame, joint)]));
   }
 
   /** Some joints over a stretch of time, thinned to so many frames. */
@@ -78,7 +100,20 @@ export class Trace {
     this.names_ = names;
     this.t_s_ = new Float64Array(this.capacity_);
     this.q_ = new Float32Array(this.capacity_ * names.length);
+    this.breaks_ = new Uint8Array(this.capacity_);
     this.clear();
+  }
+
+  /** The frame that stands for an instant; or where it lies, if none does. */
+  private frame_at(t_s: number): number | Exclude<Heard, 'kept'> {
+    const { first_s, last_s } = this;
+    if (first_s === null || last_s === null) return 'nothing';
+    if (t_s < first_s - kRounding_s) return 'before';
+    if (t_s > last_s + kRounding_s) return 'after';
+    const frame = Math.max(0, this.last_until(t_s));
+    const next = frame + 1;
+    if (next === this.count_ || this.breaks_[this.slot(next)] === 0 || t_s < this.time(frame) + kRounding_s) return frame;
+    return t_s > this.time(next) - kRounding_s ? next : 'gap';
   }
 
   private slot(i: number): number {

@@ -35,7 +35,7 @@ export function pointing(drawing: Drawing, app: App, change: (span: Span) => voi
   const found = (event: MouseEvent): Pointed => {
     const { sheet, lanes } = drawing;
     if (!sheet) return kNothing;
-    const events = events_at(app.store.notices, sheet, event.offsetX, event.offsetY);
+    const events = events_at(app.store.events, sheet, event.offsetX, event.offsetY);
     if (events.length > 0) return { mark: null, events };
     const lane = lanes[lane_at(sheet, lanes.length, event.offsetY)];
     return { mark: lane ? mark_at(lane, sheet.t_s(event.offsetX)) : null, events };

@@ -3,6 +3,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
+import { instant_of } from '../state/instant';
 import { use_store } from '../state/use_store';
 import { clock } from '../wording';
 
@@ -13,18 +14,19 @@ export function ScrubBar({ app }: { app: App }) {
   use_store(app.store, 'live');
   const { trace } = app.store;
   const held_s = app.router.address.value.t_s;
+  const unheard = instant_of(app.router.address.value, app.store).kind === 'unheard';
   const is_recording = app.store.link.status === 'recording';
   const first_s = trace.first_s ?? 0;
   const last_s = trace.last_s ?? 0;
   if (last_s - first_s < 1) return null;
   const value_s = Math.min(last_s, Math.max(first_s, held_s ?? last_s));
-  const words = held_s === null ? 'now' : `${clock(held_s)}, ${(last_s - held_s).toFixed(1)} s ago`;
+  const words = held_s === null ? 'now' : unheard ? `${clock(held_s)}, not heard here` : `${clock(held_s)}, ${(last_s - held_s).toFixed(1)} s ago`;
   return (
     <>
-      {held_s !== null && <Play app={app} />}
+      {held_s !== null && !unheard && <Play app={app} />}
       <label class="scrub" title="Look back: drag, or use the arrow keys">
         <span class="sr-only">Look back</span>
-        <span class="small mono">{held_s === null ? '' : `−${(last_s - value_s).toFixed(1)} s`}</span>
+        <span class="small mono">{held_s === null ? '' : unheard ? 'not heard' : `−${(last_s - value_s).toFixed(1)} s`}</span>
         <input type="range" min={first_s} max={last_s} step={kStep_s} value={value_s} aria-valuetext={words} data-test="scrub"
           onInput={(event) => {
             const t_s = Number(event.currentTarget.value);

@@ -5,6 +5,7 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import { selection_of } from '../route/selection';
 import type { App } from '../state/app';
 import { event_beside, events_in_words, type EventMark } from './events';
+import { is_of_this_run } from '../state/instant';
 import { known_lanes } from './known';
 import { paint } from './paint';
 import { kNothing, pointing, tip_of, type Drawing, type Tip } from './pointing';
@@ -62,7 +63,7 @@ export function Timeline({ app }: { app: App }) {
   const by_key = (key: string): boolean => {
     const [at = null] = drawing.current.pointed.events;
     if (key === 'PageUp' || key === 'PageDown') {
-      const event = event_beside(store.notices, at, key === 'PageUp' ? -1 : 1);
+      const event = event_beside(store.events, at, key === 'PageUp' ? -1 : 1);
       if (event) choose(event);
       return true;
     }
@@ -134,7 +135,9 @@ function draw_now(canvas: HTMLCanvasElement, drawing: Drawing, app: App): void {
   drawing.sheet = sheet_of(canvas.clientWidth, canvas.clientHeight, drawing.span, app.store.t_s);
   drawing.lanes = known_lanes(app, drawing.sheet.from_s);
   const { jobs, arms } = selection_of(app.router.place, app.store);
-  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s: app.router.address.peek().t_s, events: app.store.notices }, drawing.pointed);
+  const at = app.router.address.peek();
+  const held_s = is_of_this_run(at.run, app.store) ? at.t_s : null;
+  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s, events: app.store.events }, drawing.pointed);
 }
 
 function span_by_key(key: string, span: Span, now_s: number): Span | null {

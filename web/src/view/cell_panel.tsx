@@ -7,6 +7,7 @@ import { Link } from '../route/link';
 import { selection_of } from '../route/selection';
 import type { App } from '../state/app';
 import type { Shows } from '../state/settings';
+import { instant_of, why_unheard } from '../state/instant';
 import { use_store } from '../state/use_store';
 import { clearance_in_words, clock, millimetres } from '../wording';
 import type { CellView } from './cell_view';
@@ -36,7 +37,7 @@ export function CellPanel({ app, on_view }: Props) {
     };
   }, [app]);
   useEffect(() => view?.show_selection(selection_of(address.place, store)), [view, address.place, store.arms]);
-  useEffect(() => view?.show_instant(address.t_s), [view, address.t_s]);
+  useEffect(() => view?.show_instant(address), [view, address.t_s, address.run]);
   useEffect(() => view?.show_camera(address.camera), [view, address.camera]);
   useEffect(() => view?.show_ghost(app.ghost.value), [view, app.ghost.value]);
   useEffect(() => view?.show_theme(), [view, settings.shown_theme.value]);
@@ -55,8 +56,29 @@ export function CellPanel({ app, on_view }: Props) {
         }} />
       {!view && <p class="loading">{fault === null ? 'Loading the 3D view…' : `The 3D view cannot be shown here: ${fault}`}</p>}
       <ClearanceFigure app={app} />
-      {address.t_s !== null && <div class="instant-mark" data-test="instant">Looking back at {clock(address.t_s)}, not at now</div>}
+      <InstantMark app={app} />
       <div class="cell-top"><StoppedMark app={app} /><ShownBar app={app} /><CameraBar view={view} /></div>
+    </div>
+  );
+}
+
+/** That another instant than now is shown; or, where it was not heard, that it cannot be. */
+function InstantMark({ app }: { app: App }) {
+  use_store(app.store, 'live');
+  const { store, router } = app;
+  const instant = instant_of(router.address.value, store);
+  if (instant.kind === 'now') return null;
+  if (instant.kind === 'kept') return <div class="instant-mark" data-test="instant">Looking back at {clock(instant.t_s)}, not at now</div>;
+  const { first_s } = store.trace;
+  return (
+    <div class="unheard" role="status" data-test="unheard">
+      <p><b>The arms are not shown: <span class="mono">{clock(instant.t_s)}</span> was not heard here.</b></p>
+      <p class="dim">{why_unheard(instant.why, store)}</p>
+      <div class="line">
+        <button class="small" data-test="unheard-now" onClick={() => router.hold_at(null)}>Look at now</button>
+        {instant.why === 'before' && first_s !== null && <button class="small" onClick={() => router.hold_at(first_s)}>The earliest that is kept</button>}
+        <Link app={app} to={{ page: 'recordings' }}>Open a recording</Link>
+      </div>
     </div>
   );
 }

@@ -2,10 +2,11 @@
 
 import * as THREE from 'three';
 import type { Arm, Cell } from '../server/messages';
-import type { Camera } from '../route/address';
+import { kHome, type Address, type Camera } from '../route/address';
 import type { Selection } from '../route/selection';
 import type { App } from '../state/app';
 import { arm_colour, ink } from '../state/palette';
+import { instant_of, pose_at, type Instant } from '../state/instant';
 import type { Store } from '../state/store';
 import type { Level } from './pace';
 import { Ahead } from './ahead';
@@ -41,7 +42,8 @@ export class CellView {
 
   /** As they are drawn: a drawing costs much, so it is asked for when something has changed. */
   private states_ = '';
-  private instant_s_: number | null = null;
+  /** The instant that is looked at. */
+  private at_: Pick<Address, 't_s' | 'run'> = kHome;
   /** The next ghost is built then; one asks for it, however often the store changes meanwhile. */
   private builds_: number | null = null;
 
@@ -85,9 +87,9 @@ export class CellView {
     this.stage_.invalidate();
   }
 
-  /** Where the arms were then; null: where they are. */
-  show_instant(t_s: number | null): void {
-    this.instant_s_ = t_s;
+  /** Where the arms were then, or are now; none where that was not heard: another pose is no answer. */
+  show_instant(at: Pick<Address, 't_s' | 'run'>): void {
+    this.at_ = at;
     this.paths_.clear();
     this.move();
     this.show_shows();
@@ -122,6 +124,9 @@ export class CellView {
 
   private get store_(): Store {
     return this.app_.store;
+  }
+  private get instant(): Instant {
+    return instant_of(this.at_, this.store_);
   }
 
   /** So many pixels at the left are covered by a panel: the cell is shown beside it. */
@@ -202,7 +207,7 @@ export class CellView {
   }
 
   private look_ahead(): void {
-    if (this.ahead_.follow(this.surfaces_, this.instant_s_ === null)) this.stage_.invalidate();
+    if (this.ahead_.follow(this.surfaces_, this.instant.kind === 'now')) this.stage_.invalidate();
     if (!this.ahead_.lacks_ghosts || this.builds_ !== null) return;
     this.builds_ = requestAnimationFrame(() => {
       this.builds_ = null;
@@ -212,7 +217,7 @@ export class CellView {
 
   /** The monitor's closest pairs, as things are now. */
   private measure(): void {
-    const shown = this.app_.settings.shows.peek().distances && this.instant_s_ === null;
+    const shown = this.app_.settings.shows.peek().distances && this.instant.kind === 'now';
     const changed = this.distances_.show(shown ? this.store_.clearance : [], this.store_.cell?.clearance_m ?? 0);
     if (changed) this.stage_.invalidate();
   }
@@ -267,9 +272,13 @@ export class CellView {
   }
 
   private move(): void {
-    const q = this.instant_s_ === null ? this.store_.q : this.store_.trace.at(this.instant_s_) ?? this.store_.q;
-    if (!this.robots_.set_q(q)) return;
-    this.draw_paths(this.instant_s_ ?? this.store_.t_s);
+    const q = pose_at(this.instant, this.store_);
+    if (this.robots_.group.visible !== (q !== null)) {
+      this.robots_.group.visible = this.paths_.group.visible = q !== null;
+      this.stage_.invalidate(true);
+    }
+    if (q === null || !this.robots_.set_q(q)) return;
+    this.draw_paths(this.at_.t_s ?? this.store_.t_s);
     this.ahead_.move();
     this.stage_.invalidate(true);
   }
@@ -285,7 +294,7 @@ export class CellView {
 
   private where_stands(arm: string): { x: number; y: number } | null {
     const robot = this.robots_.get(this.store_.arms.get(arm)?.robot);
-    const foot = robot?.root.visible ? robot.foot(arm) : null;
+    const foot = robot?.root.visible && this.robots_.group.visible ? robot.foot(arm) : null;
     return foot ? this.stage_.to_page(foot) : null;
   }
 
@@ -293,7 +302,8 @@ export class CellView {
   private pick(x_px: number, y_px: number): void {
     if (this.by_hand_.is_touched || this.tool_.is_touched) return;
     const sight = this.stage_.sight(x_px, y_px);
-    const hit = sight.intersectObjects([this.robots_.group, ...this.objects_.group.children], true)[0]?.object;
+    const robots = this.robots_.group.visible ? [this.robots_.group] : [];
+    const hit = sight.intersectObjects([...robots, ...this.objects_.group.children], true)[0]?.object;
     if (!hit) return;
     const object = this.objects_.name_of(hit);
     const arm = this.robots_.arm_of(hit);

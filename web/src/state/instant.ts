@@ -1,0 +1,44 @@
+// The instant that the address names, as far as the page knows it. Pure. What was not heard has no pose:
+// another one is never shown in its place.
+
+import type { Address } from '../route/address';
+import { clock } from '../wording';
+import type { Store } from './store';
+import type { Heard } from './trace';
+
+export type Unheard = Exclude<Heard, 'kept'> | 'other-run';
+export type Instant = { kind: 'now' } | { kind: 'kept'; t_s: number } | { kind: 'unheard'; t_s: number; why: Unheard };
+
+type Known = Pick<Store, 'trace' | 'stream'>;
+
+export function instant_of({ t_s, run }: Pick<Address, 't_s' | 'run'>, store: Known): Instant {
+  if (t_s === null) return { kind: 'now' };
+  if (!is_of_this_run(run, store)) return { kind: 'unheard', t_s, why: 'other-run' };
+  const heard = store.trace.heard(t_s);
+  return heard === 'kept' ? { kind: 'kept', t_s } : { kind: 'unheard', t_s, why: heard };
+}
+
+/** Cell time begins anew with each run of the server. */
+export function is_of_this_run(run: string | null, { stream }: Pick<Store, 'stream'>): boolean {
+  return run === null || stream === null || stream.startsWith(run);
+}
+
+/** Every joint then; null where that was not heard. */
+export function pose_at(instant: Instant, { q, trace }: Pick<Store, 'q' | 'trace'>): Readonly<Record<string, number>> | null {
+  switch (instant.kind) {
+    case 'now': return q;
+    case 'kept': return trace.at(instant.t_s);
+    case 'unheard': return null;
+  }
+}
+
+export function why_unheard(why: Unheard, { trace, t_s }: Pick<Store, 'trace' | 't_s'>): string {
+  const [first_s, last_s] = [trace.first_s ?? t_s, trace.last_s ?? t_s];
+  switch (why) {
+    case 'nothing': return 'This page has heard nothing yet.';
+    case 'before': return `What this page has heard, and keeps, begins at ${clock(first_s)}.`;
+    case 'after': return `It has not come yet: the last that was heard is ${clock(last_s)}.`;
+    case 'gap': return 'Nothing came from the server then.';
+    case 'other-run': return 'It is a time of another run of the server, whose clock began anew.';
+  }
+}
