@@ -6,7 +6,7 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { after, before, test } from 'node:test';
-import { arm_now as arm_of, ask as ask_server, Browser, job_through, path_for, Server } from './harness.mjs';
+import { arm_now as arm_of, ask as ask_server, Browser, job_through, path_for, resume, Server } from './harness.mjs';
 import { difference, pixels_like } from './pictures.mjs';
 
 // A robot of the cell covers several thousand pixels of the view; labels and text far fewer.
@@ -186,14 +186,14 @@ test('stop answers within a second on a busy machine', { timeout: 120_000 }, asy
     for (const other of others) other.kill('SIGKILL');
   }
   await ask_status('DELETE', '/jobs/busy-there');
-  await page.getByRole('button', { name: 'Resume', exact: true }).click();
+  await resume(page);
   await page.locator('[data-test=list-finished] [data-test="job-busy-there"]').waitFor();
 });
 
 test('stop holds the cell and resume frees it', { timeout: 30_000 }, async () => {
   await page.getByRole('button', { name: 'Stop all: controlled, drives stay powered' }).click();
   await page.locator('[data-test=stopped]').waitFor();
-  await page.getByRole('button', { name: 'Resume', exact: true }).click();
+  await resume(page);
   await page.locator('[data-test=stopped]').waitFor({ state: 'detached' });
 });
 

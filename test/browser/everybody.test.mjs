@@ -4,7 +4,7 @@
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { ask, Browser, path_for, send_through, Server } from './harness.mjs';
+import { ask, Browser, path_for, resume, send_through, Server } from './harness.mjs';
 import { difference, pixels_like } from './pictures.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -206,11 +206,11 @@ test('on a tablet all is done by finger', { timeout: 120_000 }, async () => {
   assert.equal(wide, 0, 'nothing is beside the page');
   await finger.screenshot(path_for('tablet-upright-light'));
   for (let i = 0; i < 12; i++) await ask(finger, 'DELETE', `/jobs/waits-${i}`);
-  await finger.getByRole('button', { name: 'Resume', exact: true }).tap();
+  await resume(finger, (locator) => locator.tap());
   await finger.locator('[data-test=stopped]').waitFor({ state: 'detached' });
   await finger.locator('[data-test=stop]').tap();
   await finger.locator('[data-test=stopped]').waitFor();
-  await finger.getByRole('button', { name: 'Resume', exact: true }).tap();
+  await resume(finger, (locator) => locator.tap());
   await finger.locator('[data-test=stopped]').waitFor({ state: 'detached' });
   assert.deepEqual(tablet.errors, []);
 });

@@ -143,12 +143,24 @@ test('after a stop the recovery page says why, and leads back', { timeout: 120_0
   await send('left', 'interrupted', [kMiddle.map((angle, i) => (i === 0 ? 0.5 : angle))], 20);
   await page.locator('[data-test=list-running] [data-test="job-interrupted"]').waitFor({ timeout: 40_000 });
   await page.keyboard.press('F8');
-  await page.locator('[data-test=to-recovery]').click();
+  // It is told as stopped, everywhere, and nobody knows when it ends.
+  await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'stopped' }).waitFor();
+  await page.locator('.arm-label', { hasText: /left.*stopped/s }).waitFor();
+  await page.locator('[data-test="job-interrupted"] [data-test=figure]', { hasText: 'stopped' }).waitFor();
+  await page.waitForFunction(() => /waits for resume: left is stopped \(operator\), until it is resumed/.test(document.querySelector('[data-test=told-left]').textContent));
+  assert.ok((await page.evaluate(() => window.armloom.lanes())).every(({ marks }) => marks.every(({ expected, to_s }) => !expected || to_s === null || to_s === Infinity)));
+  await page.screenshot(path_for('stopped-told-dark'));
+  await go('#/arm/left');
+  await page.locator('[data-test=resume-arm]').click();
   await page.locator('[data-test=cause]', { hasText: /stopped: left, right \(operator\)/ }).waitFor();
   await page.locator('[data-test=need-left]', { hasText: /goes on from \d+ %/ }).waitFor();
   const resume = page.locator('[data-test=resume-checked]');
-  assert.ok(await resume.isDisabled());
-  for (let i = 0; i < 4; i++) await page.locator(`[data-test=check-${i}]`).check();
+  const alone = page.locator('[data-test=resume-left]');
+  for (let i = 0; i < 4; i++) {
+    assert.ok(await resume.isDisabled() && await alone.isDisabled(), `with ${i} looked at`);
+    await page.locator(`[data-test=check-${i}]`).check();
+  }
+  assert.ok(await alone.isEnabled());
   await page.screenshot(path_for('recovery-dark'));
   await resume.click();
   await page.locator('[data-test=stopped]').waitFor({ state: 'detached' });

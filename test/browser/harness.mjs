@@ -120,6 +120,17 @@ export function ask(page, method, path, body) {
   }, [method, path, body]);
 }
 
+/** Lets all arms go on, as a person does: what is to be looked at is ticked first. Leads back to where the page was. */
+export async function resume(page, press = (locator) => locator.click()) {
+  const hash = await page.evaluate(() => location.hash);
+  await press(page.locator('[data-test=to-resume]'));
+  await page.locator('[data-test=resume-checked]').waitFor();
+  for (let i = 0; i < 4; i++) await press(page.locator(`[data-test=check-${i}]`));
+  await press(page.locator('[data-test=resume-checked]'));
+  await page.locator('[data-test=checks-left]', { hasText: 'Nothing is stopped' }).waitFor();
+  await page.evaluate((hash) => { location.hash = hash; }, hash);
+}
+
 /** Files from a desktop, dropped on the middle of what a selector names. */
 export async function drop_files(page, files, selector) {
   const { x, y, width, height } = await page.locator(selector).boundingBox();

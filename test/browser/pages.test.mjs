@@ -6,7 +6,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { arm_now, ask, Browser, job_through, path_for, send_through, Server, web_require } from './harness.mjs';
+import { arm_now, ask, Browser, job_through, path_for, resume, send_through, Server, web_require } from './harness.mjs';
 
 const kStop = 'Stop all: controlled, drives stay powered';
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -105,6 +105,18 @@ test('an address shows the same to whoever opens it: job, instant and camera', {
   await other.locator('[data-test=page-job] h2', { hasText: 'behind it' }).waitFor();
   await other.locator('[data-test=instant]').waitFor();
   assert.equal(new URL(other.url()).hash, new URL(address).hash);
+
+  // It was opened later than the job began: what it has not heard it does not show.
+  await other.evaluate(() => { location.hash = '#/?t=0.5'; });
+  await other.locator('[data-test=unheard]', { hasText: '0:00:00.5 was not heard here' }).waitFor();
+  await other.locator('[data-test=instant]').waitFor({ state: 'detached' });
+  await other.locator('[data-test=unheard]', { hasText: 'begins at' }).waitFor();
+  assert.equal(await other.evaluate(() => [...document.querySelectorAll('.arm-label')].filter((label) => label.checkVisibility()).length), 0, 'no arm stands anywhere then');
+  await other.screenshot(path_for('unheard-dark'));
+  await other.evaluate(() => { location.hash = '#/?t=3&run=00000000'; });
+  await other.locator('[data-test=unheard]', { hasText: 'another run' }).waitFor();
+  await other.locator('[data-test=unheard-now]').click();
+  await other.locator('[data-test=unheard]').waitFor({ state: 'detached' });
   await other.close();
 
   await page.locator('[data-test=follow-now]').click();
@@ -143,7 +155,7 @@ test('keys lead to pages and back, and F8 stops, in a text field, too', { timeou
   await page.keyboard.press('F8');
   await page.locator('[data-test=stopped]').waitFor();
   await page.screenshot(path_for('stopped-dark'));
-  await page.getByRole('button', { name: 'Resume', exact: true }).click();
+  await resume(page);
   await page.locator('[data-test=stopped]').waitFor({ state: 'detached' });
   assert.equal(await page.getByRole('button', { name: kStop }).count(), 1);
   await text.fill('');

@@ -17,6 +17,7 @@ import { Jobs } from './jobs/jobs';
 import { MotionBook } from './motion/motion_book';
 import { Comparing } from './policies/comparing';
 import { Player } from './recordings/player';
+import { Checklist } from './recovery/checklist';
 import { place_in_words } from './route/address';
 import { address_bar_of, Router } from './route/router';
 import { Api } from './server/api';
@@ -72,8 +73,10 @@ const connection = new Connection({
   },
 });
 const router = new Router(address_bar_of(window), () => store.stream);
+const checklist = new Checklist(store);
+store.on_change(() => checklist.follow());
 const app: App = {
-  store, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
+  store, checklist, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
   router, player: new Player(store, connection, router),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),

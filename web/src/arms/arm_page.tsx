@@ -50,9 +50,9 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
 
 function StopOfArm({ arm, app }: { arm: Arm; app: App }) {
   const mute = why_mute(app.store.link);
-  const stopped = arm.state === 'stopped' || arm.state === 'fault';
-  return stopped
-    ? <button class="small" disabled={mute !== null} data-test="resume-arm" onClick={() => void app.actions.resume_arm(arm.name)}>Resume this arm</button>
+  const state = app.store.arm_state(arm);
+  return state === 'stopped' || state === 'fault'
+    ? <button class="small" data-test="resume-arm" title="Leads to what is to be looked at first" onClick={() => app.router.go({ page: 'recovery' })}>Resume…</button>
     : <button class="small" disabled={mute !== null} data-test="stop-arm" title="Brakes on its path; drives stay powered" onClick={() => void app.actions.stop_arm(arm.name)}>Stop this arm</button>;
 }
 

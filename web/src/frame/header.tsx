@@ -4,7 +4,8 @@ import type { Place } from '../route/address';
 import { Link } from '../route/link';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
-import { clock, why_mute } from '../wording';
+import { waiting_arms } from '../recovery/needs';
+import { clock } from '../wording';
 import { use_staleness } from './staleness';
 import { StopButton } from './stop_button';
 
@@ -42,8 +43,8 @@ export function Header({ app }: { app: App }) {
       {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
       <CellTime app={app} />
       <ConnectionState app={app} />
-      <button class="resume" disabled={!store.stopped || why_mute(store.link) !== null} title={why_mute(store.link) ?? 'Let the arms go on'}
-        onClick={() => void app.actions.resume()}>Resume</button>
+      <button class="resume" disabled={!store.stopped && waiting_arms(store).length === 0} title="Leads to what is to be looked at before the arms move again" data-test="to-resume"
+        onClick={() => app.router.go({ page: 'recovery' })}>Resume…</button>
       <StopButton app={app} />
     </header>
   );

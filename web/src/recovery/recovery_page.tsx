@@ -1,7 +1,6 @@
 // After a stop: why the arms stopped, what each of them needs, what to look at before they move again,
 // and the way back.
 
-import { useState } from 'preact/hooks';
 import { StatePill } from '../arms/arms';
 import { Link } from '../route/link';
 import type { Arm } from '../server/messages';
@@ -9,11 +8,9 @@ import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
 import { use_store } from '../state/use_store';
 import { clock, why_mute } from '../wording';
+import { kChecks } from './checklist';
 import { cause_of, need_of, waiting_arms } from './needs';
 
-const kChecks: readonly string[] = [
-  'I know why the arms stopped.', 'Nobody is within their reach.', 'What stands in the cell stands where the scene has it.', 'Nothing is damaged, and grippers hold what they should.',
-];
 const kHomeSpeed = 0.3;
 
 export function RecoveryPage({ app }: { app: App }) {
@@ -29,49 +26,48 @@ export function RecoveryPage({ app }: { app: App }) {
       <p class="hint">{waiting.length === 0 ? 'No arm waits to be resumed.' : `${waiting.length} of ${arms.length} arms stand until they are resumed.`}{' '}
         <Link app={app} to={{ page: 'alerts' }}>Alerts</Link></p>
       <h3>1. Look</h3>
-      <Checks key={cause?.key ?? 0} app={app} needed={waiting.length > 0} />
+      <Checks app={app} needed={waiting.length > 0} />
       <h3>2. What each arm needs</h3>
-      <ul class="needs">{arms.map((arm) => <Needs key={arm.name} arm={arm} app={app} />)}</ul>
+      <ul class="needs">{arms.map((arm) => <Needs key={arm.name} arm={arm} app={app} guarded={waiting.length > 0 && app.checklist.left > 0} />)}</ul>
     </div>
   );
 }
 
-/** Ticked anew after each stop. */
 function Checks({ app, needed }: { app: App; needed: boolean }) {
-  const [ticked, set_ticked] = useState<readonly number[]>([]);
-  const left = kChecks.length - ticked.length;
+  const { checklist } = app;
+  const { left } = checklist;
   const mute = why_mute(app.store.link);
   return (
     <fieldset class="checks">
       <legend class="sr-only">Before the arms move again</legend>
       {kChecks.map((text, i) => (
         <label key={i} class="check">
-          <input type="checkbox" data-test={`check-${i}`} checked={ticked.includes(i)}
-            onChange={(event) => set_ticked(event.currentTarget.checked ? [...ticked, i] : ticked.filter((one) => one !== i))} /> {text}
+          <input type="checkbox" data-test={`check-${i}`} checked={checklist.is_ticked(i)} onChange={(event) => checklist.tick(i, event.currentTarget.checked)} /> {text}
         </label>
       ))}
       <div class="line">
         <button class="primary" data-test="resume-checked" disabled={!needed || left > 0 || mute !== null} title={mute ?? ''} onClick={() => void app.actions.resume()}>Resume all arms</button>
-        <span class="dim small" role="status">{!needed ? 'Nothing is stopped.' : left > 0 ? `${left} still to look at.` : 'They go on with their jobs as their ways are free.'}</span>
+        <span class="dim small" role="status" data-test="checks-left">{!needed ? 'Nothing is stopped.' : left > 0 ? `${left} still to look at.` : 'They go on with their jobs as their ways are free.'}</span>
       </div>
     </fieldset>
   );
 }
 
-function Needs({ arm, app }: { arm: Arm; app: App }) {
+/** `guarded`: no arm moves before all has been looked at. */
+function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) {
   use_store(app.store, 'live');
   const { store } = app;
   const job = arm.job === null ? null : store.job(arm.job);
   const need = need_of(arm, job, store.q_of(arm));
-  const mute = why_mute(store.link);
+  const mute = why_mute(store.link) ?? (guarded ? 'First what is to be looked at, above' : null);
   return (
     <li data-test={`need-${arm.name}`} style={{ '--arm': arm_colour([...store.arms.keys()], arm.name) }}>
       <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{arm.name}</Link><StatePill arm={arm} app={app} /></div>
       <p>{need.words}</p>
       <div class="line">
-        {need.resume && <button class="small" disabled={mute !== null} onClick={() => void app.actions.resume_arm(arm.name)}>Resume {arm.name} alone</button>}
+        {need.resume && <button class="small" data-test={`resume-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.resume_arm(arm.name)}>Resume {arm.name} alone</button>}
         {need.resume && job && <Link app={app} to={{ page: 'job', id: job.id }}>Its job</Link>}
-        {need.home && <button class="small" data-test={`home-${arm.name}`} disabled={mute !== null} onClick={() => void app.actions.send_to(arm.name, 'home', kHomeSpeed)}>Send {arm.name} home, slowly</button>}
+        {need.home && <button class="small" data-test={`home-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.send_to(arm.name, 'home', kHomeSpeed)}>Send {arm.name} home, slowly</button>}
       </div>
     </li>
   );

@@ -8,6 +8,7 @@ import type { Session } from '../server/messages';
 import type { MotionBook } from '../motion/motion_book';
 import type { Comparing } from '../policies/comparing';
 import type { Player } from '../recordings/player';
+import type { Checklist } from '../recovery/checklist';
 import type { Router } from '../route/router';
 import type { Actions } from './actions';
 import type { Settings } from './settings';
@@ -25,6 +26,8 @@ export interface App {
   alerts: AlertList;
   comparing: Comparing;
   hand: Hand;
+  /** What is looked at before arms that were stopped move again. */
+  checklist: Checklist;
   /** Who uses this browser, where the server asks for tokens; null: not known yet. */
   session: Signal<Session | null>;
   /** The job, or the bag of jobs, that is being composed; it outlives the page's pane. */

@@ -88,7 +88,7 @@ function StoppedMark({ app }: { app: App }) {
   const { store } = app;
   const waiting = waiting_arms(store);
   if (!store.stopped && waiting.length === 0) return null;
-  const words = store.stopped ? 'Stopped. Resume lets the arms go on.' : `${waiting.map(({ name, state }) => `${name} is ${state === 'fault' ? 'at fault' : 'stopped'}`).join(', ')}.`;
+  const words = store.stopped ? 'Stopped.' : `${waiting.map(({ name, state }) => `${name} is ${state === 'fault' ? 'at fault' : 'stopped'}`).join(', ')}.`;
   return (
     <div class="stopped-mark" role="status" data-test={store.stopped ? 'stopped' : 'some-stopped'}>■ {words}{' '}
       <Link app={app} to={{ page: 'recovery' }} test="to-recovery">What to do</Link></div>

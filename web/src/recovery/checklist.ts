@@ -1,0 +1,43 @@
+// What somebody has to have looked at before arms that were stopped move again: ticked anew after each
+// stop, and there is no way past it on this page.
+
+import { computed, signal } from '@preact/signals';
+import type { Store } from '../state/store';
+import { cause_of, waiting_arms } from './needs';
+
+export const kChecks: readonly string[] = [
+  'I know why the arms stopped.', 'Nobody is within their reach.', 'What stands in the cell stands where the scene has it.', 'Nothing is damaged, and grippers hold what they should.',
+];
+
+export class Checklist {
+  private readonly ticked_ = signal<ReadonlySet<number>>(new Set());
+  /** The stop that was looked at; null: none. */
+  private of_: string | null = null;
+  private readonly left_ = computed(() => kChecks.length - this.ticked_.value.size);
+
+  constructor(private readonly store_: Pick<Store, 'arms' | 'job' | 'notices' | 'stream'>) {}
+
+  /** After a change of the store: another stop, or that nothing stands stopped any more, takes the ticks away. */
+  follow(): void {
+    const stop = waiting_arms(this.store_).length === 0 ? null : `${this.store_.stream} ${cause_of(this.store_.notices)?.key ?? ''}`;
+    if (stop === this.of_) return;
+    this.of_ = stop;
+    if (this.ticked_.peek().size > 0) this.ticked_.value = new Set();
+  }
+
+  tick(check: number, yes: boolean): void {
+    const ticked = new Set(this.ticked_.peek());
+    if (yes) ticked.add(check);
+    else ticked.delete(check);
+    this.ticked_.value = ticked;
+  }
+
+  is_ticked(check: number): boolean {
+    return this.ticked_.value.has(check);
+  }
+
+  /** How many are still to be looked at. */
+  get left(): number {
+    return this.left_.value;
+  }
+}
