@@ -13,6 +13,7 @@ import { listen_to_keys } from './frame/shortcuts';
 import { use_staleness } from './frame/staleness';
 import { AlertList } from './alerts/alert_list';
 import { Notices } from './alerts/notices';
+import { Archive } from './history/archive';
 import { Jobs } from './jobs/jobs';
 import { MotionBook } from './motion/motion_book';
 import { Comparing } from './policies/comparing';
@@ -61,6 +62,7 @@ const connection = new Connection({
     if (message.type === 'snapshot' || message.type === 'alert') void hand.look();  // a change of control is told
     if (other_run) {
       motions.clear();
+      archive.forget();
       void load_cell();
     }
   },
@@ -73,10 +75,11 @@ const connection = new Connection({
   },
 });
 const router = new Router(address_bar_of(window), () => store.stream);
+const archive = new Archive(api, (id) => store.job(id) !== null);
 const checklist = new Checklist(store);
 store.on_change(() => checklist.follow());
 const app: App = {
-  store, checklist, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
+  store, archive, checklist, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
   router, player: new Player(store, connection, router),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),

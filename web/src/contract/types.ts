@@ -358,6 +358,11 @@ export interface components {
             /** @description The arm brakes when it is not renewed for so long, in wall time */
             lease_s: number;
         };
+        JobPage: {
+            jobs: components["schemas"]["Job"][];
+            /** @description For ?cursor=; null on the last page */
+            next_cursor: string | null;
+        };
         SnapshotEvent: {
             /**
              * Format: uuid

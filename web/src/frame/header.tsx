@@ -5,6 +5,7 @@ import { Link } from '../route/link';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
 import { waiting_arms } from '../recovery/needs';
+import { wall_time } from '../wall_time';
 import { clock } from '../wording';
 import { use_staleness } from './staleness';
 import { StopButton } from './stop_button';
@@ -56,7 +57,7 @@ function InControl({ app }: { app: App }) {
   if (!holder) return null;
   const who = app.hand.key.value === null ? holder.who : `you (${holder.who})`;
   return (
-    <span class="fact" data-test="in-control" title={`Has control since ${new Date(holder.since_at).toLocaleString()}`}>
+    <span class="fact" data-test="in-control" title={`Has control since ${wall_time(holder.since_at)}`}>
       control: {holder.arm === null ? who : <Link app={app} to={{ page: 'arm', name: holder.arm }}>{who}</Link>}
     </span>
   );

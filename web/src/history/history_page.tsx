@@ -1,13 +1,14 @@
 // What was: the jobs that have ended, as a table. Events stand below, in the dock.
 
-import { useState } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import { matches } from '../jobs/filter';
 import { Link } from '../route/link';
 import type { Job } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
 import { use_store } from '../state/use_store';
-import { clock, result_in_words, seconds, short_id } from '../wording';
+import { short_wall_time, wall_time } from '../wall_time';
+import { clock, result_in_words, seconds, short_id, why_mute } from '../wording';
 
 const kShown = 100;
 
@@ -16,7 +17,12 @@ export function HistoryPage({ app }: { app: App }) {
   const [words, set_words] = useState('');
   const [only_failed, set_only_failed] = useState(false);
   const [shown, set_shown] = useState(kShown);
-  const all = app.store.jobs('finished');
+  const { archive } = app;
+  const former = archive.jobs;
+  const known = app.store.jobs('finished');
+  const all = former.length === 0 ? known : [...known, ...former];
+  const few = known.length < kShown && app.store.link.status === 'open';
+  useEffect(() => { if (few) void archive.more(); }, [archive, few, app.store.stream]);
   const jobs = words === '' && !only_failed ? all : all.filter((job) => matches(job, words, only_failed));
   return (
     <div class="history">
@@ -29,22 +35,38 @@ export function HistoryPage({ app }: { app: App }) {
         {jobs.length === 0 ? <p class="none">None.</p> : (
           <table class="history-table" data-test="history">
             <thead><tr><th scope="col">ended</th><th scope="col">job</th><th scope="col">arms</th><th scope="col">state</th><th scope="col">waited</th><th scope="col">ran</th><th scope="col">reason</th></tr></thead>
-            <tbody>{jobs.slice(0, shown).map((job) => <Line key={job.id} job={job} app={app} />)}</tbody>
+            <tbody>{jobs.slice(0, shown).map((job) => <Line key={job.id} job={job} app={app} former={app.store.job(job.id) === null} />)}</tbody>
           </table>
         )}
-        {jobs.length > shown && <button class="more" onClick={() => set_shown(shown + 5 * kShown)}>{jobs.length - shown} more</button>}
+        {jobs.length > shown ? <button class="more" onClick={() => set_shown(shown + 5 * kShown)}>{jobs.length - shown} more</button> : <Earlier app={app} show={() => set_shown(shown + 5 * kShown)} />}
       </section>
     </div>
   );
 }
 
-function Line({ job, app }: { job: Job; app: App }) {
+/** What the page was not told of: of former runs of the server, where it keeps them. */
+function Earlier({ app: { archive, store }, show }: { app: App; show(): void }) {
+  const mute = why_mute(store.link);
+  const said = archive.fault ? `Not told: ${archive.fault.detail ?? archive.fault.title}` : archive.state === 'all' ? 'That is all that the server has.' : 'Of former runs of the server, too, where it keeps jobs.';
+  return (
+    <div class="line">
+      {archive.state !== 'all' && (
+        <button class="small" data-test="earlier" disabled={archive.state === 'asking' || mute !== null} title={mute ?? ''} onClick={() => { show(); void archive.more(); }}>
+          {archive.state === 'asking' ? 'Asking…' : 'Earlier jobs'}
+        </button>
+      )}
+      <span class="dim small" role="status" data-test="earlier-said">{said}</span>
+    </div>
+  );
+}
+
+function Line({ job, app, former }: { job: Job; app: App; former: boolean }) {
   const arms = [...app.store.arms.keys()];
   const waited_s = (job.started_s ?? job.ended_s ?? job.submitted_s) - job.submitted_s;
   const ran = job.started_s === null || job.ended_s === null ? '–' : seconds(job.ended_s - job.started_s);
   return (
     <tr class={job.state}>
-      <td class="mono whole">{job.ended_s === null ? '–' : clock(job.ended_s)}</td>
+      <td class="mono whole" title={wall_time(job.ended_at ?? '')}>{job.ended_s === null ? '–' : former ? short_wall_time(job.ended_at ?? '', Date.now()) : clock(job.ended_s)}</td>
       <td><Link app={app} to={{ page: 'job', id: job.id }}>{job.name || short_id(job.id)}</Link></td>
       <td class="whole">{job.arms.map((arm) => <span key={arm} class="tag" style={{ '--arm': arm_colour(arms, arm) }}>{arm}</span>)}</td>
       <td class="verdict whole">{job.state}</td>

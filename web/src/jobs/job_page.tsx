@@ -13,6 +13,7 @@ import { arm_colour } from '../state/palette';
 import { told_state } from '../state/standing';
 import { use_store } from '../state/use_store';
 import { clock, millimetres, reason_in_words, result_in_words, short_id, wait_in_words, ways_in_words, why_mute } from '../wording';
+import { short_wall_time } from '../wall_time';
 import { asked_of, Copy } from './copy';
 import { curl_of, python_of } from './snippets';
 import { states_of } from './states';
@@ -22,10 +23,14 @@ interface Props { job: Job; app: App }
 
 export function JobPage({ id, app }: { id: string; app: App }) {
   use_store(app.store);
-  const job = app.store.job(id);
+  const job = app.store.job(id) ?? app.archive.get(id);
   const goes_on = job !== null && !is_terminal(job);
+  const connected = app.store.link.status === 'open';
+  const ask = job === null && connected;
+  useEffect(() => { if (ask) void app.archive.find(id); }, [app, id, ask]);
   useEffect(() => (goes_on ? app.actions.follow_job(id) : undefined), [app, id, goes_on]);
-  if (!job) return <><h2 class="ellipsis">{id}</h2><p class="hint">{app.store.stream === null ? 'Not connected yet.' : 'The page knows no job of this name: the server keeps the last ones.'}</p></>;
+  if (!job) return <><h2 class="ellipsis">{id}</h2><p class="hint">{app.store.stream === null ? 'Not connected yet.' : 'The server has no job of this name, or has forgotten it.'}</p></>;
+  const former = app.store.job(id) === null;
   const words = job.result ? result_in_words(job) : reason_in_words(job);
   const arms = [...app.store.arms.keys()];
   return (
@@ -40,9 +45,9 @@ export function JobPage({ id, app }: { id: string; app: App }) {
       <States job={job} app={app} />
       {ways_in_words(job).map((words) => <p key={words} class="hint" data-test="way">{words}</p>)}
       {job.waits_on.length > 0 && <Evidence job={job} app={app} />}
-      <Beside job={job} app={app} />
+      {former ? <p class="hint" data-test="former">The server tells of it from what it keeps; how it moved is not kept.</p> : <Beside job={job} app={app} />}
       {kCanReplan && goes_on && job.arms.length === 1 && <AnotherWay job={job} app={app} />}
-      <Moves job={job} app={app} />
+      {!former && <Moves job={job} app={app} />}
       <h3>For programs</h3>
       <div class="line">
         <Copy what="JSON" text={() => pretty(job)} />
@@ -56,6 +61,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
 
 function States({ job, app }: Props) {
   use_store(app.store, 'live');
+  const former = app.store.job(job.id) === null;
   const times = states_of(job, app.store.book.changes(job.id));
   const when = is_terminal(job) ? '' : when_in_words(job, app.store);
   return (
@@ -63,7 +69,7 @@ function States({ job, app }: Props) {
       <ol class="states" data-test="states">
         {times.map(([name, t_s], i) => (
           <li key={i} class={t_s === null ? 'open' : ''}>
-            <span>{name}</span><span class="mono">{t_s === null ? '–' : clock(t_s)}</span>
+            <span>{name}</span><span class="mono" title={wall_of(job, name)}>{t_s === null ? '–' : former ? short_wall_time(wall_of(job, name), Date.now()) : clock(t_s)}</span>
             <span class="dim">{t_s === null || name === 'submitted' ? '' : `+${(t_s - job.submitted_s).toFixed(2)} s`}</span>
           </li>
         ))}
@@ -71,6 +77,12 @@ function States({ job, app }: Props) {
       <p class="hint">Its trajectory takes {job.duration_s.toFixed(2)} s; {Math.round(100 * app.store.progress(job))} % is done{when === '' ? '' : `; ${when}`}.</p>
     </>
   );
+}
+
+/** Of a job of a former run the wall clock's times alone mean something now. */
+function wall_of(job: Job, state: string): string {
+  const at = state === 'submitted' ? job.submitted_at : state === 'started' ? job.started_at : job.ended_at;
+  return at ?? '';
 }
 
 function Evidence({ job, app }: Props) {

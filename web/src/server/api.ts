@@ -1,8 +1,8 @@
 // The HTTP calls that the page makes. Every answer is a value: what was asked for, or a Problem.
 
 import {
-  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_hold, parse_forecast, parse_job, parse_job_motion, parse_plan, parse_problem, parse_session, parse_verdict,
-  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Forecast, type Hold, type Job, type JobAmendment, type JobMotion, type Parsed, type Plan, type Problem, type SceneObject, type Session, type Verdict,
+  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_hold, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_plan, parse_problem, parse_session, parse_verdict,
+  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Forecast, type Hold, type Job, type JobAmendment, type JobMotion, type JobPage, type Parsed, type Plan, type Problem, type SceneObject, type Session, type Verdict,
 } from './messages';
 
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
@@ -17,6 +17,12 @@ export class Api {
 
   async job(id: string): Promise<Answer<Job>> {
     return checked('job', await this.ask('GET', `/jobs/${encodeURIComponent(id)}`), parse_job);
+  }
+
+  /** A page of all that it has, former runs included; null: the newest. */
+  async jobs(limit: number, cursor: string | null): Promise<Answer<JobPage>> {
+    const from = cursor === null ? '' : `&cursor=${encodeURIComponent(cursor)}`;
+    return checked('list of jobs', await this.ask('GET', `/jobs?limit=${limit}${from}`), parse_job_page);
   }
 
   async job_motion(id: string): Promise<Answer<JobMotion>> {

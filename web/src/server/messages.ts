@@ -53,6 +53,8 @@ export type ControlTaken = Schemas['ControlTaken'];
 export type ControlHolder = Schemas['ControlHolder'];
 /** A move by hand. */
 export type Hold = Schemas['Hold'];
+/** Of all jobs that the server has, newest first. */
+export type JobPage = Schemas['JobPage'];
 export type QueueData = Schemas['QueueIds'];
 export type MonitorData = Schemas['MonitorFinding'];
 /** RFC 9457, with the place of the fault and the value found. */
@@ -127,6 +129,7 @@ export function parse_message(text: string): ParsedMessage {
 
 export const parse_cell = (value: unknown): Parsed<Cell> => check('Cell', value);
 export const parse_job = (value: unknown): Parsed<Job> => check('Job', value);
+export const parse_job_page = (value: unknown): Parsed<JobPage> => check('JobPage', value);
 export const parse_diagram = (value: unknown): Parsed<Diagram> => check('Diagram', value);
 export const parse_forecast = (value: unknown): Parsed<Forecast> => check('Timeline', value);
 export const parse_job_motion = (value: unknown): Parsed<JobMotion> => check('JobMotion', value);

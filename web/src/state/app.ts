@@ -2,6 +2,7 @@
 
 import type { Signal } from '@preact/signals';
 import type { Hand } from '../control/hand';
+import type { Archive } from '../history/archive';
 import type { AlertList } from '../alerts/alert_list';
 import type { Api } from '../server/api';
 import type { Session } from '../server/messages';
@@ -25,6 +26,8 @@ export interface App {
   settings: Settings;
   alerts: AlertList;
   comparing: Comparing;
+  /** Jobs that the page was never told of. */
+  archive: Archive;
   hand: Hand;
   /** What is looked at before arms that were stopped move again. */
   checklist: Checklist;

@@ -108,7 +108,7 @@ export class Store {
         if (!same_run) this.forecast = null;
         if (restarted) this.trace.clear();
         this.objects = data.objects;
-        if (restarted) this.note(message.t_s, 'warning', 'alert', 'The server was restarted: jobs from before are gone.');
+        if (restarted) this.note(message.t_s, 'warning', 'alert', 'The server was restarted. Jobs of its former run are in the history, if it keeps them.');
         else if (data.gap) this.note(message.t_s, 'info', 'alert', 'Some events were missed while the connection was lost.');
         break;
       }

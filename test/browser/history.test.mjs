@@ -1,0 +1,83 @@
+// What outlives the server and is seen again on the dashboard: jobs of its former runs.
+//
+//   node --test test/browser/history.test.mjs      (after the server and web/dist were built; see harness.mjs)
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { ask, Browser, path_for, resume, send_through, Server } from './harness.mjs';
+
+const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
+const data = mkdtempSync(join(tmpdir(), 'armloom-data-'));
+const server = new Server('config/two_pandas.json', 'coordinated', ['--data', data, '--speed', '10']);
+const chromium = new Browser();
+let url;
+let page;
+
+before(async () => {
+  url = await server.start();
+  page = await chromium.open({ colorScheme: 'dark' });
+  await chromium.visit(url);
+}, { timeout: 120_000 });
+
+after(async () => {
+  await chromium.close();
+  await server.end();
+  rmSync(data, { recursive: true, force: true });
+}, { timeout: 30_000 });
+
+const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
+const finished = (id) => page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
+
+test('jobs of a former run stand in the history, and have their pages', { timeout: 120_000 }, async () => {
+  await send_through(page, 'left', 'long-ago', [kMiddle, null], 2, { name: 'picked long ago' });
+  await finished('long-ago');
+  const since = await page.evaluate(() => window.armloom.numbers().last);
+  await go('#/history');
+  const history = page.locator('[data-test=history]');
+  await history.getByText('picked long ago').waitFor();
+
+  await server.end();
+  await page.locator('[data-test=lost]').waitFor();
+  assert.equal(await server.start(), url);
+  await page.locator('[data-test=link].open').waitFor();
+  await page.getByText('The server was restarted').first().waitFor();
+  // Without a reload, and after one.
+  for (const reload of [false, true]) {
+    if (reload) await page.reload();
+    await page.locator('[data-test=link].open').waitFor();
+    await history.getByRole('link', { name: 'picked long ago' }).waitFor();
+    await page.locator('[data-test=earlier-said]', { hasText: 'all that the server has' }).waitFor();
+    assert.equal(await page.locator('[data-test=list-finished] .job').count(), 0, 'they are none of this run');
+  }
+  // Its times are those of the wall clock: the cell's clock began anew.
+  assert.match(await history.locator('tbody tr').first().innerText(), /^\s*(\d{4}-\d\d-\d\d )?\d\d:\d\d:\d\d\s/);
+  await page.screenshot(path_for('history-former-dark'));
+  await history.getByRole('link', { name: 'picked long ago' }).click();
+  await page.locator('[data-test=page-job] [data-test=former]').waitFor();
+  assert.equal(await page.locator('[data-test=job-state]').innerText(), 'succeeded');
+  assert.match(await page.locator('[data-test=states]').innerText(), /\d\d:\d\d:\d\d/);
+  await page.screenshot(path_for('job-former-dark'));
+  // By its address alone, too.
+  await page.reload();
+  await page.locator('[data-test=page-job] h2', { hasText: 'picked long ago' }).waitFor();
+  assert.ok(since > 0);
+});
+
+test('what the page is told of by itself is not asked for', { timeout: 120_000 }, async () => {
+  const asked = [];
+  page.on('request', (request) => { if (/\/jobs(\?|\/)/.test(request.url())) asked.push(request.url()); });
+  await go('#/');
+  if (await page.locator('[data-test=stopped], [data-test=some-stopped]').count() > 0) await resume(page);
+  for (let i = 0; i < 3; i++) {
+    await ask(page, 'POST', '/jobs', { id: `home-${i}`, arm: 'left', move_to: { named: i % 2 ? 'home' : 'ready' } });
+    await finished(`home-${i}`);
+  }
+  assert.deepEqual(asked.filter((address) => /limit=/.test(address)), []);
+});
+
+test('nothing so far was an error in the console', () => {
+  assert.deepEqual(chromium.errors.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED/.test(text)), []);
+});

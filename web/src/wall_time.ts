@@ -1,0 +1,31 @@
+// Times of the wall clock, as nobody can misread them: year first, 24 hours, of this browser's place, with
+// how far that is from UTC. Pure.
+
+/** 2026-11-26 14:03:07 +01:00 */
+export function wall_time(at: string | number): string {
+  const date = new Date(at);
+  return Number.isNaN(date.getTime()) ? String(at) : `${day(date)} ${time(date)} ${offset(date)}`;
+}
+
+/** As short as it may be: without the day where that is today, without the offset, which the title has. */
+export function short_wall_time(at: string | number, now_ms: number): string {
+  const date = new Date(at);
+  if (Number.isNaN(date.getTime())) return String(at);
+  return day(date) === day(new Date(now_ms)) ? time(date) : `${day(date)} ${time(date)}`;
+}
+
+const two = (n: number) => String(n).padStart(2, '0');
+
+function day(date: Date): string {
+  return `${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())}`;
+}
+
+function time(date: Date): string {
+  return `${two(date.getHours())}:${two(date.getMinutes())}:${two(date.getSeconds())}`;
+}
+
+function offset(date: Date): string {
+  const minutes = -date.getTimezoneOffset();
+  const [hours, rest] = [Math.floor(Math.abs(minutes) / 60), Math.abs(minutes) % 60];
+  return minutes === 0 ? 'UTC' : `${minutes < 0 ? '−' : '+'}${two(hours)}:${two(rest)}`;
+}

@@ -1,0 +1,89 @@
+import { describe, expect, it } from 'vitest';
+import { Archive } from '../src/history/archive';
+import type { Answer } from '../src/server/api';
+import type { Job, JobPage, Problem } from '../src/server/messages';
+import { short_wall_time, wall_time } from '../src/wall_time';
+import { job_json } from './samples';
+
+const ended = (number: number) => job_json(`j${number}`, {
+  state: 'succeeded', ended_s: number, ended_at: new Date(1.8e12 + 1000 * number).toISOString(), result: { reason: 'completed', detail: '' },
+}) as Job;
+
+/** A server that has so many jobs, the newest with the highest number. */
+function server(count: number) {
+  const asked: string[] = [];
+  const api = {
+    jobs: async (limit: number, cursor: string | null): Promise<Answer<JobPage>> => {
+      asked.push(`${limit} ${cursor ?? 'newest'}`);
+      const before = cursor === null ? count : Number(cursor);
+      const jobs = Array.from({ length: Math.min(limit, before) }, (_, i) => ended(before - 1 - i));
+      const last = before - jobs.length;
+      return { ok: true, value: { jobs, next_cursor: last > 0 ? String(last) : null } };
+    },
+    job: async (id: string): Promise<Answer<Job>> => {
+      asked.push(id);
+      const number = Number(id.slice(1));
+      return number < count ? { ok: true, value: ended(number) } : { ok: false, problem: { type: 'about:blank', title: 'No such job', status: 404 } as Problem };
+    },
+  };
+  return { api, asked };
+}
+
+describe('jobs that the page was never told of', () => {
+  it('come a page at a time, newest first, past those that are known', async () => {
+    const { api, asked } = server(10_000);
+    const archive = new Archive(api, (id) => Number(id.slice(1)) >= 9_500);
+    await archive.more();
+    expect(asked).toEqual(['200 newest', '200 9800', '200 9600']);
+    expect(archive.jobs.map(({ id }) => id).slice(0, 2)).toEqual(['j9499', 'j9498']);
+    expect(archive.jobs).toHaveLength(100);
+    await archive.more();
+    expect(archive.jobs).toHaveLength(300);
+    expect(archive.state).toBe('more');
+  });
+
+  it('end with the last, and are asked for one at a time', async () => {
+    const { api, asked } = server(150);
+    const archive = new Archive(api, () => false);
+    await Promise.all([archive.more(), archive.more()]);
+    expect([archive.state, archive.jobs.length, asked.length]).toEqual(['all', 150, 1]);
+    await archive.more();
+    expect(asked).toHaveLength(1);
+  });
+
+  it('are found by their ids, once', async () => {
+    const { api, asked } = server(10);
+    const archive = new Archive(api, () => false);
+    await Promise.all([archive.find('j3'), archive.find('j3'), archive.find('j99')]);
+    await archive.find('j99');
+    expect(archive.get('j3')?.id).toBe('j3');
+    expect(archive.get('j99')).toBeNull();
+    expect(asked).toEqual(['j3', 'j99']);
+  });
+
+  it('are asked for anew of another run of the server; a late answer of the one before is dropped', async () => {
+    const { api } = server(10);
+    const archive = new Archive(api, () => false);
+    const late = archive.more();
+    archive.forget();
+    await late;
+    expect([archive.jobs.length, archive.state]).toEqual([0, 'more']);
+  });
+
+  it('say why they are not told', async () => {
+    const problem = { type: 'about:blank', title: 'Busy', status: 503 } as Problem;
+    const archive = new Archive({ jobs: async () => ({ ok: false, problem }), job: async () => ({ ok: false, problem }) }, () => false);
+    await archive.more();
+    expect([archive.fault, archive.state]).toEqual([problem, 'more']);
+  });
+});
+
+describe('times of the wall clock', () => {
+  it('cannot be misread: year first, 24 hours, with the offset', () => {
+    const at = new Date(2026, 10, 6, 15, 4, 5);
+    expect(wall_time(at.toISOString())).toMatch(/^2026-11-06 15:04:05 (UTC|[+−]\d\d:\d\d)$/);
+    expect(short_wall_time(at.toISOString(), at.getTime() + 60_000)).toBe('15:04:05');
+    expect(short_wall_time(at.toISOString(), at.getTime() + 86_400_000)).toBe('2026-11-06 15:04:05');
+    expect(wall_time('never')).toBe('never');
+  });
+});
