@@ -67,6 +67,7 @@ test('copies take the token from the environment, and none without it', { timeou
 });
 
 test('logging out leads to the login page, and back only with a token', { timeout: 60_000 }, async () => {
+  await page.locator('[data-test=more-pages]').click();
   await page.locator('[data-test=go-settings]').click();
   await page.locator('[data-test=session]', { hasText: 'ada, operator' }).waitFor();
   await page.screenshot(path_for('session-dark'));

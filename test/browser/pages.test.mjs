@@ -103,14 +103,13 @@ test('an address shows the same to whoever opens it: job, instant and camera', {
   await other.goto(address);
   // The job's name is known when the server has told of it.
   await other.locator('[data-test=page-job] h2', { hasText: 'behind it' }).waitFor();
-  await other.locator('[data-test=instant]').waitFor();
   assert.equal(new URL(other.url()).hash, new URL(address).hash);
-
-  // It was opened later than the job began: what it has not heard it does not show.
-  await other.evaluate(() => { location.hash = '#/?t=0.5'; });
-  await other.locator('[data-test=unheard]', { hasText: '0:00:00.5 was not heard here' }).waitFor();
+  // It listens since then: an instant that it has not heard it does not show, nor another one in its place.
+  await other.locator('[data-test=unheard]').waitFor();
   await other.locator('[data-test=instant]').waitFor({ state: 'detached' });
   await other.locator('[data-test=unheard]', { hasText: 'begins at' }).waitFor();
+  await other.waitForFunction(() => window.armloom?.is_drawn());
+  await other.evaluate(() => window.armloom.drawn());
   assert.equal(await other.evaluate(() => [...document.querySelectorAll('.arm-label')].filter((label) => label.checkVisibility()).length), 0, 'no arm stands anywhere then');
   await other.screenshot(path_for('unheard-dark'));
   await other.evaluate(() => { location.hash = '#/?t=3&run=00000000'; });
@@ -141,7 +140,7 @@ test('a click on an arm or an object leads to it, and lights it up in every view
 });
 
 test('keys lead to pages and back, and F8 stops, in a text field, too', { timeout: 60_000 }, async () => {
-  await page.locator('h1').click();
+  await page.locator('.logo').click();
   await page.keyboard.press('h');
   await page.locator('[data-test=page-history]').waitFor();
   await page.keyboard.press('Escape');
@@ -231,6 +230,7 @@ for (const theme of ['Dark', 'Light']) {
       await page.locator(hash === '#/' ? 'main' : '.pane h2').first().waitFor();
       if (/arm|job/.test(hash)) await page.locator('.uplot').waitFor();
       if (/pair/.test(hash)) await page.locator('[data-test=diagram] canvas').first().waitFor();
+      await page.waitForFunction(() => document.getAnimations().every(({ playState }) => playState !== 'running'));  // colours on their way
       const found = await page.evaluate(() => window.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] })
         .then(({ violations }) => violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 4).map((node) => `${node.html.slice(0, 120)} ${node.any[0]?.message ?? ''}`).join(' | ')}`)));
       await page.screenshot(path_for(`page-${theme.toLowerCase()}-${hash.replaceAll(/[^a-z]+/g, '-').replaceAll(/^-|-$/g, '') || 'cell'}`));
@@ -256,20 +256,68 @@ test('targets measure 24 px, and the focus is seen', { timeout: 30_000 }, async 
 test('the header holds all there is in one line, at the wall and on a tablet', { timeout: 60_000 }, async () => {
   await go('#/');
   await ask(page, 'POST', '/stop');
+  const { value: { control } } = await ask(page, 'POST', '/control', { who: 'Maximiliane von Hohenstein-Wartburg, second shift' });
   await page.locator('[data-test=open-alerts]').waitFor();
+  await page.locator('[data-test=in-control]').waitFor();
   const before = page.viewportSize();
-  for (const width of [1024, 1280, 1366, 1440, 1920]) {
+  for (const width of [1024, 1180, 1280, 1366, 1440, 1600, 1920]) {
     await page.setViewportSize({ width, height: 800 });
-    const { policy, nav, stop } = await page.evaluate(() => {
-      const [nav, policy] = [document.querySelector('nav'), document.querySelector('[data-test=go-policies]')];
-      return { policy: policy.checkVisibility() && policy.innerText, nav: nav.scrollWidth - nav.clientWidth, stop: document.querySelector('.stop').getBoundingClientRect().right };
+    const { policy, covered, beyond, stop } = await page.evaluate(() => {
+      const header = document.querySelector('.header');
+      const boxes = [...header.children].filter((child) => child.checkVisibility() && getComputedStyle(child).position !== 'absolute').map((child) => ({ what: child.textContent, box: child.getBoundingClientRect() })).filter(({ box }) => box.width > 1);
+      const covered = boxes.slice(1).filter(({ box }, i) => box.left < boxes[i].box.right - 0.5).map(({ what }) => what);
+      const policy = document.querySelector('[data-test=go-policies]');
+      return { policy: policy.checkVisibility() && policy.innerText, covered, beyond: header.scrollWidth - header.clientWidth, stop: document.querySelector('.stop').getBoundingClientRect().right };
     });
     assert.equal(policy, 'coordinated', `${width} px`);
-    assert.equal(nav, 0, `pages are hidden at ${width} px`);
+    assert.deepEqual(covered, [], `covered at ${width} px`);
+    assert.equal(beyond, 0, `the header goes beyond ${width} px`);
     assert.ok(stop <= width && stop > width - 24, `Stop ends at ${stop} of ${width} px`);
+    await page.screenshot(path_for(`header-${width}`));
   }
   await page.setViewportSize(before);
+  await ask(page, 'POST', '/control/release', { control });
   await ask(page, 'POST', '/resume');
+});
+
+test('every page is reached from the navigation, by mouse and by keys', { timeout: 60_000 }, async () => {
+  for (const [button, shown] of [['go-alerts', 'page-alerts'], ['go-recovery', 'page-recovery'], ['go-compare', 'page-policies'], ['go-recordings', 'page-recordings'], ['go-settings', 'page-settings']]) {
+    await page.locator('[data-test=more-pages]').click();
+    await page.locator(`[data-test=${button}]`).click();
+    await page.locator(`[data-test=${shown}]`).waitFor();
+    assert.equal(await page.locator('.more-pages[open]').count(), 0, 'it closes');
+  }
+  assert.equal((await page.locator('[data-test=more-pages]').innerText()).trim(), 'Settings ▾');
+  // By keys alone: opened, gone through, put away without leaving the page.
+  await page.locator('[data-test=more-pages]').focus();
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Tab');
+  assert.equal(await page.evaluate(() => document.activeElement.dataset.test), 'go-recordings');
+  await page.screenshot(path_for('more-pages'));
+  await page.keyboard.press('Escape');
+  assert.equal(await page.locator('.more-pages[open]').count(), 0);
+  assert.equal(await page.locator('[data-test=page-settings]').count(), 1);
+  await page.locator('[data-test=go-diagram]').click();
+  await page.locator('[data-test=diagram] canvas').first().waitFor();
+  assert.match(page.url(), /#\/pair\/left\/right/);
+});
+
+// The last jobs of both arms have ended: what both did is drawn as it was measured.
+test('a diagram of two arms follows what they do, and has the way that was measured', { timeout: 60_000 }, async () => {
+  await go('#/pair/left/right');
+  await page.locator('[data-test=diagram] canvas').first().waitFor();
+  await send('left', 'pair-left', [kMiddle, null], 3);
+  await send('right', 'pair-right', [kMiddle, null], 3);
+  await page.locator('[data-test=diagram][aria-label*="pair-left (across) and pair-right (up)"]').waitFor();
+  assert.equal(await page.getByLabel('Across: an arm or a job').inputValue(), 'left');
+  for (const id of ['pair-left', 'pair-right']) await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 40_000 });
+  await page.locator('[data-test=measured]').waitFor();
+  await go('#/pair/pair-left/pair-right');
+  await page.locator('[data-test=measured]').waitFor();
+  await page.screenshot(path_for('pair-measured'));
+  await page.getByLabel('Up: an arm or a job').selectOption('left');
+  await page.locator('[data-test=no-pair]').waitFor();
+  await go('#/');
 });
 
 test('nothing so far was an error in the console', () => {

@@ -48,6 +48,7 @@ function record() {
 
 test('a recording is opened from its files and scrubbed through, and the present comes back', { timeout: 120_000 }, async () => {
   record();
+  await page.locator('[data-test=more-pages]').click();
   await page.locator('[data-test=go-recordings]').click();
   const files = page.locator('[data-test=recording-files]');
   await drop_files(page, [join(folder, 'run/events.jsonl')], 'nav');

@@ -3,7 +3,7 @@
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import {
-  evidence_in_words, evidence_of, plan_from, plan_in_words, shares, type Point,
+  evidence_in_words, evidence_of, measured_way, plan_from, plan_in_words, shares, type Point,
 } from './reading';
 import type { Diagram, Job, Problem } from '../server/messages';
 import { arm_colour, ink, kCellColours, kUndecidedStripes } from '../state/palette';
@@ -13,22 +13,42 @@ import type { Api } from '../server/api';
 import type { App } from '../state/app';
 import { DiagramPicture, type Scene } from './picture';
 import { Refused } from '../compose/refused';
+import { is_arm, job_of_side, why_no_pair } from './sides';
 import { use_store } from '../state/use_store';
 
 const kShownFinished = 12;
-const kTrail = 2000;
+const kShownOpen = 100;
 const kAheadEvery_ms = 500;
 
 interface Props { a: string; b: string; app: App }
 
 type Fetched = { kind: 'none' } | { kind: 'diagram'; diagram: Diagram } | { kind: 'refused'; problem: Problem };
 
+/** Of two jobs, or of arms: then of what these do, from job to job. */
 export function DiagramPanel({ a, b, app }: Props) {
+  const { store } = app;
+  use_store(store);
+  const why_not = why_no_pair(a, b, store);
+  return (
+    <>
+      <h2>Diagram</h2>
+      <div class="pair">
+        <Pick what="Across" side={a} store={store} on_pick={(side) => app.router.go({ page: 'pair', a: side, b })} />
+        <Pick what="Up" side={b} store={store} on_pick={(side) => app.router.go({ page: 'pair', a, b: side })} />
+      </div>
+      {why_not === null
+        ? <Pair a={job_of_side(a, store)?.id ?? a} b={job_of_side(b, store)?.id ?? b} app={app} />
+        : <p class="hint" data-test="no-pair">{store.stream === null ? 'Not connected yet.' : why_not}</p>}
+    </>
+  );
+}
+
+function Pair({ a, b, app }: Props) {
   const { store, actions, api } = app;
   use_store(store, 'live');
   const [fetched, set_fetched] = useState<Fetched>({ kind: 'none' });
   const [layer, set_layer] = useState(0);
-  const connected = store.link.status === 'open';
+  const connected = store.link.status === 'open' && store.stream !== null;
   // Another scene makes another diagram.
   useEffect(() => {
     if (!connected) return;
@@ -47,11 +67,6 @@ export function DiagramPanel({ a, b, app }: Props) {
   const diagram = fetched.kind === 'diagram' && fetched.diagram.a.id === a && fetched.diagram.b.id === b ? fetched.diagram : null;
   return (
     <>
-      <h2>Diagram</h2>
-      <div class="pair">
-        <Pick what="Across" id={a} store={store} on_pick={(id) => app.router.go({ page: 'pair', a: id, b })} />
-        <Pick what="Up" id={b} store={store} on_pick={(id) => app.router.go({ page: 'pair', a, b: id })} />
-      </div>
       {fetched.kind === 'refused' && <Refused problem={fetched.problem} />}
       {diagram && diagram.layers.length > 1 && (
         <div class="line">
@@ -66,18 +81,25 @@ export function DiagramPanel({ a, b, app }: Props) {
   );
 }
 
-function Pick({ what, id, store, on_pick }: { what: string; id: string; store: Store; on_pick(id: string): void }) {
-  const jobs = store.all_jobs().filter((job) => !store.is_terminal(job)).concat(store.jobs('finished').slice(0, kShownFinished));
-  const chosen = store.job(id);
-  if (!jobs.some((job) => job.id === id)) { if (chosen) jobs.push(chosen); }
+/** An arm, which stands for what it does, or one job. */
+function Pick({ what, side, store, on_pick }: { what: string; side: string; store: Store; on_pick(side: string): void }) {
+  const jobs = (['running', 'scheduled', 'backlog', 'queued'] as const).flatMap((list) => store.jobs(list)).slice(0, kShownOpen).concat(store.jobs('finished').slice(0, kShownFinished));
+  const chosen = job_of_side(side, store);
+  const of_arm = is_arm(side, store);
+  if (chosen && !of_arm && !jobs.some((job) => job.id === side)) jobs.push(chosen);
   const names = [...store.arms.keys()];
   return (
-    <label class="pick" style={{ '--arm': arm_colour(names, chosen?.arms[0] ?? '') }}>
+    <label class="pick" style={{ '--arm': arm_colour(names, (of_arm ? side : chosen?.arms[0]) ?? '') }}>
       <span class="small dim">{what}</span>
       <span class="swatch" />
-      <select value={id} aria-label={`Job ${what.toLowerCase()}`} onChange={(event) => on_pick(event.currentTarget.value)}>
-        {!chosen && <option value={id}>{id}</option>}
-        {jobs.map((job) => <option key={job.id} value={job.id}>{`${short_id(job.id)} (${job.arms.join(' + ')}, ${job.state})`}</option>)}
+      <select value={side} aria-label={`${what}: an arm or a job`} onChange={(event) => on_pick(event.currentTarget.value)}>
+        {!chosen && !of_arm && <option value={side}>{side}</option>}
+        <optgroup label="Arms: what each does">
+          {names.filter((name) => is_arm(name, store)).map((name) => <option key={name} value={name}>{name}</option>)}
+        </optgroup>
+        <optgroup label="Jobs">
+          {jobs.map((job) => <option key={job.id} value={job.id}>{`${short_id(job.id)} (${job.arms.join(' + ')}, ${job.state})`}</option>)}
+        </optgroup>
       </select>
     </label>
   );
@@ -114,7 +136,6 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
   const layer = diagram.layers[index] ?? diagram.layers[0];
   const host = useRef<HTMLDivElement>(null);
   const scene = useRef<() => Scene | null>(() => null);
-  const trail = useRef<Point[]>([]);
   const pointed = useRef<Point | null>(null);
   const picture_shown = useRef<DiagramPicture | null>(null);
   const point_at = (place: Point | null) => {
@@ -128,6 +149,11 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
     const job = store.job(side.id);
     return job ? store.progress(job) * side.duration_s : side.progress_s;
   };
+  // From where both were heard first: the way that was measured does not end at a stride of the clock.
+  const trail_to = (at: Point) => {
+    const way = measured_way(store.courses.of(diagram.a.id), store.courses.of(diagram.b.id));
+    return way.length === 0 ? [] : [...way, at];
+  };
   const now_point = () => ({ a_s: progress_s(diagram.a), b_s: progress_s(diagram.b) });
   const is_open = [jobs.a, jobs.b].every((job) => job !== null && (!store.is_terminal(job) || job.state === 'succeeded'))
     && [jobs.a, jobs.b].some((job) => job !== null && !store.is_terminal(job));
@@ -138,11 +164,9 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
   scene.current = () => {
     if (!layer) return null;
     const at = now_point();
-    const last = trail.current.at(-1);
-    if (!last || last.a_s !== at.a_s || last.b_s !== at.b_s) trail.current = [...trail.current.slice(1 - kTrail), at];
     return {
       authority: authority_of(store, diagram), pointed: pointed.current,
-      diagram, layer, now: at, way: is_open ? plan_from(at, diagram) : [], trail: trail.current, met, evidence,
+      diagram, layer, now: at, way: is_open ? plan_from(at, diagram) : [], trail: trail_to(at), met, evidence,
       colours: { a: ink(arm_colour(names, layer.arms[0])), b: ink(arm_colour(names, layer.arms[1])) },
     };
   };
@@ -158,6 +182,8 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
   }, [store, diagram, index, app.settings.shown_theme.value]);
   if (!layer) return null;
   const share = shares(layer);
+  const measured = measured_way(store.courses.of(diagram.a.id), store.courses.of(diagram.b.id)).length > 1;
+  const unheard = !measured && [jobs.a, jobs.b].every((job) => job?.started_s != null);
   const waiting = [jobs.a, jobs.b].find((job) => job !== null && job.started_s === null && !store.is_terminal(job)) ?? null;
   const resting = [jobs.a, jobs.b].find((job) => job?.state === 'succeeded') ?? null;
   return (
@@ -176,7 +202,9 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
         <span class="grow" />
         <span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>
         <span class="key"><i class="plan" /> plan from now</span>
+        {measured && <span class="key" data-test="measured"><i class="measured" /> measured</span>}
       </div>
+      {unheard && <p class="hint" data-test="unmeasured">They moved before this page listened: the way that was measured is not known here.</p>}
       <Instant diagram={diagram} jobs={jobs} app={app} show={point_at} />
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
       {is_open && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null, resting?.id ?? null)}</p>}

@@ -2,6 +2,7 @@
 // each one's own trajectory, A across and B up.
 
 import { pair_of, type CellState, type Diagram, type DiagramLayer, type DiagramMeeting, type Job, type WaitsOn } from '../server/messages';
+import { progress_at, type Course } from '../state/progress_book';
 import { millimetres, short_id } from '../wording';
 
 export interface Point { a_s: number; b_s: number }
@@ -15,6 +16,19 @@ export function plan_from(now: Point, diagram: Diagram): Point[] {
   const together_s = Math.max(0, Math.min(a.duration_s - now.a_s, b.duration_s - now.b_s));
   const first_end = { a_s: now.a_s + together_s, b_s: now.b_s + together_s };
   return [now, first_end, { a_s: a.duration_s, b_s: b.duration_s }];
+}
+
+/** Where the two were together, as measured; empty where one of them was not heard. */
+export function measured_way(a: Course | null, b: Course | null): Point[] {
+  if (!a || !b) return [];
+  const times_s = [...new Set([...a.t_s, ...b.t_s])].sort((x, y) => x - y);
+  const way: Point[] = [];
+  for (const t_s of times_s) {
+    const [a_s, b_s] = [progress_at(a, t_s), progress_at(b, t_s)];
+    const last = way.at(-1);
+    if (a_s !== null && b_s !== null && (last?.a_s !== a_s || last.b_s !== b_s)) way.push({ a_s, b_s });
+  }
+  return way;
 }
 
 /** Shares of the rectangle's area, which add up to one. */

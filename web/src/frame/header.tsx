@@ -1,42 +1,25 @@
 // The top line: which cell, where we are, whether we hear it, and Stop, always at the right end.
 
-import type { Place } from '../route/address';
 import { Link } from '../route/link';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
 import { waiting_arms } from '../recovery/needs';
 import { wall_time } from '../wall_time';
 import { clock } from '../wording';
+import { Navigation } from './navigation';
 import { use_staleness } from './staleness';
 import { StopButton } from './stop_button';
-
-const kPages: readonly { place: Place; title: string; key: string; test: string }[] = [
-  { place: { page: 'cell' }, title: 'Cell', key: 'c', test: 'go-cell' },
-  { place: { page: 'new' }, title: 'New job', key: 'n', test: 'new-job' },
-  { place: { page: 'scene', name: null }, title: 'Scene', key: 'o', test: 'go-scene' },
-  { place: { page: 'history' }, title: 'History', key: 'h', test: 'go-history' },
-  { place: { page: 'recordings' }, title: 'Recordings', key: 'r', test: 'go-recordings' },
-  { place: { page: 'settings' }, title: 'Settings', key: ',', test: 'go-settings' },
-];
-
-export const kPageOfKey: ReadonlyMap<string, Place> = new Map(kPages.map(({ key, place }) => [key, place]));
 
 export function Header({ app }: { app: App }) {
   use_store(app.store);
   const { store } = app;
-  const here = app.router.place.page;
   return (
     <header class="header">
       <Logo />
       <h1>Armloom</h1>
-      <span class="fact"><b data-test="cell">{store.cell?.name ?? '–'}</b></span>
+      <span class="fact gives-way" title={store.cell?.name}><b data-test="cell">{store.cell?.name ?? '–'}</b></span>
       {store.cell?.simulated && <span class="badge" title="The arms of this server are simulated; no drive moves" data-test="simulated">SIMULATED</span>}
-      <nav aria-label="Pages">
-        {kPages.map(({ place, title, key, test }) => (
-          <Link key={title} app={app} to={place} class="tab" test={test} current={place.page === here}
-            title={app.settings.letter_keys.value ? `${title} (key ${key})` : title}>{title}</Link>
-        ))}
-      </nav>
+      <Navigation app={app} />
       <span class="spacer" />
       <OpenAlerts app={app} />
       <InControl app={app} />
@@ -57,7 +40,7 @@ function InControl({ app }: { app: App }) {
   if (!holder) return null;
   const who = app.hand.key.value === null ? holder.who : `you (${holder.who})`;
   return (
-    <span class="fact" data-test="in-control" title={`Has control since ${wall_time(holder.since_at)}`}>
+    <span class="fact gives-way" data-test="in-control" title={`${who} has control since ${wall_time(holder.since_at)}`}>
       control: {holder.arm === null ? who : <Link app={app} to={{ page: 'arm', name: holder.arm }}>{who}</Link>}
     </span>
   );

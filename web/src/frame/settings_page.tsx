@@ -5,13 +5,14 @@ import type { Theme } from '../state/settings';
 import { use_store } from '../state/use_store';
 import { seconds } from '../wording';
 import { Link } from '../route/link';
+import { kPages } from './pages';
 import { PolicyForm } from './policy_form';
 
 const kThemes: readonly [Theme, string][] = [['system', 'As the system'], ['dark', 'Dark'], ['light', 'Light']];
 const kIdleBlockers = { report: 'is only reported', park: 'is sent aside', replan: 'is passed by another way, if there is one' };
 const kKeys: readonly [string, string][] = [
-  ['F8', 'Stop all, wherever the focus is'], ['Escape', 'Back to the cell'], ['c', 'Cell'], ['n', 'New job'],
-  ['o', 'Scene'], ['h', 'History'], ['r', 'Recordings'], [',', 'Settings'],
+  ['F8', 'Stop all, wherever the focus is'], ['Escape', 'Back to the cell'],
+  ...kPages.map(({ key, title }): [string, string] => [key, title]),
   ['← →  + −  0', 'In the timeline: move, zoom, follow now'],
   ['← → ↑ ↓  + −  0', 'In the cell: turn it, nearer, farther, all'],
 ];

@@ -2,7 +2,7 @@
 // unless somebody types, or has turned them off.
 
 import type { App } from '../state/app';
-import { kPageOfKey } from './header';
+import { kPageOfKey } from './pages';
 import { kStopKey } from './stop_button';
 
 export function listen_to_keys(app: App, window: Window): void {
@@ -13,12 +13,12 @@ export function listen_to_keys(app: App, window: Window): void {
       return;
     }
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
-    if (document.querySelector('dialog[open]')) return;
+    if (document.querySelector('dialog[open], .more-pages[open]')) return;
     if (event.key === 'Escape' && app.router.place.page !== 'cell') return app.router.go({ page: 'cell' });
-    const place = kPageOfKey.get(event.key);
-    if (!place || !app.settings.letter_keys.value || is_typing(event.target)) return;
+    const page = kPageOfKey.get(event.key);
+    if (!page || !app.settings.letter_keys.value || is_typing(event.target)) return;
     event.preventDefault();
-    app.router.go(place);
+    app.router.go(page.place(app));
   }, { capture: true });
 }
 

@@ -32,8 +32,8 @@ export function Row({ job, app }: Props) {
       <Link app={app} to={selected && place.page === 'job' ? { page: 'cell' } : { page: 'job', id: job.id }} class="open" title={`Details of ${job.id}`}>
         <span class="line">
           {job.arms.map((arm) => <span key={arm} class="tag" style={{ '--arm': arm_colour(arms, arm) }}>{arm}</span>)}
-          <span class="ellipsis">{job.name || short_id(job.id)}</span>
-          {job.name !== '' && <span class="id ellipsis">{short_id(job.id)}</span>}
+          <span class="ellipsis title" title={job.name || job.id}>{job.name || short_id(job.id)}</span>
+          {job.name !== '' && <span class="id ellipsis" title={job.id}>{short_id(job.id)}</span>}
           {job.priority !== 0 && <span class="priority" title="Priority: larger goes first">{job.priority > 0 ? `+${job.priority}` : job.priority}</span>}
           <span class="grow" />
           {ended && <span class="verdict">{job.state}</span>}

@@ -3,7 +3,7 @@
 //
 //   #/                      the cell
 //   #/job/ID  #/arm/NAME    one job, one arm
-//   #/pair/A/B              the coordination diagram of two jobs, A across and B up
+//   #/pair/A/B              the coordination diagram of two jobs or arms, A across and B up
 //   #/scene  #/scene/NAME   the objects, one of them chosen
 //   #/new                   compose a job
 //   #/history  #/settings  #/alerts  #/recovery  #/recordings  #/policies

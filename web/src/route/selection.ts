@@ -1,5 +1,6 @@
 // What the address points at: it is lit up in every view.
 
+import { job_of_side } from '../diagram/sides';
 import type { Store } from '../state/store';
 import type { Place } from './address';
 
@@ -11,7 +12,10 @@ export function selection_of(place: Place, store: Store): Selection {
   const arms_of = (id: string) => store.job(id)?.arms ?? [];
   switch (place.page) {
     case 'job': return { jobs: [place.id], arms: arms_of(place.id), object: null };
-    case 'pair': return { jobs: [place.a, place.b], arms: [...arms_of(place.a), ...arms_of(place.b)], object: null };
+    case 'pair': {
+      const jobs = [place.a, place.b].map((side) => job_of_side(side, store)?.id ?? side);
+      return { jobs, arms: jobs.flatMap(arms_of), object: null };
+    }
     case 'arm': return { jobs: [], arms: [place.name], object: null };
     case 'scene': return { jobs: [], arms: [], object: place.name };
     default: return kNothing;

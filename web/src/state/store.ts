@@ -8,6 +8,7 @@ import type { Arm, ArmAuthority, ArmState, Cell, Clearance, Forecast, Job, Messa
 import { monitor_in_words } from '../wording';
 import { outlook_of } from './outlook';
 import { is_terminal, JobBook, type JobList } from './job_book';
+import { ProgressBook } from './progress_book';
 import { state_of } from './standing';
 import { Trace } from './trace';
 
@@ -55,6 +56,7 @@ export class Store {
   forecast: Forecast | null = null;
   readonly book = new JobBook();
   readonly trace = new Trace();
+  readonly courses = new ProgressBook();
 
   private next_key_ = 1;
   private readonly changes_ = signal(0);
@@ -106,7 +108,10 @@ export class Store {
         this.book.reset(data.jobs, message.t_s, same_run);
         this.book.set_order(data.queue);
         if (!same_run) this.forecast = null;
-        if (restarted) this.trace.clear();
+        if (restarted) {
+          this.trace.clear();
+          this.courses.clear();
+        }
         this.objects = data.objects;
         if (restarted) this.note(message.t_s, 'warning', 'alert', 'The server was restarted. Jobs of its former run are in the history, if it keeps them.');
         else if (data.gap) this.note(message.t_s, 'info', 'alert', 'Some events were missed while the connection was lost.');
@@ -171,6 +176,7 @@ export class Store {
     this.book.reset([], 0, false);
     this.book.set_order(null);
     this.trace.clear();
+    this.courses.clear();
     this.heard_at_ms_ = null;
     this.changed();
   }
@@ -275,6 +281,7 @@ export class Store {
     this.clearance = frame.clearance;
     this.motions = frame.motions;
     this.trace.push(frame.t_s, frame.q);
+    this.courses.take(frame.t_s, frame.motions);
     this.frames_.value += 1;
     const now_ms = this.now_ms_();
     if (now_ms - this.beaten_at_ms_ < kBeat_ms) return;

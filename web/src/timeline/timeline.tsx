@@ -84,8 +84,8 @@ export function Timeline({ app }: { app: App }) {
     <section class="timeline" aria-label="Timeline">
       <div class={`line head${held_s === null ? '' : ' looks-back'}`}>
         <h2>Timeline</h2>
-        <span class="key"><i class="solid" /> ran, runs</span><span class="key"><i class="outlined" /> expected</span>
-        <span class="key"><i class="hatched" /> waits</span><span class="key"><i class="hatched pausing" /> stands on its way</span><span class="key"><i class="hatched stopping" /> stopped</span><span class="key"><i class="event" /> event</span>
+        <span class="key"><i class="solid" /> moves</span><span class="key"><i class="outlined" /> expected</span>
+        <span class="key"><i class="hatched" /> waits</span><span class="key"><i class="hatched pausing" /> pauses</span><span class="key"><i class="hatched stopping" /> stopped</span><span class="key"><i class="event" /> event</span>
         <span class="grow" />
         <ScrubBar app={app} />
         <button class="small" aria-label="Zoom out" title="Zoom out (−)" onClick={() => change(zoomed(span, 1.5, store.t_s))}>−</button>

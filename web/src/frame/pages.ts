@@ -1,0 +1,31 @@
+// The pages that the navigation leads to, each with its key; those that are needed less stand under More.
+
+import type { Place } from '../route/address';
+import type { App } from '../state/app';
+
+export interface Page { place(app: App): Place; title: string; key: string; test: string; more: boolean }
+
+const plain = (page: 'cell' | 'new' | 'history' | 'recordings' | 'policies' | 'alerts' | 'recovery' | 'settings') => (): Place => ({ page });
+
+/** What two arms do to each other: the one that stands open, or the first two. */
+function diagram({ router, store }: App): Place {
+  const here = router.place;
+  if (here.page === 'pair') return here;
+  const [a = '', b = a] = [...store.arms.keys()];
+  return { page: 'pair', a, b };
+}
+
+export const kPages: readonly Page[] = [
+  { place: plain('cell'), title: 'Cell', key: 'c', test: 'go-cell', more: false },
+  { place: plain('new'), title: 'New job', key: 'n', test: 'new-job', more: false },
+  { place: () => ({ page: 'scene', name: null }), title: 'Scene', key: 'o', test: 'go-scene', more: false },
+  { place: diagram, title: 'Diagram', key: 'd', test: 'go-diagram', more: false },
+  { place: plain('history'), title: 'History', key: 'h', test: 'go-history', more: false },
+  { place: plain('recordings'), title: 'Recordings', key: 'r', test: 'go-recordings', more: true },
+  { place: plain('policies'), title: 'Policies', key: 'p', test: 'go-compare', more: true },
+  { place: plain('alerts'), title: 'Alerts', key: 'a', test: 'go-alerts', more: true },
+  { place: plain('recovery'), title: 'Recovery', key: 'v', test: 'go-recovery', more: true },
+  { place: plain('settings'), title: 'Settings', key: ',', test: 'go-settings', more: true },
+];
+
+export const kPageOfKey: ReadonlyMap<string, Page> = new Map(kPages.map((page) => [page.key, page]));
