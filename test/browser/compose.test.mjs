@@ -154,6 +154,25 @@ test('a way to a goal is planned by form, looked at, and sent', { timeout: 120_0
   await finished(id);
 });
 
+test('a pasted goal is planned and shown before it is sent', { timeout: 120_000 }, async () => {
+  await page.locator('[data-test=new-job]').click();
+  const ghost = () => page.evaluate(() => window.armloom.ghost());
+  const text = page.locator('[data-test=job-text]');
+  await text.fill(JSON.stringify({ id: 'by-goal', arm: 'right', move_to: { named: 'ready' } }));
+  await page.locator('[data-test=goal-way]', { hasText: 'as it would be planned now' }).waitFor();
+  const [end, bar] = [await ghost(), page.locator('[data-test=preview-time]')];
+  assert.ok(Object.keys(end ?? {}).some((joint) => joint.startsWith('right_')), 'the arm stands at its goal, as a ghost');
+  await bar.fill('0');
+  assert.notDeepEqual(await ghost(), end);
+  await page.screenshot(path_for('compose-goal'));
+  // What is half typed asks nothing; a place that is out of reach says so.
+  await text.fill(JSON.stringify({ arm: 'right', move_to: { named: 'rea' } }));
+  await page.locator('[data-test=goal-way]').waitFor({ state: 'detached' });
+  await text.fill(JSON.stringify({ arm: 'right', move_to: { pose: { xyz: [3, 0, 0.5] } } }));
+  await page.locator('[data-test=goal-problem]').waitFor();
+  await text.fill('');
+});
+
 test('the goal of a tool is dragged in the cell: planned, judged and shown before it is sent', { timeout: 120_000 }, async () => {
   await go('#/');
   await page.locator('[data-test=new-job]').click();

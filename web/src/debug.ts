@@ -10,6 +10,7 @@
 //   armloom.where_is(object)              its middle, px from the view's top left
 //   armloom.where_is_tool()               the same of the tool that is in hand
 //   armloom.ahead()                       how many ways ahead are drawn
+//   armloom.ghost()                       joints that stand as a ghost: a preview, or what a diagram points at
 //   armloom.break_connection()            as if the network had: it is opened again
 //   armloom.pictures()                    how many have been drawn
 //   armloom.level()                       how finely: what the view leaves out on a busy machine
@@ -32,6 +33,7 @@ export interface DebugHook {
   where_is(object: string): { x: number; y: number } | null;
   where_is_tool(): { x: number; y: number } | null;
   ahead(): number;
+  ghost(): Readonly<Record<string, number>> | null;
   break_connection(): void;
   pictures(): number;
   level(): Level | null;
@@ -61,6 +63,7 @@ export function install_debug_hook(app: App, break_connection: () => void): void
     where_is: (object) => view?.where_is(object) ?? null,
     where_is_tool: () => view?.where_is_tool() ?? null,
     ahead: () => view?.ahead() ?? 0,
+    ghost: () => app.ghost.value,
     break_connection,
     pictures: () => view?.pictures() ?? 0,
     level: () => view?.level() ?? null,

@@ -38,6 +38,7 @@ import './style/pages.css';
 import './style/touch.css';
 import { Timeline } from './timeline/timeline';
 import { CellPanel } from './view/cell_panel';
+import { shown_name } from './names';
 
 const kBase = '/api/v1';
 
@@ -114,7 +115,7 @@ async function load_cell(attempt = 1): Promise<void> {
 function Page() {
   const stale = use_staleness(store) !== null || store.link.status === 'lost';
   use_store(store);
-  document.title = `${place_in_words(app.router.address.value.place)} · ${store.cell?.name ?? 'Armloom'}`;
+  document.title = `${place_in_words(app.router.address.value.place)} · ${shown_name(store.cell?.name ?? 'Armloom')}`;
   return (
     <>
       <Header app={app} />

@@ -3,11 +3,17 @@
 import type { Link } from './server/connection';
 import { is_stopped } from './state/standing';
 import { pair_of, type Clearance, type Job, type MonitorData, type WaitsOn } from './server/messages';
+import { shown_name, shown_text } from './names';
 
 /** An id short enough for a list: a long machine-made one is cut, a name that a client chose stays. */
 export function short_id(id: string): string {
   if (/^[0-9a-f]{8}-[0-9a-f]{4}-/i.test(id)) return id.slice(0, 8);
   return id.length > 24 ? `${id.slice(0, 22)}…` : id;
+}
+
+/** What a job is called: by its name, or else by its id. */
+export function title_of(job: Pick<Job, 'id' | 'name'>): string {
+  return shown_name(job.name) || short_id(job.id);
 }
 
 export function millimetres(m: number): string {
@@ -60,16 +66,17 @@ export function conflict_in_words(w: WaitsOn): string {
 }
 
 function subject(w: WaitsOn): string {
-  if (w.kind === 'arm') return w.arm ? `arm ${w.arm}` : 'an arm at rest';
-  if (w.kind === 'object') return w.id ?? w.links[1] ?? 'an object';
-  const owner = w.arm ? ` of ${w.arm}` : '';
+  const arm = w.arm === null ? null : shown_name(w.arm);
+  if (w.kind === 'arm') return arm ? `arm ${arm}` : 'an arm at rest';
+  if (w.kind === 'object') return shown_name(w.id ?? w.links[1] ?? 'an object');
+  const owner = arm ? ` of ${arm}` : '';
   return w.id ? `job ${short_id(w.id)}${owner}` : `another job${owner}`;
 }
 
 function approach(w: WaitsOn): string {
   const links = pair_of(w.links);
   if (!links) return '';
-  const [own, other] = links;
+  const [own, other] = [shown_name(links[0]), shown_name(links[1])];
   // The job has not begun: the time counts from its own start, whenever that will be.
   const when = w.own_time_s === null ? '' : `, ${w.own_time_s.toFixed(2)} s into its motion`;
   if (w.clearance_m === null || w.clearance_m <= 0) return `${own} would touch ${other}${when}`;
@@ -124,7 +131,7 @@ export function result_in_words(job: Job): string {
   if (!job.result) return '';
   // What the state says by itself is not said again.
   const said = kSaidByState.has(job.result.reason) ? '' : job.result.reason.replaceAll('_', ' ');
-  return [said, job.result.detail].filter((part) => part !== '').join(': ');
+  return [said, shown_text(job.result.detail)].filter((part) => part !== '').join(': ');
 }
 
 export function monitor_in_words(event: MonitorData): string {

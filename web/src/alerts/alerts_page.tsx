@@ -2,12 +2,16 @@
 
 import type { App } from '../state/app';
 import type { KeptAlert } from '../server/messages';
+import { shown_name, shown_text } from '../names';
+import { short_wall_time, wall_time } from '../wall_time';
 
 export function AlertsPage({ app }: { app: App }) {
   const { settings, alerts, actions, session } = app;
   const { all, open } = alerts;
   const known_as = session.value?.name ?? null;
   const who = settings.person.value;
+  const unnamed = known_as === null && who.trim() === '';
+  const mute = unnamed ? 'Say who you are first' : null;
   const acknowledge = (some: readonly KeptAlert[]) => void actions.ask('Acknowledge', alerts.acknowledge(some, who.trim()));
   return (
     <div class="page">
@@ -15,27 +19,28 @@ export function AlertsPage({ app }: { app: App }) {
       <p class="hint">Warnings and errors. The server keeps who has seen to them, and when.</p>
       <div class="line wrap">
         {known_as === null
-          ? <label class="line">Your name <input type="text" value={who} maxLength={100} autocomplete="name" placeholder="who acknowledges" data-test="person" onInput={(event) => settings.set_person(event.currentTarget.value)} /></label>
-          : <span>As <b>{known_as}</b></span>}
-        <button class="small" data-test="acknowledge-all" disabled={open.length === 0} onClick={() => acknowledge(open)}>Acknowledge all</button>
+          ? <label class="line">Your name <input type="text" value={who} maxLength={100} autocomplete="name" placeholder="who acknowledges" required aria-describedby="who-acknowledges" data-test="person" onInput={(event) => settings.set_person(event.currentTarget.value)} /></label>
+          : <span>As <b>{shown_name(known_as)}</b></span>}
+        <button class="small" data-test="acknowledge-all" disabled={open.length === 0 || unnamed} title={mute ?? ''} onClick={() => acknowledge(open)}>Acknowledge all</button>
       </div>
+      {unnamed && open.length > 0 && <p class="hint" id="who-acknowledges" data-test="unnamed">An alert is acknowledged by somebody: say who you are.</p>}
       {all.length === 0 && <p class="none">None so far.</p>}
       <ul class="alerts" data-test="alerts">
-        {all.map((alert) => <Alert key={alert.id} alert={alert} acknowledge={() => acknowledge([alert])} />)}
+        {all.map((alert) => <Alert key={alert.id} alert={alert} mute={mute} acknowledge={() => acknowledge([alert])} />)}
       </ul>
     </div>
   );
 }
 
-function Alert({ alert, acknowledge }: { alert: KeptAlert; acknowledge(): void }) {
+function Alert({ alert, mute, acknowledge }: { alert: KeptAlert; mute: string | null; acknowledge(): void }) {
   const seen = alert.acknowledged;
   return (
     <li class={`${alert.level}${seen ? ' seen' : ''}`}>
-      <span class="mono dim">{new Date(alert.at).toLocaleTimeString()}</span>
-      <span class="grow"><b>{alert.level === 'error' ? '✕ Error' : '! Warning'}</b> {alert.text}
-        {seen && <span class="dim small"> Acknowledged by {seen.who}, {new Date(seen.at).toLocaleString()}.</span>}
+      <span class="mono dim"><time dateTime={alert.at} title={wall_time(alert.at)}>{short_wall_time(alert.at, Date.now())}</time></span>
+      <span class="grow"><b>{alert.level === 'error' ? '✕ Error' : '! Warning'}</b> {shown_text(alert.text)}
+        {seen && <span class="dim small"> Acknowledged by {shown_name(seen.who) || 'somebody without a name'}, {wall_time(seen.at)}.</span>}
       </span>
-      {!seen && <button class="small" data-test="acknowledge" onClick={acknowledge}>Acknowledge</button>}
+      {!seen && <button class="small" data-test="acknowledge" disabled={mute !== null} title={mute ?? ''} onClick={acknowledge}>Acknowledge</button>}
     </li>
   );
 }

@@ -6,6 +6,7 @@ import type { Notice } from '../state/store';
 import { use_store } from '../state/use_store';
 import { clock } from '../wording';
 import { id_of } from './alerts';
+import { shown_text } from '../names';
 
 export function Notices({ app }: { app: App }) {
   use_store(app.store);
@@ -43,7 +44,7 @@ function Line({ notice, app }: { notice: Notice; app: App }) {
         ? <button class="then mono" title="Look back at it, in every view" data-test={`then-${notice.seq ?? notice.key}`} onClick={() => app.router.hold_at(notice.t_s)}>{clock(notice.t_s)}</button>
         : <span class="mono">{clock(notice.t_s)}</span>}
       <span class="glyph" aria-label={notice.level} role="img">{kGlyphs[notice.level]}</span>
-      <span>{notice.text}</span>
+      <span>{shown_text(notice.text)}</span>
     </div>
   );
 }

@@ -12,7 +12,8 @@ import { arm_colour } from '../state/palette';
 import { use_store } from '../state/use_store';
 import { known_lanes } from '../timeline/known';
 import { lane_in_words } from '../timeline/told';
-import { short_id, why_mute } from '../wording';
+import { shown_name } from '../names';
+import { title_of, why_mute } from '../wording';
 import { StatePill } from './arms';
 
 const kPlotted_s = 20;
@@ -22,19 +23,19 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
   use_store(app.store);
   const { store } = app;
   const arm = store.arms.get(name);
-  if (!arm) return <><h2>{name}</h2><p class="hint">{store.stream === null ? 'Not connected yet.' : 'The cell has no arm of this name.'}</p></>;
+  if (!arm) return <><h2>{shown_name(name)}</h2><p class="hint">{store.stream === null ? 'Not connected yet.' : 'The cell has no arm of this name.'}</p></>;
   const job = arm.job === null ? null : store.job(arm.job);
   const colour = arm_colour([...store.arms.keys()], name);
   return (
     <div class="page" style={{ '--arm': colour }}>
       <div class="line">
-        <h2 class="ellipsis"><span class="swatch" aria-hidden="true" /> {name}</h2>
+        <h2 class="ellipsis"><span class="swatch" aria-hidden="true" /> {shown_name(name)}</h2>
         <StatePill arm={arm} app={app} />
         <span class="grow" />
         <StopOfArm arm={arm} app={app} />
       </div>
       <p class="hint">
-        {job ? <>Executes <Link app={app} to={{ page: 'job', id: job.id }}>{job.name || short_id(job.id)}</Link></> : 'No job is under way.'}
+        {job ? <>Executes <Link app={app} to={{ page: 'job', id: job.id }}>{title_of(job)}</Link></> : 'No job is under way.'}
       </p>
       <SendTo arm={arm} app={app} />
       <ByHand arm={arm} app={app} />

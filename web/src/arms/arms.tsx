@@ -6,7 +6,8 @@ import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
 import { use_store } from '../state/use_store';
-import { short_id } from '../wording';
+import { shown_name } from '../names';
+import { short_id, title_of } from '../wording';
 import { Bar } from './bar';
 
 export function Arms({ app }: { app: App }) {
@@ -30,14 +31,14 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
   return (
     <div class={`card${lit ? ' lit' : ''}`} data-test={`arm-${arm.name}`}
       style={{ '--arm': arm_colour([...store.arms.keys()], arm.name), '--state': kStateColours[store.arm_state(arm)] }}>
-      <Link app={app} to={{ page: 'arm', name: arm.name }} class="card-link" title={`All about the arm ${arm.name}`}>
+      <Link app={app} to={{ page: 'arm', name: arm.name }} class="card-link" title={`All about the arm ${shown_name(arm.name)}`}>
         <span class="line">
           <span class="swatch" aria-hidden="true" />
-          <b class="grow ellipsis">{arm.name}</b>
+          <b class="grow ellipsis">{shown_name(arm.name)}</b>
           <StatePill arm={arm} app={app} />
         </span>
         <span class="line dim job-of-arm">
-          <span class="grow ellipsis">{job ? job.name || short_id(job.id) : arm.job ? short_id(arm.job) : 'no job'}</span>
+          <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : 'no job'}</span>
           <span class="mono">{job ? `${Math.round(100 * progress)} %` : ''}</span>
         </span>
         <Bar share={progress} />

@@ -1,6 +1,8 @@
 // What was pasted: one job, or a bag of jobs. Pure. The server judges what is in it; here it is only
 // seen how many there are.
 
+import { shown_name } from '../names';
+
 export type Bag =
   | { kind: 'one'; text: string }
   | { kind: 'bag'; jobs: unknown[] };
@@ -34,6 +36,6 @@ export function bodies_of(bag: Bag): { title: string; text: string }[] {
   return bag.jobs.map((job, i) => {
     const { id, name } = (job ?? {}) as { id?: unknown; name?: unknown };
     const title = [id, name].find((one): one is string => typeof one === 'string' && one !== '');
-    return { title: title ?? `job ${i + 1}`, text: JSON.stringify(job) };
+    return { title: title === undefined ? `job ${i + 1}` : shown_name(title), text: JSON.stringify(job) };
   });
 }

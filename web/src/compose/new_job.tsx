@@ -1,7 +1,7 @@
 // Compose: paste, drop or begin from an example; see it judged as things are; send it. One job, or a bag
 // of jobs, which is taken whole or not at all.
 
-import { useMemo, useState } from 'preact/hooks';
+import { useEffect, useMemo, useState } from 'preact/hooks';
 import { asked_of, Copy } from '../jobs/copy';
 import { curl_to_post, python_to_post } from '../jobs/snippets';
 import { Link } from '../route/link';
@@ -11,6 +11,7 @@ import { use_store } from '../state/use_store';
 import { why_mute } from '../wording';
 import { read_bag, type Bag } from './bag';
 import { example_job, pretty } from './example';
+import { has_goal, ways_to_goals, type Ways } from './goals';
 import { Judged, judge_all, type Judgement } from './judged';
 import { motion_of } from '../motion/pasted';
 import { PlanForm } from './plan_form';
@@ -24,6 +25,7 @@ type Outcome =
 /** What was found out, and which instant is previewed; of another text it says nothing. */
 interface Said { of: string; outcome: Outcome; chosen: Chosen | null }
 
+const kTyped_ms = 500;
 const kNothingSaid: Omit<Said, 'of'> = { outcome: { kind: 'none' }, chosen: null };
 
 export function NewJob({ app }: { app: App }) {
@@ -36,7 +38,10 @@ export function NewJob({ app }: { app: App }) {
   const change = (next: string) => { app.draft.value = next; };
   const show_end = (next: string) => set_said({ of: next, outcome: { kind: 'none' }, chosen: { t_s: motion_of(read_bag(next))?.duration_s ?? 0 } });
   const bag = useMemo(() => read_bag(text), [text]);
-  const motion = useMemo(() => motion_of(bag), [bag]);
+  const ways = use_ways(bag, app);
+  const motion = useMemo(() => motion_of(ways.kind === 'planned' ? ways.ways.bag : bag), [bag, ways]);
+  // Where a goal leads is shown as soon as there is a way.
+  useEffect(() => { if (ways.kind === 'planned' && ways.ways.planned > 0 && motion) set_chosen({ t_s: motion.duration_s }); }, [ways]);
   const mute = why_mute(app.store.link);
   const idle = text.trim() === '' || outcome.kind === 'busy' || mute !== null;
   const send = async () => {
@@ -65,6 +70,7 @@ export function NewJob({ app }: { app: App }) {
         onInput={(event) => change(event.currentTarget.value)}
         onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) void send(); }} />
       {motion && <Preview motion={motion} app={app} chosen={chosen} />}
+      {ways.kind !== 'none' && <WaysSaid ways={ways} />}
       <div class="line">
         <FileButton change={change} />
         <span class="grow dim small" data-test="bag">{bag.kind === 'bag' ? `${bag.jobs.length} jobs, taken whole or not at all` : 'Ctrl + Enter sends'}</span>
@@ -78,6 +84,38 @@ export function NewJob({ app }: { app: App }) {
       {outcome.kind === 'judged' && <Judged judgements={outcome.judgements} show={motion && bag.kind === 'one' ? (t_s) => set_chosen({ t_s }) : null} />}
       {outcome.kind === 'refused' && <Refused problem={outcome.problem} />}
     </div>
+  );
+}
+
+type WaysState = { kind: 'none' } | { kind: 'planning' } | { kind: 'planned'; ways: Ways };
+
+/** The ways to the goals that are pasted, asked for once nobody types any more. */
+function use_ways(bag: Bag, app: App): WaysState {
+  const { store, api } = app;
+  const [state, set_state] = useState<{ of: Bag; ways: Ways } | null>(null);
+  const asks = store.link.status === 'open' && has_goal(bag, store);
+  useEffect(() => {
+    if (!asks) return;
+    let closed = false;
+    const timer = setTimeout(() => {
+      void ways_to_goals(bag, store, api).then((ways) => { if (!closed) set_state({ of: bag, ways }); });
+    }, kTyped_ms);
+    return () => {
+      closed = true;
+      clearTimeout(timer);
+    };
+  }, [bag, asks, store, api]);
+  return useMemo(() => (state?.of === bag ? { kind: 'planned', ways: state.ways } : { kind: asks ? 'planning' : 'none' }), [state, bag, asks]);
+}
+
+function WaysSaid({ ways }: { ways: Exclude<WaysState, { kind: 'none' }> }) {
+  if (ways.kind === 'planning') return <p class="hint" role="status" data-test="goal-way">Planning the way to the goal…</p>;
+  const { planned, left_out, problem } = ways.ways;
+  return (
+    <>
+      {planned > 0 && <p class="hint" role="status" data-test="goal-way">The {planned === 1 ? 'way is shown' : `${planned} ways are shown`} as it would be planned now; the server plans it again at its turn.{left_out > 0 && ` ${left_out} more ${left_out === 1 ? 'goal is' : 'goals are'} not shown.`}</p>}
+      {problem && <div data-test="goal-problem"><p class="small">There is no way to the goal as things are:</p><Refused problem={problem} /></div>}
+    </>
   );
 }
 

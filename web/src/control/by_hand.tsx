@@ -6,6 +6,7 @@ import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
 import { reason_in_words, why_mute } from '../wording';
+import { shown_name } from '../names';
 
 export function ByHand({ arm, app }: { arm: Arm; app: App }) {
   use_store(app.store);
@@ -50,12 +51,12 @@ function Control({ app }: { app: App }) {
   }
   return (
     <div class="line wrap">
-      <span class="grow dim">{holder ? <><b>{holder.who}</b> has control.</> : 'Nobody has control.'} One at a time moves arms by hand.</span>
+      <span class="grow dim">{holder ? <><b>{shown_name(holder.who)}</b> has control.</> : 'Nobody has control.'} One at a time moves arms by hand.</span>
       {!session.value?.name && (
         <label class="line">Your name <input class="name" type="text" value={settings.person.value} maxLength={100} autocomplete="name" data-test="control-person" onInput={(event) => settings.set_person(event.currentTarget.value)} /></label>
       )}
       <button class="small" data-test="take-control" disabled={mute !== null} title={mute ?? (holder ? 'What they hold brakes on its path' : 'To move arms by hand')}
-        onClick={() => void hand.take(who)}>{holder ? `Take control from ${holder.who}` : 'Take control'}</button>
+        onClick={() => void hand.take(who)}>{holder ? `Take control from ${shown_name(holder.who)}` : 'Take control'}</button>
     </div>
   );
 }

@@ -9,6 +9,7 @@ import { clock } from '../wording';
 import { Navigation } from './navigation';
 import { use_staleness } from './staleness';
 import { StopButton } from './stop_button';
+import { shown_name } from '../names';
 
 export function Header({ app }: { app: App }) {
   use_store(app.store);
@@ -17,7 +18,7 @@ export function Header({ app }: { app: App }) {
     <header class="header">
       <Logo />
       <h1>Armloom</h1>
-      <span class="fact gives-way" title={store.cell?.name}><b data-test="cell">{store.cell?.name ?? '–'}</b></span>
+      <span class="fact gives-way" title={shown_name(store.cell?.name ?? '')}><b data-test="cell">{shown_name(store.cell?.name ?? '–')}</b></span>
       {store.cell?.simulated && <span class="badge" title="The arms of this server are simulated; no drive moves" data-test="simulated">SIMULATED</span>}
       <Navigation app={app} />
       <span class="spacer" />
@@ -38,7 +39,8 @@ export function Header({ app }: { app: App }) {
 function InControl({ app }: { app: App }) {
   const holder = app.hand.holder.value;
   if (!holder) return null;
-  const who = app.hand.key.value === null ? holder.who : `you (${holder.who})`;
+  const name = shown_name(holder.who);
+  const who = app.hand.key.value === null ? name : `you (${name})`;
   return (
     <span class="fact gives-way" data-test="in-control" title={`${who} has control since ${wall_time(holder.since_at)}`}>
       control: {holder.arm === null ? who : <Link app={app} to={{ page: 'arm', name: holder.arm }}>{who}</Link>}

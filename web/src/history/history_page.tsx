@@ -8,7 +8,8 @@ import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
 import { use_store } from '../state/use_store';
 import { short_wall_time, wall_time } from '../wall_time';
-import { clock, result_in_words, seconds, short_id, why_mute } from '../wording';
+import { clock, result_in_words, seconds, title_of, why_mute } from '../wording';
+import { shown_name } from '../names';
 
 const kShown = 100;
 
@@ -67,8 +68,8 @@ function Line({ job, app, former }: { job: Job; app: App; former: boolean }) {
   return (
     <tr class={job.state}>
       <td class="mono whole" title={wall_time(job.ended_at ?? '')}>{job.ended_s === null ? '–' : former ? short_wall_time(job.ended_at ?? '', Date.now()) : clock(job.ended_s)}</td>
-      <td><Link app={app} to={{ page: 'job', id: job.id }}>{job.name || short_id(job.id)}</Link></td>
-      <td class="whole">{job.arms.map((arm) => <span key={arm} class="tag" style={{ '--arm': arm_colour(arms, arm) }}>{arm}</span>)}</td>
+      <td><Link app={app} to={{ page: 'job', id: job.id }} title={job.id}>{title_of(job)}</Link></td>
+      <td class="whole">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_colour(arms, arm) }}>{shown_name(arm)}</span>)}</td>
       <td class="verdict whole">{job.state}</td>
       <td class="mono whole">{seconds(waited_s)}</td>
       <td class="mono whole">{ran}</td>

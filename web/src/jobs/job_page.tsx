@@ -18,6 +18,7 @@ import { asked_of, Copy } from './copy';
 import { curl_of, python_of } from './snippets';
 import { states_of } from './states';
 import { when_in_words } from './when';
+import { shown_json, shown_name } from '../names';
 
 interface Props { job: Job; app: App }
 
@@ -29,15 +30,15 @@ export function JobPage({ id, app }: { id: string; app: App }) {
   const ask = job === null && connected;
   useEffect(() => { if (ask) void app.archive.find(id); }, [app, id, ask]);
   useEffect(() => (goes_on ? app.actions.follow_job(id) : undefined), [app, id, goes_on]);
-  if (!job) return <><h2 class="ellipsis">{id}</h2><p class="hint">{app.store.stream === null ? 'Not connected yet.' : 'The server has no job of this name, or has forgotten it.'}</p></>;
+  if (!job) return <><h2 class="ellipsis">{shown_name(id)}</h2><p class="hint">{app.store.stream === null ? 'Not connected yet.' : 'The server has no job of this name, or has forgotten it.'}</p></>;
   const former = app.store.job(id) === null;
   const words = job.result ? result_in_words(job) : reason_in_words(job);
   const arms = [...app.store.arms.keys()];
   return (
     <div class="page">
-      <h2 class="ellipsis">{job.name || job.id}</h2>
+      <h2 class="ellipsis" title={shown_name(job.name) || job.id}>{shown_name(job.name) || job.id}</h2>
       <p class="hint line">
-        {job.arms.map((arm) => <Link key={arm} app={app} to={{ page: 'arm', name: arm }} class="tag link-tag"><span style={{ color: arm_colour(arms, arm) }}>{arm}</span></Link>)}
+        {job.arms.map((arm) => <Link key={arm} app={app} to={{ page: 'arm', name: arm }} class="tag link-tag"><span style={{ color: arm_colour(arms, arm) }}>{shown_name(arm)}</span></Link>)}
         <span class={`state-word ${told_state(job)}`} data-test="job-state">{told_state(job)}</span>
         <span class="mono ellipsis">{job.id}</span>
       </p>
@@ -54,7 +55,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
         <Copy what="curl" text={() => curl_of(job, asked_of(app))} />
         <Copy what="Python" text={() => python_of(job, asked_of(app))} />
       </div>
-      <pre class="mono" data-test="raw" tabIndex={0} aria-label="The job as JSON">{pretty(job)}</pre>
+      <pre class="mono" data-test="raw" tabIndex={0} aria-label="The job as JSON">{shown_json(pretty(job))}</pre>
     </div>
   );
 }

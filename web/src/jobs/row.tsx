@@ -10,8 +10,9 @@ import { is_terminal } from '../state/job_book';
 import { arm_colour } from '../state/palette';
 import { told_state } from '../state/standing';
 import { use_store } from '../state/use_store';
-import { figure_in_words, reason_in_words, result_in_words, short_id, why_mute } from '../wording';
+import { figure_in_words, reason_in_words, result_in_words, short_id, title_of, why_mute } from '../wording';
 import { when_in_words } from './when';
+import { shown_name } from '../names';
 
 interface Props { job: Job; app: App }
 
@@ -31,8 +32,8 @@ export function Row({ job, app }: Props) {
     >
       <Link app={app} to={selected && place.page === 'job' ? { page: 'cell' } : { page: 'job', id: job.id }} class="open" title={`Details of ${job.id}`}>
         <span class="line">
-          {job.arms.map((arm) => <span key={arm} class="tag" style={{ '--arm': arm_colour(arms, arm) }}>{arm}</span>)}
-          <span class="ellipsis title" title={job.name || job.id}>{job.name || short_id(job.id)}</span>
+          {job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_colour(arms, arm) }}>{shown_name(arm)}</span>)}
+          <span class="ellipsis title" title={shown_name(job.name) || job.id}>{title_of(job)}</span>
           {job.name !== '' && <span class="id ellipsis" title={job.id}>{short_id(job.id)}</span>}
           {job.priority !== 0 && <span class="priority" title="Priority: larger goes first">{job.priority > 0 ? `+${job.priority}` : job.priority}</span>}
           <span class="grow" />

@@ -3,7 +3,7 @@
 import type { Arm, Job } from '../server/messages';
 import { is_stopped, state_of } from '../state/standing';
 import type { Notice, Store } from '../state/store';
-import { short_id } from '../wording';
+import { title_of } from '../wording';
 
 /** The last thing that stopped arms; null: nothing that this page has heard. */
 export function cause_of(notices: readonly Notice[]): Notice | null {
@@ -22,7 +22,7 @@ const kAtHome_rad = 0.02;
 export function need_of(arm: Arm, job: Job | null, q: readonly number[]): Need {
   const off_rad = Math.max(0, ...arm.home.map((home, i) => Math.abs((q[i] ?? home) - home)));
   const away = off_rad > kAtHome_rad;
-  const name = job ? job.name || short_id(job.id) : '';
+  const name = job ? title_of(job) : '';
   switch (state_of(arm, job)) {
     case 'fault':
       return { words: 'Its controller is at fault: what it did has failed. Clear the fault there, then resume it.', resume: true, home: false };

@@ -10,6 +10,7 @@ import { use_store } from '../state/use_store';
 import { clock, why_mute } from '../wording';
 import { kChecks } from './checklist';
 import { cause_of, need_of, waiting_arms } from './needs';
+import { shown_name, shown_text } from '../names';
 
 const kHomeSpeed = 0.3;
 
@@ -22,7 +23,7 @@ export function RecoveryPage({ app }: { app: App }) {
   return (
     <div class="page" data-test="recovery">
       <h2>Recovery</h2>
-      <p class="words" data-test="cause">{cause ? <><span class="mono">{clock(cause.t_s)}</span> {cause.text}</> : waiting.length > 0 ? 'The arms were stopped before this page listened.' : 'No arm was stopped since this page listens.'}</p>
+      <p class="words" data-test="cause">{cause ? <><span class="mono">{clock(cause.t_s)}</span> {shown_text(cause.text)}</> : waiting.length > 0 ? 'The arms were stopped before this page listened.' : 'No arm was stopped since this page listens.'}</p>
       <p class="hint">{waiting.length === 0 ? 'No arm waits to be resumed.' : `${waiting.length} of ${arms.length} arms stand until they are resumed.`}{' '}
         <Link app={app} to={{ page: 'alerts' }}>Alerts</Link></p>
       <h3>1. Look</h3>
@@ -62,12 +63,12 @@ function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) 
   const mute = why_mute(store.link) ?? (guarded ? 'First what is to be looked at, above' : null);
   return (
     <li data-test={`need-${arm.name}`} style={{ '--arm': arm_colour([...store.arms.keys()], arm.name) }}>
-      <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{arm.name}</Link><StatePill arm={arm} app={app} /></div>
+      <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{shown_name(arm.name)}</Link><StatePill arm={arm} app={app} /></div>
       <p>{need.words}</p>
       <div class="line">
-        {need.resume && <button class="small" data-test={`resume-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.resume_arm(arm.name)}>Resume {arm.name} alone</button>}
+        {need.resume && <button class="small" data-test={`resume-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.resume_arm(arm.name)}>Resume {shown_name(arm.name)} alone</button>}
         {need.resume && job && <Link app={app} to={{ page: 'job', id: job.id }}>Its job</Link>}
-        {need.home && <button class="small" data-test={`home-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.send_to(arm.name, 'home', kHomeSpeed)}>Send {arm.name} home, slowly</button>}
+        {need.home && <button class="small" data-test={`home-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.send_to(arm.name, 'home', kHomeSpeed)}>Send {shown_name(arm.name)} home, slowly</button>}
       </div>
     </li>
   );

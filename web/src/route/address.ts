@@ -11,6 +11,8 @@
 //   &run=7997886f           the run of the server that it is a time of, by the beginning of its stream's id
 //   ?camera=x,y,z,x,y,z     where the camera stands and what it looks at, in metres
 
+import { shown_name } from '../names';
+
 export type Place =
   | { page: 'cell' } | { page: 'new' } | { page: 'history' } | { page: 'settings' }
   | { page: 'alerts' } | { page: 'recovery' } | { page: 'recordings' } | { page: 'policies' }
@@ -99,10 +101,10 @@ function place_text(place: Place): string {
 export function place_in_words(place: Place): string {
   switch (place.page) {
     case 'cell': return 'Cell';
-    case 'job': return `Job ${place.id}`;
-    case 'arm': return `Arm ${place.name}`;
-    case 'pair': return `${place.a} and ${place.b}`;
-    case 'scene': return place.name === null ? 'Scene' : `Object ${place.name}`;
+    case 'job': return `Job ${shown_name(place.id)}`;
+    case 'arm': return `Arm ${shown_name(place.name)}`;
+    case 'pair': return `${shown_name(place.a)} and ${shown_name(place.b)}`;
+    case 'scene': return place.name === null ? 'Scene' : `Object ${shown_name(place.name)}`;
     case 'new': return 'New job';
     case 'history': return 'History';
     case 'settings': return 'Settings';

@@ -8,6 +8,7 @@ import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
 import { why_mute } from '../wording';
 import { blank_form, edits_since, fields_of, form_of, kKinds, object_of, with_edits, type Edits, type Kind } from './object_form';
+import { shown_name } from '../names';
 
 export function ScenePage({ name, app }: { name: string | null; app: App }) {
   use_store(app.store);
@@ -21,12 +22,12 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
         {objects.map((object) => (
           <li key={object.name} class={object.name === name ? 'selected' : ''}>
             <Link app={app} to={{ page: 'scene', name: object.name }} class="open" current={object.name === name}>
-              <span class="ellipsis">{object.name}</span><span class="dim small">{size_in_words(object)}</span>
+              <span class="ellipsis" title={shown_name(object.name)}>{shown_name(object.name)}</span><span class="dim small">{size_in_words(object)}</span>
             </Link>
           </li>
         ))}
       </ul>
-      {name !== null && !chosen && <p class="hint">There is no object of the name {name}.</p>}
+      {name !== null && !chosen && <p class="hint">There is no object of the name {shown_name(name)}.</p>}
       {chosen && <HandButton name={chosen.name} app={app} />}
       {chosen?.mesh !== undefined
         ? <p class="hint">A mesh: change it through the API.</p>
@@ -76,7 +77,7 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
   };
   return (
     <form class="object-form" data-test="object-form" onSubmit={(event) => void submit(event)}>
-      <h3>{chosen ? `Change ${chosen.name}` : 'Add an object'}</h3>
+      <h3>{chosen ? `Change ${shown_name(chosen.name)}` : 'Add an object'}</h3>
       <div class="line wrap">
         <label>Name <input type="text" required maxLength={64} value={form.name} readOnly={chosen !== null} data-test="object-name"
           onInput={(event) => edit({ name: event.currentTarget.value })} /></label>
@@ -109,6 +110,6 @@ function Remove({ object, app }: { object: SceneObject; app: App }) {
     if (await app.actions.ask(`Remove ${object.name}`, app.api.remove_object(object.name))) app.router.go({ page: 'scene', name: null });
   };
   return asked
-    ? <><button type="button" class="danger" data-test="object-removal" onClick={() => void remove()}>Remove {object.name}</button><button type="button" onClick={() => set_asked(false)}>Keep</button></>
+    ? <><button type="button" class="danger" data-test="object-removal" onClick={() => void remove()}>Remove {shown_name(object.name)}</button><button type="button" onClick={() => set_asked(false)}>Keep</button></>
     : <button type="button" data-test="object-remove" onClick={() => set_asked(true)}>Remove…</button>;
 }

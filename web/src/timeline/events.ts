@@ -5,6 +5,7 @@ import { ink } from '../state/palette';
 import type { Notice } from '../state/store';
 import { clock, seconds } from '../wording';
 import { kAxis_px, kLeft_px, kRight_px, type Sheet } from './sheet';
+import { shown_name, shown_text } from '../names';
 
 export type EventMark = Pick<Notice, 'key' | 't_s' | 'level' | 'text' | 'arms'>;
 
@@ -66,8 +67,8 @@ export function events_in_words(events: readonly EventMark[], now_s: number): st
 
 function event_in_words({ level, t_s, text, arms }: EventMark, now_s: number): string {
   const unnamed = arms.filter((arm) => !names(text, arm));
-  const of = unnamed.length === 0 ? '' : ` (${unnamed.join(' and ')})`;
-  return `${kNames[level]} at ${clock(t_s)}, ${seconds(Math.max(0, now_s - t_s))} ago: ${text}${of}`;
+  const of = unnamed.length === 0 ? '' : ` (${unnamed.map(shown_name).join(' and ')})`;
+  return `${kNames[level]} at ${clock(t_s)}, ${seconds(Math.max(0, now_s - t_s))} ago: ${shown_text(text)}${of}`;
 }
 
 /** Whether an arm stands in a text as a word of its own, not as the beginning of a link's name. */

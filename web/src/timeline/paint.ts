@@ -6,6 +6,7 @@ import { draw_events, type EventMark } from './events';
 import { drawn_of, type Lane, type Mark } from './lanes';
 import { kAxis_px, kLeft_px, kRight_px, lane_height, type Sheet } from './sheet';
 import { tick_of } from './span';
+import { shown_name } from '../names';
 
 /** What is looked at: the rest is dimmed. And the instant that is held, if one is. */
 export interface Lit { jobs: readonly string[]; arms: readonly string[]; held_s: number | null; events: readonly EventMark[] }
@@ -110,7 +111,15 @@ function draw_name(g: CanvasRenderingContext2D, row: Row, name: string): void {
   g.font = `600 ${row.height < 18 ? 10.5 : 12}px ${kFont}`;
   g.textAlign = 'left';
   g.textBaseline = 'middle';
-  g.fillText(name, 14, row.bar_top + row.bar_height / 2, kLeft_px - 20);
+  g.fillText(cut(g, shown_name(name), kLeft_px - 20), 14, row.bar_top + row.bar_height / 2);
+}
+
+/** As much of a name as has room. */
+function cut(g: CanvasRenderingContext2D, text: string, room_px: number): string {
+  if (g.measureText(text).width <= room_px) return text;
+  const letters = [...text];
+  while (letters.length > 1 && g.measureText(`${letters.join('')}…`).width > room_px) letters.length -= letters.length > 24 ? 12 : 1;
+  return `${letters.join('')}…`;
 }
 
 function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Mark, dim: boolean, hover: boolean): void {
@@ -171,7 +180,8 @@ function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, 
   g.textBaseline = 'middle';
   const begin = Math.max(left, kLeft_px);
   const room = left + width - begin - 9;
-  const text = [mark.label, mark.label.replace(/^[^:]*: /, ''), short_id(mark.job)].find((name) => name !== '' && g.measureText(name).width < room);
+  const name = shown_name(mark.label);
+  const text = [name, name.replace(/^[^:]*: /, ''), short_id(mark.job)].find((name) => name !== '' && g.measureText(name).width < room);
   if (!text) return;
   g.fillStyle = colour;
   g.fillText(text, begin + 5, row.bar_top + row.bar_height / 2 + 0.5);

@@ -2,9 +2,10 @@
 
 import { clock, seconds, short_id, wait_in_words } from '../wording';
 import type { Lane, Mark } from './lanes';
+import { shown_name } from '../names';
 
 export function mark_in_words(mark: Mark, now_s: number): string {
-  const title = mark.label || short_id(mark.job);
+  const title = shown_name(mark.label) || short_id(mark.job);
   const until = Number.isFinite(mark.to_s) ? `until ${clock(mark.to_s)}` : mark.stopped ? 'until it is resumed' : 'with no end as things are';
   if (mark.kind === 'motion') return `${title}: ${expectation(mark)}${clock(mark.from_s)} to ${Number.isFinite(mark.to_s) ? clock(mark.to_s) : 'no end as things are'}`;
   const why = mark.stopped && mark.waits_on === null ? 'was stopped' : mark.waits_on ? wait_in_words(mark.waits_on) : mark.kind === 'wait' ? 'waits before its start' : 'stands on its way';

@@ -71,7 +71,7 @@ function InstantMark({ app }: { app: App }) {
   if (instant.kind === 'kept') return <div class="instant-mark" data-test="instant">Looking back at {clock(instant.t_s)}, not at now</div>;
   const { first_s } = store.trace;
   return (
-    <div class="unheard" role="status" data-test="unheard">
+    <div class="unheard" role="status" data-test="unheard" style={{ '--covered': `${app.covered_px.value}px` }}>
       <p><b>The arms are not shown: <span class="mono">{clock(instant.t_s)}</span> was not heard here.</b></p>
       <p class="dim">{why_unheard(instant.why, store)}</p>
       <div class="line">

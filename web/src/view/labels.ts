@@ -3,6 +3,7 @@
 import type { ArmState } from '../server/messages';
 import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
 import { stacked } from './stacking';
+import { shown_name } from '../names';
 
 const kHeight_px = 22;
 const kGap_px = 4;
@@ -24,7 +25,7 @@ export class ArmLabels {
       this.host_.append(label.element);
       label.element.classList.toggle('lit', this.lit_.includes(arm));
     }
-    label.name.textContent = arm;
+    label.name.textContent = shown_name(arm);
     const words = `${kStateGlyphs[state]} ${state}`;
     if (label.state.textContent !== words) label.width_px = 0;
     label.state.textContent = words;

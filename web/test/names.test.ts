@@ -1,0 +1,37 @@
+import { describe, expect, it } from 'vitest';
+import { shown_json, shown_name, shown_text } from '../src/names';
+
+describe('names from users', () => {
+  it('are shown as they are', () => {
+    for (const name of ['', 'pick 7', '<b>&amp;', 'Größe Ω', '拾う', '👩‍🔬 lab', 'a‐b', 'e\u0301']) expect(shown_name(name)).toBe(name);
+  });
+
+  it('are told as blank where nothing of them is seen', () => {
+    for (const name of [' ', '   ', '\u00a0\u2003']) expect(shown_name(name)).toBe('(blank)');
+    for (const name of ['\u200b', '\u3164', '\u2800', '\u2060\u200d']) expect(shown_name(name)).toMatch(/^(⟨U\+[0-9A-F]{4}⟩)+$/);
+  });
+
+  it('cannot turn the direction of what stands beside them, nor pass for another name', () => {
+    expect(shown_name('\u202epots lla')).toBe('⟨U+202E⟩pots lla');
+    expect(shown_name('pi\u200dck')).not.toBe('pick');
+    expect(shown_name('left\u2066\u2069')).toBe('left⟨U+2066⟩⟨U+2069⟩');
+    // A name that is written from the right keeps to its own place.
+    expect(shown_name('שלום')).toBe('\u2068שלום\u2069');
+  });
+
+  it('cannot grow out of their line', () => {
+    expect(shown_name('a\nb')).toBe('a⟨U+000A⟩b');
+    expect(shown_name(`Z${'\u0301'.repeat(40)}`)).toBe('Z\u0301\u0301');
+  });
+
+  it('are no other ones in JSON that is shown', () => {
+    const job = { name: '\u202epots\u200b 👩‍🔬', note: 'a\nb' };
+    const shown = shown_json(JSON.stringify(job, null, 2));
+    expect(shown).not.toMatch(/[\u202e\u200b]/);
+    expect(JSON.parse(shown)).toEqual(job);
+  });
+
+  it('within texts of the server are treated alike', () => {
+    expect(shown_text('\u202e acknowledged: stopped')).toBe('⟨U+202E⟩ acknowledged: stopped');
+  });
+});
