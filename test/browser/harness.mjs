@@ -84,7 +84,7 @@ export class Browser {
     });
     this.page = this.context.pages()[0] ?? await this.context.newPage();
     this.page.setDefaultTimeout(kPatience_ms);
-    this.page.on('console', (message) => { if (message.type() === 'error') this.errors.push(message.text()); });
+    this.page.on('console', (message) => { if (message.type() === 'error') this.errors.push(`${message.text()} ${message.location().url}`); });
     this.page.on('pageerror', (error) => this.errors.push(String(error)));
     return this.page;
   }

@@ -138,5 +138,6 @@ test('what is old is shown as old, with its age, and as fresh once more is heard
 });
 
 test('nothing so far was an error in the console', () => {
-  assert.deepEqual(chromium.errors.filter((text) => !/409 \(|404 \(/.test(text)), []);
+  // Somebody else took control of an arm that was held here: it could be heard too late.
+  assert.deepEqual(chromium.errors.filter((text) => !/409 \(Conflict\).*\/hold$/.test(text)), []);
 });

@@ -202,6 +202,32 @@ test('names never become HTML', { timeout: 60_000 }, async () => {
   }
   await page.locator('[data-test=list-finished] [data-test="job-hostile"]').waitFor();
   assert.equal(await page.evaluate(() => window.was_html), 0);
+  // Nor do they pass for other ones, or break a line: blank, written backwards, without end, in marks piled up.
+  const strange = { blank: '   ', turned: '\u202edeeccus', long: 'W'.repeat(256), piled: `a${'\u0301'.repeat(200)}`, hebrew: '\u05e9\u05dc\u05d5\u05dd 7' };
+  for (const [id, name] of Object.entries(strange)) {
+    const { names, q } = await arm_now(page, 'right');
+    assert.equal((await ask(page, 'POST', '/jobs', job_through(`name-${id}`, names, [q, q], 1, { name }))).status, 202);
+  }
+  const row = (id) => page.locator(`[data-test="job-name-${id}"]`);
+  for (const id of Object.keys(strange)) await row(id).waitFor();
+  assert.match(await row('blank').innerText(), /\(blank\)/);
+  assert.match(await row('turned').innerText(), /⟨U\+202E⟩deeccus/);
+  const before = page.viewportSize();
+  for (const width of [1024, 1440]) {
+    await page.setViewportSize({ width, height: 800 });
+    for (const hash of ['#/job/name-long', '#/job/name-turned', '#/history', '#/pair/name-long/first']) {
+      await go(hash);
+      await page.locator('.pane h2').first().waitFor();
+      const wide = await page.evaluate(() => [document.documentElement, document.querySelector('.pane-body'), document.querySelector('.jobs'), ...document.querySelectorAll('.job')].filter((box) => box.scrollWidth > box.clientWidth + 1).map((box) => box.className || box.tagName));
+      assert.deepEqual(wide, [], `${hash} at ${width} px`);
+      assert.doesNotMatch(await page.title(), /\u202e/);
+    }
+    // Ids stay where names are long.
+    assert.ok(await row('long').locator('.id').evaluate((id) => id.checkVisibility() && id.clientWidth > 30), `${width} px`);
+    await page.screenshot(path_for(`names-${width}`));
+  }
+  await page.setViewportSize(before);
+  await go('#/');
   // And were it HTML after all, the page's policy of content would let it do nothing.
   const stopped = await page.evaluate((html) => new Promise((done) => {
     document.addEventListener('securitypolicyviolation', (event) => done(event.violatedDirective), { once: true });
@@ -321,7 +347,7 @@ test('a diagram of two arms follows what they do, and has the way that was measu
 });
 
 test('nothing so far was an error in the console', () => {
-  assert.deepEqual(chromium.errors.filter((text) => !/404 \(Not Found\)|422 \(|inline event handler violates/.test(text)), []);
+  assert.deepEqual(chromium.errors.filter((text) => !/404 \(Not Found\).*\/jobs\/%3Cimg|422 \(.*\/scene\/objects\/can|inline event handler violates/.test(text)), []);
 });
 
 test('a server that is started anew is found again without a reload', { timeout: 60_000 }, async () => {

@@ -50,7 +50,7 @@ const timers: Timers = {
   clear: (id) => window.clearTimeout(id),
 };
 const alerts = new AlertList(api, timers);
-const hand = new Hand(api, timers);
+const hand = new Hand(api, timers, (id) => store.book.has_ended(id));
 const session = signal<Session | null>(null);
 const connection = new Connection({
   url: `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${kBase}/ws`,

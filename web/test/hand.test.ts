@@ -14,7 +14,7 @@ const settled = () => new Promise((done) => setTimeout(done, 0));
 function bench() {
   const said: string[] = [];
   const timers: (() => void)[] = [];
-  const server = { renews: true, holder: holder('Ada') as Control['holder'] };
+  const server = { renews: true, has_ended: false, holder: holder('Ada') as Control['holder'] };
   let answer_hold: (answer: Answer<Hold>) => void = () => undefined;
   const hand = new Hand({
     control: () => fine<Control>({ holder: server.holder }),
@@ -23,7 +23,7 @@ function bench() {
     hold: (arm, state, key) => { said.push(`hold ${arm} ${state} ${key}`); return new Promise((done) => { answer_hold = done; }); },
     renew_hold: (arm) => { said.push(`renew ${arm}`); return server.renews ? fine<Hold>({ job, lease_s: 0.5 }) : refused('not-in-control'); },
     cancel_job: (id) => { said.push(`cancel ${id}`); return fine(null); },
-  }, { set: (callback) => timers.push(callback), clear: () => undefined });
+  }, { set: (callback) => timers.push(callback), clear: () => undefined }, () => server.has_ended);
   return { hand, said, timers, server, accept: () => answer_hold({ ok: true, value: { job, lease_s: 0.5 } }) };
 }
 
@@ -69,6 +69,20 @@ describe('moves by hand', () => {
     await settled();
     await settled();
     expect([hand.held.value, hand.key.value, hand.refusal.value, hand.holder.value?.who]).toEqual([null, null, 'Bob has control', 'Bob']);
+  });
+
+  it('are asked for no more once the arm is there: nothing is renewed, nothing cancelled', async () => {
+    const { hand, said, timers, server, accept } = bench();
+    await hand.take('Ada');
+    void hand.press('left', 'ready');
+    accept();
+    await settled();
+    server.has_ended = true;
+    timers.shift()?.();
+    await settled();
+    hand.let_go();
+    expect(said).toEqual(['take Ada', 'hold left ready k']);
+    expect([hand.held.value, hand.refusal.value, timers.length]).toEqual([null, null, 0]);
   });
 
   it('end when control is given back', async () => {

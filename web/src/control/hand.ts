@@ -23,7 +23,8 @@ export class Hand {
   readonly refusal = signal<string | null>(null);
   private asked_ = 0;  // each press has a number, so that late answers are known
 
-  constructor(private readonly api_: HandApi, private readonly timers_: Timers) {}
+  /** `has_ended`: whether the page has heard that a job has: its hold is not asked for any more. */
+  constructor(private readonly api_: HandApi, private readonly timers_: Timers, private readonly has_ended_: (job: string) => boolean = () => false) {}
 
   async look(): Promise<void> {
     const answer = await this.api_.control();
@@ -71,7 +72,7 @@ export class Hand {
     if (!held) return;
     ++this.asked_;
     this.held.value = null;
-    if (held.job !== null) void this.api_.cancel_job(held.job);
+    if (held.job !== null && !this.has_ended_(held.job)) void this.api_.cancel_job(held.job);
   }
 
   private beat(asked: number, lease_s: number): void {
@@ -80,6 +81,10 @@ export class Hand {
       const held = this.held.value;
       const key = this.key.value;
       if (!held || key === null || this.asked_ !== asked) return;
+      if (held.job !== null && this.has_ended_(held.job)) {
+        this.held.value = null;  // it is there
+        return;
+      }
       void this.api_.renew_hold(held.arm, key).then((answer) => {
         if (answer.ok || this.asked_ !== asked) return;
         this.held.value = null;  // it is there, or somebody else has taken control

@@ -4,6 +4,7 @@ import { useState } from 'preact/hooks';
 import type { Cell } from '../server/messages';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
+import { why_no_change } from '../policies/change';
 import { why_mute } from '../wording';
 
 type Policy = Cell['scheduling']['policy'];
@@ -22,7 +23,7 @@ export function PolicyForm({ app }: { app: App }) {
   const { store } = app;
   const [chosen, set_chosen] = useState<string | null>(null);
   const policy = chosen ?? store.policy;
-  const mute = why_mute(store.link);
+  const mute = why_mute(store.link) ?? why_no_change(store);
   return (
     <form
       data-test="policy-form"
@@ -40,11 +41,11 @@ export function PolicyForm({ app }: { app: App }) {
           </label>
         ))}
       </fieldset>
-      <button data-test="change-policy" disabled={mute !== null || policy === store.policy}>
+      <button data-test="change-policy" disabled={mute !== null || policy === store.policy} title={mute ?? ''}>
         {policy === store.policy ? 'In force' : `Change to ${policy}`}
       </button>
       <p class="hint">
-        Only while no job is admitted; jobs that wait are judged anew. Until the next start of the server: a cell
+        {mute !== null && <b data-test="no-change">{mute}. </b>}Only while no job is admitted; jobs that wait are judged anew. Until the next start of the server: a cell
         file says for good.
       </p>
     </form>

@@ -11,6 +11,8 @@ const kAgain_ms = 400;
 export class Comparing {
   /** The one under way, or the last one; null: none that is known of. */
   readonly latest = signal<Comparison | null>(null);
+  /** The server was asked for the last one, and has none. */
+  readonly none_made = signal(false);
   readonly refusal = signal<string | null>(null);
   private timer_: number | null = null;
 
@@ -23,7 +25,10 @@ export class Comparing {
   async look(): Promise<void> {
     const answer = await this.api_.comparison();
     if (answer.ok) this.take(answer.value);
-    else if (answer.problem.status === 404) this.latest.value = null;
+    else if (answer.problem.status === 404) {
+      this.latest.value = null;
+      this.none_made.value = true;
+    }
     else if (this.latest.value?.state === 'running') this.again();  // the connection, perhaps
   }
 

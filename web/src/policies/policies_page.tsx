@@ -2,6 +2,7 @@
 
 import { useEffect } from 'preact/hooks';
 import { PolicyForm } from '../frame/policy_form';
+import { why_no_change } from './change';
 import type { Comparison, PolicyRun } from '../server/messages';
 import type { App } from '../state/app';
 import { use_store } from '../state/use_store';
@@ -11,7 +12,8 @@ import { ends_in_words, share_in_words } from './told';
 export function PoliciesPage({ app }: { app: App }) {
   use_store(app.store);
   const { comparing } = app;
-  useEffect(() => { void comparing.look(); }, [comparing]);
+  // One that is known of is looked at again; whether there is one is only asked by who wants to know.
+  useEffect(() => { if (comparing.latest.peek() !== null) void comparing.look(); }, [comparing]);
   return (
     <div class="columns policies">
       <section>
@@ -42,7 +44,8 @@ function Asking({ app }: { app: App }) {
         {is_running
           ? <button class="small" data-test="cancel-comparison" onClick={() => void comparing.cancel()}>Give up</button>
           : <button class="small" data-test="compare" disabled={mute !== null} title={mute ?? 'Runs in the background'} onClick={() => void comparing.start(null)}>Compare</button>}
-        <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : 'Not asked yet.'}</span>
+        {latest === null && <button class="small" data-test="look-comparison" disabled={mute !== null} title={mute ?? 'That another page has asked for'} onClick={() => void comparing.look()}>Show the last one</button>}
+        <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? 'None was made so far.' : 'Not asked by this page yet.'}</span>
       </div>
       {comparing.refusal.value !== null && <p class="refused" role="alert" data-test="comparison-refused">{comparing.refusal.value}</p>}
     </>
@@ -77,7 +80,7 @@ function Table({ comparison, app }: { comparison: Comparison; app: App }) {
 
 function Run({ run, jobs, longest_s, app }: { run: PolicyRun; jobs: number; longest_s: number; app: App }) {
   const { store, actions } = app;
-  const mute = why_mute(store.link);
+  const mute = why_mute(store.link) ?? why_no_change(store);
   const is_in_force = run.policy === store.policy;
   const ends = ends_in_words(run);
   return (
@@ -95,7 +98,7 @@ function Run({ run, jobs, longest_s, app }: { run: PolicyRun; jobs: number; long
       <td>{is_in_force
         ? <span class="dim">in force</span>
         : <button class="small" data-test={`use-${run.policy}`} disabled={mute !== null} aria-label={`Change to ${run.policy}`}
-          title={mute ?? 'While no job is admitted'} onClick={() => void actions.change_policy(run.policy)}>Use it</button>}</td>
+          title={mute ?? ''} onClick={() => void actions.change_policy(run.policy)}>Use it</button>}</td>
     </tr>
   );
 }
