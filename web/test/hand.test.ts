@@ -85,6 +85,20 @@ describe('moves by hand', () => {
     expect([hand.held.value, hand.refusal.value, timers.length]).toEqual([null, null, 0]);
   });
 
+  it('end when it is told that somebody else has control, before anything is refused', async () => {
+    const { hand, said, server, accept } = bench();
+    await hand.take('Ada');
+    await hand.look();
+    expect(hand.key.value).toBe('k');
+    void hand.press('left', 'ready');
+    accept();
+    await settled();
+    server.holder = holder('Bob');
+    await hand.look();
+    expect([hand.held.value, hand.key.value, hand.refusal.value]).toEqual([null, null, 'Bob has control']);
+    expect(said).not.toContain('cancel h');
+  });
+
   it('end when control is given back', async () => {
     const { hand, said, accept } = bench();
     await hand.take('Ada');

@@ -3,6 +3,7 @@
 // at once when the button is let go.
 
 import { signal } from '@preact/signals';
+import { shown_name } from '../names';
 import type { Answer, Api } from '../server/api';
 import type { Timers } from '../server/connection';
 import type { ControlHolder, Hold } from '../server/messages';
@@ -21,6 +22,8 @@ export class Hand {
   readonly key = signal<string | null>(null);
   readonly held = signal<Held | null>(null);
   readonly refusal = signal<string | null>(null);
+  /** As this page took control last. */
+  private taken_: ControlHolder | null = null;
   private asked_ = 0;  // each press has a number, so that late answers are known
 
   /** `has_ended`: whether the page has heard that a job has: its hold is not asked for any more. */
@@ -29,8 +32,15 @@ export class Hand {
   async look(): Promise<void> {
     const answer = await this.api_.control();
     if (!answer.ok) return;
-    this.holder.value = answer.value.holder;
-    if (answer.value.holder === null) this.key.value = null;
+    const { holder } = answer.value;
+    this.holder.value = holder;
+    const own = this.taken_;
+    if (this.key.value === null || (own && holder?.who === own.who && holder.since_at === own.since_at)) return;
+    // The server brakes what was held.
+    this.key.value = null;
+    this.held.value = null;
+    ++this.asked_;
+    if (holder) this.refusal.value = `${shown_name(holder.who)} has control`;
   }
 
   /** From somebody else where there is one. */
@@ -38,6 +48,7 @@ export class Hand {
     const answer = await this.api_.take_control(who);
     if (!this.told(answer)) return;
     this.holder.value = answer.value.holder;
+    this.taken_ = answer.value.holder;
     this.key.value = answer.value.key ?? null;
   }
 
