@@ -45,7 +45,7 @@ function More({ app }: { app: App }) {
       close();
       menu.current?.querySelector('summary')?.focus();
     }}>
-      <summary class={`tab${current ? ' current' : ''}`} data-test="more-pages" title="Other pages">{current?.title ?? 'More'}<span aria-hidden="true"> ▾</span></summary>
+      <summary class={`tab${current ? ' current' : ''}`} data-test="more-pages" title="Other pages">{current?.title ?? 'More'}<span class="opens" aria-hidden="true">▾</span></summary>
       <div class="more-list" onClick={close}>
         {pages.map((page) => <Tab key={page.title} page={page} app={app} />)}
       </div>

@@ -15,11 +15,11 @@ export class Checklist {
   private of_: string | null = null;
   private readonly left_ = computed(() => kChecks.length - this.ticked_.value.size);
 
-  constructor(private readonly store_: Pick<Store, 'arms' | 'job' | 'notices' | 'stream'>) {}
+  constructor(private readonly store_: Pick<Store, 'arms' | 'job' | 'events' | 'stream'>) {}
 
   /** After a change of the store: another stop, or that nothing stands stopped any more, takes the ticks away. */
   follow(): void {
-    const stop = waiting_arms(this.store_).length === 0 ? null : `${this.store_.stream} ${cause_of(this.store_.notices)?.key ?? ''}`;
+    const stop = waiting_arms(this.store_).length === 0 ? null : `${this.store_.stream} ${cause_of(this.store_.events)?.key ?? ''}`;
     if (stop === this.of_) return;
     this.of_ = stop;
     if (this.ticked_.peek().size > 0) this.ticked_.value = new Set();

@@ -19,7 +19,7 @@ export function RecoveryPage({ app }: { app: App }) {
   const { store } = app;
   const arms = [...store.arms.values()];
   const waiting = waiting_arms(store);
-  const cause = cause_of(store.notices);
+  const cause = cause_of(store.events);
   return (
     <div class="page" data-test="recovery">
       <h2>Recovery</h2>

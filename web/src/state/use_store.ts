@@ -1,11 +1,9 @@
 // Draws a component again when the store changes, and, if asked, some times a second while poses
-// come in (for clocks and progress bars). Changes that come in a burst are drawn once; by a timer, as a
-// browser that is busy with the 3D view gives out few animation frames.
+// come in (for clocks and progress bars).
 
 import { signal, type Signal } from '@preact/signals';
+import { Redraw } from './redraw';
 import type { Store } from './store';
-
-const kBurst_ms = 30;
 
 const drawings = new WeakMap<Store, Signal<number>>();
 
@@ -19,12 +17,8 @@ function drawings_of(store: Store): Signal<number> {
   if (known) return known;
   const drawn = signal(0);
   drawings.set(store, drawn);
-  let timer: number | null = null;
-  store.on_change(() => {
-    timer ??= window.setTimeout(() => {
-      timer = null;
-      drawn.value += 1;
-    }, kBurst_ms);
-  });
+  const timers = { set: (callback: () => void, delay_ms: number) => window.setTimeout(callback, delay_ms), clear: (id: number) => window.clearTimeout(id) };
+  const redraw = new Redraw(() => { drawn.value += 1; }, timers, () => performance.now());
+  store.on_change(() => redraw.ask());
   return drawn;
 }
