@@ -32,7 +32,7 @@ export function Row({ job, app }: Props) {
     >
       <Link app={app} to={selected && place.page === 'job' ? { page: 'cell' } : { page: 'job', id: job.id }} class="open" title={`Details of ${job.id}`}>
         <span class="line">
-          {job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_colour(arms, arm) }}>{shown_name(arm)}</span>)}
+          <span class="tags">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_colour(arms, arm) }}>{shown_name(arm)}</span>)}</span>
           <span class="ellipsis title" title={shown_name(job.name) || job.id}>{title_of(job)}</span>
           {job.name !== '' && <span class="id ellipsis" title={job.id}>{short_id(job.id)}</span>}
           {job.priority !== 0 && <span class="priority" title="Priority: larger goes first">{job.priority > 0 ? `+${job.priority}` : job.priority}</span>}
