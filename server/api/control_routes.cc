@@ -75,6 +75,8 @@ TimePoint lease_from(const Executive& executive, double lease_s, double speed) {
   return executive.now() + from_seconds(lease_s * speed);
 }
 
+Control::Time now() { return std::chrono::steady_clock::now(); }
+
 double lease_s(const ApiParts& parts) {
   return std::chrono::duration<double>(parts.hold_lease).count();
 }
@@ -128,7 +130,7 @@ void begin_hold(Call call) {
         [&parts, arm, respond, key = hold.control](const Result<JobView>& job) {
           // Somebody else may have taken control meanwhile.
           const bool is_still = parts.control.check(key).has_value();
-          if (job && is_still) parts.control.begin({arm, job->key});
+          if (job && is_still) parts.control.begin({arm, job->key, now()});
           if (job && !is_still) let_go(parts, Control::Move{arm, job->key});
           respond(hold_response(202, job, parts));
         });
@@ -148,6 +150,12 @@ void renew_hold(Call call) {
     if (!move || move->arm != arm) {
       return respond(problem_response({Problem{ProblemKind::conflict, "not-held", "",
                                                "arm " + arm + " is not moved by hand", arm}}));
+    }
+    if (!parts.control.renew(parts.hold_lease, now())) {
+      let_go(parts, move);
+      return respond(problem_response({Problem{
+          ProblemKind::conflict, "held-too-late", "",
+          "nobody said within the lease that " + arm + " is still held: it brakes", arm}}));
     }
     ask_urgently(
         parts,
@@ -207,7 +215,9 @@ std::vector<Route> control_routes() {
   begin.refuses = {404, 409, 422};
   begin.run = begin_hold;
   Route renew = command("PUT", "/arms/{name}/hold", "renewHold", "Go on moving an arm by hand");
-  renew.text = "409 when the move has ended, or who asks is not in control.";
+  renew.text =
+      "409 when the move has ended, who asks is not in control, or the last word came longer than "
+      "`lease_s` ago, whatever held it up: the move is over then.";
   renew.reads = body(control_key_format(), {{"key", R"({"control": "0f1e-2d3c"})"}});
   renew.outcomes = {outcome(200, "It goes on", hold_format())};
   renew.refuses = {404, 409, 422};

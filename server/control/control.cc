@@ -24,6 +24,13 @@ Result<std::optional<Control::Move>> Control::give_back(const std::string& key) 
   return move;
 }
 
+bool Control::renew(std::chrono::milliseconds lease, Time now) {
+  Move& move = *holder_->move;
+  if (now - move.held_at > lease) return false;
+  move.held_at = now;
+  return true;
+}
+
 Result<void> Control::check(const std::string& key) const {
   if (holder_ && equal_in_constant_time(key, key_)) return {};
   return failure(Problem{ProblemKind::conflict, "not-in-control", "/control",

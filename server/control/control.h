@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/problem.h"
 
@@ -12,9 +13,12 @@ namespace armloom {
 // may be given back, or taken by another. Jobs of programs need no control. On the server's thread.
 class Control {
  public:
+  // On the machine's own clock: the cell's stands still while the process is stopped.
+  using Time = std::chrono::steady_clock::time_point;
   struct Move {
     std::string arm;
     std::string job;  // its key
+    Time held_at{};   // when it was said last that the button is held
   };
   struct Holder {
     std::string who;  // for people
@@ -33,6 +37,9 @@ class Control {
   [[nodiscard]] Result<void> check(const std::string& key) const;
   // Precondition: somebody holds it.
   void begin(Move move) { holder_->move = std::move(move); }
+  // Its button is said to be held at `now`: whether the word came within the lease. One that comes
+  // late finds that the move is over. Precondition: somebody holds it, and moves something.
+  [[nodiscard]] bool renew(std::chrono::milliseconds lease, Time now);
 
   [[nodiscard]] const std::optional<Holder>& holder() const { return holder_; }
 
