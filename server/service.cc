@@ -59,9 +59,9 @@ class Service::Impl {
       http_server->post(std::move(task));
     };
     alerts_ = std::make_unique<AlertBook>(stream_, *clock_, keeper_.get());
-    broadcast_ = std::make_unique<Broadcast>(
-        Broadcast::Parts{cell, stream_, *clock_, hub_, recording_.get(), keeper_.get(), *alerts_,
-                         post, options_.log, *metrics_});
+    broadcast_ = std::make_unique<Broadcast>(Broadcast::Parts{
+        cell, stream_, *clock_, hub_, recording_.get(), keeper_.get(), *alerts_, post, options_.log,
+        [this](Alert alert) { tell(std::move(alert)); }, *metrics_});
     ExecutiveOptions executive_options{.policy = options_.policy};
     std::optional<Restart> restart;
     if (keeper_) {
@@ -101,6 +101,9 @@ class Service::Impl {
       return refused;
     };
     site.refuse = refusal_response;
+    site.is_never_limited = [this](const Request& request) {
+      return router_.is_never_limited(request);
+    };
     const bool everywhere = options_.address == "0.0.0.0" || options_.address == "::";
     site.hosts = HostRule{options_.allowed_hosts, options_.allowed_origins, everywhere};
     site.keep_alive = options_.keep_alive;
@@ -156,7 +159,9 @@ class Service::Impl {
     const std::string& policy = options.policy.empty() ? cell->scheduling.policy : options.policy;
     auto inputs =
         InputFile::create(recording_->folder(), {policy, options.seed, options.first_job.value()},
-                          {cell, post, [this](const std::string& what) { alarm(what); }});
+                          {cell, post, [this](const std::string& what) {
+                             tell({Alert::Level::error, what});
+                           }});
     if (!inputs) return std::move(inputs.error());
     inputs_ = std::move(*inputs);
     options.inputs = inputs_.get();
@@ -179,6 +184,11 @@ class Service::Impl {
     // Before whatever comes from outside, stops and resumes too.
     loop_->post_urgent([this, cell, restart = std::make_shared<Restart>(std::move(restart))](
                            Executive& executive) { restart->go_on(executive, *cell, *keeper_); });
+  }
+
+  // To everybody who is told of the executive's.
+  void tell(Alert alert) {
+    loop_->post([alert = std::move(alert)](Executive& executive) { executive.alert(alert); });
   }
 
   void alarm(const std::string& what) { options_.log({LogLine::Level::error, what}); }

@@ -46,6 +46,10 @@ Result<JobView> Executive::cancel(const std::string& key, std::optional<TimePoin
                  : ExecutiveInput{ExecutiveInput::Canceled{key}});
   return impl_->cancel(key, at);
 }
+void Executive::withdraw(const std::string& key) {
+  impl_->note({ExecutiveInput::Withdrawn{key}});
+  impl_->withdraw(key);
+}
 Result<JobView> Executive::amend(const std::string& key, JobAmendment amendment) {
   impl_->note({ExecutiveInput::Amended{key, amendment}});
   return impl_->amend(key, std::move(amendment));

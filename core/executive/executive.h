@@ -62,6 +62,8 @@ class Observer {
   virtual void on_rest(bool /*at_rest*/) {}
   // Other arms than before are stopped until they are resumed. None are at the beginning.
   virtual void on_stops(const std::vector<ArmId>& /*stopped*/) {}
+  // A question of the scheduler is answered, which took so many collision evaluations.
+  virtual void on_judged(std::uint64_t /*evaluations*/) {}
   // Every monitor period.
   virtual void on_state(const StateFrame& frame) = 0;
 };
@@ -189,6 +191,9 @@ class Executive {
   // Now, or at `at` by the control cycle itself, unless this is called again before with another
   // instant (hold_to_run.h). Problems: not_found; conflict when it has ended.
   [[nodiscard]] Result<JobView> cancel(const std::string& key, std::optional<TimePoint> at = {});
+  // Nobody was told that it was accepted, and nobody will be: it ends as a cancelled one does, and
+  // is not known any more then; its key is free.
+  void withdraw(const std::string& key);
   // Counts at once (scheduler/amending.h). Problems: those of cancel().
   [[nodiscard]] Result<JobView> amend(const std::string& key, JobAmendment amendment);
   // Another way for the job, from where its arm stands to where its own way ends, given what else

@@ -72,6 +72,7 @@ std::vector<Effect> Executive::Impl::decided(const Input& input) {
 void Executive::Impl::carry_out(const Effect& effect) {
   if (const auto* judge = std::get_if<Judge>(&effect)) {
     questions_.judge(judge->question, scene_.scene(), [this](const Judged& made) {
+      publisher_.tell_judged(made.verdict.evaluations);
       note({ExecutiveInput::Judged{made.verdict.evaluations}});
       step(made);
     });
@@ -83,7 +84,8 @@ void Executive::Impl::carry_out(const Effect& effect) {
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
     const auto written = [this](JobId job) {
       note({ExecutiveInput::StartWritten{job}});
-      return scheduler_.find(job)->in<Moving>() != nullptr;
+      const Job* started = scheduler_.find(job);
+      return started != nullptr && started->in<Moving>() != nullptr;
     };
     execution_.carry_out(*dispatch, *scheduler_.find(dispatch->job), written);
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {
@@ -152,6 +154,7 @@ void Executive::Impl::tick(TimePoint now) {
     clock_.quiet = false;
     if (!execution_.keeps_back(report)) step(report);
   }
+  forget_withdrawn();
   count_.motion(motions);
   if (watch_.is_due(now)) watch();
   publisher_.tell_queue(now);

@@ -42,6 +42,7 @@ class Executive::Impl {
 
   // job_commands.cc
   Result<JobView> cancel(const std::string& key, std::optional<TimePoint> at);
+  void withdraw(const std::string& key);
   Result<JobView> amend(const std::string& key, JobAmendment amendment);
   Result<JobView> replan(const std::string& key);
 
@@ -93,6 +94,7 @@ class Executive::Impl {
   void carry_out(const Effect& effect);
   void note_aside(const YieldMove& aside);
   void job_changed(JobId job);
+  void forget_withdrawn();
   void watch();
   void scene_has_changed(ClearanceQuery query);
 
@@ -102,6 +104,7 @@ class Executive::Impl {
     bool keeps_waiting;
   };
 
+  std::vector<JobId> withdrawn_;  // and not ended, or still known
   JobIntake intake_;
   StateWatch watch_;
   std::optional<WindDown> wind_down_;

@@ -26,6 +26,9 @@ struct ExecutiveInput {
   struct Canceled {
     std::string job;
   };
+  struct Withdrawn {
+    std::string job;
+  };
   struct Held {
     std::string job;
     TimePoint until;
@@ -83,9 +86,9 @@ struct ExecutiveInput {
   struct StartWritten {
     JobId job;
   };
-  std::variant<Submitted, WentOn, Restored, Canceled, Held, Amended, Replanned, Stopped, Resumed,
-               PolicyChanged, WoundDown, ObjectAdded, ObjectReplaced, ObjectRemoved, Injected,
-               FaultRemoved, Alerted, Judged, Planned, StartWritten>
+  std::variant<Submitted, WentOn, Restored, Canceled, Withdrawn, Held, Amended, Replanned, Stopped,
+               Resumed, PolicyChanged, WoundDown, ObjectAdded, ObjectReplaced, ObjectRemoved,
+               Injected, FaultRemoved, Alerted, Judged, Planned, StartWritten>
       what;
 };
 

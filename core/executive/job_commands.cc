@@ -1,5 +1,6 @@
 // Commands to one job that has not ended.
 #include <utility>
+#include <vector>
 
 #include "core/executive/executive_impl.h"
 #include "core/scheduler/ways/replanning.h"
@@ -15,6 +16,25 @@ Result<JobView> Executive::Impl::cancel(const std::string& key, std::optional<Ti
     step(Cancel{*id});
   }
   return publisher_.view(*id);
+}
+
+void Executive::Impl::withdraw(const std::string& key) {
+  const auto id = jobs_.find(key);
+  if (!id) return;
+  withdrawn_.push_back(*id);
+  if (jobs_.not_ended(key)) step(Cancel{*id});
+  forget_withdrawn();
+}
+
+// Not within a step, whose effects may speak of it.
+void Executive::Impl::forget_withdrawn() {
+  std::erase_if(withdrawn_, [this](JobId id) {
+    const Job* job = scheduler_.find(id);
+    if (job != nullptr && !job->has_ended()) return false;
+    jobs_.forget(id);
+    scheduler_.forget(id);
+    return true;
+  });
 }
 
 Result<JobView> Executive::Impl::amend(const std::string& key, JobAmendment amendment) {

@@ -18,11 +18,19 @@ std::vector<JobId> JobRegister::end(JobId id) {
   while (ended_.size() > ended_kept_) {
     const JobId oldest = ended_.front();
     ended_.pop_front();
-    ids_.erase(labels_.at(oldest).key);
-    labels_.erase(oldest);
+    take_out(oldest);
     forgotten.push_back(oldest);
   }
   return forgotten;
+}
+
+void JobRegister::forget(JobId id) {
+  if (std::erase(ended_, id) > 0) take_out(id);
+}
+
+void JobRegister::take_out(JobId id) {
+  ids_.erase(labels_.at(id).key);
+  labels_.erase(id);
 }
 
 std::optional<JobId> JobRegister::find(const std::string& key) const {

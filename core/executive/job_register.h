@@ -39,6 +39,8 @@ class JobRegister final : public JobNames {
   // The job has ended. Those that ended longest ago, as far as they are too many, are taken out:
   // returned, for whoever else knows them.
   std::vector<JobId> end(JobId id);
+  // One that has ended, if it is known still.
+  void forget(JobId id);
 
   [[nodiscard]] std::optional<JobId> find(const std::string& key) const;
   // Problems: not_found; conflict when it has ended.
@@ -61,6 +63,7 @@ class JobRegister final : public JobNames {
   [[nodiscard]] bool is_stopped(ArmId arm) const override { return scheduler_.stopped(arm); }
 
  private:
+  void take_out(JobId id);
   const Scheduler& scheduler_;
   std::size_t ended_kept_;
   std::unordered_map<std::string, JobId> ids_;

@@ -33,6 +33,7 @@ class Publisher {
   // What is otherwise than it was when told last:
   void tell_arms(TimePoint now);
   void tell_stops();
+  void tell_judged(std::uint64_t evaluations) { observer_.on_judged(evaluations); }
   // The longer the queue, the more seldom: a list of thousands is not made for each change of it.
   // That all arms are stopped, or no more, is told at once.
   void queue_may_have_changed(TimePoint now);

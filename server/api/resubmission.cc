@@ -146,19 +146,22 @@ RequestOrigin origin_of(const SentRequest& sent, std::size_t place) {
 
 void acknowledge(const ApiParts& parts, std::vector<JobKeeper::AcceptedJob> jobs,
                  const Respond& respond, std::function<Response()> answer) {
+  std::vector<JobsAtHand::Job> submitted;
   for (const auto& accepted : jobs) {
-    parts.at_hand->note({accepted.job.key, accepted.job.times.submitted_at,
+    submitted.push_back({accepted.job.key, accepted.job.times.submitted_at,
                          std::make_shared<const std::string>(accepted.body)});
   }
-  if (parts.recording != nullptr) {
-    for (const auto& accepted : jobs) {
-      parts.recording->job(accepted.job.times.submitted_at, accepted.body);
+  const auto accept = [&parts, submitted = std::move(submitted), respond,
+                       answer = std::move(answer)] {
+    for (const JobsAtHand::Job& job : submitted) {
+      parts.at_hand->note(job);
+      if (parts.recording != nullptr) parts.recording->job(job.submitted_at, *job.body);
     }
-  }
-  if (parts.keeper == nullptr || jobs.empty()) return respond(answer());
-  parts.keeper->accept(std::move(jobs), [respond, answer = std::move(answer)](
-                                            const std::optional<Refusal>& refusal) {
-    respond(refusal ? refusal_response(*refusal) : answer());
+    respond(answer());
+  };
+  if (parts.keeper == nullptr || jobs.empty()) return accept();
+  parts.keeper->accept(std::move(jobs), [respond, accept](const std::optional<Refusal>& refusal) {
+    refusal ? respond(refusal_response(*refusal)) : accept();
   });
 }
 

@@ -21,8 +21,8 @@ void get_health(Call call) { call.respond(answer(200, health_format(), Health{})
 void get_ready(Call call) {
   const auto lost = call.parts.recording != nullptr ? call.parts.recording->fault() : std::nullopt;
   if (lost) {
-    return call.respond(refusal_response(
-        {503, "recording-lost", "the recording is no longer whole: " + *lost, "--data", *lost}));
+    return call.respond(
+        refusal_response({503, "recording-lost", said_of_lost_recording(*lost), "--data", *lost}));
   }
   if (call.parts.keeper != nullptr) {
     if (auto refusal = call.parts.keeper->refusal()) {

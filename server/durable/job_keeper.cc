@@ -67,8 +67,8 @@ void JobKeeper::accept(std::vector<AcceptedJob> jobs,
   store_->accept(std::move(accepted),
                  [this, keys = std::move(keys), then = std::move(then)](bool is_written) {
                    if (!is_written) {
-                     loop_->post([keys](Executive& executive) {
-                       for (const std::string& key : keys) (void)executive.cancel(key);
+                     loop_->post_urgent([keys](Executive& executive) {
+                       for (const std::string& key : keys) executive.withdraw(key);
                      });
                    }
                    post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });

@@ -44,7 +44,7 @@ class JobKeeper final : public StartLog {
     std::optional<StoredJob> row = {};  // row_of() it, where that was made aside
   };
   // Jobs that it has accepted: `then` is called when they are on disk, or with the reason why not;
-  // they are canceled then.
+  // they are withdrawn then.
   void accept(std::vector<AcceptedJob> jobs, std::function<void(std::optional<Refusal>)> then);
   // It was changed: `then` is called when that is on disk, or with the reason why not yet.
   void amend(const JobView& job, std::function<void(std::optional<Refusal>)> then);

@@ -5,12 +5,33 @@
 #include <nlohmann/json.hpp>
 
 #include "server/codec/json_text.h"
+#include "server/codec/read_text.h"
+#include "server/messages/job.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
 #include "server/messages/problem.h"
 
 namespace armloom {
 namespace {
+
+// A view that was damaged may be no JSON any more: then nothing but its id is told of the job.
+nlohmann::ordered_json view_of(const StoredJob& job, const WallClock& clock) {
+  auto view = nlohmann::ordered_json::parse(job.view, nullptr, false);
+  if (view.is_object()) return view;
+  const JobView nothing{.id = JobId{job.number}, .key = job.id};
+  return nlohmann::ordered_json::parse(text_of(*job_format(), nothing, &clock), nullptr, false);
+}
+
+// As far as they fit into a sentence.
+std::string listed(const std::vector<std::string>& ids) {
+  constexpr std::size_t kListed = 10;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kListed, ids.size()); ++i) {
+    text += (i == 0 ? "\"" : ", \"") + ids[i] + '"';
+  }
+  return ids.size() <= kListed ? text
+                               : text + " and " + std::to_string(ids.size() - kListed) + " more";
+}
 
 // The job as it was told last, ended as this run begins.
 StoredJob ended(StoredJob job, JobState state, Reason reason, const std::string& detail,
@@ -19,7 +40,7 @@ StoredJob ended(StoredJob job, JobState state, Reason reason, const std::string&
   job.state = to_string(state);
   job.has_ended = true;
   job.ended_ms = std::chrono::floor<std::chrono::milliseconds>(now).time_since_epoch().count();
-  nlohmann::ordered_json view = nlohmann::ordered_json::parse(job.view);
+  nlohmann::ordered_json view = view_of(job, clock);
   view["state"] = job.state;
   view["stopping"] = false;
   view["waits_on"] = nlohmann::ordered_json::array();
@@ -27,7 +48,8 @@ StoredJob ended(StoredJob job, JobState state, Reason reason, const std::string&
   view["ended_s"] = view["started_s"].is_null() ? view["submitted_s"] : view["started_s"];
   view["ended_at"] = clock.at(TimePoint{});
   view["result"] = {{"reason", to_string(reason)}, {"detail", detail}};
-  job.view = view.dump();
+  using nlohmann::ordered_json;
+  job.view = view.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   return job;
 }
 
@@ -42,6 +64,7 @@ Result<Restart> Restart::prepare(JobKeeper& keeper) {
   const Leftover& left = keeper.store().leftover();
   Restart restart;
   restart.stopped_arms_ = left.stopped_arms;
+  restart.unreadable_ = left.damaged;
   for (const LeftJob& job : left.jobs) restart.sort_out(job, keeper);
   for (const WrittenOff& off : restart.written_off_) {
     keeper.store().see(ended(off.job, off.state, off.reason, off.detail, keeper.clock()));
@@ -61,10 +84,18 @@ bool Restart::failed_before(const JobRequest& request) const {
   });
 }
 
+void Restart::write_off_unreadable(const StoredJob& job, std::string detail) {
+  unreadable_.push_back(job.id);
+  write_off(job, JobState::interrupted, Reason::server_restart, std::move(detail));
+}
+
 void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
   const StoredJob& job = left.job;
   constexpr auto kInterrupted = JobState::interrupted;
   constexpr auto kRestart = Reason::server_restart;
+  if (left.is_damaged) {
+    return write_off_unreadable(job, "it is damaged in the data folder: not as it was written");
+  }
   if (left.may_have_moved) {
     return write_off(job, kInterrupted, kRestart, "the server ended while it was under way");
   }
@@ -72,15 +103,14 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
   if (!left.body) return write_off(job, kInterrupted, kRestart, "the server ended before it began");
   auto request = read_job_text(*left.body);
   if (!request) {
-    return write_off(job, kInterrupted, kRestart,
-                     "it can no longer be read: " + problem_sentence("", request.error().front()));
+    return write_off_unreadable(
+        job, "it can no longer be read: " + problem_sentence("", request.error().front()));
   }
   if (left.amended) {
     const auto amendment = read_job_amendment(*left.amended);
     if (!amendment) {
-      return write_off(job, kInterrupted, kRestart,
-                       "what was changed of it can no longer be read: " +
-                           problem_sentence("", amendment.error().front()));
+      return write_off_unreadable(job, "what was changed of it can no longer be read: " +
+                                           problem_sentence("", amendment.error().front()));
     }
     apply(*amendment, *request);
   }
@@ -112,6 +142,11 @@ std::string Restart::summary() const {
 }
 
 void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
+  if (!unreadable_.empty()) {
+    executive.alert({Alert::Level::error,
+                     "jobs of the data folder cannot be read, or are not as they were written: " +
+                         listed(unreadable_) + "; none of them is begun"});
+  }
   const bool asks = cell.scheduling.on_restart == OnRestart::ask;
   if (asks && (!waiting_.empty() || !written_off_.empty())) {
     stop_all(executive, summary());

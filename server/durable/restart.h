@@ -35,11 +35,14 @@ class Restart {
   void write_off(const StoredJob& job, JobState state, Reason reason, std::string detail) {
     written_off_.push_back({job, state, reason, std::move(detail)});
   }
+  // What of the jobs is lost for that they cannot be read.
+  void write_off_unreadable(const StoredJob& job, std::string detail);
   [[nodiscard]] std::string summary() const;
 
   std::vector<RestoredJob> waiting_;
   std::vector<StoredJob> stored_;  // as waiting_
   std::vector<WrittenOff> written_off_;
+  std::vector<std::string> unreadable_;  // ids
   std::vector<std::string> stopped_arms_;
 };
 

@@ -40,7 +40,7 @@ void Broadcast::watch_recording() {
   const auto fault = parts_.recording->fault();
   if (!fault) return;
   said_lost_ = true;
-  parts_.log({LogLine::Level::error, "the recording is no longer whole: " + *fault});
+  parts_.tell({Alert::Level::error, said_of_lost_recording(*fault)});
 }
 
 void Broadcast::on_tick(TimePoint now, const Configuration& measured) {

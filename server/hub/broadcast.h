@@ -34,7 +34,8 @@ class Broadcast final : public Observer {
     JobKeeper* keeper;     // null: jobs end with the server
     AlertBook& alerts;
     std::function<void(std::function<void()>)> post;  // to the server's thread, in order
-    Log log;                                          // alerts, and once that the recording is lost
+    Log log;
+    std::function<void(Alert)> tell;  // as an event, and whoever wants alerts: on the executive
     Metrics& metrics;
   };
   explicit Broadcast(Parts parts) : parts_(std::move(parts)) {}
@@ -43,6 +44,7 @@ class Broadcast final : public Observer {
   void on_tick(TimePoint now, const Configuration& measured) override;
   void on_rest(bool at_rest) override;
   void on_stops(const std::vector<ArmId>& stopped) override;
+  void on_judged(std::uint64_t evaluations) override { parts_.metrics.judged(evaluations); }
   void on_state(const StateFrame& frame) override;
 
  private:

@@ -71,6 +71,10 @@ class Metrics::Impl {
     }
   }
 
+  void judged(std::uint64_t evaluations) {
+    evaluations_.Increment(static_cast<double>(evaluations));
+  }
+
   void happened(const Event& event) {
     if (const auto* job = std::get_if<JobView>(&event.body)) follow(*job);
     if (std::holds_alternative<MonitorEvent>(event.body)) monitor_stops_.Increment();
@@ -186,6 +190,8 @@ class Metrics::Impl {
   Histogram& decisions_ =
       histograms("armloom_decision_seconds", "From a job's arrival to the first word on it")
           .Add({}, kLatencies);
+  Counter& evaluations_ =
+      counters("armloom_evaluations_total", "Collision evaluations that decisions took").Add({});
   Family<Gauge>& clearance_ =
       gauges("armloom_clearance_metres", "Of a pair, as the monitor sees it");
   Family<Gauge>& clearance_min_ =
@@ -228,6 +234,7 @@ Metrics::Metrics(CellPtr cell, double speed)
 Metrics::~Metrics() = default;
 void Metrics::ticked() { impl_->ticked(); }
 void Metrics::watched(const StateFrame& frame) { impl_->watched(frame); }
+void Metrics::judged(std::uint64_t evaluations) { impl_->judged(evaluations); }
 void Metrics::set_speed(double speed) { impl_->set_speed(speed); }
 void Metrics::stop_taken(std::chrono::nanoseconds after) { impl_->stop_taken(after); }
 void Metrics::stored(std::chrono::nanoseconds within) { impl_->stored(within); }

@@ -21,6 +21,7 @@ class Metrics {
   // On the executive's strand, at every control tick and every monitor period.
   void ticked();
   void watched(const StateFrame& frame);
+  void judged(std::uint64_t evaluations);  // a decision's question was answered
   // Thread-safe.
   void set_speed(double speed);
   void stop_taken(std::chrono::nanoseconds after);  // from the request to the strand

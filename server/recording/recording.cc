@@ -74,6 +74,12 @@ std::optional<std::string> Recording::fault() const {
          (why == 0 ? "cannot be written" : std::generic_category().message(why));
 }
 
+// What comes after a gap could not be replayed: a new one begins with a new run.
+std::string said_of_lost_recording(const std::string& fault) {
+  return "the recording is no longer whole: " + fault +
+         "; the cell goes on without one, until the server is started again with room on the disk";
+}
+
 void Recording::event(std::string_view json) {
   errno = 0;
   events_ << json << '\n' << std::flush;

@@ -65,6 +65,9 @@ class Recording {
   std::atomic<int> fault_errno_{0};
 };
 
+// What people are told of a fault().
+[[nodiscard]] std::string said_of_lost_recording(const std::string& fault);
+
 inline constexpr std::size_t kTextFileMax = std::size_t{256} << 20U;
 
 // A whole file, or what a pipe holds, as text. Problem: it cannot be read, is a folder or device

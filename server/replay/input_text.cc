@@ -42,6 +42,9 @@ class InputWriter {
     out_.end_array();
   }
   void operator()(const ExecutiveInput::Canceled& input) { name("cancel").field("job", input.job); }
+  void operator()(const ExecutiveInput::Withdrawn& input) {
+    name("withdraw").field("job", input.job);
+  }
   void operator()(const ExecutiveInput::Held& input) {
     name("hold").field("job", input.job);
     out_.field("until_ns", input.until.time_since_epoch().count());

@@ -180,6 +180,7 @@ const std::map<std::string, Replay::Impl::Verb>& Replay::Impl::verbs() {
        }},
       {"restore", [](Impl& my, Fields line) { (void)my.executive().restore(restored_of(line)); }},
       {"cancel", [](Impl& my, Fields line) { (void)my.executive().cancel(line.at("job")); }},
+      {"withdraw", [](Impl& my, Fields line) { my.executive().withdraw(line.at("job")); }},
       {"hold",
        [](Impl& my, Fields line) {
          (void)my.executive().cancel(line.at("job"),

@@ -1,6 +1,7 @@
 #include "server/store/database.h"
 
 #include <sqlite3.h>
+#include <zlib.h>
 
 namespace armloom {
 namespace {
@@ -13,6 +14,19 @@ SqlFault fault_of(sqlite3* database, int code) {
     text += " (" + std::generic_category().message(error) + ")";
   }
   return {code, text};
+}
+
+// CRC-32 over each value's type and bytes, numbers as decimal digits.
+void checksum(sqlite3_context* context, int count, sqlite3_value** values) {
+  uLong sum = crc32(0, nullptr, 0);
+  for (int i = 0; i < count; ++i) {
+    const auto type = static_cast<Bytef>('0' + sqlite3_value_type(values[i]));
+    sum = crc32(sum, &type, 1);
+    const auto* text = sqlite3_value_text(values[i]);
+    const int size = sqlite3_value_bytes(values[i]);
+    if (text != nullptr) sum = crc32(sum, text, static_cast<uInt>(size));
+  }
+  sqlite3_result_int64(context, static_cast<sqlite3_int64>(sum));
 }
 
 }  // namespace
@@ -94,8 +108,9 @@ bool Statement::is_null(int column) const {
 }
 
 Database::Database(const std::filesystem::path& file, Access access, const std::string& vfs) {
-  const int flags =
-      access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int flags = access == Access::read    ? SQLITE_OPEN_READONLY
+                    : access == Access::write ? SQLITE_OPEN_READWRITE
+                                              : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   sqlite3* database = nullptr;
   const int code =
       sqlite3_open_v2(file.c_str(), &database, flags, vfs.empty() ? nullptr : vfs.c_str());
@@ -108,6 +123,13 @@ Database::Database(const std::filesystem::path& file, Access access, const std::
 void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 
 bool Database::is_read_only() const { return sqlite3_db_readonly(database_.get(), "main") == 1; }
+
+void Database::know_checksum() {
+  const int code = sqlite3_create_function_v2(database_.get(), "checksum", -1,
+                                              SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr, checksum,
+                                              nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) throw fault_of(database_.get(), code);
+}
 
 void Database::run(const std::string& sql) {
   const int code = sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr);

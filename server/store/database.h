@@ -64,12 +64,15 @@ class Statement {
 // A connection to a database file. Used by one thread at a time.
 class Database {
  public:
-  enum class Access { read, write };  // write: the file is made if there is none
+  enum class Access { read, write, make };  // make: to write one that is not there
   // `vfs`: SQLite's name of the file system that it goes through; empty: the system's.
   Database(const std::filesystem::path& file, Access access, const std::string& vfs = {});
 
   // Opened for writing all the same: the system does not let it be written.
   [[nodiscard]] bool is_read_only() const;
+  // Makes checksum(...) known to the statements of this connection: of any values, by which one
+  // that has become another one is seen.
+  void know_checksum();
   void run(const std::string& sql);  // one or more statements without rows
   [[nodiscard]] Statement prepare(std::string_view sql) const { return {database_.get(), sql}; }
   [[nodiscard]] std::int64_t number(std::string_view sql) const;  // first column of the first row

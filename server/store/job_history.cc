@@ -13,11 +13,15 @@ constexpr auto kAny = std::uint64_t{1} << 62U;
 
 // Of a file that no server has brought up to date yet, too.
 std::string columns_of(const Database& database) {
-  const bool has_origins = database.number("PRAGMA user_version") >= 2;
-  return std::string("SELECT number, id, state, has_ended, submitted_ms, ended_ms, arms, view, ") +
+  const std::int64_t version = database.number("PRAGMA user_version");
+  const bool has_origins = version >= 2;
+  const std::string is_damaged =
+      version >= kVersionWithSums ? std::string("coalesce(sum != ") + kSumOfJob + ", 0)" : "0";
+  return std::string(
+             "SELECT job.number, job.id, state, has_ended, submitted_ms, ended_ms, arms, view, ") +
          (has_origins ? "digest, request_key, request_digest, request_place"
                       : "NULL, NULL AS request_key, NULL, NULL AS request_place") +
-         " FROM job ";
+         ", " + is_damaged + " FROM job ";
 }
 
 StoredJob row_of(const Statement& row) {
@@ -33,12 +37,20 @@ StoredJob row_of(const Statement& row) {
       .origin = {row.text(8), row.text(9), row.text(10), static_cast<std::size_t>(row.number(11))}};
 }
 
+bool is_damaged(const Statement& row) { return row.number(12) != 0; }
+
+StoredJob whole_row_of(const Statement& row) {
+  if (!is_damaged(row)) return row_of(row);
+  throw SqlFault(0, "job \"" + row.text(1) + "\" is not as it was written");
+}
+
 }  // namespace
 
 class JobHistory::Impl {
  public:
   explicit Impl(const std::filesystem::path& file)
       : file_(file), database_(file, Database::Access::read), columns_(columns_of(database_)) {
+    database_.know_checksum();
     (void)database_.number("SELECT count(*) FROM job WHERE number = 0");  // it is one of ours
   }
 
@@ -47,7 +59,7 @@ class JobHistory::Impl {
     try {
       return read();
     } catch (const SqlFault& fault) {
-      return cannot_read(file_, fault.what());
+      return cannot_read(fault.what());
     }
   }
 
@@ -55,7 +67,7 @@ class JobHistory::Impl {
     Statement row =
         database_.prepare(columns_ + "WHERE id = ?1 AND view != '' ORDER BY number DESC LIMIT 1");
     row.bind_all(std::string_view(id));
-    return row.step() ? std::optional(row_of(row)) : std::nullopt;
+    return row.step() ? std::optional(whole_row_of(row)) : std::nullopt;
   }
 
   std::vector<StoredJob> of_request(const std::string& key) const {
@@ -63,7 +75,7 @@ class JobHistory::Impl {
         columns_ + "WHERE request_key = ?1 AND view != '' ORDER BY request_place, number");
     row.bind_all(std::string_view(key));
     std::vector<StoredJob> jobs;
-    while (row.step()) jobs.push_back(row_of(row));
+    while (row.step()) jobs.push_back(whole_row_of(row));
     return jobs;
   }
 
@@ -81,23 +93,33 @@ class JobHistory::Impl {
     return entries;
   }
 
-  bool each(const HistoryFilter& filter, const char* order,
-            const std::function<bool(StoredJob)>& take) const {
+  // How many that are damaged were passed over.
+  std::size_t each(const HistoryFilter& filter, const char* order,
+                   const std::function<bool(StoredJob)>& take) const {
     Statement rows = database_.prepare(
         columns_ +
         "WHERE view != '' AND (?1 = '' OR state = ?1) AND (?2 = '' OR EXISTS (SELECT 1 FROM "
-        "json_each(arms) WHERE value = ?2)) AND number < ?3 AND coalesce(submitted_ms, 0) >= ?4 "
+        "json_each(iif(json_valid(arms), arms, '[]')) WHERE value = ?2)) AND number < ?3 AND "
+        "coalesce(submitted_ms, 0) >= ?4 "
         "ORDER BY number " +
         order);
     const auto before = static_cast<std::int64_t>(std::min(filter.before.value_or(kAny), kAny));
     rows.bind_all(std::string_view(filter.state), std::string_view(filter.arm), before,
                   filter.since_ms.value_or(-static_cast<std::int64_t>(kAny)));
+    std::size_t damaged = 0;
     while (rows.step()) {
-      if (!take(row_of(rows))) return false;
+      if (is_damaged(rows)) {
+        ++damaged;
+      } else if (!take(row_of(rows))) {
+        break;
+      }
     }
-    return true;
+    return damaged;
   }
 
+  tl::unexpected<Problems> cannot_read(const std::string& why) const {
+    return cannot_read(file_, why);
+  }
   static tl::unexpected<Problems> cannot_read(const std::filesystem::path& file,
                                               const std::string& why) {
     return failure(Problem{ProblemKind::unavailable, "store-unreadable", "--data",
@@ -151,7 +173,8 @@ Result<void> JobHistory::oldest_first(const HistoryFilter& filter,
     });
   });
   if (!read) return failure(std::move(read.error()));
-  return {};
+  if (*read == 0) return {};
+  return impl_->cannot_read(std::to_string(*read) + " jobs are not as they were written");
 }
 
 }  // namespace armloom

@@ -31,17 +31,18 @@ class JobHistory {
       const std::filesystem::path& folder);
   ~JobHistory();
 
-  // The last one that was accepted under this id.
+  // The last one that was accepted under this id. Problem: it is damaged.
   [[nodiscard]] Result<std::optional<StoredJob>> find(const std::string& id) const;
   // Those that came by a request with this Idempotency-Key, in order of their places.
   [[nodiscard]] Result<std::vector<StoredJob>> of_request(const std::string& key) const;
   // Who did what, newest first: of those before this number, at most so many.
   [[nodiscard]] Result<std::vector<AuditEntry>> audit(std::optional<std::uint64_t> before,
                                                       std::size_t most) const;
-  // Newest first, until `take` says enough (false).
+  // Newest first, until `take` says enough (false). Those that are damaged are passed over; when
+  // the store was opened they were told of.
   [[nodiscard]] Result<void> newest_first(const HistoryFilter& filter,
                                           const std::function<bool(StoredJob)>& take) const;
-  // Oldest first.
+  // Oldest first. Problem, when all others were taken: some are damaged.
   [[nodiscard]] Result<void> oldest_first(const HistoryFilter& filter,
                                           const std::function<void(StoredJob)>& take) const;
 

@@ -40,6 +40,7 @@ class JobStore::Impl {
     {
       const std::scoped_lock lock(mutex_);
       if (is_closed_) return;
+      given_up_.pass_over(changes);
       pending_.join(std::move(changes));
     }
     arrived_.notify_one();
@@ -68,15 +69,14 @@ class JobStore::Impl {
     while (!stop.stop_requested()) {
       {
         std::unique_lock lock(mutex_);
-        const bool has_come = arrived_.wait_until(lock, stop, cleaned_at_ + kCleaned,
-                                                  [this] { return !pending_.is_empty(); });
-        if (!has_come && !stop.stop_requested()) {
-          lock.unlock();
-          clean_up();
-          continue;
-        }
+        arrived_.wait_until(lock, stop, cleaned_at_ + kCleaned,
+                            [this] { return !pending_.is_empty(); });
       }
-      if (write_pending()) continue;
+      if (write_pending()) {
+        // Also where something comes all the time.
+        if (Wall::now() >= cleaned_at_ + kCleaned) clean_up();
+        continue;
+      }
       std::unique_lock lock(mutex_);  // a while, before it is tried again
       arrived_.wait_for(lock, stop, options_.retry, [] { return false; });
     }
@@ -106,22 +106,24 @@ class JobStore::Impl {
     }
     if (was_faulty && options_.on_fault) options_.on_fault(nullptr);
     for (const Pending::Acceptance& acceptance : batch.acceptances) acceptance.done(true);
-    for (const Pending::Done& start : batch.starts) start(true);
+    for (const Pending::Start& start : batch.starts) start.done(true);
     return true;
   }
 
   void give_back(Pending batch, const StoreFault& fault) {
-    const auto refused = batch.give_up_acceptances();
+    const auto refused = std::exchange(batch.acceptances, {});
     bool is_new = false;
     {
       const std::scoped_lock lock(mutex_);
       batch.join(std::exchange(pending_, {}));
       pending_ = std::move(batch);
+      for (const Pending::Acceptance& one : refused) given_up_.add(one.jobs);
+      given_up_.pass_over(pending_);
       is_new = !fault_;
       fault_ = fault;
     }
     if (is_new && options_.on_fault) options_.on_fault(&fault);
-    for (const Pending::Done& done : refused) done(false);
+    for (const Pending::Acceptance& one : refused) one.done(false);
   }
 
   void clean_up() {
@@ -141,6 +143,7 @@ class JobStore::Impl {
   mutable std::mutex mutex_;
   std::condition_variable_any arrived_;
   Pending pending_;
+  GivenUpJobs given_up_;
   std::optional<StoreFault> fault_;
   bool is_closed_ = false;
   Wall::time_point cleaned_at_{};  // the thread's
@@ -197,7 +200,7 @@ void JobStore::amend(std::uint64_t number, std::string amended, Done done) {
 void JobStore::about_to_move(std::uint64_t number, Done done) {
   Pending changes;
   changes.jobs.emplace(number, JobChange{.may_have_moved = true});
-  changes.starts.push_back(std::move(done));
+  changes.starts.push_back({number, std::move(done)});
   impl_->add(std::move(changes));
 }
 
@@ -209,7 +212,7 @@ void JobStore::stopped(std::vector<std::string> arms) {
 
 void JobStore::note(AuditEntry entry) {
   Pending changes;
-  changes.audit.push_back(std::move(entry));
+  changes.audit.add(std::move(entry));
   impl_->add(std::move(changes));
 }
 

@@ -22,10 +22,11 @@ struct StoreFault {
   std::string text;
 };
 
-// How much of what has ended is kept.
+// How much of what is over is kept.
 struct Retention {
   std::size_t jobs_max = 100'000;
   std::optional<std::chrono::hours> age_max = {};
+  std::size_t audit_max = 100'000;  // of what was done, and as many of what was refused
 };
 
 struct StoreOptions {
@@ -40,8 +41,9 @@ struct StoreOptions {
 
 // What a data folder held when it was opened.
 struct Leftover {
-  std::uint64_t last_number = 0;  // of any job ever
-  std::vector<LeftJob> jobs;      // in order of their numbers
+  std::uint64_t last_number = 0;     // of any job ever
+  std::vector<LeftJob> jobs;         // in order of their numbers
+  std::vector<std::string> damaged;  // ids of jobs that have ended and are not as they were written
   std::vector<std::string> stopped_arms;
   std::vector<StoredAlert> alerts;  // oldest first
 };
@@ -68,8 +70,8 @@ class JobStore {
     StoredJob job;
     std::string body;
   };
-  // Jobs to be acknowledged, all of them or none. False: they are not stored, nor ever will be as
-  // waiting ones.
+  // Jobs to be acknowledged, all of them or none. False: they are not stored, and never will be,
+  // whatever is said of them later.
   void accept(std::vector<Accepted> jobs, Done done);
   // A job as it is now.
   void see(StoredJob job);

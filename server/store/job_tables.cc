@@ -8,19 +8,27 @@ namespace armloom {
 namespace {
 
 constexpr std::int64_t kCleanedAtOnce = 1000;
-constexpr std::int64_t kAuditKept = 100'000;
 
 Database opened(const std::filesystem::path& file, const std::string& vfs) {
+  if (!std::filesystem::exists(file)) make_store(file, vfs);
+  // Not even opened: SQLite would remove the log of one that is empty, and that may hold jobs.
+  if (std::filesystem::file_size(file) == 0) {
+    throw std::runtime_error("it is corrupt: it is empty, which none of armloom's ever is");
+  }
   Database database(file, Database::Access::write, vfs);
   if (database.is_read_only()) throw SqlFault(0, "it is read-only");
   bring_up_to_date(database);
   check_whole(database);
+  database.know_checksum();
   if (database.text("PRAGMA journal_mode = WAL") != "wal") {
     throw SqlFault(0, "it cannot be written ahead (WAL), as on a network's file system");
   }
   database.run("PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 16777216");
   return database;
 }
+
+// Of an audit row, as was_refused() has it.
+constexpr const char* kIsRefusal = "(status BETWEEN 400 AND 499)";
 
 std::int64_t as_stored(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 std::uint64_t as_number(std::int64_t stored) { return static_cast<std::uint64_t>(stored); }
@@ -41,9 +49,13 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
       come_(database_.prepare(
           "UPDATE job SET digest = ?2, request_key = nullif(?3, ''), request_digest = ?4, "
           "request_place = ?5 WHERE number = ?1")),
+      seal_(database_.prepare(std::string("UPDATE job SET sum = ") + kSumOfJob +
+                              " WHERE number = ?1")),
       put_body_(database_.prepare("INSERT OR REPLACE INTO body(number, text) VALUES(?1, ?2)")),
       amend_(database_.prepare("UPDATE body SET amended = ?2 WHERE number = ?1")),
       drop_body_(database_.prepare("DELETE FROM body WHERE number = ?1")),
+      seal_body_(database_.prepare(std::string("UPDATE body SET sum = ") + kSumOfBody +
+                                   " WHERE number = ?1")),
       stop_(database_.prepare("INSERT OR IGNORE INTO stopped_arm(name) VALUES(?1)")),
       forget_stops_(database_.prepare("DELETE FROM stopped_arm")),
       note_(database_.prepare("INSERT INTO audit(at_ms, who, peer, method, path, status) "
@@ -60,9 +72,11 @@ Leftover JobTables::leftover() const {
   Leftover left;
   left.last_number = as_number(database_.number("SELECT max(number) FROM job"));
   Statement jobs = database_.prepare(
-      "SELECT job.number, id, state, submitted_ms, arms, view, may_have_moved, body.text, "
-      "body.amended FROM job "
-      "LEFT JOIN body USING(number) WHERE has_ended = 0 ORDER BY job.number");
+      std::string(
+          "SELECT job.number, id, state, submitted_ms, arms, view, may_have_moved, body.text, "
+          "body.amended, coalesce(job.sum != ") +
+      kSumOfJob + ", 0) OR coalesce(body.sum != " + kSumOfBody +
+      ", 0) FROM job LEFT JOIN body USING(number) WHERE has_ended = 0 ORDER BY job.number");
   while (jobs.step()) {
     LeftJob& found = left.jobs.emplace_back();
     found.job = {.number = as_number(jobs.number(0)),
@@ -74,7 +88,11 @@ Leftover JobTables::leftover() const {
     found.may_have_moved = jobs.number(6) != 0;
     if (!jobs.is_null(7)) found.body = jobs.text(7);
     if (!jobs.is_null(8)) found.amended = jobs.text(8);
+    found.is_damaged = jobs.number(9) != 0;
   }
+  Statement damaged = database_.prepare(
+      std::string("SELECT id FROM job WHERE has_ended != 0 AND sum != ") + kSumOfJob);
+  while (damaged.step()) left.damaged.push_back(damaged.text(0));
   Statement arms = database_.prepare("SELECT name FROM stopped_arm ORDER BY name");
   while (arms.step()) left.stopped_arms.push_back(arms.text(0));
   Statement alerts = database_.prepare(
@@ -97,7 +115,7 @@ void JobTables::write(const Pending& changes) {
     for (const std::string& name : *changes.stopped_arms)
       stop_.bind_all(std::string_view(name)).run();
   }
-  for (const AuditEntry& entry : changes.audit) {
+  for (const AuditEntry& entry : changes.audit.entries()) {
     note_.bind_all(entry.at_ms, std::string_view(entry.who), std::string_view(entry.peer),
                    std::string_view(entry.method), std::string_view(entry.path),
                    std::int64_t{entry.status});
@@ -132,10 +150,12 @@ void JobTables::write(std::uint64_t number, const JobChange& change) {
     come_.run();
   }
   if (change.may_have_moved) move_.bind_all(key).run();
+  seal_.bind_all(key).run();
   const bool has_ended = change.seen && change.seen->has_ended;
   if (has_ended) return drop_body_.bind_all(key).run();
   if (change.body) put_body_.bind_all(key, std::string_view(*change.body)).run();
   if (change.amended) amend_.bind_all(key, std::string_view(*change.amended)).run();
+  if (change.body || change.amended) seal_body_.bind_all(key).run();
 }
 
 bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::time_point now) {
@@ -161,15 +181,17 @@ bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::
         "SELECT number FROM job WHERE has_ended = 1 AND ended_ms < ?1 ORDER BY ended_ms LIMIT ?2",
         oldest.count());
   }
-  const auto keep_last = [&](const std::string& table, std::int64_t count) {
+  const auto keep_last = [&](const std::string& rows, std::size_t count) {
     Statement statement = database_.prepare(
-        "DELETE FROM " + table + " WHERE number IN (SELECT number FROM " + table +
-        " WHERE number <= (SELECT max(number) FROM " + table + ") - ?1 ORDER BY number LIMIT ?2)");
-    statement.bind_all(count, kCleanedAtOnce).run();
+        "DELETE FROM " + rows.substr(0, rows.find(' ')) + " WHERE number IN (SELECT number FROM " +
+        rows + " AND number <= (SELECT number FROM " + rows +
+        " ORDER BY number DESC LIMIT 1 OFFSET ?1) ORDER BY number LIMIT ?2)");
+    statement.bind_all(static_cast<std::int64_t>(count), kCleanedAtOnce).run();
     deleted = std::max(deleted, database_.number("SELECT changes()"));
   };
-  keep_last("audit", kAuditKept);
-  keep_last("alert", std::int64_t{kAlertsKept});
+  keep_last(std::string("audit WHERE ") + kIsRefusal, retention.audit_max);
+  keep_last(std::string("audit WHERE NOT ") + kIsRefusal, retention.audit_max);
+  keep_last("alert WHERE true", kAlertsKept);
   transaction.commit();
   return deleted == kCleanedAtOnce;
 }

@@ -12,7 +12,8 @@ namespace armloom {
 // The statements by which a store writes. All throw SqlFault. One thread.
 class JobTables {
  public:
-  // Opens the file, brings its tables up to date and looks whether it is whole.
+  // Opens the file, made if there is none, brings its tables up to date and looks whether it is
+  // whole.
   JobTables(const std::filesystem::path& file, const std::string& vfs);
 
   [[nodiscard]] Leftover leftover() const;
@@ -25,8 +26,8 @@ class JobTables {
   void write(std::uint64_t number, const JobChange& change);
   void write(const StoredAlert& alert);
   Database database_;
-  Statement see_, expect_, move_, come_, put_body_, amend_, drop_body_, stop_, forget_stops_, note_,
-      keep_alert_;
+  Statement see_, expect_, move_, come_, seal_, put_body_, amend_, drop_body_, seal_body_, stop_,
+      forget_stops_, note_, keep_alert_;
 };
 
 }  // namespace armloom

@@ -6,6 +6,13 @@
 
 namespace armloom {
 
+void PendingAudit::add(AuditEntry entry) {
+  const bool is_refusal = was_refused(entry);
+  if ((is_refusal ? refusals_ : entries_.size() - refusals_) >= kMax) return;
+  refusals_ += is_refusal ? 1 : 0;
+  entries_.push_back(std::move(entry));
+}
+
 void Pending::join(Pending later) {
   for (auto& [number, change] : later.jobs) {
     JobChange& mine = jobs[number];
@@ -16,9 +23,7 @@ void Pending::join(Pending later) {
     mine.may_have_moved = mine.may_have_moved || change.may_have_moved;
   }
   if (later.stopped_arms) stopped_arms = std::move(later.stopped_arms);
-  for (AuditEntry& entry : later.audit) {
-    if (audit.size() < kAuditMax) audit.push_back(std::move(entry));
-  }
+  for (const AuditEntry& entry : later.audit.entries()) audit.add(entry);
   for (StoredAlert& alert : later.alerts) {
     if (alerts.size() < kAlertsMax) alerts.push_back(std::move(alert));
   }
@@ -26,13 +31,17 @@ void Pending::join(Pending later) {
   std::ranges::move(later.starts, std::back_inserter(starts));
 }
 
-std::vector<Pending::Done> Pending::give_up_acceptances() {
-  std::vector<Done> callers;
-  for (Acceptance& acceptance : std::exchange(acceptances, {})) {
-    for (std::uint64_t number : acceptance.jobs) jobs.erase(number);
-    callers.push_back(std::move(acceptance.done));
-  }
-  return callers;
+void GivenUpJobs::pass_over(Pending& changes) {
+  if (jobs_.empty()) return;
+  std::erase_if(changes.starts,
+                [this](const Pending::Start& start) { return jobs_.contains(start.job); });
+  std::erase_if(changes.jobs, [this](const auto& said) {
+    const auto& [number, change] = said;
+    const auto job = jobs_.find(number);
+    if (job == jobs_.end()) return false;
+    if (change.seen && change.seen->has_ended) jobs_.erase(job);
+    return true;
+  });
 }
 
 }  // namespace armloom

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,31 +22,59 @@ struct JobChange {
   bool may_have_moved = false;
 };
 
+// What is to be noted, in the order in which it came. While nothing can be written the first ones
+// of each kind are kept: what was refused, which anybody can bring about as often as they like,
+// takes no place of what was done.
+class PendingAudit {
+ public:
+  inline static constexpr std::size_t kMax = 10'000;  // of each kind; what comes beyond is not told
+
+  void add(AuditEntry entry);
+  [[nodiscard]] const std::vector<AuditEntry>& entries() const { return entries_; }
+
+ private:
+  std::vector<AuditEntry> entries_;
+  std::size_t refusals_ = 0;  // of these
+};
+
 // What has come since the store was written last.
 struct Pending {
   using Done = std::function<void(bool)>;
   std::map<std::uint64_t, JobChange> jobs = {};  // by number
   std::optional<std::vector<std::string>> stopped_arms = {};
-  std::vector<AuditEntry> audit = {};    // kAuditMax at most, the first ones
+  PendingAudit audit = {};
   std::vector<StoredAlert> alerts = {};  // as they came: of one alert the last counts
   struct Acceptance {
     std::vector<std::uint64_t> jobs;
     Done done;
   };
   std::vector<Acceptance> acceptances = {};
-  std::vector<Done> starts = {};
+  struct Start {
+    std::uint64_t job;
+    Done done;
+  };
+  std::vector<Start> starts = {};
 
   // While nothing can be written; what comes beyond is not told.
-  inline static constexpr std::size_t kAuditMax = 10'000;
   inline static constexpr std::size_t kAlertsMax = 10'000;
 
   [[nodiscard]] bool is_empty() const {
-    return jobs.empty() && !stopped_arms && acceptances.empty() && audit.empty() && alerts.empty();
+    return jobs.empty() && !stopped_arms && acceptances.empty() && audit.entries().empty() &&
+           alerts.empty();
   }
   // What came after this.
   void join(Pending later);
-  // None of the acceptances will be: their jobs are taken out again, and their callers returned.
-  [[nodiscard]] std::vector<Done> give_up_acceptances();
+};
+
+// Jobs that were not accepted: their clients were told so, and nothing of them is ever written.
+class GivenUpJobs {
+ public:
+  void add(const std::vector<std::uint64_t>& jobs) { jobs_.insert(jobs.begin(), jobs.end()); }
+  // Takes out what is said of them. With its end the last word of a job is said.
+  void pass_over(Pending& changes);
+
+ private:
+  std::set<std::uint64_t> jobs_;
 };
 
 }  // namespace armloom

@@ -39,6 +39,11 @@ struct AuditEntry {
   std::string path;
   int status = 0;  // of the answer
 };
+// It changed nothing: for want of a right, or of sense. Anybody may be refused, as often as they
+// ask; so the two kinds are kept apart, and as many of each.
+[[nodiscard]] inline bool was_refused(const AuditEntry& entry) {
+  return entry.status >= 400 && entry.status < 500;
+}
 
 // One that had not ended when the folder was opened.
 struct LeftJob {
@@ -46,6 +51,7 @@ struct LeftJob {
   bool may_have_moved = false;
   std::optional<std::string> body;  // as the client sent it; none: it never was acknowledged
   std::optional<std::string> amended = {};  // what was changed of it later; none: nothing
+  bool is_damaged = false;                  // it is not as it was written: nothing of it is certain
 };
 
 }  // namespace armloom

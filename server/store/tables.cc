@@ -1,7 +1,12 @@
 #include "server/store/tables.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <iterator>
 #include <string>
+#include <system_error>
 
 namespace armloom {
 namespace {
@@ -65,26 +70,15 @@ constexpr const char* kVersions[] = {
       acknowledged_ms INTEGER
     ) STRICT;
     )",
+    // By which a row that was damaged is known (kSumOfJob, kSumOfBody); null: an older version's.
+    R"(
+    ALTER TABLE job ADD COLUMN sum INTEGER;
+    ALTER TABLE body ADD COLUMN sum INTEGER;
+    )",
 };
 constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
 
-}  // namespace
-
-void bring_up_to_date(Database& database) {
-  const std::int64_t version = database.number("PRAGMA user_version");
-  const std::int64_t application = database.number("PRAGMA application_id");
-  const bool is_empty = database.number("SELECT count(*) FROM sqlite_schema") == 0;
-  if (application != kApplication && !(is_empty && application == 0)) {
-    throw std::runtime_error("it is another program's database");
-  }
-  if (version < 0 || (version == 0 && !is_empty)) {
-    throw std::runtime_error("it is corrupt: tables of version " + std::to_string(version));
-  }
-  if (version > kNewest) {
-    throw std::runtime_error("it was written by a newer version of armloom (tables of version " +
-                             std::to_string(version) + ", this one knows " +
-                             std::to_string(kNewest) + ")");
-  }
+void upgrade(Database& database, std::int64_t version) {
   for (std::int64_t next = version; next < kNewest; ++next) {
     Transaction transaction(database);
     database.run(kVersions[next]);
@@ -92,6 +86,46 @@ void bring_up_to_date(Database& database) {
     database.run("PRAGMA user_version = " + std::to_string(next + 1));
     transaction.commit();
   }
+}
+
+// So that a name that was given outlives a power cut.
+void sync_folder(const std::filesystem::path& folder) {
+  const int opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool is_synced = opened >= 0 && fsync(opened) == 0;
+  const int why = errno;
+  if (opened >= 0) close(opened);
+  if (!is_synced) throw std::system_error(why, std::generic_category(), folder.string());
+}
+
+}  // namespace
+
+void make_store(const std::filesystem::path& file, const std::string& vfs) {
+  const std::filesystem::path unfinished = file.string() + ".new";
+  for (const char* end : {"", "-journal"}) std::filesystem::remove(unfinished.string() + end);
+  {
+    Database database(unfinished, Database::Access::make, vfs);
+    upgrade(database, 0);
+  }
+  std::filesystem::rename(unfinished, file);
+  sync_folder(file.parent_path());
+}
+
+void bring_up_to_date(Database& database) {
+  const std::int64_t version = database.number("PRAGMA user_version");
+  const std::int64_t application = database.number("PRAGMA application_id");
+  if (database.number("SELECT count(*) FROM sqlite_schema") == 0) {
+    throw std::runtime_error("it is corrupt: it has no tables, which none of armloom's is without");
+  }
+  if (application != kApplication) throw std::runtime_error("it is another program's database");
+  if (version < 1) {
+    throw std::runtime_error("it is corrupt: tables of version " + std::to_string(version));
+  }
+  if (version > kNewest) {
+    throw std::runtime_error("it was written by a newer version of armloom (tables of version " +
+                             std::to_string(version) + ", this one knows " +
+                             std::to_string(kNewest) + ")");
+  }
+  upgrade(database, version);
 }
 
 void check_whole(const Database& database) {

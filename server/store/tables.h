@@ -1,14 +1,31 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
 #include "server/store/database.h"
 
 namespace armloom {
 
 inline constexpr const char* kStoreFile = "armloom.db";  // in the data folder
 
-// Makes the tables, or brings those of an older version of the program to this one's, one version
-// after the other, each whole or not at all. Throws SqlFault; std::runtime_error where the file is
-// another program's, or a newer version's.
+// What `sum` of a row is as long as the row is as it was written (Database::know_checksum).
+inline constexpr const char* kSumOfJob =
+    "checksum(job.number, job.id, job.state, job.has_ended, job.may_have_moved, job.submitted_ms, "
+    "job.ended_ms, job.arms, job.view, job.digest, job.request_key, job.request_digest, "
+    "job.request_place)";
+inline constexpr const char* kSumOfBody = "checksum(body.number, body.text, body.amended)";
+inline constexpr std::int64_t kVersionWithSums = 5;
+
+// Makes a new file with tables and nothing in them. It is made beside its place and put there
+// whole: whatever stands in that place has held jobs, also where it is empty. `vfs`: as Database
+// has it. Throws SqlFault, std::system_error.
+void make_store(const std::filesystem::path& file, const std::string& vfs);
+
+// Brings the tables of an older version of the program to this one's, one version after the other,
+// each whole or not at all. Throws SqlFault; std::runtime_error where the file is another
+// program's, a newer version's, or has lost its tables.
 void bring_up_to_date(Database& database);
 
 // Throws std::runtime_error with what SQLite finds wrong with the file, SqlFault where it cannot

@@ -16,6 +16,7 @@ import subprocess
 import tempfile
 import threading
 import time
+import zlib
 
 from loaded_server import (API, TOP, LoadedServer, Periods, Repeated, connect, quantiles, shake_hands, swing)
 
@@ -205,6 +206,12 @@ def slow_clients(armloom):
             print(f"slowhttptest, 3,000 connections with slow {kind}: POST /stop of others {quantiles(stops.end())}")
 
 
+def checksum(*values):
+    """As the server has it of a row."""
+    types = {int: b"1", str: b"3", type(None): b"5"}
+    return zlib.crc32(b"".join(types[type(v)] + (b"" if v is None else str(v).encode()) for v in values))
+
+
 def stored_jobs(armloom, folder, ended, waiting):
     """A data folder as a long life leaves it: the rows that a server wrote of some jobs, many times."""
     with LoadedServer(armloom, "--data", folder) as server:
@@ -213,7 +220,9 @@ def stored_jobs(armloom, folder, ended, waiting):
         server.submit(1, "e")
         server.call("DELETE", API + "/jobs/e0")
     base = sqlite3.connect(f"{folder}/armloom.db")
-    columns = [row[1] for row in base.execute("PRAGMA table_info(job)")][2:]
+    base.create_function("checksum", -1, checksum)
+    of_job = [row[1] for row in base.execute("PRAGMA table_info(job)") if row[1] != "sum"]
+    columns = of_job[2:]
     ids = dict(base.execute("SELECT id, number FROM job"))
 
     def copy(of, numbers):
@@ -229,6 +238,9 @@ def stored_jobs(armloom, folder, ended, waiting):
     first = max(ids.values()) + 1
     copy("e0", range(first, first + ended))
     copy("w0", range(first + ended, first + ended + waiting))
+    # In the order of kSumOfJob and kSumOfBody (server/store/tables.h).
+    base.execute(f"UPDATE job SET sum = checksum({', '.join(of_job)})")
+    base.execute("UPDATE body SET sum = checksum(number, text, amended)")
     base.commit()
     base.close()
 

@@ -1,4 +1,6 @@
 // Who may move arms by hand, and moves that go on only as long as somebody holds a button.
+#include "server/control/control.h"
+
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -157,6 +159,18 @@ TEST_F(ByHand, IsNeverBegunByAServerThatIsStartedAgain) {
   start(1.0);
   const json job = get("/api/v1/jobs/" + id).json();
   EXPECT_EQ(job["state"].is_string() ? job["state"] : json("unknown"), "interrupted") << job;
+}
+
+// Of the machine's time: the cell's stands still while the server is stopped.
+TEST(Control, AWordThatComesLateFindsTheMoveOver) {
+  Control control;
+  const Control::Time begun{};
+  ASSERT_TRUE(control.take("Ada", false));
+  control.begin({"left", "job-1", begun});
+  EXPECT_TRUE(control.renew(500ms, begun + 500ms));
+  EXPECT_TRUE(control.renew(500ms, begun + 1000ms));
+  EXPECT_FALSE(control.renew(500ms, begun + 1501ms));
+  EXPECT_FALSE(control.renew(500ms, begun + 1502ms)) << "it stays over";
 }
 
 // ---- The control cycle itself, without a server ----

@@ -1,7 +1,9 @@
 // The server with a data folder, in one process: disks that fail, and what a run finds of the ones
 // before. How it stands being killed: kills.py.
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -231,7 +233,51 @@ TEST_F(Durable, AFullDiskRefusesJobsStopsArmsAndIsOverWhenItIs) {
   wait_for("runs", "succeeded");
   restart();
   EXPECT_EQ(job("runs")["state"], "succeeded");
-  EXPECT_NE(job("refused")["state"], "queued") << "its client was told that it is not accepted";
+  EXPECT_EQ(get("/api/v1/jobs/refused").status, 404) << "its client was told so";
+}
+
+TEST_F(Durable, WhatTheDiskDoesNotTakeDoesNotExistAndItsIdIsFree) {
+  start(1);
+  FailingDisk::fail(FailingDisk::Fault::full, 0);
+  ASSERT_EQ(submit("tried").status, 507);
+  wait_until([&] { return get("/api/v1/jobs/tried").status == 404; });
+  EXPECT_EQ(get("/api/v1/jobs").json()["jobs"], json::array());
+  FailingDisk::fail(FailingDisk::Fault::none, 0);
+  wait_until([&] { return get("/readyz").status == 200; });
+  EXPECT_EQ(get("/api/v1/jobs").json()["jobs"], json::array()) << "nor is it put down later";
+  ASSERT_EQ(submit("tried").status, 202);
+  ASSERT_EQ(post("/api/v1/resume", "").status, 202);
+  wait_for("tried", "succeeded");
+  restart();
+  EXPECT_EQ(job("tried")["state"], "succeeded");
+}
+
+// Neither begun nor passed over in silence.
+TEST_F(Durable, ADamagedJobIsToldOf) {
+  start(1);
+  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  submit("sound");
+  submit("damaged", "right");
+  end();
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((data_ / "armloom.db").c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(database, "UPDATE job SET view = '{\"id', arms = '[' WHERE id = 'damaged'",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(database);
+  start(1);
+  EXPECT_EQ(job("sound")["state"], "queued");
+  const json damaged = job("damaged");
+  EXPECT_EQ(damaged["state"], "interrupted");
+  EXPECT_NE(damaged["result"]["detail"].get<std::string>().find("damaged"), std::string::npos);
+  const auto is_told = [&] {
+    const json alerts = get("/api/v1/alerts").json()["alerts"];
+    return std::ranges::any_of(alerts, [](const json& alert) {
+      const std::string text = alert["text"];
+      return alert["level"] == "error" && text.find("\"damaged\"") != text.npos;
+    });
+  };
+  wait_until(is_told);
 }
 
 TEST_F(Durable, WhatIsCanceledBesideAFullDiskIsNotSaidToBeKept) {

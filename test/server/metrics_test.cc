@@ -50,6 +50,8 @@ TEST_F(MetricsRoute, CountsJobsWaitsAndDecisions) {
   EXPECT_EQ(after.at("armloom_jobs_total{outcome=\"canceled\"}"), 1);
   EXPECT_GE(after.at("armloom_decision_seconds_count"),
             2);  // the other is judged again while it waits
+  EXPECT_EQ(before.at("armloom_evaluations_total"), 0);
+  EXPECT_GT(after.at("armloom_evaluations_total"), 0);
   double waits = 0;
   for (const auto& [name, value] : after) {
     if (name.starts_with("armloom_job_waits_total")) waits += value;

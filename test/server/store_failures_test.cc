@@ -46,6 +46,40 @@ TEST_F(Store, AFullDiskIsSaidAndWhatWaitsIsWrittenWhenThereIsSpace) {
   EXPECT_TRUE(store->leftover().jobs.front().may_have_moved);
 }
 
+// What its client was told is not accepted is nowhere, whatever else is said of it.
+TEST_F(Store, AJobThatWasGivenUpIsNeverWritten) {
+  {
+    const auto store = open();
+    FailingDisk::fail(FailingDisk::Fault::full, 0);
+    auto refused = accept(*store, 1);
+    store->see(job(1, "backlogged"));
+    EXPECT_FALSE(refused.get());
+    store->see(job(1, "backlogged"));
+    auto started = start(*store, 1);
+    store->see(job(1, "succeeded"));
+    FailingDisk::fail(FailingDisk::Fault::none, 0);
+    EXPECT_TRUE(accept(*store, 2).get());
+    EXPECT_THROW(started.get(), std::future_error) << "nobody says that it may begin";
+  }
+  const auto store = open();
+  ASSERT_EQ(store->leftover().jobs.size(), 1U);
+  EXPECT_EQ(store->leftover().jobs[0].job.id, "j2");
+  EXPECT_FALSE(JobHistory::open(folder_).value()->find("j1").value());
+}
+
+// While nothing can be written, too.
+TEST_F(Store, WhatWasDoneHasRoomHoweverMuchWasRefused) {
+  const auto store = open();
+  FailingDisk::fail(FailingDisk::Fault::full, 0);
+  for (int i = 0; i < 10'100; ++i) store->note({.status = 401});
+  store->note({.who = "Ada", .status = 202});
+  FailingDisk::fail(FailingDisk::Fault::none, 0);
+  EXPECT_TRUE(store->flush() || store->flush());
+  const auto newest = JobHistory::open(folder_).value()->audit({}, 1).value();
+  ASSERT_EQ(newest.size(), 1U);
+  EXPECT_EQ(newest[0].who, "Ada");
+}
+
 // What a client and the executive do to ten jobs; `acknowledged` is told what they may rely on.
 void live(JobStore& store, const std::function<void(const std::string&)>& acknowledged) {
   for (std::uint64_t number = 1; number <= 10; ++number) {

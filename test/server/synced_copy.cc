@@ -32,12 +32,18 @@ Copy& copy() {
   return it;
 }
 
+int real_rename(const char* from, const char* to) {
+  static const auto real =
+      reinterpret_cast<int (*)(const char*, const char*)>(dlsym(RTLD_NEXT, "rename"));
+  return real(from, to);
+}
+
 // Whole or not at all: the process may be killed meanwhile.
 void keep_file(const fs::path& from, const fs::path& to) {
   const fs::path part = copy().to.string() + ".part";
   fs::create_directories(to.parent_path());
   fs::copy_file(from, part, fs::copy_options::overwrite_existing);
-  fs::rename(part, to);
+  real_rename(part.c_str(), to.c_str());
 }
 
 // What was removed from the folder is gone for good once the folder itself is synced.
@@ -68,6 +74,20 @@ int sync_and_keep(int fd, const char* name) {
 }
 
 }  // namespace
+
+// A file of the folder that was synced has its new name from now on.
+extern "C" int rename(const char* from, const char* to) {
+  const auto within = [](const char* name) {
+    return fs::weakly_canonical(name).lexically_relative(copy().of);
+  };
+  const fs::path old_name = within(from);
+  if (old_name.empty() || *old_name.begin() == "..") return real_rename(from, to);
+  const std::scoped_lock lock(copy().mutex);
+  const int result = real_rename(from, to);
+  const fs::path kept = copy().to / old_name;
+  if (result == 0 && fs::exists(kept)) real_rename(kept.c_str(), (copy().to / within(to)).c_str());
+  return result;
+}
 
 extern "C" int fsync(int fd) { return sync_and_keep(fd, "fsync"); }
 extern "C" int fdatasync(int fd) { return sync_and_keep(fd, "fdatasync"); }

@@ -1,0 +1,35 @@
+#include "server/http/read_deadline.h"
+
+#include "server/http/transport.h"
+
+namespace armloom {
+namespace {
+
+// What was read in the instant in which the time was over goes on with its next piece: that is
+// ended, too.
+constexpr std::chrono::milliseconds kAgain{50};
+
+}  // namespace
+
+ReadDeadline::ReadDeadline(Transport& stream, std::chrono::milliseconds time)
+    : watch_(std::make_shared<Watch>(Watch{asio::steady_timer(stream.get_executor()), &stream})) {
+  stream.expires_never();
+  wait(watch_, time);
+}
+
+ReadDeadline::~ReadDeadline() {
+  watch_->stream = nullptr;
+  watch_->timer.cancel();
+}
+
+void ReadDeadline::wait(const std::shared_ptr<Watch>& watch, std::chrono::milliseconds time) {
+  watch->timer.expires_after(time);
+  watch->timer.async_wait([watch](ErrorCode ec) {
+    if (ec || watch->stream == nullptr) return;
+    watch->is_over = true;
+    watch->stream->cancel();
+    wait(watch, kAgain);
+  });
+}
+
+}  // namespace armloom
