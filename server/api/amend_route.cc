@@ -3,6 +3,7 @@
 
 #include "server/api/job_answers.h"
 #include "server/api/route.h"
+#include "server/http/entity_tag.h"
 #include "server/messages/job_amendment.h"
 
 namespace armloom {
@@ -35,8 +36,15 @@ void answer_amended(const ApiParts& parts, const JobView& job, const Respond& re
   });
 }
 
+Response is_no_tag(const std::string& if_match) {
+  return refusal_response(
+      {400, "bad-if-match", "If-Match is \"*\" or entity tags, in quotes", "If-Match", if_match});
+}
+
 void amend_job(Call call) {
   const ApiParts& parts = call.parts;
+  const auto& asked = call.request.if_match;
+  if (asked && !is_tag_list(*asked)) return call.respond(is_no_tag(*asked));
   if (parts.keeper != nullptr) {
     if (const auto refusal = parts.keeper->refusal()) {
       return call.respond(refusal_response(*refusal));

@@ -177,16 +177,27 @@ Command replay_command(CLI::App& app) {
       command->add_option("--recording", options->recording, "this one instead: its folder");
   replayed_data->excludes(replayed_folder);
   command->require_option(1, 0);
-  command->add_option("--until", options->until_s, "so far, in seconds of cell time (all)");
+  command->add_option("--until", options->until_s, "so far, in seconds of cell time (all)")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--out", options->out, "folder for the events of the replay");
   return {command, [options] { return replay_recording(*options); }};
+}
+
+std::vector<std::string> job_states() {
+  std::vector<std::string> names;
+  for (JobState state = JobState::queued; state <= JobState::interrupted;
+       state = static_cast<JobState>(static_cast<int>(state) + 1)) {
+    names.emplace_back(to_string(state));
+  }
+  return names;
 }
 
 Command history_command(CLI::App& app) {
   const auto options = std::make_shared<HistoryOptions>();
   CLI::App* command = app.add_subcommand("history", "print the jobs of a data folder, one a line");
   command->add_option("--data", options->data, "folder of `serve --data`")->required();
-  command->add_option("--state", options->state, "only those in this state");
+  command->add_option("--state", options->state, "only those in this state")
+      ->check(CLI::IsMember(job_states()));
   command->add_option("--arm", options->arm, "only those that move this arm");
   command->add_flag("--csv", options->csv, "as CSV instead of JSON lines");
   return {command, [options] { return print_history(*options); }};

@@ -50,7 +50,8 @@ fs::path web_folder(const std::string& asked) {
 // Each connection is a file descriptor: takes as many as the system gives, leaves some for files
 // and returns how many connections there may be.
 std::size_t connections_within_descriptors(std::size_t wanted) {
-  constexpr rlim_t kOther = 64;  // of which few are needed: half of the descriptors, if fewer
+  // Files and the reserve of HttpServer, 64 each at most: half of the descriptors, if they are few.
+  constexpr rlim_t kOther = 128;
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
   limit.rlim_cur = limit.rlim_max;
@@ -167,8 +168,10 @@ int serve(const ServeOptions& options) {
   if (!loaded) return kExitBadInput;
   ServiceOptions service_options;
   if (!parse_listen(options.listen, service_options.address, service_options.port)) {
-    complain("", {Problem{ProblemKind::invalid, "bad-address", "--listen",
-                          "expected ADDRESS:PORT, as in 127.0.0.1:8080", options.listen}});
+    complain("",
+             {Problem{ProblemKind::invalid, "bad-address", "--listen",
+                      "expected ADDRESS:PORT, as in 127.0.0.1:8080, which is this machine alone",
+                      options.listen}});
     return kExitBadInput;
   }
   Problems faults = faults_of(options);

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "server/http/request_id.h"
-#include "server/http/request_reader.h"
 
 namespace armloom {
 namespace {
@@ -34,14 +33,15 @@ bool waits_to_be_asked(const RequestParser& parser) {
 }  // namespace
 
 asio::awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection,
-                                                                const Site& site) {
+                                                                const Site& site,
+                                                                const Terms& terms) {
   const auto none_for = [&site](const NoRequest& none) {
     return tl::unexpected<NotArrived>(none.refusal ? std::optional(site.refuse(*none.refusal))
                                                    : std::nullopt);
   };
   connection.request_id = fresh_request_id();
   RequestParser parser;
-  if (const auto none = co_await read_header(connection, parser, site.read_time)) {
+  if (const auto none = co_await read_header(connection, parser, terms.times)) {
     co_return none_for(*none);
   }
   const auto own_id = parser.get()[kRequestIdField.data()];
@@ -50,6 +50,9 @@ asio::awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& conn
   if (!request) co_return tl::unexpected<NotArrived>(std::move(request.error()));
   request->peer = connection.stream.peer();
   request->id = connection.request_id;
+  if (const auto why = terms.refusal ? terms.refusal(*request) : std::nullopt) {
+    co_return tl::unexpected<NotArrived>(site.refuse(*why));
+  }
   // Before the body, whose trailers are none of the header's fields.
   RequestHeader header = parser.get().base();
   const bool waits = waits_to_be_asked(parser);
@@ -58,7 +61,7 @@ asio::awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& conn
       co_return tl::unexpected<NotArrived>(std::move(*refused));
     }
   }
-  if (const auto none = co_await read_body(connection, parser, site.read_time, waits)) {
+  if (const auto none = co_await read_body(connection, parser, terms.times.read, waits)) {
     co_return none_for(*none);
   }
   auto message = parser.release();

@@ -79,12 +79,13 @@ class SentEvents final : public StreamCarrier {
 }  // namespace
 
 asio::awaitable<void> serve_event_stream(Transport stream, const Request& request,
-                                         EventStream events, const Site& site) {
+                                         EventStream events, const Site& site, bool only_head) {
   const auto carrier = std::make_shared<SentEvents>(std::move(stream), events.id, site.send_buffer);
   ErrorCode ec;
   const std::string first = head(request);
   co_await carrier->write(first, ec);
-  if (!ec) co_await carry(std::move(events), carrier, {site.send_time, site.keep_alive});
+  if (!ec && !only_head)
+    co_await carry(std::move(events), carrier, {site.send_time, site.keep_alive});
 }
 
 }  // namespace armloom

@@ -1,12 +1,15 @@
 #include "server/http/http_server.h"
 
+#include <algorithm>
 #include <csignal>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <utility>
 
 #include "server/http/asio.h"
 #include "server/http/posted_tasks.h"
+#include "server/http/reserve.h"
 #include "server/http/session.h"
 #include "server/http/transport.h"
 
@@ -14,7 +17,9 @@ namespace armloom {
 namespace {
 
 constexpr std::chrono::milliseconds kReadToTheEnd{500};  // for readers to read to the end
-constexpr std::size_t kRefusingMax = 32;                 // at once; beyond, closed without a word
+constexpr std::size_t kReservedMax = 64;                 // connections beyond those that are served
+// Of those who come at once so many are taken before others have a turn.
+constexpr int kTakenAtOnce = 16;
 // For arms to come to rest: with the closing of connections, the process ends within two seconds.
 constexpr std::chrono::milliseconds kWindDownMax{1200};
 
@@ -35,19 +40,22 @@ Reach reach_of(const std::string& address) {
 
 class HttpServer::Impl {
  public:
-  explicit Impl(std::size_t connections_max) : connections_{.max = connections_max} {}
+  explicit Impl(std::size_t connections_max)
+      : reserve_(std::clamp<std::size_t>(connections_max / 4, 4, kReservedMax)),
+        connections_{.max = connections_max} {}
 
   std::optional<Problem> open(const std::string& address, std::uint16_t port) {
     ErrorCode ec;
     const auto ip = asio::ip::make_address(address, ec);
-    if (ec) return cannot_listen(address, port, "not an IP address");
+    if (ec)
+      return cannot_listen(address, port,
+                           "not an IP address; names are not looked up, localhost is 127.0.0.1");
     const tcp::endpoint endpoint(ip, port);
     acceptor_.open(endpoint.protocol(), ec);
     if (!ec) acceptor_.set_option(asio::socket_base::reuse_address(true), ec);
     if (!ec) acceptor_.bind(endpoint, ec);
     if (!ec) acceptor_.listen(asio::socket_base::max_listen_connections, ec);
     if (!ec) acceptor_.non_blocking(true, ec);
-    if (!ec) spare_.open(tcp::v4(), ec);
     if (ec) return cannot_listen(address, port, ec.message());
     return std::nullopt;
   }
@@ -74,6 +82,7 @@ class HttpServer::Impl {
         if (!ec) wind_down();
       });
     }
+    reserve_.fill();
     asio::co_spawn(io_, accept(), asio::detached);
     io_.run();
   }
@@ -108,8 +117,6 @@ class HttpServer::Impl {
   }
 
   asio::awaitable<void> serve(tcp::socket socket, std::string client) {
-    ++connections_.open;
-    ++connections_.of_client[client];
     co_await serve_connection(Transport(std::move(socket), tls_), site_, *memory_);
     if (--connections_.of_client[client] == 0) connections_.of_client.erase(client);
     if (--connections_.open == 0 && told_readers_) io_.stop();
@@ -132,19 +139,27 @@ class HttpServer::Impl {
             {{"Retry-After", "1"}}};
   }
 
-  asio::awaitable<void> refuse(tcp::socket socket, Refusal why) {
-    ++connections_.refusing;
-    co_await refuse_connection(Transport(std::move(socket), tls_), site_.refuse(why), *memory_);
-    --connections_.refusing;
+  asio::awaitable<void> serve_reserved(Transport transport, std::unique_ptr<Reserve::Place> place,
+                                       Refusal why) {
+    co_await serve_in_reserve(std::move(transport), std::move(why), site_, *memory_);
+    place.reset();
+    reserve_.fill();
   }
 
-  void refuse_soon(tcp::socket socket, Refusal why) {
-    if (connections_.refusing >= kRefusingMax) return;
-    asio::co_spawn(io_, refuse(std::move(socket), std::move(why)), asio::detached);
+  // Precondition: there is room.
+  void reserve(tcp::socket socket, Refusal why) {
+    Transport transport(std::move(socket), tls_);
+    auto place = std::make_unique<Reserve::Place>(reserve_, transport.next_layer());
+    asio::co_spawn(io_, serve_reserved(std::move(transport), std::move(place), std::move(why)),
+                   asio::detached);
+  }
+
+  void refuse(tcp::socket socket, Refusal why) {
+    if (reserve_.make_room()) reserve(std::move(socket), std::move(why));
   }
 
   void take(tcp::socket socket) {
-    if (connections_.open >= connections_.max) return refuse_soon(std::move(socket), too_many());
+    if (connections_.open >= connections_.max) return refuse(std::move(socket), too_many());
     ErrorCode ec;
     const auto peer = socket.remote_endpoint(ec);
     const std::string client = ec ? std::string() : peer.address().to_string();
@@ -152,36 +167,50 @@ class HttpServer::Impl {
     if (known != connections_.of_client.end() &&
         known->second >= site_.connections_per_client_max) {
       if (site_.on_limited_connection) site_.on_limited_connection();
-      return refuse_soon(std::move(socket), too_many_of(client));
+      return refuse(std::move(socket), too_many_of(client));
     }
+    ++connections_.open;
+    ++connections_.of_client[client];
     asio::co_spawn(io_, serve(std::move(socket), client), asio::detached);
   }
 
-  // The system gives no descriptor for whoever comes: the one that was kept for this takes them,
-  // one after the other, to be told so.
-  asio::awaitable<void> refuse_with_spare() {
-    ErrorCode ec;
-    spare_.close(ec);
+  // The system gives no descriptor for whoever comes, but by the reserve.
+  ErrorCode take_in_reserve() {
+    ErrorCode ec = asio::error::no_descriptors;
+    if (!reserve_.make_room()) return ec;
     tcp::socket socket(io_);
     acceptor_.accept(socket, ec);
-    if (!ec) co_await refuse(std::move(socket), too_many());
-    spare_.open(tcp::v4(), ec);
+    if (ec) {
+      reserve_.fill();
+    } else {
+      reserve(std::move(socket), too_many());
+    }
+    return ec;
+  }
+
+  // Some of those who wait; why there are no more.
+  ErrorCode take_some() {
+    ErrorCode ec;
+    for (int taken = 0; !ec && taken < kTakenAtOnce; ++taken) {
+      tcp::socket socket(io_);
+      acceptor_.accept(socket, ec);
+      if (!ec) {
+        take(std::move(socket));
+      } else if (ec == asio::error::no_descriptors) {
+        ec = take_in_reserve();
+      }
+    }
+    return ec;
   }
 
   asio::awaitable<void> accept() {
     asio::steady_timer pause(io_);
     for (;;) {
       ErrorCode ec;
-      tcp::socket socket = co_await acceptor_.async_accept(into(ec));
-      if (!ec) {
-        take(std::move(socket));
-        continue;
-      }
+      co_await acceptor_.async_wait(tcp::acceptor::wait_read, into(ec));
+      if (!ec) ec = take_some();
       if (ending_) co_return;
-      if (ec == boost::system::errc::too_many_files_open && spare_.is_open()) {
-        co_await refuse_with_spare();
-        continue;
-      }
+      if (!ec || ec == asio::error::would_block) continue;
       pause.expires_after(std::chrono::milliseconds(50));
       co_await pause.async_wait(into(ec));
     }
@@ -190,17 +219,16 @@ class HttpServer::Impl {
   Site site_;  // outlives the connections, which end with io_
   std::optional<MemoryBudget> memory_;
   TlsContextPtr tls_;  // null: without
+  Reserve reserve_;
   asio::io_context io_{1};
   PostedTasks posted_{io_};
   tcp::acceptor acceptor_{io_};
-  tcp::socket spare_{io_};  // a descriptor for refusing whoever comes when there is no other
   asio::signal_set signals_{io_};
   asio::steady_timer winding_down_{io_};
   struct Connections {
     const std::size_t max;
     std::size_t open = 0;
     std::unordered_map<std::string, std::size_t> of_client = {};  // of these, by address
-    std::size_t refusing = 0;
   };
   Connections connections_;
   bool ending_ = false;

@@ -26,9 +26,11 @@ enum class Reach { nobody, this_machine, others };
 class HttpServer {
  public:
   // Binds and listens; nothing is accepted before run(). Port zero: any free one. Whoever connects
-  // while `connections_max` are open is answered 503 ("too-many-connections") and closed; when
-  // dozens come at once, the last ones are closed without a word. Problem (unavailable,
-  // "cannot-listen"): the address is no IP address, or the port is in use.
+  // while `connections_max` are open, or when the system gives no more descriptors, is served in
+  // the reserve (session.h): a stop is taken, any other request answered 503
+  // ("too-many-connections"). When dozens come at once, the first of them are closed without a
+  // word. Problem (unavailable, "cannot-listen"): the address is no IP address, or the port is in
+  // use.
   [[nodiscard]] static Result<std::unique_ptr<HttpServer>> listen(const std::string& address,
                                                                   std::uint16_t port,
                                                                   std::size_t connections_max);

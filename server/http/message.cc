@@ -48,8 +48,10 @@ Result<Target> parse_target(std::string_view text) {
   if (text.empty() || text.front() != '/') {
     return bad_target("the request target must be an absolute path", text);
   }
+  if (text.find('#') != text.npos) {
+    return bad_target("a request target has no fragment", text);
+  }
   Target target;
-  text = text.substr(0, text.find('#'));
   const std::size_t mark = text.find('?');
   const std::string_view raw_path = text.substr(0, mark);
   const auto path = percent_decoded(raw_path, false);

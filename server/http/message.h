@@ -26,8 +26,8 @@ struct Target {
     return it == query.end() ? std::nullopt : std::optional(it->second);
   }
 };
-// Problem (malformed): no absolute path, a broken or forbidden escape, a parameter that occurs
-// twice.
+// Problem (malformed): no absolute path, a fragment, a broken or forbidden escape, a parameter that
+// occurs twice.
 [[nodiscard]] Result<Target> parse_target(std::string_view text);
 
 // The first parameter of the query that is not `known`, as a problem (malformed) that names it.
@@ -141,6 +141,8 @@ struct Site {
   // The answer to a request that is refused whatever its body says; absent: `handle` answers it.
   std::function<std::optional<Response>(const Request&)> refuse_unread;
   WriteRefusal refuse;  // what is wrong with HTTP itself: framing, limits, targets
+  // Whether this request is served however many connections are open.
+  std::function<bool(const Request&)> is_never_limited;
   // The server is asked to end: bring everything to rest, then call `done` (from any thread).
   std::function<void(std::function<void()> done)> wind_down;
   std::function<void()> end;  // the server ends: every subscription says why it closes

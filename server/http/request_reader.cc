@@ -2,6 +2,7 @@
 
 #include <boost/beast/http.hpp>
 
+#include "server/http/read_deadline.h"
 #include "server/http/request_head.h"
 #include "server/http/session.h"
 
@@ -16,6 +17,10 @@ constexpr std::size_t kEmptyLinesMax = 4;  // before a request line
 std::string_view held(const Connection& connection) {
   const auto data = connection.buffer.data();
   return {static_cast<const char*>(data.data()), data.size()};
+}
+
+NoRequest too_late(const char* what) {
+  return {Refusal{408, "request-timeout", std::string("the ") + what + " did not come in time"}};
 }
 
 Refusal bad_request(std::string detail) { return {400, "bad-request", std::move(detail)}; }
@@ -82,26 +87,29 @@ asio::awaitable<std::optional<NoRequest>> read_first_line(Connection& connection
 }  // namespace
 
 asio::awaitable<std::optional<NoRequest>> read_header(Connection& connection, RequestParser& parser,
-                                                      std::chrono::milliseconds read_time) {
+                                                      ReadTimes times) {
   parser.body_limit(kBodyMax);
   parser.header_limit(static_cast<std::uint32_t>(kHeaderMax));
   ErrorCode ec;
   if (connection.buffer.size() == 0) {
-    connection.stream.expires_after(kIdleTime);
+    const ReadDeadline deadline(connection.stream, times.idle);
     co_await read_some(connection, ec);
     if (ec) co_return NoRequest{};
   }
-  connection.stream.expires_after(read_time);
-  if (auto none = co_await read_first_line(connection)) co_return none;
-  co_await http::async_read_header(connection.stream, connection.buffer, parser, into(ec));
-  co_return ec ? std::optional(stopped_by(ec, "")) : std::nullopt;
+  const ReadDeadline deadline(connection.stream, times.read);
+  auto none = co_await read_first_line(connection);
+  if (!none) {
+    co_await http::async_read_header(connection.stream, connection.buffer, parser, into(ec));
+    if (ec) none = stopped_by(ec, "");
+  }
+  co_return deadline.is_over() ? std::optional(too_late("header")) : none;
 }
 
 asio::awaitable<std::optional<NoRequest>> read_body(Connection& connection, RequestParser& parser,
                                                     std::chrono::milliseconds read_time,
                                                     bool ask_for_it) {
   if (parser.is_done()) co_return std::nullopt;
-  connection.stream.expires_after(read_time);
+  const ReadDeadline deadline(connection.stream, read_time);
   ErrorCode ec;
   if (ask_for_it) {
     http::response<http::empty_body> go_on(http::status::continue_, 11);
@@ -116,6 +124,7 @@ asio::awaitable<std::optional<NoRequest>> read_body(Connection& connection, Requ
   parser.on_chunk_header(count);
   parser.get().body().charge = MemoryBudget::Charge(connection.memory);
   co_await http::async_read(connection.stream, connection.buffer, parser, into(ec));
+  if (deadline.is_over()) co_return too_late("body");
   co_return ec ? std::optional(stopped_by(ec, held(connection))) : std::nullopt;
 }
 

@@ -8,15 +8,20 @@
 
 namespace armloom {
 
-// Why no request came of it: `refusal` is to be said, none: the peer has gone, or is too slow.
+// Why no request came of it: `refusal` is to be said, none: the peer has gone, or has begun none.
 struct NoRequest {
   std::optional<Refusal> refusal = {};
 };
 
-// Waits for the next request's first bytes, then reads its header; the time for the header does not
-// begin before. An empty line before it is read over.
+struct ReadTimes {
+  std::chrono::milliseconds idle;  // until the first bytes of a request
+  std::chrono::milliseconds read;  // from then on for its header, and for its body
+};
+
+// Waits for the next request's first bytes, then reads its header. An empty line before it is read
+// over.
 asio::awaitable<std::optional<NoRequest>> read_header(Connection& connection, RequestParser& parser,
-                                                      std::chrono::milliseconds read_time);
+                                                      ReadTimes times);
 
 // Reads the body, at most kBodyMax of it, and of what stands around its chunks no more than of a
 // header. `ask_for_it`: 100 Continue goes before.

@@ -82,8 +82,7 @@ Router::Found Router::find(const Request& request) const {
 std::optional<Response> Router::refusal(const Request& request, const Found& found) const {
   const Rights unrouted{request.method == "GET" ? Who::reader : Who::commander, std::nullopt,
                         false};
-  const auto [who, role, is_never_limited] =
-      found.route != nullptr ? found.route->rights : unrouted;
+  const auto [who, role, never_limited] = found.route != nullptr ? found.route->rights : unrouted;
   if (who != Who::anyone && request.stranger) return refuse_(*request.stranger);
   if (who == Who::commander && request.foreign) return refuse_(*request.foreign);
   if (role && guard_) {
@@ -126,8 +125,7 @@ void Router::dispatch(const Request& request, Respond respond) const {
       inner(std::move(response));
     };
   }
-  const bool is_limited = found.route == nullptr || !found.route->rights.is_never_limited;
-  if (is_limited && limit_) {
+  if (limit_ && !is_never_limited(found)) {
     if (const auto why = limit_(request)) return respond(refuse_(*why));
   }
   if (auto refused = refusal(request, found)) return respond(std::move(*refused));

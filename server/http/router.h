@@ -60,6 +60,9 @@ class Router {
   void dispatch(const Request& request, Respond respond) const;
   // What dispatch() will answer whatever the body says; absent: a route's function answers.
   [[nodiscard]] std::optional<Response> refuse_unread(const Request& request) const;
+  [[nodiscard]] bool is_never_limited(const Request& request) const {
+    return is_never_limited(find(request));
+  }
 
  private:
   struct Route {
@@ -75,6 +78,9 @@ class Router {
     Arguments arguments;
   };
   [[nodiscard]] Found find(const Request& request) const;
+  [[nodiscard]] static bool is_never_limited(const Found& found) {
+    return found.route != nullptr && found.route->rights.is_never_limited;
+  }
   [[nodiscard]] std::string allowed_at(const std::string& path) const;
   [[nodiscard]] std::optional<Response> refusal(const Request& request, const Found& found) const;
   [[nodiscard]] Response unrouted(const Request& request) const;

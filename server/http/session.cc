@@ -6,7 +6,6 @@
 
 #include "server/http/arrival.h"
 #include "server/http/event_stream.h"
-#include "server/http/request_id.h"
 #include "server/http/websocket_session.h"
 
 namespace armloom {
@@ -69,7 +68,8 @@ asio::awaitable<bool> deliver(Connection& connection, Response response, Deliver
 
 // One request and its answer. Whether another may follow on the connection.
 asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
-  auto arrived = co_await read_request(connection, site);
+  const Terms terms{{kIdleTime, site.read_time}};
+  auto arrived = co_await read_request(connection, site, terms);
   if (!arrived) {
     if (arrived.error()) co_await refuse(connection, std::move(*arrived.error()));
     co_return false;
@@ -81,9 +81,9 @@ asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
                              std::move(*response.events), site);
     co_return false;
   }
-  if (response.events && !arrived->delivery.without_body) {
+  if (response.events) {
     co_await serve_event_stream(std::move(connection.stream), arrived->request,
-                                std::move(*response.events), site);
+                                std::move(*response.events), site, arrived->delivery.without_body);
     co_return false;
   }
   answer_conditionally(request, response);
@@ -107,11 +107,23 @@ asio::awaitable<void> serve_connection(Transport transport, const Site& site,
   }
 }
 
-asio::awaitable<void> refuse_connection(Transport transport, Response why, MemoryBudget& memory) {
+asio::awaitable<void> serve_in_reserve(Transport transport, Refusal why, const Site& site,
+                                       MemoryBudget& memory) {
   Connection connection(std::move(transport), memory);
-  connection.request_id = fresh_request_id();
-  if (!co_await connection.stream.shake_hands(std::chrono::seconds(2))) co_return;
-  co_await refuse(connection, std::move(why));
+  if (!co_await connection.stream.shake_hands(kReserveTime)) co_return;
+  const Terms terms{{kReserveTime, kReserveTime}, [&](const Request& request) {
+                      return site.is_never_limited(request) ? std::nullopt : std::optional(why);
+                    }};
+  auto arrived = co_await read_request(connection, site, terms);
+  if (!arrived) {
+    std::optional<Response> said = std::move(arrived.error());
+    if (!said) said = site.refuse(why);
+    co_return co_await refuse(connection, std::move(*said));
+  }
+  Response response = co_await answer(site, arrived->request, connection.stream.socket());
+  answer_across_origins(arrived->request, response);
+  arrived->delivery.keep_alive = false;
+  co_await deliver(connection, std::move(response), arrived->delivery, site);
 }
 
 }  // namespace armloom

@@ -11,13 +11,17 @@ inline constexpr std::size_t kBodyMax = 8 * 1024 * 1024;  // beyond: 413
 inline constexpr std::size_t kHeaderMax = 16 * 1024;      // beyond: 431; of trailers twice that
 inline constexpr std::chrono::seconds kIdleTime{60};      // between requests of one connection
 inline constexpr std::chrono::seconds kWriteTime{30};     // for a whole response
+// In the reserve, for each of: TLS, the first bytes, the header, the body.
+inline constexpr std::chrono::seconds kReserveTime{1};
 
 // Serves one connection until it ends: requests one after the other, or one upgrade to a WebSocket.
 // Runs on the server's thread; `site` and
 // `memory` outlive it.
 asio::awaitable<void> serve_connection(Transport transport, const Site& site, MemoryBudget& memory);
 
-// Says `why` at once, whatever is asked, and closes.
-asio::awaitable<void> refuse_connection(Transport transport, Response why, MemoryBudget& memory);
+// Serves the first request if that is never limited, as a stop is; says `why` to any other, and to
+// who asks nothing soon. Then the connection is closed.
+asio::awaitable<void> serve_in_reserve(Transport transport, Refusal why, const Site& site,
+                                       MemoryBudget& memory);
 
 }  // namespace armloom

@@ -41,6 +41,7 @@ class Transport {
     tcp_->expires_after(duration);
   }
   void expires_never() { tcp_->expires_never(); }
+  void cancel() { tcp_->cancel(); }  // what is under way ends with an error
   void close() { tcp_->close(); }
   // Where the other end is: an IP address.
   [[nodiscard]] std::string peer() const;

@@ -4,6 +4,7 @@
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -20,6 +21,8 @@ constexpr std::chrono::seconds kIdle{
     30};  // then the peer is pinged, and dropped if it stays silent
 constexpr std::size_t kMessageMax = 4096;  // that a client may send
 
+constexpr std::uint16_t kCloseCodeMax = 4999;
+
 websocket::close_code code_of(CloseReason::Why why) {
   switch (why) {
     case CloseReason::Why::too_slow:
@@ -32,7 +35,7 @@ websocket::close_code code_of(CloseReason::Why why) {
   return websocket::close_code::going_away;
 }
 
-class WebSocket final : public StreamCarrier {
+class WebSocket final : public StreamCarrier, public std::enable_shared_from_this<WebSocket> {
  public:
   WebSocket(Transport stream, std::string request_id, int send_buffer)
       : socket_(std::move(stream)) {
@@ -52,6 +55,9 @@ class WebSocket final : public StreamCarrier {
 
   template <class Upgrade>
   asio::awaitable<void> accept(const Upgrade& upgrade, ErrorCode& ec) {
+    socket_.control_callback([this](websocket::frame_type kind, beast::string_view) {
+      if (kind == websocket::frame_type::close) answer_close();
+    });
     co_await socket_.async_accept(upgrade, into(ec));
   }
 
@@ -77,6 +83,15 @@ class WebSocket final : public StreamCarrier {
   void cut() override { beast::get_lowest_layer(socket_).close(); }
 
  private:
+  // Beast answers a close with its own code, knows which are reserved (RFC 6455, 7.4), and takes
+  // those beyond the last one that there is for good: to such a one the answer is ours, which is
+  // there before.
+  void answer_close() {
+    if (socket_.reason().code <= kCloseCodeMax) return;
+    socket_.async_close(websocket::close_code::protocol_error,
+                        [self = shared_from_this()](ErrorCode) {});
+  }
+
   websocket::stream<Transport> socket_;
 };
 

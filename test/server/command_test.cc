@@ -42,7 +42,12 @@ TEST_F(Command, AnOptionThatCannotBeFollowedIsNamed) {
       {"serve --cell " + kCell + " --listen 127.0.0.1:70000",
        "armloom: --listen: expected ADDRESS:PORT"},
       {"serve --cell " + kCell + " --listen elsewhere:8080",
-       "armloom: --listen: cannot listen on elsewhere:8080: not an IP address"},
+       "armloom: --listen: cannot listen on elsewhere:8080: not an IP address; names are not "
+       "looked up, localhost is 127.0.0.1"},
+      {"serve --cell " + kCell + " --listen localhost",
+       "expected ADDRESS:PORT, as in 127.0.0.1:8080, which is this machine alone"},
+      {"history --data /nowhere --state foo", "--state: foo not in {queued,"},
+      {"replay --data /nowhere --until -1", "--until: "},
       {"serve --listen 127.0.0.1:0 --cell " + kCell + " --web /nowhere",
        "armloom: --web: there is no folder /nowhere\n"},
       {"serve --listen 127.0.0.1:0 --cell " + kCell + " --allow-host a/b",

@@ -98,6 +98,67 @@ TEST_F(Rfc, AHigherMinorVersionIsServedAnotherMajorOneIsNot) {
       answers_to("GET /healthz HTTP/1.x\r\nHost: localhost\r\n\r\n").starts_with("HTTP/1.1 400 "));
 }
 
+// RFC 9112, 3.2: a target has no fragment.
+TEST_F(Rfc, AFragmentIsRefused) {
+  for (const char* target : {"/healthz#", "/healthz#x", "/api/v1/jobs?limit=1#x",
+                             "http://localhost/healthz#x", "http://localhost#x"}) {
+    EXPECT_EQ(
+        answer_to(std::string("GET ") + target + " HTTP/1.1\r\nHost: localhost\r\n\r\n").status,
+        400)
+        << target;
+  }
+}
+
+// RFC 9110, 9.3.2: HEAD has the fields that GET would have.
+TEST_F(Rfc, HeadOfEventsHasNoLength) {
+  const std::string rest = " /api/v1/events HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  const std::string head = answers_to("HEAD" + rest);
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 200 ")) << head;
+  EXPECT_TRUE(head.ends_with("\r\n\r\n")) << head;
+  EXPECT_EQ(head.find("Content-Length"), head.npos) << head;
+  EXPECT_NE(head.find("Content-Type: text/event-stream\r\n"), head.npos) << head;
+}
+
+// RFC 9110, 8.8.3 and 13.1.1: an entity tag stands in quotes.
+TEST_F(Rfc, WhatIsNoEntityTagIsMalformed) {
+  const auto patch = [&](const std::string& if_match) {
+    return answer_to(
+               "PATCH /api/v1/jobs/x HTTP/1.1\r\nHost: localhost\r\nContent-Type: "
+               "application/json\r\n"
+               "Content-Length: 2\r\nIf-Match: " +
+               if_match + "\r\n\r\n{}")
+        .status;
+  };
+  for (const char* bad : {"foo", "\"foo", "W/foo", "\"a\" \"b\"", "*, \"a\"", "", ",", "w/\"a\""}) {
+    EXPECT_EQ(patch(bad), 400) << bad;
+  }
+  for (const char* good : {"*", "\"\"", "\"a,b\"", "W/\"a\" , \"b\"", ", \"a\","}) {
+    EXPECT_EQ(patch(good), 404) << good;
+  }
+}
+
+// RFC 6455, 7.4: codes that are not for the wire are a protocol error.
+TEST_F(Rfc, ACloseCodeThatIsNoneIsAProtocolError) {
+  const auto answer_to_close = [&](int code) {
+    test::Wire wire(port());
+    wire.send(
+        "GET /api/v1/ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
+        "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+        "Sec-WebSocket-Version: 13\r\n\r\n");
+    (void)wire.take_until("\r\n\r\n");
+    wire.send(std::string("\x88\x82\0\0\0\0", 6) + static_cast<char>(code >> 8) +
+              static_cast<char>(code & 0xff));
+    const std::string all = wire.take_all();  // frames of events, and last the close
+    const std::string last = all.substr(all.size() - 4);
+    EXPECT_EQ(last.substr(0, 2), std::string("\x88\x02")) << code;
+    return static_cast<unsigned char>(last[2]) * 256 + static_cast<unsigned char>(last[3]);
+  };
+  for (const int bad : {0, 999, 1004, 1005, 1006, 1014, 1015, 1016, 2999, 5000, 65535}) {
+    EXPECT_EQ(answer_to_close(bad), 1002) << bad;
+  }
+  for (const int good : {1000, 1001, 3000, 4999}) EXPECT_EQ(answer_to_close(good), good);
+}
+
 // RFC 6455, 4.2: the key is sixteen bytes in base64, the version 13.
 TEST_F(Rfc, AHandshakeMustBeSound) {
   const auto shake = [&](const std::string& key, const std::string& version) {

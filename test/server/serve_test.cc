@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <memory>
 #include <thread>
 
 #include "test/server/command_fixture.h"
@@ -125,9 +127,54 @@ TEST_F(Serve, ADiskThatFillsUpIsSaidAtOnceAndAtTheEnd) {
   while (server.log().find("the recording is no longer whole") == std::string::npos) {
     ASSERT_LT(Clock::now(), deadline) << server.log();
   }
+  EXPECT_NE(ready.json()["detail"].get<std::string>().find("until the server is started again"),
+            std::string::npos);
+  // It is an alert, which somebody sees to.
+  const auto alerts = test::request(server.port(), "GET", "/api/v1/alerts").json()["alerts"];
+  const auto lost = std::ranges::find_if(alerts, [](const json& alert) {
+    return alert["text"].get<std::string>().starts_with("the recording is no longer whole");
+  });
+  ASSERT_NE(lost, alerts.end()) << alerts;
+  EXPECT_EQ((*lost)["level"], "error");
+  const json seen{{"ids", {(*lost)["id"]}}, {"who", "Ada"}};
+  test::request(server.port(), "POST", "/api/v1/alerts/acknowledge", seen.dump());
   server.signal(SIGTERM);
   EXPECT_EQ(server.wait(), 74);
   EXPECT_NE(server.log().find("not all is written: "), std::string::npos) << server.log();
+}
+
+// Whatever the process has to count with: of 64 descriptors all are taken.
+TEST_F(Serve, AStopIsTakenWhenTheDescriptorsAreUsedUp) {
+  test::ServeProcess server({"--cell", test::kCell}, log(),
+                            [] { test::set_limit(RLIMIT_NOFILE, 64); });
+  std::vector<std::unique_ptr<test::Wire>> held;
+  for (int i = 0; i < 150; ++i) held.push_back(std::make_unique<test::Wire>(server.port()));
+  EXPECT_EQ(test::request(server.port(), "GET", "/healthz").status, 503);
+  EXPECT_EQ(test::request(server.port(), "POST", "/api/v1/stop").status, 202);
+  EXPECT_EQ(test::request(server.port(), "POST", "/api/v1/arms/left/stop").status, 202);
+  held.clear();
+  const auto deadline = Clock::now() + std::chrono::seconds(20);
+  while (test::request(server.port(), "GET", "/healthz").status != 200) {
+    ASSERT_LT(Clock::now(), deadline);
+  }
+  EXPECT_EQ(test::request(server.port(), "GET", "/api/v1/queue").json()["stopped"], true);
+}
+
+// As under a debugger: who held the button has let it go for all that the server knows.
+TEST_F(Serve, AMoveByHandIsOverAfterTheProcessWasStopped) {
+  test::ServeProcess server({"--cell", test::kCell, "--hold-lease", "0.3"}, log());
+  const auto ask = [&](const char* method, const std::string& path, const json& body) {
+    return test::request(server.port(), method, "/api/v1" + path, body.dump());
+  };
+  const json key{{"control", ask("POST", "/control", {{"who", "Ada"}}).json()["key"]}};
+  json hold = key;
+  hold["to"] = {{"named", "ready"}};
+  ASSERT_EQ(ask("POST", "/arms/left/hold", hold).status, 202);
+  server.signal(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  server.signal(SIGCONT);
+  const auto late = ask("PUT", "/arms/left/hold", key);
+  EXPECT_EQ(late.status, 409) << late.body;
 }
 
 TEST_F(Serve, ASignalLeavesWhatHasNotBegunToTheNextServer) {
