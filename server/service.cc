@@ -10,6 +10,7 @@
 #include "server/codec/stream_id.h"
 #include "server/comparison/comparison.h"
 #include "server/control/control.h"
+#include "server/durable/damaged_jobs.h"
 #include "server/durable/restart.h"
 #include "server/http/http_server.h"
 #include "server/http/static_files.h"
@@ -181,6 +182,7 @@ class Service::Impl {
   void go_on(Restart restart, const CellPtr& cell) {
     keeper_->runs_on(*loop_);
     loop_is_there_ = true;
+    look_for_damage();
     // Before whatever comes from outside, stops and resumes too.
     loop_->post_urgent([this, cell, restart = std::make_shared<Restart>(std::move(restart))](
                            Executive& executive) { restart->go_on(executive, *cell, *keeper_); });
@@ -189,6 +191,14 @@ class Service::Impl {
   // To everybody who is told of the executive's.
   void tell(Alert alert) {
     loop_->post([alert = std::move(alert)](Executive& executive) { executive.alert(alert); });
+  }
+
+  // Aside: of a hundred thousand jobs that takes a tenth of a second.
+  void look_for_damage() {
+    worker_.post([this] {
+      const auto damaged = keeper_->lists().damaged();
+      if (damaged && !damaged->empty()) tell(alert_of_damaged(*damaged));
+    });
   }
 
   void alarm(const std::string& what) { options_.log({LogLine::Level::error, what}); }

@@ -87,20 +87,23 @@ void get_audit(Call call) {
 
 std::vector<Route> audit_routes() {
   const Schema text{{"type", "string"}};
-  return {{.method = "GET",
-           .path = api_path("/audit"),
-           .id = "listAudit",
-           .tag = "service",
-           .summary = "Who did what, when, from where; newest first",
-           .text = "Everything but what only looks, and everything that was refused for want of a "
-                   "token or a role. Kept with `--data`: the last 100,000.",
-           .parameters = {{"limit", "At most so many, 100 unless given",
-                           formats::integer(1, kPageMax)->schema(Way::in)},
-                          {"cursor", "next_cursor of the page before", text}},
-           .outcomes = {outcome(200, "A page", audit_page_format())},
-           .refuses = {404, 422},
-           .role = Role::admin,
-           .run = get_audit}};
+  return {
+      {.method = "GET",
+       .path = api_path("/audit"),
+       .id = "listAudit",
+       .tag = "service",
+       .summary = "Who did what, when, from where; newest first",
+       .text =
+           "Everything but what only looks, and everything that was refused for want of a "
+           "token or a role. Kept with `--data`: the last 100,000 that did something, and the last "
+           "100,000 that were refused (4xx), which displace nothing of the former.",
+       .parameters = {{"limit", "At most so many, 100 unless given",
+                       formats::integer(1, kPageMax)->schema(Way::in)},
+                      {"cursor", "next_cursor of the page before", text}},
+       .outcomes = {outcome(200, "A page", audit_page_format())},
+       .refuses = {404, 422},
+       .role = Role::admin,
+       .run = get_audit}};
 }
 
 }  // namespace armloom

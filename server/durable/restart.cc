@@ -6,6 +6,7 @@
 
 #include "server/codec/json_text.h"
 #include "server/codec/read_text.h"
+#include "server/durable/damaged_jobs.h"
 #include "server/messages/job.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
@@ -20,17 +21,6 @@ nlohmann::ordered_json view_of(const StoredJob& job, const WallClock& clock) {
   if (view.is_object()) return view;
   const JobView nothing{.id = JobId{job.number}, .key = job.id};
   return nlohmann::ordered_json::parse(text_of(*job_format(), nothing, &clock), nullptr, false);
-}
-
-// As far as they fit into a sentence.
-std::string listed(const std::vector<std::string>& ids) {
-  constexpr std::size_t kListed = 10;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kListed, ids.size()); ++i) {
-    text += (i == 0 ? "\"" : ", \"") + ids[i] + '"';
-  }
-  return ids.size() <= kListed ? text
-                               : text + " and " + std::to_string(ids.size() - kListed) + " more";
 }
 
 // The job as it was told last, ended as this run begins.
@@ -64,7 +54,6 @@ Result<Restart> Restart::prepare(JobKeeper& keeper) {
   const Leftover& left = keeper.store().leftover();
   Restart restart;
   restart.stopped_arms_ = left.stopped_arms;
-  restart.unreadable_ = left.damaged;
   for (const LeftJob& job : left.jobs) restart.sort_out(job, keeper);
   for (const WrittenOff& off : restart.written_off_) {
     keeper.store().see(ended(off.job, off.state, off.reason, off.detail, keeper.clock()));
@@ -101,38 +90,41 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
   }
   // The server's own, or one whose client has no answer.
   if (!left.body) return write_off(job, kInterrupted, kRestart, "the server ended before it began");
-  auto request = read_job_text(*left.body);
-  if (!request) {
+  auto read = read_job_submission(*left.body);
+  if (!read) {
     return write_off_unreadable(
-        job, "it can no longer be read: " + problem_sentence("", request.error().front()));
+        job, "it can no longer be read: " + problem_sentence("", read.error().front()));
   }
+  JobRequest& request = read->request;
   if (left.amended) {
     const auto amendment = read_job_amendment(*left.amended);
     if (!amendment) {
       return write_off_unreadable(job, "what was changed of it can no longer be read: " +
                                            problem_sentence("", amendment.error().front()));
     }
-    apply(*amendment, *request);
+    apply(*amendment, request);
   }
-  request->key = job.id;
-  request->body = std::make_shared<const std::string>(nlohmann::json::parse(*left.body).dump());
-  if (failed_before(*request)) {
+  request.key = job.id;
+  request.body = std::make_shared<const std::string>(std::move(read->canonical));
+  if (failed_before(request)) {
     return write_off(job, JobState::failed, Reason::predecessor_failed,
                      "a job that it comes after did not succeed");
   }
-  for (const std::string& before : request->after) {
+  for (const std::string& before : request.after) {
     const bool waits =
         std::ranges::any_of(stored_, [&](const StoredJob& other) { return other.id == before; });
     if (waits) continue;
     const auto found =
         keeper.history().find(before);  // none: it ended so long ago that it is deleted
-    if (found && *found && (*found)->state != to_string(JobState::succeeded)) {
+    const bool has_succeeded =
+        found && (!*found || (*found)->state == to_string(JobState::succeeded));
+    if (!has_succeeded) {
       return write_off(job, JobState::failed, Reason::predecessor_failed,
                        "a job that it comes after did not succeed");
     }
-    request->known.succeeded.push_back(before);
+    request.known.succeeded.push_back(before);
   }
-  waiting_.push_back({JobId{job.number}, std::move(*request), submitted_at(job, keeper.clock())});
+  waiting_.push_back({JobId{job.number}, std::move(request), submitted_at(job, keeper.clock())});
   stored_.push_back(job);
 }
 
@@ -142,11 +134,7 @@ std::string Restart::summary() const {
 }
 
 void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
-  if (!unreadable_.empty()) {
-    executive.alert({Alert::Level::error,
-                     "jobs of the data folder cannot be read, or are not as they were written: " +
-                         listed(unreadable_) + "; none of them is begun"});
-  }
+  if (!unreadable_.empty()) executive.alert(alert_of_damaged(unreadable_));
   const bool asks = cell.scheduling.on_restart == OnRestart::ask;
   if (asks && (!waiting_.empty() || !written_off_.empty())) {
     stop_all(executive, summary());

@@ -93,6 +93,14 @@ class JobHistory::Impl {
     return entries;
   }
 
+  std::vector<std::string> damaged() const {
+    std::vector<std::string> ids;
+    if (database_.number("PRAGMA user_version") < kVersionWithSums) return ids;
+    Statement row = database_.prepare(std::string("SELECT id FROM job WHERE sum != ") + kSumOfJob);
+    while (row.step()) ids.push_back(row.text(0));
+    return ids;
+  }
+
   // How many that are damaged were passed over.
   std::size_t each(const HistoryFilter& filter, const char* order,
                    const std::function<bool(StoredJob)>& take) const {
@@ -175,6 +183,10 @@ Result<void> JobHistory::oldest_first(const HistoryFilter& filter,
   if (!read) return failure(std::move(read.error()));
   if (*read == 0) return {};
   return impl_->cannot_read(std::to_string(*read) + " jobs are not as they were written");
+}
+
+Result<std::vector<std::string>> JobHistory::damaged() const {
+  return impl_->reading([&] { return impl_->damaged(); });
 }
 
 }  // namespace armloom

@@ -38,13 +38,15 @@ class JobHistory {
   // Who did what, newest first: of those before this number, at most so many.
   [[nodiscard]] Result<std::vector<AuditEntry>> audit(std::optional<std::uint64_t> before,
                                                       std::size_t most) const;
-  // Newest first, until `take` says enough (false). Those that are damaged are passed over; when
-  // the store was opened they were told of.
+  // Newest first, until `take` says enough (false). Those that are damaged are passed over:
+  // damaged() tells of them.
   [[nodiscard]] Result<void> newest_first(const HistoryFilter& filter,
                                           const std::function<bool(StoredJob)>& take) const;
   // Oldest first. Problem, when all others were taken: some are damaged.
   [[nodiscard]] Result<void> oldest_first(const HistoryFilter& filter,
                                           const std::function<void(StoredJob)>& take) const;
+  // The ids of those that are not as they were written.
+  [[nodiscard]] Result<std::vector<std::string>> damaged() const;
 
  private:
   class Impl;

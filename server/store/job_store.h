@@ -41,9 +41,8 @@ struct StoreOptions {
 
 // What a data folder held when it was opened.
 struct Leftover {
-  std::uint64_t last_number = 0;     // of any job ever
-  std::vector<LeftJob> jobs;         // in order of their numbers
-  std::vector<std::string> damaged;  // ids of jobs that have ended and are not as they were written
+  std::uint64_t last_number = 0;  // of any job ever
+  std::vector<LeftJob> jobs;      // in order of their numbers
   std::vector<std::string> stopped_arms;
   std::vector<StoredAlert> alerts;  // oldest first
 };

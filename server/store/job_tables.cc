@@ -90,9 +90,6 @@ Leftover JobTables::leftover() const {
     if (!jobs.is_null(8)) found.amended = jobs.text(8);
     found.is_damaged = jobs.number(9) != 0;
   }
-  Statement damaged = database_.prepare(
-      std::string("SELECT id FROM job WHERE has_ended != 0 AND sum != ") + kSumOfJob);
-  while (damaged.step()) left.damaged.push_back(damaged.text(0));
   Statement arms = database_.prepare("SELECT name FROM stopped_arm ORDER BY name");
   while (arms.step()) left.stopped_arms.push_back(arms.text(0));
   Statement alerts = database_.prepare(
