@@ -11,6 +11,7 @@
 #include "server/comparison/comparison.h"
 #include "server/control/control.h"
 #include "server/durable/damaged_jobs.h"
+#include "server/durable/request_trail.h"
 #include "server/durable/restart.h"
 #include "server/http/http_server.h"
 #include "server/http/static_files.h"
@@ -18,10 +19,6 @@
 #include "server/replay/input_file.h"
 
 namespace armloom {
-
-namespace {
-constexpr std::size_t kAuditedPathMax = 512;
-}  // namespace
 
 class Service::Impl {
  public:
@@ -48,6 +45,7 @@ class Service::Impl {
       if (!recording) return std::move(recording.error());
       recording_ = std::move(*recording);
     }
+    trail_.emplace(keeper_.get(), options_.log, options_.logged_requests);
     router_.watch([this](const std::string& method, const std::string& route, int status,
                          std::chrono::nanoseconds after) {
       metrics_->answered(method, route, status, after);
@@ -220,44 +218,9 @@ class Service::Impl {
         options_.kept_recordings, kPeriod, tell);
   }
 
-  // Told in the log, where that is wanted.
-  void log_request(const AuditEntry& entry, const std::string& id, bool only_looks,
-                   std::chrono::nanoseconds within) {
-    const auto wanted = options_.logged_requests;
-    if (wanted == LoggedRequests::none || (wanted == LoggedRequests::commands && only_looks)) {
-      return;
-    }
-    LogLine line{entry.status >= 500 ? LogLine::Level::warning : LogLine::Level::info, "request"};
-    line.fields = {{"request_id", id},   {"method", entry.method},
-                   {"path", entry.path}, {"status", std::int64_t{entry.status}},
-                   {"from", entry.peer}, {"ms", 1e-6 * static_cast<double>(within.count())}};
-    if (!entry.who.empty()) line.fields.emplace_back("who", entry.who);
-    options_.log(line);
-  }
-
-  // Who did something, or was not let do it, is put down.
   Respond noting(const Request& request, Respond respond) {
-    if (!keeper_ && options_.logged_requests == LoggedRequests::none) return respond;
     const auto caller = guard_.caller(request.token);
-    AuditEntry entry{.who = caller ? caller->name : std::string(),
-                     .peer = request.peer,
-                     .method = request.method,
-                     .path = request.target.path.substr(0, kAuditedPathMax)};
-    return [this, entry = std::move(entry), respond = std::move(respond), id = request.id,
-            asked = std::chrono::steady_clock::now()](Response response) mutable {
-      entry.status = response.status;
-      const bool is_refused = entry.status == 401 || entry.status == 403;
-      const bool only_looks = !is_refused && (entry.method == "GET" || entry.method == "OPTIONS" ||
-                                              response.is_routine);
-      log_request(entry, id, only_looks, std::chrono::steady_clock::now() - asked);
-      if (keeper_ && !only_looks) {
-        using std::chrono::milliseconds;
-        const auto now = std::chrono::system_clock::now().time_since_epoch();
-        entry.at_ms = std::chrono::floor<milliseconds>(now).count();
-        keeper_->store().note(std::move(entry));
-      }
-      respond(std::move(response));
-    };
+    return trail_->follow(request, caller ? caller->name : std::string(), std::move(respond));
   }
 
   std::optional<Refusal> one_too_many(const Request& request) {
@@ -287,6 +250,7 @@ class Service::Impl {
   Hub hub_;
   Router router_{refusal_response};
   std::unique_ptr<JobKeeper> keeper_;
+  std::optional<RequestTrail> trail_;
   std::atomic<bool> loop_is_there_{false};  // what the store's thread asks
   std::unique_ptr<AlertBook> alerts_;
   std::unique_ptr<Recording> recording_;

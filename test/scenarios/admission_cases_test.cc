@@ -134,6 +134,34 @@ TEST(T11, WhatFollowsACanceledJobFailsWithTheReasonAndNeverHangs) {
   EXPECT_TRUE(cell.simulation->executive().all_ended());
 }
 
+// Its client was told that it was not accepted.
+TEST(Withdrawn, AJobEndsAndIsKnownNoMoreAndItsKeyIsFree) {
+  Crossing cell;
+  Executive& executive = cell.simulation->executive();
+  cell.submit(slide("x", -1, 1, 4, "waits"));
+  executive.withdraw("waits");
+  EXPECT_FALSE(executive.job("waits")) << "it had not begun";
+  executive.withdraw("nobody");
+  cell.submit(slide("x", -1, 1, 4, "waits"));
+  JobRequest after = slide("y", -1, 1, 4, "after");
+  after.after = {"waits"};
+  cell.submit(after);
+  cell.run_until(at(1s));
+  executive.withdraw("waits");
+  EXPECT_TRUE(executive.job("waits")) << "it brakes";
+  cell.run_until(at(2s));
+  EXPECT_FALSE(executive.job("waits"));
+  EXPECT_EQ(cell.job("after").reason(), Reason::predecessor_failed);
+  EXPECT_TRUE(executive.all_ended());
+  EXPECT_EQ(executive.snapshot().jobs.size(), 1U);
+  std::size_t ends = 0;
+  for (const Event& event : cell.log.events) {
+    const auto* job = std::get_if<JobView>(&event.body);
+    ends += job != nullptr && job->key == "waits" && is_terminal(job->state) ? 1 : 0;
+  }
+  EXPECT_EQ(ends, 2U) << "who reads events is told of the end of each";
+}
+
 TEST(Backlog, ExpiresAndSaysSo) {
   CellDescription description = crossing_description();
   description.robots[1].arms[0].home = {0.0};

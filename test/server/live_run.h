@@ -217,6 +217,8 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
         return executive_->check(request(swing(arm())), [](const auto&) {});
       case 28:
         return plan();
+      case 29:
+        return executive_->withdraw(some_job());
       default:
         if (!batch_) (void)executive_->submit(request(swing(arm())));
     }

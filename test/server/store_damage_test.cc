@@ -1,0 +1,102 @@
+// What is not as it was written is told, and what was refused displaces nothing of what was done.
+#include <fstream>
+
+#include "server/store/job_history.h"
+#include "test/server/store_fixture.h"
+
+namespace armloom {
+namespace {
+
+namespace fs = std::filesystem;
+using test::accept;
+using test::job;
+using test::start;
+using test::Store;
+
+// Who is refused can be refused as often as they like: that displaces nothing of what was done.
+TEST_F(Store, WhatWasDoneIsNeverDisplacedByWhatWasRefused) {
+  StoreOptions few = options();
+  few.retention.audit_max = 5;
+  {
+    const auto store = open();
+    for (int i = 0; i < 8; ++i)
+      store->note({.who = "Ada", .path = std::to_string(i), .status = 202});
+    for (int i = 0; i < 50; ++i)
+      store->note({.path = std::to_string(i), .status = i % 2 ? 401 : 403});
+    store->note({.who = "Ada", .path = "8", .status = 503});
+    EXPECT_TRUE(store->flush());
+  }
+  const auto store = open(few);
+  const auto history = JobHistory::open(folder_);
+  const auto kept = [&] {
+    std::vector<std::string> paths;
+    const auto entries = (*history)->audit({}, 100).value();
+    for (const AuditEntry& entry : entries) {
+      paths.push_back(entry.who + entry.path);
+    }
+    return paths;
+  };
+  const std::vector<std::string> last{"Ada8", "49",   "48",   "47",   "46",
+                                      "45",   "Ada7", "Ada6", "Ada5", "Ada4"};
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (kept() != last && std::chrono::steady_clock::now() < deadline) {
+  }
+  EXPECT_EQ(kept(), last);
+}
+
+// An empty file beside what a server left has lost its jobs; and its log may still hold them.
+TEST_F(Store, AnEmptyFileIsSaidToBeCorruptAndNotTakenForANewOne) {
+  {
+    const auto store = open();
+    EXPECT_TRUE(accept(*store, 1).get());
+  }
+  fs::resize_file(file(), 0);
+  std::ofstream(file().string() + "-wal") << "what may be jobs";
+  EXPECT_NE(why_not().find("it is corrupt: it is empty"), std::string::npos) << why_not();
+  EXPECT_EQ(fs::file_size(file()), 0U);
+  EXPECT_EQ(fs::file_size(file().string() + "-wal"), 16U);
+  fs::remove(file());
+  fs::remove(file().string() + "-wal");
+  sql("CREATE TABLE t(x); DROP TABLE t");
+  EXPECT_NE(why_not().find("it has no tables"), std::string::npos) << why_not();
+}
+
+TEST_F(Store, ARowThatIsNotAsItWasWrittenIsKnown) {
+  const auto leave = [&] {
+    fs::remove_all(folder_);
+    const auto store = open();
+    for (std::uint64_t number = 1; number <= 3; ++number) accept(*store, number).get();
+    start(*store, 2).get();
+    store->see(job(3, "succeeded"));
+  };
+  const char* damages[] = {"UPDATE job SET may_have_moved = 0 WHERE number = 2",
+                           "UPDATE job SET state = 'queueD' WHERE number = 2",
+                           "UPDATE job SET arms = '[\"right\"]' WHERE number = 2",
+                           "UPDATE job SET view = '{' WHERE number = 2",
+                           "UPDATE body SET text = 'bodY of 2' WHERE number = 2"};
+  for (const char* damage : damages) {
+    leave();
+    sql(damage);
+    const auto store = open();
+    ASSERT_EQ(store->leftover().jobs.size(), 2U) << damage;
+    EXPECT_FALSE(store->leftover().jobs[0].is_damaged) << damage;
+    EXPECT_TRUE(store->leftover().jobs[1].is_damaged) << damage;
+  }
+  leave();
+  sql("UPDATE job SET has_ended = 1 WHERE number = 1; UPDATE job SET arms = '' WHERE number = 3");
+  const auto store = open();
+  const auto history = JobHistory::open(folder_);
+  EXPECT_EQ((*history)->damaged().value(), (std::vector<std::string>{"j1", "j3"}));
+  const auto found = (*history)->find("j3");
+  ASSERT_FALSE(found) << "neither there as it is, nor unknown, so that it would be run again";
+  EXPECT_NE(found.error().front().detail.find("not as it was written"), std::string::npos);
+  std::vector<std::string> ids;
+  const auto read =
+      (*history)->oldest_first({}, [&](const StoredJob& one) { ids.push_back(one.id); });
+  EXPECT_EQ(ids, std::vector<std::string>{"j2"});
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().front().detail.find("2 jobs are not as"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace armloom
