@@ -39,6 +39,7 @@ void demand_fit(const Request& request) {
   if (request.stranger) demand(request.foreign.has_value());
   for (const auto& tags : {request.if_match, request.if_none_match}) {
     if (tags) (void)any_tag(*tags, [](std::string_view tag) { return tag.empty(); });
+    if (tags) (void)is_tag_list(*tags);
   }
   (void)unknown_parameter(request.target, {"limit"});
   Response response{200, "text/plain", "x", {{"ETag", "\"x\""}, {"Vary", "Accept"}}};
