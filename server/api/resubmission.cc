@@ -147,6 +147,7 @@ RequestOrigin origin_of(const SentRequest& sent, std::size_t place) {
 void acknowledge(const ApiParts& parts, std::vector<JobKeeper::AcceptedJob> jobs,
                  const Respond& respond, std::function<Response()> answer) {
   std::vector<JobsAtHand::Job> submitted;
+  submitted.reserve(jobs.size());
   for (const auto& accepted : jobs) {
     submitted.push_back({accepted.job.key, accepted.job.times.submitted_at,
                          std::make_shared<const std::string>(accepted.body)});
