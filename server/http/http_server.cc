@@ -147,15 +147,15 @@ class HttpServer::Impl {
   }
 
   // Precondition: there is room.
-  void reserve(tcp::socket socket, Refusal why) {
+  void reserve(tcp::socket socket, const Refusal& why) {
     Transport transport(std::move(socket), tls_);
     auto place = std::make_unique<Reserve::Place>(reserve_, transport.next_layer());
-    asio::co_spawn(io_, serve_reserved(std::move(transport), std::move(place), std::move(why)),
+    asio::co_spawn(io_, serve_reserved(std::move(transport), std::move(place), why),
                    asio::detached);
   }
 
-  void refuse(tcp::socket socket, Refusal why) {
-    if (reserve_.make_room()) reserve(std::move(socket), std::move(why));
+  void refuse(tcp::socket socket, const Refusal& why) {
+    if (reserve_.make_room()) reserve(std::move(socket), why);
   }
 
   void take(tcp::socket socket) {

@@ -260,6 +260,7 @@ TEST_F(Limits, AStopIsTakenHoweverManyAreOpenAndWhoeverWaits) {
   options_.connections_per_client_max = 3;
   start(1.0);
   std::vector<std::unique_ptr<test::Wire>> held;
+  held.reserve(103);
   for (int i = 0; i < 3; ++i) held.push_back(std::make_unique<test::Wire>(port()));
   for (int i = 0; i < 100; ++i) {
     held.push_back(std::make_unique<test::Wire>(port()));

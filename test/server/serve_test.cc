@@ -148,6 +148,7 @@ TEST_F(Serve, AStopIsTakenWhenTheDescriptorsAreUsedUp) {
   test::ServeProcess server({"--cell", test::kCell}, log(),
                             [] { test::set_limit(RLIMIT_NOFILE, 64); });
   std::vector<std::unique_ptr<test::Wire>> held;
+  held.reserve(150);
   for (int i = 0; i < 150; ++i) held.push_back(std::make_unique<test::Wire>(server.port()));
   EXPECT_EQ(test::request(server.port(), "GET", "/healthz").status, 503);
   EXPECT_EQ(test::request(server.port(), "POST", "/api/v1/stop").status, 202);

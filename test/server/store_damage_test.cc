@@ -31,6 +31,7 @@ TEST_F(Store, WhatWasDoneIsNeverDisplacedByWhatWasRefused) {
   const auto kept = [&] {
     std::vector<std::string> paths;
     const auto entries = (*history)->audit({}, 100).value();
+    paths.reserve(entries.size());
     for (const AuditEntry& entry : entries) {
       paths.push_back(entry.who + entry.path);
     }
