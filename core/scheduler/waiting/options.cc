@@ -87,30 +87,6 @@ std::size_t alternative_now(const Job& job) {
   return static_cast<std::size_t>(now - job.alternatives.begin());
 }
 
-}  // namespace
-
-std::size_t place_on(const State& state, const Record& record, ArmId arm) {
-  const auto goes_before = [&](JobId id) {
-    const Record& other = state.jobs.at(id);
-    return id != record.job.id && (other.job.in<Queued>() == nullptr || other.turn < record.turn);
-  };
-  const auto& queue = state.jobs.queues()[arm];
-  const auto last = std::find_if(queue.rbegin(), queue.rend(), goes_before);
-  return static_cast<std::size_t>(queue.rend() - last);
-}
-
-void take_alternative(State& state, Record& record, std::size_t which) {
-  const TrajectoryPtr trajectory = record.job.alternatives[which];
-  if (record.job.trajectory == trajectory) return;
-  if (record.job.goal) record.job.goal->taken = which;
-  WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.id, *trajectory);
-  const std::size_t place = place_on(state, record, arm_of(*trajectory));
-  state.jobs.take(record, trajectory, std::move(leg), place);
-  state.lanes.renew_later();
-}
-
-namespace {
-
 // It waits, and is in no sequence by the arm that it has.
 bool is_shut(State& state, const Record& record) {
   return record.job.in<Queued>() != nullptr &&
@@ -139,6 +115,26 @@ bool takes_arm_that_remains(State& state, Record& record, const char* why) {
 }
 
 }  // namespace
+
+std::size_t place_on(const State& state, const Record& record, ArmId arm) {
+  const auto goes_before = [&](JobId id) {
+    const Record& other = state.jobs.at(id);
+    return id != record.job.id && (other.job.in<Queued>() == nullptr || other.turn < record.turn);
+  };
+  const auto& queue = state.jobs.queues()[arm];
+  const auto last = std::find_if(queue.rbegin(), queue.rend(), goes_before);
+  return static_cast<std::size_t>(queue.rend() - last);
+}
+
+void take_alternative(State& state, Record& record, std::size_t which) {
+  const TrajectoryPtr trajectory = record.job.alternatives[which];
+  if (record.job.trajectory == trajectory) return;
+  if (record.job.goal) record.job.goal->taken = which;
+  WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.id, *trajectory);
+  const std::size_t place = place_on(state, record, arm_of(*trajectory));
+  state.jobs.take(record, trajectory, std::move(leg), place);
+  state.lanes.renew_later();
+}
 
 bool take_arms_that_remain(State& state, const std::vector<JobId>& go) {
   if (state.jobs.undecided().empty()) return false;
